@@ -1,0 +1,183 @@
+#include "apps/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "base/quoted.h"
+#include "engine/version.h"
+
+namespace trocar {
+
+namespace {
+
+const char* const examples_run =
+    "\nexamples:\n"
+    "  trocar run configs/liver_incision.toml -o out/liver\n"
+    "  mpirun -np 4 trocar run scene.toml --threads 2\n"
+    "  trocar run scene.toml --set time.duration='2 s' --set tissue.material.young_modulus='5 "
+    "kPa'\n";
+const char* const examples_check =
+    "\nexamples:\n  trocar check configs/block_hex.toml\n  trocar check scene.toml --set "
+    "solver.step_factor=0.5\n";
+const char* const examples_replay =
+    "\nexamples:\n"
+    "  trocar replay out/liver/liver.trocar --list\n"
+    "  trocar replay out/liver/liver.trocar --video again.mp4 --eye 0.1 -0.2 0.2 -o again\n"
+    "  trocar replay out/liver/liver.trocar --vtu -o vtu      then open vtu/recording.pvd in "
+    "ParaView\n";
+const char* const examples_mesh =
+    "\nexamples:\n  trocar mesh liver.msh\n  trocar mesh liver.msh --scale '1 mm'\n";
+const char* const examples_doctor = "\nexamples:\n  trocar doctor\n  mpirun -np 4 trocar doctor\n";
+const char* const examples_help =
+    "\nexamples:\n  trocar help scene\n  trocar help scene --markdown > docs/scene.md\n";
+
+void add_machine_options(CLI::App& app, MachineOptions& machine) {
+  app.add_option("--threads", machine.threads,
+                 "Threads a rank; 0: the host's cores divided among its ranks")
+      ->check(CLI::Range(0, 1024));
+  app.add_option(
+      "--simd", machine.simd,
+      "Instruction set of the kernels: auto, sse2, avx2, avx512 (bits are promised per set)");
+  app.add_flag("-q,--quiet", machine.is_quiet, "Errors only");
+}
+
+void add_scene_options(CLI::App& app, RunOptions& run) {
+  app.add_option("scene", run.scene_file, "Scene file (TOML)")->required();
+  app.add_option("--set", run.overrides,
+                 "Change a key of the scene: --set time.duration='2 s'; may be repeated")
+      ->allow_extra_args(false);
+}
+
+void add_run(CLI::App& app, CommandLine& line) {
+  CLI::App* run =
+      app.add_subcommand("run", "Run a scene; writes summary.json and the scene's outputs");
+  add_scene_options(*run, line.run);
+  run->add_option("-o,--output", line.run.folder, "Folder for everything that is written")
+      ->capture_default_str();
+  add_machine_options(*run, line.machine);
+  run->footer(examples_run);
+  run->callback([&] { line.command = Command::run; });
+}
+
+void add_check(CLI::App& app, CommandLine& line) {
+  CLI::App* check =
+      app.add_subcommand("check", "Read and check a scene, predict its cost; runs nothing");
+  add_scene_options(*check, line.run);
+  add_machine_options(*check, line.machine);
+  check->footer(examples_check);
+  check->callback([&] { line.command = Command::check; });
+}
+
+void add_replay(CLI::App& app, CommandLine& line) {
+  CLI::App* replay = app.add_subcommand(
+      "replay", "Show a recording again: film, pictures, VTU for ParaView; nothing is simulated");
+  ReplayOptions& r = line.replay;
+  replay->add_option("recording", r.recording, "Recording (.trocar)")->required();
+  replay->add_option("-o,--output", r.folder, "Folder")->capture_default_str();
+  replay->add_option("--video", r.video, "Write a film of this name");
+  replay->add_flag("--frames", r.frames, "Write PNG files into frames/");
+  replay->add_flag("--vtu", r.vtu, "Write VTU files and recording.pvd");
+  replay->add_flag("--list", r.list, "Print frames, times and state digests");
+  replay->add_option("--from", r.from, "First time [s]");
+  replay->add_option("--to", r.to, "Last time [s]");
+  replay->add_option("--camera", r.camera, "Camera of the scene; the first if absent");
+  replay->add_option("--eye", r.eye, "Own viewpoint x y z [m]")->expected(3);
+  replay->add_option("--target", r.target, "Own point looked at x y z [m]")->expected(3);
+  replay->add_option("--width", r.width, "Pixels")
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str();
+  replay->add_option("--height", r.height, "Pixels")
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str();
+  replay->footer(examples_replay);
+  replay->callback([&] { line.command = Command::replay; });
+}
+
+void add_others(CLI::App& app, CommandLine& line) {
+  CLI::App* mesh = app.add_subcommand(
+      "mesh", "Sizes, quality, stable step and every broken invariant of a mesh file");
+  mesh->add_option("file", line.mesh_file, "Mesh (.msh, .vtk, .vtu) or surface (.stl, .obj)")
+      ->required();
+  mesh->add_option("--scale", line.mesh_scale, "Length of one unit of the file")
+      ->capture_default_str();
+  mesh->footer(examples_mesh);
+  mesh->callback([&] { line.command = Command::mesh; });
+  CLI::App* doctor =
+      app.add_subcommand("doctor", "What this machine offers, what is missing and how to get it");
+  doctor->footer(examples_doctor);
+  doctor->callback([&] { line.command = Command::doctor; });
+  CLI::App* help = app.add_subcommand("help", "Explain something: scene");
+  help->add_subcommand("scene", "All keys of a scene file with units, ranges and defaults")
+      ->add_flag("--markdown", line.is_markdown, "As Markdown");
+  help->require_subcommand(1);
+  help->footer(examples_help);
+  help->callback([&] { line.command = Command::help_scene; });
+}
+
+// "trocar rnu": the word that was probably meant.
+std::string suggestion(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> known;
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+    known.push_back(sub->get_name());
+  if (argc < 2 || std::find(known.begin(), known.end(), argv[1]) != known.end()) return "";
+  const std::string nearest = nearest_name(argv[1], known);
+  return nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?";
+}
+
+// The rank that mpirun gave this process, before MPI is started: only rank 0 prints.
+bool is_first_process() {
+  const char* rank = std::getenv("OMPI_COMM_WORLD_RANK");
+  return rank == nullptr || std::string(rank) == "0";
+}
+
+}  // namespace
+
+bool parse_command_line(int argc, char** argv, CommandLine& line, ExitCode& code) {
+  CLI::App app("Headless real-time surgical simulation.", "trocar");
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  app.footer(
+      "\nStart with: trocar run configs/liver_incision.toml -o out\nEvery sub-command explains "
+      "itself: trocar run --help");
+  add_run(app, line);
+  add_check(app, line);
+  add_replay(app, line);
+  add_others(app, line);
+  try {
+    app.parse(argc, argv);
+    return true;
+  } catch (const CLI::Success& help) {
+    if (is_first_process()) app.exit(help);
+    code = ExitCode::done;
+  } catch (const CLI::ParseError& trouble) {
+    if (is_first_process())
+      std::fprintf(stderr, "trocar: %s%s\nrun \"trocar --help\" for what there is\n",
+                   trouble.what(), suggestion(app, argc, argv).c_str());
+    code = ExitCode::input;
+  }
+  return false;
+}
+
+ExitCode run_command(const CommandLine& line, Communicator& communicator) {
+  use_machine(line.machine, communicator);
+  switch (line.command) {
+    case Command::run:
+      return command_run(line.run, communicator);
+    case Command::check:
+      return command_check(line.run, communicator);
+    case Command::replay:
+      return communicator.is_root() ? command_replay(line.replay) : ExitCode::done;
+    case Command::mesh:
+      return communicator.is_root() ? command_mesh(line.mesh_file, line.mesh_scale)
+                                    : ExitCode::done;
+    case Command::doctor:
+      return command_doctor(communicator);
+    case Command::help_scene:
+      return communicator.is_root() ? command_help_scene(line.is_markdown) : ExitCode::done;
+  }
+  return ExitCode::done;
+}
+
+}  // namespace trocar

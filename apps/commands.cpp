@@ -1,0 +1,174 @@
+#include "apps/commands.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/threads.h"
+#include "engine/build.h"
+#include "engine/predict.h"
+#include "engine/version.h"
+#include "mesh/mesh_file.h"
+#include "mesh/quality.h"
+#include "render/image_file.h"
+#include "render/renderer.h"
+#include "solver/step.h"
+
+namespace trocar {
+
+namespace {
+
+std::string host_name() {
+  char name[256] = "";
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
+// Ranks that share this one's host.
+int ranks_on_host(const Communicator& communicator) {
+  const std::vector<std::string> names = communicator.all_gather(host_name());
+  return static_cast<int>(std::count(names.begin(), names.end(), host_name()));
+}
+
+const char* yes_no(bool is_true) {
+  return is_true ? "yes" : "NO";
+}
+
+// Least stable step of the mesh with the default material. [s]
+double default_stable_step(const Mesh& mesh) {
+  Communicator alone;
+  const std::vector<std::int32_t> owner(mesh.X.size(), 0);
+  const Part part = make_part(mesh, owner, 0);
+  const std::vector<Material> materials(mesh.region_name.size());
+  const std::vector<double> density(mesh.region_name.size(), Material{}.density);
+  const std::vector<FixedMask> fixed(mesh.X.size(), 0);
+  const Model model =
+      build_model(mesh, part, materials, fixed, lumped_mass(mesh, density, 1e-3), {});
+  return *std::min_element(model.element_step.begin(), model.element_step.end());
+}
+
+bool is_surface_file(const std::string& file) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".stl" || ending == ".obj";
+}
+
+void print_surface(const std::string& file, double scale) {
+  const TriangleMesh mesh = read_triangle_mesh(file, scale);
+  Vec3 low = mesh.X.front(), high = low;
+  for (const Vec3& X : mesh.X) {
+    low = low.cwiseMin(X);
+    high = high.cwiseMax(X);
+  }
+  std::printf(
+      "%s: a surface, for instruments\n  vertices   %zu\n  triangles  %zu\n  box        %.4g x "
+      "%.4g x %.4g m\n",
+      file.c_str(), mesh.X.size(), mesh.triangle.size(), high.x() - low.x(), high.y() - low.y(),
+      high.z() - low.z());
+}
+
+void print_mesh(const std::string& file, const Mesh& mesh) {
+  const MeshStatistics m = mesh_statistics(mesh);
+  const Vec3 size = m.high - m.low;
+  std::printf("%s\n  nodes             %d\n", file.c_str(), m.n_nodes);
+  for (int type = 0; type < n_element_types; ++type)
+    if (const auto n = m.n_elements_by_type[static_cast<std::size_t>(type)]; n > 0)
+      std::printf("  %-17s %d\n", element_type_name(static_cast<ElementType>(type)), n);
+  std::printf("  pieces            %d\n  surface triangles %d\n", m.n_pieces,
+              m.n_surface_triangles);
+  std::printf("  box               %.4g x %.4g x %.4g m\n  volume            %.5g %s\n", size.x(),
+              size.y(), size.z(), m.volume, mesh.dimension() == 2 ? "m^2" : "m^3");
+  std::printf("  edges             %.3g … %.3g m, mean %.3g m\n", m.edge_min, m.edge_max,
+              m.edge_mean);
+  std::printf("  quality           least %.3f (element %d), mean %.3f (mean ratio, 1 is ideal)\n",
+              m.quality_min, m.worst_element, m.quality_mean);
+  for (const NodeSet& set : mesh.node_sets)
+    std::printf("  region            \"%s\", %zu nodes\n", set.name.c_str(), set.node.size());
+  std::printf("  stable step       %.4g ms with the default material (3 kPa, 0.45, 1060 kg/m^3)\n",
+              1e3 * default_stable_step(mesh));
+}
+
+}  // namespace
+
+void use_machine(const MachineOptions& machine, const Communicator& communicator) {
+  const int shared = std::max(1, available_cores() / ranks_on_host(communicator));
+  set_thread_count(machine.threads > 0 ? machine.threads : shared);
+  select_simd(machine.simd);
+}
+
+ExitCode command_run(const RunOptions& options, Communicator& communicator) {
+  const bool is_done = run_scene(options, communicator);
+  log_info(options.folder + "/summary.json");
+  return is_done ? ExitCode::done : ExitCode::stopped;
+}
+
+ExitCode command_check(const RunOptions& options, Communicator& communicator) {
+  const LoadedScene loaded = share_scene(options.scene_file, options.overrides, communicator);
+  const auto simulation = build(loaded, communicator);
+  const std::string text = predict(*simulation);
+  if (communicator.is_root()) std::fputs(text.c_str(), stdout);
+  return ExitCode::done;
+}
+
+ExitCode command_replay(const ReplayOptions& options) {
+  replay(options);
+  return ExitCode::done;
+}
+
+ExitCode command_mesh(const std::string& file, const std::string& scale) {
+  double metres = 1;
+  try {
+    metres = parse_quantity(scale, dim::length);
+  } catch (const std::invalid_argument& trouble) {
+    throw InputError("--scale: " + std::string(trouble.what()));
+  }
+  if (is_surface_file(file)) {
+    print_surface(file, metres);
+    return ExitCode::done;
+  }
+  const Mesh mesh = read_mesh(file, metres);
+  print_mesh(file, mesh);
+  const std::vector<std::string> faults = validate(mesh);
+  for (const std::string& fault : faults) std::printf("  FAULT             %s\n", fault.c_str());
+  std::printf("  sound             %s\n", yes_no(faults.empty()));
+  return faults.empty() ? ExitCode::done : ExitCode::input;
+}
+
+ExitCode command_doctor(const Communicator& communicator) {
+  const std::vector<std::string> hosts = communicator.all_gather(host_name());
+  if (!communicator.is_root()) return ExitCode::done;
+  std::string reason;
+  const bool has_gl = renderer_available(reason);
+  const std::string ffmpeg = find_ffmpeg();
+  std::error_code trouble;
+  const auto disk = std::filesystem::space(".", trouble);
+  std::printf("%s\n  ranks       %zu on %zu host%s, %s\n", version_text().c_str(), hosts.size(),
+              static_cast<std::size_t>(std::set<std::string>(hosts.begin(), hosts.end()).size()),
+              std::set<std::string>(hosts.begin(), hosts.end()).size() == 1 ? "" : "s",
+              mpi_version().c_str());
+  std::printf("  cores       %d usable by this process, %d threads a rank\n", available_cores(),
+              thread_count());
+  std::printf("  kernels     %s\n", simd_name());
+  std::printf("  pictures    %s%s\n", yes_no(has_gl),
+              has_gl ? " (OSMesa)" : (": " + reason).c_str());
+  std::printf(
+      "  films       %s%s\n", yes_no(!ffmpeg.empty()),
+      ffmpeg.empty() ? ": install ffmpeg (Debian package ffmpeg)" : (" (" + ffmpeg + ")").c_str());
+  if (!trouble)
+    std::printf("  disk        %.1f GB free here\n", static_cast<double>(disk.available) / 1e9);
+  return ExitCode::done;
+}
+
+ExitCode command_help_scene(bool is_markdown) {
+  const Options<Scene> options = scene_options();
+  std::fputs((is_markdown ? markdown_options(options) : help_options(options)).c_str(), stdout);
+  return ExitCode::done;
+}
+
+}  // namespace trocar

@@ -1,0 +1,31 @@
+// The sub-commands of `trocar`, each with its options; they return an exit code.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/communicator.h"
+#include "engine/replay.h"
+#include "engine/run.h"
+
+namespace trocar {
+
+// How much of the machine to use.
+struct MachineOptions {
+  int threads = 0;  // 0: cores of this host / ranks on it
+  std::string simd = "auto";
+  bool is_quiet = false;
+};
+
+void use_machine(const MachineOptions& machine, const Communicator& communicator);
+
+ExitCode command_run(const RunOptions& options, Communicator& communicator);
+ExitCode command_check(const RunOptions& options, Communicator& communicator);
+ExitCode command_replay(const ReplayOptions& options);
+// Sizes, quality, stable step with the default material, every broken invariant.
+ExitCode command_mesh(const std::string& file, const std::string& scale);
+ExitCode command_doctor(const Communicator& communicator);
+// All keys of a scene file; as Markdown for docs/scene.md.
+ExitCode command_help_scene(bool is_markdown);
+
+}  // namespace trocar

@@ -1,0 +1,36 @@
+// trocar: headless real-time surgical simulation. Reads the command line, calls one command, turns
+// trouble into exit codes.
+#include <cstdio>
+#include <exception>
+
+#include "apps/command_line.h"
+#include "base/communicator.h"
+#include "base/error.h"
+#include "base/log.h"
+
+int main(int argc, char** argv) {
+  using namespace trocar;
+  CommandLine line;
+  ExitCode code = ExitCode::done;
+  if (!parse_command_line(argc, argv, line, code)) return static_cast<int>(code);
+
+  MpiSession session(&argc, &argv);
+  const int rank = session.world().rank();
+  start_log(rank, line.machine.is_quiet);
+  try {
+    return static_cast<int>(run_command(line, session.world()));
+  } catch (const InputError& trouble) {  // thrown on every rank alike
+    code = ExitCode::input;
+    log_error(trouble.what());
+  } catch (const SimulationError& trouble) {  // thrown on every rank alike
+    code = ExitCode::simulation;
+    log_error(trouble.what());
+  } catch (const SharedMachineError& trouble) {
+    code = ExitCode::machine;
+    log_error(trouble.what());
+  } catch (const std::exception& trouble) {  // this rank alone may know of it
+    std::fprintf(stderr, "trocar: error: %s\n", trouble.what());
+    abort_all_ranks(static_cast<int>(ExitCode::machine));
+  }
+  return static_cast<int>(code);
+}

@@ -1,0 +1,86 @@
+// What ranks say to each other. <mpi.h> is seen by communicator.cpp alone.
+// Every reduction here gives the same bits for any number of ranks: min, max, and sums of integers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace trocar {
+
+// One neighbour's part of an exchange; both spans live until finish().
+struct ExchangeMessage {
+  int rank = 0;
+  std::span<const double> send;
+  std::span<double> receive;
+};
+
+// A group of ranks. The default one is this process alone and needs no MPI.
+class Communicator {
+ public:
+  Communicator();
+  ~Communicator();
+  Communicator(Communicator&&) noexcept;
+  Communicator& operator=(Communicator&&) noexcept;
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  bool is_root() const { return rank_ == 0; }
+
+  // Collective: every rank calls these with the same kind of argument.
+  // A NaN on any rank makes the minimum and the maximum NaN; -0 counts as less than +0.
+  void barrier() const;
+  double all_min(double value) const;
+  double all_max(double value) const;
+  std::uint64_t all_sum(std::uint64_t value) const;  // modulo 2^64
+  void all_sum(std::span<std::uint64_t> values) const;
+  // Bytes of `root` to everyone; resizes on the others.
+  void broadcast(std::vector<std::byte>& bytes, int root = 0) const;
+  // Concatenation of every rank's values in rank order, on every rank / on the root (empty
+  // elsewhere).
+  std::vector<double> all_gather(std::span<const double> values) const;
+  std::vector<double> gather(std::span<const double> values) const;
+  std::vector<std::string> all_gather(const std::string& text) const;
+  // The first (lowest) rank whose `text` is not empty decides: its text, on every rank; "" if all
+  // are empty.
+  std::string first_text(const std::string& text) const;
+
+  // Non-blocking neighbour exchange, one at a time; no allocation after the first call with as many
+  // messages.
+  void start_exchange(std::span<const ExchangeMessage> messages);
+  void finish_exchange();
+
+ private:
+  friend class MpiSession;
+  struct Handle;
+  std::unique_ptr<Handle> handle_;
+  int rank_ = 0;
+  int size_ = 1;
+};
+
+// MPI from main's first line to its last. Works without mpirun (one rank). With several ranks no
+// exception may leave its life: catch inside, and end the others with abort_all_ranks.
+class MpiSession {
+ public:
+  MpiSession(int* argc, char*** argv);
+  ~MpiSession();
+  MpiSession(const MpiSession&) = delete;
+  MpiSession& operator=(const MpiSession&) = delete;
+  Communicator& world() { return world_; }
+
+ private:
+  Communicator world_;
+};
+
+// Whether MPI is running with more than this rank.
+bool has_other_ranks();
+// Ends every rank at once with this exit code (MPI_Abort); plain exit where MPI is not running.
+[[noreturn]] void abort_all_ranks(int exit_code);
+
+// Version line of the MPI library, e.g. "Open MPI v4.1.4". Needs no session.
+std::string mpi_version();
+
+}  // namespace trocar

@@ -1,0 +1,65 @@
+#include "base/exact_sum.h"
+
+#include <cmath>
+
+#include "base/check.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr int lowest_bit = -160;  // weight of bit 0 of limb 0 is 2^lowest_bit
+constexpr std::uint64_t low_half = 0xffffffffu;
+
+}  // namespace
+
+void ExactSum::add(double value) {
+  if (value == 0 || !std::isfinite(value)) return;
+  int exponent = 0;
+  const double fraction = std::frexp(std::abs(value), &exponent);  // value = fraction * 2^exponent
+  auto mantissa = static_cast<std::uint64_t>(std::ldexp(fraction, 53));
+  int bit = exponent - 53 - lowest_bit;
+  if (bit < 0) {
+    if (bit <= -64) return;
+    mantissa >>= -bit;
+    bit = 0;
+  }
+  const auto limb = static_cast<std::size_t>(bit / 32);
+  CHECK_OP(limb + 2, <, limbs_.size());
+  const int shift = bit % 32;
+  const std::uint64_t low = mantissa << shift;
+  const std::uint64_t high = shift == 0 ? 0 : mantissa >> (64 - shift);
+  const std::array<std::uint64_t, 3> parts = {low & low_half, low >> 32, high};
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    limbs_[limb + k] += value > 0 ? parts[k] : std::uint64_t{0} - parts[k];
+}
+
+double ExactSum::value() const {
+  // Carry upward; each word is a signed number of at most 63 bits.
+  std::array<std::int64_t, 10> digit{};
+  std::int64_t carry = 0;
+  for (std::size_t k = 0; k < limbs_.size(); ++k) {
+    const std::int64_t sum = static_cast<std::int64_t>(limbs_[k]) + carry;
+    const bool is_top = k + 1 == limbs_.size();
+    digit[k] = is_top ? sum : static_cast<std::int64_t>(static_cast<std::uint64_t>(sum) & low_half);
+    carry = sum >> 32;
+  }
+  const bool is_negative = digit.back() < 0;
+  if (is_negative) {  // two's complement: magnitude = ~x + 1
+    std::int64_t borrow = 1;
+    for (std::size_t k = 0; k < digit.size(); ++k) {
+      const bool is_top = k + 1 == digit.size();
+      const std::int64_t flipped =
+          is_top ? ~digit[k] + borrow : static_cast<std::int64_t>(low_half) - digit[k] + borrow;
+      borrow = is_top ? 0 : flipped >> 32;
+      digit[k] = is_top ? flipped
+                        : static_cast<std::int64_t>(static_cast<std::uint64_t>(flipped) & low_half);
+    }
+  }
+  double total = 0;
+  for (std::size_t k = digit.size(); k-- > 0;)
+    total += std::ldexp(static_cast<double>(digit[k]), lowest_bit + 32 * static_cast<int>(k));
+  return is_negative ? -total : total;
+}
+
+}  // namespace trocar

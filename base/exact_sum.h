@@ -1,0 +1,27 @@
+// A sum of doubles that does not depend on their order or on how they are spread over ranks:
+// fixed-point accumulation in 320 bits, exact for magnitudes from 2^-159 to 2^126 (smaller parts
+// are cut off, each at the same place).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "base/communicator.h"
+
+namespace trocar {
+
+class ExactSum {
+ public:
+  void add(double value);
+  // Adds every rank's sum to all. Collective.
+  void all_sum(const Communicator& communicator) { communicator.all_sum(limbs_); }
+  double value() const;
+
+ private:
+  // 32 bits a limb in 64-bit words, least significant first, two's complement per addend: 2^31
+  // addends fit without overflow.
+  std::array<std::uint64_t, 10> limbs_{};
+};
+
+}  // namespace trocar

@@ -1,0 +1,91 @@
+// Reading options from a file: text -> tree -> overrides -> struct, with all errors of the file
+// reported at once.
+#include "base/options.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "base/check.h"
+#include "base/options_file.h"
+#include "base/options_node.h"
+
+namespace trocar {
+
+static bool is_key_without_quotes(const std::string& key) {
+  const auto is_allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  return !key.empty() && std::all_of(key.begin(), key.end(), is_allowed);
+}
+
+// Default texts of a table's entries as the object that holds the table initialises them.
+static void set_default_texts(std::vector<OptionEntry>& entries, const void* defaults) {
+  for (OptionEntry& entry : entries) {
+    if (!entry.is_table) {
+      entry.default_text = entry.value_text(defaults);
+      continue;
+    }
+    // A list or an optional table that is absent keeps the defaults of its own type.
+    const std::vector<const void*> objects = entry.objects_below(defaults);
+    if (!entry.is_list && !objects.empty()) set_default_texts(entry.below, objects[0]);
+  }
+}
+
+void OptionTable::add(OptionEntry entry, const void* defaults) {
+  CHECK(is_key_without_quotes(entry.key));
+  for (const OptionEntry& other : entries_) CHECK_OP(other.key, !=, entry.key);
+  entries_.push_back(std::move(entry));
+  set_default_texts(entries_, defaults);
+}
+
+void link_nodes(OptionNode& node, OptionDocument& document) {
+  node.document = &document;
+  for (OptionNode& below : node.below) {
+    below.above = &node;
+    link_nodes(below, document);
+  }
+}
+
+static OptionNode parse_document(const OptionDocument& document) {
+  try {
+    return parse_toml(document.text);
+  } catch (const SyntaxTrouble& trouble) {
+    throw InputError({document.name, trouble.line, trouble.column},
+                     trouble.sentence + excerpt(document.text, trouble.line, trouble.column));
+  }
+}
+
+// All errors as one, in the order of the file.
+static void throw_errors(OptionDocument& document) {
+  if (document.n_errors == 0) return;
+  std::stable_sort(document.errors.begin(), document.errors.end(),
+                   [](const OptionError& a, const OptionError& b) {
+                     return std::tie(a.source, a.line, a.column) <
+                            std::tie(b.source, b.line, b.column);
+                   });
+  std::string text;
+  for (const OptionError& error : document.errors)
+    text.append(text.empty() ? "" : "\n").append(error.message);
+  const std::size_t n_hidden = document.n_errors - document.errors.size();
+  if (n_hidden > 0) text.append("\n… and ").append(std::to_string(n_hidden)).append(" more errors");
+  throw InputError(text);
+}
+
+void read_options_text(const OptionTable& table, const std::string& text, const std::string& name,
+                       const std::vector<std::string>& overrides, void* object, SourceMap& where) {
+  OptionDocument document{
+      .name = name, .text = text, .overrides = overrides, .errors = {}, .places = {}};
+  OptionNode root = parse_document(document);
+  apply_overrides(root, table, document);
+  link_nodes(root, document);
+  read_table(root, table.entries(), object);
+  throw_errors(document);
+  where = {.places = std::move(document.places), .file = name, .text = std::move(document.text)};
+}
+
+void read_options(const OptionTable& table, const std::string& file,
+                  const std::vector<std::string>& overrides, void* object, SourceMap& where) {
+  read_options_text(table, read_options_file(file), file, overrides, object, where);
+}
+
+}  // namespace trocar

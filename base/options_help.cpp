@@ -1,0 +1,110 @@
+// Help on options, as aligned text and as Markdown; both say the same.
+#include <algorithm>
+#include <array>
+
+#include "base/options.h"
+
+namespace trocar {
+
+namespace {
+
+using Row = std::array<std::string, 4>;  // key, type and range, default, doc
+
+std::string default_of(const OptionEntry& entry) {
+  if (entry.need == Need::required) return "required";
+  return entry.default_text.empty() ? "-" : entry.default_text;
+}
+
+std::vector<Row> value_rows(const std::vector<OptionEntry>& entries) {
+  std::vector<Row> rows;
+  for (const OptionEntry& entry : entries) {
+    if (entry.is_table) continue;
+    const std::string range = entry.range_text.empty() ? "" : ", " + entry.range_text;
+    rows.push_back({entry.key, entry.type_text + range, default_of(entry), entry.doc});
+  }
+  return rows;
+}
+
+std::string table_doc(const OptionEntry& entry) {
+  const bool is_required = entry.need == Need::required;
+  return entry.doc + " (" + entry.type_text + (is_required ? ", required)" : ")");
+}
+
+std::string path_below(const std::string& path, const OptionEntry& entry) {
+  return path.empty() ? entry.key : path + "." + entry.key;
+}
+
+std::string header(const std::string& path, const OptionEntry& entry) {
+  const std::string inside = path_below(path, entry);
+  return entry.is_list ? "[[" + inside + "]]" : "[" + inside + "]";
+}
+
+// Characters, not bytes.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+void append_aligned(const std::vector<Row>& rows, const std::string& indent, std::string& text) {
+  std::array<std::size_t, 4> widths{};
+  for (const Row& row : rows)
+    for (std::size_t i = 0; i < 4; ++i) widths[i] = std::max(widths[i], width(row[i]));
+  for (const Row& row : rows) {
+    text.append(indent);
+    for (std::size_t i = 0; i < 3; ++i)
+      text.append(row[i]).append(widths[i] - width(row[i]) + 2, ' ');
+    text.append(row[3]).append("\n");
+  }
+}
+
+void append_help(const std::vector<OptionEntry>& entries, const std::string& path,
+                 const std::string& indent, std::string& text) {
+  append_aligned(value_rows(entries), indent, text);
+  for (const OptionEntry& entry : entries) {
+    if (!entry.is_table) continue;
+    text.append("\n").append(indent).append(header(path, entry)).append("  ");
+    text.append(table_doc(entry)).append("\n");
+    append_help(entry.below, path_below(path, entry), indent + "  ", text);
+  }
+}
+
+// A cell of a Markdown table can't hold a bare |.
+std::string cell(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) escaped.append(c == '|' ? "\\|" : std::string(1, c));
+  return escaped;
+}
+
+void append_markdown(const std::vector<OptionEntry>& entries, const std::string& path,
+                     std::string& text) {
+  const std::vector<Row> rows = value_rows(entries);
+  if (!rows.empty()) text.append("\n| key | type | default | meaning |\n|---|---|---|---|\n");
+  for (const Row& row : rows) {
+    text.append("| `").append(row[0]).append("` | ").append(cell(row[1])).append(" | ");
+    text.append(cell(row[2])).append(" | ").append(cell(row[3])).append(" |\n");
+  }
+  for (const OptionEntry& entry : entries) {
+    if (!entry.is_table) continue;
+    text.append("\n## `").append(header(path, entry)).append("`\n\n");
+    text.append(table_doc(entry)).append("\n");
+    append_markdown(entry.below, path_below(path, entry), text);
+  }
+}
+
+}  // namespace
+
+std::string help_options(const OptionTable& table) {
+  std::string text = table.doc();
+  text.append("\n\n");
+  append_help(table.entries(), "", "  ", text);
+  return text;
+}
+
+std::string markdown_options(const OptionTable& table) {
+  std::string text = table.doc();
+  text.append("\n");
+  append_markdown(table.entries(), "", text);
+  return text;
+}
+
+}  // namespace trocar

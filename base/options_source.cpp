@@ -1,0 +1,109 @@
+// Places: of nodes, of key paths, and the source line that a message shows.
+#include <algorithm>
+
+#include "base/check.h"
+#include "base/options_node.h"
+#include "base/quoted.h"
+
+namespace trocar {
+
+namespace {
+
+bool begins_character(char c) {
+  return (c & 0xc0) != 0x80;
+}
+
+// Line `line` (from 1) without its end.
+std::string_view line_of(std::string_view text, int line) {
+  for (int i = 1; i < line; ++i) {
+    const std::size_t end = text.find('\n');
+    if (end == std::string_view::npos) return {};
+    text.remove_prefix(end + 1);
+  }
+  text = text.substr(0, text.find('\n'));
+  if (text.ends_with('\r')) text.remove_suffix(1);
+  return text;
+}
+
+// Takes `n` characters off the front and returns them.
+std::string_view take_characters(std::string_view& text, int n) {
+  std::size_t end = 0;
+  for (; n > 0 && end < text.size(); --n) {
+    ++end;
+    while (end < text.size() && !begins_character(text[end])) ++end;
+  }
+  const std::string_view taken = text.substr(0, end);
+  text.remove_prefix(end);
+  return taken;
+}
+
+bool is_bare_key(std::string_view key) {
+  return !key.empty() && key.size() <= 64 && std::all_of(key.begin(), key.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  });
+}
+
+}  // namespace
+
+std::string excerpt(std::string_view text, int line, int column) {
+  constexpr int width = 90;
+  std::string_view rest = line_of(text, line);
+  if (line < 1 || column < 1 || rest.empty()) return "";
+  const int n_skipped = column > width ? column - width / 2 : 0;
+  take_characters(rest, n_skipped);
+  std::string shown = n_skipped > 0 ? "…" : "";
+  shown += take_characters(rest, width);
+  if (!rest.empty()) shown += "…";
+  // Tabs and control characters as blanks, so that the caret stands below its character.
+  for (char& c : shown)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  const int n_blanks = column - 1 - n_skipped + (n_skipped > 0 ? 1 : 0);
+  return "\n    " + shown + "\n    " + std::string(static_cast<std::size_t>(n_blanks), ' ') + "^";
+}
+
+std::string key_path(const OptionNode& node) {
+  if (node.above == nullptr) return "";
+  std::string path = key_path(*node.above);
+  if (node.above->kind == NodeKind::list) {
+    path.append("[").append(std::to_string(node.index)).append("]");
+    return path;
+  }
+  if (!path.empty()) path.append(".");
+  return path.append(is_bare_key(node.key) ? node.key : in_quotes(node.key));
+}
+
+SourcePlace place_of(const OptionNode& node) {
+  const OptionDocument& document = *node.document;
+  if (node.source == 0) return {document.name, node.line, node.column};
+  return {"--set " + document.overrides[static_cast<std::size_t>(node.source - 1)], 0, 0};
+}
+
+void refuse(const OptionNode& node, const std::string& sentence) {
+  const std::string path = key_path(node);
+  std::string message =
+      InputError(place_of(node), path.empty() ? sentence : path + ": " + sentence).what();
+  const bool is_root = node.above == nullptr;
+  if (node.source == 0 && !is_root) message += excerpt(node.document->text, node.line, node.column);
+  throw OptionRefusal({node.source, node.line, node.column, message});
+}
+
+SourcePlace SourceMap::find(const std::string& key_path_text) const {
+  std::string path = key_path_text;
+  while (!path.empty()) {
+    const auto found = places.find(path);
+    if (found != places.end()) return found->second;
+    const std::size_t end = path.find_last_of(".[");
+    path.resize(end == std::string::npos ? 0 : end);
+  }
+  return {file, 1, 1};
+}
+
+void SourceMap::fail(const std::string& key_path_text, const std::string& sentence) const {
+  const SourcePlace place = find(key_path_text);
+  const bool is_in_file = place.file == file && places.contains(key_path_text);
+  const std::string lines = is_in_file ? excerpt(text, place.line, place.column) : "";
+  throw InputError(place, key_path_text + ": " + sentence + lines);
+}
+
+}  // namespace trocar

@@ -1,0 +1,93 @@
+// Values and what is allowed as text: TOML for the echo, sentences for messages and help.
+#include <charconv>
+#include <cmath>
+
+#include "base/check.h"
+#include "base/options.h"
+#include "base/quoted.h"
+
+namespace trocar {
+
+// Shortest decimal that reads back to the same bits.
+static std::string shortest_text(double value) {
+  char buffer[32];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  CHECK(result.ec == std::errc());
+  return {buffer, result.ptr};
+}
+
+std::string number_text(double value) {
+  if (!std::isfinite(value)) return "";
+  std::string text = shortest_text(value);
+  // Without a point or an exponent TOML reads an integer, and -0 would lose its sign.
+  if (text.find_first_of(".e") == std::string::npos) text.append(".0");
+  return text;
+}
+
+template <class Value, class Text>
+static std::string list_text(std::span<const Value> values, const Text& text_of) {
+  std::string list(1, '[');
+  for (const Value value : values) {
+    const std::string text = text_of(value);
+    if (text.empty()) return "";
+    if (list.size() > 1) list.append(", ");
+    list.append(text);
+  }
+  list.push_back(']');
+  return list;
+}
+
+std::string numbers_text(std::span<const double> values) {
+  return list_text(values, number_text);
+}
+
+std::string integers_text(std::span<const int> values) {
+  return list_text(values, [](int value) { return std::to_string(value); });
+}
+
+std::string quoted_text(const std::string& value) {
+  constexpr const char* digits = "0123456789abcdef";
+  std::string text(1, '"');
+  for (const char c : value) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      text.push_back('\\');
+      text.push_back(c);
+    } else if (code < 0x20 || code == 0x7f) {
+      text.append("\\u00").append(1, digits[code >> 4]).append(1, digits[code & 15]);
+    } else {
+      text.push_back(c);
+    }
+  }
+  text.push_back('"');
+  return text;
+}
+
+std::string number_type_text(const Dimension& dimension) {
+  const std::string unit = si_unit(dimension);
+  return unit.empty() ? "number" : "number [" + unit + "]";
+}
+
+std::string range_text(const Range& range, const Dimension& dimension) {
+  std::string text;
+  if (std::isfinite(range.low))
+    text.append(range.is_low_open ? "> " : ">= ").append(shortest_text(range.low));
+  if (std::isfinite(range.high)) {
+    if (!text.empty()) text.append(" and ");
+    text.append(range.is_high_open ? "< " : "<= ").append(shortest_text(range.high));
+  }
+  const std::string unit = si_unit(dimension);
+  if (!text.empty() && !unit.empty()) text.append(" ").append(unit);
+  return text;
+}
+
+std::string choices_text(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) {
+    if (!text.empty()) text.append(", ");
+    text.append(in_quotes(name));
+  }
+  return text;
+}
+
+}  // namespace trocar

@@ -1,0 +1,52 @@
+// The user's text in messages; the distance is that of Damerau and Levenshtein, restricted to one
+// edit a substring.
+#include "base/quoted.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace trocar {
+
+std::string in_quotes(std::string_view text) {
+  std::size_t n_shown = std::min<std::size_t>(text.size(), 60);
+  // A byte 10xxxxxx continues a character of UTF-8: never cut in front of one.
+  while (n_shown > 0 && n_shown < text.size() && (text[n_shown] & 0xc0) == 0x80) --n_shown;
+  std::string result(1, '"');
+  for (const char c : text.substr(0, n_shown)) {
+    const auto code = static_cast<unsigned char>(c);
+    result.push_back(code < 0x20 || code == 0x7f ? '?' : c);
+  }
+  if (n_shown < text.size()) result.append("…");
+  result.push_back('"');
+  return result;
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  // Rows i-2, i-1 and i of the table of distances between the beginnings of a and b.
+  std::array<std::vector<std::size_t>, 3> rows;
+  for (std::vector<std::size_t>& row : rows) row.resize(b.size() + 1);
+  auto& [two_above, above, row] = rows;
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::rotate(rows.begin(), rows.begin() + 1, rows.end());
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({replaced, above[j] + 1, row[j - 1] + 1});
+      const bool is_swap = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (is_swap) row[j] = std::min(row[j], two_above[j - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+std::string nearest_name(std::string_view name, std::span<const std::string> allowed) {
+  if (allowed.empty() || name.size() > 64) return "";
+  return *std::min_element(allowed.begin(), allowed.end(),
+                           [&](const std::string& a, const std::string& b) {
+                             return edit_distance(name, a) < edit_distance(name, b);
+                           });
+}
+
+}  // namespace trocar

@@ -1,0 +1,20 @@
+// How a piece of the user's text appears in a message, and which allowed name may have been meant.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace trocar {
+
+// In double quotes, at most 60 bytes (cut with … between characters), control characters as "?".
+std::string in_quotes(std::string_view text);
+
+// Number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`
+// (optimal string alignment).
+std::size_t edit_distance(std::string_view a, std::string_view b);
+// The allowed name nearest to `name`, the first of equals; "" if there is none or `name` is longer
+// than any sane one.
+std::string nearest_name(std::string_view name, std::span<const std::string> allowed);
+
+}  // namespace trocar

@@ -1,0 +1,221 @@
+#include "collision/detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "collision/narrow_phase.h"
+#include "collision/plane_contact.h"
+#include "collision/surface_tree.h"
+
+namespace trocar {
+
+namespace {
+
+// A piece in its pose, and everything that is the same for all its candidates.
+struct PosedPiece {
+  const PieceCore& core;
+  const Pose& pose;
+  Mat3 rotation;
+  Vec3 translation;
+  double margin;
+  Contact label;  // tool and piece
+
+  Vec3 to_world(const Vec3& local) const { return rotation * local + translation; }
+  Vec3 to_tool(const Vec3& world) const { return rotation.transpose() * (world - translation); }
+};
+
+// Is this triangle the way out of the tissue for a point behind it? Asked for many triangles with
+// the same point in turn (a sphere's centre), so the last answer is kept.
+class WayOut {
+ public:
+  explicit WayOut(const SurfaceTree& tree) : tree_(tree) {}
+
+  bool is_through(const Vec3& p, double reach, const Vec3& normal) {
+    if (!is_known_ || p != p_) find(p, reach);
+    return way_out_.dot(normal) > 0;
+  }
+
+ private:
+  void find(const Vec3& p, double reach) {
+    is_known_ = true;
+    p_ = p;
+    way_out_.setZero();
+    if (tree_.winding_number(p) <= 0) return;
+    // The triangle asked for lies within reach, so there is a nearest one.
+    const std::int32_t t = tree_.nearest_exit(p, reach * (1 + 1e-6));
+    if (t >= 0) way_out_ = unit_normal(tree_.corners(t)).value_or(Vec3::Zero());
+  }
+
+  const SurfaceTree& tree_;
+  bool is_known_ = false;
+  Vec3 p_ = Vec3::Zero(), way_out_ = Vec3::Zero();
+};
+
+void check_piece(const ConvexPiece& piece, std::size_t tool, std::size_t number) {
+  const std::string name =
+      "piece " + std::to_string(number) + " of instrument " + std::to_string(tool);
+  if (piece.points.empty())
+    throw InputError(name + " has no points: a sphere needs one, a capsule two, a hull more");
+  if (!(piece.radius >= 0) || !std::isfinite(piece.radius))
+    throw InputError(name + " has radius " + std::to_string(piece.radius) +
+                     " m: it must be zero or more, and finite");
+  for (const Vec3& p : piece.points)
+    if (!p.allFinite()) throw InputError(name + " has a point that is not finite");
+}
+
+// Boxes round the candidates of a piece. A long segment gets several, since one box round a
+// slanted shaft would hold half of the surface.
+std::vector<Box> search_boxes(const PosedPiece& piece) {
+  const double reach = depth_limit(piece.core, piece.margin);
+  const std::vector<Vec3>& points = piece.core.points;
+  std::size_t n = 1;
+  if (points.size() == 2 && reach > 0)
+    n = static_cast<std::size_t>(
+        std::clamp(std::ceil((points[1] - points[0]).norm() / (2 * reach)), 1.0, 32.0));
+  std::vector<Box> boxes(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (n == 1) {
+      for (const Vec3& p : points) boxes[k].add(piece.to_world(p));
+    } else {
+      for (const std::size_t end : {k, k + 1})
+        boxes[k].add(piece.to_world(
+            point_at({points[0], points[1]}, static_cast<double>(end) / static_cast<double>(n))));
+    }
+    boxes[k].low.array() -= reach;
+    boxes[k].high.array() += reach;
+  }
+  return boxes;
+}
+
+Contact make_contact(const PosedPiece& piece, const std::array<std::int32_t, 3>& node,
+                     const Touch& touch) {
+  Contact contact = piece.label;
+  contact.node = node;
+  contact.weight = touch.tissue.weight;
+  contact.point = touch.tissue.point - touch.gap * touch.normal;
+  contact.normal = touch.normal;
+  contact.gap = touch.gap;
+  return contact;
+}
+
+}  // namespace
+
+struct ContactDetector::State {
+  std::vector<std::vector<PieceCore>> tools;
+  std::vector<std::array<std::int32_t, 3>> triangle;
+  PlaneEdges plane;
+  std::optional<SurfaceTree> tree;  // of the present topology, once detect has seen positions
+  std::vector<std::int32_t> candidates, box_candidates;
+
+  void find_candidates(const PosedPiece& piece);
+  void touch_surface(const PosedPiece& piece, std::vector<Contact>& contacts);
+  void touch_plane(const PosedPiece& piece, std::span<const Vec3> x,
+                   std::vector<Contact>& contacts) const;
+};
+
+void ContactDetector::State::find_candidates(const PosedPiece& piece) {
+  candidates.clear();
+  for (const Box& box : search_boxes(piece)) {
+    tree->overlapping(box, box_candidates);
+    candidates.insert(candidates.end(), box_candidates.begin(), box_candidates.end());
+  }
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+}
+
+void ContactDetector::State::touch_surface(const PosedPiece& piece,
+                                           std::vector<Contact>& contacts) {
+  find_candidates(piece);
+  WayOut way_out(*tree);
+  for (const std::int32_t t : candidates) {
+    const Triangle world = tree->corners(t);
+    const Triangle local = {piece.to_tool(world[0]), piece.to_tool(world[1]),
+                            piece.to_tool(world[2])};
+    const std::optional<Touch> found = touch(piece.core, local, piece.margin);
+    if (!found) continue;
+    if (found->depth > 0) {
+      const double reach = (found->tissue.point - found->core).norm();
+      const Vec3 normal = unit_normal(world).value_or(Vec3::Zero());
+      if (!way_out.is_through(piece.to_world(found->core), reach, normal)) continue;
+    }
+    contacts.push_back(make_contact(piece, tree->nodes(t), *found));
+    contacts.back().triangle = t;
+  }
+}
+
+void ContactDetector::State::touch_plane(const PosedPiece& piece, std::span<const Vec3> x,
+                                         std::vector<Contact>& contacts) const {
+  const PlaneSection section = plane_section(piece.core, piece.pose);
+  if (section.points.empty()) return;
+  for (std::size_t k = 0; k < plane.node.size(); ++k) {
+    const auto [a, b] = plane.node[k];
+    const Segment edge = {x[static_cast<std::size_t>(a)], x[static_cast<std::size_t>(b)]};
+    const std::optional<Touch> found = touch_edge(section, edge, piece.margin);
+    if (!found) continue;
+    if (found->depth > 0) {
+      const Vec3 d = edge[1] - edge[0];
+      if (plane_way_out(plane, x, found->core).dot(Vec3(d.y(), -d.x(), 0)) <= 0) continue;
+    }
+    contacts.push_back(make_contact(piece, {a, b, b}, *found));
+    Contact& contact = contacts.back();
+    contact.triangle = plane.triangle[k];
+    contact.point = piece.to_tool(contact.point);
+    contact.normal = piece.rotation.transpose() * contact.normal;
+  }
+}
+
+ContactDetector::ContactDetector(std::vector<ToolShape> tools) : state_(std::make_unique<State>()) {
+  for (std::size_t k = 0; k < tools.size(); ++k) {
+    std::vector<PieceCore>& cores = state_->tools.emplace_back();
+    for (std::size_t j = 0; j < tools[k].pieces.size(); ++j) {
+      check_piece(tools[k].pieces[j], k, j);
+      cores.push_back(make_core(tools[k].pieces[j]));
+    }
+  }
+}
+
+ContactDetector::~ContactDetector() = default;
+ContactDetector::ContactDetector(ContactDetector&&) noexcept = default;
+
+void ContactDetector::set_surface(const Surface& surface) {
+  state_->triangle = surface.triangle;
+  state_->plane = boundary_edges(surface);
+  state_->tree.reset();
+}
+
+void ContactDetector::detect(std::span<const Vec3> x, std::span<const Pose> pose,
+                             std::span<const double> margin, std::vector<Contact>& contacts) {
+  CHECK_OP(pose.size(), ==, state_->tools.size());
+  CHECK_OP(margin.size(), ==, state_->tools.size());
+  contacts.clear();
+  const bool is_plane = !state_->plane.node.empty();
+  if (!is_plane) {
+    if (state_->tree) {
+      state_->tree->refit(x);
+    } else {
+      state_->tree.emplace(state_->triangle, x);
+    }
+  }
+  for (std::size_t k = 0; k < pose.size(); ++k) {
+    for (std::size_t j = 0; j < state_->tools[k].size(); ++j) {
+      const PosedPiece piece{
+          .core = state_->tools[k][j],
+          .pose = pose[k],
+          .rotation = pose[k].rotation.toRotationMatrix(),
+          .translation = pose[k].translation,
+          .margin = margin[k],
+          .label = {.tool = static_cast<std::int32_t>(k), .piece = static_cast<std::int32_t>(j)}};
+      if (is_plane) {
+        state_->touch_plane(piece, x, contacts);
+      } else {
+        state_->touch_surface(piece, contacts);
+      }
+    }
+  }
+}
+
+}  // namespace trocar

@@ -1,0 +1,60 @@
+// Where instruments touch tissue. A flat bounding-volume tree over the surface triangles finds the
+// candidates; points and segments are tested in closed form, hulls by Bullet (hull_bullet.h). No
+// answer depends on an earlier one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+#include "collision/tool_shape.h"
+#include "mesh/facets.h"
+
+namespace trocar {
+
+// A triangle of tissue near a convex piece of a tool. Point and normal move with the tool between
+// two detections: gap(t) = normal·(sum weight x - point).
+// On a plane mesh a boundary edge of the triangle: node[2] == node[1] and weight[2] == 0.
+struct Contact {
+  std::int32_t tool = 0;
+  std::int32_t piece = 0;
+  std::int32_t triangle = 0;           // index into Surface::triangle
+  std::array<std::int32_t, 3> node{};  // global numbers
+  std::array<double, 3> weight{};      // of the nearest point on the triangle, sum 1
+  Vec3 point = Vec3::Zero();           // nearest point on the tool, in the tool's frame [m]
+  Vec3 normal = Vec3::Zero();          // from tool to tissue, unit, in the tool's frame
+  double gap = 0;                      // at detection; negative: penetration [m]
+};
+
+class ContactDetector {
+ public:
+  // Throws InputError for a piece without points, with a negative radius or a value not finite.
+  explicit ContactDetector(std::vector<ToolShape> tools);
+  ~ContactDetector();
+  ContactDetector(ContactDetector&&) noexcept;
+
+  // New topology. Call after each cut, then detect, which builds the tree. A surface with boundary
+  // edges is that of a plane mesh (tri3 in z = 0): then tools touch its boundary edges with the
+  // section that z = 0 cuts out of them (plane_contact.h).
+  void set_surface(const Surface& surface);
+
+  // All (tool piece, triangle) pairs nearer than margin[tool], in ascending (tool, piece,
+  // triangle): the same on every rank. x (n_nodes) global positions, valid at surface nodes; pose
+  // and margin (n_tools).
+  //
+  // Direction: from tool to tissue where the core of the piece sees the triangle's outer side. A
+  // core that has passed the triangle pushes it back along its inward normal (narrow_phase.h says
+  // how), but only from inside the tissue and towards its nearest way out: the far side of a thin
+  // lobe does not touch. A core deeper than depth_limit has lost the surface and touches nothing.
+  void detect(std::span<const Vec3> x, std::span<const Pose> pose, std::span<const double> margin,
+              std::vector<Contact>& contacts);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace trocar

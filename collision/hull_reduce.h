@@ -1,0 +1,17 @@
+// Fewer points for a convex hull: the ones that span it most.
+#pragma once
+
+#include <vector>
+
+#include "base/vec.h"
+
+namespace trocar {
+
+inline constexpr std::size_t max_hull_points = 64;
+
+// The points that are extreme in one of 728 directions, in their order; of those, when there are
+// more than 64, the extremes of the 26 main directions and then always the one farthest from all
+// chosen so far.
+std::vector<Vec3> reduce_hull(const std::vector<Vec3>& points);
+
+}  // namespace trocar

@@ -1,0 +1,75 @@
+// A flat bounding-volume tree over the triangles of a surface: built once per topology, refitted
+// to new positions. Its answers do not depend on how the tree was split: a rebuilt tree gives the
+// same bits.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+#include "collision/closest_point.h"
+
+namespace trocar {
+
+struct Box {
+  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+  void add(const Vec3& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  void add(const Box& box) {
+    low = low.cwiseMin(box.low);
+    high = high.cwiseMax(box.high);
+  }
+  bool overlaps(const Box& box) const {
+    return (low.array() <= box.high.array()).all() && (box.low.array() <= high.array()).all();
+  }
+  double distance2(const Vec3& p) const {
+    return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
+  }
+};
+
+class SurfaceTree {
+ public:
+  // Splits at the median centroid along the longest side. triangle: node numbers into x.
+  SurfaceTree(std::vector<std::array<std::int32_t, 3>> triangle, std::span<const Vec3> x);
+
+  // Fits all boxes to new positions (n_nodes), which every query then refers to.
+  void refit(std::span<const Vec3> x);
+
+  // Triangles whose own bounding box overlaps `box`, ascending.
+  void overlapping(const Box& box, std::vector<std::int32_t>& triangles) const;
+
+  // How often the closed surface winds round p: 0 outside, 1 inside, 2 where it overlaps itself.
+  int winding_number(const Vec3& p) const;
+
+  // The nearest triangle that p lies behind (lowest number of equals): the way out for a p inside.
+  // Nothing within `reach`: -1.
+  std::int32_t nearest_exit(const Vec3& p, double reach) const;
+
+  Triangle corners(std::int32_t triangle) const;
+  const std::array<std::int32_t, 3>& nodes(std::int32_t t) const { return triangle_[index(t)]; }
+
+ private:
+  // The left child follows its parent. Leaves hold [first, first + count) of order_.
+  struct Node {
+    Box box;
+    std::int32_t right = 0;
+    std::int32_t first = 0, count = 0;  // count 0: not a leaf
+  };
+  static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+  void split(std::span<const Vec3> centroid, std::int32_t first, std::int32_t count);
+  template <class Enters, class Visit>
+  void walk(Enters enters, Visit visit) const;
+
+  std::vector<std::array<std::int32_t, 3>> triangle_;
+  std::vector<std::int32_t> order_;  // triangles as the leaves hold them
+  std::vector<Box> box_;             // (n_triangles)
+  std::vector<Node> node_;
+  std::vector<Vec3> x_;  // positions of the last refit
+};
+
+}  // namespace trocar

@@ -1,0 +1,36 @@
+// Along what a node may be moved: freely inside the body, along its outer surface, along a sharp
+// edge, or not at all.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+#include "cutting/cut_patch.h"
+#include "cutting/cut_stroke.h"
+
+namespace trocar {
+
+enum class NodeFreedom : std::uint8_t { fixed, edge, surface, free };
+
+// The outer surface around a node as it was before the move: triangles or, on an edge, segments
+// (last two points equal).
+struct NodeBoundary {
+  NodeFreedom freedom = NodeFreedom::free;
+  Vec3 direction = Vec3::Zero();  // unit; surface: mean normal; edge: tangent
+  std::vector<std::array<Vec3, 3>> piece;
+};
+
+// Facets that this stroke opened are no outer surface: the node lies on them, between two halves
+// that move together. Facets of older cuts are; their rims inside the body stay fixed.
+NodeBoundary node_boundary(const CutPatch& patch, const CutStroke& stroke,
+                           std::span<const std::uint8_t> cut_facets, std::int32_t i);
+
+// The nearest allowed position.
+Vec3 project_to_boundary(const NodeBoundary& boundary, const Vec3& X);
+// Part of a displacement that is allowed to first order.
+Vec3 allowed_part(const NodeBoundary& boundary, const Vec3& displacement);
+
+}  // namespace trocar

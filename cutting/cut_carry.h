@@ -1,0 +1,24 @@
+// Where the blade's edge ended in the tissue. Tissue moves between two frames, so the next band
+// must begin at the material points where the last one ended, not where they were: else strips
+// between bands stay joined.
+#pragma once
+
+#include <span>
+
+#include "base/vec.h"
+#include "cutting/blade_sweep.h"
+#include "cutting/cut_stroke.h"
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+// The sweep with `before` carried along with the tissue since the last frame. Points outside the
+// body follow the nearest one inside.
+BladeSweep carry_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
+                      const CutStroke& stroke);
+
+// Takes down the material points of sweep.after. `near`: elements that may hold some.
+void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
+                   std::span<const std::int32_t> near, CutStroke& stroke);
+
+}  // namespace trocar

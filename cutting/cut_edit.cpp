@@ -1,0 +1,202 @@
+// Local to global numbers, mass, and the stroke's memory.
+#include "cutting/cut_edit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/quality.h"
+
+namespace trocar {
+
+// A node of an opened facet this near to the surface (over h) has no side.
+static constexpr double neutral_distance = 0.05;
+
+static std::vector<std::int32_t> moved_elements(const TetCut& cut) {
+  const CutPatch& patch = cut.around.patch;
+  std::vector<std::int32_t> element;
+  for (const NodeTransfer& t : cut.transfer)
+    element.insert(element.end(), patch.star(t.node).begin(), patch.star(t.node).end());
+  std::sort(element.begin(), element.end());
+  element.erase(std::unique(element.begin(), element.end()), element.end());
+  return element;
+}
+
+// Scales the density of the touched elements of each region so that their mass is what it was.
+static std::vector<DensityChange> density_changes(const Mesh& mesh, const TetCut& cut) {
+  const CutPatch& patch = cut.around.patch;
+  const std::vector<std::int32_t> element = moved_elements(cut);
+  std::vector<double> before(mesh.region_name.size(), 0), after = before;
+  for (const std::int32_t e : element) {
+    const std::int32_t global = patch.element[e], region = mesh.element_region[global];
+    before[region] += mesh.density_factor[global] * six_volumes(patch.X, patch.corner[e]);
+    after[region] += mesh.density_factor[global] * six_volumes(cut.X, patch.corner[e]);
+  }
+  std::vector<DensityChange> change;
+  for (const std::int32_t e : element) {
+    const std::int32_t global = patch.element[e], region = mesh.element_region[global];
+    if (before[region] == after[region]) continue;
+    change.push_back({global, mesh.density_factor[global] * (before[region] / after[region])});
+  }
+  return change;
+}
+
+static std::uint8_t opened_mask(const TetCut& cut, std::int32_t e) {
+  unsigned mask = 0;
+  for (const auto& [element, f] : cut.opening.facet)
+    if (element == e && !is_joined(cut.around.patch, cut.opening.corner, e, f)) mask |= 1U << f;
+  return static_cast<std::uint8_t>(mask);
+}
+
+// Facets that are apart after the edit, by global element.
+static std::vector<OfElement<std::uint8_t>> opened_facets(const TetCut& cut) {
+  std::vector<OfElement<std::uint8_t>> opened;
+  std::int32_t last = -1;
+  for (const auto& [e, f] : cut.opening.facet) {
+    if (e == last) continue;
+    last = e;
+    if (const std::uint8_t mask = opened_mask(cut, e); mask != 0)
+      opened.push_back({cut.around.patch.element[e], mask});
+  }
+  return opened;
+}
+
+MeshEdit make_edit(const Mesh& mesh, const TetCut& cut) {
+  const CutPatch& patch = cut.around.patch;
+  MeshEdit edit;
+  for (const NodeTransfer& t : cut.transfer) {
+    NodeMove move{patch.node[t.node], cut.X[t.node], patch.element[t.host], {}};
+    std::copy(t.weight.begin(), t.weight.end(), move.weight.begin());
+    edit.moves.push_back(move);
+  }
+  for (const std::int32_t parent : cut.opening.duplication.duplicate_parent)
+    edit.duplicate_parent.push_back(patch.node[parent]);
+  for (const CornerChange& c : cut.opening.duplication.corners)
+    edit.corners.push_back(
+        {patch.element[c.element], c.corner, mesh.n_nodes() + (c.node - patch.n_nodes())});
+  for (const auto& [element, mask] : opened_facets(cut))
+    edit.cut_facets.push_back(
+        {element, static_cast<std::uint8_t>(mesh.cut_facets[element] | mask)});
+  edit.density = density_changes(mesh, cut);
+  return edit;
+}
+
+static double least_quality(const TetCut& cut) {
+  const CutPatch& patch = cut.around.patch;
+  Mesh mesh;
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
+    add_element(mesh, ElementType::tet4, patch.corner[e]);
+  double least = 1;
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
+    if (patch.corner[e] != cut.opening.corner[e])
+      least = std::min(least, element_quality(mesh, e, cut.X));
+  for (const std::int32_t e : moved_elements(cut))
+    least = std::min(least, element_quality(mesh, e, cut.X));
+  return least;
+}
+
+CutFigures make_figures(const TetCut& cut, bool is_last) {
+  CutFigures figures;
+  const CutPatch& patch = cut.around.patch;
+  for (const auto& [e, f] : cut.opening.facet)
+    if (patch.across[e][f] > e && !is_joined(patch, cut.opening.corner, e, f))
+      ++figures.n_opened_facets;
+  figures.n_moved = static_cast<std::int32_t>(cut.transfer.size());
+  const std::vector<std::int32_t>& parent = cut.opening.duplication.duplicate_parent;
+  figures.n_duplicated = static_cast<std::int32_t>(parent.size());
+  figures.n_refused = is_last ? static_cast<std::int32_t>(cut.opening.refused.size()) : 0;
+  figures.least_quality = least_quality(cut);
+  for (const std::int32_t i : parent) {
+    const double distance = surface_distance(cut.around, i, cut.X[i]);
+    figures.largest_deviation = std::max(figures.largest_deviation, distance);
+    figures.mean_deviation += distance / static_cast<double>(parent.size());
+  }
+  figures.mean_edge = cut.around.h;
+  return figures;
+}
+
+static void sort_unique(std::vector<std::int32_t>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+static bool is_crossed(const CutStroke& stroke, std::int32_t element) {
+  const auto at =
+      std::lower_bound(stroke.hit.begin(), stroke.hit.end(), element,
+                       [](const CutHit& hit, std::int32_t e) { return hit.element < e; });
+  return at != stroke.hit.end() && at->element == element;
+}
+
+// Sides are kept where something is open: there they can't be taken back. Elsewhere the next edit
+// knows more.
+static void remember_sides(const TetCut& cut, CutStroke& stroke) {
+  const CutPatch& patch = cut.around.patch;
+  std::vector<std::uint8_t> has_opened(patch.element.size(), 0);
+  for (const auto& [e, f] : cut.opening.facet) has_opened[e] = 1;
+  std::vector<OfElement<std::int8_t>> side;
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e) {
+    if (cut.labels.kind[e] == CutKind::front && !is_crossed(stroke, patch.element[e]))
+      stroke.unfinished.push_back(patch.element[e]);
+    if (cut.labels.side[e] == 0 || cut.labels.kind[e] == CutKind::front) continue;
+    const auto& corner = patch.corner[e];
+    const bool is_at_opening = std::any_of(corner.begin(), corner.end(),
+                                           [&](std::int32_t i) { return cut.is_cut[i] != 0; });
+    if (has_opened[e] != 0 || (cut.labels.kind[e] == CutKind::separated && is_at_opening))
+      side.push_back({patch.element[e], cut.labels.side[e]});
+    else if (cut.labels.kind[e] == CutKind::separated)
+      stroke.unfinished.push_back(patch.element[e]);
+  }
+  merge_elements(stroke.side, side);
+}
+
+static void remember_nodes(const TetCut& cut, std::int32_t n_nodes, CutStroke& stroke) {
+  const CutPatch& patch = cut.around.patch;
+  const std::vector<std::int32_t>& parent = cut.opening.duplication.duplicate_parent;
+  std::vector<std::uint8_t> is_neutral(patch.node.size(), 0);
+  std::erase_if(stroke.surface_node,
+                [&](std::int32_t node) { return patch.local_node(node) >= 0; });
+  for (std::int32_t i = 0; i < patch.n_nodes(); ++i) {
+    if (cut.is_cut[i] == 0 || cut.around.points.of(i).empty()) continue;
+    if (surface_distance(cut.around, i, cut.X[i]) > neutral_distance * cut.around.h) continue;
+    is_neutral[i] = 1;
+    stroke.surface_node.push_back(patch.node[i]);
+  }
+  for (std::size_t k = 0; k < parent.size(); ++k) {
+    const std::int32_t copy = n_nodes + static_cast<std::int32_t>(k);
+    stroke.parted_node.push_back(patch.node[parent[k]]);
+    stroke.parted_node.push_back(copy);
+    if (is_neutral[parent[k]] != 0) stroke.surface_node.push_back(copy);
+  }
+  sort_unique(stroke.surface_node);
+  sort_unique(stroke.parted_node);
+}
+
+static void remember_altitudes(const TetCut& cut, CutStroke& stroke) {
+  const CutPatch& patch = cut.around.patch;
+  std::vector<OfElement<double>> altitude;
+  for (const std::int32_t e : moved_elements(cut))
+    if (find_element(stroke.altitude, patch.element[e]) == nullptr)
+      altitude.push_back({patch.element[e], tet_altitude(patch.X, patch.corner[e])});
+  merge_elements(stroke.altitude, altitude);
+}
+
+void remember(const TetCut& cut, std::int32_t n_nodes, CutStroke& stroke) {
+  const CutPatch& patch = cut.around.patch;
+  stroke.swept = 0;
+  stroke.fresh.clear();
+  stroke.unfinished.clear();
+  for (const auto& [e, f] : cut.opening.refused) {
+    stroke.unfinished.push_back(patch.element[e]);
+    stroke.unfinished.push_back(patch.element[patch.across[e][f]]);
+  }
+  remember_sides(cut, stroke);
+  sort_unique(stroke.unfinished);
+  remember_nodes(cut, n_nodes, stroke);
+  remember_altitudes(cut, stroke);
+  std::vector<OfElement<std::uint8_t>> opened = opened_facets(cut);
+  for (OfElement<std::uint8_t>& entry : opened)
+    if (const std::uint8_t* before = find_element(stroke.opened, entry.element))
+      entry.value = static_cast<std::uint8_t>(entry.value | *before);
+  merge_elements(stroke.opened, opened);
+}
+
+}  // namespace trocar

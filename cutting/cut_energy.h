@@ -1,0 +1,28 @@
+// What a good place for a node is: f = h^2/6 sum_a 1/altitude_a^2 of its elements (the explicit
+// stability bound, 1 for the regular tetrahedron of edge h) squared, plus its squared distance to
+// the swept surface. Exact derivatives: the volume is linear in a node, the sum of squared face
+// areas quadratic.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "base/vec.h"
+
+namespace trocar {
+
+struct NodeEnergy {
+  double value = 0;
+  Vec3 gradient = Vec3::Zero();
+  Mat3 hessian = Mat3::Zero();
+};
+
+// f of one tetrahedron; infinite if it has no volume.
+double stability_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner,
+                       double h);
+// Adds f^2 and its derivatives by the position of corner a. The tetrahedron must have volume.
+void add_squared_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner, int a,
+                       double h, NodeEnergy& energy);
+
+}  // namespace trocar

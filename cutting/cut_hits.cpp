@@ -1,0 +1,227 @@
+// Edge against triangle by signed volumes, taken in an order that neighbouring triangles share, so
+// that no edge slips between them.
+#include "cutting/cut_hits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cutting/cut_carry.h"
+
+namespace trocar {
+
+// Part of the mean edge by which a band begins behind its begin.
+static constexpr double overlap = 0.15;
+
+double sweep_length(const BladeSweep& sweep) {
+  double longest = 0;
+  for (std::size_t k = 0; k < sweep.before.size(); ++k)
+    longest = std::max(longest, (sweep.after[k] - sweep.before[k]).norm());
+  return longest;
+}
+
+namespace {
+
+struct Band {
+  struct Triangle {
+    std::array<int, 3> point;
+    Vec3 normal;  // unit, towards +
+    Vec3 low, high;
+  };
+  std::vector<Vec3> point;  // before 0, after 0, before 1, ...
+  std::vector<Triangle> triangle;
+  Vec3 low, high;
+};
+
+struct Crossing {
+  bool is_a_plus = false;
+  double s = 0;  // from a to b
+  Vec3 normal = Vec3::Zero();
+};
+
+// An edge a < b of the mesh as local edge of an element.
+struct EdgeUse {
+  std::int32_t a, b, element, edge;
+  auto operator<=>(const EdgeUse&) const = default;
+};
+
+}  // namespace
+
+static void add_triangle(Band& band, const std::array<int, 3>& point, const Vec3& side) {
+  const Vec3 &p = band.point[point[0]], &q = band.point[point[1]], &r = band.point[point[2]];
+  Vec3 normal = (q - p).cross(r - p);
+  const double size = normal.norm();
+  const double longest2 =
+      std::max({(q - p).squaredNorm(), (r - p).squaredNorm(), (r - q).squaredNorm()});
+  // A triangle without area sweeps nothing: a point of the edge that stands still.
+  if (!(size > 1e-12 * longest2)) return;
+  normal *= (normal.dot(side) < 0 ? -1 : 1) / size;
+  band.triangle.push_back({point, normal, p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r)});
+}
+
+static Band make_band(const BladeSweep& sweep, double back) {
+  Band band;
+  for (std::size_t k = 0; k < sweep.before.size(); ++k) {
+    const Vec3 way = sweep.after[k] - sweep.before[k];
+    const double length = way.norm();
+    band.point.push_back(length > 0 ? Vec3(sweep.before[k] - way * (back / length))
+                                    : sweep.before[k]);
+    band.point.push_back(sweep.after[k]);
+  }
+  const int n = static_cast<int>(band.point.size());
+  for (int k = 0; k + 3 < n; k += 2) {
+    add_triangle(band, {k, k + 2, k + 3}, sweep.normal);
+    add_triangle(band, {k, k + 3, k + 1}, sweep.normal);
+  }
+  for (std::size_t t = 0; t < band.triangle.size(); ++t) {
+    band.low = t == 0 ? band.triangle[t].low : band.low.cwiseMin(band.triangle[t].low).eval();
+    band.high = t == 0 ? band.triangle[t].high : band.high.cwiseMax(band.triangle[t].high).eval();
+  }
+  return band;
+}
+
+// Tetrahedra whose corners are not all on one outer side of the band's box.
+static std::vector<std::int32_t> near_elements(const Mesh& mesh, std::span<const Vec3> x,
+                                               const Vec3& low, const Vec3& high) {
+  std::vector<std::uint8_t> outside(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    unsigned code = 0;
+    for (int d = 0; d < 3; ++d)
+      code |= (x[i][d] < low[d] ? 1U << d : 0U) | (x[i][d] > high[d] ? 8U << d : 0U);
+    outside[i] = static_cast<std::uint8_t>(code);
+  }
+  std::vector<std::int32_t> element;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    const std::span<const std::int32_t> c = mesh.corners(e);
+    if ((outside[c[0]] & outside[c[1]] & outside[c[2]] & outside[c[3 % c.size()]]) != 0) continue;
+    if (mesh.element_type[e] == ElementType::tet4) element.push_back(e);
+  }
+  return element;
+}
+
+static std::vector<EdgeUse> edge_uses(const Mesh& mesh, std::span<const std::int32_t> element) {
+  std::vector<EdgeUse> use;
+  use.reserve(element.size() * 6);
+  for (const std::int32_t e : element)
+    for (std::int32_t k = 0; k < 6; ++k) {
+      const std::int32_t i = mesh.corners(e)[tet_edges[k][0]], j = mesh.corners(e)[tet_edges[k][1]];
+      use.push_back({std::min(i, j), std::max(i, j), e, k});
+    }
+  std::sort(use.begin(), use.end());
+  return use;
+}
+
+// Six times the signed volume of (a, b, p, q) with p and q in the order of their numbers; changes
+// sign with their order.
+static double side_of_line(const Band& band, const Vec3& a, const Vec3& b, int p, int q) {
+  const Vec3 &low = band.point[std::min(p, q)], &high = band.point[std::max(p, q)];
+  const double volume = (b - a).cross(low - a).dot(high - a);
+  return p < q ? volume : -volume;
+}
+
+static bool passes_through(const Band& band, const Band::Triangle& t, const Vec3& a,
+                           const Vec3& b) {
+  const double u = side_of_line(band, a, b, t.point[0], t.point[1]);
+  const double v = side_of_line(band, a, b, t.point[1], t.point[2]);
+  const double w = side_of_line(band, a, b, t.point[2], t.point[0]);
+  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+}
+
+// Net crossing of the band: an edge that goes through and back stays on its side.
+static bool find_crossing(const Band& band, const Vec3& a, const Vec3& b, Crossing& crossing) {
+  const Vec3 low = a.cwiseMin(b), high = a.cwiseMax(b);
+  if ((low.array() > band.high.array()).any() || (high.array() < band.low.array()).any())
+    return false;
+  std::array<Crossing, 2> first;
+  int net = 0;
+  for (const Band::Triangle& t : band.triangle) {
+    if ((low.array() > t.high.array()).any() || (high.array() < t.low.array()).any()) continue;
+    const Vec3& p = band.point[t.point[0]];
+    const double phi_a = t.normal.dot(a - p), phi_b = t.normal.dot(b - p);
+    if ((phi_a >= 0) == (phi_b >= 0) || !passes_through(band, t, a, b)) continue;
+    const bool is_a_plus = phi_a >= 0;
+    Crossing& known = first[is_a_plus ? 1 : 0];
+    if (known.normal.isZero(0)) known = {is_a_plus, phi_a / (phi_a - phi_b), t.normal};
+    net += is_a_plus ? 1 : -1;
+  }
+  crossing = first[net > 0 ? 1 : 0];
+  return net != 0;
+}
+
+// n dx = (F^T n) dX.
+static Vec3 reference_normal(const Mesh& mesh, std::span<const Vec3> x, std::int32_t e,
+                             const Vec3& n) {
+  const std::span<const std::int32_t> c = mesh.corners(e);
+  Mat3 dX, dx;
+  for (int k = 0; k < 3; ++k) {
+    dX.col(k) = mesh.X[c[k + 1]] - mesh.X[c[0]];
+    dx.col(k) = x[c[k + 1]] - x[c[0]];
+  }
+  const Vec3 N = dX.inverse().transpose() * (dx.transpose() * n);
+  const double size = N.norm();
+  return size > 0 && std::isfinite(size) ? Vec3(N / size) : n;
+}
+
+// An edge crossed again the same way keeps its first crossing; crossed back it has none.
+static void merge_hits(std::vector<CutHit>& hit, std::vector<CutHit>& found) {
+  const auto before = [](const CutHit& p, const CutHit& q) { return p.key() < q.key(); };
+  std::sort(found.begin(), found.end(), before);
+  std::vector<CutHit> merged;
+  merged.reserve(hit.size() + found.size());
+  auto old = hit.begin();
+  for (const CutHit& next : found) {
+    while (old != hit.end() && before(*old, next)) merged.push_back(*old++);
+    const bool is_known = old != hit.end() && old->key() == next.key();
+    if (!is_known)
+      merged.push_back(next);
+    else if (old->is_first_plus == next.is_first_plus)
+      merged.push_back(*old);
+    if (is_known) ++old;
+  }
+  merged.insert(merged.end(), old, hit.end());
+  hit = std::move(merged);
+}
+
+static double mean_length(const Mesh& mesh, const std::vector<EdgeUse>& use) {
+  double sum = 0;
+  for (const EdgeUse& edge : use) sum += (mesh.X[edge.a] - mesh.X[edge.b]).norm();
+  return use.empty() ? 0 : sum / static_cast<double>(use.size());
+}
+
+// One edge of each tetrahedron is enough to know where the blade enters.
+static double rough_edge_length(const Mesh& mesh) {
+  double sum = 0;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    sum += (mesh.X[mesh.corners(e)[1]] - mesh.X[mesh.corners(e)[0]]).norm();
+  return sum / mesh.n_elements();
+}
+
+void add_hits(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
+              CutStroke& stroke) {
+  if (stroke.mean_edge == 0) stroke.mean_edge = rough_edge_length(mesh);
+  const Band band = make_band(carry_edge(mesh, x, sweep, stroke), overlap * stroke.mean_edge);
+  if (band.triangle.empty()) return;
+  const std::vector<std::int32_t> element = near_elements(mesh, x, band.low, band.high);
+  remember_edge(mesh, x, sweep, element, stroke);
+  const std::vector<EdgeUse> use = edge_uses(mesh, element);
+  std::vector<CutHit> found;
+  Crossing crossing;
+  for (std::size_t begin = 0, end = 0; begin < use.size(); begin = end) {
+    const std::int32_t a = use[begin].a, b = use[begin].b;
+    while (end < use.size() && use[end].a == a && use[end].b == b) ++end;
+    if (!find_crossing(band, x[a], x[b], crossing)) continue;
+    const Vec3 X = mesh.X[a] + crossing.s * (mesh.X[b] - mesh.X[a]);
+    for (std::size_t k = begin; k < end; ++k) {
+      const bool is_first_a = mesh.corners(use[k].element)[tet_edges[use[k].edge][0]] == a;
+      found.push_back({use[k].element, use[k].edge, is_first_a == crossing.is_a_plus, X,
+                       reference_normal(mesh, x, use[k].element, crossing.normal)});
+    }
+  }
+  if (found.empty()) return;
+  stroke.mean_edge = mean_length(mesh, use);
+  for (const CutHit& hit : found) stroke.fresh.push_back(hit.element);
+  std::sort(stroke.fresh.begin(), stroke.fresh.end());
+  stroke.fresh.erase(std::unique(stroke.fresh.begin(), stroke.fresh.end()), stroke.fresh.end());
+  merge_hits(stroke.hit, found);
+}
+
+}  // namespace trocar

@@ -1,0 +1,134 @@
+// Minimum cut over the separated elements; uncut neighbours and elements of earlier advances are
+// its terminals.
+#include "cutting/cut_label.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cutting/cut_flow.h"
+
+namespace trocar {
+
+// Corners this far from the surface (over h) on both sides: the surface passes between them.
+static constexpr double clear_distance = 0.05;
+// Keeps the cut from wandering where all distances are zero.
+static constexpr double area_weight = 0.05;
+// Whole-number capacities: this many units for one squared mean edge.
+static constexpr double capacity_unit = 1e4;
+
+double facet_cost(const CutSurroundings& around, std::int32_t e, int f) {
+  const std::array<std::int32_t, 3> node = facet_nodes(around.patch, e, f);
+  const Vec3& o = around.patch.X[node[0]];
+  const Vec3 normal = (around.patch.X[node[1]] - o).cross(around.patch.X[node[2]] - o);
+  double cost = area_weight * normal.norm() / (around.h * around.h);
+  for (const std::int32_t i : node) cost += around.surface_cost[i];
+  return cost;
+}
+
+// Side that an uncut element has because the facet that it shares with a separated one lies there;
+// 0 if that doesn't say.
+static int implied_side(const ElementSides& sides, int f) {
+  int plus = 0, minus = 0;
+  for (const int c : tet_facets[static_cast<std::size_t>(f)]) {
+    plus += sides.corner[static_cast<std::size_t>(c)] > 0 ? 1 : 0;
+    minus += sides.corner[static_cast<std::size_t>(c)] < 0 ? 1 : 0;
+  }
+  return (plus > 0 ? 1 : 0) - (minus > 0 ? 1 : 0);
+}
+
+// Side of an uncut element by the distances of its corners. If the surface is about to pass through
+// it, it belongs to the front; if all its corners lie on the surface, the minimum cut decides.
+static void set_geometric_side(const CutSurroundings& around, const ElementSides& sides,
+                               std::int32_t e, CutLabels& labels) {
+  double low = 0, high = 0;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const std::int32_t i = around.patch.corner[e][c];
+    const std::span<const SurfacePoint> points = around.points.of(i);
+    if (sides.is_neutral[c] || points.empty()) continue;
+    const double phi = fit_surface(points, around.patch.X[i], around.h).distance(around.patch.X[i]);
+    low = std::min(low, phi);
+    high = std::max(high, phi);
+  }
+  if (high > clear_distance * around.h && low < -clear_distance * around.h)
+    labels.kind[e] = CutKind::front;
+  else if (high == low)
+    labels.kind[e] = CutKind::separated;
+  else
+    labels.side[e] = high >= -low ? 1 : -1;
+}
+
+static bool is_unknown(const CutLabels& labels, std::int32_t e) {
+  return labels.kind[e] == CutKind::separated && labels.side[e] == 0;
+}
+
+// Gives uncut neighbours of cut elements their side; one that the surface is about to pass through
+// belongs to the front.
+static void set_terminals(const CutSurroundings& around, const std::vector<ElementSides>& sides,
+                          CutLabels& labels) {
+  const CutPatch& patch = around.patch;
+  for (std::int32_t u = 0; u < patch.n_elements(); ++u) {
+    if (labels.kind[u] != CutKind::uncut) continue;
+    const auto& neutral = sides[u].is_neutral;
+    // A whole facet on the surface: the fourth corner says where the element belongs.
+    bool is_neighbour = std::count(neutral.begin(), neutral.end(), true) >= 3;
+    bool is_plus = false, is_minus = false;
+    for (int f = 0; f < 4; ++f) {
+      const std::int32_t e = patch.across[u][f];
+      if (e < 0 || sides[e].kind != CutKind::separated) continue;
+      is_neighbour = true;
+      const int side = implied_side(sides[e], facet_towards(patch, e, u));
+      is_plus = is_plus || side > 0;
+      is_minus = is_minus || side < 0;
+    }
+    if (!is_neighbour) continue;
+    if (is_plus != is_minus)
+      labels.side[u] = is_plus ? 1 : -1;
+    else
+      set_geometric_side(around, sides[u], u, labels);
+  }
+}
+
+static void cut_graph(const CutSurroundings& around, CutLabels& labels) {
+  const CutPatch& patch = around.patch;
+  constexpr std::int32_t source = 0, sink = 1;
+  std::vector<std::int32_t> vertex(patch.element.size(), -1);
+  std::int32_t n_vertices = 2;
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e) {
+    if (is_unknown(labels, e))
+      vertex[e] = n_vertices++;
+    else if (labels.side[e] != 0 && labels.kind[e] != CutKind::front)
+      vertex[e] = labels.side[e] > 0 ? source : sink;
+  }
+  std::vector<FlowArc> arcs;
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; f < 4; ++f) {
+      const std::int32_t u = patch.across[e][f];
+      if (u < e || vertex[e] < 0 || vertex[u] < 0 || vertex[e] == vertex[u] ||
+          (vertex[e] <= sink && vertex[u] <= sink))
+        continue;
+      const double cost = facet_cost(around, e, f);
+      arcs.push_back({vertex[e], vertex[u], 1 + std::llround(capacity_unit * cost)});
+    }
+  const std::vector<std::uint8_t> is_plus = minimum_cut(n_vertices, source, sink, arcs);
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
+    if (is_unknown(labels, e)) labels.side[e] = is_plus[vertex[e]] != 0 ? 1 : -1;
+}
+
+CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke) {
+  const std::vector<ElementSides> sides = element_sides(around, stroke);
+  CutLabels labels;
+  for (std::int32_t e = 0; e < around.patch.n_elements(); ++e) {
+    const std::int8_t* known = find_element(stroke.side, around.patch.element[e]);
+    labels.kind.push_back(known != nullptr ? CutKind::separated : sides[e].kind);
+    labels.side.push_back(known != nullptr ? *known : std::int8_t{0});
+  }
+  set_terminals(around, sides, labels);
+  cut_graph(around, labels);
+  labels.is_front_node.assign(around.patch.node.size(), 0);
+  for (std::int32_t e = 0; e < around.patch.n_elements(); ++e)
+    if (labels.kind[e] == CutKind::front)
+      for (const std::int32_t i : around.patch.corner[e]) labels.is_front_node[i] = 1;
+  return labels;
+}
+
+}  // namespace trocar

@@ -1,0 +1,170 @@
+// Newton steps node by node in ascending order, each with a line search that only accepts valid
+// stars.
+#include "cutting/cut_move.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cutting/cut_energy.h"
+
+namespace trocar {
+
+static constexpr int max_sweeps = 10;
+// Weight of (distance / h)^2 against f^2, inside and where the lips of the wound show.
+static constexpr double inner_weight = 80, outer_weight = 300;
+static constexpr double longest_step = 0.3;      // of h
+static constexpr double smallest_motion = 2e-3;  // of h: sweeps end
+
+namespace {
+
+struct Descent {
+  const CutSurroundings& around;
+  const std::vector<NodeRole>& role;
+  MoveLimits limits;
+  std::vector<Vec3> X;
+};
+
+struct SurfaceTerm {
+  SurfacePlane plane;
+  double weight = 0;  // 0: none
+};
+
+}  // namespace
+
+double surface_distance(const CutSurroundings& around, std::int32_t i, const Vec3& X) {
+  const std::span<const SurfacePoint> points = around.points.of(i);
+  return points.empty() ? 0 : std::abs(fit_surface(points, X, around.h).distance(X));
+}
+
+static SurfaceTerm surface_term(const Descent& d, std::int32_t i) {
+  const std::span<const SurfacePoint> points = d.around.points.of(i);
+  if (d.role[i] != NodeRole::on_surface || points.empty()) return {};
+  const bool is_inner = d.around.boundary[i].freedom == NodeFreedom::free;
+  return {fit_surface(points, d.X[i], d.around.h), is_inner ? inner_weight : outer_weight};
+}
+
+static double term_value(const Descent& d, const SurfaceTerm& term, const Vec3& X) {
+  const double phi = term.plane.distance(X) / d.around.h;
+  return term.weight * phi * phi;
+}
+
+static NodeEnergy node_energy(const Descent& d, std::int32_t i, const SurfaceTerm& term) {
+  NodeEnergy energy;
+  const double h = d.around.h, phi = term.plane.distance(d.X[i]) / h;
+  energy.value = term.weight * phi * phi;
+  energy.gradient = 2 * term.weight * phi / h * term.plane.N;
+  energy.hessian = 2 * term.weight / (h * h) * term.plane.N * term.plane.N.transpose();
+  for (const std::int32_t e : d.around.patch.star(i)) {
+    const std::array<std::int32_t, 4>& corner = d.around.patch.corner[e];
+    const auto a = std::find(corner.begin(), corner.end(), i) - corner.begin();
+    add_squared_bound(d.X, corner, static_cast<int>(a), h, energy);
+  }
+  return energy;
+}
+
+// Energy without derivatives; infinite if an element has no volume.
+static double energy_value(const Descent& d, std::int32_t i, const SurfaceTerm& term) {
+  double value = term_value(d, term, d.X[i]);
+  for (const std::int32_t e : d.around.patch.star(i)) {
+    const double f = stability_bound(d.X, d.around.patch.corner[e], d.around.h);
+    value += f * f;
+  }
+  return value;
+}
+
+static double star_altitude(const Descent& d, std::int32_t i) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::int32_t e : d.around.patch.star(i))
+    least = std::min(least, tet_altitude(d.X, d.around.patch.corner[e]));
+  return least;
+}
+
+// Newton's step within what the boundary allows; downhill also where the Hessian is not definite.
+static Vec3 newton_step(const NodeEnergy& energy, const NodeBoundary& boundary, double h) {
+  Mat3 P;
+  for (int k = 0; k < 3; ++k) P.col(k) = allowed_part(boundary, Vec3(Vec3::Unit(k)));
+  const Vec3 g = P * energy.gradient;
+  const double size = energy.hessian.cwiseAbs().maxCoeff();
+  const Mat3 K = P * energy.hessian * P + size * (Mat3::Identity() - P);
+  Vec3 step = Vec3::Zero();
+  for (double shift = 1e-6; shift < 10; shift *= 30) {
+    const Eigen::LDLT<Mat3> factor(Mat3(K + shift * size * Mat3::Identity()));
+    if (!(factor.vectorD().minCoeff() > 0)) continue;
+    step = P * factor.solve(-g);
+    break;
+  }
+  const double length = step.norm();
+  return length > longest_step * h ? Vec3(step * (longest_step * h / length)) : step;
+}
+
+// Puts node i to `to` if `is_better` says so there, else leaves it.
+template <class IsBetter>
+static bool try_position(Descent& d, std::int32_t i, const Vec3& to, const IsBetter& is_better) {
+  const Vec3 from = d.X[i];
+  d.X[i] = project_to_boundary(d.around.boundary[i], to);
+  if (is_better()) return true;
+  d.X[i] = from;
+  return false;
+}
+
+// Returns how far the node has gone.
+static double descend(Descent& d, std::int32_t i) {
+  const SurfaceTerm term = surface_term(d, i);
+  const NodeEnergy energy = node_energy(d, i, term);
+  if (!std::isfinite(energy.value)) return 0;
+  const double altitude = std::min(d.limits.floor, star_altitude(d, i));
+  const Vec3 from = d.X[i];
+  Vec3 step = newton_step(energy, d.around.boundary[i], d.around.h);
+  for (int trial = 0; trial < 5; ++trial, step *= 0.5)
+    if (try_position(d, i, from + step, [&] {
+          return energy_value(d, i, term) < energy.value && star_altitude(d, i) >= altitude;
+        }))
+      return (d.X[i] - from).norm();
+  return 0;
+}
+
+static Vec3 foot_on_surface(const Descent& d, std::int32_t i) {
+  const NodeBoundary& boundary = d.around.boundary[i];
+  Vec3 X = d.X[i];
+  for (int k = 0; k < 4; ++k) {
+    const SurfacePlane plane = fit_surface(d.around.points.of(i), X, d.around.h);
+    const Vec3 way = allowed_part(boundary, plane.N);
+    const double slope = way.dot(plane.N);
+    if (!(slope > 0.05)) return d.X[i];
+    X = project_to_boundary(boundary, X - way * (plane.distance(X) / slope));
+  }
+  return X;
+}
+
+static void snap(Descent& d, std::int32_t i) {
+  if (d.around.points.of(i).empty()) return;
+  const double altitude = star_altitude(d, i);
+  if (!(altitude > 0)) return;
+  const bool is_inner = d.around.boundary[i].freedom == NodeFreedom::free;
+  const double least = std::min(is_inner ? d.limits.inner_snap : d.limits.outer_snap, altitude);
+  const Vec3 from = d.X[i], to = foot_on_surface(d, i);
+  for (const double part : {1.0, 0.5, 0.25})
+    if (try_position(d, i, from + part * (to - from), [&] { return star_altitude(d, i) >= least; }))
+      return;
+}
+
+std::vector<Vec3> move_nodes(const CutSurroundings& around, const std::vector<NodeRole>& role,
+                             const MoveLimits& limits) {
+  Descent d{around, role, limits, around.patch.X};
+  std::vector<std::int32_t> movable;
+  for (std::int32_t i = 0; i < around.patch.n_nodes(); ++i)
+    if (role[i] != NodeRole::stays && around.boundary[i].freedom != NodeFreedom::fixed)
+      movable.push_back(i);
+  double motion = around.h;
+  for (int sweep = 0; sweep < max_sweeps && motion > smallest_motion * around.h; ++sweep) {
+    motion = 0;
+    for (const std::int32_t i : movable) motion = std::max(motion, descend(d, i));
+  }
+  for (const std::int32_t i : movable)
+    if (role[i] == NodeRole::on_surface) snap(d, i);
+  return d.X;
+}
+
+}  // namespace trocar

@@ -1,0 +1,29 @@
+// Pulls the nodes of the opened facets onto the swept surface and lets their neighbours make room,
+// by descent on the energy of cut_energy.h. No element loses its volume, or altitude below the
+// floor.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cutting/cut_label.h"
+
+namespace trocar {
+
+enum class NodeRole : std::uint8_t { stays, makes_room, on_surface };
+
+struct MoveLimits {
+  double floor = 0;  // no altitude may sink below this, or sink further [m]
+  // Nor below these only to put a node on the surface that descent left beside it: inside, and at
+  // the lips of the wound. [m]
+  double inner_snap = 0, outer_snap = 0;
+};
+
+// Reference positions of all patch nodes after the move.
+std::vector<Vec3> move_nodes(const CutSurroundings& around, const std::vector<NodeRole>& role,
+                             const MoveLimits& limits);
+
+// Distance of node i from the swept surface if it stood at X; 0 where no crossing is near. [m]
+double surface_distance(const CutSurroundings& around, std::int32_t i, const Vec3& X);
+
+}  // namespace trocar

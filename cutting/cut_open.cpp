@@ -1,0 +1,238 @@
+// Partner nodes for facets between the sides, checked by the links of the nodes.
+#include "cutting/cut_open.h"
+
+#include <algorithm>
+
+namespace trocar {
+
+using Corners = std::vector<std::array<std::int32_t, 4>>;
+using Edge = std::array<std::int32_t, 2>;
+
+// A node of the front this near to the surface (over h) may be parted.
+static constexpr double ripe_distance = 0.1;
+
+namespace {
+
+// The patch as the structures that duplicate_nodes reads.
+struct PatchMesh {
+  Mesh mesh;
+  NodeElements around;
+  FacetNeighbours across;
+};
+
+}  // namespace
+
+static PatchMesh make_patch_mesh(const CutPatch& patch) {
+  PatchMesh p;
+  p.mesh.X = patch.X;
+  p.across.offset = {0};
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e) {
+    p.mesh.element_type.push_back(ElementType::tet4);
+    p.mesh.corner_node.insert(p.mesh.corner_node.end(), patch.corner[e].begin(),
+                              patch.corner[e].end());
+    p.mesh.corner_offset.push_back(4 * (e + 1));
+    p.mesh.cut_facets.push_back(0);
+    p.across.offset.push_back(4 * (e + 1));
+    p.across.neighbour.insert(p.across.neighbour.end(), patch.across[e].begin(),
+                              patch.across[e].end());
+  }
+  p.around = {patch.star_offset, patch.star_element};
+  return p;
+}
+
+bool is_joined(const CutPatch& patch, const Corners& corner, std::int32_t e, int f) {
+  const std::int32_t u = patch.across[e][f];
+  if (u < 0) return false;
+  for (const int c : tet_facets[static_cast<std::size_t>(f)]) {
+    const auto& old = patch.corner[u];
+    const auto at = std::find(old.begin(), old.end(), patch.corner[e][c]) - old.begin();
+    if (corner[u][static_cast<std::size_t>(at)] != corner[e][c]) return false;
+  }
+  return true;
+}
+
+// Facets (lower element's side) between elements of different sides.
+static std::vector<TetFacet> facets_between_sides(const CutPatch& patch, const CutLabels& labels) {
+  std::vector<TetFacet> facet;
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; f < 4; ++f) {
+      const std::int32_t u = patch.across[e][f];
+      if (u < e || labels.side[e] * labels.side[u] != -1) continue;
+      if (labels.kind[e] == CutKind::front || labels.kind[u] == CutKind::front) continue;
+      const std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);
+      const bool is_free = std::all_of(node.begin(), node.end(), [&](std::int32_t i) {
+        return patch.is_whole(i) && patch.is_joined[i] == 0;
+      });
+      if (is_free) facet.push_back({e, f});
+    }
+  return facet;
+}
+
+static void split_nodes(const CutPatch& patch, const PatchMesh& mesh,
+                        const std::vector<TetFacet>& lower, CutOpening& opening) {
+  opening.facet = lower;
+  std::vector<std::int32_t> nodes;
+  for (const auto& [e, f] : lower) {
+    const std::int32_t u = patch.across[e][f];
+    opening.facet.push_back({u, facet_towards(patch, u, e)});
+    for (const std::int32_t i : facet_nodes(patch, e, f)) nodes.push_back(i);
+  }
+  std::sort(opening.facet.begin(), opening.facet.end());
+  opening.duplication = duplicate_nodes(mesh.mesh, opening.facet, nodes, mesh.around, mesh.across);
+  opening.corner = patch.corner;
+  for (const CornerChange& change : opening.duplication.corners)
+    opening.corner[change.element][static_cast<std::size_t>(change.corner)] = change.node;
+}
+
+// The boundary facets at node `copy`, as directed edges of its link.
+static std::vector<Edge> link_boundary(const CutPatch& patch, const Corners& corner,
+                                       std::span<const std::int32_t> star, std::int32_t copy) {
+  std::vector<Edge> edge;
+  for (const std::int32_t e : star) {
+    const auto at = std::find(corner[e].begin(), corner[e].end(), copy) - corner[e].begin();
+    if (at == 4) continue;
+    for (int f = 0; f < 4; ++f) {
+      if (f == at || is_joined(patch, corner, e, f)) continue;
+      std::array<int, 3> c = tet_facets[static_cast<std::size_t>(f)];
+      std::rotate(c.begin(), std::find(c.begin(), c.end(), static_cast<int>(at)), c.end());
+      edge.push_back({corner[e][c[1]], corner[e][c[2]]});
+    }
+  }
+  return edge;
+}
+
+// One closed cycle, or nothing at all inside the body.
+static bool is_one_cycle(std::vector<Edge> edge) {
+  if (edge.empty()) return true;
+  std::sort(edge.begin(), edge.end());
+  for (std::size_t k = 0; k + 1 < edge.size(); ++k)
+    if (edge[k][0] == edge[k + 1][0]) return false;
+  std::size_t n_visited = 0;
+  std::int32_t at = edge[0][0];
+  do {
+    const auto next = std::lower_bound(edge.begin(), edge.end(), Edge{at, -1});
+    if (next == edge.end() || (*next)[0] != at) return false;
+    at = (*next)[1];
+  } while (++n_visited <= edge.size() && at != edge[0][0]);
+  return n_visited == edge.size();
+}
+
+static bool is_link_sound(const CutPatch& patch, const Corners& corner, std::int32_t i) {
+  std::vector<std::int32_t> copy;
+  for (const std::int32_t e : patch.star(i))
+    for (std::size_t c = 0; c < 4; ++c)
+      if (patch.corner[e][c] == i) copy.push_back(corner[e][c]);
+  std::sort(copy.begin(), copy.end());
+  copy.erase(std::unique(copy.begin(), copy.end()), copy.end());
+  return std::all_of(copy.begin(), copy.end(), [&](std::int32_t k) {
+    return is_one_cycle(link_boundary(patch, corner, patch.star(i), k));
+  });
+}
+
+static void add_edges(const std::array<std::int32_t, 3>& node, std::vector<Edge>& edge) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::int32_t a = node[k], b = node[(k + 1) % 3];
+    edge.push_back({std::min(a, b), std::max(a, b)});
+  }
+}
+
+// Number of edges of a facet where the opening ends inside the body.
+static int rim_edges(const std::array<std::int32_t, 3>& node, const std::vector<Edge>& opened,
+                     const std::vector<Edge>& outer) {
+  std::vector<Edge> edge;
+  add_edges(node, edge);
+  int n = 0;
+  for (const Edge& k : edge) {
+    const auto use = std::equal_range(opened.begin(), opened.end(), k);
+    if (use.second - use.first == 1 && !std::binary_search(outer.begin(), outer.end(), k)) ++n;
+  }
+  return n;
+}
+
+static std::vector<Edge> outer_edges(const CutPatch& patch) {
+  std::vector<Edge> edge;
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; f < 4; ++f)
+      if (patch.across[e][f] < 0) add_edges(facet_nodes(patch, e, f), edge);
+  std::sort(edge.begin(), edge.end());
+  return edge;
+}
+
+// The facet at node i to close first: most at the rim, then the farthest from the surface. -1:
+// none.
+static std::ptrdiff_t facet_to_close(const CutSurroundings& around,
+                                     const std::vector<TetFacet>& facet, std::int32_t i,
+                                     const std::vector<Edge>& outer) {
+  std::vector<Edge> opened;
+  for (const auto& [e, f] : facet) add_edges(facet_nodes(around.patch, e, f), opened);
+  std::sort(opened.begin(), opened.end());
+  std::ptrdiff_t best = -1;
+  std::pair<int, double> best_rank;
+  for (std::size_t k = 0; k < facet.size(); ++k) {
+    const auto& [e, f] = facet[k];
+    const std::array<std::int32_t, 3> node = facet_nodes(around.patch, e, f);
+    if (std::find(node.begin(), node.end(), i) == node.end()) continue;
+    const std::pair rank{rim_edges(node, opened, outer), facet_cost(around, e, f)};
+    if (best >= 0 && rank <= best_rank) continue;
+    best = static_cast<std::ptrdiff_t>(k);
+    best_rank = rank;
+  }
+  return best;
+}
+
+// Nodes that must not stay as the opening has them: links that are no disc, and parted ones that
+// are still to be moved.
+static std::vector<std::int32_t> broken_nodes(const CutSurroundings& around,
+                                              const std::vector<TetFacet>& facet,
+                                              const std::vector<std::uint8_t>& stays_whole,
+                                              const CutOpening& opening) {
+  std::vector<std::int32_t> nodes, broken;
+  for (const auto& [e, f] : facet)
+    for (const std::int32_t i : facet_nodes(around.patch, e, f)) nodes.push_back(i);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const std::vector<std::int32_t>& parent = opening.duplication.duplicate_parent;
+  for (const std::int32_t i : nodes)
+    if ((stays_whole[i] != 0 && std::binary_search(parent.begin(), parent.end(), i)) ||
+        !is_link_sound(around.patch, opening.corner, i))
+      broken.push_back(i);
+  return broken;
+}
+
+// Closes one facet at each broken node; false if there was none to close.
+static bool close_facets(const CutSurroundings& around, const std::vector<Edge>& outer,
+                         const std::vector<std::int32_t>& broken, std::vector<TetFacet>& facet,
+                         CutOpening& opening) {
+  bool is_changed = false;
+  for (const std::int32_t i : broken) {
+    const std::ptrdiff_t k = facet_to_close(around, facet, i, outer);
+    if (k < 0) continue;
+    opening.refused.push_back(facet[static_cast<std::size_t>(k)]);
+    facet.erase(facet.begin() + k);
+    is_changed = true;
+  }
+  return is_changed;
+}
+
+std::vector<std::uint8_t> unripe_nodes(const CutSurroundings& around, const CutLabels& labels) {
+  std::vector<std::uint8_t> is_unripe = labels.is_front_node;
+  for (std::int32_t i = 0; i < around.patch.n_nodes(); ++i)
+    if (around.surface_cost[i] < ripe_distance * ripe_distance ||
+        around.boundary[i].freedom == NodeFreedom::fixed)
+      is_unripe[i] = 0;
+  return is_unripe;
+}
+
+CutOpening open_facets(const CutSurroundings& around, const CutLabels& labels,
+                       const std::vector<std::uint8_t>& stays_whole) {
+  const PatchMesh mesh = make_patch_mesh(around.patch);
+  std::vector<TetFacet> facet = facets_between_sides(around.patch, labels);
+  const std::vector<Edge> outer = outer_edges(around.patch);
+  CutOpening opening;
+  do split_nodes(around.patch, mesh, facet, opening);
+  while (close_facets(around, outer, broken_nodes(around, facet, stays_whole, opening), facet,
+                      opening));
+  return opening;
+}
+
+}  // namespace trocar

@@ -1,0 +1,151 @@
+// Extraction of the patch around a cut: rings by node marks, facets by sorting.
+#include "cutting/cut_patch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trocar {
+
+static std::int32_t find_sorted(const std::vector<std::int32_t>& sorted, std::int32_t value) {
+  const auto at = std::lower_bound(sorted.begin(), sorted.end(), value);
+  return at != sorted.end() && *at == value ? static_cast<std::int32_t>(at - sorted.begin()) : -1;
+}
+
+std::int32_t CutPatch::local_node(std::int32_t global) const {
+  return find_sorted(node, global);
+}
+std::int32_t CutPatch::local_element(std::int32_t global) const {
+  return find_sorted(element, global);
+}
+
+std::array<std::int32_t, 3> facet_nodes(const CutPatch& patch, std::int32_t e, int f) {
+  const std::array<std::int32_t, 4>& corner = patch.corner[e];
+  const std::array<int, 3>& facet = tet_facets[static_cast<std::size_t>(f)];
+  return {corner[facet[0]], corner[facet[1]], corner[facet[2]]};
+}
+
+int facet_towards(const CutPatch& patch, std::int32_t e, std::int32_t u) {
+  const std::array<std::int32_t, 4>& across = patch.across[e];
+  return static_cast<int>(std::find(across.begin(), across.end(), u) - across.begin());
+}
+
+double six_volumes(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner) {
+  const Vec3& o = X[corner[0]];
+  return (X[corner[1]] - o).cross(X[corner[2]] - o).dot(X[corner[3]] - o);
+}
+
+double tet_altitude(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner) {
+  double largest = 0;  // (2 area)^2
+  for (const std::array<int, 3>& facet : tet_facets) {
+    const Vec3& o = X[corner[facet[0]]];
+    const Vec3 normal = (X[corner[facet[1]]] - o).cross(X[corner[facet[2]]] - o);
+    largest = std::max(largest, normal.squaredNorm());
+  }
+  return six_volumes(X, corner) / std::sqrt(largest);
+}
+
+using Ring = std::uint8_t;
+static constexpr Ring far_away = 255;
+
+static Ring least_ring(std::span<const std::int32_t> corner, const std::vector<Ring>& ring) {
+  Ring least = far_away;
+  for (const std::int32_t i : corner) least = std::min(least, ring[i]);
+  return least;
+}
+
+// Ring of each node of the mesh. One pass over the elements a ring: cheaper than keeping adjacency
+// up to date over edits (0.1 ms for 100,000 tetrahedra).
+static std::vector<Ring> node_rings(const Mesh& mesh, std::span<const std::int32_t> seeds) {
+  std::vector<Ring> ring(mesh.X.size(), far_away);
+  for (const std::int32_t e : seeds)
+    for (const std::int32_t i : mesh.corners(e)) ring[i] = 0;
+  for (Ring next = 1; next <= n_cut_rings; ++next)
+    for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+      const std::span<const std::int32_t> corner = mesh.corners(e);
+      if (least_ring(corner, ring) != next - 1) continue;
+      for (const std::int32_t i : corner) ring[i] = std::min(ring[i], next);
+    }
+  return ring;
+}
+
+static void set_stars(CutPatch& patch) {
+  patch.star_offset.assign(patch.node.size() + 1, 0);
+  patch.star_element.resize(patch.corner.size() * 4);
+  for (const auto& corner : patch.corner)
+    for (const std::int32_t i : corner) ++patch.star_offset[i + 1];
+  for (std::size_t i = 1; i < patch.star_offset.size(); ++i)
+    patch.star_offset[i] += patch.star_offset[i - 1];
+  std::vector<std::int32_t> next(patch.star_offset.begin(), patch.star_offset.end() - 1);
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
+    for (const std::int32_t i : patch.corner[e]) patch.star_element[next[i]++] = e;
+}
+
+static void set_neighbours(CutPatch& patch) {
+  struct Side {
+    std::array<std::int32_t, 3> node;
+    std::int32_t element, facet;
+    auto operator<=>(const Side&) const = default;
+  };
+  std::vector<Side> side;
+  side.reserve(patch.corner.size() * 4);
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; f < 4; ++f) {
+      std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);
+      std::sort(node.begin(), node.end());
+      side.push_back({node, e, f});
+    }
+  std::sort(side.begin(), side.end());
+  patch.across.assign(patch.corner.size(), {-1, -1, -1, -1});
+  for (std::size_t k = 0; k + 1 < side.size(); ++k) {
+    const Side &a = side[k], &b = side[k + 1];
+    if (a.node != b.node) continue;
+    patch.across[a.element][a.facet] = b.element;
+    patch.across[b.element][b.facet] = a.element;
+  }
+}
+
+// Nodes that the patch's tetrahedra use, in ascending order, and the elements in these numbers.
+static void number_nodes(CutPatch& patch, const Mesh& mesh, const std::vector<Ring>& ring) {
+  for (const std::int32_t e : patch.element)
+    for (const std::int32_t i : mesh.corners(e)) patch.node.push_back(i);
+  std::sort(patch.node.begin(), patch.node.end());
+  patch.node.erase(std::unique(patch.node.begin(), patch.node.end()), patch.node.end());
+  std::vector<std::int32_t> local(mesh.X.size(), -1);
+  for (std::int32_t i = 0; i < patch.n_nodes(); ++i) {
+    local[patch.node[i]] = i;
+    patch.node_ring.push_back(ring[patch.node[i]]);
+  }
+  for (const std::int32_t e : patch.element) {
+    const std::span<const std::int32_t> c = mesh.corners(e);
+    patch.corner.push_back({local[c[0]], local[c[1]], local[c[2]], local[c[3]]});
+  }
+}
+
+CutPatch make_patch(const Mesh& mesh, std::span<const Vec3> x,
+                    std::span<const std::uint8_t> is_held, std::span<const std::int32_t> seeds) {
+  const std::vector<Ring> ring = node_rings(mesh, seeds);
+  CutPatch patch;
+  std::vector<std::int32_t> joined;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    if (least_ring(mesh.corners(e), ring) >= n_cut_rings) continue;
+    if (mesh.element_type[e] == ElementType::tet4)
+      patch.element.push_back(e);
+    else
+      joined.insert(joined.end(), mesh.corners(e).begin(), mesh.corners(e).end());
+  }
+  number_nodes(patch, mesh, ring);
+  set_stars(patch);
+  set_neighbours(patch);
+  patch.is_joined.assign(patch.node.size(), 0);
+  for (const std::int32_t i : joined)
+    if (const std::int32_t at = patch.local_node(i); at >= 0) patch.is_joined[at] = 1;
+  for (std::int32_t i = 0; i < patch.n_nodes(); ++i) {
+    patch.X.push_back(mesh.X[patch.node[i]]);
+    patch.x.push_back(x[patch.node[i]]);
+    const bool is_locked = is_held[patch.node[i]] != 0 || patch.is_joined[i] != 0;
+    patch.is_locked.push_back(is_locked ? 1 : 0);
+  }
+  return patch;
+}
+
+}  // namespace trocar

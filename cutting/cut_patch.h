@@ -1,0 +1,62 @@
+// The part of a mesh around a cut with numbers of its own, so that a cut costs what it touches and
+// not what the body has. Local numbers ascend with the global ones: no order depends on how the
+// patch was found.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+// Rings of elements around the seeds. Nodes up to ring n_cut_rings - 1 have all their elements in
+// the patch.
+inline constexpr int n_cut_rings = 3;
+
+struct CutPatch {
+  std::vector<std::int32_t> element;                // global number, ascending
+  std::vector<std::int32_t> node;                   // global number, ascending
+  std::vector<std::array<std::int32_t, 4>> corner;  // local nodes of an element
+  std::vector<std::array<std::int32_t, 4>>
+      across;                           // local element across each facet; -1: boundary, or outside
+  std::vector<std::uint8_t> node_ring;  // 0 for the seeds' nodes
+  std::vector<std::uint8_t> is_locked;  // node that must stay where it is
+  std::vector<std::uint8_t>
+      is_joined;           // node of an element that is no tetrahedron: must stay one node
+  std::vector<Vec3> X, x;  // reference and present positions
+  std::vector<std::int32_t> star_offset, star_element;
+
+  std::int32_t n_elements() const { return static_cast<std::int32_t>(element.size()); }
+  std::int32_t n_nodes() const { return static_cast<std::int32_t>(node.size()); }
+  // Local elements around a local node, ascending.
+  std::span<const std::int32_t> star(std::int32_t i) const {
+    return {star_element.data() + star_offset[i],
+            static_cast<std::size_t>(star_offset[i + 1] - star_offset[i])};
+  }
+  bool is_whole(std::int32_t i) const { return node_ring[i] < n_cut_rings; }
+  // Local number of a global node or element that is in the patch, -1 if it isn't.
+  std::int32_t local_node(std::int32_t global) const;
+  std::int32_t local_element(std::int32_t global) const;
+};
+
+// Tetrahedra of `mesh` within n_cut_rings of the seeds (global elements, ascending).
+CutPatch make_patch(const Mesh& mesh, std::span<const Vec3> x,
+                    std::span<const std::uint8_t> is_held, std::span<const std::int32_t> seeds);
+
+// Local number of corner c of the facet opposite to corner f, outward by the right-hand rule.
+inline constexpr std::array<std::array<int, 3>, 4> tet_facets{
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+std::array<std::int32_t, 3> facet_nodes(const CutPatch& patch, std::int32_t e, int f);
+// The facet of `e` that neighbour `u` lies behind.
+int facet_towards(const CutPatch& patch, std::int32_t e, std::int32_t u);
+
+// Six times the volume of a tetrahedron. [m^3]
+double six_volumes(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner);
+// Least altitude, negative if inverted. [m]
+double tet_altitude(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner);
+
+}  // namespace trocar

@@ -1,0 +1,38 @@
+// The paper's algorithm on triangle meshes (Serby, Harders and Szekely 2001, section 3): cut
+// points, nearest nodes displaced onto them, both mesh errors repaired, springs and Lennard-Jones
+// particles around the cut, area optimisation, partner nodes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+#include "cutting/cut_figures.h"
+#include "mesh/edit.h"
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+struct CutPlaneOptions {
+  bool is_robust = true;  // quality flips, sliding along straight boundaries, tips kept clear of
+                          // the boundary; false: as published
+  double spring = 1;      // s_spring of eq. 6
+  double particle = 0.1;  // s_particle of eq. 6
+  int rings = 3;          // vicinity that is homogenised
+};
+
+// Cuts the plane mesh (tri3) along the polyline `path` (>= 2 points, reference configuration, z =
+// 0). Ends inside the body stay closed (crack tips); ends on or beyond the boundary open it. If
+// `continued_tip` >= 0 the path starts at that node, the tip of an earlier part of the same cut.
+// Throws InputError for other element types. Afterwards `tip` is the node at the inner end of the
+// path, -1 if it ends on the boundary.
+struct PlaneCut {
+  MeshEdit edit;
+  CutFigures figures;
+  std::int32_t tip = -1;
+};
+PlaneCut cut_plane(const Mesh& mesh, std::span<const Vec3> path, std::int32_t continued_tip,
+                   std::span<const std::uint8_t> is_held, const CutPlaneOptions& options);
+
+}  // namespace trocar

@@ -1,0 +1,117 @@
+// Which nodes are displaced onto the cut.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cutting/cut_plane_chain.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr double band = 2.0;  // longest displacement considered, in h
+
+// The node of the facet that comes to the end of the path. A sharp corner stays where it is; if
+// there is no other way the path bends into it.
+int boundary_node(const PlanePatch& patch, PatchFacet facet, double at_corner, Vec2& end) {
+  int near = patch.corner[facet.element][(facet.facet + 1) % 3];
+  int far = patch.corner[facet.element][(facet.facet + 2) % 3];
+  if ((patch.X[far] - end).squaredNorm() < (patch.X[near] - end).squaredNorm())
+    std::swap(near, far);
+  const bool is_at_corner = (patch.X[near] - end).norm() < at_corner * patch.h;
+  if (is_at_corner && (patch.is_sharp[near] != 0 || patch.is_held[near] != 0)) {
+    end = patch.X[near];
+    return near;
+  }
+  for (const int i : {near, far})
+    if (patch.is_held[i] == 0 && patch.is_sharp[i] == 0) return i;
+  for (const int i : {near, far})
+    if (patch.is_held[i] == 0) {
+      end = patch.X[i];
+      return i;
+    }
+  return -1;
+}
+
+std::vector<int> candidates(const PlanePatch& patch, const SubPath& path,
+                            const std::vector<std::uint8_t>& is_taken) {
+  std::vector<int> result;
+  for (int i = 0; i < patch.n_nodes(); ++i)
+    if (patch.is_boundary[i] == 0 && patch.is_held[i] == 0 && is_taken[i] == 0 && i != path.tip &&
+        distance_to(path, patch.X[i]) < band * patch.h)
+      result.push_back(i);
+  return result;
+}
+
+int nearest(const PlanePatch& patch, const std::vector<int>& among, const Vec2& p) {
+  int best = -1;
+  double least = std::numeric_limits<double>::max();
+  for (const int i : among) {
+    const double distance = (patch.X[i] - p).squaredNorm();
+    if (distance >= least) continue;
+    least = distance;
+    best = i;
+  }
+  return best;
+}
+
+struct ChainEnds {
+  int start = -1, end = -1;  // nodes given beforehand
+};
+
+// The paper's test: are the nearest nodes of n + 1 equally spaced points all different?
+bool assign_nodes(const PlanePatch& patch, const std::vector<int>& among, const ChainEnds& ends,
+                  int n, CutChain& chain) {
+  chain.node.clear();
+  chain.s.clear();
+  for (int k = 0; k <= n; ++k) {
+    const double s = chain.path.length() * k / n;
+    const int given = k == 0 ? ends.start : k == n ? ends.end : -1;
+    const int i = given >= 0 ? given : nearest(patch, among, position(chain.path, s));
+    if (i < 0 || std::find(chain.node.begin(), chain.node.end(), i) != chain.node.end())
+      return false;
+    chain.node.push_back(i);
+    chain.s.push_back(s);
+  }
+  return true;
+}
+
+bool choose_ends(const PlanePatch& patch, const std::vector<std::uint8_t>& is_taken,
+                 double at_corner, CutChain& chain, ChainEnds& ends) {
+  ends.start = chain.path.tip;
+  const SubPath& asked = chain.asked = chain.path;
+  Vec2 start = ends.start >= 0 ? patch.X[ends.start] : asked.point.front();
+  Vec2 end = asked.point.back();
+  if (asked.start_on.element >= 0) {
+    ends.start = boundary_node(patch, asked.start_on, at_corner, start);
+    if (ends.start < 0 || is_taken[ends.start] != 0) return false;
+  }
+  if (asked.end_on.element >= 0) {
+    ends.end = boundary_node(patch, asked.end_on, at_corner, end);
+    if (ends.end < 0 || is_taken[ends.end] != 0 || ends.end == ends.start) return false;
+  }
+  chain.path = with_ends(asked, start, end, std::min(patch.h, asked.length() / 3));
+  return true;
+}
+
+}  // namespace
+
+int most_segments(const PlanePatch& patch, const SubPath& path) {
+  return std::max(1, static_cast<int>(std::ceil(4 * path.length() / patch.least_edge)));
+}
+
+bool adapt_cut_points(const PlanePatch& patch, const AdaptOptions& options,
+                      std::vector<std::uint8_t>& is_taken, CutChain& chain) {
+  ChainEnds ends;
+  if (!choose_ends(patch, is_taken, options.at_corner, chain, ends)) return false;
+  const std::vector<int> among = candidates(patch, chain.path, is_taken);
+  // More points than nodes can't have different nearest nodes.
+  for (int n = std::min(options.most, static_cast<int>(among.size()) + 1); n >= 1; --n) {
+    if (!assign_nodes(patch, among, ends, n, chain)) continue;
+    for (const int i : chain.node) is_taken[i] = 1;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace trocar

@@ -1,0 +1,177 @@
+#include "cutting/cut_plane_edit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cutting/cut_duplicate.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr double inside_tolerance = 1e-12;
+constexpr double mass_tolerance = 1e-14;  // rounding of the sums
+constexpr std::size_t max_visited = 120;  // elements, some four rings
+
+std::array<double, 3> barycentric(const PlanePatch& patch, int e, const Vec2& p) {
+  const auto& [a, b, c] = patch.corner[e];
+  const double A = patch.area[e];
+  const double w1 = triangle_area(patch.X[a], p, patch.X[c]) / A;
+  const double w2 = triangle_area(patch.X[a], patch.X[b], p) / A;
+  return {1 - w1 - w2, w1, w2};
+}
+
+bool is_moved(const PlanePatch& patch, int i) {
+  return patch.x[i] != patch.X[i];
+}
+
+void add_moves(const Mesh& mesh, const PlanePatch& before, const PlanePatch& after,
+               MeshEdit& edit) {
+  for (int i = 0; i < after.n_nodes(); ++i) {
+    if (!is_moved(after, i)) continue;
+    const Host host = find_host(before, i, after.x[i]);
+    NodeMove move{after.node[i],
+                  Vec3(after.x[i].x(), after.x[i].y(), mesh.X[after.node[i]].z()),
+                  after.element[host.element],
+                  {}};
+    std::copy(host.weight.begin(), host.weight.end(), move.weight.begin());
+    edit.moves.push_back(move);
+  }
+}
+
+// The patch with its flips as a mesh that knows topology only.
+Mesh topology(const PlanePatch& patch) {
+  Mesh mesh;
+  mesh.X.assign(patch.node.size(), Vec3::Zero());
+  for (const std::array<int, 3>& corner : patch.corner)
+    add_element(mesh, ElementType::tri3, corner);
+  mesh.cut_facets = patch.opened;
+  return mesh;
+}
+
+Duplication duplicate(const PlanePatch& patch, std::span<const CutChain> chains) {
+  const Mesh mesh = topology(patch);
+  FacetNeighbours across;
+  std::vector<std::array<std::int32_t, 2>> opened;
+  for (int e = 0; e < patch.n_elements(); ++e) {
+    across.offset.push_back(3 * e);
+    for (int f = 0; f < 3; ++f) {
+      across.neighbour.push_back(std::max(patch.across[e][f], -1));
+      if ((patch.chain[e] >> f & 1) != 0) opened.push_back({e, f});
+    }
+  }
+  across.offset.push_back(3 * patch.n_elements());
+  std::vector<std::int32_t> nodes;
+  for (const CutChain& chain : chains)
+    nodes.insert(nodes.end(), chain.node.begin(), chain.node.end());
+  return duplicate_nodes(mesh, opened, nodes, node_elements(mesh), across);
+}
+
+// Corners after flips and duplication where they differ from the mesh.
+void add_corners(const Mesh& mesh, const PlanePatch& patch, const Duplication& duplication,
+                 MeshEdit& edit) {
+  std::vector<std::array<std::int32_t, 3>> corner(patch.element.size());
+  for (int e = 0; e < patch.n_elements(); ++e)
+    for (int a = 0; a < 3; ++a) corner[e][a] = patch.node[patch.corner[e][a]];
+  for (const CornerChange& change : duplication.corners)
+    corner[change.element][change.corner] = change.node - patch.n_nodes() + mesh.n_nodes();
+  for (int e = 0; e < patch.n_elements(); ++e)
+    for (int a = 0; a < 3; ++a)
+      if (corner[e][a] != mesh.corners(patch.element[e])[a])
+        edit.corners.push_back({patch.element[e], a, corner[e][a]});
+  for (const std::int32_t parent : duplication.duplicate_parent)
+    edit.duplicate_parent.push_back(patch.node[parent]);
+}
+
+void add_masks(const Mesh& mesh, const PlanePatch& patch, MeshEdit& edit) {
+  for (int e = 0; e < patch.n_elements(); ++e) {
+    const auto mask = static_cast<std::uint8_t>(patch.opened[e] | patch.chain[e]);
+    if (mask != mesh.cut_facets[patch.element[e]])
+      edit.cut_facets.push_back({patch.element[e], mask});
+  }
+}
+
+// Per region: mass (up to density) of the patch before and after.
+void add_density(const Mesh& mesh, const PlanePatch& after, MeshEdit& edit) {
+  std::vector<double> sum_before(mesh.region_name.size(), 0), sum_after = sum_before;
+  std::vector<std::uint8_t> is_changed(after.element.size(), 0);
+  for (int e = 0; e < after.n_elements(); ++e) {
+    const double factor = mesh.density_factor[after.element[e]], A = area(after, e);
+    is_changed[e] = A != after.area[e] ? 1 : 0;
+    if (is_changed[e] == 0) continue;
+    sum_before[after.region[e]] += factor * after.area[e];
+    sum_after[after.region[e]] += factor * A;
+  }
+  for (int e = 0; e < after.n_elements(); ++e) {
+    const int r = after.region[e];
+    if (is_changed[e] == 0 ||
+        std::abs(sum_before[r] - sum_after[r]) <= mass_tolerance * sum_before[r])
+      continue;
+    const double ratio = sum_before[r] / sum_after[r];
+    edit.density.push_back({after.element[e], mesh.density_factor[after.element[e]] * ratio});
+  }
+}
+
+void measure_deviation(const PlanePatch& patch, std::span<const CutChain> chains,
+                       CutFigures& figures) {
+  double sum = 0;
+  int n = 0;
+  for (const CutChain& chain : chains) {
+    figures.n_opened_facets += chain.n_segments();
+    for (const int i : chain.node) {
+      const double deviation = distance_to(chain.asked, patch.x[i]);
+      figures.largest_deviation = std::max(figures.largest_deviation, deviation);
+      sum += deviation;
+      ++n;
+    }
+  }
+  figures.mean_deviation = n > 0 ? sum / n : 0;
+}
+
+}  // namespace
+
+Host find_host(const PlanePatch& patch, int node, const Vec2& p) {
+  Host best;
+  double best_inside = -std::numeric_limits<double>::max();
+  std::vector<int> visited;
+  visit_star(patch, node, [&](int e, int) {
+    visited.push_back(e);
+    return true;
+  });
+  for (std::size_t k = 0; k < visited.size() && visited.size() < max_visited; ++k) {
+    const int e = visited[k];
+    const std::array<double, 3> weight = barycentric(patch, e, p);
+    const double inside = std::min({weight[0], weight[1], weight[2]});
+    if (inside > best_inside) {
+      best_inside = inside;
+      best = {e, weight};
+    }
+    if (inside >= -inside_tolerance) break;
+    for (const int g : patch.across[e])
+      if (g >= 0 && std::find(visited.begin(), visited.end(), g) == visited.end())
+        visited.push_back(g);
+  }
+  return best;
+}
+
+PlaneCut make_plane_cut(const Mesh& mesh, const PlanePatch& before, const PlanePatch& after,
+                        std::span<const CutChain> chains) {
+  PlaneCut cut;
+  const Duplication duplication = duplicate(after, chains);
+  add_moves(mesh, before, after, cut.edit);
+  add_corners(mesh, after, duplication, cut.edit);
+  add_masks(mesh, after, cut.edit);
+  add_density(mesh, after, cut.edit);
+  cut.figures.n_moved = static_cast<std::int32_t>(cut.edit.moves.size());
+  cut.figures.n_duplicated = static_cast<std::int32_t>(cut.edit.duplicate_parent.size());
+  for (int e = 0; e < after.n_elements(); ++e)
+    if (area(after, e) != before.area[e] || after.corner[e] != before.corner[e])
+      cut.figures.least_quality = std::min(cut.figures.least_quality, quality(after, e));
+  measure_deviation(after, chains, cut.figures);
+  cut.figures.mean_edge = after.h;
+  const CutChain& last = chains.back();
+  if (last.path.end_on.element < 0) cut.tip = after.node[last.node.back()];
+  return cut;
+}
+
+}  // namespace trocar

@@ -1,0 +1,184 @@
+// Cutting the patch out of the mesh: one cheap pass over all elements, everything else local.
+#include <algorithm>
+#include <cmath>
+
+#include "cutting/cut_plane_patch.h"
+#include "mesh/facets.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr double cos_sharp = 0.8660254037844386;  // 30 degrees
+constexpr double cos_straight = 1 - 1e-14;        // 1.4e-7 rad: area changes by rounding only
+
+struct Extraction {
+  const Mesh& mesh;
+  NodeElements around;
+  std::vector<int> local_element, local_node;  // -1 where not in the patch
+};
+
+Vec2 plane(const Vec3& X) {
+  return {X.x(), X.y()};
+}
+
+// Does the segment come nearer to the triangle than the triangle's own size (by bounding boxes)?
+bool is_near(const Mesh& mesh, std::int32_t e, const Vec2& p, const Vec2& q) {
+  const std::span<const std::int32_t> node = mesh.corners(e);
+  const Vec2 a = plane(mesh.X[node[0]]), b = plane(mesh.X[node[1]]), c = plane(mesh.X[node[2]]);
+  const Vec2 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+  if ((p.cwiseMax(q).array() < low.array()).any() || (p.cwiseMin(q).array() > high.array()).any())
+    return false;
+  const Vec2 d = q - p, normal(-d.y(), d.x());
+  const double reach = 0.5 * (high - low).cwiseProduct(normal.cwiseAbs()).sum();
+  return std::abs(normal.dot(0.5 * (low + high) - p)) <= reach;
+}
+
+void add(Extraction& extraction, PlanePatch& patch, std::int32_t e) {
+  if (extraction.local_element[e] >= 0) return;
+  extraction.local_element[e] = 0;
+  patch.element.push_back(e);
+}
+
+void choose_elements(Extraction& extraction, std::span<const Vec2> path, int rings,
+                     PlanePatch& patch) {
+  const Mesh& mesh = extraction.mesh;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    for (std::size_t k = 0; k + 1 < path.size(); ++k)
+      if (is_near(mesh, e, path[k], path[k + 1])) add(extraction, patch, e);
+  std::size_t begin = 0;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::size_t end = patch.element.size();
+    for (; begin < end; ++begin)
+      for (const std::int32_t i : mesh.corners(patch.element[begin]))
+        for (const std::int32_t e : extraction.around.of(i)) add(extraction, patch, e);
+  }
+  std::sort(patch.element.begin(), patch.element.end());
+  for (int e = 0; e < patch.n_elements(); ++e) extraction.local_element[patch.element[e]] = e;
+}
+
+void number_nodes(Extraction& extraction, PlanePatch& patch) {
+  const Mesh& mesh = extraction.mesh;
+  for (const std::int32_t e : patch.element)
+    for (const std::int32_t i : mesh.corners(e)) {
+      if (extraction.local_node[i] >= 0) continue;
+      extraction.local_node[i] = 0;
+      patch.node.push_back(i);
+    }
+  std::sort(patch.node.begin(), patch.node.end());
+  for (int i = 0; i < patch.n_nodes(); ++i) {
+    extraction.local_node[patch.node[i]] = i;
+    patch.X.push_back(plane(mesh.X[patch.node[i]]));
+  }
+  patch.x = patch.X;
+}
+
+int across_edge(const Extraction& extraction, std::int32_t e, std::int32_t a, std::int32_t b) {
+  for (const std::int32_t g : extraction.around.of(a)) {
+    const std::span<const std::int32_t> node = extraction.mesh.corners(g);
+    if (g == e || std::find(node.begin(), node.end(), b) == node.end()) continue;
+    return extraction.local_element[g] >= 0 ? extraction.local_element[g] : across_rim;
+  }
+  return across_boundary;
+}
+
+void connect(const Extraction& extraction, PlanePatch& patch) {
+  const Mesh& mesh = extraction.mesh;
+  patch.star.assign(patch.node.size(), 0);
+  patch.chain.assign(patch.element.size(), 0);
+  for (int e = 0; e < patch.n_elements(); ++e) {
+    const std::int32_t global = patch.element[e];
+    const std::span<const std::int32_t> node = mesh.corners(global);
+    std::array<int, 3> corner{}, across{};
+    for (int a = 0; a < 3; ++a) {
+      corner[a] = extraction.local_node[node[a]];
+      across[a] = across_edge(extraction, global, node[(a + 1) % 3], node[(a + 2) % 3]);
+      patch.star[corner[a]] = e;
+    }
+    patch.corner.push_back(corner);
+    patch.across.push_back(across);
+    patch.opened.push_back(mesh.cut_facets[global]);
+    patch.region.push_back(mesh.element_region[global]);
+    patch.area.push_back(area(patch, e));
+  }
+}
+
+void measure_edges(PlanePatch& patch) {
+  double sum = 0, least = std::numeric_limits<double>::max();
+  int n = 0;
+  for (int e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; f < 3; ++f) {
+      if (patch.across[e][f] > e) continue;  // once per edge
+      const double l =
+          (patch.X[patch.corner[e][(f + 2) % 3]] - patch.X[patch.corner[e][(f + 1) % 3]]).norm();
+      least = std::min(least, l);
+      sum += l;
+      ++n;
+    }
+  patch.h = n > 0 ? sum / n : 0;
+  patch.least_edge = least;
+}
+
+// Boundary edges into and out of each node, from which the turn of the boundary follows.
+struct BoundaryTurn {
+  Vec2 in = Vec2::Zero(), out = Vec2::Zero();
+  int n_in = 0;
+};
+
+void note_boundary_edge(PlanePatch& patch, int e, int f, std::vector<BoundaryTurn>& turn) {
+  const int a = patch.corner[e][(f + 1) % 3], b = patch.corner[e][(f + 2) % 3];
+  const Vec2 direction = (patch.X[b] - patch.X[a]).normalized();
+  turn[a].out = direction;
+  turn[b].in = direction;
+  ++turn[b].n_in;
+  const bool is_cut = (patch.opened[e] >> f & 1) != 0;
+  for (const int i : {a, b}) {
+    patch.is_boundary[i] = 1;
+    if (is_cut) patch.is_anchored[i] = 1;
+  }
+}
+
+void classify_nodes(const Extraction& extraction, std::span<const std::uint8_t> is_held,
+                    PlanePatch& patch) {
+  const std::size_t n = patch.node.size();
+  patch.is_boundary.assign(n, 0);
+  patch.is_sharp.assign(n, 0);
+  patch.is_held.assign(n, 0);
+  patch.is_anchored.assign(n, 0);
+  patch.side.assign(n, Vec2::Zero());
+  std::vector<BoundaryTurn> turn(n);
+  for (int e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; f < 3; ++f)
+      if (patch.across[e][f] == across_boundary) note_boundary_edge(patch, e, f, turn);
+  for (int i = 0; i < patch.n_nodes(); ++i) {
+    const std::span<const std::int32_t> star = extraction.around.of(patch.node[i]);
+    bool is_rim = turn[i].n_in > 1;  // two fans that touch in a node: left alone
+    for (const std::int32_t e : star) {
+      is_rim = is_rim || extraction.local_element[e] < 0;
+      if (extraction.mesh.element_region[e] != extraction.mesh.element_region[star[0]])
+        patch.is_anchored[i] = 1;
+    }
+    patch.is_held[i] = is_rim || is_held[patch.node[i]] != 0 ? 1 : 0;
+    if (patch.is_boundary[i] == 0) continue;
+    const double cosine = turn[i].in.dot(turn[i].out);
+    patch.is_sharp[i] = cosine < cos_sharp ? 1 : 0;
+    if (cosine > cos_straight) patch.side[i] = turn[i].out;
+  }
+}
+
+}  // namespace
+
+PlanePatch make_patch(const Mesh& mesh, std::span<const Vec2> path,
+                      std::span<const std::uint8_t> is_held, int rings) {
+  Extraction extraction{mesh, node_elements(mesh), std::vector<int>(mesh.element_type.size(), -1),
+                        std::vector<int>(mesh.X.size(), -1)};
+  PlanePatch patch;
+  choose_elements(extraction, path, rings, patch);
+  number_nodes(extraction, patch);
+  connect(extraction, patch);
+  measure_edges(patch);
+  classify_nodes(extraction, is_held, patch);
+  return patch;
+}
+
+}  // namespace trocar

@@ -1,0 +1,151 @@
+#include "cutting/cut_plane_homogenise.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trocar {
+
+namespace {
+
+constexpr double gain = 0.25;          // explicit Euler step of the overdamped eq. 6, m = c = k = 1
+constexpr double longest_step = 0.05;  // h
+constexpr double at_rest = 1e-4;       // h
+constexpr double cut_off_squared = 2.2 * 2.2;      // r0^2
+constexpr double largest_rho = 1 / (0.55 * 0.55);  // r is clamped at 0.55 r0
+constexpr double least_area = 0.1;                 // of the area before the cut
+
+// Pairs are stored by movable node (slot); the other end may be any node of the patch.
+struct Pair {
+  int slot, other;
+  double length;  // spring: l; particles: r0^2
+};
+struct Network {
+  std::vector<Pair> springs, particles;
+};
+
+double mean_edge(const PlanePatch& patch, const std::vector<int>& around, int node) {
+  double sum = 0;
+  for (const int j : around) sum += (patch.X[j] - patch.X[node]).norm();
+  return sum / static_cast<double>(around.size());
+}
+
+// Nodes two edges away and nearer. Neighbours by topology never see across an older cut.
+std::vector<int> second_ring(const std::vector<std::vector<int>>& around, int node) {
+  std::vector<int> result = around[node];
+  for (const int j : around[node]) result.insert(result.end(), around[j].begin(), around[j].end());
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  result.erase(std::find(result.begin(), result.end(), node));
+  return result;
+}
+
+Network make_network(const PlanePatch& patch, std::span<const Movable> movable) {
+  std::vector<std::vector<int>> around(patch.node.size());
+  std::vector<double> mean(patch.node.size(), 0);
+  const auto visit = [&](int i) {
+    if (!around[i].empty()) return;
+    around[i] = neighbours(patch, i);
+    mean[i] = mean_edge(patch, around[i], i);
+  };
+  Network network;
+  for (int slot = 0; slot < static_cast<int>(movable.size()); ++slot) {
+    const int i = movable[slot].node;
+    visit(i);
+    for (const int j : around[i]) {
+      visit(j);
+      network.springs.push_back({slot, j, (patch.X[j] - patch.X[i]).norm()});
+    }
+    for (const int j : second_ring(around, i)) {
+      visit(j);
+      const double r0 = 0.5 * (mean[i] + mean[j]);
+      network.particles.push_back({slot, j, r0 * r0});
+    }
+  }
+  return network;
+}
+
+// g_ij = (r - l) (x_j - x_i) / r, eq. 4 with k = 1.
+void add_springs(const PlanePatch& patch, std::span<const Movable> movable, const Network& network,
+                 double scale, std::vector<Vec2>& force) {
+  for (const Pair& pair : network.springs) {
+    const Vec2 d = patch.x[pair.other] - patch.x[movable[pair.slot].node];
+    const double r = d.norm();
+    if (r > 0) force[pair.slot] += scale * (1 - pair.length / r) * d;
+  }
+}
+
+// Eq. 5 with A = r0^8 / 36, B = r0^14 / 72, so that phi'(r0) = 0 and phi''(r0) = 1:
+// -phi'(r) / r = (rho^7 - rho^4) / 6 with rho = r0^2 / r^2.
+void add_particles(const PlanePatch& patch, std::span<const Movable> movable,
+                   const Network& network, double scale, std::vector<Vec2>& force) {
+  for (const Pair& pair : network.particles) {
+    const Vec2 d = patch.x[movable[pair.slot].node] - patch.x[pair.other];
+    const double r2 = d.squaredNorm();
+    if (r2 > cut_off_squared * pair.length) continue;
+    const double rho = std::min(pair.length / r2, largest_rho);
+    const double rho2 = rho * rho, rho4 = rho2 * rho2;
+    force[pair.slot] += scale / 6 * rho4 * (rho * rho2 - 1) * d;
+  }
+}
+
+// Moves a node by at most `longest_step` h, along its side if it is bound to one.
+void move_node(PlanePatch& patch, const Movable& m, const Vec2& force) {
+  Vec2 step = gain * force;
+  const double most = longest_step * patch.h, length = step.norm();
+  if (length > most) step *= most / length;
+  if (m.side.squaredNorm() > 0) step = m.side.dot(step) * m.side;
+  patch.x[m.node] += step;
+}
+
+bool is_squeezed(const PlanePatch& patch, int node) {
+  bool result = false;
+  visit_star(patch, node, [&](int e, int) {
+    result = area(patch, e) < least_area * patch.area[e];
+    return !result;
+  });
+  return result;
+}
+
+// Undoing one node may squeeze another element, so until nothing changes; at worst all go back.
+void take_back_squeezed(PlanePatch& patch, std::span<const Movable> movable,
+                        const std::vector<Vec2>& before) {
+  for (bool is_changed = true; is_changed;) {
+    is_changed = false;
+    for (std::size_t slot = 0; slot < movable.size(); ++slot) {
+      const int i = movable[slot].node;
+      if (patch.x[i] == before[slot] || !is_squeezed(patch, i)) continue;
+      patch.x[i] = before[slot];
+      is_changed = true;
+    }
+  }
+}
+
+// Returns the largest displacement.
+double take_step(PlanePatch& patch, std::span<const Movable> movable,
+                 const std::vector<Vec2>& force) {
+  std::vector<Vec2> before;
+  for (const Movable& m : movable) before.push_back(patch.x[m.node]);
+  for (std::size_t slot = 0; slot < movable.size(); ++slot)
+    move_node(patch, movable[slot], force[slot]);
+  take_back_squeezed(patch, movable, before);
+  double largest = 0;
+  for (std::size_t slot = 0; slot < movable.size(); ++slot)
+    largest = std::max(largest, (patch.x[movable[slot].node] - before[slot]).squaredNorm());
+  return std::sqrt(largest);
+}
+
+}  // namespace
+
+void homogenise(PlanePatch& patch, std::span<const Movable> movable,
+                const HomogeniseOptions& options) {
+  const Network network = make_network(patch, movable);
+  std::vector<Vec2> force;
+  for (int step = 0; step < options.max_steps; ++step) {
+    force.assign(movable.size(), Vec2::Zero());
+    add_springs(patch, movable, network, options.spring, force);
+    if (options.particle > 0) add_particles(patch, movable, network, options.particle, force);
+    if (take_step(patch, movable, force) < at_rest * patch.h) return;
+  }
+}
+
+}  // namespace trocar

@@ -1,0 +1,101 @@
+// The triangles around a plane cut as a small mesh of their own, which may be flipped and moved
+// freely: the mesh itself stays untouched until a whole valid edit has been found.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+// What lies across a facet of an element of the patch where it is no element of the patch.
+inline constexpr int across_boundary =
+    -1;                                // nothing: the body's boundary or the face of an older cut
+inline constexpr int across_rim = -2;  // an element that is not part of the patch
+
+// Numbers are local; ascending local numbers are ascending global ones.
+struct PlanePatch {
+  std::vector<std::int32_t> element, node;  // global numbers, ascending
+  std::vector<std::array<int, 3>> corner;   // (n_elements) counter-clockwise
+  std::vector<std::array<int, 3>> across;   // (n_elements) across the facet opposite each corner
+  std::vector<std::uint8_t> opened;       // (n_elements) facets opened by cuts, as Mesh::cut_facets
+  std::vector<std::uint8_t> chain;        // (n_elements) facets along this cut
+  std::vector<int> region;                // (n_elements)
+  std::vector<double> area;               // (n_elements) before the cut [m^2]
+  std::vector<Vec2> X, x;                 // (n_nodes) before the cut and now [m]
+  std::vector<int> star;                  // (n_nodes) an element around each node
+  std::vector<Vec2> side;                 // (n_nodes) direction of a straight boundary, else zero
+  std::vector<std::uint8_t> is_boundary;  // (n_nodes)
+  std::vector<std::uint8_t> is_sharp;     // (n_nodes) boundary turns by more than 30 degrees
+  std::vector<std::uint8_t> is_held;      // (n_nodes) must not be displaced
+  std::vector<std::uint8_t> is_anchored;  // (n_nodes) stays unless it becomes a cut node: on older
+                                          // cuts and between regions
+  double h = 0;                           // mean edge length [m]
+  double least_edge = 0;                  // [m]
+
+  int n_elements() const { return static_cast<int>(element.size()); }
+  int n_nodes() const { return static_cast<int>(node.size()); }
+};
+
+// The elements that the path meets and `rings` rings around them. Empty if it meets none.
+PlanePatch make_patch(const Mesh& mesh, std::span<const Vec2> path,
+                      std::span<const std::uint8_t> is_held, int rings);
+
+inline double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+inline double triangle_area(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return 0.5 * cross(b - a, c - a);
+}
+double area(const PlanePatch& patch, int e);
+// 4 sqrt(3) A / sum l^2: 1 for equilateral, <= 0 for inverted triangles.
+double quality(const Vec2& a, const Vec2& b, const Vec2& c);
+double quality(const PlanePatch& patch, int e);
+double least_altitude(const std::array<Vec2, 3>& x);
+int corner_of(const PlanePatch& patch, int e, int node);
+
+// Calls visit(e, a) for all elements e around a node, where it is corner a; false stops.
+template <typename Visit>
+void visit_star(const PlanePatch& patch, int node, Visit visit) {
+  const int first = patch.star[node];
+  int e = first;
+  do {  // counter-clockwise, over the edge from the node to the corner before it
+    const int a = corner_of(patch, e, node);
+    if (!visit(e, a)) return;
+    e = patch.across[e][(a + 1) % 3];
+  } while (e >= 0 && e != first);
+  if (e == first) return;
+  e = patch.across[first][(corner_of(patch, first, node) + 2) % 3];
+  while (e >= 0) {
+    const int a = corner_of(patch, e, node);
+    if (!visit(e, a)) return;
+    e = patch.across[e][(a + 2) % 3];
+  }
+}
+
+// Nodes that share an edge with a node, ascending.
+std::vector<int> neighbours(const PlanePatch& patch, int node);
+
+// An element as seen from one of its facets.
+struct PatchFacet {
+  int element = -1;
+  int facet = -1;
+};
+// The element to the left of the edge from a to b, with the facet that the edge is; -1 if none.
+PatchFacet find_edge(const PlanePatch& patch, int a, int b);
+// The same facet from the other side; `element` is negative on the boundary and the rim.
+PatchFacet opposite(const PlanePatch& patch, PatchFacet facet);
+
+// May the edge be exchanged for the other diagonal? Not on boundaries and cuts.
+bool is_flippable(const PlanePatch& patch, PatchFacet facet);
+// The smaller area of the two triangles that a flip would make, over their mean area now.
+double flipped_area(const PlanePatch& patch, PatchFacet facet);
+// Exchanges the diagonal: e = (w, u, v), g = (z, v, u) become (w, u, z), (z, v, w); numbers of
+// elements, masks of the outer edges and all other corners stay.
+void flip(PlanePatch& patch, PatchFacet facet);
+
+}  // namespace trocar

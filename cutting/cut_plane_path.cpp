@@ -1,0 +1,217 @@
+#include "cutting/cut_plane_path.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace trocar {
+
+namespace {
+
+constexpr double on_boundary = 0.1;     // h
+constexpr double least_length = 0.3;    // h
+constexpr double tip_clearance = 0.4;   // h
+constexpr double same_crossing = 1e-2;  // h
+
+struct Crossing {
+  double s = 0;
+  PatchFacet facet;
+};
+struct Crossings {
+  std::vector<Crossing> enter, leave;  // ascending s
+};
+
+std::size_t segment_at(const SubPath& path, double s) {
+  const auto after = std::upper_bound(path.s.begin() + 1, path.s.end() - 1, s);
+  return static_cast<std::size_t>(after - path.s.begin()) - 1;
+}
+
+bool contains(const PlanePatch& patch, int e, const Vec2& p) {
+  for (int a = 0; a < 3; ++a) {
+    const Vec2& from = patch.X[patch.corner[e][a]];
+    const Vec2& to = patch.X[patch.corner[e][(a + 1) % 3]];
+    if (triangle_area(from, to, p) < -1e-9 * patch.area[e]) return false;
+  }
+  return true;
+}
+
+bool is_inside(const PlanePatch& patch, const Vec2& p) {
+  for (int e = 0; e < patch.n_elements(); ++e)
+    if (contains(patch, e, p)) return true;
+  return false;
+}
+
+// Ends of the edge count as left of the segment when they lie on it, for all edges alike.
+void cross_segment(const PlanePatch& patch, const SubPath& path, std::size_t k, PatchFacet facet,
+                   Crossings& crossings) {
+  const Vec2& a = patch.X[patch.corner[facet.element][(facet.facet + 1) % 3]];
+  const Vec2& b = patch.X[patch.corner[facet.element][(facet.facet + 2) % 3]];
+  const Vec2 &p = path.point[k], d = path.point[k + 1] - p;
+  if ((cross(d, a - p) >= 0) == (cross(d, b - p) >= 0)) return;
+  const double turn = cross(b - a, d);  // the inside is to the left of a -> b
+  const double t = cross(b - a, a - p) / turn;
+  if (t < -1e-9 || t > 1 + 1e-9) return;
+  const Crossing crossing{path.s[k] + t * (path.s[k + 1] - path.s[k]), facet};
+  (turn > 0 ? crossings.enter : crossings.leave).push_back(crossing);
+}
+
+Crossings find_crossings(const PlanePatch& patch, const SubPath& path, int tip) {
+  Crossings crossings;
+  for (int e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; f < 3; ++f) {
+      if (patch.across[e][f] != across_boundary) continue;
+      const std::array<int, 3>& corner = patch.corner[e];
+      if (tip >= 0 && (corner[(f + 1) % 3] == tip || corner[(f + 2) % 3] == tip)) continue;
+      for (std::size_t k = 0; k + 1 < path.point.size(); ++k)
+        cross_segment(patch, path, k, {e, f}, crossings);
+    }
+  const auto is_before = [](const Crossing& a, const Crossing& b) { return a.s < b.s; };
+  std::stable_sort(crossings.enter.begin(), crossings.enter.end(), is_before);
+  std::stable_sort(crossings.leave.begin(), crossings.leave.end(), is_before);
+  return crossings;
+}
+
+const Crossing* first_after(const std::vector<Crossing>& crossings, double s) {
+  for (const Crossing& crossing : crossings)
+    if (crossing.s > s) return &crossing;
+  return nullptr;
+}
+
+// Where the first piece begins; s < 0 if the path never meets the body.
+Crossing find_start(const PlanePatch& patch, const SubPath& path, int tip,
+                    const Crossings& crossings) {
+  if (tip >= 0) return {0, {}};
+  Crossing start{0, {}};
+  const double distance = boundary_distance(patch, path.point[0], -1, start.facet);
+  const double ahead = std::min(2 * on_boundary * patch.h, 0.5 * path.length());
+  if (distance < on_boundary * patch.h && is_inside(patch, position(path, ahead))) return start;
+  if (is_inside(patch, path.point[0])) return {0, {}};
+  const Crossing* enter = first_after(crossings.enter, -1);
+  return enter != nullptr ? *enter : Crossing{-1, {}};
+}
+
+Crossing find_end(const PlanePatch& patch, const SubPath& path, int tip) {
+  Crossing end{path.length(), {}};
+  PatchFacet nearest;
+  if (boundary_distance(patch, path.point.back(), tip, nearest) < on_boundary * patch.h)
+    end.facet = nearest;
+  return end;
+}
+
+// How far an end at s may stay when it is moved towards the middle.
+double cleared_end(const PlanePatch& patch, const SubPath& path, double s) {
+  const double middle = 0.5 * path.length(), inward = s < middle ? 1 : -1;
+  for (int step = 0; step < 10; ++step) {
+    PatchFacet nearest;
+    const double missing =
+        tip_clearance * patch.h - boundary_distance(patch, position(path, s), path.tip, nearest);
+    if (missing <= 1e-6 * patch.h || (middle - s) * inward <= 0) break;
+    s += inward * missing;
+  }
+  return (middle - s) * inward < 0 ? middle - 0.5 * inward * middle : s;
+}
+
+}  // namespace
+
+SubPath make_sub_path(std::vector<Vec2> point) {
+  SubPath path;
+  path.point = std::move(point);
+  path.s.assign(1, 0);
+  for (std::size_t k = 1; k < path.point.size(); ++k)
+    path.s.push_back(path.s.back() + (path.point[k] - path.point[k - 1]).norm());
+  return path;
+}
+
+Vec2 position(const SubPath& path, double s) {
+  const std::size_t k = segment_at(path, s);
+  const double t = (s - path.s[k]) / (path.s[k + 1] - path.s[k]);
+  return path.point[k] + t * (path.point[k + 1] - path.point[k]);
+}
+
+Vec2 tangent(const SubPath& path, double s) {
+  const std::size_t k = segment_at(path, s);
+  return (path.point[k + 1] - path.point[k]).normalized();
+}
+
+SubPath trimmed(const SubPath& path, double from, double to) {
+  std::vector<Vec2> point{position(path, from)};
+  const double least = 1e-9 * path.length();
+  for (std::size_t k = 0; k < path.point.size(); ++k)
+    if (path.s[k] > from + least && path.s[k] < to - least) point.push_back(path.point[k]);
+  point.push_back(position(path, to));
+  SubPath result = make_sub_path(std::move(point));
+  result.start_on = path.start_on;
+  result.end_on = path.end_on;
+  result.tip = path.tip;
+  return result;
+}
+
+double distance_to(const SubPath& path, const Vec2& p) {
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t k = 0; k + 1 < path.point.size(); ++k) {
+    const Vec2 &a = path.point[k], d = path.point[k + 1] - a;
+    const double t = std::min(1.0, std::max(0.0, (p - a).dot(d) / d.squaredNorm()));
+    least = std::min(least, (p - a - t * d).norm());
+  }
+  return least;
+}
+
+SubPath with_ends(const SubPath& path, const Vec2& start, const Vec2& end, double reach) {
+  const double from = start == path.point.front() ? 0 : reach;
+  const double to = path.length() - (end == path.point.back() ? 0 : reach);
+  SubPath result = trimmed(path, from, to);
+  std::vector<Vec2> point = result.point;
+  if (from > 0) point.insert(point.begin(), start);
+  if (to < path.length()) point.push_back(end);
+  const SubPath bent = make_sub_path(std::move(point));
+  result.point = bent.point;
+  result.s = bent.s;
+  return result;
+}
+
+void draw_back_ends(const PlanePatch& patch, SubPath& path) {
+  const bool is_start_inside = path.start_on.element < 0 && path.tip < 0;
+  const double from = is_start_inside ? cleared_end(patch, path, 0) : 0;
+  const double to =
+      path.end_on.element < 0 ? cleared_end(patch, path, path.length()) : path.length();
+  path = trimmed(path, from, to);
+}
+
+double boundary_distance(const PlanePatch& patch, const Vec2& p, int except, PatchFacet& nearest) {
+  double least = std::numeric_limits<double>::max();
+  for (int e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; f < 3; ++f) {
+      if (patch.across[e][f] != across_boundary) continue;
+      const int i = patch.corner[e][(f + 1) % 3], j = patch.corner[e][(f + 2) % 3];
+      if (i == except || j == except) continue;
+      const Vec2 &a = patch.X[i], d = patch.X[j] - a;
+      const double t = std::min(1.0, std::max(0.0, (p - a).dot(d) / d.squaredNorm()));
+      const double distance = (p - a - t * d).norm();
+      if (distance >= least) continue;
+      least = distance;
+      nearest = {e, f};
+    }
+  return least;
+}
+
+std::vector<SubPath> clip_to_body(const PlanePatch& patch, const SubPath& path, int tip) {
+  std::vector<SubPath> result;
+  const Crossings crossings = find_crossings(patch, path, tip);
+  const double tolerance = same_crossing * patch.h;
+  Crossing start = find_start(patch, path, tip, crossings);
+  while (start.s >= 0 && start.s < path.length()) {
+    const Crossing* leave = first_after(crossings.leave, start.s + tolerance);
+    const Crossing end = leave != nullptr ? *leave : find_end(patch, path, tip);
+    if (end.s - start.s > least_length * patch.h) {
+      result.push_back(trimmed(path, start.s, end.s));
+      result.back().start_on = start.facet;
+      result.back().end_on = end.facet;
+      result.back().tip = start.s > 0 ? -1 : tip;
+    }
+    if (leave == nullptr) break;
+    const Crossing* enter = first_after(crossings.enter, leave->s - tolerance);
+    start = enter != nullptr ? *enter : Crossing{-1, {}};
+  }
+  return result;
+}
+
+}  // namespace trocar

@@ -1,0 +1,190 @@
+#include "cutting/cut_plane_smooth.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trocar {
+
+namespace {
+
+constexpr double at_rest = 1e-2;  // h: a smaller step does not wake the neighbours
+constexpr double shape_weight = 0.1 / 6.928203230275509;  // 1 / quality = S / (4 sqrt(3) A)
+constexpr double least_area = 1e-3;                       // of the area before the cut
+constexpr int max_star = 24;  // nodes of more elements stay where they are
+
+using Mat2 = Eigen::Matrix2d;
+
+// Elements around a node by their opposite edges.
+struct Star {
+  int n = 0;
+  std::array<Vec2, max_star> b, c;
+  std::array<double, max_star> A0;
+};
+
+Star gather_star(const PlanePatch& patch, int node) {
+  Star star;
+  visit_star(patch, node, [&](int e, int a) {
+    star.b[star.n] = patch.x[patch.corner[e][(a + 1) % 3]];
+    star.c[star.n] = patch.x[patch.corner[e][(a + 2) % 3]];
+    star.A0[star.n++] = patch.area[e];
+    return star.n < max_star;
+  });
+  return star;
+}
+
+// sum_e (A/A0 - 1)^2 + w S/A with S the sum of squared edges; infinite if an element is inverted.
+double energy(const Star& star, const Vec2& x) {
+  double E = 0;
+  for (int k = 0; k < star.n; ++k) {
+    const Vec2 b = star.b[k] - x, c = star.c[k] - x;
+    const double A = 0.5 * cross(b, c);
+    if (A <= least_area * star.A0[k]) return std::numeric_limits<double>::infinity();
+    const double S = b.squaredNorm() + c.squaredNorm() + (c - b).squaredNorm();
+    const double strain = A / star.A0[k] - 1;
+    E += strain * strain + shape_weight * S / A;
+  }
+  return E;
+}
+
+struct Expansion {
+  double E = 0;
+  Vec2 g = Vec2::Zero();
+  Mat2 H = Mat2::Zero();
+};
+
+// dA/dx = gA is constant, dS/dx = gS, d2S/dx2 = 4 I.
+Expansion expand(const Star& star, const Vec2& x) {
+  Expansion result;
+  for (int k = 0; k < star.n; ++k) {
+    const Vec2 b = star.b[k] - x, c = star.c[k] - x, bc = c - b;
+    const Vec2 gA = 0.5 * Vec2(-bc.y(), bc.x()), gS = -2 * (b + c);
+    const double A = 0.5 * cross(b, c), per_A = 1 / A, per_A0 = 1 / star.A0[k];
+    const double S = b.squaredNorm() + c.squaredNorm() + bc.squaredNorm();
+    const double strain = A * per_A0 - 1, shape = shape_weight * per_A;
+    if (A <= least_area * star.A0[k]) result.E = std::numeric_limits<double>::infinity();
+    result.E += strain * strain + shape * S;
+    result.g += (2 * strain * per_A0 - shape * S * per_A) * gA + shape * gS;
+    const Mat2 gSgA = shape * per_A * gS * gA.transpose();
+    result.H += (2 * per_A0 * per_A0 + 2 * shape * S * per_A * per_A) * gA * gA.transpose() +
+                4 * shape * Mat2::Identity() - gSgA - gSgA.transpose();
+  }
+  return result;
+}
+
+// Moves one node downhill by a damped Newton step; returns the distance.
+double relax(PlanePatch& patch, const Movable& movable) {
+  const Vec2 x = patch.x[movable.node], side = movable.side;
+  const Star star = gather_star(patch, movable.node);
+  const Expansion at_x = expand(star, x);
+  if (!std::isfinite(at_x.E) || star.n == max_star) return 0;
+  const bool is_bound = side.squaredNorm() > 0;
+  const Vec2 step = is_bound ? Vec2(-side.dot(at_x.g) / side.dot(at_x.H * side) * side)
+                             : Vec2(-at_x.H.inverse() * at_x.g);
+  for (double fraction = 1; fraction > 0.05; fraction *= 0.4) {
+    const Vec2 trial = x + fraction * step;
+    if (!(energy(star, trial) < at_x.E)) continue;
+    patch.x[movable.node] = trial;
+    return (trial - x).norm();
+  }
+  return 0;
+}
+
+void wake_neighbours(const PlanePatch& patch, int node, std::vector<std::uint8_t>& is_awake) {
+  visit_star(patch, node, [&](int e, int a) {
+    is_awake[patch.corner[e][(a + 1) % 3]] = 1;
+    is_awake[patch.corner[e][(a + 2) % 3]] = 1;
+    return true;
+  });
+}
+
+bool is_better_flipped(const PlanePatch& patch, PatchFacet facet) {
+  const PatchFacet other = opposite(patch, facet);
+  const double now = std::min(quality(patch, facet.element), quality(patch, other.element));
+  if (now >= 0.8) return false;
+  const std::array<int, 3>& e = patch.corner[facet.element];
+  const Vec2 &w = patch.x[e[facet.facet]], &u = patch.x[e[(facet.facet + 1) % 3]],
+             &v = patch.x[e[(facet.facet + 2) % 3]],
+             &z = patch.x[patch.corner[other.element][other.facet]];
+  return std::min(quality(w, u, z), quality(z, v, w)) > 1.02 * std::max(now, 0.0) + 1e-3;
+}
+
+bool flip_if_better(PlanePatch& patch, PatchFacet facet,
+                    const std::vector<std::uint8_t>& is_cut_node) {
+  if (!is_flippable(patch, facet)) return false;
+  const PatchFacet other = opposite(patch, facet);
+  if (patch.region[facet.element] != patch.region[other.element]) return false;
+  const int w = patch.corner[facet.element][facet.facet];
+  const int z = patch.corner[other.element][other.facet];
+  if (is_cut_node[w] != 0 && is_cut_node[z] != 0) return false;
+  if (!is_better_flipped(patch, facet)) return false;
+  flip(patch, facet);
+  return true;
+}
+
+}  // namespace
+
+std::vector<Movable> movable_nodes(const PlanePatch& patch, std::span<const CutChain> chains,
+                                   int rings, bool is_sliding) {
+  std::vector<int> ring(patch.node.size(), -1), front;
+  for (const CutChain& chain : chains)
+    for (const int i : chain.node) {
+      ring[i] = 0;
+      front.push_back(i);
+    }
+  std::vector<Movable> result;
+  for (std::size_t k = 0; k < front.size() && ring[front[k]] < rings; ++k)
+    for (const int j : neighbours(patch, front[k])) {
+      if (ring[j] >= 0) continue;
+      ring[j] = ring[front[k]] + 1;
+      front.push_back(j);
+      if (patch.is_held[j] != 0 || patch.is_anchored[j] != 0) continue;
+      if (patch.is_boundary[j] == 0 || (is_sliding && patch.side[j].squaredNorm() > 0))
+        result.push_back({j, patch.side[j]});
+    }
+  std::sort(result.begin(), result.end(),
+            [](const Movable& a, const Movable& b) { return a.node < b.node; });
+  return result;
+}
+
+void area_step(PlanePatch& patch, std::span<const Movable> movable, int n_sweeps) {
+  std::vector<std::uint8_t> is_awake(patch.node.size(), 1);
+  for (int sweep = 0; sweep < n_sweeps; ++sweep)
+    for (const Movable& m : movable) {
+      if (is_awake[m.node] == 0) continue;
+      is_awake[m.node] = 0;
+      if (relax(patch, m) < at_rest * patch.h) continue;
+      wake_neighbours(patch, m.node, is_awake);
+      is_awake[m.node] = 1;
+    }
+}
+
+int quality_flips(PlanePatch& patch, std::span<const Movable> movable,
+                  const std::vector<std::uint8_t>& is_cut_node) {
+  std::vector<std::uint8_t> is_near(patch.element.size(), 0);
+  for (const Movable& m : movable)
+    visit_star(patch, m.node, [&](int e, int) {
+      is_near[e] = 1;
+      return true;
+    });
+  int n_flips = 0;
+  for (int e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; f < 3 && is_near[e] != 0; ++f)
+      if (flip_if_better(patch, {e, f}, is_cut_node)) ++n_flips;
+  return n_flips;
+}
+
+StarShape star_shape(const PlanePatch& patch, int node, const Vec2& x) {
+  StarShape shape{1e300, 1e300};
+  visit_star(patch, node, [&](int e, int a) {
+    const Vec2 &b = patch.x[patch.corner[e][(a + 1) % 3]],
+               &c = patch.x[patch.corner[e][(a + 2) % 3]];
+    shape.quality = std::min(shape.quality, quality(x, b, c));
+    shape.area = std::min(shape.area, triangle_area(x, b, c) / patch.area[e]);
+    return true;
+  });
+  return shape;
+}
+
+}  // namespace trocar

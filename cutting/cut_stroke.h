@@ -1,0 +1,68 @@
+// What a stroke remembers between advances: where the blade has crossed element edges, and what has
+// been opened so far. Element numbers survive edits, so everything is kept by element; node numbers
+// only where copies are followed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace trocar {
+
+inline constexpr std::array<std::array<int, 2>, 6> tet_edges{
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+// The blade crossed local edge `edge` (tet_edges) of tetrahedron `element`.
+struct CutHit {
+  std::int32_t element = 0;
+  std::int32_t edge = 0;
+  bool is_first_plus = false;  // the edge's first corner lies on the + side
+  Vec3 X = Vec3::Zero();       // crossing point, reference configuration [m]
+  Vec3 N = Vec3::Zero();       // unit normal of the swept surface, pulled back to the reference
+
+  std::pair<std::int32_t, std::int32_t> key() const { return {element, edge}; }
+};
+
+// A value of an element; vectors of them are ascending by element.
+template <class T>
+struct OfElement {
+  std::int32_t element = 0;
+  T value{};
+};
+
+// A point of the blade's edge at the end of a frame.
+struct BladePoint {
+  std::int32_t element = -1;  // that held it; -1: outside the body
+  Vec3 X = Vec3::Zero();      // reference position [m]
+  Vec3 x = Vec3::Zero();      // position at that time [m]
+};
+
+struct CutStroke {
+  std::vector<CutHit> hit;                      // ascending (element, edge)
+  std::vector<OfElement<std::int8_t>> side;     // +1 or -1: sides given at earlier advances
+  std::vector<OfElement<std::uint8_t>> opened;  // bit f: facet f was opened by this stroke
+  std::vector<OfElement<double>> altitude;  // least altitude before the blade touched it first [m]
+  std::vector<std::int32_t>
+      surface_node;  // nodes of opened facets that lie on the swept surface, ascending
+  std::vector<std::int32_t>
+      parted_node;                  // nodes that this stroke gave a copy, and the copies, ascending
+  std::vector<std::int32_t> fresh;  // elements crossed since the last edit, ascending
+  std::vector<std::int32_t> unfinished;  // elements to look at again at the next edit, ascending
+  std::vector<BladePoint> edge;          // where the blade's edge is in the tissue
+  double mean_edge = 0;                  // around the last hits [m]; 0: not known yet
+  double swept = 0;                      // since the last edit [m]
+};
+
+// The entry of `element`, nullptr if there is none.
+template <class T>
+const T* find_element(const std::vector<OfElement<T>>& values, std::int32_t element);
+// Adds or overwrites entries; both ascending.
+template <class T>
+void merge_elements(std::vector<OfElement<T>>& values, const std::vector<OfElement<T>>& changes);
+
+}  // namespace trocar
+
+#include "cutting/cut_stroke_inl.h"

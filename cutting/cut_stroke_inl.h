@@ -1,0 +1,32 @@
+// Lookup and merging of values by element.
+#pragma once
+
+#include <algorithm>
+
+#include "cutting/cut_stroke.h"
+
+namespace trocar {
+
+template <class T>
+const T* find_element(const std::vector<OfElement<T>>& values, std::int32_t element) {
+  const auto at =
+      std::lower_bound(values.begin(), values.end(), element,
+                       [](const OfElement<T>& entry, std::int32_t e) { return entry.element < e; });
+  return at != values.end() && at->element == element ? &at->value : nullptr;
+}
+
+template <class T>
+void merge_elements(std::vector<OfElement<T>>& values, const std::vector<OfElement<T>>& changes) {
+  std::vector<OfElement<T>> merged;
+  merged.reserve(values.size() + changes.size());
+  auto old = values.begin();
+  for (const OfElement<T>& change : changes) {
+    while (old != values.end() && old->element < change.element) merged.push_back(*old++);
+    if (old != values.end() && old->element == change.element) ++old;
+    merged.push_back(change);
+  }
+  merged.insert(merged.end(), old, values.end());
+  values = std::move(merged);
+}
+
+}  // namespace trocar

@@ -1,0 +1,104 @@
+// Gathering the patch around a stroke's front, and the roles of its nodes.
+#include "cutting/cut_survey.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace trocar {
+
+// Squared distance over h, in place of it, of a node that would have to move and can't.
+static constexpr double immovable_cost = 30;
+// A node that can't move may lie this far from the surface (over h) without counting as off it.
+static constexpr double tolerated_distance = 0.1;
+
+// Parts of the least altitude before that elements keep when a node is put on the surface for the
+// look only.
+static constexpr double inner_snap = 0.75, outer_snap = 0.5;
+
+static std::vector<std::int32_t> seed_elements(const CutStroke& stroke, bool is_last) {
+  std::vector<std::int32_t> seed = stroke.fresh;
+  seed.insert(seed.end(), stroke.unfinished.begin(), stroke.unfinished.end());
+  if (is_last)
+    for (const CutHit& hit : stroke.hit)
+      if (find_element(stroke.side, hit.element) == nullptr) seed.push_back(hit.element);
+  std::sort(seed.begin(), seed.end());
+  seed.erase(std::unique(seed.begin(), seed.end()), seed.end());
+  return seed;
+}
+
+static double surface_cost(const CutSurroundings& around, std::int32_t i) {
+  const std::span<const SurfacePoint> points = around.points.of(i);
+  if (points.empty()) return 0;
+  const SurfacePlane plane = fit_surface(points, around.patch.X[i], around.h);
+  const double distance = plane.distance(around.patch.X[i]) / around.h;
+  const double d2 = distance * distance;
+  const double slope2 = allowed_part(around.boundary[i], plane.N).squaredNorm();
+  if (d2 <= tolerated_distance * tolerated_distance) return d2;
+  return std::min(d2 / std::max(slope2, 1e-6), immovable_cost);
+}
+
+CutSurroundings survey(const Mesh& mesh, std::span<const Vec3> x,
+                       std::span<const std::uint8_t> is_held, const CutStroke& stroke,
+                       bool is_last) {
+  CutSurroundings around;
+  around.h = stroke.mean_edge;
+  const std::vector<std::int32_t> seed = seed_elements(stroke, is_last);
+  if (seed.empty()) return around;
+  around.patch = make_patch(mesh, x, is_held, seed);
+  around.points = surface_points(around.patch, stroke);
+  for (std::int32_t i = 0; i < around.patch.n_nodes(); ++i) {
+    NodeBoundary boundary;
+    boundary.freedom = NodeFreedom::fixed;
+    if (around.patch.node_ring[i] <= 1)
+      boundary = node_boundary(around.patch, stroke, mesh.cut_facets, i);
+    around.boundary.push_back(std::move(boundary));
+    around.surface_cost.push_back(surface_cost(around, i));
+  }
+  return around;
+}
+
+static void mark_cut_nodes(TetCut& cut, const CutStroke& stroke) {
+  const CutPatch& patch = cut.around.patch;
+  cut.is_cut.assign(patch.node.size(), 0);
+  for (const auto& [e, f] : cut.opening.facet)
+    for (const std::int32_t i : facet_nodes(patch, e, f)) cut.is_cut[i] = 1;
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e) {
+    const std::uint8_t* opened = find_element(stroke.opened, patch.element[e]);
+    for (int f = 0; opened != nullptr && f < 4; ++f)
+      if ((*opened >> f & 1) != 0)
+        for (const std::int32_t i : facet_nodes(patch, e, f)) cut.is_cut[i] = 1;
+  }
+}
+
+void set_roles(TetCut& cut, const CutStroke& stroke, bool is_last) {
+  const CutPatch& patch = cut.around.patch;
+  mark_cut_nodes(cut, stroke);
+  const auto may_move = [&](std::int32_t i) {
+    return (is_last || cut.labels.is_front_node[i] == 0) && patch.node_ring[i] <= 1 &&
+           !std::binary_search(stroke.parted_node.begin(), stroke.parted_node.end(), patch.node[i]);
+  };
+  cut.role.assign(patch.node.size(), NodeRole::stays);
+  for (std::int32_t i = 0; i < patch.n_nodes(); ++i)
+    if (cut.is_cut[i] != 0 && may_move(i)) cut.role[i] = NodeRole::on_surface;
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e) {
+    const auto& corner = patch.corner[e];
+    if (std::none_of(corner.begin(), corner.end(),
+                     [&](std::int32_t i) { return cut.role[i] == NodeRole::on_surface; }))
+      continue;
+    for (const std::int32_t i : corner)
+      if (cut.role[i] == NodeRole::stays && cut.is_cut[i] == 0 && may_move(i))
+        cut.role[i] = NodeRole::makes_room;
+  }
+}
+
+MoveLimits move_limits(const CutSurroundings& around, const CutStroke& stroke, double part) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int32_t e = 0; e < around.patch.n_elements(); ++e) {
+    const double* before = find_element(stroke.altitude, around.patch.element[e]);
+    least = std::min(
+        least, before != nullptr ? *before : tet_altitude(around.patch.X, around.patch.corner[e]));
+  }
+  return {part * least, std::max(part, inner_snap) * least, std::max(part, outer_snap) * least};
+}
+
+}  // namespace trocar

@@ -1,0 +1,38 @@
+// What one edit of a stroke looks at and what it decides, step by step.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cutting/cut_label.h"
+#include "cutting/cut_move.h"
+#include "cutting/cut_open.h"
+#include "cutting/cut_transfer.h"
+
+namespace trocar {
+
+struct TetCut {
+  CutSurroundings around;
+  CutLabels labels;
+  CutOpening opening;
+  std::vector<NodeRole> role;        // (n_nodes of the patch)
+  std::vector<std::uint8_t> is_cut;  // (n_nodes) on a facet that this stroke opened, now or before
+  std::vector<Vec3> X;               // (n_nodes) reference positions afterwards
+  std::vector<NodeTransfer> transfer;  // of the moved nodes
+};
+
+// The surroundings of the elements that were crossed since the last edit; without elements if
+// nothing was. is_last takes in all that the stroke has not finished.
+CutSurroundings survey(const Mesh& mesh, std::span<const Vec3> x,
+                       std::span<const std::uint8_t> is_held, const CutStroke& stroke,
+                       bool is_last);
+
+// Which nodes lie on opened facets, and what each node may do. Nodes of front elements stay unless
+// is_last: the blade is still in there.
+void set_roles(TetCut& cut, const CutStroke& stroke, bool is_last);
+
+// The floor under altitudes: `part` of the least altitude that the elements around had before this
+// stroke.
+MoveLimits move_limits(const CutSurroundings& around, const CutStroke& stroke, double part);
+
+}  // namespace trocar

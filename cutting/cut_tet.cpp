@@ -1,0 +1,70 @@
+// The 3D cut in the order of its steps: crossings, sides, opened facets, moved nodes, edit.
+#include "cutting/cut_tet.h"
+
+#include <algorithm>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "cutting/cut_edit.h"
+#include "cutting/cut_hits.h"
+
+namespace trocar {
+
+struct TetCutter::Front {
+  CutTetOptions options;
+  CutStroke stroke;
+};
+
+TetCutter::TetCutter(const CutTetOptions& options)
+    : front_(std::make_unique<Front>(Front{options, {}})) {}
+TetCutter::~TetCutter() = default;
+TetCutter::TetCutter(TetCutter&&) noexcept = default;
+
+// Altitudes are kept: the floor under them must not sink from stroke to stroke.
+void TetCutter::start_stroke() {
+  CutStroke next;
+  next.altitude = std::move(front_->stroke.altitude);
+  front_->stroke = std::move(next);
+}
+
+static void check_arguments(const Mesh& mesh, std::span<const Vec3> x,
+                            std::span<const std::uint8_t> is_held, const BladeSweep& sweep) {
+  CHECK_OP(x.size(), ==, mesh.X.size());
+  CHECK_OP(is_held.size(), ==, mesh.X.size());
+  CHECK_OP(sweep.before.size(), ==, sweep.after.size());
+  CHECK_OP(sweep.before.size(), >=, 2U);
+  if (std::find(mesh.element_type.begin(), mesh.element_type.end(), ElementType::tet4) ==
+      mesh.element_type.end())
+    throw InputError(
+        "a blade can only cut tetrahedra, and this mesh has none; use tet4 elements (shapes: "
+        "\"tet4-kuhn\" or \"tet4-five\"), or remove the scalpel");
+}
+
+MeshEdit TetCutter::advance(const Mesh& mesh, std::span<const Vec3> x,
+                            std::span<const std::uint8_t> is_held, const BladeSweep& sweep,
+                            bool is_last, CutFigures& figures) {
+  check_arguments(mesh, x, is_held, sweep);
+  figures = {};
+  CutStroke& stroke = front_->stroke;
+  add_hits(mesh, x, sweep, stroke);
+  stroke.swept += sweep_length(sweep);
+  if (!is_last && stroke.swept < front_->options.advance * stroke.mean_edge) return {};
+
+  TetCut cut;
+  cut.around = survey(mesh, x, is_held, stroke, is_last);
+  if (cut.around.patch.n_elements() == 0) return {};
+  cut.labels = label_elements(cut.around, stroke);
+  std::vector<std::uint8_t> stays_whole(cut.around.patch.node.size(), 0);
+  if (!is_last) stays_whole = unripe_nodes(cut.around, cut.labels);
+  cut.opening = open_facets(cut.around, cut.labels, stays_whole);
+  set_roles(cut, stroke, is_last);
+  cut.X = move_nodes(cut.around, cut.role,
+                     move_limits(cut.around, stroke, front_->options.least_altitude));
+  cut.transfer = transfer_moves(cut.around.patch, cut.X);
+
+  figures = make_figures(cut, is_last);
+  remember(cut, mesh.n_nodes(), stroke);
+  return make_edit(mesh, cut);
+}
+
+}  // namespace trocar

@@ -1,0 +1,50 @@
+// Progressive cutting of tetrahedra by displacing existing nodes onto the swept surface (Serby,
+// Harders and Szekely 2001, taken to 3D).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+#include "cutting/blade_sweep.h"
+#include "cutting/cut_figures.h"
+#include "mesh/edit.h"
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+struct CutTetOptions {
+  double advance =
+      0.5;  // of the local mean edge length that the blade must sweep before the mesh is changed
+  double least_altitude =
+      0.35;  // floor on least altitude after / least altitude before, around the cut (stable step)
+};
+
+// One blade's cut from its entry into tissue to its exit.
+class TetCutter {
+ public:
+  explicit TetCutter(const CutTetOptions& options);
+  ~TetCutter();
+  TetCutter(TetCutter&&) noexcept;
+
+  // Takes up the swept band; makes the edit once enough is swept (or is_last: the blade left or
+  // stopped). The edit is empty while it waits. x (n_nodes) present positions; is_held (n_nodes)
+  // nodes that must not be displaced (supports, grasped). Deterministic in its arguments. `figures`
+  // gets the figures of this edit.
+  MeshEdit advance(const Mesh& mesh, std::span<const Vec3> x, std::span<const std::uint8_t> is_held,
+                   const BladeSweep& sweep, bool is_last, CutFigures& figures);
+
+  // A new stroke: forgets the front (faces that are open stay open).
+  void start_stroke();
+
+ private:
+  // What a cut under way remembers: where the swept surface crosses element edges (reference
+  // coordinates) and the sides of the elements at the front. Node and element numbers are global
+  // and survive edits.
+  struct Front;
+  std::unique_ptr<Front> front_;
+};
+
+}  // namespace trocar

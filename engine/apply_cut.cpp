@@ -1,0 +1,162 @@
+#include "engine/apply_cut.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/frame_watch.h"
+#include "engine/mesh_measures.h"
+#include "mesh/quality.h"
+
+namespace trocar {
+
+namespace {
+
+// Mass, momentum and angular momentum about `centre` of some nodes.
+struct Motion {
+  double mass = 0, scale = 0, kinetic = 0;  // scale = sum |m v|
+  Vec3 centre = Vec3::Zero(), momentum = Vec3::Zero(), angular = Vec3::Zero();
+  Mat3 inertia = Mat3::Zero();
+};
+
+Motion motion_of(std::span<const std::int32_t> nodes, std::span<const double> mass,
+                 const GlobalState& state, const Vec3& about) {
+  Motion motion;
+  for (const std::int32_t node : nodes) {
+    const auto i = static_cast<std::size_t>(node);
+    const Vec3 v(state.v[3 * i], state.v[3 * i + 1], state.v[3 * i + 2]);
+    const Vec3 r = state.x[i] - about;
+    motion.mass += mass[i];
+    motion.centre += mass[i] * state.x[i];
+    motion.momentum += mass[i] * v;
+    motion.angular += mass[i] * r.cross(v);
+    motion.scale += mass[i] * std::sqrt(v.dot(v));
+    motion.kinetic += 0.5 * mass[i] * v.dot(v);
+    motion.inertia += mass[i] * (r.dot(r) * Mat3::Identity() - r * r.transpose());
+  }
+  if (motion.mass > 0) motion.centre /= motion.mass;
+  return motion;
+}
+
+// Gives the nodes the rigid increment a + w x (x - centre) that makes momentum and angular momentum
+// what they were.
+void restore_momentum(std::span<const std::int32_t> nodes, std::span<const double> mass,
+                      const Motion& before, GlobalState& state, CutRecord& record) {
+  const Vec3 about = before.centre;
+  Motion after = motion_of(nodes, mass, state, about);
+  const double kinetic_before = before.kinetic;
+  // Two unknown vectors: m a + w x m d = dP and m d x a + I w = dL with d = centre after - about.
+  const Vec3 d = after.centre - about;
+  Mat3 cross;
+  cross << 0, -d.z(), d.y(), d.z(), 0, -d.x(), -d.y(), d.x(), 0;
+  Eigen::Matrix<double, 6, 6> A;
+  A.block<3, 3>(0, 0) = after.mass * Mat3::Identity();
+  A.block<3, 3>(0, 3) = -after.mass * cross;
+  A.block<3, 3>(3, 0) = after.mass * cross;
+  A.block<3, 3>(3, 3) = after.inertia;
+  Eigen::Matrix<double, 6, 1> b;
+  b << before.momentum - after.momentum, before.angular - after.angular;
+  const Eigen::Matrix<double, 6, 1> increment = A.partialPivLu().solve(b);
+  const Vec3 a = increment.head<3>(), w = increment.tail<3>();
+  if (!increment.allFinite()) return;
+  for (const std::int32_t node : nodes) {
+    const auto i = static_cast<std::size_t>(node);
+    const Vec3 dv = a + w.cross(state.x[i] - about);
+    for (std::size_t k = 0; k < 3; ++k) state.v[3 * i + k] += dv[static_cast<Eigen::Index>(k)];
+  }
+  after = motion_of(nodes, mass, state, about);
+  const double scale = std::max(before.scale, 1e-300);
+  record.momentum_change =
+      std::max(record.momentum_change, (after.momentum - before.momentum).norm() / scale);
+  record.kinetic_energy_change += after.kinetic - kinetic_before;
+}
+
+std::vector<std::int32_t> nodes_of(const Mesh& mesh, std::span<const std::int32_t> elements) {
+  std::vector<std::int32_t> nodes;
+  for (const std::int32_t e : elements)
+    nodes.insert(nodes.end(), mesh.corners(e).begin(), mesh.corners(e).end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+double least_element_step(const Simulation& s, std::span<const std::int32_t> elements) {
+  double least = 1e300;
+  for (std::size_t k = 0; k < s.part.element_global.size(); ++k)
+    if (std::binary_search(elements.begin(), elements.end(), s.part.element_global[k]))
+      least = std::min(least, s.model.element_step[k]);
+  return s.communicator->all_min(least);
+}
+
+double total(std::span<const double> values) {
+  ExactSum sum;
+  for (const double value : values) sum.add(value);
+  return sum.value();
+}
+
+void scatter_state(Simulation& s, const GlobalState& global) {
+  State state = make_state(s.model);
+  state.time = s.state.time;
+  state.last_dt = s.state.last_dt;
+  state.step = s.state.step;
+  for (std::size_t i = 0; i < s.part.node_global.size(); ++i) {
+    const auto g = static_cast<std::size_t>(s.part.node_global[i]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      state.u[3 * i + k] = global.u[3 * g + k];
+      state.v[3 * i + k] = global.v[3 * g + k];
+    }
+  }
+  s.state = std::move(state);
+}
+
+// Supports and partner pairs go with the nodes.
+void inherit_by_duplicates(Simulation& s, const MeshEdit& edit, std::int32_t n_before) {
+  for (std::size_t d = 0; d < edit.duplicate_parent.size(); ++d) {
+    const std::int32_t parent = edit.duplicate_parent[d];
+    s.fixed.push_back(s.fixed[static_cast<std::size_t>(parent)]);
+    s.duplicate_parent.push_back(parent);
+    s.duplicate_node.push_back(n_before + static_cast<std::int32_t>(d));
+  }
+}
+
+}  // namespace
+
+GlobalState gather_state(Simulation& s) {
+  const PhaseScope scope(s.timers, phase_gather);
+  GlobalState global;
+  global.u = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.state.u, *s.communicator);
+  global.v = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.state.v, *s.communicator);
+  global.x = present_positions(s.mesh.X, global.u);
+  return global;
+}
+
+void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutRecord& record) {
+  const std::vector<std::int32_t> elements = edited_elements(s.mesh, edit);
+  const std::int32_t n_before = s.mesh.n_nodes();
+  const std::vector<std::int32_t> nodes_before = nodes_of(s.mesh, elements);
+  const double step_before = least_element_step(s, elements);
+  const double mass_before = total(s.mass);
+  Motion before = motion_of(nodes_before, s.mass, global, Vec3::Zero());
+  before = motion_of(nodes_before, s.mass, global, before.centre);
+
+  apply_edit(edit, s.mesh, 3, global.u);
+  apply_edit(edit, s.mesh, 3, global.v);
+  apply_edit(edit, s.mesh);
+  global.x = present_positions(s.mesh.X, global.u);
+  inherit_by_duplicates(s, edit, n_before);
+  apply_edit_to_owners(edit.duplicate_parent, s.node_owner);
+  apply_edit_to_holds(edit, n_before, s.holds);
+  rebuild_topology(s);
+  restore_momentum(nodes_of(s.mesh, elements), s.mass, before, global, record);
+  scatter_state(s, global);
+  watch_state(s);
+
+  for (const std::int32_t e : elements)
+    record.least_quality = std::min(record.least_quality, element_quality(s.mesh, e, s.mesh.X));
+  record.stable_step_ratio =
+      std::min(record.stable_step_ratio, least_element_step(s, elements) / step_before);
+  record.mass_change =
+      std::max(record.mass_change, std::abs(total(s.mass) - mass_before) / mass_before);
+  s.log.new_edits.push_back({.frame = s.frame, .edit = edit});
+}
+
+}  // namespace trocar

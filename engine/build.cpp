@@ -1,0 +1,172 @@
+#include "engine/build.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.h"
+#include "engine/bytes.h"
+#include "engine/frame_report.h"
+#include "engine/frame_watch.h"
+#include "engine/mesh_measures.h"
+#include "engine/tissue.h"
+#include "mesh/mesh_file.h"
+
+namespace trocar {
+
+namespace {
+
+Material to_material(const SceneMaterial& m) {
+  const MaterialModel models[] = {MaterialModel::linear, MaterialModel::st_venant_kirchhoff,
+                                  MaterialModel::neo_hookean};
+  return {.model = models[static_cast<int>(m.model)],
+          .young_modulus = m.young_modulus,
+          .poisson_ratio = m.poisson_ratio,
+          .density = m.density};
+}
+
+std::vector<double> region_densities(const std::vector<Material>& materials) {
+  std::vector<double> density;
+  for (const Material& material : materials) density.push_back(material.density);
+  return density;
+}
+
+FixedMask fixed_mask(const std::string& components) {
+  FixedMask mask = 0;
+  for (const char c : components) mask = static_cast<FixedMask>(mask | (1 << (c - 'x')));
+  return mask;
+}
+
+// Supports at rest become fixed components, moving ones prescribed nodes. A plane body stays in its
+// plane.
+void build_supports(Simulation& s) {
+  s.fixed.assign(s.mesh.X.size(), s.mesh.dimension() == 2 ? fixed_mask("z") : FixedMask{0});
+  for (const SceneSupport& support : s.scene.supports) {
+    const NodeSet* set = find_node_set(s.mesh, support.region);
+    if (support.path.empty()) {
+      for (const std::int32_t node : set->node)
+        s.fixed[static_cast<std::size_t>(node)] |= fixed_mask(support.fix);
+      continue;
+    }
+    const auto path = static_cast<std::int32_t>(s.holds.paths.size());
+    s.holds.paths.emplace_back(support.path);
+    for (const std::int32_t node : set->node)
+      s.holds.holds.push_back({.node = node, .support = path});
+  }
+  const auto by_node = [](const Hold& a, const Hold& b) { return a.node < b.node; };
+  std::stable_sort(s.holds.holds.begin(), s.holds.holds.end(), by_node);
+  const auto same_node = [](const Hold& a, const Hold& b) { return a.node == b.node; };
+  s.holds.holds.erase(std::unique(s.holds.holds.begin(), s.holds.holds.end(), same_node),
+                      s.holds.holds.end());
+}
+
+TriangleMesh load_tool_mesh(const LoadedScene& loaded, std::size_t k, Communicator& communicator) {
+  const SceneInstrument& instrument = loaded.scene.instruments[k];
+  if (instrument.mesh.empty()) return {};
+  // Every rank reads the small file's content from rank 0.
+  const auto bytes = read_on_root(communicator, [&] {
+    Mesh carrier;
+    try {
+      const TriangleMesh surface =
+          read_triangle_mesh(loaded.folder + instrument.mesh, instrument.scale);
+      carrier.X = surface.X;
+      for (const auto& triangle : surface.triangle)
+        add_element(carrier, ElementType::tri3, triangle);
+    } catch (const InputError& trouble) {
+      loaded.where.fail("instrument[" + std::to_string(k) + "].mesh", trouble.what());
+    }
+    return mesh_to_bytes(carrier);
+  });
+  const Mesh carrier = mesh_from_bytes(bytes);
+  TriangleMesh surface{.X = carrier.X, .triangle = {}};
+  for (std::int32_t e = 0; e < carrier.n_elements(); ++e) {
+    const auto c = carrier.corners(e);
+    surface.triangle.push_back({c[0], c[1], c[2]});
+  }
+  return surface;
+}
+
+bool can_be_cut(const Mesh& mesh) {
+  const auto is_type = [&](ElementType type) {
+    return std::all_of(mesh.element_type.begin(), mesh.element_type.end(),
+                       [=](ElementType t) { return t == type; });
+  };
+  return is_type(ElementType::tet4) || is_type(ElementType::tri3);
+}
+
+void build_cuts(Simulation& s) {
+  const SceneCutting& cutting = s.scene.cutting;
+  for (std::size_t k = 0; k < s.tools.size(); ++k) {
+    if (s.tools[k].kind != InstrumentKind::scalpel) continue;
+    if (!can_be_cut(s.mesh)) {
+      log_warning("the body has hexahedra, which this version does not cut: \"" + s.tools[k].name +
+                  "\" only touches");
+      continue;
+    }
+    s.cuts.push_back(CutStage{
+        .tool = static_cast<std::int32_t>(k),
+        .tet = TetCutter({.advance = cutting.advance, .least_altitude = cutting.least_altitude})});
+  }
+}
+
+void build_instruments(const LoadedScene& loaded, Simulation& s) {
+  const double edge = mean_edge_length(s.mesh);
+  for (std::size_t k = 0; k < s.scene.instruments.size(); ++k)
+    s.tools.push_back(
+        make_tool(s.scene.instruments[k], load_tool_mesh(loaded, k, *s.communicator), 0.5 * edge));
+  s.holds.is_open.assign(s.tools.size(), 1);
+  s.holds.poses.resize(s.tools.size());
+  if (s.tools.empty()) return;
+  std::vector<ToolShape> shapes;
+  for (const Tool& tool : s.tools) shapes.push_back(tool.shape);
+  s.contact = std::make_unique<ContactStage>(ContactStage{
+      .detector = ContactDetector(shapes),
+      .options = {.stiffness = s.scene.contact.stiffness, .friction = s.scene.contact.friction}});
+  s.contact->motion.resize(s.tools.size());
+  s.contact_reach = 0.5 * edge;
+  build_cuts(s);
+}
+
+}  // namespace
+
+void rebuild_topology(Simulation& s) {
+  const SceneSolver& solver = s.scene.solver;
+  const int rank = s.communicator->rank();
+  s.mass = lumped_mass(s.mesh, region_densities(s.materials), s.scene.tissue.thickness);
+  s.part = make_part(s.mesh, s.node_owner, rank);
+  s.halo = make_halo(s.mesh, s.node_owner, s.part, rank);
+  s.exchange_u.emplace(s.halo, 3);
+  s.exchange_v.emplace(s.halo, 3);
+  s.model = build_model(s.mesh, s.part, s.materials, s.fixed, s.mass,
+                        {.mass_damping = solver.mass_damping,
+                         .hourglass = solver.hourglass,
+                         .thickness = s.scene.tissue.thickness,
+                         .gravity = solver.gravity});
+  s.scratch = make_scratch(s.model);
+  s.surface = boundary_surface(s.mesh);
+  s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part, rank);
+  localise_holds(s.holds, s.part);
+  if (s.contact) s.contact->detector.set_surface(s.surface);
+}
+
+std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& communicator) {
+  auto simulation = std::make_unique<Simulation>();
+  Simulation& s = *simulation;
+  s.communicator = &communicator;
+  s.scene = loaded.scene;
+  for (std::size_t k = 0; k < n_phases; ++k) s.timers.phase(phase_names[k]);
+  s.mesh = load_tissue(loaded, communicator);
+  s.materials.assign(s.mesh.region_name.size(), to_material(s.scene.tissue.material));
+  s.node_owner = partition_nodes(s.mesh, communicator);
+  build_supports(s);
+  build_instruments(loaded, s);
+  rebuild_topology(s);
+  s.state = make_state(s.model);
+  refresh_surface(s);
+  watch_state(s);
+  s.log.least_stable_step = s.log.largest_stable_step = s.watch.stable_step;
+  for (const SceneOutput& output : s.scene.outputs)
+    s.reports_energies = s.reports_energies || output.kind == OutputKind::metrics;
+  return simulation;
+}
+
+}  // namespace trocar

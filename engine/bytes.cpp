@@ -1,0 +1,160 @@
+#include "engine/bytes.h"
+
+#include "base/error.h"
+
+namespace trocar {
+
+void ByteWriter::put_raw(const void* data, std::size_t size) {
+  const auto* first = static_cast<const std::byte*>(data);
+  bytes_.insert(bytes_.end(), first, first + size);
+}
+
+void ByteWriter::put_text(const std::string& text) {
+  put(static_cast<std::uint64_t>(text.size()));
+  put_raw(text.data(), text.size());
+}
+
+std::size_t ByteReader::get_count(std::size_t item_size) {
+  const auto count = get<std::uint64_t>();
+  if (count > bytes_.size() / item_size)
+    throw InputError("stored data end early: " + std::to_string(count) + " items announced");
+  return count;
+}
+
+void ByteReader::get_raw(void* data, std::size_t size) {
+  if (size > bytes_.size()) throw InputError("stored data end early");
+  if (size > 0) std::memcpy(data, bytes_.data(), size);
+  bytes_ = bytes_.subspan(size);
+}
+
+std::string ByteReader::get_text() {
+  std::string text(get_count(1), '\0');
+  get_raw(text.data(), text.size());
+  return text;
+}
+
+namespace {
+
+// Eigen's vectors are not trivially copyable, their three doubles are.
+void put_points(ByteWriter& writer, const std::vector<Vec3>& points) {
+  writer.put(static_cast<std::uint64_t>(points.size()));
+  for (const Vec3& p : points)
+    for (int i = 0; i < 3; ++i) writer.put(p[i]);
+}
+
+Vec3 get_point(ByteReader& reader) {
+  Vec3 p;
+  for (int i = 0; i < 3; ++i) p[i] = reader.get<double>();
+  return p;
+}
+
+std::vector<Vec3> get_points(ByteReader& reader) {
+  std::vector<Vec3> points(reader.get_count(3 * sizeof(double)));
+  for (Vec3& p : points) p = get_point(reader);
+  return points;
+}
+
+// What validate() relies on: it walks along the corners of known element types.
+void check_arrays(const Mesh& mesh) {
+  for (const ElementType type : mesh.element_type)
+    if (static_cast<int>(type) >= n_element_types)
+      throw InputError("stored mesh has an element of unknown type " +
+                       std::to_string(static_cast<int>(type)));
+  if (mesh.corner_offset.empty() ||
+      mesh.corner_offset.back() != static_cast<std::int64_t>(mesh.corner_node.size()))
+    throw InputError("stored mesh has corners that belong to no element");
+}
+
+}  // namespace
+
+std::vector<std::byte> mesh_to_bytes(const Mesh& mesh) {
+  ByteWriter writer;
+  put_points(writer, mesh.X);
+  writer.put_vector(mesh.element_type);
+  writer.put_vector(mesh.corner_offset);
+  writer.put_vector(mesh.corner_node);
+  writer.put_vector(mesh.element_region);
+  writer.put_vector(mesh.density_factor);
+  writer.put_vector(mesh.cut_facets);
+  writer.put(static_cast<std::uint64_t>(mesh.region_name.size()));
+  for (const std::string& name : mesh.region_name) writer.put_text(name);
+  writer.put(static_cast<std::uint64_t>(mesh.node_sets.size()));
+  for (const NodeSet& set : mesh.node_sets) {
+    writer.put_text(set.name);
+    writer.put_vector(set.node);
+  }
+  return writer.take();
+}
+
+Mesh mesh_from_bytes(std::span<const std::byte> bytes) {
+  ByteReader reader(bytes);
+  Mesh mesh;
+  mesh.X = get_points(reader);
+  mesh.element_type = reader.get_vector<ElementType>();
+  mesh.corner_offset = reader.get_vector<std::int32_t>();
+  mesh.corner_node = reader.get_vector<std::int32_t>();
+  mesh.element_region = reader.get_vector<std::int32_t>();
+  mesh.density_factor = reader.get_vector<double>();
+  mesh.cut_facets = reader.get_vector<std::uint8_t>();
+  check_arrays(mesh);
+  mesh.region_name.resize(reader.get_count(8));
+  for (std::string& name : mesh.region_name) name = reader.get_text();
+  mesh.node_sets.resize(reader.get_count(16));
+  for (NodeSet& set : mesh.node_sets) {
+    set.name = reader.get_text();
+    set.node = reader.get_vector<std::int32_t>();
+  }
+  return mesh;
+}
+
+std::vector<std::byte> edit_to_bytes(const MeshEdit& edit) {
+  ByteWriter writer;
+  writer.put(static_cast<std::uint64_t>(edit.moves.size()));
+  for (const NodeMove& move : edit.moves) {
+    writer.put(move.node);
+    for (int i = 0; i < 3; ++i) writer.put(move.X[i]);
+    writer.put(move.host);
+    writer.put(move.weight);
+  }
+  writer.put_vector(edit.duplicate_parent);
+  writer.put_vector(edit.corners);
+  // Member by member: padding bytes would differ from run to run.
+  writer.put(static_cast<std::uint64_t>(edit.cut_facets.size()));
+  for (const CutFacets& change : edit.cut_facets) {
+    writer.put(change.element);
+    writer.put(change.mask);
+  }
+  writer.put(static_cast<std::uint64_t>(edit.density.size()));
+  for (const DensityChange& change : edit.density) {
+    writer.put(change.element);
+    writer.put(change.factor);
+  }
+  return writer.take();
+}
+
+MeshEdit edit_from_bytes(std::span<const std::byte> bytes) {
+  ByteReader reader(bytes);
+  MeshEdit edit;
+  edit.moves.resize(reader.get_count(8 + (3 + max_corners) * sizeof(double)));
+  for (NodeMove& move : edit.moves) {
+    move.node = reader.get<std::int32_t>();
+    move.X = get_point(reader);
+    move.host = reader.get<std::int32_t>();
+    move.weight = reader.get<std::array<double, max_corners>>();
+  }
+  edit.duplicate_parent = reader.get_vector<std::int32_t>();
+  edit.corners = reader.get_vector<CornerChange>();
+  edit.cut_facets.resize(reader.get_count(5));
+  for (CutFacets& change : edit.cut_facets) {
+    change.element = reader.get<std::int32_t>();
+    change.mask = reader.get<std::uint8_t>();
+  }
+  edit.density.resize(reader.get_count(12));
+  for (DensityChange& change : edit.density) {
+    change.element = reader.get<std::int32_t>();
+    change.factor = reader.get<double>();
+  }
+  return edit;
+}
+
+}  // namespace trocar

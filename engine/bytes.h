@@ -1,0 +1,66 @@
+// Values as bytes, for broadcasts and recordings: little-endian plain data, counts as 64-bit
+// numbers. The reader checks every count against the bytes that are left.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "mesh/edit.h"
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+class ByteWriter {
+ public:
+  template <class T>
+  void put(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    put_raw(&value, sizeof value);
+  }
+  template <class T>
+  void put_vector(const std::vector<T>& values) {
+    put(static_cast<std::uint64_t>(values.size()));
+    put_raw(values.data(), values.size() * sizeof(T));
+  }
+  void put_text(const std::string& text);
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  void put_raw(const void* data, std::size_t size);
+  std::vector<std::byte> bytes_;
+};
+
+class ByteReader {
+ public:
+  explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  template <class T>
+  T get() {
+    T value;
+    get_raw(&value, sizeof value);
+    return value;
+  }
+  template <class T>
+  std::vector<T> get_vector() {
+    std::vector<T> values(get_count(sizeof(T)));
+    get_raw(values.data(), values.size() * sizeof(T));
+    return values;
+  }
+  std::string get_text();
+  std::size_t get_count(std::size_t item_size);  // throws InputError if that many can't follow
+
+ private:
+  void get_raw(void* data, std::size_t size);
+  std::span<const std::byte> bytes_;
+};
+
+std::vector<std::byte> mesh_to_bytes(const Mesh& mesh);
+Mesh mesh_from_bytes(std::span<const std::byte> bytes);
+std::vector<std::byte> edit_to_bytes(const MeshEdit& edit);
+MeshEdit edit_from_bytes(std::span<const std::byte> bytes);
+
+}  // namespace trocar

@@ -1,0 +1,224 @@
+#include "engine/cut_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "engine/apply_cut.h"
+#include "engine/mesh_measures.h"
+#include "engine/simulation.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr int idle_frames_to_leave =
+    3;  // a blade that touches nothing for so long has left the tissue
+constexpr double plane_advance =
+    3.0;  // mean edge lengths of the path that the paper's algorithm takes at a time
+
+struct Box {
+  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+  void add(const Vec3& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  bool meets(const Box& other) const {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
+};
+
+std::vector<Vec3> edge_at(const Tool& tool, double time) {
+  const Pose pose = tool.path.at(time);
+  std::vector<Vec3> edge;
+  for (const Vec3& point : tool.edge) edge.push_back(pose.apply(point));
+  return edge;
+}
+
+Box surface_box(const Simulation& s) {
+  Box box;
+  for (const std::int32_t node : s.view.node) box.add(s.view.x[static_cast<std::size_t>(node)]);
+  return box;
+}
+
+// Where the blade's edge is inside the tissue; for a plane body its tip alone.
+void locate_edge(const Simulation& s, const GlobalState& global, std::span<const Vec3> edge,
+                 CutStage& stage) {
+  stage.engaged.clear();
+  const bool is_plane = s.mesh.dimension() == 2;
+  const std::size_t n = is_plane ? 1 : edge.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const Location location = locate_point(s.mesh, global.x, edge[k]);
+    if (location.element >= 0) stage.engaged.push_back(location);
+  }
+  const double spacing = n > 1 ? (edge[1] - edge[0]).norm() : s.scene.tissue.thickness;
+  stage.engaged_length = spacing * static_cast<double>(stage.engaged.size());
+}
+
+void start_stroke(CutStage& stage, const Tool& tool, double time, std::int32_t dimension) {
+  stage.is_in_stroke = true;
+  stage.n_idle_frames = 0;
+  stage.strokes.push_back({.tool = tool.name, .start = time});
+  if (dimension == 3) stage.tet.start_stroke();
+  stage.plane_tip = -1;
+}
+
+void add_figures(const CutFigures& figures, bool has_edit, CutRecord& record) {
+  record.n_refused += figures.n_refused;
+  if (!has_edit) return;
+  const auto n_old = static_cast<double>(record.n_moved),
+             n_new = static_cast<double>(figures.n_moved);
+  if (n_old + n_new > 0)
+    record.mean_deviation =
+        (record.mean_deviation * n_old + figures.mean_deviation * n_new) / (n_old + n_new);
+  ++record.n_edits;
+  record.n_moved += figures.n_moved;
+  record.n_duplicated += figures.n_duplicated;
+  record.n_opened_facets += figures.n_opened_facets;
+  record.largest_deviation = std::max(record.largest_deviation, figures.largest_deviation);
+  record.mean_edge = figures.mean_edge;
+}
+
+void note_edit(Simulation& s, const MeshEdit& edit, const CutFigures& figures, GlobalState& global,
+               CutRecord& record) {
+  add_figures(figures, !edit.is_empty(), record);
+  if (edit.is_empty()) return;
+  const std::int32_t n_before = s.mesh.n_elements();
+  apply_cut(s, edit, global, record);
+  const std::int64_t difference = s.mesh.n_elements() - n_before;
+  record.n_elements_added += std::max<std::int64_t>(difference, 0);
+  record.n_elements_dissolved += std::max<std::int64_t>(-difference, 0);
+}
+
+void cut_volume(Simulation& s, CutStage& stage, const FrameSpan& span, bool is_last,
+                GlobalState& global) {
+  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  const Pose pose = tool.path.at(0.5 * (span.t0 + span.t1));
+  const BladeSweep sweep{.before = edge_at(tool, span.t0),
+                         .after = edge_at(tool, span.t1),
+                         .normal = pose.rotation * Vec3::UnitY()};
+  CutFigures figures;
+  const auto is_held = held_nodes(s.holds, s.fixed);
+  const MeshEdit edit = stage.tet.advance(s.mesh, global.x, is_held, sweep, is_last, figures);
+  note_edit(s, edit, figures, global, stage.strokes.back());
+}
+
+// Takes up the tip's path in reference positions and cuts a piece of it once it is long enough.
+void cut_plane_piece(Simulation& s, CutStage& stage, const FrameSpan& span, bool is_last,
+                     GlobalState& global) {
+  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  std::vector<Vec3>& path = stage.plane_path;
+  if (path.empty()) {
+    const Location start = locate_nearest(s.mesh, global.x, tool.path.at(span.t0).translation);
+    path.push_back(interpolate(s.mesh, start, s.mesh.X));
+  }
+  const Location place = locate_nearest(s.mesh, global.x, tool.path.at(span.t1).translation);
+  const Vec3 point = interpolate(s.mesh, place, s.mesh.X);
+  if ((point - path.back()).norm() > 1e-9) path.push_back(point);
+  double length = 0;
+  for (std::size_t k = 1; k < path.size(); ++k) length += (path[k] - path[k - 1]).norm();
+  const double h = mean_edge_length(s.mesh);
+  if (path.size() < 2 || length < (is_last ? 0.5 * h : plane_advance * h)) return;
+
+  const CutPlaneOptions options{.is_robust = s.scene.cutting.mode == CutMode::robust,
+                                .spring = s.scene.cutting.spring,
+                                .particle = s.scene.cutting.particle};
+  const PlaneCut cut =
+      cut_plane(s.mesh, path, stage.plane_tip, held_nodes(s.holds, s.fixed), options);
+  note_edit(s, cut.edit, cut.figures, global, stage.strokes.back());
+  if (cut.edit.is_empty()) return;  // refused here: tried again with a longer path
+  stage.plane_tip = cut.tip;
+  path = {cut.tip >= 0 ? s.mesh.X[static_cast<std::size_t>(cut.tip)] : path.back()};
+}
+
+void end_stroke(const Simulation& s, CutStage& stage, double time) {
+  stage.is_in_stroke = false;
+  stage.plane_path.clear();
+  stage.strokes.back().end = time;
+  stage.strokes.back().scene_step_ratio = s.watch.stable_step / s.stable_step_before_cut;
+}
+
+// The tissue holds back the blade against its motion, in proportion to the edge inside.
+void set_resistance(const Simulation& s, const FrameSpan& span, CutStage& stage) {
+  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  const Vec3 motion = tool.path.at(span.t1).translation - tool.path.at(span.t0).translation;
+  const double distance = std::sqrt(motion.dot(motion));
+  stage.resistance = Vec3::Zero();
+  if (distance > 1e-9)
+    stage.resistance = -s.scene.cutting.resistance * stage.engaged_length / distance * motion;
+}
+
+// True if this is the blade's last frame in the tissue.
+bool leaves_tissue(CutStage& stage, bool is_near) {
+  stage.n_idle_frames = stage.engaged.empty() ? stage.n_idle_frames + 1 : 0;
+  return !is_near || stage.n_idle_frames >= idle_frames_to_leave;
+}
+
+void add_to_record(const Simulation& s, const FrameSpan& span, CutStage& stage,
+                   double milliseconds) {
+  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  CutRecord& record = stage.strokes.back();
+  record.end = span.t1;
+  record.milliseconds += milliseconds;
+  record.worst_milliseconds = std::max(record.worst_milliseconds, milliseconds);
+  if (stage.engaged.empty()) return;
+  record.blade_travel += tool.path.travel(span.t0, span.t1, 0);
+  record.deepest = std::max(record.deepest, stage.engaged_length);
+}
+
+void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, CutStage& stage,
+                     std::optional<GlobalState>& global) {
+  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  const std::vector<Vec3> edge = edge_at(tool, span.t1);
+  Box blade;
+  for (const Vec3& point : edge) blade.add(point);
+  for (const Vec3& point : edge_at(tool, span.t0)) blade.add(point);
+  const bool is_near = blade.meets(tissue);
+  stage.engaged.clear();
+  stage.resistance = Vec3::Zero();
+  if (!is_near && !stage.is_in_stroke) return;
+
+  const double start = monotonic_seconds();
+  if (!global) global = gather_state(s);
+  locate_edge(s, *global, edge, stage);
+  if (!stage.is_in_stroke) {
+    if (stage.engaged.empty()) return;
+    s.stable_step_before_cut = s.watch.stable_step;
+    start_stroke(stage, tool, span.t1, s.mesh.dimension());
+  }
+  const bool is_last = leaves_tissue(stage, is_near);
+  if (s.mesh.dimension() == 2)
+    cut_plane_piece(s, stage, span, is_last, *global);
+  else
+    cut_volume(s, stage, span, is_last, *global);
+  locate_edge(s, *global, edge, stage);
+  set_resistance(s, span, stage);
+  add_to_record(s, span, stage, 1e3 * (monotonic_seconds() - start));
+  if (is_last) end_stroke(s, stage, span.t1);
+}
+
+}  // namespace
+
+void cut_along_blades(Simulation& s, const FrameSpan& span) {
+  const PhaseScope scope(s.timers, phase_cut);
+  const Box tissue = surface_box(s);
+  std::optional<GlobalState> global;  // gathered by the first blade that is near
+  for (CutStage& stage : s.cuts) cut_along_blade(s, span, tissue, stage, global);
+}
+
+void add_cut_resistance(const Simulation& s, std::span<double> force) {
+  for (const CutStage& stage : s.cuts)
+    for (const Location& location : stage.engaged) {
+      const auto corner = s.mesh.corners(location.element);
+      const Vec3 drag = -stage.resistance / static_cast<double>(stage.engaged.size());
+      for (std::size_t a = 0; a < corner.size(); ++a) {
+        const std::int32_t local = s.part.node_local[static_cast<std::size_t>(corner[a])];
+        if (local < 0 || local >= s.part.n_owned) continue;
+        for (std::size_t i = 0; i < 3; ++i)
+          force[static_cast<std::size_t>(local) * 3 + i] +=
+              location.weight[a] * drag[static_cast<Eigen::Index>(i)];
+      }
+    }
+}
+
+}  // namespace trocar

@@ -1,0 +1,56 @@
+// A scalpel's cut between two frames: from the blade's motion to an edited simulation.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cutting/cut_plane.h"
+#include "cutting/cut_tet.h"
+#include "engine/contact_stage.h"
+#include "engine/locate.h"
+
+namespace trocar {
+
+struct Simulation;
+
+// One stroke of a blade, from entry to exit: the cut ledger of the summary.
+struct CutRecord {
+  std::string tool;
+  double start = 0, end = 0;  // [s]
+  std::int64_t n_edits = 0, n_refused = 0;
+  std::int64_t n_moved = 0, n_duplicated = 0, n_opened_facets = 0;
+  std::int64_t n_elements_added = 0, n_elements_dissolved = 0;
+  double stable_step_ratio =
+      1;  // least stable step after / before, of the elements around, worst edit
+  double scene_step_ratio = 1;  // of the whole body, after / before the stroke
+  double least_quality = 1;
+  double mass_change = 0;            // largest |relative| of an edit
+  double momentum_change = 0;        // |P after - P before| / sum |m v| around the cut, largest
+  double kinetic_energy_change = 0;  // summed [J]
+  double largest_deviation = 0, mean_deviation = 0, mean_edge = 0;  // [m]
+  double blade_travel = 0,
+         deepest = 0;  // of the tip inside the tissue; depth of the edge inside [m]
+  double milliseconds = 0, worst_milliseconds = 0;
+};
+
+struct CutStage {
+  std::int32_t tool = 0;
+  TetCutter tet;
+  std::vector<Vec3> plane_path;  // swept by the tip since the last edit, reference positions [m]
+  std::int32_t plane_tip = -1;
+  bool is_in_stroke = false;
+  int n_idle_frames = 0;
+  std::vector<CutRecord> strokes;
+  // Edge points inside the tissue this frame, where the blade's resistance acts.
+  std::vector<Location> engaged;
+  double engaged_length = 0;       // [m]
+  Vec3 resistance = Vec3::Zero();  // of the tissue on the blade [N]
+};
+
+// Cuts along all blades' motion in the frame and applies the edits. Collective.
+void cut_along_blades(Simulation& s, const FrameSpan& span);
+
+// Adds the drag of engaged blades to the force of owned nodes, equal in every substep of a frame.
+void add_cut_resistance(const Simulation& s, std::span<double> force);
+
+}  // namespace trocar

@@ -1,0 +1,49 @@
+// Draws the frames of all picture outputs in a thread of its own, while the next frame is computed.
+// Rank 0 only.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/scene.h"
+#include "engine/tool.h"
+#include "mesh/facets.h"
+
+namespace trocar {
+
+// A picture that a scene asks for.
+struct FilmOrder {
+  OutputKind kind = OutputKind::video;
+  std::string file;  // full path; frames: a folder
+  SceneCamera camera;
+  int width = 1280, height = 720;
+  double frame_rate = 30;     // of a video [1/s]
+  std::int64_t n_frames = 0;  // that will come, for the nine moments of a contact sheet
+};
+
+// All that a frame's picture needs, copied out of the simulation.
+struct FilmFrame {
+  std::int64_t number = 0;  // of the frame
+  double time = 0;          // [s]
+  std::vector<Vec3> x, X;   // (n_nodes)
+  Surface surface;
+  std::vector<std::size_t> orders;  // which orders want it
+};
+
+class FilmStudio {
+ public:
+  // Tools are drawn at their path. Throws MachineError if the renderer or ffmpeg can't be started.
+  FilmStudio(std::vector<FilmOrder> orders, SceneLook look, bool is_plane, std::vector<Tool> tools);
+  ~FilmStudio();
+  // Waits while two frames are under way. Throws what went wrong in the thread.
+  void add(FilmFrame frame);
+  void finish();
+  double seconds() const;  // of drawing, so far
+
+ private:
+  struct Thread;
+  std::unique_ptr<Thread> thread_;
+};
+
+}  // namespace trocar

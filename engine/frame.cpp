@@ -1,0 +1,103 @@
+// One frame of a running scene, top to bottom (the whole program exists to call run_frame).
+#include "engine/frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.h"
+#include "engine/apply_cut.h"
+#include "engine/frame_report.h"
+#include "engine/frame_watch.h"
+#include "solver/step.h"
+
+namespace trocar {
+
+namespace {
+
+FrameSpan plan_frame(const Simulation& s) {
+  const double length = 1 / s.scene.time.frame_rate;
+  FrameSpan span;
+  span.t0 = static_cast<double>(s.frame) / s.scene.time.frame_rate;
+  span.t1 = static_cast<double>(s.frame + 1) / s.scene.time.frame_rate;
+  const double dt = s.scene.solver.step_factor * s.step_scale * s.watch.stable_step;
+  span.n_substeps = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / dt)));
+  span.dt = length / static_cast<double>(span.n_substeps);
+  return span;
+}
+
+void grasp(Simulation& s, const FrameSpan& span) {
+  const double before = static_cast<double>(s.frame - 1) / s.scene.time.frame_rate;
+  if (!will_act(s.tools, before, span.t0)) return;
+  const int n_taken = act_graspers(s.holds, s.tools, before, span.t0, gather_state(s).x, s.fixed);
+  localise_holds(s.holds, s.part);
+  note_event(s, span.t0,
+             n_taken > 0 ? "grasper closes on " + std::to_string(n_taken) + " nodes"
+                         : "grasper opens or closes on nothing");
+}
+
+void detect(Simulation& s, const FrameSpan& span) {
+  const PhaseScope scope(s.timers, phase_detect);
+  detect_contacts(*s.contact, s.tools, s.holds, s.view, span, s.contact_reach);
+  prepare_frame_contacts(*s.contact, s.part, s.mass, span.dt);
+}
+
+void substep(Simulation& s, const FrameSpan& span, double t) {
+  {
+    const PhaseScope scope(s.timers, phase_force);
+    compute_force(s.model, s.state, s.scratch);
+  }
+  if (s.contact) {
+    const PhaseScope scope(s.timers, phase_contact);
+    ContactStage& contact = *s.contact;
+    move_tools(s.tools, t, span.dt, contact.motion);
+    add_contact_force(contact.set, s.part, s.mesh.X, s.state.u, s.state.v, contact.motion,
+                      contact.options, s.scratch.force, contact.reaction);
+    add_contact_reactions(contact);
+    add_cut_resistance(s, s.scratch.force);
+  }
+  {
+    const PhaseScope scope(s.timers, phase_integrate);
+    aim_holds(s.holds, s.tools, s.mesh.X, t + span.dt);
+    integrate(s.model, s.scratch, s.holds.prescribed, span.dt, s.state);
+    add_hold_reactions(s.holds);
+  }
+  const PhaseScope scope(s.timers, phase_exchange);
+  s.exchange_u->exchange(s.state.u, *s.communicator);
+  s.exchange_v->exchange(s.state.v, *s.communicator);
+}
+
+// All substeps of the frame; on trouble back to its beginning with half the step, at most
+// `most_roll_backs` times.
+FrameSpan step_safely(Simulation& s) {
+  const State good = s.state;
+  for (int tries = 0;; ++tries) {
+    const FrameSpan span = plan_frame(s);
+    if (s.contact) detect(s, span);
+    for (std::int64_t k = 0; k < span.n_substeps; ++k)
+      substep(s, span, span.t0 + static_cast<double>(k) * span.dt);
+    watch_state(s);
+    const std::string trouble = find_trouble(s);
+    if (trouble.empty()) return span;
+    s.state = good;
+    roll_back(s, trouble, tries);
+  }
+}
+
+}  // namespace
+
+void run_frame(Simulation& s, Outputs& outputs) {
+  const double start = monotonic_seconds();
+  grasp(s, plan_frame(s));
+  const FrameSpan span = step_safely(s);
+  FrameRow row = report_forces(s, span);
+  if (!s.cuts.empty()) cut_along_blades(s, span);
+  ++s.frame;
+  if (needs_surface(s, outputs)) refresh_surface(s);
+  report_state(s, row);
+  row.seconds = monotonic_seconds() - start;
+  write_outputs(s, outputs, row);
+  wait_for_deadline(s, row);
+  s.log.rows.push_back(std::move(row));
+}
+
+}  // namespace trocar

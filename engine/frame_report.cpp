@@ -1,0 +1,132 @@
+#include "engine/frame_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "base/digest.h"
+#include "base/exact_sum.h"
+#include "base/log.h"
+
+namespace trocar {
+
+namespace {
+
+// Mean over the frame of what the tissue does to each tool: contact, held nodes, the blade's
+// resistance.
+void sum_forces(Simulation& s, const FrameSpan& span, FrameRow& row) {
+  std::vector<std::array<ExactSum, 3>> sums(s.tools.size());
+  if (s.contact) sum_contact_reactions(*s.contact, span.n_substeps, sums);
+  sum_hold_reactions(s.holds, span.n_substeps, sums);
+  row.tools.resize(s.tools.size());
+  for (std::size_t k = 0; k < s.tools.size(); ++k) {
+    row.tools[k].position = s.tools[k].path.at(span.t1).translation;
+    for (std::size_t i = 0; i < 3; ++i) {
+      sums[k][i].all_sum(*s.communicator);
+      row.tools[k].force[static_cast<Eigen::Index>(i)] = sums[k][i].value();
+    }
+  }
+  for (const CutStage& stage : s.cuts)
+    row.tools[static_cast<std::size_t>(stage.tool)].force += stage.resistance;
+}
+
+double sum_over_ranks(const std::vector<double>& terms, const Communicator& communicator) {
+  ExactSum sum;
+  for (const double term : terms) sum.add(term);
+  sum.all_sum(communicator);
+  return sum.value();
+}
+
+void report_energies(Simulation& s, FrameRow& row) {
+  energy_terms(s.model, s.part, s.state, s.energies);
+  row.kinetic = sum_over_ranks(s.energies.kinetic, *s.communicator);
+  row.strain = sum_over_ranks(s.energies.strain, *s.communicator);
+  row.hourglass = sum_over_ranks(s.energies.hourglass, *s.communicator);
+}
+
+// Partner nodes lay on each other when they were cut apart: their distance is how far the wound
+// gapes.
+void report_wound(const Simulation& s, FrameRow& row) {
+  double sum = 0;
+  for (std::size_t k = 0; k < s.duplicate_node.size(); ++k) {
+    const Vec3 gap = s.view.x[static_cast<std::size_t>(s.duplicate_node[k])] -
+                     s.view.x[static_cast<std::size_t>(s.duplicate_parent[k])];
+    row.wound_width = std::max(row.wound_width, gap.norm());
+    sum += gap.norm();
+  }
+  if (!s.duplicate_node.empty())
+    row.wound_width_mean = sum / static_cast<double>(s.duplicate_node.size());
+}
+
+void keep_extremes(Simulation& s) {
+  if (s.watch.least_J < s.log.least_J) {
+    s.log.least_J = s.watch.least_J;
+    s.log.least_J_element = s.watch.least_J_element;
+  }
+  s.log.least_stable_step = std::min(s.log.least_stable_step, s.watch.stable_step);
+  s.log.largest_stable_step = std::max(s.log.largest_stable_step, s.watch.stable_step);
+}
+
+}  // namespace
+
+void refresh_surface(Simulation& s) {
+  const PhaseScope scope(s.timers, phase_gather);
+  gather_surface(s.view, s.mesh.X, s.state.u, *s.communicator);
+}
+
+FrameRow report_forces(Simulation& s, const FrameSpan& span) {
+  FrameRow row{.frame = s.frame + 1,
+               .step = s.state.step,
+               .n_substeps = span.n_substeps,
+               .time = span.t1,
+               .dt = span.dt};
+  sum_forces(s, span, row);
+  if (s.contact) row.n_contacts = static_cast<std::int64_t>(s.contact->contacts.size());
+  row.n_held = static_cast<std::int64_t>(s.holds.holds.size());
+  return row;
+}
+
+void report_state(Simulation& s, FrameRow& row) {
+  row.stable_step = s.watch.stable_step;
+  row.least_J = s.watch.least_J;
+  if (s.reports_energies) report_energies(s, row);
+  if (!s.duplicate_node.empty()) report_wound(s, row);
+  for (const CutStage& stage : s.cuts)
+    for (const CutRecord& stroke : stage.strokes) row.n_edits += stroke.n_edits;
+  keep_extremes(s);
+}
+
+void note_event(Simulation& s, double time, const std::string& event) {
+  char stamp[32];
+  std::snprintf(stamp, sizeof stamp, "%.3f s: ", time);
+  s.log.events.push_back(stamp + event);
+  log_info(stamp + event);
+}
+
+std::uint64_t state_digest(const Simulation& s) {
+  std::uint64_t sum = 0;
+  for (std::int32_t i = 0; i < s.part.n_owned; ++i) {
+    const auto k = static_cast<std::size_t>(i) * 3;
+    const auto global = static_cast<std::uint64_t>(s.part.node_global[static_cast<std::size_t>(i)]);
+    const Vec3& X = s.mesh.X[global];
+    const std::array<double, 9> values = {X[0],
+                                          X[1],
+                                          X[2],
+                                          s.state.u[k],
+                                          s.state.u[k + 1],
+                                          s.state.u[k + 2],
+                                          s.state.v[k],
+                                          s.state.v[k + 1],
+                                          s.state.v[k + 2]};
+    sum += digest_item(global, values);
+  }
+  sum = s.communicator->all_sum(sum);
+  for (std::int32_t e = 0; e < s.mesh.n_elements(); ++e)
+    sum += digest_item((std::uint64_t{1} << 40) + static_cast<std::uint64_t>(e), s.mesh.corners(e));
+  const std::array<double, 2> clock = {s.state.time, s.state.last_dt};
+  sum += digest_item((std::uint64_t{1} << 41) + static_cast<std::uint64_t>(s.state.step), clock);
+  return sum;
+}
+
+}  // namespace trocar

@@ -1,0 +1,23 @@
+// What a frame tells: surface positions, forces on the instruments, energies, the wound.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/simulation.h"
+
+namespace trocar {
+
+// New surface positions on every rank. Collective.
+void refresh_surface(Simulation& s);
+// Forces on the instruments over the substeps; before a cut changes what touches them. Collective.
+FrameRow report_forces(Simulation& s, const FrameSpan& span);
+// The rest of the row, after the cut. Collective.
+void report_state(Simulation& s, FrameRow& row);
+// To the log of the summary and, on rank 0, to the terminal.
+void note_event(Simulation& s, double time, const std::string& event);
+// 64-bit digest of nodes, velocities, connectivity, time and step; equal for any number of ranks
+// and threads. Collective.
+std::uint64_t state_digest(const Simulation& s);
+
+}  // namespace trocar

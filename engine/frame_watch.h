@@ -1,0 +1,22 @@
+// What is looked at after the substeps of a frame, and what is done about trouble.
+#pragma once
+
+#include <string>
+
+#include "engine/simulation.h"
+
+namespace trocar {
+
+inline constexpr int most_roll_backs = 4;
+
+// Sets s.watch to that of all ranks. Collective.
+void watch_state(Simulation& s);
+// A sentence with element or node and cause, "" if all is well. The same on every rank.
+std::string find_trouble(const Simulation& s);
+// Halves the step for what follows; throws SimulationError after most_roll_backs tries.
+void roll_back(Simulation& s, const std::string& trouble, int tries);
+
+// Sleeps until the frame's deadline if the scene runs in real time, and counts a miss.
+void wait_for_deadline(Simulation& s, const struct FrameRow& row);
+
+}  // namespace trocar

@@ -1,0 +1,121 @@
+#include "engine/holds.h"
+
+#include <algorithm>
+
+namespace trocar {
+
+namespace {
+
+bool acts_within(const InstrumentKey& key, double t0, double t1) {
+  return key.action != GraspAction::none && key.time > t0 && key.time <= t1;
+}
+
+void release(Holds& holds, std::int32_t tool) {
+  std::erase_if(holds.holds, [&](const Hold& hold) { return hold.tool == tool; });
+}
+
+int grasp(Holds& holds, const Tool& tool, std::int32_t number, const Pose& pose,
+          std::span<const Vec3> x, std::span<const std::uint8_t> fixed) {
+  const std::vector<std::uint8_t> is_held = held_nodes(holds, fixed);
+  int n_taken = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Vec3 offset = pose.apply_inverse(x[i]);
+    if (is_held[i] || offset.squaredNorm() > tool.grip_radius * tool.grip_radius) continue;
+    holds.holds.push_back({.node = static_cast<std::int32_t>(i), .tool = number, .offset = offset});
+    ++n_taken;
+  }
+  std::sort(holds.holds.begin(), holds.holds.end(),
+            [](const Hold& a, const Hold& b) { return a.node < b.node; });
+  return n_taken;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> held_nodes(const Holds& holds, std::span<const std::uint8_t> fixed) {
+  constexpr FixedMask in_plane =
+      3;  // a plane body is fixed across its plane everywhere: that holds nothing
+  std::vector<std::uint8_t> is_held;
+  for (const FixedMask mask : fixed) is_held.push_back((mask & in_plane) != 0);
+  for (const Hold& hold : holds.holds) is_held[static_cast<std::size_t>(hold.node)] = 1;
+  return is_held;
+}
+
+bool will_act(std::span<const Tool> tools, double t0, double t1) {
+  for (const Tool& tool : tools)
+    for (const InstrumentKey& key : tool.keys)
+      if (acts_within(key, t0, t1)) return true;
+  return false;
+}
+
+int act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,
+                 std::span<const Vec3> x, std::span<const std::uint8_t> fixed) {
+  int n_taken = -1;
+  for (std::size_t k = 0; k < tools.size(); ++k)
+    for (const InstrumentKey& key : tools[k].keys) {
+      if (!acts_within(key, t0, t1)) continue;
+      const auto number = static_cast<std::int32_t>(k);
+      n_taken = std::max(n_taken, 0);
+      holds.is_open[k] = key.action == GraspAction::open;
+      release(holds, number);
+      if (key.action == GraspAction::close)
+        n_taken += grasp(holds, tools[k], number, tools[k].path.at(t1), x, fixed);
+    }
+  return n_taken;
+}
+
+void localise_holds(Holds& holds, const Part& part) {
+  holds.owned.clear();
+  holds.prescribed.clear();
+  for (std::size_t k = 0; k < holds.holds.size(); ++k) {
+    const std::int32_t local = part.node_local[static_cast<std::size_t>(holds.holds[k].node)];
+    if (local < 0 || local >= part.n_owned) continue;
+    holds.owned.push_back(static_cast<std::int32_t>(k));
+    holds.prescribed.push_back({.node = local});
+  }
+  holds.reaction_sum.assign(holds.owned.size(), Vec3::Zero());
+}
+
+void apply_edit_to_holds(const MeshEdit& edit, std::int32_t n_nodes_before, Holds& holds) {
+  // In the order of the new numbers, so that the list stays ascending.
+  for (std::size_t d = 0; d < edit.duplicate_parent.size(); ++d) {
+    const std::int32_t parent = edit.duplicate_parent[d];
+    const auto hold =
+        std::lower_bound(holds.holds.begin(), holds.holds.end(), parent,
+                         [](const Hold& h, std::int32_t node) { return h.node < node; });
+    if (hold == holds.holds.end() || hold->node != parent) continue;
+    Hold partner = *hold;
+    partner.node = n_nodes_before + static_cast<std::int32_t>(d);
+    holds.holds.push_back(partner);
+  }
+}
+
+void aim_holds(Holds& holds, std::span<const Tool> tools, std::span<const Vec3> X, double time) {
+  if (holds.owned.empty()) return;
+  for (std::size_t k = 0; k < tools.size(); ++k) holds.poses[k] = tools[k].path.at(time);
+  for (std::size_t k = 0; k < holds.owned.size(); ++k) {
+    const Hold& hold = holds.holds[static_cast<std::size_t>(holds.owned[k])];
+    holds.prescribed[k].u_next =
+        hold.tool >= 0 ? Vec3(holds.poses[static_cast<std::size_t>(hold.tool)].apply(hold.offset) -
+                              X[static_cast<std::size_t>(hold.node)])
+                       : holds.paths[static_cast<std::size_t>(hold.support)].at(time);
+  }
+}
+
+void add_hold_reactions(Holds& holds) {
+  for (std::size_t k = 0; k < holds.owned.size(); ++k)
+    holds.reaction_sum[k] += holds.prescribed[k].reaction;
+}
+
+void sum_hold_reactions(Holds& holds, std::int64_t n_substeps,
+                        std::span<std::array<ExactSum, 3>> force) {
+  for (std::size_t k = 0; k < holds.owned.size(); ++k) {
+    const Hold& hold = holds.holds[static_cast<std::size_t>(holds.owned[k])];
+    const Vec3 mean = holds.reaction_sum[k] / static_cast<double>(n_substeps);
+    holds.reaction_sum[k] = Vec3::Zero();
+    if (hold.tool < 0) continue;
+    for (std::size_t i = 0; i < 3; ++i)  // the tissue pulls back on the tool
+      force[static_cast<std::size_t>(hold.tool)][i].add(-mean[static_cast<Eigen::Index>(i)]);
+  }
+}
+
+}  // namespace trocar

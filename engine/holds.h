@@ -1,0 +1,60 @@
+// Nodes whose motion is given: held by a grasper, or a support that moves.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/communicator.h"
+#include "base/exact_sum.h"
+#include "engine/tool.h"
+#include "mesh/edit.h"
+#include "mesh/partition.h"
+#include "solver/step.h"
+
+namespace trocar {
+
+// A node held by tool `tool` at `offset` in the tool's frame, or moved by support path `support`.
+// [m]
+struct Hold {
+  std::int32_t node = 0;  // global
+  std::int32_t tool = -1;
+  std::int32_t support = -1;
+  Vec3 offset = Vec3::Zero();
+};
+
+struct Holds {
+  std::vector<Hold> holds;                 // ascending node, a node once
+  std::vector<DisplacementPath> paths;     // of moving supports
+  std::vector<std::int32_t> owned;         // positions in `holds` of this rank's nodes
+  std::vector<PrescribedNode> prescribed;  // (owned.size())
+  std::vector<Vec3> reaction_sum;          // (owned.size()) over the substeps of this frame [N]
+  std::vector<Pose> poses;                 // (n_tools) at the end of the substep
+  std::vector<std::uint8_t> is_open;       // (n_tools) last action done was not `close`
+};
+
+// 1 for each node (n_nodes) that is held by anything or supported in x or y.
+std::vector<std::uint8_t> held_nodes(const Holds& holds, std::span<const std::uint8_t> fixed);
+
+// Closes and opens graspers whose key time lies in (t0, t1]; x (n_nodes) all present positions.
+// Nodes within the grip radius of the tip that nothing else holds are taken. Returns the number of
+// nodes taken, -1 if no grasper acted.
+int act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,
+                 std::span<const Vec3> x, std::span<const std::uint8_t> fixed);
+bool will_act(std::span<const Tool> tools, double t0, double t1);
+
+// After a change of part, holds or topology.
+void localise_holds(Holds& holds, const Part& part);
+// A partner of a held node is held too, at the same offset.
+void apply_edit_to_holds(const MeshEdit& edit, std::int32_t n_nodes_before, Holds& holds);
+
+// Targets at the end of the substep. X (n_nodes).
+void aim_holds(Holds& holds, std::span<const Tool> tools, std::span<const Vec3> X, double time);
+// After integrate: adds the reactions to reaction_sum.
+void add_hold_reactions(Holds& holds);
+// Mean force of the tissue on each tool through its holds, over n substeps; adds to force
+// (n_tools), exact in any order.
+void sum_hold_reactions(Holds& holds, std::int64_t n_substeps,
+                        std::span<std::array<ExactSum, 3>> force);
+
+}  // namespace trocar

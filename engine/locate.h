@@ -1,0 +1,24 @@
+// Which element of a simplex mesh holds a point.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+struct Location {
+  std::int32_t element = -1;       // -1: outside all elements
+  std::array<double, 4> weight{};  // barycentric
+};
+
+// In positions x; the lowest element number wins on a border. O(n_elements) box tests.
+Location locate_point(const Mesh& mesh, std::span<const Vec3> x, const Vec3& point);
+// As before; outside the body the element whose least weight is largest (extrapolated weights).
+Location locate_nearest(const Mesh& mesh, std::span<const Vec3> x, const Vec3& point);
+// sum of weight * field at the element's corners.
+Vec3 interpolate(const Mesh& mesh, const Location& location, std::span<const Vec3> field);
+
+}  // namespace trocar

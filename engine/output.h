@@ -1,0 +1,47 @@
+// Everything that a run writes. Which output is due is known on every rank; rank 0 writes.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/frame_log.h"
+#include "engine/recording.h"
+#include "engine/scene.h"
+
+namespace trocar {
+
+struct Simulation;
+class FilmStudio;
+class MetricsFile;
+
+struct OutputSlot {
+  OutputKind kind = OutputKind::metrics;
+  std::string file;           // full path
+  std::int64_t interval = 1;  // [frames]
+  bool is_due(std::int64_t frame) const { return frame % interval == 0; }
+};
+
+// The writers exist on rank 0 only, and only those that the scene asks for.
+struct Outputs {
+  std::vector<OutputSlot> slots;
+  std::unique_ptr<FilmStudio> studio;
+  std::vector<std::unique_ptr<MetricsFile>> metrics;  // one a slot, null for other kinds
+  std::vector<std::unique_ptr<RecordingWriter>> recordings;
+
+  Outputs();
+  ~Outputs();
+  Outputs(Outputs&&) noexcept;
+};
+
+// Makes the folder and opens all files. Collective; throws MachineError on every rank if the folder
+// can't be written.
+Outputs open_outputs(Simulation& s, const std::string& folder);
+// Collective.
+void write_outputs(Simulation& s, Outputs& outputs, const FrameRow& row);
+// Waits for encoders and closes files. Throws MachineError on rank 0.
+void finish_outputs(Outputs& outputs);
+// True if anything of the next frame looks at surface positions.
+bool needs_surface(const Simulation& s, const Outputs& outputs);
+
+}  // namespace trocar

@@ -1,0 +1,72 @@
+#include "engine/predict.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "base/threads.h"
+#include "base/timers.h"
+#include "mesh/quality.h"
+#include "solver/step.h"
+
+namespace trocar {
+
+namespace {
+
+// Seconds of one step at rest, the slowest rank's, from about a quarter of a second of steps on a
+// copy of the state.
+double measure_step(Simulation& s, double dt) {
+  const State kept = s.state;
+  const double start = monotonic_seconds();
+  int n = 0;
+  double elapsed = 0;
+  while (elapsed < 0.25) {
+    for (int k = 0; k < 20; ++k, ++n) {
+      compute_force(s.model, s.state, s.scratch);
+      integrate(s.model, s.scratch, {}, dt, s.state);
+      s.exchange_u->exchange(s.state.u, *s.communicator);
+      s.exchange_v->exchange(s.state.v, *s.communicator);
+    }
+    elapsed = s.communicator->all_max(monotonic_seconds() -
+                                      start);  // all ranks make the same number of rounds
+  }
+  s.state = kept;
+  return elapsed / n;
+}
+
+std::string line(const char* name, const char* format, double value) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, value);
+  char row[240];
+  std::snprintf(row, sizeof row, "  %-22s %s\n", name, text);
+  return row;
+}
+
+}  // namespace
+
+std::string predict(Simulation& s) {
+  const MeshStatistics m = mesh_statistics(s.mesh);
+  const double frame = 1 / s.scene.time.frame_rate;
+  const double limit = s.scene.solver.step_factor * s.watch.stable_step;
+  const double n_substeps = std::ceil(frame / limit);
+  const double step_seconds = measure_step(s, frame / n_substeps);
+  const auto bytes =
+      s.communicator->all_sum(static_cast<std::uint64_t>(memory_bytes(s.model, s.scratch)));
+  std::string text = s.scene.name + "\n";
+  text += line("nodes", "%.0f", m.n_nodes);
+  text += line("elements", "%.0f", s.mesh.n_elements());
+  text += line("body", "%.4g m on its longest side", (m.high - m.low).maxCoeff());
+  text += line("least quality", "%.3f (mean ratio, 1 is ideal)", m.quality_min);
+  text += line("stable step", "%.4g ms", 1e3 * s.watch.stable_step);
+  text += line("set by element", "%.0f", s.watch.stable_element);
+  text += line("steps a frame", "%.0f", n_substeps);
+  text += line("steps a second", "%.0f (without contact, cuts and pictures)", 1 / step_seconds);
+  text +=
+      line("memory", "%.1f MB for model and scratch, all ranks", static_cast<double>(bytes) / 1e6);
+  text +=
+      line("ranks x threads", "%.0f", static_cast<double>(s.communicator->size()) * thread_count());
+  text += line("real-time factor", "%.2f predicted for the steps alone",
+               frame / (n_substeps * step_seconds));
+  return text;
+}
+
+}  // namespace trocar

@@ -1,0 +1,118 @@
+#include "engine/blob.h"
+#include "engine/bytes.h"
+#include "engine/database.h"
+#include "engine/recording.h"
+#include "engine/recording_schema.h"
+
+namespace trocar {
+
+namespace {
+
+std::vector<std::byte> surface_bytes(const TriangleMesh& surface) {
+  Mesh carrier{.X = surface.X};
+  for (const auto& triangle : surface.triangle) add_element(carrier, ElementType::tri3, triangle);
+  return mesh_to_bytes(carrier);
+}
+
+void bind_blob(Statement& statement, int k, const Blob& blob) {
+  statement.bind(k, std::span<const std::byte>(blob.packed));
+  statement.bind(k + 1, static_cast<std::int64_t>(blob.plain_size));
+  statement.bind(k + 2, static_cast<std::int64_t>(blob.crc));
+}
+
+}  // namespace
+
+struct RecordingWriter::Database {
+  trocar::Database file;  // the tables and the head are there before the statements are prepared
+  Statement add_edit, add_frame;
+  FramePlace next;
+
+  Database(const std::string& name, const RecordingHead& head)
+      : file(name, trocar::Database::Mode::create),
+        add_edit((write_head(head), file), "INSERT INTO edit VALUES (?, ?, ?, ?, ?, ?)"),
+        add_frame(file, "INSERT INTO frame VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)") {}
+  void write_head(const RecordingHead& head);
+  void write_tool(std::int64_t number, const TriangleMesh& surface);
+  void write_edit(const FrameEdit& edit, std::int64_t frame);
+  void write_frame(const RecordedFrame& frame);
+};
+
+void RecordingWriter::Database::write_head(const RecordingHead& head) {
+  file.run(std::string("BEGIN;") + recording_tables);
+  const Blob mesh = pack_blob(mesh_to_bytes(head.mesh), 1);
+  const auto n_tools = static_cast<std::int64_t>(head.tool_meshes.size());
+  Statement insert(file, "INSERT INTO head VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+  insert.bind(0, std::int64_t{recording_format})
+      .bind(1, head.version)
+      .bind(2, head.scene)
+      .bind(3, n_tools);
+  insert.bind(4, std::int64_t{row_crc("head", head.version, head.scene, n_tools, mesh.crc)});
+  bind_blob(insert, 5, mesh);
+  insert.step();
+  for (std::int64_t k = 0; k < n_tools; ++k)
+    write_tool(k, head.tool_meshes[static_cast<std::size_t>(k)]);
+  file.run("COMMIT");
+}
+
+void RecordingWriter::Database::write_tool(std::int64_t number, const TriangleMesh& surface) {
+  const Blob packed = pack_blob(surface_bytes(surface), 1);
+  Statement add_tool(file, "INSERT INTO tool VALUES (?, ?, ?, ?, ?)");
+  add_tool.bind(0, number).bind(1, std::int64_t{row_crc("tool", number, packed.crc)});
+  bind_blob(add_tool, 2, packed);
+  add_tool.step();
+}
+
+void RecordingWriter::Database::write_edit(const FrameEdit& edit, std::int64_t frame) {
+  const Blob change = pack_blob(edit_to_bytes(edit.edit), 1);
+  const std::int64_t number = next.n_edits++;
+  add_edit.bind(0, number).bind(1, frame).bind(
+      2, std::int64_t{row_crc("edit", number, frame, change.crc)});
+  bind_blob(add_edit, 3, change);
+  add_edit.step();
+  add_edit.reset();
+}
+
+void RecordingWriter::Database::write_frame(const RecordedFrame& frame) {
+  const Blob u = pack_blob(std::as_bytes(std::span(frame.u)), sizeof(double));
+  const std::int64_t place = next.place++;
+  add_frame.bind(0, frame.frame)
+      .bind(1, place)
+      .bind(2, next.n_edits)
+      .bind(3, frame.step)
+      .bind(4, frame.time);
+  add_frame.bind(5, static_cast<std::int64_t>(frame.digest))
+      .bind(6, std::as_bytes(std::span(frame.tool_forces)));
+  add_frame.bind(7, static_cast<std::int64_t>(u.plain_size)).bind(8, std::int64_t{u.crc});
+  add_frame.bind(9, std::int64_t{row_crc("frame", frame.frame, place, next.n_edits, frame.step,
+                                         frame.time, frame.digest, frame.tool_forces, u.crc)});
+  add_frame.bind(10, std::span<const std::byte>(u.packed));
+  add_frame.step();
+  add_frame.reset();
+}
+
+RecordingWriter::RecordingWriter(const std::string& file, const RecordingHead& head)
+    : database_(std::make_unique<Database>(file, head)) {}
+RecordingWriter::~RecordingWriter() = default;
+RecordingWriter::RecordingWriter(RecordingWriter&&) noexcept = default;
+
+void RecordingWriter::add(std::span<const FrameEdit> edits, const RecordedFrame& frame) {
+  Database& d = *database_;
+  d.file.run("BEGIN");
+  for (const FrameEdit& edit : edits) d.write_edit(edit, frame.frame);
+  d.write_frame(frame);
+  d.file.run("COMMIT");
+}
+
+void RecordingWriter::finish() {
+  Database& d = *database_;
+  {
+    Statement close(d.file, "INSERT INTO closing VALUES (?, ?, ?)");
+    close.bind(0, d.next.place).bind(1, d.next.n_edits);
+    close.bind(2, std::int64_t{row_crc("closing", d.next.place, d.next.n_edits)}).step();
+  }
+  // Empties the write-ahead log into the file and leaves WAL mode: a finished recording is one file
+  // that can be read in a read-only folder.
+  d.file.run("PRAGMA journal_mode=DELETE");
+}
+
+}  // namespace trocar

@@ -1,0 +1,164 @@
+#include "engine/replay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "base/digest.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "engine/film_studio.h"
+#include "engine/mesh_measures.h"
+#include "engine/recording.h"
+#include "mesh/facets.h"
+#include "mesh/vtu_file.h"
+
+namespace trocar {
+
+namespace {
+
+SceneCamera camera_of(const Scene& scene, const ReplayOptions& options) {
+  SceneCamera camera;
+  bool is_found = options.camera.empty();
+  if (!scene.cameras.empty()) camera = scene.cameras.front();
+  for (const SceneCamera& c : scene.cameras)
+    if (c.name == options.camera) {
+      camera = c;
+      is_found = true;
+    }
+  if (!is_found) throw InputError("the recorded scene has no camera \"" + options.camera + "\"");
+  if (options.eye.size() == 3) camera.eye = Vec3(options.eye[0], options.eye[1], options.eye[2]);
+  if (options.target.size() == 3)
+    camera.target = Vec3(options.target[0], options.target[1], options.target[2]);
+  return camera;
+}
+
+std::vector<Tool> recorded_tools(const Scene& scene, const RecordingHead& head) {
+  std::vector<Tool> tools;
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+    tools.push_back(make_tool(scene.instruments[k],
+                              k < head.tool_meshes.size() ? head.tool_meshes[k] : TriangleMesh{},
+                              1e-3));
+  return tools;
+}
+
+std::string vtu_name(std::int64_t frame) {
+  char name[32];
+  std::snprintf(name, sizeof name, "frame_%06lld.vtu", static_cast<long long>(frame));
+  return name;
+}
+
+PvdEntry write_frame_vtu(const Mesh& mesh, const RecordedFrame& frame, const std::string& folder) {
+  std::vector<double> touches_cut(static_cast<std::size_t>(mesh.n_elements()));
+  for (std::size_t e = 0; e < touches_cut.size(); ++e) touches_cut[e] = mesh.cut_facets[e] ? 1 : 0;
+  const VtuField nodal[] = {{.name = "displacement", .width = 3, .values = frame.u}};
+  const VtuField elemental[] = {{.name = "touches_cut", .width = 1, .values = touches_cut}};
+  const std::string name = vtu_name(frame.frame);
+  write_vtu(mesh, present_positions(mesh.X, frame.u), nodal, elemental, folder + "/" + name);
+  return {.time = frame.time, .file = name};
+}
+
+void list_frames(RecordingReader& reader) {
+  for (const auto& [frame, time] : reader.frames())
+    std::printf("%8lld  %10.4f s  %s\n", static_cast<long long>(frame), time,
+                digest_text(reader.read(frame).digest).c_str());
+}
+
+std::vector<FilmOrder> orders_of(const Scene& scene, const ReplayOptions& options,
+                                 std::size_t n_frames, double rate) {
+  FilmOrder order{.camera = camera_of(scene, options),
+                  .width = options.width,
+                  .height = options.height,
+                  .frame_rate = rate,
+                  .n_frames = static_cast<std::int64_t>(n_frames)};
+  std::vector<FilmOrder> orders;
+  if (!options.video.empty()) {
+    order.kind = OutputKind::video;
+    order.file = options.folder + "/" + options.video;
+    orders.push_back(order);
+  }
+  if (options.frames) {
+    order.kind = OutputKind::frames;
+    order.file = options.folder + "/frames";
+    orders.push_back(order);
+  }
+  return orders;
+}
+
+// Frames of the recording in [from, to] and their mean rate.
+std::vector<std::pair<std::int64_t, double>> chosen_frames(const RecordingReader& reader,
+                                                           const ReplayOptions& options) {
+  std::vector<std::pair<std::int64_t, double>> chosen;
+  for (const auto& entry : reader.frames())
+    if (entry.second >= options.from - 1e-9 && entry.second <= options.to + 1e-9)
+      chosen.push_back(entry);
+  if (chosen.empty())
+    throw InputError(options.recording + ": no recorded frame lies in the chosen time");
+  return chosen;
+}
+
+void make_folder(const std::string& folder) {
+  std::error_code trouble;
+  std::filesystem::create_directories(folder, trouble);
+  if (trouble)
+    throw MachineError("the folder \"" + folder + "\" can't be made: " + trouble.message());
+}
+
+std::size_t n_orders(const ReplayOptions& options) {
+  return (options.video.empty() ? 0u : 1u) + (options.frames ? 1u : 0u);
+}
+
+// The picture thread for what is asked for, null for none.
+std::unique_ptr<FilmStudio> open_studio(
+    const RecordingReader& reader, const ReplayOptions& options,
+    const std::vector<std::pair<std::int64_t, double>>& frames) {
+  if (n_orders(options) == 0) return nullptr;
+  Scene scene;
+  SourceMap where;
+  read_options_text(scene_options(), reader.head().scene, options.recording, {}, &scene, where);
+  const double span = frames.back().second - frames.front().second;
+  const double rate =
+      span > 0 ? static_cast<double>(frames.size() - 1) / span : scene.time.frame_rate;
+  return std::make_unique<FilmStudio>(orders_of(scene, options, frames.size(), rate),
+                                      scene.tissue.look, reader.head().mesh.dimension() == 2,
+                                      recorded_tools(scene, reader.head()));
+}
+
+FilmFrame film_frame(const Mesh& mesh, const RecordedFrame& frame, std::size_t orders) {
+  FilmFrame picture{.number = frame.frame,
+                    .time = frame.time,
+                    .x = present_positions(mesh.X, frame.u),
+                    .X = mesh.X,
+                    .surface = boundary_surface(mesh)};
+  for (std::size_t k = 0; k < orders; ++k) picture.orders.push_back(k);
+  return picture;
+}
+
+}  // namespace
+
+void replay(const ReplayOptions& options) {
+  RecordingReader reader(options.recording);
+  for (const std::string& sentence : reader.damage())
+    log_warning(options.recording + ": " + sentence);
+  if (options.list) return list_frames(reader);
+  if (options.video.empty() && !options.frames && !options.vtu)
+    throw InputError("nothing to do: ask for --video FILE, --frames, --vtu or --list");
+  make_folder(options.folder);
+  const auto frames = chosen_frames(reader, options);
+  const std::unique_ptr<FilmStudio> studio = open_studio(reader, options, frames);
+  std::vector<PvdEntry> entries;
+  ProgressBar bar("replay");
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const RecordedFrame frame = reader.read(frames[k].first);
+    const Mesh mesh = reader.mesh_at(frames[k].first);
+    if (options.vtu) entries.push_back(write_frame_vtu(mesh, frame, options.folder));
+    if (studio) studio->add(film_frame(mesh, frame, n_orders(options)));
+    bar.update(static_cast<double>(k + 1) / static_cast<double>(frames.size()),
+               std::to_string(k + 1) + " frames");
+  }
+  if (studio) studio->finish();
+  if (options.vtu) write_pvd(entries, options.folder + "/recording.pvd");
+}
+
+}  // namespace trocar

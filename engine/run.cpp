@@ -1,0 +1,110 @@
+#include "engine/run.h"
+
+#include <atomic>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "engine/build.h"
+#include "engine/bytes.h"
+#include "engine/film_studio.h"
+#include "engine/frame.h"
+#include "engine/summary.h"
+#include "engine/tissue.h"
+
+namespace trocar {
+
+namespace {
+
+std::atomic<bool> stop_asked = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void ask_to_stop(int) {
+  stop_asked = true;
+}
+
+void listen_to_signals() {
+  stop_asked = false;
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) std::signal(signal, ask_to_stop);
+}
+
+bool is_stopped(const Communicator& communicator) {
+  return communicator.all_max(stop_asked ? 1 : 0) > 0;
+}
+
+std::string progress_note(const Simulation& s, double start) {
+  const double wall = monotonic_seconds() - start;
+  const double simulated = static_cast<double>(s.frame) / s.scene.time.frame_rate;
+  char note[96];
+  std::snprintf(note, sizeof note, "%.2f of %.2f s, real-time factor %.2f", simulated,
+                s.scene.time.duration, wall > 0 ? simulated / wall : 0.0);
+  return note;
+}
+
+// All frames, until the end, a signal or trouble; the sentence of the trouble, "" if none.
+std::string run_frames(Simulation& s, Outputs& outputs) {
+  const auto n_frames = std::llround(s.scene.time.duration * s.scene.time.frame_rate);
+  ProgressBar bar(s.scene.name);
+  s.start_seconds = monotonic_seconds();
+  while (s.frame < n_frames && !is_stopped(*s.communicator)) {
+    try {
+      run_frame(s, outputs);
+    } catch (const SimulationError& trouble) {
+      return trouble.what();
+    }
+    bar.update(static_cast<double>(s.frame) / static_cast<double>(n_frames),
+               progress_note(s, s.start_seconds));
+  }
+  return s.frame < n_frames ? "stopped by a signal" : "";
+}
+
+void write_summary(const std::string& text, const std::string& file) {
+  std::ofstream stream(file);
+  if (!(stream << text).flush())
+    throw MachineError(file + ": can't be written (disk full or no permission)");
+}
+
+}  // namespace
+
+LoadedScene share_scene(const std::string& file, const std::vector<std::string>& overrides,
+                        Communicator& communicator) {
+  LoadedScene mine;
+  const auto bytes = read_on_root(communicator, [&] {
+    mine = load_scene(file, overrides);
+    ByteWriter writer;
+    writer.put_text(echo_options(scene_options(), &mine.scene));
+    writer.put_text(mine.folder);
+    return writer.take();
+  });
+  if (communicator.is_root()) return mine;
+  ByteReader reader(bytes);
+  const std::string echo = reader.get_text();
+  read_options_text(scene_options(), echo, "scene", {}, &mine.scene, mine.where);
+  mine.folder = reader.get_text();
+  return mine;
+}
+
+bool run_scene(const RunOptions& options, Communicator& communicator) {
+  const double start = monotonic_seconds();
+  listen_to_signals();
+  const LoadedScene loaded = share_scene(options.scene_file, options.overrides, communicator);
+  const auto simulation = build(loaded, communicator);
+  Outputs outputs = open_outputs(*simulation, options.folder);
+  RunTimes times{.setup_seconds = monotonic_seconds() - start};
+
+  const std::string trouble = run_frames(*simulation, outputs);
+  times.loop_seconds = monotonic_seconds() - start - times.setup_seconds;
+  const bool is_stopped_by_signal = trouble == "stopped by a signal";
+  finish_outputs(outputs);
+  times.finish_seconds = monotonic_seconds() - start - times.setup_seconds - times.loop_seconds;
+  if (outputs.studio) times.drawing_seconds = outputs.studio->seconds();
+  const std::string summary = make_summary(*simulation, times, trouble);
+  if (communicator.is_root()) write_summary(summary, options.folder + "/summary.json");
+  if (!trouble.empty() && !is_stopped_by_signal) throw SimulationError(trouble);
+  return !is_stopped_by_signal;
+}
+
+}  // namespace trocar

@@ -1,0 +1,28 @@
+// A whole run: from the scene file to summary.json.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/communicator.h"
+#include "engine/scene.h"
+
+namespace trocar {
+
+struct RunOptions {
+  std::string scene_file;
+  std::string folder = "out";
+  std::vector<std::string> overrides;  // "key.path=value"
+};
+
+// Rank 0 reads and checks; every rank gets the same scene. Collective; InputErrors are thrown on
+// every rank.
+LoadedScene share_scene(const std::string& file, const std::vector<std::string>& overrides,
+                        Communicator& communicator);
+
+// Runs it and writes everything, summary.json last. Collective. Throws SimulationError after
+// writing what there is. Returns true if the run went through, false if a signal (SIGINT, SIGTERM,
+// SIGUSR1) stopped it at a frame's end.
+bool run_scene(const RunOptions& options, Communicator& communicator);
+
+}  // namespace trocar

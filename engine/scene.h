@@ -1,0 +1,162 @@
+// A scene as the user wrote it: plain structs, in SI, every default visible. scene_options.cpp
+// declares the keys.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/options.h"
+#include "base/vec.h"
+
+namespace trocar {
+
+enum class Pace { fast, real_time };
+enum class MaterialName { linear, st_venant_kirchhoff, neo_hookean };
+enum class ShapeKind { box, ball, cylinder, rectangle, triangular_rectangle };
+enum class ElementKind { hex8, tet4_kuhn, tet4_five };
+enum class InstrumentKind { probe, grasper, scalpel };
+enum class GraspAction { none, close, open };
+enum class OutputKind { video, frames, recording, metrics, contact_sheet };
+enum class CutMode { robust, paper };
+
+struct SceneTime {
+  double duration = 1;     // [s]
+  double frame_rate = 30;  // [1/s]
+  Pace pace = Pace::fast;
+};
+
+struct SceneMaterial {
+  MaterialName model = MaterialName::neo_hookean;
+  double young_modulus = 3000;
+  double poisson_ratio = 0.45;
+  double density = 1060;
+};
+
+struct SceneShape {
+  ShapeKind kind = ShapeKind::box;
+  ElementKind elements = ElementKind::hex8;
+  Vec3 low = Vec3::Zero(), high{0.1, 0.1, 0.1};  // box and rectangle
+  Vec3 centre = Vec3::Zero();                    // ball, cylinder (of its base)
+  double radius = 0.05, height = 0.1;
+  std::array<int, 3> cells{10, 10, 10};
+};
+
+struct SceneLook {
+  Vec3 colour{0.42, 0.10, 0.08};
+  Vec3 cut_colour{0.62, 0.20, 0.17};
+  double wetness = 0.7;
+  double texture_size = 0.012;
+  bool has_edges = false;
+};
+
+struct SceneTissue {
+  std::string mesh;
+  double scale = 1;
+  double longest_side = 0;  // 0: as in the file
+  bool is_centred = false;
+  Vec3 translate = Vec3::Zero();
+  std::optional<SceneShape> shape;
+  SceneMaterial material;
+  double thickness = 1e-3;
+  SceneLook look;
+};
+
+struct SceneSolver {
+  Vec3 gravity = Vec3::Zero();
+  double mass_damping = 0;
+  double hourglass = 0.15;
+  double step_factor = 0.9;
+};
+
+struct SceneContact {
+  double stiffness = 0.2;
+  double friction = 0.2;
+};
+
+struct SceneCutting {
+  double advance = 0.5;
+  double least_altitude = 0.35;
+  double resistance = 0;  // force per length of engaged edge [N/m]
+  CutMode mode = CutMode::robust;
+  double spring = 1, particle = 0.1;
+};
+
+struct SceneRegion {
+  std::string name;
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+};
+
+struct SupportKey {
+  double time = 0;
+  Vec3 displacement = Vec3::Zero();
+};
+
+struct SceneSupport {
+  std::string region;
+  std::string fix = "xyz";
+  std::vector<SupportKey> path;
+};
+
+struct InstrumentKey {
+  double time = 0;
+  Vec3 position = Vec3::Zero();
+  Vec3 direction{0, 0, -1};
+  Vec3 forward{1, 0, 0};
+  GraspAction action = GraspAction::none;
+};
+
+struct SceneInstrument {
+  InstrumentKind kind = InstrumentKind::probe;
+  std::string name;
+  double radius = 3e-3;
+  double length = 0.15;
+  double blade_length = 0.02;
+  double grip_radius = 6e-3;
+  std::string mesh;
+  double scale = 1;
+  std::vector<InstrumentKey> path;
+};
+
+struct SceneCamera {
+  std::string name = "endoscope";
+  Vec3 eye{0, -0.3, 0.2}, target = Vec3::Zero(), up{0, 0, 1};
+  double field_of_view = 0.9;
+  bool has_endoscope_mask = false;
+};
+
+struct SceneOutput {
+  OutputKind kind = OutputKind::metrics;
+  std::string file;
+  std::string camera;
+  std::array<int, 2> size{1280, 720};
+  double every = 0;  // [s], 0: every frame
+};
+
+struct Scene {
+  std::string name = "scene";
+  SceneTime time;
+  SceneTissue tissue;
+  SceneSolver solver;
+  SceneContact contact;
+  SceneCutting cutting;
+  std::vector<SceneRegion> regions;
+  std::vector<SceneSupport> supports;
+  std::vector<SceneInstrument> instruments;
+  std::vector<SceneCamera> cameras;
+  std::vector<SceneOutput> outputs;
+};
+
+Options<Scene> scene_options();
+
+// Reads and checks a scene, also what one key alone can't tell: names that refer to each other,
+// times that ascend, outputs that stay inside their folder. Throws InputError.
+struct LoadedScene {
+  Scene scene;
+  SourceMap where;
+  std::string folder;  // of the scene file; relative mesh paths start here
+};
+LoadedScene load_scene(const std::string& file, const std::vector<std::string>& overrides);
+
+}  // namespace trocar

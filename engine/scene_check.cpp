@@ -1,0 +1,141 @@
+// What one key alone can't tell: names that refer to each other, times that ascend, files that stay
+// where they belong.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "engine/scene.h"
+
+namespace trocar {
+
+namespace {
+
+std::string item(const char* list, std::size_t k) {
+  return std::string(list) + "[" + std::to_string(k) + "]";
+}
+
+void check_tissue(const Scene& scene, const SourceMap& where) {
+  const SceneTissue& tissue = scene.tissue;
+  if (tissue.mesh.empty() == !tissue.shape)
+    where.fail("tissue",
+               "give either a mesh file (mesh = \"…\") or a generated body ([tissue.shape]), "
+               "exactly one of them");
+  if (tissue.shape && tissue.shape->kind == ShapeKind::box &&
+      !(tissue.shape->low.array() < tissue.shape->high.array()).all())
+    where.fail("tissue.shape", "each component of low must be below that of high");
+}
+
+void check_supports(const Scene& scene, const SourceMap& where) {
+  for (std::size_t k = 0; k < scene.supports.size(); ++k) {
+    const SceneSupport& support = scene.supports[k];
+    const std::set<char> letters(support.fix.begin(), support.fix.end());
+    if (support.fix.empty() || letters.size() != support.fix.size() ||
+        support.fix.find_first_not_of("xyz") != std::string::npos)
+      where.fail(item("support", k) + ".fix",
+                 "found \"" + support.fix + "\", allowed: some of \"x\", \"y\", \"z\", each once");
+    if (!support.path.empty() && letters.size() != 3)
+      where.fail(item("support", k) + ".path", "a moving support needs fix = \"xyz\"");
+    for (std::size_t j = 1; j < support.path.size(); ++j)
+      if (!(support.path[j - 1].time < support.path[j].time))
+        where.fail(item("support", k) + "." + item("path", j), "the times of a path must ascend");
+  }
+}
+
+void check_key(const InstrumentKey& key, const std::string& name, const SourceMap& where) {
+  if (key.direction.norm() < 1e-9)
+    where.fail(name + ".direction", "the direction must not be zero");
+  const Vec3 across = key.direction.cross(key.forward);
+  if (across.norm() < 1e-6 * key.direction.norm() * std::max(1e-9, key.forward.norm()))
+    where.fail(name, "forward must not be parallel to direction: give forward = [x, y, z]");
+}
+
+void check_instruments(Scene& scene, const SourceMap& where) {
+  const char* kinds[] = {"probe", "grasper", "scalpel"};
+  std::set<std::string> names;
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k) {
+    SceneInstrument& instrument = scene.instruments[k];
+    const std::string path = item("instrument", k);
+    if (instrument.name.empty()) instrument.name = kinds[static_cast<int>(instrument.kind)];
+    if (!names.insert(instrument.name).second)
+      where.fail(path, "two instruments are called \"" + instrument.name + "\": give each a name");
+    if (instrument.path.empty()) where.fail(path + ".path", "a path needs at least one key");
+    for (std::size_t j = 0; j < instrument.path.size(); ++j) {
+      check_key(instrument.path[j], path + "." + item("path", j), where);
+      if (j > 0 && !(instrument.path[j - 1].time < instrument.path[j].time))
+        where.fail(path + "." + item("path", j), "the times of a path must ascend");
+      if (instrument.path[j].action != GraspAction::none &&
+          instrument.kind != InstrumentKind::grasper)
+        where.fail(path + "." + item("path", j) + ".action", "only a grasper opens and closes");
+    }
+  }
+}
+
+bool stays_inside(const std::string& file) {
+  const std::filesystem::path path(file);
+  if (path.is_absolute() || !path.has_filename() || path.filename() == ".") return false;
+  return std::none_of(path.begin(), path.end(), [](const auto& part) { return part == ".."; });
+}
+
+void check_outputs(const Scene& scene, const SourceMap& where) {
+  std::set<std::string> files;
+  for (std::size_t k = 0; k < scene.outputs.size(); ++k) {
+    const SceneOutput& output = scene.outputs[k];
+    const std::string path = item("output", k);
+    if (!stays_inside(output.file))
+      where.fail(path + ".file",
+                 "\"" + output.file + "\" must be a relative path inside the output folder");
+    const std::string plain = std::filesystem::path(output.file).lexically_normal().string();
+    if (plain == "summary.json" || plain == "scene.toml")
+      where.fail(path + ".file", "\"" + plain + "\" is written by every run: choose another name");
+    if (!files.insert(plain).second)
+      where.fail(path + ".file", "two outputs write \"" + output.file + "\"");
+    const bool is_picture = output.kind == OutputKind::video || output.kind == OutputKind::frames ||
+                            output.kind == OutputKind::contact_sheet;
+    const bool is_known =
+        std::any_of(scene.cameras.begin(), scene.cameras.end(),
+                    [&](const SceneCamera& c) { return c.name == output.camera; });
+    if (is_picture && scene.cameras.empty()) where.fail(path, "a picture needs a [[camera]]");
+    if (is_picture && !output.camera.empty() && !is_known)
+      where.fail(path + ".camera", "there is no camera \"" + output.camera + "\"");
+  }
+}
+
+void check_cameras(const Scene& scene, const SourceMap& where) {
+  for (std::size_t k = 0; k < scene.cameras.size(); ++k) {
+    const SceneCamera& camera = scene.cameras[k];
+    const Vec3 view = camera.target - camera.eye;
+    if (view.norm() < 1e-9 ||
+        view.cross(camera.up).norm() < 1e-6 * view.norm() * std::max(1e-9, camera.up.norm()))
+      where.fail(item("camera", k),
+                 "eye and target must differ and up must not point along the view");
+  }
+}
+
+void check_time(const Scene& scene, const SourceMap& where) {
+  if (scene.time.duration * scene.time.frame_rate < 1)
+    where.fail("time.duration", "the duration is shorter than one frame");
+  if (scene.time.duration * scene.time.frame_rate > 1e7)
+    where.fail("time.duration",
+               "more than 10 million frames: shorten the duration or lower the frame rate");
+}
+
+}  // namespace
+
+LoadedScene load_scene(const std::string& file, const std::vector<std::string>& overrides) {
+  Located<Scene> located = read_options(scene_options(), file, overrides);
+  const Scene& scene = located.value;
+  check_time(scene, located.where);
+  check_tissue(scene, located.where);
+  check_supports(scene, located.where);
+  check_instruments(located.value, located.where);
+  check_cameras(scene, located.where);
+  check_outputs(scene, located.where);
+  std::string folder = std::filesystem::path(file).parent_path().string();
+  if (!folder.empty()) folder += "/";
+  return {.scene = std::move(located.value),
+          .where = std::move(located.where),
+          .folder = std::move(folder)};
+}
+
+}  // namespace trocar

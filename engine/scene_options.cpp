@@ -1,0 +1,237 @@
+// Every key of a scene file, declared once.
+#include "engine/scene.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr Range unit_range{.low = 0, .high = 1};
+
+Options<SceneTime> time_options() {
+  Options<SceneTime> t("How long, how often, how fast.");
+  t.number("duration", &SceneTime::duration, dim::time, positive, "Simulated time.",
+           Need::required);
+  t.number("frame_rate", &SceneTime::frame_rate, dim::rate, {.low = 1, .high = 10000},
+           "Frames a second: contact detection, cuts and outputs happen once a frame. \"30 Hz\".");
+  t.choice("pace", &SceneTime::pace, {{"fast", Pace::fast}, {"real-time", Pace::real_time}},
+           "fast: as fast as the machine allows; real-time: each frame waits for its deadline.");
+  return t;
+}
+
+Options<SceneMaterial> material_options() {
+  Options<SceneMaterial> m("What the tissue is made of.");
+  m.choice("model", &SceneMaterial::model,
+           {{"linear", MaterialName::linear},
+            {"st-venant-kirchhoff", MaterialName::st_venant_kirchhoff},
+            {"neo-hookean", MaterialName::neo_hookean}},
+           "neo-hookean: W = mu/2 (I1bar - 3) + K/2 (J - 1)^2; linear only for small strains.");
+  m.number("young_modulus", &SceneMaterial::young_modulus, dim::pressure, positive,
+           "Young's modulus E.");
+  m.number("poisson_ratio", &SceneMaterial::poisson_ratio, dim::none,
+           {.low = -1, .high = 0.5, .is_low_open = true, .is_high_open = true},
+           "Poisson's ratio nu; 0.5 itself has no finite stable step.");
+  m.number("density", &SceneMaterial::density, dim::density, positive, "Mass density rho.");
+  return m;
+}
+
+Options<SceneShape> shape_options() {
+  Options<SceneShape> s("A generated body, instead of a mesh file.");
+  s.choice("kind", &SceneShape::kind,
+           {{"box", ShapeKind::box},
+            {"ball", ShapeKind::ball},
+            {"cylinder", ShapeKind::cylinder},
+            {"rectangle", ShapeKind::rectangle},
+            {"triangular-rectangle", ShapeKind::triangular_rectangle}},
+           "Sides are named \"x-\", \"x+\", \"y-\", … as regions.", Need::required);
+  s.choice("elements", &SceneShape::elements,
+           {{"hex8", ElementKind::hex8},
+            {"tet4-kuhn", ElementKind::tet4_kuhn},
+            {"tet4-five", ElementKind::tet4_five}},
+           "Elements of box, ball and cylinder.");
+  s.vector("low", &SceneShape::low, dim::length, any, "Lower corner of a box.");
+  s.vector("high", &SceneShape::high, dim::length, any,
+           "Upper corner of a box; a rectangle runs from 0 to here.");
+  s.vector("centre", &SceneShape::centre, dim::length, any,
+           "Centre of a ball, of a cylinder's base.");
+  s.number("radius", &SceneShape::radius, dim::length, positive, "Of ball and cylinder.");
+  s.number("height", &SceneShape::height, dim::length, positive, "Of a cylinder.");
+  s.integers("cells", &SceneShape::cells, {.low = 1, .high = 2000},
+             "Cells in x, y, z; nodes in x and y for a rectangle.");
+  return s;
+}
+
+Options<SceneLook> look_options() {
+  Options<SceneLook> l("How the tissue looks.");
+  l.vector("colour", &SceneLook::colour, dim::none, unit_range, "Outer surface, linear RGB.");
+  l.vector("cut_colour", &SceneLook::cut_colour, dim::none, unit_range,
+           "Inside, where it was cut.");
+  l.number("wetness", &SceneLook::wetness, dim::none, unit_range, "0 dry … 1 wet.");
+  l.number("texture_size", &SceneLook::texture_size, dim::length, positive,
+           "Of the surface pattern.");
+  l.boolean("has_edges", &SceneLook::has_edges, "Draw element edges.");
+  return l;
+}
+
+Options<SceneTissue> tissue_options() {
+  Options<SceneTissue> t("The body that is operated on.");
+  t.text("mesh", &SceneTissue::mesh, "Mesh file (.msh, .vtk, .vtu), relative to the scene file.");
+  t.number("scale", &SceneTissue::scale, dim::length, positive,
+           "Length of one unit of the mesh file, \"1 mm\" for a mesh in millimetres.");
+  t.number("longest_side", &SceneTissue::longest_side, dim::length, not_negative,
+           "Scales the mesh so that the longest side of its bounding box has this length; 0: not.");
+  t.boolean("centred", &SceneTissue::is_centred,
+            "Moves the centre of the bounding box to the origin.");
+  t.vector("translate", &SceneTissue::translate, dim::length, any, "Added to all positions, last.");
+  t.table("shape", &SceneTissue::shape, shape_options(), "A generated body.");
+  t.table("material", &SceneTissue::material, material_options(), "Material.");
+  t.number("thickness", &SceneTissue::thickness, dim::length, positive,
+           "Of a plane (2D) body, plane strain.");
+  t.table("look", &SceneTissue::look, look_options(), "Look.");
+  return t;
+}
+
+Options<SceneSolver> solver_options() {
+  Options<SceneSolver> s("Mechanics.");
+  s.vector("gravity", &SceneSolver::gravity, dim::acceleration, any, "Acceleration of gravity.");
+  s.number("mass_damping", &SceneSolver::mass_damping, dim::rate, not_negative,
+           "alpha of C = alpha M.");
+  s.number("hourglass", &SceneSolver::hourglass, dim::none, {.low = 0, .high = 1},
+           "Hourglass stiffness of one-point hexahedra, as a share of mu.");
+  s.number("step_factor", &SceneSolver::step_factor, dim::none,
+           {.low = 0, .high = 1, .is_low_open = true}, "Time step / computed stable step.");
+  return s;
+}
+
+Options<SceneContact> contact_options() {
+  Options<SceneContact> c("Contact between instruments and tissue.");
+  c.number("stiffness", &SceneContact::stiffness, dim::none,
+           {.low = 0, .high = 1, .is_low_open = true},
+           "Penalty stiffness of a node in units of m/dt^2.");
+  c.number("friction", &SceneContact::friction, dim::none, not_negative, "Coulomb's coefficient.");
+  return c;
+}
+
+Options<SceneCutting> cutting_options() {
+  Options<SceneCutting> c("How scalpels cut.");
+  c.number("advance", &SceneCutting::advance, dim::none, {.low = 0.1, .high = 5},
+           "Edge lengths that the blade sweeps before the mesh is changed.");
+  c.number("least_altitude", &SceneCutting::least_altitude, dim::none, {.low = 0.05, .high = 1},
+           "Floor on least altitude after / before a cut (stable step).");
+  c.number("resistance", &SceneCutting::resistance, {.kilogram = 1, .second = -2}, not_negative,
+           "Force of the tissue against the blade per length of its edge inside, \"20 N/m\".");
+  c.choice("mode", &SceneCutting::mode, {{"robust", CutMode::robust}, {"paper", CutMode::paper}},
+           "Plane cuts: robust (flips, sliding) or as published by Serby, Harders and Szekely.");
+  c.number("spring", &SceneCutting::spring, dim::none, not_negative,
+           "Plane cuts: s_spring of the paper's eq. 6.");
+  c.number("particle", &SceneCutting::particle, dim::none, not_negative, "Plane cuts: s_particle.");
+  return c;
+}
+
+Options<SceneRegion> region_options() {
+  Options<SceneRegion> r("A named set of nodes: those in a box, in the body's first position.");
+  r.text("name", &SceneRegion::name, "Name for supports.", Need::required);
+  r.vector("low", &SceneRegion::low, dim::length, any, "Lower corner.", Need::required);
+  r.vector("high", &SceneRegion::high, dim::length, any, "Upper corner.", Need::required);
+  return r;
+}
+
+Options<SceneSupport> support_options() {
+  Options<SupportKey> key("Where the region is at a time.");
+  key.number("time", &SupportKey::time, dim::time, not_negative, "Time.", Need::required);
+  key.vector("displacement", &SupportKey::displacement, dim::length, any,
+             "From the first position.", Need::required);
+  Options<SceneSupport> s("Holds or moves a region.");
+  s.text("region", &SceneSupport::region, "Region of the mesh or of [[region]].", Need::required);
+  s.text("fix", &SceneSupport::fix, "Which components: some of \"xyz\".");
+  s.list("path", &SceneSupport::path, key, "Prescribed motion (needs fix = \"xyz\").");
+  return s;
+}
+
+Options<SceneInstrument> instrument_options() {
+  Options<InstrumentKey> key(
+      "Where the instrument is at a time; smooth in between, at rest before and after.");
+  key.number("time", &InstrumentKey::time, dim::time, not_negative, "Time.", Need::required);
+  key.vector("position", &InstrumentKey::position, dim::length, any, "Of the tip.", Need::required);
+  key.vector("direction", &InstrumentKey::direction, dim::none, any, "From handle to tip.");
+  key.vector("forward", &InstrumentKey::forward, dim::none, any,
+             "Where the cutting edge faces; jaws open across it.");
+  key.choice(
+      "action", &InstrumentKey::action,
+      {{"none", GraspAction::none}, {"close", GraspAction::close}, {"open", GraspAction::open}},
+      "Of a grasper, at this time.");
+  Options<SceneInstrument> i("A probe, grasper or scalpel on a path.");
+  i.choice("kind", &SceneInstrument::kind,
+           {{"probe", InstrumentKind::probe},
+            {"grasper", InstrumentKind::grasper},
+            {"scalpel", InstrumentKind::scalpel}},
+           "Kind.", Need::required);
+  i.text("name", &SceneInstrument::name, "Name in the metrics; the kind if absent.");
+  i.number("radius", &SceneInstrument::radius, dim::length, positive, "Of the tip and shaft.");
+  i.number("length", &SceneInstrument::length, dim::length, positive, "Of the shaft.");
+  i.number("blade_length", &SceneInstrument::blade_length, dim::length, positive,
+           "Of a scalpel's straight edge, from the tip up.");
+  i.number("grip_radius", &SceneInstrument::grip_radius, dim::length, positive,
+           "A closing grasper holds the nodes within.");
+  i.text("mesh", &SceneInstrument::mesh,
+         "Surface (.stl, .obj) of the tip instead of the built-in shape; its origin is the tip, "
+         "its +z the shaft.");
+  i.number("scale", &SceneInstrument::scale, dim::length, positive,
+           "Length of one unit of that file.");
+  i.list("path", &SceneInstrument::path, key, "Key positions.", Need::required);
+  return i;
+}
+
+Options<SceneCamera> camera_options() {
+  Options<SceneCamera> c("A view.");
+  c.text("name", &SceneCamera::name, "Name for outputs.");
+  c.vector("eye", &SceneCamera::eye, dim::length, any, "Position of the lens and its light.",
+           Need::required);
+  c.vector("target", &SceneCamera::target, dim::length, any, "Point looked at.", Need::required);
+  c.vector("up", &SceneCamera::up, dim::none, any, "Upward.");
+  c.number("field_of_view", &SceneCamera::field_of_view, dim::angle, {.low = 0.02, .high = 2.6},
+           "Vertical angle, \"50 deg\".");
+  c.boolean("endoscope_mask", &SceneCamera::has_endoscope_mask,
+            "Round picture, as through an endoscope.");
+  return c;
+}
+
+Options<SceneOutput> output_options() {
+  Options<SceneOutput> o("Something that is written while the scene runs.");
+  o.choice("kind", &SceneOutput::kind,
+           {{"video", OutputKind::video},
+            {"frames", OutputKind::frames},
+            {"recording", OutputKind::recording},
+            {"metrics", OutputKind::metrics},
+            {"contact-sheet", OutputKind::contact_sheet}},
+           "video: mp4; frames: PNG files; recording: replayable database; metrics: CSV; "
+           "contact-sheet: one PNG of nine moments.",
+           Need::required);
+  o.text("file", &SceneOutput::file, "Name inside the output folder; frames: a folder.",
+         Need::required);
+  o.text("camera", &SceneOutput::camera, "Name of a [[camera]]; the first if absent.");
+  o.integers("size", &SceneOutput::size, {.low = 16, .high = 8192}, "Pixels: width, height.");
+  o.number("every", &SceneOutput::every, dim::time, not_negative,
+           "Interval; every frame if absent.");
+  return o;
+}
+
+}  // namespace
+
+Options<Scene> scene_options() {
+  Options<Scene> s(
+      "A Trocar scene: numbers are SI or texts with a unit (\"3 kPa\", \"2 mm\", \"30 deg\").");
+  s.text("name", &Scene::name, "Title.");
+  s.table("time", &Scene::time, time_options(), "Time.", Need::required);
+  s.table("tissue", &Scene::tissue, tissue_options(), "Tissue.", Need::required);
+  s.table("solver", &Scene::solver, solver_options(), "Solver.");
+  s.table("contact", &Scene::contact, contact_options(), "Contact.");
+  s.table("cutting", &Scene::cutting, cutting_options(), "Cutting.");
+  s.list("region", &Scene::regions, region_options(), "Regions.");
+  s.list("support", &Scene::supports, support_options(), "Supports.");
+  s.list("instrument", &Scene::instruments, instrument_options(), "Instruments.");
+  s.list("camera", &Scene::cameras, camera_options(), "Cameras.");
+  s.list("output", &Scene::outputs, output_options(), "Outputs.");
+  return s;
+}
+
+}  // namespace trocar

@@ -1,0 +1,88 @@
+// A scene that runs: the parts, as data. A part that the scene lacks is empty and costs one `if` a
+// frame.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/communicator.h"
+#include "base/timers.h"
+#include "engine/contact_stage.h"
+#include "engine/cut_stage.h"
+#include "engine/frame_log.h"
+#include "engine/holds.h"
+#include "engine/scene.h"
+#include "engine/surface_view.h"
+#include "engine/tool.h"
+#include "mesh/facets.h"
+#include "mesh/partition.h"
+#include "solver/model.h"
+#include "solver/watch.h"
+
+namespace trocar {
+
+// Indices of PhaseTimers, in this order.
+enum Phase : std::size_t {
+  phase_detect,
+  phase_force,
+  phase_contact,
+  phase_integrate,
+  phase_exchange,
+  phase_cut,
+  phase_watch,
+  phase_gather,
+  phase_output,
+  phase_wait,
+  n_phases
+};
+
+inline constexpr const char* phase_names[n_phases] = {
+    "contact detection", "element forces", "contact forces", "integration", "halo exchange",
+    "cutting",           "watch",          "gather",         "output",      "waiting"};
+
+struct Simulation {
+  Communicator* communicator = nullptr;  // owned by main
+  Scene scene;
+
+  // Replicated on every rank.
+  Mesh mesh;
+  std::vector<Material> materials;       // (n_regions)
+  std::vector<double> mass;              // (n_nodes) [kg]
+  std::vector<FixedMask> fixed;          // (n_nodes)
+  std::vector<std::int32_t> node_owner;  // (n_nodes)
+  Surface surface;
+  std::vector<std::int32_t> duplicate_parent,
+      duplicate_node;  // pairs of partner nodes, over all cuts
+
+  // This rank's share.
+  Part part;
+  Halo halo;
+  std::optional<HaloExchange> exchange_u, exchange_v;
+  Model model;
+  State state;
+  Scratch scratch;
+
+  std::vector<Tool> tools;
+  Holds holds;                            // grasped nodes and moving supports
+  std::unique_ptr<ContactStage> contact;  // only with instruments
+  std::vector<CutStage> cuts;             // one a scalpel, only on bodies that can be cut
+  SurfaceView view;                       // positions of surface nodes, replicated, once a frame
+
+  std::int64_t frame = 0;         // frames done
+  double contact_reach = 0;       // how far tissue may come towards a tool within a frame [m]
+  bool reports_energies = false;  // a metrics output wants them
+  double start_seconds = 0;       // monotonic clock at the first frame
+  EnergyTerms energies;
+  double step_scale = 1;  // halved by each roll-back
+  Watch watch;            // of the last frame, over all ranks
+  double stable_step_before_cut = 0;
+  FrameLog log;  // what each frame told
+  PhaseTimers timers;
+};
+
+// Everything that follows from mesh and owners: after building and after each edit.
+void rebuild_topology(Simulation& s);
+
+}  // namespace trocar

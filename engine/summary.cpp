@@ -1,0 +1,148 @@
+#include "engine/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/digest.h"
+#include "base/exact_sum.h"
+#include "base/threads.h"
+#include "engine/frame_report.h"
+#include "engine/version.h"
+#include "mesh/quality.h"
+#include "solver/step.h"
+
+namespace trocar {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json mesh_json(const Mesh& mesh) {
+  const MeshStatistics m = mesh_statistics(mesh);
+  Json elements;
+  for (int type = 0; type < n_element_types; ++type)
+    if (const auto n = m.n_elements_by_type[static_cast<std::size_t>(type)]; n > 0)
+      elements[element_type_name(static_cast<ElementType>(type))] = n;
+  return {{"nodes", m.n_nodes},
+          {"elements", elements},
+          {"pieces", m.n_pieces},
+          {"quality_min", m.quality_min}};
+}
+
+Json stroke_json(const CutRecord& c) {
+  return {{"tool", c.tool},
+          {"start_s", c.start},
+          {"end_s", c.end},
+          {"edits", c.n_edits},
+          {"refused", c.n_refused},
+          {"nodes_moved", c.n_moved},
+          {"nodes_duplicated", c.n_duplicated},
+          {"facets_opened", c.n_opened_facets},
+          {"elements_added", c.n_elements_added},
+          {"elements_dissolved", c.n_elements_dissolved},
+          {"stable_step_ratio", c.stable_step_ratio},
+          {"scene_stable_step_ratio", c.scene_step_ratio},
+          {"quality_min", c.least_quality},
+          {"mass_change", c.mass_change},
+          {"momentum_change", c.momentum_change},
+          {"kinetic_energy_change_J", c.kinetic_energy_change},
+          {"deviation_max_m", c.largest_deviation},
+          {"deviation_mean_m", c.mean_deviation},
+          {"edge_mean_m", c.mean_edge},
+          {"blade_travel_m", c.blade_travel},
+          {"edge_inside_max_m", c.deepest},
+          {"milliseconds", c.milliseconds},
+          {"milliseconds_worst", c.worst_milliseconds}};
+}
+
+Json cuts_json(const Simulation& s) {
+  Json list = Json::array();
+  for (const CutStage& stage : s.cuts)
+    for (const CutRecord& stroke : stage.strokes) list.push_back(stroke_json(stroke));
+  return list;
+}
+
+Json latency_json(const Simulation& s) {
+  std::vector<double> seconds;
+  for (const FrameRow& row : s.log.rows) seconds.push_back(1e3 * row.seconds);
+  return {{"p50", quantile(seconds, 0.5)},
+          {"p99", quantile(seconds, 0.99)},
+          {"p999", quantile(seconds, 0.999)},
+          {"worst", quantile(seconds, 1)}};
+}
+
+Json tools_json(const Simulation& s) {
+  Json tools;
+  for (std::size_t k = 0; k < s.tools.size(); ++k) {
+    double largest = 0;
+    for (const FrameRow& row : s.log.rows) largest = std::max(largest, row.tools[k].force.norm());
+    tools[s.tools[k].name] = {{"largest_force_N", largest}};
+  }
+  return tools;
+}
+
+Json phases_json(const Simulation& s, const RunTimes& times) {
+  Json phases = {{"set-up", times.setup_seconds}};
+  for (const auto& [name, seconds] : s.timers.totals()) phases[name] = seconds;
+  phases["closing files"] = times.finish_seconds;
+  phases["drawing (own thread)"] = times.drawing_seconds;
+  return phases;
+}
+
+}  // namespace
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  // Nearest rank: the least value that at least q n of the n values do not exceed. q n may lie a
+  // rounding error above a whole number.
+  const auto rank =
+      static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size()) - 1e-9));
+  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
+}
+
+std::string make_summary(Simulation& s, const RunTimes& times, const std::string& trouble) {
+  const double simulated = static_cast<double>(s.frame) / s.scene.time.frame_rate;
+  const FrameRow last = s.log.rows.empty() ? FrameRow{} : s.log.rows.back();
+  ExactSum mass;
+  for (const double m : s.mass) mass.add(m);
+  double wound = 0;
+  for (const FrameRow& row : s.log.rows) wound = std::max(wound, row.wound_width);
+  Json j;
+  j["scene"] = s.scene.name;
+  j["version"] = version_text();
+  j["finished"] = trouble.empty();
+  if (!trouble.empty()) j["trouble"] = trouble;
+  j["ranks"] = s.communicator->size();
+  j["threads"] = thread_count();
+  j["precision"] = "double";
+  j["simd"] = simd_name();
+  j["mesh"] = mesh_json(s.mesh);
+  j["mass_kg"] = mass.value();
+  j["duration_s"] = simulated;
+  j["frames"] = s.frame;
+  j["steps"] = s.state.step;
+  j["stable_step_s"] = {{"min", s.log.least_stable_step}, {"max", s.log.largest_stable_step}};
+  j["wall_seconds"] = {{"total", times.setup_seconds + times.loop_seconds + times.finish_seconds},
+                       {"loop", times.loop_seconds},
+                       {"by_phase", phases_json(s, times)}};
+  j["real_time_factor"] = times.loop_seconds > 0 ? simulated / times.loop_seconds : 0;
+  j["deadlines_missed"] = s.log.n_deadlines_missed;
+  j["frame_latency_ms"] = latency_json(s);
+  j["roll_backs"] = s.log.n_roll_backs;
+  j["least_det_F"] = {{"value", s.log.least_J}, {"element", s.log.least_J_element}};
+  j["instruments"] = tools_json(s);
+  j["wound"] = {{"partner_nodes", s.duplicate_node.size()},
+                {"largest_width_m", wound},
+                {"width_at_end_m", last.wound_width}};
+  j["cuts"] = cuts_json(s);
+  if (s.reports_energies)
+    j["energies_J"] = {
+        {"kinetic", last.kinetic}, {"strain", last.strain}, {"hourglass", last.hourglass}};
+  j["events"] = s.log.events;
+  j["state_digest"] = digest_text(state_digest(s));
+  return j.dump(2) + "\n";
+}
+
+}  // namespace trocar

@@ -1,0 +1,34 @@
+#include "engine/surface_view.h"
+
+#include <algorithm>
+
+namespace trocar {
+
+SurfaceView make_surface_view(const Surface& surface, std::span<const Vec3> X,
+                              std::span<const std::int32_t> node_owner, const Part& part,
+                              int rank) {
+  SurfaceView view;
+  view.x.assign(X.begin(), X.end());
+  view.node = surface.node;
+  const auto owner = [&](std::int32_t node) { return node_owner[static_cast<std::size_t>(node)]; };
+  std::stable_sort(view.node.begin(), view.node.end(),
+                   [&](std::int32_t a, std::int32_t b) { return owner(a) < owner(b); });
+  for (const std::int32_t node : view.node)
+    if (owner(node) == rank) view.local.push_back(part.node_local[static_cast<std::size_t>(node)]);
+  return view;
+}
+
+void gather_surface(SurfaceView& view, std::span<const Vec3> X, std::span<const double> u,
+                    Communicator& communicator) {
+  std::vector<double> mine;
+  mine.reserve(view.local.size() * 3);
+  for (const std::int32_t local : view.local)
+    for (std::size_t i = 0; i < 3; ++i) mine.push_back(u[static_cast<std::size_t>(local) * 3 + i]);
+  const std::vector<double> all = communicator.all_gather(mine);
+  for (std::size_t k = 0; k < view.node.size(); ++k) {
+    const auto node = static_cast<std::size_t>(view.node[k]);
+    view.x[node] = X[node] + Vec3(all[3 * k], all[3 * k + 1], all[3 * k + 2]);
+  }
+}
+
+}  // namespace trocar

@@ -1,0 +1,28 @@
+// Positions of the surface nodes on every rank, gathered once a frame: what detection, rendering
+// and metrics look at.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/communicator.h"
+#include "mesh/facets.h"
+#include "mesh/partition.h"
+
+namespace trocar {
+
+struct SurfaceView {
+  std::vector<Vec3> x;  // (n_nodes), valid at surface nodes [m]
+  std::vector<std::int32_t>
+      node;  // surface nodes by (owner, number): the order in which they arrive
+  std::vector<std::int32_t> local;  // this rank's ones, local numbers
+};
+
+SurfaceView make_surface_view(const Surface& surface, std::span<const Vec3> X,
+                              std::span<const std::int32_t> node_owner, const Part& part, int rank);
+// Collective.
+void gather_surface(SurfaceView& view, std::span<const Vec3> X, std::span<const double> u,
+                    Communicator& communicator);
+
+}  // namespace trocar

@@ -1,0 +1,114 @@
+#include "engine/tissue.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/bytes.h"
+#include "mesh/generate.h"
+#include "mesh/mesh_file.h"
+#include "mesh/quality.h"
+
+namespace trocar {
+
+namespace {
+
+BoxElements box_elements(ElementKind kind) {
+  switch (kind) {
+    case ElementKind::hex8:
+      return BoxElements::hex8;
+    case ElementKind::tet4_kuhn:
+      return BoxElements::tet4_kuhn;
+    case ElementKind::tet4_five:
+      return BoxElements::tet4_five;
+  }
+  return BoxElements::hex8;
+}
+
+Mesh generate_tissue(const SceneShape& s) {
+  const BoxElements elements = box_elements(s.elements);
+  switch (s.kind) {
+    case ShapeKind::box:
+      return make_box(s.low, s.high, s.cells, elements);
+    case ShapeKind::ball:
+      return make_ball(s.centre, s.radius, s.cells[0], elements);
+    case ShapeKind::cylinder:
+      return make_cylinder(s.centre, s.radius, s.height, s.cells[0], s.cells[2], elements);
+    case ShapeKind::rectangle:
+      return make_rectangle(s.high.x(), s.high.y(), s.cells[0], s.cells[1]);
+    case ShapeKind::triangular_rectangle:
+      return make_triangular_rectangle(s.high.x(), s.cells[0], s.cells[1]);
+  }
+  return {};
+}
+
+void place(const SceneTissue& tissue, Mesh& mesh) {
+  const MeshStatistics box = mesh_statistics(mesh);
+  const Vec3 centre = 0.5 * (box.low + box.high);
+  const double longest = (box.high - box.low).maxCoeff();
+  const double factor = tissue.longest_side > 0 ? tissue.longest_side / longest : 1;
+  const Vec3 origin = tissue.is_centred ? centre : Vec3::Zero();
+  for (Vec3& X : mesh.X) X = (X - origin) * factor + tissue.translate;
+}
+
+void add_regions(const LoadedScene& loaded, Mesh& mesh) {
+  for (std::size_t k = 0; k < loaded.scene.regions.size(); ++k) {
+    const SceneRegion& region = loaded.scene.regions[k];
+    NodeSet set{.name = region.name, .node = {}};
+    for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) {
+      const Vec3& X = mesh.X[static_cast<std::size_t>(i)];
+      if ((X.array() >= region.low.array()).all() && (X.array() <= region.high.array()).all())
+        set.node.push_back(i);
+    }
+    if (set.node.empty())
+      loaded.where.fail("region[" + std::to_string(k) + "]",
+                        "region \"" + region.name + "\" holds no node of the mesh");
+    mesh.node_sets.push_back(std::move(set));
+  }
+}
+
+std::string known_regions(const Mesh& mesh) {
+  std::string names;
+  for (const NodeSet& set : mesh.node_sets)
+    names += (names.empty() ? "" : ", ") + ("\"" + set.name + "\"");
+  return names.empty() ? "none" : names;
+}
+
+void check_supports(const LoadedScene& loaded, const Mesh& mesh) {
+  for (std::size_t k = 0; k < loaded.scene.supports.size(); ++k) {
+    const std::string& name = loaded.scene.supports[k].region;
+    if (!find_node_set(mesh, name))
+      loaded.where.fail("support[" + std::to_string(k) + "].region",
+                        "the body has no region \"" + name + "\"; it has " + known_regions(mesh));
+  }
+}
+
+Mesh read_tissue(const LoadedScene& loaded) {
+  const SceneTissue& tissue = loaded.scene.tissue;
+  Mesh mesh;
+  if (tissue.shape) {
+    mesh = generate_tissue(*tissue.shape);
+  } else {
+    const std::string file =
+        tissue.mesh.starts_with('/') ? tissue.mesh : loaded.folder + tissue.mesh;
+    try {
+      mesh = read_mesh(file, tissue.scale);
+    } catch (const InputError& trouble) {
+      loaded.where.fail("tissue.mesh", trouble.what());
+    }
+  }
+  place(tissue, mesh);
+  const std::vector<std::string> faults = validate(mesh, 3);
+  if (!faults.empty()) loaded.where.fail("tissue", "the mesh can't be used: " + faults.front());
+  add_regions(loaded, mesh);
+  check_supports(loaded, mesh);
+  return mesh;
+}
+
+}  // namespace
+
+Mesh load_tissue(const LoadedScene& loaded, Communicator& communicator) {
+  const auto bytes = read_on_root(communicator, [&] { return mesh_to_bytes(read_tissue(loaded)); });
+  return mesh_from_bytes(bytes);
+}
+
+}  // namespace trocar

@@ -1,0 +1,32 @@
+// The body of a scene: read or generated on rank 0, placed, checked, and sent to every rank.
+#pragma once
+
+#include "base/communicator.h"
+#include "engine/scene.h"
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+// Collective; InputErrors of rank 0 are thrown on every rank. The mesh is validated and has all
+// node sets of [[region]].
+Mesh load_tissue(const LoadedScene& loaded, Communicator& communicator);
+
+// Runs `read` on rank 0 and hands its InputError to everyone; its bytes too. Collective.
+template <class Read>
+std::vector<std::byte> read_on_root(Communicator& communicator, const Read& read) {
+  std::vector<std::byte> bytes;
+  std::string error;
+  if (communicator.is_root()) {
+    try {
+      bytes = read();
+    } catch (const InputError& trouble) {
+      error = trouble.what();
+    }
+  }
+  error = communicator.first_text(error);
+  if (!error.empty()) throw InputError(error);
+  communicator.broadcast(bytes);
+  return bytes;
+}
+
+}  // namespace trocar

@@ -1,0 +1,124 @@
+#include "engine/tool.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trocar {
+
+namespace {
+
+constexpr int round_faces = 24;
+constexpr double jaw_angle = 0.30;  // of each open jaw [rad]
+
+ConvexPiece shaft_piece(double from, double to, double radius) {
+  return {.points = {Vec3(0, 0, from), Vec3(0, 0, to)}, .radius = radius};
+}
+
+void add_part(Tool& tool, TriangleMesh surface, int jaw = 0) {
+  tool.parts.push_back({.surface = std::move(surface), .jaw = jaw});
+}
+
+void make_probe(Tool& tool, const SceneInstrument& s) {
+  const double shaft = 0.6 * s.radius;
+  tool.shape.pieces = {shaft_piece(2 * s.radius, s.length, shaft),
+                       {.points = {Vec3(0, 0, s.radius)}, .radius = s.radius}};
+  add_part(tool, make_sphere_surface(Vec3(0, 0, s.radius), s.radius, round_faces));
+  add_part(tool, make_cone_surface(Vec3(0, 0, 1.6 * s.radius), Vec3(0, 0, s.length), shaft, shaft,
+                                   round_faces));
+}
+
+void make_scalpel(Tool& tool, const SceneInstrument& s, double edge_spacing) {
+  const double length = s.blade_length, width = 0.28 * length, half = 0.05e-3,
+               shown = 0.3e-3;  // thin, so that a fresh wound is not thrown open
+  const double neck = 0.45 * s.radius;
+  // The edge looks along +x; the blade's back rises from the tip.
+  const std::vector<Vec3> outline = {Vec3(0, 0, 0), Vec3(0, 0, length),
+                                     Vec3(-width, 0, 1.15 * length),
+                                     Vec3(-width, 0, 0.35 * length)};
+  ConvexPiece blade;
+  for (const Vec3& corner : outline)
+    for (const double y : {-half, half}) blade.points.push_back(corner + Vec3(0, y, 0));
+  tool.shape.pieces = {shaft_piece(1.3 * length, s.length, s.radius), blade};
+  add_part(tool, make_plate_surface({outline[0], outline[3], outline[2], outline[1]}, Vec3::UnitY(),
+                                    shown));
+  const double x = -0.5 * width;
+  add_part(tool, make_cone_surface(Vec3(x, 0, 0.95 * length), Vec3(x, 0, 1.5 * length), neck,
+                                   s.radius, round_faces));
+  add_part(tool, make_cone_surface(Vec3(x, 0, 1.5 * length), Vec3(x, 0, s.length), s.radius,
+                                   s.radius, round_faces));
+  const int n = std::max(2, static_cast<int>(std::ceil(length / edge_spacing)));
+  for (int k = 0; k <= n; ++k) tool.edge.emplace_back(0, 0, length * k / n);
+}
+
+void make_grasper(Tool& tool, const SceneInstrument& s) {
+  const double jaw = 0.022, thick = 0.55 * s.radius;
+  tool.hinge_height = jaw;
+  tool.grip_radius = s.grip_radius;
+  // Open jaws for contact: capsules from the hinge to the two tips. tan and cos of the small angle
+  // by their rational forms.
+  const double slope = jaw_angle + jaw_angle * jaw_angle * jaw_angle / 3;
+  ConvexPiece upper{.points = {Vec3(0, 0, jaw), Vec3(slope * jaw, 0, 0)}, .radius = 0.4 * s.radius};
+  ConvexPiece lower = upper;
+  lower.points[1].x() *= -1;
+  tool.shape.pieces = {shaft_piece(jaw + s.radius, s.length, s.radius), upper, lower};
+  for (const int side : {1, -1}) {
+    const double in = 0.02 * thick * side, out = thick * side, w = 0.7 * s.radius;
+    TriangleMesh plate =
+        make_box_surface(Vec3(std::min(in, out), -w, -0.002), Vec3(std::max(in, out), w, jaw));
+    for (int tooth = 0; tooth < 6; ++tooth) {
+      const double z = 0.001 + 0.0028 * tooth;
+      append(plate, make_box_surface(Vec3(std::min(-in, 0.5 * out), -w, z),
+                                     Vec3(std::max(-in, 0.5 * out), w, z + 0.0012)));
+    }
+    add_part(tool, plate, side);
+  }
+  add_part(tool, make_capsule_surface(Vec3(0, -0.9 * s.radius, jaw), Vec3(0, 0.9 * s.radius, jaw),
+                                      0.7 * s.radius, round_faces));
+  add_part(tool, make_cone_surface(Vec3(0, 0, jaw), Vec3(0, 0, jaw + 2 * s.radius), 0.6 * s.radius,
+                                   s.radius, round_faces));
+  add_part(tool, make_cone_surface(Vec3(0, 0, jaw + 2 * s.radius), Vec3(0, 0, s.length), s.radius,
+                                   s.radius, round_faces));
+}
+
+// The user's surface replaces the working piece: its hull touches, its triangles show.
+void use_mesh(Tool& tool, const TriangleMesh& mesh) {
+  tool.shape.pieces.resize(first_working_piece);
+  tool.shape.pieces.push_back({.points = mesh.X, .radius = 0});
+  tool.parts = {{.surface = mesh, .jaw = 0}};
+  tool.own_mesh = mesh;
+}
+
+}  // namespace
+
+Tool make_tool(const SceneInstrument& s, const TriangleMesh& mesh, double edge_spacing) {
+  Tool tool{.kind = s.kind, .name = s.name, .path = ToolPath(s.path), .keys = s.path};
+  if (s.kind == InstrumentKind::probe) make_probe(tool, s);
+  if (s.kind == InstrumentKind::scalpel) make_scalpel(tool, s, edge_spacing);
+  if (s.kind == InstrumentKind::grasper) make_grasper(tool, s);
+  if (!mesh.X.empty()) use_mesh(tool, mesh);
+  return tool;
+}
+
+double jaw_opening(const Tool& tool, double time) {
+  double opening = 1;
+  for (const InstrumentKey& key : tool.keys) {
+    if (key.action == GraspAction::none || key.time - 0.2 > time) continue;
+    const double done = std::min(1.0, (time - key.time + 0.2) / 0.2);  // the jaws meet at the key
+    opening =
+        key.action == GraspAction::close ? std::min(opening, 1 - done) : std::max(opening, done);
+  }
+  return opening;
+}
+
+Pose part_pose(const Tool& tool, const ToolPart& part, double time) {
+  Pose pose = tool.path.at(time);
+  if (part.jaw == 0) return pose;
+  const double angle = -part.jaw * jaw_angle * (0.15 + 0.85 * jaw_opening(tool, time));
+  const Quat turn(Eigen::AngleAxisd(angle, Vec3::UnitY()));
+  const Vec3 hinge(0, 0, tool.hinge_height);
+  pose.translation = pose.apply(hinge - turn * hinge);
+  pose.rotation = pose.rotation * turn;
+  return pose;
+}
+
+}  // namespace trocar

@@ -1,0 +1,47 @@
+// An instrument of the scene: its path, its shape for contact, its look, its cutting edge.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "collision/tool_shape.h"
+#include "engine/scene.h"
+#include "engine/tool_path.h"
+#include "mesh/triangle_mesh.h"
+
+namespace trocar {
+
+// A rigid piece of the picture; jaws turn about the hinge.
+struct ToolPart {
+  TriangleMesh surface;  // in the tool's frame, jaws in closed position
+  int jaw = 0;           // 0: fixed to the shaft; +1, -1: jaws
+};
+
+struct Tool {
+  InstrumentKind kind = InstrumentKind::probe;
+  std::string name;
+  ToolPath path;
+  std::vector<InstrumentKey> keys;
+  ToolShape shape;
+  std::vector<ToolPart> parts;
+  TriangleMesh own_mesh;  // the user's surface, empty where the shape is built in
+  std::vector<Vec3>
+      edge;  // scalpel: the straight cutting edge, from the tip up, in the tool's frame [m]
+  double grip_radius = 0;   // grasper [m]
+  double hinge_height = 0;  // grasper: jaws turn about the y axis here [m]
+};
+
+// Shape index of the first piece that closes with the jaws (grasper) / of the blade (scalpel);
+// pieces before it belong to the shaft.
+inline constexpr int first_working_piece = 1;
+
+// mesh: a surface of the user's for the tip, empty for the built-in one. edge_spacing: distance of
+// the points of a scalpel's edge [m].
+Tool make_tool(const SceneInstrument& instrument, const TriangleMesh& mesh, double edge_spacing);
+
+// How far the jaws are open at a time, 1 open … 0 closed, moving for 0.2 s around the keys.
+double jaw_opening(const Tool& tool, double time);
+// Pose of a part: the tool's, with a jaw's turn.
+Pose part_pose(const Tool& tool, const ToolPart& part, double time);
+
+}  // namespace trocar

@@ -1,0 +1,111 @@
+#include "engine/tool_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trocar {
+
+namespace {
+
+// Slopes of a monotone cubic through the keys; zero at both ends and at turning points.
+std::vector<Vec3> monotone_slopes(const std::vector<double>& time, const std::vector<Vec3>& value) {
+  std::vector<Vec3> slope(time.size(), Vec3::Zero());
+  for (std::size_t k = 1; k + 1 < time.size(); ++k) {
+    const double h0 = time[k] - time[k - 1], h1 = time[k + 1] - time[k];
+    for (int i = 0; i < 3; ++i) {
+      const double d0 = (value[k][i] - value[k - 1][i]) / h0,
+                   d1 = (value[k + 1][i] - value[k][i]) / h1;
+      if (d0 * d1 > 0) {  // weighted harmonic mean (Fritsch and Butland 1984)
+        const double w0 = 2 * h1 + h0, w1 = h1 + 2 * h0;
+        slope[k][i] = (w0 + w1) / (w0 / d0 + w1 / d1);
+      }
+    }
+  }
+  return slope;
+}
+
+// Key interval of `t` and the place in it, both clamped to the path.
+std::pair<std::size_t, double> find_interval(const std::vector<double>& time, double t) {
+  if (t <= time.front() || time.size() == 1) return {0, 0.0};
+  if (t >= time.back()) return {time.size() - 2, 1.0};
+  const auto above = std::upper_bound(time.begin(), time.end(), t);
+  const auto k = static_cast<std::size_t>(above - time.begin()) - 1;
+  return {k, (t - time[k]) / (time[k + 1] - time[k])};
+}
+
+Vec3 interpolate(const std::vector<double>& time, const std::vector<Vec3>& value,
+                 const std::vector<Vec3>& slope, double t) {
+  const auto [k, s] = find_interval(time, t);
+  if (time.size() == 1) return value[0];
+  const double h = time[k + 1] - time[k];
+  const double s2 = s * s, s3 = s2 * s;
+  return (2 * s3 - 3 * s2 + 1) * value[k] + (s3 - 2 * s2 + s) * h * slope[k] +
+         (3 * s2 - 2 * s3) * value[k + 1] + (s3 - s2) * h * slope[k + 1];
+}
+
+}  // namespace
+
+Quat tool_rotation(const Vec3& direction, const Vec3& forward) {
+  Mat3 axes;
+  const Vec3 z = -direction / std::sqrt(direction.dot(direction));
+  Vec3 x = forward - z * z.dot(forward);
+  x /= std::sqrt(x.dot(x));
+  axes.col(0) = x;
+  axes.col(1) = z.cross(x);
+  axes.col(2) = z;
+  return Quat(axes);
+}
+
+ToolPath::ToolPath(const std::vector<InstrumentKey>& keys) {
+  for (const InstrumentKey& key : keys) {
+    time_.push_back(key.time);
+    position_.push_back(key.position);
+    Quat rotation = tool_rotation(key.direction, key.forward);
+    if (!rotation_.empty() && rotation_.back().dot(rotation) < 0) rotation.coeffs() *= -1.0;
+    rotation_.push_back(rotation);
+  }
+  slope_ = monotone_slopes(time_, position_);
+}
+
+Pose ToolPath::at(double time) const {
+  const auto [k, s] = find_interval(time_, time);
+  Pose pose;
+  pose.translation = interpolate(time_, position_, slope_, time);
+  if (time_.size() == 1) {
+    pose.rotation = rotation_[0];
+    return pose;
+  }
+  const double smooth = s * s * (3 - 2 * s);  // at rest at the keys
+  Eigen::Vector4d q = (1 - smooth) * rotation_[k].coeffs() + smooth * rotation_[k + 1].coeffs();
+  q /= std::sqrt(q.dot(q));
+  pose.rotation.coeffs() = q;
+  return pose;
+}
+
+double ToolPath::travel(double t0, double t1, double reach) const {
+  constexpr int samples = 4;
+  const Vec3 far(0, 0, reach);
+  Pose last = at(t0);
+  double tip = 0, top = 0;
+  for (int k = 1; k <= samples; ++k) {
+    const Pose pose = at(t0 + (t1 - t0) * k / samples);
+    tip += (pose.translation - last.translation).norm();
+    top += (pose.apply(far) - last.apply(far)).norm();
+    last = pose;
+  }
+  return std::max(tip, top);
+}
+
+DisplacementPath::DisplacementPath(const std::vector<SupportKey>& keys) {
+  for (const SupportKey& key : keys) {
+    time_.push_back(key.time);
+    position_.push_back(key.displacement);
+  }
+  slope_ = monotone_slopes(time_, position_);
+}
+
+Vec3 DisplacementPath::at(double time) const {
+  return interpolate(time_, position_, slope_, time);
+}
+
+}  // namespace trocar

@@ -1,0 +1,42 @@
+// Where an instrument is at any time: positions by monotone cubic interpolation of the key
+// positions (Fritsch and Carlson 1980, no overshoot), rotations by normalised linear interpolation.
+// Only + - * / sqrt: the path is part of the simulation's bits.
+#pragma once
+
+#include <vector>
+
+#include "base/vec.h"
+#include "engine/scene.h"
+
+namespace trocar {
+
+// The instrument's frame: origin at the tip, z from tip to handle, x where the cutting edge faces.
+class ToolPath {
+ public:
+  explicit ToolPath(const std::vector<InstrumentKey>& keys);
+  Pose at(double time) const;  // constant before the first key and after the last
+  // Largest distance that the tip and a point `reach` up the shaft travel in [t0, t1], from
+  // `samples` positions. [m]
+  double travel(double t0, double t1, double reach) const;
+
+ private:
+  std::vector<double> time_;
+  std::vector<Vec3> position_, slope_;
+  std::vector<Quat> rotation_;
+};
+
+// Positions of [[support]] paths by the same rule.
+class DisplacementPath {
+ public:
+  explicit DisplacementPath(const std::vector<SupportKey>& keys);
+  Vec3 at(double time) const;
+
+ private:
+  std::vector<double> time_;
+  std::vector<Vec3> position_, slope_;
+};
+
+// The frame's rotation for a pointing direction and the direction that the edge faces.
+Quat tool_rotation(const Vec3& direction, const Vec3& forward);
+
+}  // namespace trocar

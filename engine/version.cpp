@@ -1,0 +1,9 @@
+#include "engine/version.h"
+
+namespace trocar {
+
+std::string version_text() {
+  return "trocar 0.1.0";
+}
+
+}  // namespace trocar

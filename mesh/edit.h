@@ -1,0 +1,57 @@
+// A change of topology as a value: what a cut does to the mesh, and how the state goes over.
+// Cutting makes it, engine applies it to mesh, model, state, contact and recording in one order.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+// Node `node` gets the reference position X, which lies in (or next to) element `host` of the mesh
+// before the edit; a nodal field q becomes sum_a weight[a] q[corner a of host]: exact for affine
+// motion.
+struct NodeMove {
+  std::int32_t node = 0;
+  Vec3 X = Vec3::Zero();
+  std::int32_t host = 0;
+  std::array<double, max_corners> weight{};
+};
+// Corner `corner` of element `element` becomes node `node` (old or new).
+struct CornerChange {
+  std::int32_t element = 0;
+  std::int32_t corner = 0;
+  std::int32_t node = 0;
+};
+struct CutFacets {
+  std::int32_t element = 0;
+  std::uint8_t mask = 0;  // the whole new value of Mesh::cut_facets
+};
+struct DensityChange {
+  std::int32_t element = 0;
+  double factor = 1;  // the whole new value of Mesh::density_factor
+};
+
+// Applied in the order of its members. The k-th duplicate becomes node n_nodes + k and copies its
+// parent (after moving).
+struct MeshEdit {
+  std::vector<NodeMove> moves;                 // ascending node
+  std::vector<std::int32_t> duplicate_parent;  // (n_duplicates)
+  std::vector<CornerChange> corners;           // ascending (element, corner)
+  std::vector<CutFacets> cut_facets;           // ascending element
+  std::vector<DensityChange> density;          // ascending element
+  bool is_empty() const { return moves.empty() && duplicate_parent.empty() && corners.empty(); }
+};
+
+// Elements that the edit touches in any way (moved corner, changed corner, density), ascending.
+std::vector<std::int32_t> edited_elements(const Mesh& mesh, const MeshEdit& edit);
+
+void apply_edit(MeshEdit const& edit, Mesh& mesh);
+// The same change on a nodal field with `width` doubles a node (n_nodes * width -> n_new_nodes *
+// width); `before` is the mesh before the edit.
+void apply_edit(const MeshEdit& edit, const Mesh& before, int width, std::vector<double>& field);
+
+}  // namespace trocar

@@ -1,0 +1,148 @@
+// Who is next to whom: across facets, around nodes, along edges, and on the boundary.
+#include "mesh/facets.h"
+
+#include <algorithm>
+#include <string>
+
+#include "base/error.h"
+#include "mesh/facet_sort.h"
+
+namespace trocar {
+
+int n_facets(ElementType type) {
+  constexpr std::array<int, n_element_types> n = {3, 4, 6};
+  return n[static_cast<std::size_t>(type)];
+}
+
+std::array<int, 4> facet_corners(ElementType type, int f) {
+  using Corners = std::array<int, 4>;
+  static constexpr std::array<std::array<Corners, 6>, n_element_types> corners = {{
+      {{{1, 2, -1, -1}, {2, 0, -1, -1}, {0, 1, -1, -1}}},
+      {{{1, 2, 3, -1}, {0, 3, 2, -1}, {0, 1, 3, -1}, {0, 2, 1, -1}}},
+      {{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
+  }};
+  return corners[static_cast<std::size_t>(type)][static_cast<std::size_t>(f)];
+}
+
+static std::string nodes_text(const FacetSide& side) {
+  std::string text;
+  for (const std::int32_t i : side.node)
+    if (i >= 0) text.append(" ").append(std::to_string(i));
+  return text;
+}
+
+FacetNeighbours facet_neighbours(const Mesh& mesh) {
+  FacetNeighbours result;
+  result.offset.assign(1, 0);
+  for (const ElementType type : mesh.element_type)
+    result.offset.push_back(result.offset.back() + n_facets(type));
+  result.neighbour.assign(static_cast<std::size_t>(result.offset.back()), -1);
+
+  const std::vector<FacetSide> side = sorted_facet_sides(mesh);
+  for (std::size_t k = 0; k + 1 < side.size(); ++k) {
+    if (side[k].node != side[k + 1].node) continue;
+    if (k + 2 < side.size() && side[k].node == side[k + 2].node)
+      throw InputError("the facet of nodes" + nodes_text(side[k]) +
+                       " is shared by more than two elements: " + std::to_string(side[k].element) +
+                       ", " + std::to_string(side[k + 1].element) + ", " +
+                       std::to_string(side[k + 2].element));
+    const FacetSide &a = side[k], &b = side[k + 1];
+    result.neighbour[result.offset[a.element] + a.facet] = b.element;
+    result.neighbour[result.offset[b.element] + b.facet] = a.element;
+    ++k;
+  }
+  return result;
+}
+
+NodeElements node_elements(const Mesh& mesh) {
+  NodeElements result;
+  result.offset.assign(mesh.X.size() + 1, 0);
+  result.element.resize(mesh.corner_node.size());
+  for (const std::int32_t i : mesh.corner_node) ++result.offset[i + 1];
+  for (std::size_t i = 1; i < result.offset.size(); ++i) result.offset[i] += result.offset[i - 1];
+  std::vector<std::int32_t> next(result.offset.begin(), result.offset.end() - 1);
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    for (const std::int32_t i : mesh.corners(e)) result.element[next[i]++] = e;
+  return result;
+}
+
+std::vector<std::array<std::int32_t, 2>> mesh_edges(const Mesh& mesh) {
+  std::vector<std::array<std::int32_t, 2>> edge;
+  const NodeElements around = node_elements(mesh);
+  std::vector<std::int32_t> above;  // neighbours of node i with a higher number
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) {
+    above.clear();
+    for (const std::int32_t e : around.of(i))
+      for (const auto& [a, b] : edge_corners(mesh.element_type[e])) {
+        const std::int32_t from = mesh.corners(e)[a], to = mesh.corners(e)[b];
+        if (std::min(from, to) == i) above.push_back(std::max(from, to));
+      }
+    std::sort(above.begin(), above.end());
+    above.erase(std::unique(above.begin(), above.end()), above.end());
+    for (const std::int32_t j : above) edge.push_back({i, j});
+  }
+  return edge;
+}
+
+static void add_triangle(Surface& surface, const std::array<std::int32_t, 3>& triangle,
+                         std::int32_t e, bool is_cut) {
+  surface.triangle.push_back(triangle);
+  surface.element.push_back(e);
+  surface.is_cut.push_back(is_cut ? 1 : 0);
+}
+
+static void add_facet(Surface& surface, const Mesh& mesh, std::int32_t e, int f) {
+  const std::array<int, 4> corner = facet_corners(mesh.element_type[e], f);
+  if (corner[2] < 0) return;  // the edge of a triangle has no area
+  std::array<std::int32_t, 4> node{};
+  const std::size_t n = corner[3] < 0 ? 3 : 4;
+  for (std::size_t a = 0; a < n; ++a) node[a] = mesh.corners(e)[corner[a]];
+  const bool is_cut = (mesh.cut_facets[e] >> f & 1) != 0;
+  // Both elements of a quad split it at its lowest node, so the surface does not depend on the
+  // side.
+  if (n == 4) std::rotate(node.begin(), std::min_element(node.begin(), node.end()), node.end());
+  add_triangle(surface, {node[0], node[1], node[2]}, e, is_cut);
+  if (n == 4) add_triangle(surface, {node[0], node[2], node[3]}, e, is_cut);
+}
+
+// Facets of one element only, as bits by element.
+static std::vector<std::uint8_t> boundary_facets(const Mesh& mesh) {
+  std::vector<std::uint8_t> is_boundary(mesh.element_type.size(), 0);
+  const std::vector<FacetSide> side = sorted_facet_sides(mesh);
+  for (std::size_t begin = 0, end = 0; begin < side.size(); begin = end) {
+    while (end < side.size() && side[end].node == side[begin].node) ++end;
+    if (end - begin > 1) continue;
+    std::uint8_t& bits = is_boundary[side[begin].element];
+    bits = static_cast<std::uint8_t>(bits | 1U << side[begin].facet);
+  }
+  return is_boundary;
+}
+
+static std::vector<std::int32_t> used_nodes(const Surface& surface, std::size_t n_nodes) {
+  std::vector<std::uint8_t> is_used(n_nodes, 0);
+  for (const std::array<std::int32_t, 3>& triangle : surface.triangle)
+    for (const std::int32_t i : triangle) is_used[i] = 1;
+  std::vector<std::int32_t> node;
+  for (std::size_t i = 0; i < n_nodes; ++i)
+    if (is_used[i] != 0) node.push_back(static_cast<std::int32_t>(i));
+  return node;
+}
+
+Surface boundary_surface(const Mesh& mesh) {
+  Surface surface;
+  if (mesh.dimension() == 2) {
+    for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+      const std::span<const std::int32_t> node = mesh.corners(e);
+      add_triangle(surface, {node[0], node[1], node[2]}, e, false);
+    }
+  } else {
+    const std::vector<std::uint8_t> is_boundary = boundary_facets(mesh);
+    for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+      for (int f = 0; f < n_facets(mesh.element_type[e]); ++f)
+        if ((is_boundary[e] >> f & 1) != 0) add_facet(surface, mesh, e, f);
+  }
+  surface.node = used_nodes(surface, mesh.X.size());
+  return surface;
+}
+
+}  // namespace trocar

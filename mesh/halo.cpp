@@ -1,0 +1,140 @@
+// A rank's part of the mesh, its halo, and the exchange of nodal fields with its neighbours.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/check.h"
+#include "mesh/partition.h"
+
+namespace trocar {
+
+// Marks of all corners of the elements that touch an owned node; fills part.element_global.
+static std::vector<std::uint8_t> touched_nodes(const Mesh& mesh,
+                                               std::span<const std::int32_t> node_owner, int rank,
+                                               Part& part) {
+  std::vector<std::uint8_t> is_touched(mesh.X.size(), 0);
+  const auto is_owned = [&](std::int32_t i) { return node_owner[i] == rank; };
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    const std::span<const std::int32_t> node = mesh.corners(e);
+    if (std::none_of(node.begin(), node.end(), is_owned)) continue;
+    part.element_global.push_back(e);
+    for (const std::int32_t i : node) is_touched[i] = 1;
+  }
+  return is_touched;
+}
+
+Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int rank) {
+  CHECK_OP(node_owner.size(), ==, mesh.X.size());
+  Part part;
+  const std::vector<std::uint8_t> is_touched = touched_nodes(mesh, node_owner, rank, part);
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
+    if (node_owner[i] == rank) part.node_global.push_back(i);
+  part.n_owned = part.n_local();
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
+    if (node_owner[i] != rank && is_touched[i] != 0) part.node_global.push_back(i);
+  part.node_local.assign(mesh.X.size(), -1);
+  for (std::int32_t k = 0; k < part.n_local(); ++k) part.node_local[part.node_global[k]] = k;
+  return part;
+}
+
+// Ascending by rank, then by local number, which within owned and within halo nodes is the order of
+// global numbers: so both sides of an exchange list the same nodes in the same order.
+using RankNode = std::pair<std::int32_t, std::int32_t>;
+
+static std::vector<RankNode> nodes_to_send(const Mesh& mesh,
+                                           std::span<const std::int32_t> node_owner,
+                                           const Part& part, int rank) {
+  std::vector<RankNode> pairs;
+  for (const std::int32_t e : part.element_global)
+    for (const std::int32_t other : mesh.corners(e)) {
+      if (node_owner[other] == rank) continue;
+      for (const std::int32_t own : mesh.corners(e))
+        if (node_owner[own] == rank) pairs.emplace_back(node_owner[other], part.node_local[own]);
+    }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+static std::vector<RankNode> nodes_to_receive(std::span<const std::int32_t> node_owner,
+                                              const Part& part) {
+  std::vector<RankNode> pairs;
+  for (std::int32_t k = part.n_owned; k < part.n_local(); ++k)
+    pairs.emplace_back(node_owner[part.node_global[k]], k);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+Halo make_halo(const Mesh& mesh, std::span<const std::int32_t> node_owner, const Part& part,
+               int rank) {
+  // Whoever sends to this rank also receives from it: an element on the border is on both sides.
+  Halo halo;
+  for (const auto& [other, local] : nodes_to_receive(node_owner, part)) {
+    if (halo.neighbours.empty() || halo.neighbours.back().rank != other)
+      halo.neighbours.push_back({other, {}, {}});
+    halo.neighbours.back().receive.push_back(local);
+  }
+  auto neighbour = halo.neighbours.begin();
+  for (const auto& [other, local] : nodes_to_send(mesh, node_owner, part, rank)) {
+    while (neighbour->rank != other) ++neighbour;
+    neighbour->send.push_back(local);
+  }
+  return halo;
+}
+
+HaloExchange::HaloExchange(const Halo& halo, int width) : halo_(&halo), width_(width) {
+  std::size_t n_send = 0, n_receive = 0;
+  for (const Halo::Neighbour& neighbour : halo.neighbours) {
+    n_send += neighbour.send.size();
+    n_receive += neighbour.receive.size();
+  }
+  send_.resize(n_send * static_cast<std::size_t>(width));
+  receive_.resize(n_receive * static_cast<std::size_t>(width));
+  messages_.resize(halo.neighbours.size());
+}
+
+void HaloExchange::exchange(std::span<double> field, Communicator& communicator) {
+  const auto width = static_cast<std::size_t>(width_);
+  const auto values = [&](std::int32_t local) { return field.data() + width * local; };
+  double *send = send_.data(), *receive = receive_.data();
+  for (std::size_t k = 0; k < messages_.size(); ++k) {
+    const Halo::Neighbour& neighbour = halo_->neighbours[k];
+    const std::size_t n_send = neighbour.send.size() * width;
+    const std::size_t n_receive = neighbour.receive.size() * width;
+    messages_[k] = {neighbour.rank, {send, n_send}, {receive, n_receive}};
+    for (const std::int32_t i : neighbour.send) send = std::copy_n(values(i), width, send);
+    receive += n_receive;
+  }
+  communicator.start_exchange(messages_);
+  communicator.finish_exchange();
+
+  const double* received = receive_.data();
+  for (const Halo::Neighbour& neighbour : halo_->neighbours)
+    for (const std::int32_t i : neighbour.receive) {
+      std::copy_n(received, width, values(i));
+      received += width;
+    }
+}
+
+std::vector<double> all_gather_field(const Part& part, std::int32_t n_nodes, int width,
+                                     std::span<const double> local, Communicator& communicator) {
+  const auto n = static_cast<std::size_t>(width);
+  CHECK_OP(local.size(), >=, static_cast<std::size_t>(part.n_owned) * n);
+  // Each node travels as its global number (exact in a double) and its values.
+  std::vector<double> records;
+  records.reserve(static_cast<std::size_t>(part.n_owned) * (n + 1));
+  for (std::int32_t k = 0; k < part.n_owned; ++k) {
+    records.push_back(part.node_global[k]);
+    const double* values = local.data() + n * k;
+    records.insert(records.end(), values, values + n);
+  }
+  records = communicator.all_gather(records);
+  CHECK_OP(records.size(), ==, static_cast<std::size_t>(n_nodes) * (n + 1));
+  std::vector<double> field(static_cast<std::size_t>(n_nodes) * n);
+  for (auto record = records.begin(); record != records.end();
+       record += static_cast<std::ptrdiff_t>(n + 1))
+    std::copy_n(record + 1, n, field.begin() + static_cast<std::ptrdiff_t>(*record) * width);
+  return field;
+}
+
+}  // namespace trocar

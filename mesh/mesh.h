@@ -1,0 +1,69 @@
+// A mesh: where the nodes are, which elements they make, which nodes belong to named sets. Every
+// rank holds the whole of it; what a rank computes of it is said by its Part (partition.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace trocar {
+
+enum class ElementType : std::uint8_t { tri3, tet4, hex8 };
+inline constexpr int n_element_types = 3;
+inline constexpr int max_corners = 8;
+
+// A named set of nodes, ascending ("attachment").
+struct NodeSet {
+  std::string name;
+  std::vector<std::int32_t> node;
+};
+
+// Global numbers are positions in these arrays. Element corners in the order of VTK and gmsh.
+struct Mesh {
+  std::vector<Vec3> X;                         // (n_nodes) reference positions [m]
+  std::vector<ElementType> element_type;       // (n_elements)
+  std::vector<std::int32_t> corner_offset{0};  // (n_elements + 1)
+  std::vector<std::int32_t> corner_node;       // (corner_offset.back())
+  std::vector<std::int32_t> element_region;    // (n_elements) index into region_name
+  std::vector<std::string> region_name;        // at least one, "" where the file names none
+  std::vector<double>
+      density_factor;  // (n_elements) keeps the mass when a cut moves nodes of a curved surface
+  std::vector<std::uint8_t>
+      cut_facets;  // (n_elements) bit f: facet f was opened by a cut (facets.h numbers them)
+  std::vector<NodeSet> node_sets;
+
+  std::int32_t n_nodes() const { return static_cast<std::int32_t>(X.size()); }
+  std::int32_t n_elements() const { return static_cast<std::int32_t>(element_type.size()); }
+  std::span<const std::int32_t> corners(std::int32_t e) const {
+    return {corner_node.data() + corner_offset[e],
+            static_cast<std::size_t>(corner_offset[e + 1] - corner_offset[e])};
+  }
+  // 2 if all elements are triangles (plane problem, z = 0), else 3.
+  int dimension() const;
+};
+
+int n_corners(ElementType type);
+const char* element_type_name(ElementType type);
+
+// Appends an element of region 0 with density factor 1.
+void add_element(Mesh& mesh, ElementType type, std::span<const std::int32_t> corners,
+                 std::int32_t region = 0);
+
+// nullptr if there is none of that name.
+const NodeSet* find_node_set(const Mesh& mesh, const std::string& name);
+
+// Volume of an element in positions x (n_nodes); the exact trilinear one for hex8, the area for
+// tri3 (corners counter-clockwise seen from z > 0). Negative if inverted. [m^3], [m^2]
+double element_volume(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x);
+
+// Sum of density * factor * volume (* thickness for tri3) of an element, spread equally on its
+// corners. density (n_regions) [kg/m^3]; thickness [m] counts for tri3 only. Result (n_nodes) [kg],
+// summed in element order.
+std::vector<double> lumped_mass(const Mesh& mesh, std::span<const double> density,
+                                double thickness);
+
+}  // namespace trocar

@@ -1,0 +1,107 @@
+// Which format a mesh file has: by its content, then by its ending.
+#include "mesh/mesh_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "mesh/mesh_file_formats.h"
+#include "mesh/vtu_file.h"
+#include "mesh/whole_file.h"
+
+namespace trocar {
+
+namespace {
+
+enum class Format { gmsh, legacy_vtk, vtu, stl, obj, unknown };
+
+bool has_ending(const std::string& file, std::string_view ending) {
+  if (file.size() < ending.size()) return false;
+  const auto is_equal = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; };
+  return std::equal(file.end() - static_cast<std::ptrdiff_t>(ending.size()), file.end(),
+                    ending.begin(), is_equal);
+}
+
+Format format_by_ending(const std::string& file) {
+  if (has_ending(file, ".msh")) return Format::gmsh;
+  if (has_ending(file, ".vtk")) return Format::legacy_vtk;
+  if (has_ending(file, ".vtu")) return Format::vtu;
+  if (has_ending(file, ".stl")) return Format::stl;
+  return has_ending(file, ".obj") ? Format::obj : Format::unknown;
+}
+
+Format find_format(const std::string& file, std::string_view bytes) {
+  if (is_binary_stl(bytes) && has_ending(file, ".stl")) return Format::stl;
+  const std::size_t start = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
+  const std::string_view text = bytes.substr(start);
+  if (text.starts_with("# vtk DataFile")) return Format::legacy_vtk;
+  if (text.starts_with("<")) return Format::vtu;
+  if (text.starts_with("$")) return Format::gmsh;
+  if (text.starts_with("solid")) return Format::stl;
+  return format_by_ending(file);
+}
+
+RawMesh read_cells(Format format, ByteReader& in) {
+  if (format == Format::gmsh) return read_gmsh(in);
+  if (format == Format::legacy_vtk) return read_legacy_vtk(in);
+  return read_vtu_cells(in);
+}
+
+TriangleMesh read_triangles(Format format, ByteReader& in) {
+  return format == Format::stl ? read_stl(in) : read_obj(in);
+}
+
+// The bytes of the file are freed before the mesh is made of what was read.
+RawMesh read_raw_mesh(const std::string& file) {
+  const std::string bytes = read_whole_file(file);
+  ByteReader in(file, bytes);
+  const Format format = find_format(file, bytes);
+  if (format == Format::unknown)
+    in.fail_file("is in no known mesh format: gmsh .msh (1.0, 2.2, 4.1), legacy VTK and VTU are");
+  if (format == Format::stl || format == Format::obj) {
+    const TriangleMesh surface = merge_vertices(file, read_triangles(format, in));
+    in.fail_file("this file holds only a surface (" + std::to_string(surface.triangle.size()) +
+                 " triangles): make a volume mesh of it, e.g. with gmsh -3, or use it as an "
+                 "instrument");
+  }
+  return read_cells(format, in);
+}
+
+TriangleMesh read_surface(const std::string& file) {
+  const std::string bytes = read_whole_file(file);
+  ByteReader in(file, bytes);
+  const Format format = find_format(file, bytes);
+  if (format == Format::unknown)
+    in.fail_file("is in no known surface format: STL, OBJ, gmsh .msh, legacy VTK and VTU are");
+  const bool is_surface = format == Format::stl || format == Format::obj;
+  return is_surface ? read_triangles(format, in) : make_surface(read_cells(format, in));
+}
+
+}  // namespace
+
+Mesh read_mesh(const std::string& file, double scale) {
+  return make_mesh(read_raw_mesh(file), scale);
+}
+
+Mesh read_vtu(const std::string& file) {
+  const auto read = [&] {
+    const std::string bytes = read_whole_file(file);
+    ByteReader in(file, bytes);
+    return read_vtu_cells(in);
+  };
+  return make_mesh(read(), 1);
+}
+
+TriangleMesh read_triangle_mesh(const std::string& file, double scale) {
+  CHECK(std::isfinite(scale) && scale > 0);
+  TriangleMesh mesh = read_surface(file);
+  for (Vec3& x : mesh.X) {
+    x *= scale;
+    if (!x.allFinite())
+      throw InputError(file + ": a vertex lies at a position that is not finite when scaled");
+  }
+  return merge_vertices(file, std::move(mesh));
+}
+
+}  // namespace trocar

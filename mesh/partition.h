@@ -1,0 +1,65 @@
+// Who owns which node, what a rank computes, and how owners tell their neighbours.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/communicator.h"
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+// Owner of each node, by METIS with a fixed seed on rank 0; the same on every rank. Collective.
+// Throws InputError if there are fewer nodes than ranks.
+std::vector<std::int32_t> partition_nodes(const Mesh& mesh, Communicator& communicator);
+// The same for any number of parts, by this process alone; each part gets at least one node.
+std::vector<std::int32_t> partition_nodes(const Mesh& mesh, int n_parts);
+// A duplicated node stays with its parent's owner.
+void apply_edit_to_owners(std::span<const std::int32_t> duplicate_parent,
+                          std::vector<std::int32_t>& node_owner);
+
+// This rank's part: all elements that touch a node it owns. Local numbers: owned nodes ascending,
+// then halo nodes ascending.
+struct Part {
+  std::vector<std::int32_t> node_global;  // (n_local)
+  std::int32_t n_owned = 0;
+  std::vector<std::int32_t> element_global;  // ascending
+  std::vector<std::int32_t> node_local;      // (n_nodes) local number or -1
+
+  std::int32_t n_local() const { return static_cast<std::int32_t>(node_global.size()); }
+};
+Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int rank);
+
+// Which local nodes go to and come from which rank, ascending global number on both sides. Made
+// without communication.
+struct Halo {
+  struct Neighbour {
+    int rank = 0;
+    std::vector<std::int32_t> send;     // local numbers of owned nodes that the neighbour needs
+    std::vector<std::int32_t> receive;  // local numbers of halo nodes that it owns
+  };
+  std::vector<Neighbour> neighbours;  // ascending rank
+};
+Halo make_halo(const Mesh& mesh, std::span<const std::int32_t> node_owner, const Part& part,
+               int rank);
+
+// Keeps the buffers of the exchange of fields of `width` doubles a node.
+class HaloExchange {
+ public:
+  HaloExchange(const Halo& halo, int width);
+  // Packs `field` (n_local * width), sends, receives, unpacks. Collective among neighbours.
+  void exchange(std::span<double> field, Communicator& communicator);
+
+ private:
+  const Halo* halo_;
+  int width_;
+  std::vector<double> send_, receive_;
+  std::vector<ExchangeMessage> messages_;
+};
+
+// The whole nodal field (n_nodes * width) on every rank, from the owners' parts. Collective.
+std::vector<double> all_gather_field(const Part& part, std::int32_t n_nodes, int width,
+                                     std::span<const double> local, Communicator& communicator);
+
+}  // namespace trocar

@@ -1,0 +1,145 @@
+// Shape quality of elements and figures of a whole mesh.
+#include "mesh/quality.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/facet_sort.h"
+#include "mesh/facets.h"
+
+namespace trocar {
+
+// |x|^(2/3) with the sign of x, by Newton's method on t^3 = |x|: quality steers cuts, so it stays
+// away from libm's cube root.
+static double signed_two_thirds_power(double x) {
+  if (!(std::abs(x) > 0) || !std::isfinite(x)) return x;
+  int exponent = 0;
+  const double mantissa = std::frexp(std::abs(x), &exponent);  // in [1/2, 1)
+  const int shift = ((exponent % 3) + 3) % 3;
+  const double scaled = std::ldexp(mantissa, shift);  // in [1/2, 4), cube root in [0.79, 1.59)
+  double t = 1.2;
+  for (int k = 0; k < 6; ++k) t -= (t * t * t - scaled) / (3 * t * t);
+  const double root = std::ldexp(t, (exponent - shift) / 3);
+  return x > 0 ? root * root : -root * root;
+}
+
+static double sum_of_squared_edges(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
+  const std::span<const std::int32_t> node = mesh.corners(e);
+  double sum = 0;
+  for (const auto& [a, b] : edge_corners(mesh.element_type[e]))
+    sum += (x[node[b]] - x[node[a]]).squaredNorm();
+  return sum;
+}
+
+// min_a 3 det(A_a)^(2/3) / |A_a|^2, columns of A_a are the three edges at corner a (Knupp 2001).
+static double hexahedron_quality(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
+  // The three neighbours of each corner, right-handed.
+  static constexpr int neighbour[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
+                                          {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+  const std::span<const std::int32_t> node = mesh.corners(e);
+  double quality = 1;
+  for (int a = 0; a < 8; ++a) {
+    Mat3 A;
+    for (int k = 0; k < 3; ++k) A.col(k) = x[node[neighbour[a][k]]] - x[node[a]];
+    const double det = A.col(0).dot(A.col(1).cross(A.col(2)));
+    quality = std::min(quality, 3 * signed_two_thirds_power(det) / A.squaredNorm());
+  }
+  return quality;
+}
+
+double element_quality(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
+  if (mesh.element_type[e] == ElementType::hex8) return hexahedron_quality(mesh, e, x);
+  const double V = element_volume(mesh, e, x);
+  const double sum_l2 = sum_of_squared_edges(mesh, e, x);
+  if (mesh.element_type[e] == ElementType::tri3) return 4 * std::sqrt(3.0) * V / sum_l2;
+  return 12 * signed_two_thirds_power(3 * V) / sum_l2;
+}
+
+// Half the cross product of the diagonals: exact for flat faces.
+static double facet_area(const Mesh& mesh, std::int32_t e, int f, std::span<const Vec3> x) {
+  const std::array<int, 4> corner = facet_corners(mesh.element_type[e], f);
+  const std::span<const std::int32_t> node = mesh.corners(e);
+  const Vec3 &a = x[node[corner[0]]], &b = x[node[corner[1]]];
+  if (corner[2] < 0) return (b - a).norm();
+  const Vec3& c = x[node[corner[2]]];
+  const Vec3& d = corner[3] < 0 ? a : x[node[corner[3]]];
+  return 0.5 * (c - a).cross(d - b).norm();
+}
+
+double least_altitude(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
+  double largest = 0;
+  for (int f = 0; f < n_facets(mesh.element_type[e]); ++f)
+    largest = std::max(largest, facet_area(mesh, e, f, x));
+  constexpr std::array<double, n_element_types> base_factor = {2, 3, 1};
+  return base_factor[static_cast<std::size_t>(mesh.element_type[e])] * element_volume(mesh, e, x) /
+         largest;
+}
+
+static void count_edges(const Mesh& mesh, MeshStatistics& statistics) {
+  const std::vector<std::array<std::int32_t, 2>> edges = mesh_edges(mesh);
+  if (edges.empty()) return;
+  const auto length = [&](const std::array<std::int32_t, 2>& edge) {
+    return (mesh.X[edge[1]] - mesh.X[edge[0]]).norm();
+  };
+  statistics.edge_min = length(edges.front());
+  for (const std::array<std::int32_t, 2>& edge : edges) {
+    statistics.edge_min = std::min(statistics.edge_min, length(edge));
+    statistics.edge_max = std::max(statistics.edge_max, length(edge));
+    statistics.edge_mean += length(edge) / static_cast<double>(edges.size());
+  }
+}
+
+static void count_elements(const Mesh& mesh, MeshStatistics& statistics) {
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    ++statistics.n_elements_by_type[static_cast<std::size_t>(mesh.element_type[e])];
+    statistics.volume += element_volume(mesh, e, mesh.X);
+    const double quality = element_quality(mesh, e, mesh.X);
+    statistics.quality_mean += quality / mesh.n_elements();
+    if (e > 0 && !(quality < statistics.quality_min)) continue;
+    statistics.quality_min = quality;
+    statistics.worst_element = e;
+  }
+}
+
+MeshStatistics mesh_statistics(const Mesh& mesh) {
+  MeshStatistics statistics;
+  statistics.n_nodes = mesh.n_nodes();
+  statistics.n_surface_triangles =
+      static_cast<std::int32_t>(boundary_surface(mesh).triangle.size());
+  std::vector<std::int32_t> element_piece;
+  statistics.n_pieces = mesh_pieces(mesh, element_piece);
+  if (!mesh.X.empty()) statistics.low = statistics.high = mesh.X.front();
+  for (const Vec3& X : mesh.X) {
+    statistics.low = statistics.low.cwiseMin(X);
+    statistics.high = statistics.high.cwiseMax(X);
+  }
+  count_edges(mesh, statistics);
+  count_elements(mesh, statistics);
+  return statistics;
+}
+
+std::int32_t mesh_pieces(const Mesh& mesh, std::vector<std::int32_t>& element_piece) {
+  const FacetNeighbours across = facet_neighbours(mesh);
+  element_piece.assign(mesh.element_type.size(), -1);
+  std::int32_t n_pieces = 0;
+  std::vector<std::int32_t> open;
+  for (std::int32_t first = 0; first < mesh.n_elements(); ++first) {
+    if (element_piece[first] >= 0) continue;
+    element_piece[first] = n_pieces;
+    open.push_back(first);
+    while (!open.empty()) {
+      const std::int32_t e = open.back();
+      open.pop_back();
+      for (int f = 0; f < n_facets(mesh.element_type[e]); ++f) {
+        const std::int32_t next = across.of(e, f);
+        if (next < 0 || element_piece[next] >= 0) continue;
+        element_piece[next] = n_pieces;
+        open.push_back(next);
+      }
+    }
+    ++n_pieces;
+  }
+  return n_pieces;
+}
+
+}  // namespace trocar

@@ -1,0 +1,41 @@
+// How good and how sound a mesh is.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+// Mean-ratio quality in (0, 1], 1 for the ideal shape, <= 0 if inverted. tet4: 12 (3V)^(2/3) / sum
+// l^2; tri3: 4 sqrt(3) A / sum l^2; hex8: least over the 8 corners of the mean ratio of the
+// corner's tetrahedron (Knupp 2001), scaled to 1 for a cube.
+double element_quality(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x);
+
+// Least altitude of tri3 and tet4; for hex8 V / largest face area. [m]
+double least_altitude(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x);
+
+struct MeshStatistics {
+  std::array<std::int32_t, n_element_types> n_elements_by_type{};
+  std::int32_t n_nodes = 0, n_surface_triangles = 0, n_pieces = 0;
+  double volume = 0;                                 // [m^3] ([m^2] in 2D)
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();      // bounding box [m]
+  double edge_min = 0, edge_mean = 0, edge_max = 0;  // [m]
+  double quality_min = 0, quality_mean = 0;
+  std::int32_t worst_element = 0;
+};
+MeshStatistics mesh_statistics(const Mesh& mesh);
+
+// Every broken invariant, one sentence each, empty if the mesh is sound: corner numbers in range,
+// no repeated corner, positive volume, finite positions, no unreferenced node, no facet of three
+// elements, no duplicate element. At most `most` sentences.
+std::vector<std::string> validate(const Mesh& mesh, int most = 20);
+
+// Number of pieces connected through facets, and the piece of each element.
+std::int32_t mesh_pieces(const Mesh& mesh, std::vector<std::int32_t>& element_piece);
+
+}  // namespace trocar

@@ -1,0 +1,162 @@
+// Regions and node sets from the physical groups of a mesh file.
+#include "mesh/raw_mesh_groups.h"
+
+#include <algorithm>
+#include <map>
+
+#include "base/error.h"
+#include "base/quoted.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr int n_dimensions = 4;
+constexpr std::size_t most_groups = 100000;
+
+// is_used[list * n_dimensions + d]: some cell of dimension d has that group list.
+std::vector<bool> used_lists(const RawMesh& raw) {
+  std::vector<bool> is_used((raw.group_offset.size() - 1) * n_dimensions, false);
+  for (std::int32_t c = 0; c < raw.n_cells(); ++c) {
+    const auto list = static_cast<std::size_t>(raw.cell_group[c]);
+    is_used[list * n_dimensions + static_cast<std::size_t>(cell_dimension(raw.cell_kind[c]))] =
+        true;
+  }
+  return is_used;
+}
+
+std::vector<GroupKey> used_keys(const RawMesh& raw, int low, int high) {
+  const std::vector<bool> is_used = used_lists(raw);
+  std::vector<GroupKey> keys;
+  for (int d = low; d <= high; ++d)
+    for (std::size_t list = 0; list + 1 < raw.group_offset.size(); ++list)
+      if (is_used[list * n_dimensions + static_cast<std::size_t>(d)])
+        for (const std::int32_t tag : raw.groups(static_cast<std::int32_t>(list)))
+          keys.push_back({d, tag});
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  return keys;
+}
+
+std::string default_name(const GroupKey& key) {
+  constexpr std::array<const char*, n_dimensions> kind = {"point", "line", "surface", "volume"};
+  return std::string(kind[static_cast<std::size_t>(key.dimension)]) + "-" + std::to_string(key.tag);
+}
+
+std::int32_t group_number(const GroupNumbers& groups, const GroupKey& key) {
+  const auto found = std::lower_bound(groups.key.begin(), groups.key.end(), key);
+  return groups.number[static_cast<std::size_t>(found - groups.key.begin())];
+}
+
+// Several groups of one cell are fine for node sets, but a hostile file could make them many more
+// than its bytes.
+void check_memberships(const RawMesh& raw, int dimension) {
+  std::uint64_t n = 0;
+  for (std::int32_t c = 0; c < raw.n_cells(); ++c)
+    if (cell_dimension(raw.cell_kind[c]) < dimension)
+      n += raw.groups(raw.cell_group[c]).size() *
+           static_cast<std::uint64_t>(n_cell_corners(raw.cell_kind[c]));
+  constexpr std::uint64_t always_allowed = 1U << 22;
+  if (n > always_allowed + 4 * raw.cell_corner.size())
+    throw InputError(raw.file +
+                     ": the physical groups overlap so often that their node sets have " +
+                     std::to_string(n) + " entries");
+}
+
+}  // namespace
+
+GroupNumbers number_groups(const RawMesh& raw, int low_dimension, int high_dimension) {
+  GroupNumbers groups;
+  std::map<GroupKey, std::int32_t> number_of_key;
+  std::map<std::string, std::int32_t> number_of_name;
+  const auto add = [&](const GroupKey& key, const std::string& name) {
+    const auto next = static_cast<std::int32_t>(groups.name.size());
+    const auto [entry, is_new] = number_of_name.emplace(name, next);
+    if (is_new) groups.name.push_back(name);
+    number_of_key.emplace(key, entry->second);
+  };
+  for (const NamedGroup& group : raw.named_groups)
+    if (group.dimension >= low_dimension && group.dimension <= high_dimension)
+      add({group.dimension, group.tag}, group.name);
+  const std::vector<GroupKey> used = used_keys(raw, low_dimension, high_dimension);
+  if (used.size() > most_groups)
+    throw InputError(raw.file + ": has " + std::to_string(used.size()) +
+                     " physical groups, more than the " + std::to_string(most_groups) +
+                     " that are read");
+  for (const GroupKey& key : used)
+    if (!number_of_key.contains(key)) add(key, default_name(key));
+  for (const auto& [key, number] : number_of_key) {
+    groups.key.push_back(key);
+    groups.number.push_back(number);
+  }
+  return groups;
+}
+
+// A file whose only region has no name says nothing about regions: its name is "".
+static void name_only_region(const RawMesh& raw, int dimension, GroupNumbers& groups) {
+  const auto is_named = [&](const NamedGroup& group) { return group.dimension == dimension; };
+  if (groups.name.size() == 1 &&
+      std::none_of(raw.named_groups.begin(), raw.named_groups.end(), is_named))
+    groups.name.front().clear();
+}
+
+std::vector<std::int32_t> make_regions(const RawMesh& raw, int dimension, Mesh& mesh) {
+  GroupNumbers groups = number_groups(raw, dimension, dimension);
+  const std::vector<bool> is_used = used_lists(raw);
+  const auto has_cells = [&](std::size_t list) {
+    return is_used[list * n_dimensions + static_cast<std::size_t>(dimension)];
+  };
+  if (!has_cells(0)) name_only_region(raw, dimension, groups);
+  std::vector<std::int32_t> region(raw.group_offset.size() - 1, -1);
+  for (std::size_t list = 1; list < region.size(); ++list) {
+    if (!has_cells(list)) continue;
+    const std::span<const std::int32_t> tags = raw.groups(static_cast<std::int32_t>(list));
+    if (tags.empty()) continue;
+    region[list] = group_number(groups, {dimension, tags[0]});
+    for (const std::int32_t tag : tags) {
+      const std::int32_t other = group_number(groups, {dimension, tag});
+      if (other != region[list])
+        throw InputError(raw.file + ": some elements belong to two physical groups, " +
+                         in_quotes(groups.name[region[list]]) + " and " +
+                         in_quotes(groups.name[other]) + "; an element has one region only");
+    }
+  }
+  // Elements without a group make a region without a name.
+  auto nameless = std::find(groups.name.begin(), groups.name.end(), "");
+  const auto nameless_region = static_cast<std::int32_t>(nameless - groups.name.begin());
+  for (std::size_t list = 0; list < region.size(); ++list)
+    if (has_cells(list) && region[list] < 0) region[list] = nameless_region;
+  const bool needs_nameless =
+      std::find(region.begin(), region.end(), nameless_region) != region.end();
+  if (nameless == groups.name.end() && needs_nameless) groups.name.emplace_back();
+  mesh.region_name = std::move(groups.name);
+  return region;
+}
+
+std::vector<NodeSet> make_node_sets(const RawMesh& raw, int dimension,
+                                    std::span<const std::int32_t> new_node) {
+  check_memberships(raw, dimension);
+  GroupNumbers groups = number_groups(raw, 0, dimension - 1);
+  std::vector<NodeSet> sets(groups.name.size());
+  for (std::size_t s = 0; s < sets.size(); ++s) sets[s].name = std::move(groups.name[s]);
+
+  const std::int32_t* corner = raw.cell_corner.data();
+  for (std::int32_t c = 0; c < raw.n_cells(); ++c) {
+    const int n = n_cell_corners(raw.cell_kind[c]), d = cell_dimension(raw.cell_kind[c]);
+    if (d < dimension)
+      for (const std::int32_t tag : raw.groups(raw.cell_group[c])) {
+        std::vector<std::int32_t>& node = sets[group_number(groups, {d, tag})].node;
+        for (int a = 0; a < n; ++a)
+          if (new_node[corner[a]] >= 0) node.push_back(new_node[corner[a]]);
+      }
+    corner += n;
+  }
+  for (NodeSet& set : sets) {
+    std::sort(set.node.begin(), set.node.end());
+    set.node.erase(std::unique(set.node.begin(), set.node.end()), set.node.end());
+    set.node.shrink_to_fit();
+  }
+  return sets;
+}
+
+}  // namespace trocar

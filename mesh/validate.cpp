@@ -1,0 +1,203 @@
+// Every broken invariant of a mesh as a sentence.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "mesh/facet_sort.h"
+#include "mesh/quality.h"
+
+namespace trocar {
+
+namespace {
+
+// The sentences so far; takes no more than `most`.
+struct Report {
+  std::vector<std::string> sentences;
+  std::size_t most = 0;
+  bool is_full() const { return sentences.size() >= most; }
+  void add(std::string sentence) {
+    if (!is_full()) sentences.push_back(std::move(sentence));
+  }
+};
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", value);
+  return text.data();
+}
+
+std::string element_text(const Mesh& mesh, std::int32_t e) {
+  return "element " + std::to_string(e) + " (" + element_type_name(mesh.element_type[e]) + ")";
+}
+
+std::string nodes_text(std::span<const std::int32_t> node) {
+  std::string text;
+  for (const std::int32_t i : node)
+    if (i >= 0) text.append(" ").append(std::to_string(i));
+  return text;
+}
+
+void check_count(Report& report, const char* name, std::size_t found, std::size_t expected) {
+  if (found != expected)
+    report.add(std::string(name) + " has " + std::to_string(found) + " entries instead of " +
+               std::to_string(expected));
+}
+
+// Without sound arrays nothing else can be looked at.
+bool check_arrays(Report& report, const Mesh& mesh) {
+  const std::size_t n = mesh.element_type.size();
+  check_count(report, "corner_offset", mesh.corner_offset.size(), n + 1);
+  check_count(report, "element_region", mesh.element_region.size(), n);
+  check_count(report, "density_factor", mesh.density_factor.size(), n);
+  check_count(report, "cut_facets", mesh.cut_facets.size(), n);
+  if (!report.sentences.empty()) return false;
+  std::int64_t offset = 0;
+  for (std::size_t e = 0; e < n; offset += n_corners(mesh.element_type[e++]))
+    if (mesh.corner_offset[e] != offset) {
+      report.add("corner_offset of element " + std::to_string(e) + " is " +
+                 std::to_string(mesh.corner_offset[e]) + " instead of " + std::to_string(offset));
+      return false;
+    }
+  check_count(report, "corner_node", mesh.corner_node.size(), static_cast<std::size_t>(offset));
+  return report.sentences.empty();
+}
+
+bool is_corner_list_sound(Report& report, const Mesh& mesh, std::int32_t e) {
+  const std::span<const std::int32_t> node = mesh.corners(e);
+  for (std::size_t a = 0; a < node.size(); ++a) {
+    if (node[a] < 0 || node[a] >= mesh.n_nodes()) {
+      report.add(element_text(mesh, e) + " has corner " + std::to_string(node[a]) +
+                 ", but the nodes run from 0 to " + std::to_string(mesh.n_nodes() - 1));
+      return false;
+    }
+    if (std::find(node.begin(), node.begin() + static_cast<std::ptrdiff_t>(a), node[a]) !=
+        node.begin() + static_cast<std::ptrdiff_t>(a)) {
+      report.add(element_text(mesh, e) + " has node " + std::to_string(node[a]) +
+                 " at two corners:" + nodes_text(node));
+      return false;
+    }
+  }
+  return true;
+}
+
+bool is_finite(const Mesh& mesh, std::span<const std::int32_t> node) {
+  return std::all_of(node.begin(), node.end(),
+                     [&](std::int32_t i) { return mesh.X[i].allFinite(); });
+}
+
+void check_volume(Report& report, const Mesh& mesh, std::int32_t e) {
+  if (!is_finite(mesh, mesh.corners(e))) return;  // reported by its node
+  const double V = element_volume(mesh, e, mesh.X);
+  if (V > 0) return;
+  const bool is_plane = mesh.element_type[e] == ElementType::tri3;
+  report.add(element_text(mesh, e) + (V < 0 ? " is inverted: " : " is flat: ") +
+             (is_plane ? "area " : "volume ") + number(V) + (is_plane ? " m^2" : " m^3") +
+             ", corners" + nodes_text(mesh.corners(e)));
+}
+
+void check_element_values(Report& report, const Mesh& mesh, std::int32_t e) {
+  const auto n_regions = static_cast<std::int32_t>(mesh.region_name.size());
+  if (mesh.element_region[e] < 0 || mesh.element_region[e] >= n_regions)
+    report.add(element_text(mesh, e) + " has region " + std::to_string(mesh.element_region[e]) +
+               ", but there are " + std::to_string(n_regions));
+  if (!(mesh.density_factor[e] > 0) || !std::isfinite(mesh.density_factor[e]))
+    report.add(element_text(mesh, e) + " has density factor " + number(mesh.density_factor[e]) +
+               ", which must be positive");
+}
+
+// False if the corners of some element can't be followed.
+bool check_elements(Report& report, const Mesh& mesh) {
+  bool is_sound = true;
+  const bool is_plane = mesh.dimension() == 2;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    check_element_values(report, mesh, e);
+    if (!is_plane && mesh.element_type[e] == ElementType::tri3)
+      report.add(element_text(mesh, e) + " is a triangle among volume elements");
+    if (is_corner_list_sound(report, mesh, e))
+      check_volume(report, mesh, e);
+    else
+      is_sound = false;
+  }
+  return is_sound;
+}
+
+void check_nodes(Report& report, const Mesh& mesh) {
+  std::vector<std::uint8_t> is_used(mesh.X.size(), 0);
+  for (const std::int32_t i : mesh.corner_node)
+    if (i >= 0 && i < mesh.n_nodes()) is_used[i] = 1;
+  const bool is_plane = mesh.dimension() == 2;
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) {
+    const Vec3& X = mesh.X[i];
+    const std::string name = "node " + std::to_string(i);
+    if (!X.allFinite())
+      report.add(name + " is not finite: (" + number(X.x()) + ", " + number(X.y()) + ", " +
+                 number(X.z()) + ")");
+    else if (is_plane && X.z() != 0)
+      report.add(name + " of a plane mesh has z = " + number(X.z()) + " m instead of 0");
+    if (is_used[i] == 0) report.add(name + " belongs to no element");
+  }
+}
+
+void check_node_sets(Report& report, const Mesh& mesh) {
+  for (const NodeSet& set : mesh.node_sets) {
+    for (const std::int32_t i : set.node)
+      if (i < 0 || i >= mesh.n_nodes())
+        report.add("node set \"" + set.name + "\" holds node " + std::to_string(i) +
+                   ", but the nodes run from 0 to " + std::to_string(mesh.n_nodes() - 1));
+    const auto falls = [](std::int32_t i, std::int32_t j) { return i >= j; };
+    if (std::adjacent_find(set.node.begin(), set.node.end(), falls) != set.node.end())
+      report.add("node set \"" + set.name + "\" is not strictly ascending");
+  }
+}
+
+void check_facets(Report& report, const Mesh& mesh) {
+  const std::vector<FacetSide> side = sorted_facet_sides(mesh);
+  for (std::size_t begin = 0, end = 0; begin < side.size() && !report.is_full(); begin = end) {
+    std::string elements;
+    for (; end < side.size() && side[end].node == side[begin].node; ++end)
+      if (end - begin >= 2 && end - begin < 6)  // a few are enough to find the place
+        elements += ", " + std::to_string(side[end].element);
+    if (end - begin > 2)
+      report.add("the facet of nodes" + nodes_text(side[begin].node) + " is shared by " +
+                 std::to_string(end - begin) + " elements: " + std::to_string(side[begin].element) +
+                 ", " + std::to_string(side[begin + 1].element) + elements);
+  }
+}
+
+void check_duplicates(Report& report, const Mesh& mesh) {
+  using Sorted = std::pair<std::array<std::int32_t, max_corners>, std::int32_t>;
+  std::vector<Sorted> element;
+  element.reserve(mesh.element_type.size());
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    Sorted sorted{{}, e};
+    sorted.first.fill(-1);
+    const std::span<const std::int32_t> node = mesh.corners(e);
+    std::copy(node.begin(), node.end(), sorted.first.begin());
+    std::sort(sorted.first.begin(), sorted.first.end());
+    element.push_back(sorted);
+  }
+  std::sort(element.begin(), element.end());
+  for (std::size_t k = 1; k < element.size(); ++k)
+    if (element[k].first == element[k - 1].first)
+      report.add("elements " + std::to_string(element[k - 1].second) + " and " +
+                 std::to_string(element[k].second) +
+                 " have the same corners:" + nodes_text(element[k].first));
+}
+
+}  // namespace
+
+std::vector<std::string> validate(const Mesh& mesh, int most) {
+  Report report;
+  report.most = static_cast<std::size_t>(std::max(most, 1));
+  if (!check_arrays(report, mesh)) return report.sentences;
+  if (mesh.n_elements() == 0) report.add("the mesh has no elements");
+  const bool is_sound = check_elements(report, mesh);
+  check_nodes(report, mesh);
+  check_node_sets(report, mesh);
+  if (!is_sound || report.is_full()) return report.sentences;
+  check_facets(report, mesh);
+  check_duplicates(report, mesh);
+  return report.sentences;
+}
+
+}  // namespace trocar

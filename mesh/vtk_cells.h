@@ -1,0 +1,38 @@
+// What legacy VTK and VTU share: types of numbers, and cells as type, offset and connectivity.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "mesh/byte_reader.h"
+#include "mesh/raw_mesh.h"
+
+namespace trocar {
+
+// A number as VTK files store it, little or big endian.
+struct VtkNumber {
+  bool is_float = false;
+  bool is_signed = true;
+  std::size_t n_bytes = 4;
+};
+// By the name in legacy files ("vtktypeint64") or in VTU files ("Int64").
+std::optional<VtkNumber> find_vtk_number(std::string_view name);
+double load_real(const char* from, const VtkNumber& number, bool swaps);
+// Throws nothing: what 64 signed bits can't hold comes out negative. Not for floats.
+std::int64_t load_integer(const char* from, const VtkNumber& number, bool swaps);
+// Throws InputError at the reader's place where a value does not fit 32 bits.
+std::int32_t fit_int32(const ByteReader& in, std::int64_t value, const char* what);
+
+struct VtkCells {
+  std::vector<std::int32_t> type;          // (n_cells)
+  std::vector<std::int32_t> offset;        // (n_cells + 1)
+  std::vector<std::int32_t> connectivity;  // (offset.back())
+  std::vector<std::int32_t> region;        // (n_cells) or empty
+};
+// Adds the cells to raw.X and so on. Vertices and lines are left out: they carry nothing.
+// Throws InputError naming the cell.
+void add_vtk_cells(const ByteReader& in, const VtkCells& cells, RawMesh& raw);
+
+}  // namespace trocar

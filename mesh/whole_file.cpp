@@ -1,0 +1,70 @@
+// Reading and writing of whole files.
+#include "mesh/whole_file.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+#include "base/error.h"
+
+namespace trocar {
+
+namespace {
+
+struct CloseFile {
+  void operator()(std::FILE* stream) const { std::fclose(stream); }
+};
+using Stream = std::unique_ptr<std::FILE, CloseFile>;
+
+// A directory, pipe or device is refused before it is opened.
+void check_regular(const std::string& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (status.type() == std::filesystem::file_type::not_found)
+    throw InputError(file + ": there is no file of this name");
+  if (error) throw InputError(file + ": can't be read: " + error.message());
+  if (std::filesystem::is_directory(status))
+    throw InputError(file + ": is a directory, not a mesh file");
+  if (!std::filesystem::is_regular_file(status))
+    throw InputError(file + ": is not a regular file (a pipe or a device can't be read)");
+}
+
+[[noreturn]] void fail_write(const std::string& file, const std::string& part) {
+  const std::string reason = std::strerror(errno);
+  std::remove(part.c_str());
+  throw MachineError(file + ": can't be written: " + reason);
+}
+
+}  // namespace
+
+std::string read_whole_file(const std::string& file) {
+  check_regular(file);
+  const Stream stream(std::fopen(file.c_str(), "rb"));
+  if (!stream) throw InputError(file + ": can't be opened: " + std::strerror(errno));
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) throw InputError(file + ": can't be read: " + error.message());
+  if (size == 0) throw InputError(file + ": is empty");
+  std::string content(size, '\0');
+  const std::size_t n = std::fread(content.data(), 1, content.size(), stream.get());
+  if (std::ferror(stream.get()) != 0)
+    throw MachineError(file + ": reading failed: " + std::strerror(errno));
+  content.resize(n);
+  return content;
+}
+
+void write_whole_file(const std::string& file, std::string_view content) {
+  const std::string part = file + ".part";
+  Stream stream(std::fopen(part.c_str(), "wb"));
+  if (!stream) fail_write(file, part);
+  const bool is_written =
+      std::fwrite(content.data(), 1, content.size(), stream.get()) == content.size();
+  // fclose flushes: a full disk may show only there.
+  if (!is_written || std::fflush(stream.get()) != 0) fail_write(file, part);
+  if (std::fclose(stream.release()) != 0) fail_write(file, part);
+  if (std::rename(part.c_str(), file.c_str()) != 0) fail_write(file, part);
+}
+
+}  // namespace trocar

@@ -1,0 +1,300 @@
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "base/timers.h"
+#include "render/caption.h"
+#include "render/gl_mesh.h"
+#include "render/gl_post.h"
+#include "render/renderer.h"
+#include "render/shader_instrument.h"
+#include "render/shader_light.h"
+#include "render/shader_tissue.h"
+#include "render/surface_mesh.h"
+#include "render/tissue_pattern.h"
+#include "render/view.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr int largest_side = 8192;
+constexpr int n_samples = 4;  // llvmpipe offers no more
+constexpr GLenum picture_format = GL_RGBA16F;
+constexpr int shadow_side = 1024;
+constexpr int pattern_side = 64, pattern_cells = 8;
+// Names of PhaseTimers, in the order of their indices.
+constexpr const char* phase_names[] = {"normals",  "upload", "shadows",
+                                       "surfaces", "post",   "read back"};
+enum Phase : std::size_t {
+  normals_phase,
+  upload_phase,
+  shadow_phase,
+  surfaces_phase,
+  post_phase,
+  read_back_phase
+};
+constexpr double tool_crease_cosine = 0.82;  // 35 degrees
+// Surfaces up to this size are refined: finer ones look round as they are.
+constexpr std::size_t most_refined_triangles = 20000;
+
+std::string with_light(const char* shader) {
+  return std::string("#version 330 core\n") + shader_light + shader;
+}
+
+GLuint make_solid_texture(const GlContext& context, int side,
+                          const std::vector<std::uint8_t>& rgba) {
+  const GlFunctions& gl = context.gl();
+  GLuint texture = 0;
+  gl.GenTextures(1, &texture);
+  gl.BindTexture(GL_TEXTURE_3D, texture);
+  gl.TexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, side, side, side, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                rgba.data());
+  gl.TexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl.GenerateMipmap(GL_TEXTURE_3D);
+  context.check("making the tissue pattern");
+  return texture;
+}
+
+int checked_side(int side, int width, int height) {
+  if (side >= 1 && side <= largest_side) return side;
+  throw InputError("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                   " pixels can't be drawn; width and height must be 1 to " +
+                   std::to_string(largest_side));
+}
+
+SurfaceMesh tissue_mesh(const TissueView& tissue) {
+  const SurfaceMesh mesh = make_surface_mesh(
+      {.x = tissue.x, .X = tissue.X, .triangle = tissue.triangle, .is_cut = tissue.is_cut});
+  if (tissue.has_edges)
+    return mark_edges(mesh, !tissue.is_two_sided && consists_of_quads(tissue.triangle));
+  if (mesh.index.size() > 3 * most_refined_triangles || tissue.is_two_sided) return mesh;
+  return refine_surface_mesh(mesh);
+}
+
+// In the world; X stays in the instrument's frame, where the brush marks are.
+SurfaceMesh instrument_mesh(const InstrumentView& instrument) {
+  std::vector<Vec3> x;
+  for (const Vec3& X : instrument.shape->X) x.push_back(instrument.pose.apply(X));
+  return make_surface_mesh({.x = x,
+                            .X = instrument.shape->X,
+                            .triangle = instrument.shape->triangle,
+                            .crease_cosine = tool_crease_cosine});
+}
+
+}  // namespace
+
+struct Renderer::Gl {
+  int width, height;
+  GlContext context;
+  const GlFunctions& gl;
+  std::optional<GlCurrent> current_while_made;
+  GlPost post;
+  GlProgram depth_only, tissue, instrument, background;
+  GlTarget samples, picture, shadow;
+  GLuint field = 0, bump = 0;
+  std::vector<GlMesh> meshes;  // tissues, then instruments; kept from frame to frame
+  std::vector<std::uint8_t> rgba;
+  PhaseTimers timers;
+
+  Gl(int w, int h);
+  void fill_meshes(const SceneView& scene);
+  void fill(std::size_t k, const SurfaceMesh& surface);
+  void draw_shadows(const View& view, std::size_t n_meshes) const;
+  void draw_picture(const SceneView& scene, const View& view) const;
+  void draw_tissues(const SceneView& scene) const;
+  void draw_instruments(const SceneView& scene) const;
+  void draw_background(const SceneView& scene, const View& view) const;
+  void use_with_light(const GlProgram& program, const View& view) const;
+  void resolve() const;
+  void read_back(Image& image);
+};
+
+Renderer::Gl::Gl(int w, int h)
+    : width(checked_side(w, w, h)),
+      height(checked_side(h, w, h)),
+      gl(context.gl()),
+      current_while_made(context),
+      post(context, w, h),
+      depth_only(make_program(context, "depth", shader_surface_vertex, shader_depth_only)),
+      tissue(make_program(context, "tissue", shader_surface_vertex, with_light(shader_tissue))),
+      instrument(make_program(context, "instrument", shader_surface_vertex,
+                              with_light(shader_instrument))),
+      background(
+          make_program(context, "background", shader_screen_vertex, with_light(shader_background))),
+      samples(make_target(context, w, h,
+                          {.colour = picture_format, .has_depth = true, .samples = n_samples})),
+      picture(make_target(context, w, h,
+                          {.colour = picture_format, .has_depth = true, .is_filtered = true})),
+      shadow(make_target(context, shadow_side, shadow_side,
+                         {.has_depth = true, .is_filtered = true, .is_shadow_map = true})) {
+  const TissuePattern pattern = make_tissue_pattern(pattern_side, pattern_cells);
+  field = make_solid_texture(context, pattern.side, pattern.field);
+  bump = make_solid_texture(context, pattern.side, pattern.bump);
+  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  for (const char* name : phase_names) timers.phase(name);
+  current_while_made.reset();
+}
+
+void Renderer::Gl::fill(std::size_t k, const SurfaceMesh& surface) {
+  if (k == meshes.size()) meshes.push_back(make_gl_mesh(gl));
+  PhaseScope scope(timers, upload_phase);
+  upload(gl, meshes[k], surface);
+}
+
+void Renderer::Gl::fill_meshes(const SceneView& scene) {
+  std::size_t k = 0;
+  for (const TissueView& view : scene.tissues) {
+    SurfaceMesh surface;
+    {
+      PhaseScope scope(timers, normals_phase);
+      surface = tissue_mesh(view);
+    }
+    fill(k++, surface);
+  }
+  for (const InstrumentView& view : scene.instruments) {
+    CHECK(view.shape);
+    fill(k++, instrument_mesh(view));
+  }
+}
+
+void Renderer::Gl::draw_shadows(const View& view, std::size_t n_meshes) const {
+  bind_target(gl, shadow);
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthFunc(GL_LESS);
+  gl.Clear(GL_DEPTH_BUFFER_BIT);
+  gl.Enable(GL_POLYGON_OFFSET_FILL);
+  gl.PolygonOffset(1.5f, 2.0f);
+  depth_only.use();
+  depth_only.set("projection", view.lamp_projection);
+  for (std::size_t k = 0; k < n_meshes; ++k) trocar::draw(gl, meshes[k]);
+  gl.Disable(GL_POLYGON_OFFSET_FILL);
+}
+
+void Renderer::Gl::use_with_light(const GlProgram& program, const View& view) const {
+  program.use();
+  program.set("projection", view.projection);
+  program.set("lamp_projection", view.lamp_projection);
+  program.set("eye", view.eye);
+  program.set("lamp", view.lamp);
+  program.set("forward", view.forward);
+  program.set("right", view.right);
+  program.set("up", view.up);
+  program.set("distance_scale", view.distance);
+  program.set("shadow_map", 0);
+  program.set("field", 1);
+  program.set("bump", 2);
+}
+
+void Renderer::Gl::draw_tissues(const SceneView& scene) const {
+  for (std::size_t k = 0; k < scene.tissues.size(); ++k) {
+    const TissueView& view = scene.tissues[k];
+    tissue.set("colour", view.look.colour);
+    tissue.set("cut_colour", view.look.cut_colour);
+    tissue.set("wetness", view.look.wetness);
+    tissue.set("texture_size", view.look.texture_size);
+    tissue.set("has_edges", view.has_edges ? 1.0 : 0.0);
+    if (!view.is_two_sided) gl.Enable(GL_CULL_FACE);
+    trocar::draw(gl, meshes[k]);
+    gl.Disable(GL_CULL_FACE);
+  }
+}
+
+void Renderer::Gl::draw_instruments(const SceneView& scene) const {
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k) {
+    instrument.set("colour", scene.instruments[k].colour);
+    trocar::draw(gl, meshes[scene.tissues.size() + k]);
+  }
+}
+
+void Renderer::Gl::draw_background(const SceneView& scene, const View& view) const {
+  background.set("depth", 0.999999);
+  background.set("tan_half", view.tan_half_height * view.aspect, view.tan_half_height);
+  background.set("target", scene.camera.target);
+  post.fill_screen();
+}
+
+// Instruments first: they hide tissue, whose pixels cost more.
+void Renderer::Gl::draw_picture(const SceneView& scene, const View& view) const {
+  bind_target(gl, samples);
+  gl.Clear(GL_DEPTH_BUFFER_BIT);
+  bind_middle(gl, samples, view.visible_part);
+  bind_texture(gl, 0, GL_TEXTURE_2D, shadow.depth);
+  bind_texture(gl, 1, GL_TEXTURE_3D, field);
+  bind_texture(gl, 2, GL_TEXTURE_3D, bump);
+  use_with_light(instrument, view);
+  draw_instruments(scene);
+  use_with_light(tissue, view);
+  draw_tissues(scene);
+  use_with_light(background, view);
+  draw_background(scene, view);
+}
+
+void Renderer::Gl::resolve() const {
+  gl.Disable(GL_SCISSOR_TEST);  // it would hold for the copy, too
+  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, samples.framebuffer);
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, picture.framebuffer);
+  gl.BlitFramebuffer(0, 0, width, height, 0, 0, width, height,
+                     GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+}
+
+void Renderer::Gl::read_back(Image& image) {
+  const std::size_t n_pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  rgba.resize(4 * n_pixels);
+  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, post.output().framebuffer);
+  gl.ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  image.width = width;
+  image.height = height;
+  image.rgb.resize(3 * n_pixels);
+  for (std::size_t k = 0; k < n_pixels; ++k) std::copy_n(&rgba[4 * k], 3, &image.rgb[3 * k]);
+}
+
+Renderer::Renderer(int width, int height) : gl_(std::make_unique<Gl>(width, height)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+
+void Renderer::draw(const SceneView& scene, Image& image) {
+  Gl& g = *gl_;
+  const View view = make_view(scene.camera, g.width, g.height);
+  const GlCurrent current(g.context);
+  g.fill_meshes(scene);
+  {
+    PhaseScope scope(g.timers, shadow_phase);
+    g.draw_shadows(view, scene.tissues.size() + scene.instruments.size());
+    g.gl.Finish();
+  }
+  {
+    PhaseScope scope(g.timers, surfaces_phase);
+    g.draw_picture(scene, view);
+    g.resolve();
+    g.gl.Finish();
+  }
+  {
+    PhaseScope scope(g.timers, post_phase);
+    g.post.run(g.picture, view, scene.camera.has_endoscope_mask);
+    g.gl.Finish();
+  }
+  PhaseScope scope(g.timers, read_back_phase);
+  g.read_back(image);
+  g.context.check("drawing a frame");
+  draw_caption(image, scene.caption);
+}
+
+const PhaseTimers& Renderer::timers() const {
+  return gl_->timers;
+}
+
+bool renderer_available(std::string& reason) {
+  try {
+    const GlContext context;
+    return true;
+  } catch (const MachineError& error) {
+    reason = error.what();
+    return false;
+  }
+}
+
+}  // namespace trocar

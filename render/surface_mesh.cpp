@@ -1,0 +1,184 @@
+#include "render/surface_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.h"
+
+namespace trocar {
+
+namespace {
+
+// Farther from the origin than this, single precision draws nothing useful. [m]
+constexpr double far_away = 1e6;
+constexpr std::uint8_t full = 255;
+constexpr int cut_smoothing_passes = 2;
+
+bool is_drawable(const Vec3& p) {
+  return std::abs(p.x()) < far_away && std::abs(p.y()) < far_away && std::abs(p.z()) < far_away;
+}
+
+std::array<float, 3> to_float(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+// The triangles that can be drawn, with their normals.
+struct Faces {
+  std::vector<std::array<std::int32_t, 3>> node;
+  std::vector<std::uint8_t> is_cut;
+  std::vector<Vec3> normal;            // present, as long as twice the area
+  std::vector<Vec3> reference_normal;  // unit, or zero if flat
+};
+
+Faces drawable_faces(const SurfaceShape& shape) {
+  CHECK_OP(shape.x.size(), ==, shape.X.size());
+  CHECK(shape.is_cut.empty() || shape.is_cut.size() == shape.triangle.size());
+  const auto n_nodes = static_cast<std::int32_t>(shape.x.size());
+  Faces faces;
+  faces.node.reserve(shape.triangle.size());
+  for (std::size_t t = 0; t < shape.triangle.size(); ++t) {
+    bool is_kept = true;
+    for (const std::int32_t i : shape.triangle[t]) {
+      CHECK(i >= 0 && i < n_nodes);
+      is_kept = is_kept && is_drawable(shape.x[i]) && is_drawable(shape.X[i]);
+    }
+    if (!is_kept) continue;
+    const auto [i, j, k] = shape.triangle[t];
+    faces.node.push_back(shape.triangle[t]);
+    faces.is_cut.push_back(shape.is_cut.empty() ? 0 : shape.is_cut[t] != 0);
+    faces.normal.push_back((shape.x[j] - shape.x[i]).cross(shape.x[k] - shape.x[i]));
+    faces.reference_normal.push_back(
+        (shape.X[j] - shape.X[i]).cross(shape.X[k] - shape.X[i]).stableNormalized());
+  }
+  return faces;
+}
+
+// Corners (3 * face + corner) around each node, ascending.
+struct NodeCorners {
+  std::vector<std::int32_t> offset, corner;
+};
+
+NodeCorners node_corners(const Faces& faces, std::size_t n_nodes) {
+  NodeCorners around;
+  around.offset.assign(n_nodes + 1, 0);
+  for (const auto& face : faces.node)
+    for (const std::int32_t i : face) ++around.offset[i + 1];
+  for (std::size_t i = 0; i < n_nodes; ++i) around.offset[i + 1] += around.offset[i];
+  std::vector<std::int32_t> next(around.offset.begin(), around.offset.end() - 1);
+  around.corner.resize(3 * faces.node.size());
+  for (std::size_t t = 0; t < faces.node.size(); ++t)
+    for (int c = 0; c < 3; ++c)
+      around.corner[next[faces.node[t][c]]++] = static_cast<std::int32_t>(3 * t) + c;
+  return around;
+}
+
+// Cut faces are torn by the mesh; a crease there is noise.
+bool is_same_sheet(const Faces& faces, std::int32_t a, std::int32_t b, double crease_cosine) {
+  if (faces.is_cut[a] != faces.is_cut[b]) return false;
+  return a == b || faces.is_cut[a] ||
+         faces.reference_normal[a].dot(faces.reference_normal[b]) >= crease_cosine;
+}
+
+Vec3 unit_or_up(const Vec3& v) {
+  const double length = v.norm();
+  return length > 0 ? Vec3(v / length) : Vec3::UnitZ();
+}
+
+// The vertices of one node: corners whose sheets are the same share one.
+void add_node_vertices(const SurfaceShape& shape, const Faces& faces, std::int32_t node,
+                       std::span<const std::int32_t> corners, SurfaceMesh& mesh) {
+  const std::size_t first = mesh.vertex.size();
+  const auto is_cut = [&](std::int32_t corner) { return faces.is_cut[corner / 3] != 0; };
+  const bool is_rim = std::any_of(corners.begin(), corners.end(), is_cut) &&
+                      !std::all_of(corners.begin(), corners.end(), is_cut);
+  for (const std::int32_t corner : corners) {
+    Vec3 sum = Vec3::Zero();
+    for (const std::int32_t other : corners)
+      if (is_same_sheet(faces, corner / 3, other / 3, shape.crease_cosine))
+        sum += faces.normal[other / 3];
+    const SurfaceVertex vertex{
+        .x = to_float(shape.x[node]),
+        .X = to_float(shape.X[node]),
+        .normal = to_float(unit_or_up(sum)),
+        .edge = {full, full, full, full},
+        .mark = {is_cut(corner) ? full : std::uint8_t{0}, is_rim ? full : std::uint8_t{0}, 0, 0}};
+    std::size_t v = first;
+    while (v < mesh.vertex.size() &&
+           (mesh.vertex[v].normal != vertex.normal || mesh.vertex[v].mark != vertex.mark))
+      ++v;
+    if (v == mesh.vertex.size()) {
+      mesh.vertex.push_back(vertex);
+      mesh.point.push_back(static_cast<std::uint32_t>(node));
+    }
+    mesh.index[corner] = static_cast<std::uint32_t>(v);
+  }
+}
+
+using Vec3f = Eigen::Vector3f;
+Eigen::Map<const Vec3f> as_vector(const std::array<float, 3>& a) {
+  return Eigen::Map<const Vec3f>(a.data());
+}
+
+// Averages the normals of cut faces with their neighbours': a cut follows element faces, and their
+// zigzag would glitter.
+void smooth_cut_normals(SurfaceMesh& mesh) {
+  std::vector<Vec3f> sum(mesh.vertex.size(), Vec3f::Zero());
+  for (std::size_t k = 0; k < mesh.index.size(); k += 3) {
+    const std::uint32_t* v = &mesh.index[k];
+    if (mesh.vertex[v[0]].mark[0] == 0) continue;
+    for (int c = 0; c < 3; ++c)
+      sum[v[c]] += as_vector(mesh.vertex[v[(c + 1) % 3]].normal) +
+                   as_vector(mesh.vertex[v[(c + 2) % 3]].normal);
+  }
+  for (std::size_t v = 0; v < mesh.vertex.size(); ++v) {
+    if (mesh.vertex[v].mark[0] == 0) continue;
+    const Vec3f n = sum[v] + 4.0f * as_vector(mesh.vertex[v].normal);
+    if (n.squaredNorm() > 1e-6f) Eigen::Map<Vec3f>(mesh.vertex[v].normal.data()) = n.normalized();
+  }
+}
+
+}  // namespace
+
+SurfaceMesh make_surface_mesh(const SurfaceShape& shape) {
+  const Faces faces = drawable_faces(shape);
+  const NodeCorners around = node_corners(faces, shape.x.size());
+  SurfaceMesh mesh;
+  mesh.index.resize(around.corner.size());
+  mesh.vertex.reserve(faces.node.size());
+  for (std::size_t i = 0; i < shape.x.size(); ++i) {
+    const std::size_t begin = around.offset[i], end = around.offset[i + 1];
+    add_node_vertices(shape, faces, static_cast<std::int32_t>(i),
+                      {around.corner.data() + begin, end - begin}, mesh);
+  }
+  if (std::find(faces.is_cut.begin(), faces.is_cut.end(), 1) != faces.is_cut.end())
+    for (int pass = 0; pass < cut_smoothing_passes; ++pass) smooth_cut_normals(mesh);
+  return mesh;
+}
+
+bool consists_of_quads(std::span<const std::array<std::int32_t, 3>> triangle) {
+  if (triangle.empty() || triangle.size() % 2 != 0) return false;
+  for (std::size_t t = 0; t < triangle.size(); t += 2) {
+    const auto &a = triangle[t], &b = triangle[t + 1];
+    if (a[0] != b[0] || a[2] != b[1]) return false;
+  }
+  return true;
+}
+
+SurfaceMesh mark_edges(const SurfaceMesh& mesh, bool has_quads) {
+  SurfaceMesh marked;
+  marked.vertex.reserve(mesh.index.size());
+  for (std::size_t k = 0; k < mesh.index.size(); ++k) {
+    SurfaceVertex vertex = mesh.vertex[mesh.index[k]];
+    const std::size_t c = k % 3;
+    vertex.edge = {0, 0, 0, full};
+    vertex.edge[c] = full;
+    // The diagonal is opposite to corner 1 of the first triangle and corner 2 of the second.
+    if (has_quads) vertex.edge[k / 3 % 2 == 0 ? 1 : 2] = full;
+    marked.vertex.push_back(vertex);
+    marked.point.push_back(mesh.point[mesh.index[k]]);
+    marked.index.push_back(static_cast<std::uint32_t>(k));
+  }
+  return marked;
+}
+
+}  // namespace trocar

@@ -1,0 +1,53 @@
+// Runs over the blocks of all lists of a model as if they were one list, so that threads share
+// them evenly.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "base/threads.h"
+#include "solver/kernels.h"
+#include "solver/model.h"
+
+namespace trocar {
+
+inline std::int64_t count_blocks(const Model& model) {
+  std::int64_t n = 0;
+  for (const ElementBlocks& blocks : model.blocks) n += blocks.n_blocks;
+  return n;
+}
+
+// Calls body(blocks, first, n) for the parts of the lists that lie in [begin, end).
+template <class Body>
+void for_block_range(const Model& model, std::int64_t begin, std::int64_t end, const Body& body) {
+  for (const ElementBlocks& blocks : model.blocks) {
+    const std::int64_t first = std::max<std::int64_t>(begin, 0);
+    const std::int64_t last = std::min<std::int64_t>(end, blocks.n_blocks);
+    if (first < last) body(blocks, first, last - first);
+    begin -= blocks.n_blocks;
+    end -= blocks.n_blocks;
+  }
+}
+
+// parallel_for over nodes; fewer than a thousand are not worth waking threads for.
+template <class Body>
+void parallel_for_nodes(std::int64_t n, const Body& body) {
+  constexpr std::int64_t group = 16;
+  parallel_for((n + group - 1) / group, [&](std::int64_t begin, std::int64_t end) {
+    body(begin * group, std::min(n, end * group));
+  });
+}
+
+inline const BlockKernels& kernels_for(const Kernels& kernels, const ElementBlocks& blocks) {
+  return kernels.block[static_cast<int>(blocks.type)][static_cast<int>(blocks.material)];
+}
+
+inline BlockTask block_task(const ElementBlocks& blocks, const BlockKernels& kernels,
+                            const State& state, std::int64_t first, std::int64_t n) {
+  return {.u = state.u.data(),
+          .corner = blocks.corner.data() + first * kernels.n_corners * block_lanes,
+          .data = blocks.data.data() + first * kernels.n_values * block_lanes,
+          .n_blocks = n};
+}
+
+}  // namespace trocar

@@ -1,0 +1,28 @@
+// What the set-ups of all elements share.
+#include "solver/element_setup.h"
+
+#include <algorithm>
+
+#include "solver/largest_eigenvalue.h"
+
+namespace trocar {
+
+ElementConstants element_constants(ElementType type, const ElementInput& input) {
+  constexpr std::array setup = {constants_tri3, constants_tet4, constants_hex8};
+  ElementConstants constants = setup[static_cast<std::size_t>(type)](input);
+  constants.value[value_lambda_V] = input.lambda * constants.volume;
+  constants.value[value_mu_V] = input.mu * constants.volume;
+  return constants;
+}
+
+void add_gradient(const Vec3& B, SymmetricTensor<double>& G) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) G.v[symmetric_index[i][j]] += B[i] * B[j];
+}
+
+double frequency_bound(const SymmetricTensor<double>& G, int n_corners, const ElementInput& input) {
+  return n_corners / input.density *
+         (std::max(input.lambda, 0.0) * trace(G) + 2 * input.mu * largest_eigenvalue(G));
+}
+
+}  // namespace trocar

@@ -1,0 +1,42 @@
+// Constants of one element from its reference positions, in the layout of element_<type>.h, and a
+// bound of its highest frequency (numerics 1.5).
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "base/vec.h"
+#include "mesh/mesh.h"
+#include "solver/block_data.h"
+#include "solver/tensor.h"
+
+namespace trocar {
+
+struct ElementInput {
+  std::span<const Vec3> X;    // (n_corners) [m]
+  double lambda = 0, mu = 0;  // [Pa]
+  double density = 0;         // [kg/m^3]
+  double hourglass = 0;       // c_mu
+  double thickness = 0;       // [m], tri3
+};
+
+struct ElementConstants {
+  std::array<double, max_element_values> value{};
+  double volume = 0;  // [m^3]; not positive: the rest means nothing
+  double omega2 = 0;  // no free element of this kind vibrates faster [1/s^2]
+};
+
+ElementConstants element_constants(ElementType type, const ElementInput& input);
+
+// One file each.
+ElementConstants constants_tri3(const ElementInput& input);
+ElementConstants constants_tet4(const ElementInput& input);
+ElementConstants constants_hex8(const ElementInput& input);
+
+// G = sum_a B_a (x) B_a grows by one gradient. [1/m^2]
+void add_gradient(const Vec3& B, SymmetricTensor<double>& G);
+// omega^2 <= (n/rho) (lambda+ tr G + 2 mu lambda_max(G)): the volumetric and the shear part of the
+// element's energy bounded each on its own; exact for cubes.
+double frequency_bound(const SymmetricTensor<double>& G, int n_corners, const ElementInput& input);
+
+}  // namespace trocar

@@ -1,0 +1,51 @@
+// Three-node triangle in plane strain: F33 = 1, no force along z. Constant gradient
+// H = sum_a u_a (x) B_a, B_0 = -(B_1 + B_2); V is area times thickness.
+#pragma once
+
+#include "solver/block_data.h"
+#include "solver/tensor.h"
+
+namespace trocar {
+
+struct ElementTri3 {
+  static constexpr int n_corners = 3;
+  static constexpr int value_B = first_element_value;  // B_1, B_2: x and y each
+  static constexpr int n_values = value_B + 4;
+
+  template <class Pack>
+  struct Strain {
+    Tensor<Pack> H;
+  };
+
+  template <class Pack>
+  [[gnu::always_inline]] static Strain<Pack> strain(const BlockValues<Pack>& value,
+                                                    const Pack (&u)[3][3]) {
+    Strain<Pack> s;
+    const Pack zero = Pack{} + 0.0;
+    for (int i = 0; i < 3; ++i) s.H(i, 2) = s.H(2, i) = zero;
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j)
+        s.H(i, j) =
+            (u[1][i] - u[0][i]) * value(value_B + j) + (u[2][i] - u[0][i]) * value(value_B + 2 + j);
+    return s;
+  }
+
+  template <class Pack>
+  [[gnu::always_inline]] static void forces(const BlockValues<Pack>& value, const Strain<Pack>&,
+                                            const Tensor<Pack>& VP, Pack (&f)[3][3]) {
+    for (int i = 0; i < 2; ++i) {
+      for (int a = 1; a < 3; ++a)
+        f[a][i] = VP(i, 0) * value(value_B + 2 * a - 2) + VP(i, 1) * value(value_B + 2 * a - 1);
+      f[0][i] = -(f[1][i] + f[2][i]);
+    }
+    for (int a = 0; a < 3; ++a) f[a][2] = Pack{} + 0.0;
+  }
+
+  template <class Pack>
+  [[gnu::always_inline]] static Pack hourglass_energy(const BlockValues<Pack>&,
+                                                      const Strain<Pack>&) {
+    return Pack{} + 0.0;
+  }
+};
+
+}  // namespace trocar

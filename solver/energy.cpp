@@ -1,0 +1,57 @@
+// Energies of nodes and elements, one by one.
+#include <algorithm>
+
+#include "solver/block_ranges.h"
+#include "solver/simd.h"
+#include "solver/watch.h"
+
+namespace trocar {
+
+namespace {
+
+void take_kinetic(const Model& model, const State& state, std::vector<double>& kinetic) {
+  kinetic.resize(static_cast<std::size_t>(model.n_owned));
+  for (std::int64_t i = 0; i < model.n_owned; ++i) {
+    const double* v = state.v.data() + 3 * i;
+    kinetic[i] = 0.5 * model.mass[i] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  }
+}
+
+// Of the ranks that compute an element, one counts it: the owner of its lowest global node.
+bool is_counted_here(const Model& model, const Part& part, const ElementBlocks& blocks,
+                     std::int64_t lane) {
+  const std::int64_t n = std::ssize(blocks.corner) / (std::int64_t{blocks.n_blocks} * block_lanes);
+  const std::int64_t first = lane / block_lanes * n * block_lanes + lane % block_lanes;
+  std::int32_t lowest = blocks.corner[first];
+  for (std::int64_t a = 1; a < n; ++a) {
+    const std::int32_t node = blocks.corner[first + a * block_lanes];
+    if (part.node_global[node] < part.node_global[lowest]) lowest = node;
+  }
+  return lowest < model.n_owned;
+}
+
+void take_list(const Model& model, const Part& part, const State& state,
+               const ElementBlocks& blocks, EnergyTerms& terms) {
+  const BlockKernels& kernels = kernels_for(active_kernels(), blocks);
+  std::vector<double> strain(blocks.element_local.size()), hourglass(strain.size());
+  parallel_for(std::int64_t{blocks.n_blocks}, [&](std::int64_t begin, std::int64_t end) {
+    kernels.energy(block_task(blocks, kernels, state, begin, end - begin),
+                   strain.data() + begin * block_lanes, hourglass.data() + begin * block_lanes);
+  });
+  for (std::int64_t lane = 0; lane < blocks.n_elements; ++lane) {
+    if (!is_counted_here(model, part, blocks, lane)) continue;
+    terms.strain.push_back(strain[lane]);
+    terms.hourglass.push_back(hourglass[lane]);
+  }
+}
+
+}  // namespace
+
+void energy_terms(const Model& model, const Part& part, const State& state, EnergyTerms& terms) {
+  take_kinetic(model, state, terms.kinetic);
+  terms.strain.clear();
+  terms.hourglass.clear();
+  for (const ElementBlocks& blocks : model.blocks) take_list(model, part, state, blocks, terms);
+}
+
+}  // namespace trocar

@@ -1,0 +1,57 @@
+// What the kernels of one instruction set offer: a table of functions over blocks, resolved once
+// per element type and material model. Raw pointers only, because each instruction set is compiled
+// on its own.
+#pragma once
+
+#include <cstdint>
+
+#include "solver/element_list.h"
+#include "solver/material_list.h"
+
+namespace trocar {
+
+// Blocks of one list, from its first to its n-th, and where their results go.
+struct BlockTask {
+  const double* u;             // (n_local * 3) [m]
+  const std::int32_t* corner;  // [block][corner][lane] local node
+  const double* data;          // [block][value][lane]
+  std::int64_t n_blocks;
+};
+
+// Doubles of a corner force in Scratch::slot: x, y, z and one that keeps them aligned.
+inline constexpr int slot_width = 4;
+
+// Corner forces [N] to [block][corner][lane][slot_width].
+using ForceKernel = void (*)(const BlockTask& task, double* slot);
+// Strain and hourglass energy [J] to [block][lane].
+using EnergyKernel = void (*)(const BlockTask& task, double* strain, double* hourglass);
+// det F and growth of the bound of omega^2 (stiffening.h) to [block][lane].
+using WatchKernel = void (*)(const BlockTask& task, double* J, double* stiffening);
+
+// Owned nodes whose corner forces are complete.
+struct SumTask {
+  const double* slot;
+  const std::int64_t* slot_offset;  // of every owned node
+  const std::int64_t* slot_index;
+  const double* mass;        // of every owned node [kg]
+  const double* gravity;     // (3) [m/s^2]
+  double* force;             // (n_owned * 3) [N]
+  const std::int32_t* node;  // those to sum
+  std::int64_t n_nodes;
+};
+// force = m g - corner forces in the order of slot_index.
+using SumKernel = void (*)(const SumTask& task);
+
+struct BlockKernels {
+  int n_corners, n_values;
+  ForceKernel force;
+  EnergyKernel energy;
+  WatchKernel watch;
+};
+
+struct Kernels {
+  SumKernel sum;
+  BlockKernels block[ElementList::size][n_material_models];
+};
+
+}  // namespace trocar

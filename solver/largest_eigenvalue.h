@@ -1,0 +1,36 @@
+// The largest eigenvalue of a symmetric 3 x 3 tensor with + - * / and sqrt alone.
+#pragma once
+
+#include "solver/tensor.h"
+
+namespace trocar {
+
+// With m = tr A / 3, p^2 = |dev A|^2 / 6 and c = det(dev A) / (2 p^3) in [-1, 1]: the largest
+// eigenvalue is m + 2 p y, y in [1/2, 1] the largest root of 4 y^3 - 3 y = c (Smith 1961, without
+// its arc cosine). The polynomial is convex there, so that Newton comes from above from the second
+// iterate on: the result is exact or a hair too large.
+template <class Pack>
+[[gnu::always_inline]] inline Pack largest_eigenvalue(const SymmetricTensor<Pack>& A) {
+  const Pack m = trace(A) * (1.0 / 3);
+  SymmetricTensor<Pack> D = A;
+  for (int i = 0; i < 3; ++i) D.v[i] -= m;
+  const auto& d = D.v;
+  const Pack p2 =
+      (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + 2.0 * (d[3] * d[3] + d[4] * d[4] + d[5] * d[5])) *
+      (1.0 / 6);
+  const Pack p = square_root(p2);
+  const SymmetricTensor<Pack> C = cofactor(D);
+  const Pack det = d[0] * C.v[0] + d[3] * C.v[3] + d[5] * C.v[5];
+  const Pack zero = m - m, one = zero + 1.0;
+  const Pack ratio = p2 * p > 0.0 ? 0.5 * det / (p2 * p) : zero;
+  const Pack c = ratio > 1.0 ? one : (ratio < -1.0 ? -one : ratio);
+  Pack y = 0.5 + 0.5 * square_root(Pack(0.5 * (1.0 + c)));
+  for (int k = 0; k < 4; ++k) {
+    const Pack slope = 12.0 * y * y - 3.0;
+    const Pack step = (y * (4.0 * y * y - 3.0) - c) / slope;
+    y -= slope > 1e-9 ? step : zero;
+  }
+  return m + 2.0 * p * y;
+}
+
+}  // namespace trocar

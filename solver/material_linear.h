@@ -1,0 +1,43 @@
+// Linear elasticity at small strain: P = lambda tr H I + mu (H + H^T). Rotations make strain: for
+// small displacements and for comparison with the paper's K U.
+#pragma once
+
+#include "solver/material.h"
+#include "solver/tensor.h"
+
+namespace trocar {
+
+struct MaterialLinear {
+  static constexpr MaterialModel model = MaterialModel::linear;
+
+  template <class Pack>
+  [[gnu::always_inline]] static Tensor<Pack> stress(const Tensor<Pack>& H, const Pack& lambda,
+                                                    const Pack& mu) {
+    const Pack pressure = lambda * trace(H);
+    Tensor<Pack> P;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        P(i, j) = mu * (H(i, j) + H(j, i));
+        if (i == j) P(i, j) += pressure;
+      }
+    return P;
+  }
+
+  // W = P : H / 2
+  template <class Pack>
+  [[gnu::always_inline]] static Pack energy(const Tensor<Pack>& H, const Pack& lambda,
+                                            const Pack& mu) {
+    const Tensor<Pack> P = stress(H, lambda, mu);
+    Pack sum = P(0, 0) * H(0, 0);
+    for (int i = 0; i < 3; ++i)
+      for (int j = i == 0 ? 1 : 0; j < 3; ++j) sum += P(i, j) * H(i, j);
+    return 0.5 * sum;
+  }
+
+  template <class Pack>
+  [[gnu::always_inline]] static Pack stiffening(const Tensor<Pack>&, const Pack&, const Pack& mu) {
+    return mu - mu + 1.0;
+  }
+};
+
+}  // namespace trocar

@@ -1,0 +1,14 @@
+// Every material, in the order of MaterialModel. A new one is a header and a line here.
+#pragma once
+
+#include "solver/material_linear.h"
+#include "solver/material_neo_hookean.h"
+#include "solver/material_st_venant_kirchhoff.h"
+#include "solver/type_list.h"
+
+namespace trocar {
+
+using MaterialList = TypeList<MaterialLinear, MaterialStVenantKirchhoff, MaterialNeoHookean>;
+inline constexpr int n_material_models = MaterialList::size;
+
+}  // namespace trocar

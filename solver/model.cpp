@@ -1,0 +1,229 @@
+// Builds a model: elements into blocks, corner forces to nodes, stable steps of the undeformed
+// elements.
+#include "solver/model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "base/threads.h"
+#include "solver/element_setup.h"
+#include "solver/kernels.h"
+#include "solver/simd.h"
+#include "solver/sum_order.h"
+
+namespace trocar {
+
+namespace {
+
+// What build_model reads, under one name.
+struct Source {
+  const Mesh& mesh;
+  const Part& part;
+  std::span<const Material> materials;
+  const SolverOptions& options;
+
+  std::int32_t n_elements() const { return static_cast<std::int32_t>(part.element_global.size()); }
+  const Material& material(std::int32_t e) const { return materials[mesh.element_region[e]]; }
+};
+
+void check_material(const Material& material, std::size_t region) {
+  const bool is_sound = material.young_modulus > 0 && std::isfinite(material.young_modulus) &&
+                        material.poisson_ratio > -1 && material.poisson_ratio < 0.5 &&
+                        material.density > 0 && std::isfinite(material.density);
+  if (!is_sound)
+    throw InputError("material of region " + std::to_string(region) +
+                     ": young_modulus and density must be positive, poisson_ratio between -1 and "
+                     "0.5 (got " +
+                     std::to_string(material.young_modulus) + " Pa, " +
+                     std::to_string(material.density) + " kg/m^3, " +
+                     std::to_string(material.poisson_ratio) + ")");
+}
+
+void check_source(const Source& source, std::span<const FixedMask> fixed,
+                  std::span<const double> mass) {
+  CHECK_OP(source.materials.size(), >=, source.mesh.region_name.size());
+  CHECK_OP(fixed.size(), ==, source.mesh.X.size());
+  CHECK_OP(mass.size(), ==, source.mesh.X.size());
+  for (std::size_t r = 0; r < source.materials.size(); ++r) check_material(source.materials[r], r);
+}
+
+int list_key(ElementType type, MaterialModel model) {
+  return static_cast<int>(type) * n_material_models + static_cast<int>(model);
+}
+
+// Where each local element lies: list, and position within the list.
+struct Placement {
+  std::vector<std::int32_t> list, position;
+};
+
+ElementBlocks empty_blocks(int key, std::int32_t n_elements, std::int64_t first_slot) {
+  ElementBlocks blocks;
+  blocks.type = static_cast<ElementType>(key / n_material_models);
+  blocks.material = static_cast<MaterialModel>(key % n_material_models);
+  blocks.n_elements = n_elements;
+  blocks.n_blocks = (n_elements + block_lanes - 1) / block_lanes;
+  blocks.first_slot = first_slot;
+  const BlockKernels& kernels =
+      kernels_of(Simd::scalar).block[key / n_material_models][key % n_material_models];
+  CHECK_OP(kernels.n_corners, ==, n_corners(blocks.type));
+  const std::size_t n_lanes = static_cast<std::size_t>(blocks.n_blocks) * block_lanes;
+  blocks.element_local.resize(n_lanes);
+  blocks.corner.resize(n_lanes * static_cast<std::size_t>(kernels.n_corners));
+  blocks.data.resize(n_lanes * static_cast<std::size_t>(kernels.n_values));
+  return blocks;
+}
+
+// Counts the elements of each kind and gives each kind that occurs its blocks.
+Placement make_lists(const Source& source, Model& model) {
+  constexpr int n_keys = n_element_types * n_material_models;
+  const std::int32_t n = source.n_elements();
+  std::array<std::int32_t, n_keys> count{}, list_of_key{};
+  Placement placement{std::vector<std::int32_t>(n), std::vector<std::int32_t>(n)};
+  for (std::int32_t k = 0; k < n; ++k) {
+    const std::int32_t e = source.part.element_global[k];
+    const int key = list_key(source.mesh.element_type[e], source.material(e).model);
+    placement.list[k] = key;
+    placement.position[k] = count[static_cast<std::size_t>(key)]++;
+  }
+  std::int64_t first_slot = 0;
+  for (int key = 0; key < n_keys; ++key) {
+    const auto at = static_cast<std::size_t>(key);
+    if (count[at] == 0) continue;
+    list_of_key[at] = static_cast<std::int32_t>(model.blocks.size());
+    model.blocks.push_back(empty_blocks(key, count[at], first_slot));
+    first_slot += static_cast<std::int64_t>(model.blocks.back().corner.size());
+  }
+  for (std::int32_t k = 0; k < n; ++k) {
+    std::int32_t& list = placement.list[k];
+    list = list_of_key[static_cast<std::size_t>(list)];
+    model.blocks[list].element_local[placement.position[k]] = k;
+  }
+  return placement;
+}
+
+ElementConstants constants_of(const Source& source, std::int32_t e) {
+  const std::span<const std::int32_t> node = source.mesh.corners(e);
+  std::array<Vec3, max_corners> X;
+  for (std::size_t a = 0; a < node.size(); ++a) X[a] = source.mesh.X[node[a]];
+  const Material& material = source.material(e);
+  return element_constants(source.mesh.element_type[e],
+                           {.X = {X.data(), node.size()},
+                            .lambda = lame_lambda(material),
+                            .mu = lame_mu(material),
+                            .density = material.density * source.mesh.density_factor[e],
+                            .hourglass = source.options.hourglass,
+                            .thickness = source.options.thickness});
+}
+
+// A lane's element; lanes behind the last element repeat its corners with all constants zero.
+void fill_lane(const Source& source, std::int64_t lane, ElementBlocks& blocks,
+               std::vector<double>& element_step) {
+  const std::int64_t block = lane / block_lanes, l = lane % block_lanes;
+  const bool is_padding = lane >= blocks.n_elements;
+  if (is_padding) blocks.element_local[lane] = blocks.element_local[blocks.n_elements - 1];
+  const std::int32_t k = blocks.element_local[lane], e = source.part.element_global[k];
+  const std::span<const std::int32_t> node = source.mesh.corners(e);
+  const auto n = static_cast<std::int64_t>(node.size());
+  for (std::int64_t a = 0; a < n; ++a)
+    blocks.corner[(block * n + a) * block_lanes + l] = source.part.node_local[node[a]];
+  if (is_padding) return;
+  const ElementConstants constants = constants_of(source, e);
+  const std::int64_t n_values = std::ssize(blocks.data) / (blocks.n_blocks * block_lanes);
+  for (std::int64_t value = 0; value < n_values; ++value)
+    blocks.data[(block * n_values + value) * block_lanes + l] = constants.value[value];
+  element_step[k] = constants.volume > 0 ? 2 / std::sqrt(constants.omega2) : 0;
+}
+
+void fill_blocks(const Source& source, Model& model) {
+  model.element_step.resize(source.part.element_global.size());
+  for (ElementBlocks& blocks : model.blocks)
+    parallel_for(std::int64_t{blocks.n_blocks}, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t lane = begin * block_lanes; lane < end * block_lanes; ++lane)
+        fill_lane(source, lane, blocks, model.element_step);
+    });
+  for (std::size_t k = 0; k < model.element_step.size(); ++k)
+    if (!(model.element_step[k] > 0))
+      throw InputError("element " + std::to_string(source.part.element_global[k]) +
+                       " has no positive volume, or a stiffness or density that is not finite");
+}
+
+// A node's corner forces in ascending global element number, whatever list and lane they lie in.
+void link_slots(const Source& source, const Placement& placement, Model& model) {
+  const std::int32_t n = source.n_elements();
+  model.slot_offset.assign(static_cast<std::size_t>(model.n_owned) + 1, 0);
+  const auto for_owned_corners = [&](const auto& body) {
+    for (std::int32_t k = 0; k < n; ++k) {
+      const ElementBlocks& blocks = model.blocks[placement.list[k]];
+      const std::span<const std::int32_t> node = source.mesh.corners(source.part.element_global[k]);
+      const std::int64_t position = placement.position[k];
+      const std::int64_t first = blocks.first_slot + position % block_lanes +
+                                 position / block_lanes * std::ssize(node) * block_lanes;
+      for (std::int64_t a = 0; a < std::ssize(node); ++a) {
+        const std::int32_t i = source.part.node_local[node[a]];
+        if (i < model.n_owned) body(i, first + a * block_lanes);
+      }
+    }
+  };
+  for_owned_corners([&](std::int32_t i, std::int64_t) { ++model.slot_offset[i + 1]; });
+  for (std::int32_t i = 0; i < model.n_owned; ++i) model.slot_offset[i + 1] += model.slot_offset[i];
+  model.slot.resize(static_cast<std::size_t>(model.slot_offset.back()));
+  std::vector<std::int64_t> next(model.slot_offset.begin(), model.slot_offset.end() - 1);
+  for_owned_corners([&](std::int32_t i, std::int64_t slot) { model.slot[next[i]++] = slot; });
+}
+
+// Plane strain holds z.
+void take_nodes(const Source& source, std::span<const FixedMask> fixed,
+                std::span<const double> mass, Model& model) {
+  const FixedMask plane = source.mesh.dimension() == 2 ? 4 : 0;
+  model.n_local = source.part.n_local();
+  model.n_owned = source.part.n_owned;
+  model.mass.reserve(static_cast<std::size_t>(model.n_owned));
+  model.fixed.reserve(static_cast<std::size_t>(model.n_owned));
+  for (std::int32_t i = 0; i < model.n_owned; ++i) {
+    const std::int32_t global = source.part.node_global[i];
+    if (!(mass[global] > 0))
+      throw InputError("node " + std::to_string(global) +
+                       " has no mass: each node must belong to an element");
+    model.mass.push_back(mass[global]);
+    model.fixed.push_back(static_cast<FixedMask>(fixed[global] | plane));
+  }
+}
+
+}  // namespace
+
+Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> materials,
+                  std::span<const FixedMask> fixed, std::span<const double> mass,
+                  const SolverOptions& options) {
+  const Source source{mesh, part, materials, options};
+  check_source(source, fixed, mass);
+  Model model;
+  model.options = options;
+  take_nodes(source, fixed, mass, model);
+  const Placement placement = make_lists(source, model);
+  fill_blocks(source, model);
+  link_slots(source, placement, model);
+  order_sums(model);
+  return model;
+}
+
+State make_state(const Model& model) {
+  State state;
+  state.u.assign(static_cast<std::size_t>(model.n_local) * 3, 0.0);
+  state.v.assign(static_cast<std::size_t>(model.n_local) * 3, 0.0);
+  return state;
+}
+
+Scratch make_scratch(const Model& model) {
+  std::size_t n_corners = 0;
+  for (const ElementBlocks& blocks : model.blocks) n_corners += blocks.corner.size();
+  Scratch scratch;
+  scratch.slot.resize(n_corners * slot_width);
+  scratch.force.resize(static_cast<std::size_t>(model.n_owned) * 3);
+  scratch.is_summed.assign(static_cast<std::size_t>(model.n_owned), 0);
+  return scratch;
+}
+
+}  // namespace trocar

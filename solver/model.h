@@ -1,0 +1,81 @@
+// What is constant between cuts: element blocks with reference gradients, lumped masses, supports.
+// Built from the mesh and this rank's part of it; only owned nodes are integrated, halo nodes are
+// read.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "mesh/partition.h"
+#include "solver/block_data.h"
+#include "solver/material.h"
+
+namespace trocar {
+
+// Components of a node that a support holds: bit 0 x, bit 1 y, bit 2 z.
+using FixedMask = std::uint8_t;
+
+struct SolverOptions {
+  double mass_damping = 0;      // alpha of C = alpha M [1/s]
+  double hourglass = 0.15;      // c_mu of k = c_mu mu V sum|B|^2 / 8 (numerics 1.2), hex8
+  double thickness = 1e-3;      // of plane meshes [m] (plane strain)
+  Vec3 gravity = Vec3::Zero();  // [m/s^2]
+};
+
+// All elements of one type and material model on this rank, ascending global number, padded to
+// whole blocks with the corners of the last one and constants of zero (which make no force).
+struct ElementBlocks {
+  ElementType type = ElementType::tet4;
+  MaterialModel material = MaterialModel::neo_hookean;
+  std::int32_t n_elements = 0;
+  std::int32_t n_blocks = 0;
+  std::vector<std::int32_t> element_local;  // (n_blocks * lanes) position in Part::element_global
+  std::vector<std::int32_t> corner;         // [block][corner][lane] local node
+  std::vector<double> data;                 // [block][value][lane], see element_<type>.h
+  std::int64_t first_slot = 0;  // corner forces of these blocks start here in Scratch::slot
+};
+
+struct Model {
+  std::int32_t n_local = 0, n_owned = 0;
+  std::vector<double> mass;           // (n_owned) [kg]
+  std::vector<FixedMask> fixed;       // (n_owned)
+  std::vector<ElementBlocks> blocks;  // one a (type, material model)
+  // (n_owned + 1) A node's corner forces, in ascending global element number; a slot is one corner
+  // force of Scratch::slot.
+  std::vector<std::int64_t> slot_offset;
+  std::vector<std::int64_t> slot;
+  // Owned nodes ascending by the last block (counted through all lists) that touches them, with the
+  // first and last one: a thread sums a node while its corner forces are still in its cache.
+  std::vector<std::int32_t> sum_node, sum_first_block, sum_last_block;
+  // (n local elements) stable step of the undeformed element (numerics 1.5) [s]
+  std::vector<double> element_step;
+  SolverOptions options;
+};
+
+// materials (n_regions of the mesh); fixed (n_nodes, global); mass (n_nodes, global) from
+// lumped_mass.
+Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> materials,
+                  std::span<const FixedMask> fixed, std::span<const double> mass,
+                  const SolverOptions& options);
+
+// What a step changes. Halo nodes hold what their owners sent. [m], [m/s], [s]
+struct State {
+  std::vector<double> u;  // (n_local * 3) displacement at `time`
+  std::vector<double> v;  // (n_local * 3) velocity half a step earlier
+  double time = 0;
+  double last_dt = 0;  // length of the last step, 0 before the first
+  std::int64_t step = 0;
+};
+State make_state(const Model& model);
+
+// Neither saved nor shown. Allocated once a model.
+struct Scratch {
+  std::vector<double> slot;   // corner forces, [block][corner][lane][x y z 0] of each block list
+  std::vector<double> force;  // (n_owned * 3) external - internal force [N]
+  std::vector<std::uint8_t> is_summed;  // (n_owned) all zero between steps
+};
+Scratch make_scratch(const Model& model);
+
+}  // namespace trocar

@@ -1,0 +1,102 @@
+// Forces: corner forces of blocks, and each owned node sums its corners in a fixed order. A thread
+// takes a run of blocks and sums the nodes that no other thread's blocks touch as soon as they are
+// complete, while their corner forces are in its cache; the few others are summed afterwards.
+// Which nodes those are depends on the number of threads, their sums don't.
+#include "solver/step.h"
+
+#include <algorithm>
+
+#include "base/check.h"
+#include "solver/block_ranges.h"
+#include "solver/simd.h"
+
+namespace trocar {
+
+namespace {
+
+// Blocks between two looks at the nodes: 256 elements, about 64 kB of corner forces.
+constexpr std::int64_t stride_blocks = 32;
+
+void run_blocks(const Model& model, const State& state, std::int64_t begin, std::int64_t end,
+                Scratch& scratch) {
+  const Kernels& kernels = active_kernels();
+  for_block_range(
+      model, begin, end, [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
+        const BlockKernels& kernel = kernels_for(kernels, blocks);
+        const std::int64_t slot = blocks.first_slot + first * kernel.n_corners * block_lanes;
+        kernel.force(block_task(blocks, kernel, state, first, n),
+                     scratch.slot.data() + slot * slot_width);
+      });
+}
+
+// Nodes [begin, end) of the order of sums.
+void sum_nodes(const Model& model, std::int64_t begin, std::int64_t end, Scratch& scratch) {
+  active_kernels().sum({.slot = scratch.slot.data(),
+                        .slot_offset = model.slot_offset.data(),
+                        .slot_index = model.slot.data(),
+                        .mass = model.mass.data(),
+                        .gravity = model.options.gravity.data(),
+                        .force = scratch.force.data(),
+                        .node = model.sum_node.data() + begin,
+                        .n_nodes = end - begin});
+}
+
+// Sums the nodes of [begin, end) for which `is_due`, run by run.
+template <class IsDue>
+void sum_due_nodes(const Model& model, std::int64_t begin, std::int64_t end, const IsDue& is_due,
+                   Scratch& scratch) {
+  for (std::int64_t k = begin; k < end;) {
+    const std::int64_t first = k;
+    while (k < end && is_due(k)) ++k;
+    if (k > first) sum_nodes(model, first, k, scratch);
+    while (k < end && !is_due(k)) ++k;
+  }
+}
+
+// The blocks [begin, end) of one thread, and the nodes that only they touch.
+void compute_run(const Model& model, const State& state, std::int64_t begin, std::int64_t end,
+                 Scratch& scratch) {
+  const std::vector<std::int32_t>& last = model.sum_last_block;
+  std::int64_t k = std::lower_bound(last.begin(), last.end(), begin) - last.begin();
+  const auto is_mine = [&](std::int64_t at) { return model.sum_first_block[at] >= begin; };
+  for (std::int64_t block = begin; block < end; block += stride_blocks) {
+    const std::int64_t next = std::min(end, block + stride_blocks);
+    run_blocks(model, state, block, next, scratch);
+    const std::int64_t first = k;
+    for (; k < model.n_owned && last[k] < next; ++k)
+      if (is_mine(k)) scratch.is_summed[model.sum_node[k]] = 1;
+    sum_due_nodes(model, first, k, is_mine, scratch);
+  }
+}
+
+void sum_remaining(const Model& model, Scratch& scratch) {
+  parallel_for_nodes(model.n_owned, [&](std::int64_t begin, std::int64_t end) {
+    const auto is_left = [&](std::int64_t k) { return scratch.is_summed[model.sum_node[k]] == 0; };
+    sum_due_nodes(model, begin, end, is_left, scratch);
+  });
+  std::fill(scratch.is_summed.begin(), scratch.is_summed.end(), std::uint8_t{0});
+}
+
+}  // namespace
+
+void compute_force(const Model& model, const State& state, Scratch& scratch) {
+  CHECK_OP(std::ssize(state.u), ==, 3 * std::int64_t{model.n_local});
+  CHECK_OP(std::ssize(scratch.force), ==, 3 * std::int64_t{model.n_owned});
+  parallel_for(count_blocks(model), [&](std::int64_t begin, std::int64_t end) {
+    compute_run(model, state, begin, end, scratch);
+  });
+  sum_remaining(model, scratch);
+}
+
+std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
+  const auto bytes = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
+  std::size_t sum = bytes(model.mass) + bytes(model.fixed) + bytes(model.slot_offset) +
+                    bytes(model.slot) + bytes(model.sum_node) + bytes(model.sum_first_block) +
+                    bytes(model.sum_last_block) + bytes(model.element_step) + bytes(scratch.slot) +
+                    bytes(scratch.force) + bytes(scratch.is_summed);
+  for (const ElementBlocks& blocks : model.blocks)
+    sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.data);
+  return sum;
+}
+
+}  // namespace trocar

@@ -1,0 +1,42 @@
+// One explicit step (numerics 1.1, leapfrog form): force, then integrate. Between the two, engine
+// adds contact forces to scratch.force.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "solver/model.h"
+
+namespace trocar {
+
+// scratch.force = mass * gravity - internal force(u), for owned nodes; each node sums its corners
+// in ascending global element number.
+void compute_force(const Model& model, const State& state, Scratch& scratch);
+
+// A node whose motion is given: an instrument holds it.
+struct PrescribedNode {
+  std::int32_t node = 0;         // local, owned
+  Vec3 u_next = Vec3::Zero();    // displacement at the end of the step [m]
+  Vec3 reaction = Vec3::Zero();  // out: force that the holder applies to the node in this step [N]
+};
+
+// Central difference with centred mass damping:
+//   v+ = ((2 - alpha dt_m) v + 2 dt_m f/m) / (2 + alpha dt_m),  dt_m = (last_dt + dt) / 2,
+//   u+ = u + dt v+.
+// Supported components stay; prescribed nodes go where they are told, with the reaction
+//   R = m (v+ - v) / dt_m + alpha m (v+ + v) / 2 - f
+// (none in a component that a support holds), which is added to scratch.force. Advances time and
+// step. Owned nodes only: the caller exchanges u and v afterwards.
+void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> prescribed,
+               double dt, State& state);
+
+// Name of the instruction set that the kernels use: "sse2", "avx2", "avx512"; "scalar" for tests.
+const char* simd_name();
+// Picks it: "auto" or one of the names. Throws InputError if the machine lacks it. Call before the
+// first step.
+void select_simd(const std::string& name);
+// Bytes that model and scratch hold, for predictions.
+std::size_t memory_bytes(const Model& model, const Scratch& scratch);
+
+}  // namespace trocar

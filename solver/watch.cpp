@@ -1,0 +1,108 @@
+// Looks at all elements and owned nodes; the least values do not depend on the order in which
+// threads find them.
+#include "solver/watch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "base/check.h"
+#include "solver/block_ranges.h"
+#include "solver/simd.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// The least value so far; ties go to the lower global number.
+struct Least {
+  double value = infinity;
+  std::int32_t number = -1;
+
+  void take(double other, std::int32_t other_number) {
+    if (other < value || (other == value && (number < 0 || other_number < number))) {
+      value = other;
+      number = other_number;
+    }
+  }
+};
+
+struct LeastOfElements {
+  Least step, J;
+};
+
+// An element whose deformation is not a number has no stable step and counts as inverted.
+void take_element(double undeformed_step, double J, double stiffening, std::int32_t global,
+                  LeastOfElements& least) {
+  const bool is_sound = std::isfinite(J) && stiffening < infinity;
+  least.step.take(is_sound ? undeformed_step / std::sqrt(stiffening) : 0, global);
+  least.J.take(is_sound ? J : -infinity, global);
+}
+
+constexpr std::int64_t batch_blocks = 16;
+
+void take_blocks(const Model& model, const Part& part, const State& state,
+                 const ElementBlocks& blocks, std::int64_t first, std::int64_t n,
+                 LeastOfElements& least) {
+  const BlockKernels& kernels = kernels_for(active_kernels(), blocks);
+  std::array<double, batch_blocks * block_lanes> J, stiffening;
+  kernels.watch(block_task(blocks, kernels, state, first, n), J.data(), stiffening.data());
+  const std::int64_t n_lanes = std::min(n * block_lanes, blocks.n_elements - first * block_lanes);
+  for (std::int64_t lane = 0; lane < n_lanes; ++lane) {
+    const std::int32_t k = blocks.element_local[first * block_lanes + lane];
+    take_element(model.element_step[k], J[lane], stiffening[lane], part.element_global[k], least);
+  }
+}
+
+LeastOfElements least_of_elements(const Model& model, const Part& part, const State& state) {
+  LeastOfElements all;
+  std::mutex mutex;
+  parallel_for(count_blocks(model), [&](std::int64_t begin, std::int64_t end) {
+    LeastOfElements least;
+    for (std::int64_t at = begin; at < end; at += batch_blocks)
+      for_block_range(model, at, std::min(end, at + batch_blocks),
+                      [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
+                        take_blocks(model, part, state, blocks, first, n, least);
+                      });
+    const std::scoped_lock lock(mutex);
+    all.step.take(least.step.value, least.step.number);
+    all.J.take(least.J.value, least.J.number);
+  });
+  return all;
+}
+
+// x - x is 0 for finite x and NaN else, and a sum of those stays so.
+bool are_finite(std::span<const double> values) {
+  double sum = 0;
+  for (const double x : values) sum += x - x;
+  return sum == 0;
+}
+
+std::int32_t first_bad_node(const Model& model, const Part& part, const State& state) {
+  const auto n = 3 * static_cast<std::size_t>(model.n_owned);
+  if (are_finite({state.u.data(), n}) && are_finite({state.v.data(), n})) return -1;
+  for (std::size_t k = 0; k < n; ++k)
+    if (!std::isfinite(state.u[k]) || !std::isfinite(state.v[k])) return part.node_global[k / 3];
+  return -1;
+}
+
+}  // namespace
+
+Watch watch(const Model& model, const Part& part, const State& state) {
+  CHECK_OP(part.n_local(), ==, model.n_local);
+  const LeastOfElements least = least_of_elements(model, part, state);
+  Watch w;
+  w.stable_step = least.step.value;
+  w.stable_element = least.step.number;
+  w.least_J = least.J.value;
+  w.least_J_element = least.J.number;
+  w.bad_node = first_bad_node(model, part, state);
+  w.is_finite = w.bad_node < 0;
+  return w;
+}
+
+}  // namespace trocar

@@ -1,0 +1,35 @@
+// What is looked at once a frame: the stable step of the deformed elements, inversion, non-finite
+// values, energies.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/partition.h"
+#include "solver/model.h"
+
+namespace trocar {
+
+struct Watch {
+  // Least over this rank's elements in the present deformation: the undeformed bound of numerics
+  // 1.5 over the root of Material::stiffening. 0 where an element is not finite. [s]
+  double stable_step = 0;
+  std::int32_t stable_element = -1;  // global number of the element that sets it
+  // Least det F (hex8: of the mean F); -infinity where it is not finite.
+  double least_J = 0;
+  std::int32_t least_J_element = -1;
+  bool is_finite = true;       // all owned u and v
+  std::int32_t bad_node = -1;  // global number of the first non-finite one
+};
+// Ties go to the lower global element number.
+Watch watch(const Model& model, const Part& part, const State& state);
+
+// Energies of single items, so that engine can add them exactly in any order. [J]
+struct EnergyTerms {
+  std::vector<double> kinetic;    // of owned nodes, 1/2 m v.v
+  std::vector<double> strain;     // of elements whose lowest global node is owned here
+  std::vector<double> hourglass;  // of the same elements, in the same order
+};
+void energy_terms(const Model& model, const Part& part, const State& state, EnergyTerms& terms);
+
+}  // namespace trocar

@@ -1,0 +1,50 @@
+#include "base/exact_sum.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+namespace trocar {
+namespace {
+
+double exact_sum(const std::vector<double>& values) {
+  ExactSum sum;
+  for (const double value : values) sum.add(value);
+  return sum.value();
+}
+
+TEST(ExactSum, keeps_what_plain_summation_cancels) {
+  EXPECT_EQ(exact_sum({1e20, 1.0, -1e20}), 1.0);
+  EXPECT_EQ(exact_sum({1e-20, 1e15, -1e15}), 1e-20);
+  EXPECT_EQ(exact_sum({-0.375, 0.125}), -0.25);
+  EXPECT_EQ(exact_sum({}), 0.0);
+}
+
+TEST(ExactSum, is_the_same_in_any_order) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> digits(-1, 1), exponent(-60, 60);
+  std::vector<double> values(5000);
+  for (double& value : values)
+    value = std::ldexp(digits(random), static_cast<int>(exponent(random)));
+  const double first = exact_sum(values);
+  for (int k = 0; k < 5; ++k) {
+    std::shuffle(values.begin(), values.end(), random);
+    EXPECT_EQ(exact_sum(values), first);
+  }
+}
+
+TEST(ExactSum, agrees_with_long_double_summation_to_its_rounding) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> digits(-1, 1);
+  std::vector<double> values(1000);
+  for (double& value : values) value = digits(random);
+  long double sum = 0;
+  for (const double value : values) sum += value;
+  // 1000 additions of numbers below 1 in 64-bit mantissas: error below 1000 * 2^-64 * 1000.
+  EXPECT_NEAR(exact_sum(values), static_cast<double>(sum), 1e-13);
+}
+
+}  // namespace
+}  // namespace trocar

@@ -1,0 +1,55 @@
+#include "base/quoted.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace trocar {
+namespace {
+
+// The definition, without a table: every way to align the two texts.
+std::size_t distance_by_definition(std::string_view a, std::string_view b) {
+  if (a.empty() || b.empty()) return a.size() + b.size();
+  const std::size_t replaced =
+      distance_by_definition(a.substr(1), b.substr(1)) + (a[0] == b[0] ? 0 : 1);
+  std::size_t least = std::min({replaced, distance_by_definition(a.substr(1), b) + 1,
+                                distance_by_definition(a, b.substr(1)) + 1});
+  if (a.size() > 1 && b.size() > 1 && a[0] == b[1] && a[1] == b[0])
+    least = std::min(least, distance_by_definition(a.substr(2), b.substr(2)) + 1);
+  return least;
+}
+
+TEST(EditDistance, equals_its_definition_for_random_words) {
+  std::mt19937 random(3);
+  const auto word = [&] {
+    std::string text(random() % 6, 'a');
+    for (char& c : text) c = static_cast<char>('a' + random() % 3);
+    return text;
+  };
+  for (int i = 0; i < 500; ++i) {
+    const std::string a = word();
+    const std::string b = word();
+    EXPECT_EQ(edit_distance(a, b), distance_by_definition(a, b)) << a << " " << b;
+  }
+}
+
+TEST(EditDistance, counts_a_swap_as_one) {
+  EXPECT_EQ(edit_distance("denstiy", "density"), 1u);
+}
+
+TEST(NearestName, is_the_first_of_the_nearest) {
+  const std::string names[] = {"length", "density", "dentist"};
+  EXPECT_EQ(nearest_name("densty", names), "density");
+  EXPECT_EQ(nearest_name("x", {}), "");
+  EXPECT_EQ(nearest_name(std::string(1 << 20, 'x'), names), "");
+}
+
+TEST(InQuotes, cuts_between_characters_and_hides_control_characters) {
+  EXPECT_EQ(in_quotes("a\nb"), "\"a?b\"");
+  std::string umlauts;
+  for (int i = 0; i < 50; ++i) umlauts += "ü";  // 2 bytes each
+  EXPECT_EQ(in_quotes("x" + umlauts), "\"x" + umlauts.substr(0, 58) + "…\"");
+}
+
+}  // namespace
+}  // namespace trocar

@@ -1,0 +1,41 @@
+#include "base/timers.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace trocar {
+namespace {
+
+TEST(MonotonicSeconds, advance_with_the_wall_clock) {
+  const double before = monotonic_seconds();
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const double elapsed = monotonic_seconds() - before;
+  EXPECT_GE(elapsed, 0.020);
+  EXPECT_LT(elapsed, 2.0);  // a loaded machine may sleep longer, but not a hundred times
+}
+
+TEST(PhaseTimers, add_up_by_phase_in_order_of_registration) {
+  PhaseTimers timers;
+  const std::size_t step = timers.phase("step");
+  const std::size_t contact = timers.phase("contact");
+  EXPECT_EQ(timers.phase("step"), step);
+  timers.add(step, 1.5);
+  timers.add(contact, 0.25);
+  timers.add(step, 0.5);
+  const std::vector<std::pair<std::string, double>> expected{{"step", 2.0}, {"contact", 0.25}};
+  EXPECT_EQ(timers.totals(), expected);
+}
+
+TEST(PhaseScope, counts_its_own_life) {
+  PhaseTimers timers;
+  {
+    const PhaseScope scope(timers, timers.phase("sleep"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(timers.totals()[0].second, 0);
+  }
+  EXPECT_GE(timers.totals()[0].second, 0.020);
+}
+
+}  // namespace
+}  // namespace trocar

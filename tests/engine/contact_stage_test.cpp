@@ -1,0 +1,206 @@
+#include "engine/contact_stage.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mesh/generate.h"
+
+namespace trocar {
+namespace {
+
+// A slab of tissue with its upper side at z = 0.
+Mesh slab() {
+  return make_box(Vec3(-0.05, -0.05, -0.02), Vec3(0.05, 0.05, 0), {10, 10, 2},
+                  BoxElements::tet4_kuhn);
+}
+
+Tool resting_tool(InstrumentKind kind, const InstrumentKey& key) {
+  SceneInstrument s{.kind = kind, .name = "tool", .path = {key}};
+  if (kind == InstrumentKind::grasper)
+    s.path.push_back({.time = key.time + 1,
+                      .position = key.position,
+                      .direction = key.direction,
+                      .forward = key.forward,
+                      .action = GraspAction::close});
+  return make_tool(s, {}, 1e-3);
+}
+
+bool is_shaft(const Contact& contact) {
+  return contact.piece < first_working_piece;
+}
+
+struct Case {
+  Mesh mesh = slab();
+  std::vector<Tool> tools;
+  Holds holds;
+  SurfaceView view;
+  ContactStage stage;
+
+  explicit Case(Tool tool)
+      : tools{std::move(tool)}, stage{.detector = ContactDetector({tools[0].shape})} {
+    holds.is_open.assign(1, 1);
+    view.x = mesh.X;
+    stage.detector.set_surface(boundary_surface(mesh));
+  }
+  const std::vector<Contact>& detect(double reach_extra = 1e-3) {
+    detect_contacts(stage, tools, holds, view, {.t0 = 0, .t1 = 0.033}, reach_extra);
+    return stage.contacts;
+  }
+};
+
+TEST(ContactStage, sees_a_probe_on_the_tissue_and_none_above_it) {
+  Case on(resting_tool(InstrumentKind::probe, {.position = Vec3(0.003, 0.002, -0.0005)}));
+  EXPECT_FALSE(on.detect().empty());
+  Case above(resting_tool(InstrumentKind::probe, {.position = Vec3(0.003, 0.002, 0.0101)}));
+  EXPECT_TRUE(above.detect(0.01).empty());
+  EXPECT_FALSE(above.detect(0.0102).empty());  // tissue may come up as far as that
+}
+
+TEST(ContactStage, looks_as_far_as_the_tool_travels_in_the_frame) {
+  Case c(resting_tool(InstrumentKind::probe, {.position = Vec3(0.003, 0.002, 0.005)}));
+  EXPECT_TRUE(c.detect().empty());
+  SceneInstrument falling{.name = "p",
+                          .path = {{.time = 0, .position = Vec3(0.003, 0.002, 0.005)},
+                                   {.time = 0.033, .position = Vec3(0.003, 0.002, -0.005)}}};
+  c.tools[0] = make_tool(falling, {}, 1e-3);
+  EXPECT_FALSE(c.detect().empty());
+}
+
+// Upright on its tip, a blade would touch with its edge: it cuts there instead.
+TEST(ContactStage, drops_the_contacts_of_a_blades_edge) {
+  Case c(resting_tool(InstrumentKind::scalpel, {.position = Vec3(0.003, 0.002, 0.0003)}));
+  std::vector<Contact> all;
+  const Pose pose[] = {c.tools[0].path.at(0)};
+  const double margin[] = {1e-3};
+  c.stage.detector.detect(c.view.x, pose, margin, all);
+  ASSERT_FALSE(all.empty());
+  EXPECT_TRUE(c.detect().empty());
+}
+
+// Lying flat: y of the blade's frame is the tissue's normal.
+TEST(ContactStage, keeps_the_contacts_of_a_blades_flat_sides) {
+  Case c(resting_tool(InstrumentKind::scalpel, {.position = Vec3(0.003, 0.002, 0.0004),
+                                                .direction = Vec3(0, 1, 0),
+                                                .forward = Vec3(1, 0, 0)}));
+  const std::vector<Contact>& contacts = c.detect();
+  const auto n_blade = std::count_if(contacts.begin(), contacts.end(), [](const Contact& contact) {
+    return contact.piece >= first_working_piece;
+  });
+  EXPECT_GT(n_blade, 0);
+  for (const Contact& contact : contacts)
+    if (!is_shaft(contact)) {
+      EXPECT_GE(std::abs(contact.normal.y()), 0.7);
+    }
+}
+
+TEST(ContactStage, a_probe_keeps_contacts_with_any_normal) {
+  Case c(resting_tool(InstrumentKind::probe,
+                      {.position = Vec3(0.003, 0.002, -0.0005), .direction = Vec3(0, 0, -1)}));
+  const std::vector<Contact>& contacts = c.detect();
+  EXPECT_TRUE(std::any_of(contacts.begin(), contacts.end(),
+                          [](const Contact& k) { return std::abs(k.normal.y()) < 0.7; }));
+}
+
+// A grasper lying on the slab: shaft and jaws both touch.
+Case lying_grasper() {
+  return Case(resting_tool(InstrumentKind::grasper, {.position = Vec3(0.003, -0.03, 0.001),
+                                                     .direction = Vec3(0, -1, -0.01),
+                                                     .forward = Vec3(1, 0, 0)}));
+}
+
+TEST(ContactStage, closed_jaws_do_not_touch_and_open_ones_do) {
+  Case c = lying_grasper();
+  const std::vector<Contact> open = c.detect();
+  EXPECT_FALSE(std::all_of(open.begin(), open.end(), is_shaft));
+  EXPECT_TRUE(std::any_of(open.begin(), open.end(), is_shaft));
+  c.holds.is_open[0] = 0;
+  const std::vector<Contact>& closed = c.detect();
+  EXPECT_TRUE(std::all_of(closed.begin(), closed.end(), is_shaft));
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(closed.size()),
+            std::count_if(open.begin(), open.end(), is_shaft));
+}
+
+TEST(ContactStage, a_shaft_does_not_touch_what_its_closed_jaws_hold) {
+  Case c = lying_grasper();
+  c.holds.is_open[0] = 0;
+  const std::vector<Contact> before = c.detect();
+  ASSERT_FALSE(before.empty());
+  const std::int32_t held = before[0].node[1];
+  const auto touches_held = [&](const Contact& k) {
+    return std::count(k.node.begin(), k.node.end(), held) > 0;
+  };
+  c.holds.holds = {{.node = held, .tool = 0}};
+  const std::vector<Contact> after = c.detect();
+  EXPECT_TRUE(std::none_of(after.begin(), after.end(), touches_held));
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(before.size() - after.size()),
+            std::count_if(before.begin(), before.end(), touches_held));
+  c.holds.holds = {{.node = held, .tool = 1}};  // held by another
+  EXPECT_EQ(c.detect().size(), before.size());
+}
+
+TEST(MoveTools, gives_the_velocity_of_the_path_over_the_last_substep) {
+  SceneInstrument s{.name = "p",
+                    .path = {{.time = 0, .direction = Vec3(0, 0, -1)},
+                             {.time = 1,
+                              .position = Vec3(0.1, 0, 0.05),
+                              .direction = Vec3(0.6, 0, -1),
+                              .forward = Vec3(1, 0, 0.5)}}};
+  const std::vector<Tool> tools = {make_tool(s, {}, 1e-3)};
+  std::vector<ToolMotion> motion(1);
+  const double t = 0.4, dt = 1e-5;
+  move_tools(tools, t, dt, motion);
+  const Pose now = tools[0].path.at(t), before = tools[0].path.at(t - dt);
+  EXPECT_EQ(motion[0].pose.translation, now.translation);
+  EXPECT_EQ(motion[0].velocity, Vec3((now.translation - before.translation) / dt));
+  // The twist moves any point of the tool as the two poses do, up to O(dt) of the turn: |omega|^2
+  // dt |r| < 1e-6.
+  const Vec3 local(0.01, 0.02, 0.1);
+  const Vec3 expected = (now.apply(local) - before.apply(local)) / dt;
+  const Vec3 r = now.apply(local) - now.translation;
+  EXPECT_LT((motion[0].velocity + motion[0].angular_velocity.cross(r) - expected).norm(), 1e-6);
+  EXPECT_GT(motion[0].angular_velocity.norm(), 0.1);
+}
+
+TEST(MoveTools, gives_no_velocity_to_a_resting_tool) {
+  const std::vector<Tool> tools = {resting_tool(
+      InstrumentKind::probe, {.position = Vec3(1, 2, 3), .direction = Vec3(0.3, 0.4, -1)})};
+  std::vector<ToolMotion> motion(1);
+  move_tools(tools, 0.4, 1e-5, motion);
+  EXPECT_EQ(motion[0].velocity, Vec3::Zero());
+  EXPECT_LT(motion[0].angular_velocity.norm(), 1e-10);  // roundings of 1e-16 over 1e-5 s
+}
+
+TEST(ContactReactions, are_the_mean_over_the_substeps_by_tool) {
+  Case c(resting_tool(InstrumentKind::probe, {.position = Vec3::Zero()}));
+  c.stage.set.items.resize(3);
+  for (std::size_t k = 0; k < 3; ++k) c.stage.set.items[k].contact.tool = k == 2 ? 1 : 0;
+  c.stage.reaction.resize(3);
+  c.stage.reaction_sum.assign(3, Vec3::Zero());
+  for (int step = 1; step <= 4; ++step) {
+    for (std::size_t k = 0; k < 3; ++k)
+      c.stage.reaction[k] = Vec3(step, static_cast<double>(k), 0.5);
+    add_contact_reactions(c.stage);
+  }
+  std::vector<std::array<ExactSum, 3>> force(2);
+  sum_contact_reactions(c.stage, 4, force);
+  EXPECT_EQ(force[0][0].value(), 2 * (1 + 2 + 3 + 4) / 4.0);
+  EXPECT_EQ(force[0][1].value(), 0 + 1);
+  EXPECT_EQ(force[1][0].value(), (1 + 2 + 3 + 4) / 4.0);
+  EXPECT_EQ(force[1][1].value(), 2);
+  EXPECT_EQ(force[1][2].value(), 0.5);
+}
+
+TEST(PrepareFrameContacts, starts_each_frame_without_reactions) {
+  Case c(resting_tool(InstrumentKind::probe, {.position = Vec3(0.003, 0.002, -0.0005)}));
+  ASSERT_FALSE(c.detect().empty());
+  const std::vector<std::int32_t> owner(c.mesh.X.size(), 0);
+  const std::vector<double> mass(c.mesh.X.size(), 1e-3);
+  prepare_frame_contacts(c.stage, make_part(c.mesh, owner, 0), mass, 1e-4);
+  EXPECT_EQ(c.stage.set.items.size(), c.stage.contacts.size());
+  EXPECT_EQ(c.stage.reaction.size(), c.stage.set.items.size());
+  for (const Vec3& sum : c.stage.reaction_sum) EXPECT_EQ(sum, Vec3::Zero());
+}
+
+}  // namespace
+}  // namespace trocar

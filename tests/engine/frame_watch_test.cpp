@@ -1,0 +1,70 @@
+#include "engine/frame_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "engine_files.h"
+
+namespace trocar {
+namespace {
+
+Simulation sound_simulation() {
+  start_log(0, true);
+  Simulation s;
+  s.watch.stable_step = 1e-4;
+  s.watch.least_J = 0.8;
+  s.watch.least_J_element = 7;
+  s.scene.time.frame_rate = 30;
+  return s;
+}
+
+TEST(FindTrouble, is_silent_while_all_is_well) {
+  EXPECT_EQ(find_trouble(sound_simulation()), "");
+}
+
+TEST(FindTrouble, names_the_node_that_is_not_finite_before_anything_else) {
+  Simulation s = sound_simulation();
+  s.watch.is_finite = false;
+  s.watch.bad_node = 4711;
+  s.watch.least_J = -1;
+  EXPECT_TRUE(contains(find_trouble(s), "node 4711"));
+}
+
+TEST(FindTrouble, names_the_inverted_element) {
+  Simulation s = sound_simulation();
+  for (const double J : {0.0, -0.0, -1e-300, -3.0, std::numeric_limits<double>::quiet_NaN()}) {
+    s.watch.least_J = J;
+    EXPECT_TRUE(contains(find_trouble(s), "element 7 is inverted")) << J;
+  }
+  s.watch.least_J = 1e-300;
+  EXPECT_EQ(find_trouble(s), "");
+}
+
+TEST(RollBack, halves_the_step_and_forgets_the_reactions_of_the_failed_frame) {
+  Simulation s = sound_simulation();
+  s.frame = 30;
+  s.holds.reaction_sum = {Vec3(1, 2, 3)};
+  s.watch.is_finite = false;
+  roll_back(s, "element 7 is inverted", 0);
+  EXPECT_EQ(s.step_scale, 0.5);
+  EXPECT_EQ(s.log.n_roll_backs, 1);
+  EXPECT_TRUE(s.watch.is_finite);
+  EXPECT_EQ(s.holds.reaction_sum[0], Vec3::Zero());
+  ASSERT_EQ(s.log.events.size(), 1u);
+  EXPECT_TRUE(contains(s.log.events[0], "1.000 s: rolled back: element 7 is inverted"));
+}
+
+TEST(RollBack, gives_up_after_its_last_try_with_time_and_cause) {
+  Simulation s = sound_simulation();
+  s.frame = 15;
+  for (int tries = 0; tries < most_roll_backs; ++tries) roll_back(s, "t", tries);
+  const std::string sentence =
+      error_of<SimulationError>([&] { roll_back(s, "element 7 is inverted", most_roll_backs); });
+  EXPECT_TRUE(contains(sentence, "in the frame after 0.5 s: element 7 is inverted")) << sentence;
+}
+
+}  // namespace
+}  // namespace trocar

@@ -1,0 +1,235 @@
+#include "engine/holds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mesh/generate.h"
+
+namespace trocar {
+namespace {
+
+constexpr double grip = 0.015;
+
+// A grasper that closes at 1 s and opens at 2 s while it moves, and a probe beside it.
+std::vector<Tool> moving_tools() {
+  const SceneInstrument probe{
+      .kind = InstrumentKind::probe, .name = "probe", .path = {{.time = 0}}};
+  SceneInstrument grasper{.kind = InstrumentKind::grasper, .name = "grasper", .grip_radius = grip};
+  grasper.path = {{.time = 0, .position = Vec3(0.02, 0.02, 0)},
+                  {.time = 1, .position = Vec3(0.03, 0.02, 0), .action = GraspAction::close},
+                  {.time = 2,
+                   .position = Vec3(0.05, 0.06, 0.02),
+                   .direction = Vec3(0.5, 0.2, -1),
+                   .action = GraspAction::open}};
+  return {make_tool(probe, {}, 1e-3), make_tool(grasper, {}, 1e-3)};
+}
+
+struct Case {
+  std::vector<Tool> tools = moving_tools();
+  Mesh mesh = make_rectangle(0.07, 0.04, 15, 9);
+  std::vector<std::uint8_t> fixed = std::vector<std::uint8_t>(mesh.X.size(), 0);
+  Holds holds;
+  Case() {
+    holds.poses.resize(2);
+    holds.is_open.assign(2, 1);
+  }
+  int act(double t0, double t1) { return act_graspers(holds, tools, t0, t1, mesh.X, fixed); }
+  std::vector<std::int32_t> nodes() const {
+    std::vector<std::int32_t> list;
+    for (const Hold& hold : holds.holds) list.push_back(hold.node);
+    return list;
+  }
+};
+
+std::vector<std::int32_t> nodes_near(const Mesh& mesh, const Vec3& centre, double radius) {
+  std::vector<std::int32_t> list;
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
+    if ((mesh.X[i] - centre).norm() <= radius) list.push_back(i);
+  return list;
+}
+
+TEST(Grasp, takes_exactly_the_nodes_within_the_grip_radius_of_the_tip) {
+  Case c;
+  const Vec3 tip = c.tools[1].path.at(1.02).translation;
+  const std::vector<std::int32_t> expected = nodes_near(c.mesh, tip, grip);
+  ASSERT_GT(expected.size(), 10u);
+  ASSERT_LT(expected.size(), c.mesh.X.size());
+  EXPECT_EQ(c.act(0.99, 1.02), static_cast<int>(expected.size()));
+  EXPECT_EQ(c.nodes(), expected);
+  EXPECT_FALSE(c.holds.is_open[1]);
+  EXPECT_TRUE(c.holds.is_open[0]);
+}
+
+TEST(Grasp, happens_in_the_frame_whose_half_open_span_holds_the_key) {
+  Case c;
+  EXPECT_FALSE(will_act(c.tools, 0.5, 0.99));
+  EXPECT_FALSE(will_act(c.tools, 1.0, 1.03));  // a key at the beginning belongs to the frame before
+  EXPECT_TRUE(will_act(c.tools, 0.97, 1.0));
+  EXPECT_EQ(c.act(0.5, 0.99), -1);
+  EXPECT_EQ(c.act(1.0, 1.03), -1);
+  EXPECT_GT(c.act(0.97, 1.0), 0);
+  EXPECT_EQ(c.act(1.0, 1.03), -1);
+  EXPECT_FALSE(c.holds.holds.empty());
+}
+
+TEST(Grasp, leaves_supported_nodes_and_those_of_another_holder_alone) {
+  Case c;
+  const std::vector<std::int32_t> all = nodes_near(c.mesh, c.tools[1].path.at(1).translation, grip);
+  c.fixed[static_cast<std::size_t>(all[0])] = 7;
+  c.holds.holds = {{.node = all[3], .support = 0}};
+  EXPECT_EQ(c.act(0.9, 1), static_cast<int>(all.size()) - 2);
+  const std::vector<std::int32_t> taken = c.nodes();
+  EXPECT_EQ(std::count(taken.begin(), taken.end(), all[0]), 0);
+  EXPECT_TRUE(std::adjacent_find(taken.begin(), taken.end(), std::greater_equal<>()) ==
+              taken.end());
+  const auto other = std::find_if(c.holds.holds.begin(), c.holds.holds.end(),
+                                  [&](const Hold& h) { return h.node == all[3]; });
+  EXPECT_EQ(other->support, 0);
+  EXPECT_EQ(other->tool, -1);
+}
+
+TEST(Grasp, opening_releases_what_this_tool_holds_and_nothing_else) {
+  Case c;
+  c.act(0.9, 1);
+  c.holds.holds.insert(c.holds.holds.begin(), Hold{.node = 0, .support = 0});
+  EXPECT_EQ(c.act(1.99, 2.01), 0);
+  EXPECT_EQ(c.nodes(), std::vector<std::int32_t>{0});
+  EXPECT_TRUE(c.holds.is_open[1]);
+}
+
+TEST(Grasp, closing_and_opening_within_one_frame_holds_nothing) {
+  Case c;
+  EXPECT_GE(c.act(0.97, 2.0), 0);
+  EXPECT_TRUE(c.holds.holds.empty());
+  EXPECT_TRUE(c.holds.is_open[1]);
+}
+
+TEST(Grasp, of_nothing_is_reported_as_none_taken) {
+  Case c;
+  for (Vec3& X : c.mesh.X) X += Vec3(1, 0, 0);
+  EXPECT_EQ(c.act(0.9, 1), 0);
+  EXPECT_FALSE(c.holds.is_open[1]);
+}
+
+TEST(HeldNodes, are_those_supported_in_x_or_y_and_the_held) {
+  Case c;
+  c.fixed[1] = 1;
+  c.fixed[2] = 2;
+  c.fixed[3] = 4;  // across the plane of a plane body: not held by that
+  c.fixed[4] = 7;
+  c.holds.holds = {{.node = 5, .tool = 1}};
+  const std::vector<std::uint8_t> is_held = held_nodes(c.holds, c.fixed);
+  const std::vector<std::size_t> expected = {1, 2, 4, 5};
+  for (std::size_t i = 0; i < is_held.size(); ++i)
+    EXPECT_EQ(is_held[i] != 0, std::count(expected.begin(), expected.end(), i) > 0) << i;
+}
+
+// All nodes belong to this rank.
+Part whole_part(const Mesh& mesh) {
+  const std::vector<std::int32_t> owner(mesh.X.size(), 0);
+  return make_part(mesh, owner, 0);
+}
+
+TEST(HeldNodes, do_not_move_at_the_moment_of_the_grasp_and_then_move_with_the_tool) {
+  Case c;
+  c.act(0.9, 1);
+  localise_holds(c.holds, whole_part(c.mesh));
+  ASSERT_EQ(c.holds.prescribed.size(), c.holds.holds.size());
+  aim_holds(c.holds, c.tools, c.mesh.X, 1);
+  // pose.apply(pose.apply_inverse(x)) = x up to a few roundings of 0.1 m.
+  for (const PrescribedNode& node : c.holds.prescribed) EXPECT_LT(node.u_next.norm(), 1e-16);
+  aim_holds(c.holds, c.tools, c.mesh.X, 1.6);
+  const Pose then = c.tools[1].path.at(1), now = c.tools[1].path.at(1.6);
+  for (std::size_t k = 0; k < c.holds.prescribed.size(); ++k) {
+    const Vec3 X = c.mesh.X[static_cast<std::size_t>(c.holds.holds[k].node)];
+    const Vec3 expected = now.apply(then.apply_inverse(X)) - X;
+    EXPECT_EQ(c.holds.prescribed[k].u_next, expected);
+  }
+}
+
+TEST(HeldNodes, of_a_moving_support_have_the_displacement_of_its_path) {
+  Case c;
+  const std::vector<SupportKey> keys = {{.time = 0},
+                                        {.time = 2, .displacement = Vec3(0.01, 0.02, 0)}};
+  c.holds.paths.emplace_back(keys);
+  c.holds.holds = {{.node = 3, .support = 0}, {.node = 8, .support = 0}};
+  localise_holds(c.holds, whole_part(c.mesh));
+  for (const double time : {0.0, 0.7, 2.0, 3.0}) {
+    aim_holds(c.holds, c.tools, c.mesh.X, time);
+    for (const PrescribedNode& node : c.holds.prescribed)
+      EXPECT_EQ(node.u_next, c.holds.paths[0].at(time));
+  }
+  EXPECT_EQ(c.holds.prescribed[0].u_next, Vec3(0.01, 0.02, 0));
+}
+
+TEST(HeldNodes, are_prescribed_by_their_owner_alone) {
+  Case c;
+  c.act(0.9, 1);
+  const std::vector<std::int32_t> owner = partition_nodes(c.mesh, 3);
+  std::vector<std::int32_t> seen;
+  for (int rank = 0; rank < 3; ++rank) {
+    const Part part = make_part(c.mesh, owner, rank);
+    localise_holds(c.holds, part);
+    ASSERT_EQ(c.holds.prescribed.size(), c.holds.owned.size());
+    for (std::size_t k = 0; k < c.holds.owned.size(); ++k) {
+      const std::int32_t node = c.holds.holds[static_cast<std::size_t>(c.holds.owned[k])].node;
+      EXPECT_EQ(part.node_global[static_cast<std::size_t>(c.holds.prescribed[k].node)], node);
+      EXPECT_EQ(owner[static_cast<std::size_t>(node)], rank);
+      seen.push_back(node);
+    }
+  }
+  std::sort(seen.begin(), seen.end());
+  EXPECT_EQ(seen, c.nodes());
+}
+
+TEST(EditOfHolds, partners_of_held_nodes_are_held_at_the_same_offset_in_ascending_order) {
+  Case c;
+  c.act(0.9, 1);
+  const std::vector<Hold> before = c.holds.holds;
+  const std::int32_t n_nodes = c.mesh.n_nodes();
+  // The later held node is duplicated first, then a free one, the earlier held one, and a
+  // duplicate.
+  MeshEdit edit;
+  edit.duplicate_parent = {before[7].node, n_nodes - 1, before[2].node, n_nodes};
+  apply_edit_to_holds(edit, n_nodes, c.holds);
+  ASSERT_EQ(c.holds.holds.size(), before.size() + 3);
+  for (std::size_t k = 0; k < before.size(); ++k) EXPECT_EQ(c.holds.holds[k].node, before[k].node);
+  const std::vector<std::pair<std::int32_t, std::size_t>> partners = {
+      {n_nodes, 7}, {n_nodes + 2, 2}, {n_nodes + 3, 7}};
+  for (std::size_t p = 0; p < partners.size(); ++p) {
+    const Hold& partner = c.holds.holds[before.size() + p];
+    EXPECT_EQ(partner.node, partners[p].first);
+    EXPECT_EQ(partner.offset, before[partners[p].second].offset);
+    EXPECT_EQ(partner.tool, 1);
+  }
+}
+
+double sum_of(const ExactSum& sum) {
+  return sum.value();
+}
+
+TEST(HoldReactions, are_the_mean_over_the_substeps_with_the_sign_of_the_tissue_on_the_tool) {
+  Case c;
+  c.holds.paths.emplace_back(std::vector<SupportKey>{{.time = 0}});
+  c.holds.holds = {{.node = 1, .tool = 1}, {.node = 4, .tool = 1}, {.node = 9, .support = 0}};
+  localise_holds(c.holds, whole_part(c.mesh));
+  for (int step = 1; step <= 4; ++step) {
+    for (std::size_t k = 0; k < 3; ++k)
+      c.holds.prescribed[k].reaction = Vec3(step, 10.0 * static_cast<double>(k), 0.5);
+    add_hold_reactions(c.holds);
+  }
+  std::vector<std::array<ExactSum, 3>> force(2);
+  sum_hold_reactions(c.holds, 4, force);
+  EXPECT_EQ(sum_of(force[1][0]),
+            -2 * (1 + 2 + 3 + 4) / 4.0);  // two nodes; the support's force is nobody's
+  EXPECT_EQ(sum_of(force[1][1]), -10);
+  EXPECT_EQ(sum_of(force[1][2]), -1);
+  EXPECT_EQ(sum_of(force[0][0]), 0);
+  std::vector<std::array<ExactSum, 3>> again(2);
+  sum_hold_reactions(c.holds, 4, again);
+  EXPECT_EQ(sum_of(again[1][0]), 0);
+}
+
+}  // namespace
+}  // namespace trocar

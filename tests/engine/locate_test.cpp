@@ -1,0 +1,103 @@
+#include "engine/locate.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "mesh_fixtures.h"
+
+namespace trocar {
+namespace {
+
+std::vector<NamedMesh> simplex_meshes() {
+  std::vector<NamedMesh> meshes = plane_meshes();
+  meshes.push_back({"Kuhn ball", make_ball(Vec3(0.01, 0, 0), 0.1, 6, BoxElements::tet4_kuhn)});
+  meshes.push_back({"five box", make_box(Vec3(0, 0, 0), Vec3(0.1, 0.2, 0.1), {3, 3, 2},
+                                         BoxElements::tet4_five)});
+  for (NamedMesh& named : meshes) jitter(named.mesh, 0.1, 3);
+  return meshes;
+}
+
+// Positive weights that sum to 1.
+std::vector<double> random_weights(std::mt19937& random, std::size_t n) {
+  std::uniform_real_distribution<double> unit(0.05, 1);
+  std::vector<double> weight(n);
+  double sum = 0;
+  for (double& w : weight) sum += w = unit(random);
+  for (double& w : weight) w /= sum;
+  return weight;
+}
+
+Vec3 blend(const Mesh& mesh, std::int32_t e, const std::vector<double>& weight) {
+  Vec3 point = Vec3::Zero();
+  for (std::size_t a = 0; a < weight.size(); ++a) point += weight[a] * mesh.X[mesh.corners(e)[a]];
+  return point;
+}
+
+TEST(Locate, finds_the_element_and_the_weights_of_an_inner_point) {
+  std::mt19937 random(1);
+  for (const NamedMesh& named : simplex_meshes()) {
+    const Mesh& mesh = named.mesh;
+    for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+      const std::vector<double> weight = random_weights(random, mesh.corners(e).size());
+      const Location found = locate_point(mesh, mesh.X, blend(mesh, e, weight));
+      ASSERT_EQ(found.element, e) << named.name;
+      // Rounding errors grow with the condition of the element, below 1e3 here.
+      for (std::size_t a = 0; a < weight.size(); ++a)
+        EXPECT_NEAR(found.weight[a], weight[a], 1e-12) << named.name;
+    }
+  }
+}
+
+TEST(Locate, gives_a_node_to_the_lowest_of_its_elements) {
+  for (const NamedMesh& named : simplex_meshes()) {
+    const NodeElements around = node_elements(named.mesh);
+    for (std::int32_t i = 0; i < named.mesh.n_nodes(); ++i)
+      EXPECT_EQ(locate_point(named.mesh, named.mesh.X, named.mesh.X[i]).element, around.of(i)[0])
+          << named.name << i;
+  }
+}
+
+TEST(Locate, says_that_a_point_lies_outside) {
+  for (const NamedMesh& named : simplex_meshes())
+    EXPECT_EQ(locate_point(named.mesh, named.mesh.X, Vec3(5, 5, 0)).element, -1) << named.name;
+}
+
+TEST(Locate, looks_in_the_positions_that_it_is_given) {
+  const Mesh mesh = make_rectangle(0.07, 0.04, 5, 4);
+  std::vector<Vec3> x = mesh.X;
+  for (Vec3& point : x) point += Vec3(1, 2, 0);
+  EXPECT_EQ(locate_point(mesh, x, Vec3(0.03, 0.02, 0)).element, -1);
+  EXPECT_EQ(locate_point(mesh, x, Vec3(1.03, 2.02, 0)).element,
+            locate_point(mesh, mesh.X, Vec3(0.03, 0.02, 0)).element);
+}
+
+TEST(LocateNearest, agrees_with_locate_inside) {
+  std::mt19937 random(2);
+  for (const NamedMesh& named : simplex_meshes())
+    for (std::int32_t e = 0; e < named.mesh.n_elements(); e += 3) {
+      const Vec3 point = blend(named.mesh, e, random_weights(random, named.mesh.corners(e).size()));
+      EXPECT_EQ(locate_nearest(named.mesh, named.mesh.X, point).element, e) << named.name;
+    }
+}
+
+TEST(LocateNearest, extrapolates_outside_exactly_for_linear_fields) {
+  const auto linear = [](const Vec3& x) {
+    return Vec3(1 + x.x() - 2 * x.y(), 3 * x.y(), x.x() + x.z());
+  };
+  for (const NamedMesh& named : simplex_meshes()) {
+    const Mesh& mesh = named.mesh;
+    std::vector<Vec3> field;
+    for (const Vec3& X : mesh.X) field.push_back(linear(X));
+    const double z = mesh.dimension() == 2 ? 0 : 0.05;
+    for (const Vec3& point : {Vec3(-0.05, 0.01, z), Vec3(0.2, 0.3, z), Vec3(0.03, 0.02, z)}) {
+      const Location found = locate_nearest(mesh, mesh.X, point);
+      ASSERT_GE(found.element, 0);
+      // Barycentric coordinates are affine; weights of a few tens magnify roundings of 1e-15.
+      EXPECT_LT((interpolate(mesh, found, field) - linear(point)).norm(), 1e-12) << named.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trocar

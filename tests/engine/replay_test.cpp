@@ -1,0 +1,128 @@
+#include "engine/replay.h"
+
+#include <gtest/gtest.h>
+
+#include "base/digest.h"
+#include "base/log.h"
+#include "engine/database.h"
+#include "engine_files.h"
+#include "engine_recording.h"
+#include "engine_scene.h"
+#include "mesh/mesh_file.h"
+
+namespace trocar {
+namespace {
+
+// A recording with a scene that can be read again.
+ExampleRun replayable_run() {
+  ExampleRun run = example_run(6);
+  const Scene scene = load_scene_text(
+      scene_text(camera_text + instrument_text("probe") + instrument_text("scalpel")));
+  run.head.scene = echo_options(scene_options(), &scene);
+  return run;
+}
+
+struct Case {
+  TestFolder folder;
+  ExampleRun run = replayable_run();
+  ReplayOptions options{.recording = folder.file("r"), .folder = folder.file("out"), .vtu = true};
+  Case() {
+    start_log(0, true);
+    write_run(run, options.recording);
+  }
+  std::string vtu(std::int64_t frame) const {
+    const std::string number = std::to_string(frame);
+    return options.folder + "/frame_" + std::string(6 - number.size(), '0') + number + ".vtu";
+  }
+};
+
+TEST(Replay, writes_a_vtu_of_each_frame_with_the_displaced_mesh_of_that_frame) {
+  Case c;
+  replay(c.options);
+  for (std::size_t k = 0; k < c.run.frames.size(); ++k) {
+    const Mesh read = read_mesh(c.vtu(c.run.frames[k].frame), 1);
+    const Mesh& mesh = c.run.meshes[k];
+    ASSERT_EQ(read.X.size(), mesh.X.size()) << k;
+    EXPECT_EQ(read.corner_node, mesh.corner_node) << k;
+    const std::vector<double>& u = c.run.frames[k].u;
+    for (std::size_t i = 0; i < mesh.X.size(); ++i) {
+      const Vec3 x = mesh.X[i] + Vec3(u[3 * i], u[3 * i + 1], u[3 * i + 2]);
+      EXPECT_EQ(read.X[i], x) << k << " " << i;
+    }
+  }
+}
+
+TEST(Replay, lists_the_vtu_files_with_their_times_for_paraview) {
+  Case c;
+  replay(c.options);
+  const std::string pvd = read_text(c.options.folder + "/recording.pvd");
+  for (const RecordedFrame& frame : c.run.frames)
+    EXPECT_TRUE(contains(pvd, std::filesystem::path(c.vtu(frame.frame)).filename().string()));
+}
+
+TEST(Replay, shows_the_frames_of_the_chosen_time_alone) {
+  Case c;
+  c.options.from = c.run.frames[2].time;
+  c.options.to = c.run.frames[4].time;
+  replay(c.options);
+  for (std::size_t k = 0; k < c.run.frames.size(); ++k)
+    EXPECT_EQ(std::filesystem::exists(c.vtu(c.run.frames[k].frame)), k >= 2 && k <= 4) << k;
+}
+
+TEST(Replay, says_that_no_frame_lies_in_the_chosen_time) {
+  Case c;
+  c.options.from = 100;
+  EXPECT_TRUE(contains(input_error_of([&] { replay(c.options); }),
+                       "no recorded frame lies in the chosen time"));
+}
+
+TEST(Replay, lists_frames_with_times_and_digests_and_writes_nothing) {
+  Case c;
+  c.options.list = true;
+  testing::internal::CaptureStdout();
+  replay(c.options);
+  const std::string text = testing::internal::GetCapturedStdout();
+  for (const RecordedFrame& frame : c.run.frames)
+    EXPECT_TRUE(contains(text, digest_text(frame.digest)));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'),
+            static_cast<std::ptrdiff_t>(c.run.frames.size()));
+  EXPECT_FALSE(std::filesystem::exists(c.options.folder));
+}
+
+TEST(Replay, says_that_it_has_nothing_to_do) {
+  Case c;
+  c.options.vtu = false;
+  EXPECT_TRUE(contains(input_error_of([&] { replay(c.options); }), "--vtu"));
+}
+
+TEST(Replay, names_a_camera_that_the_scene_lacks) {
+  Case c;
+  c.options.frames = true;
+  c.options.camera = "other";
+  EXPECT_TRUE(contains(input_error_of([&] { replay(c.options); }), "no camera \"other\""));
+}
+
+TEST(Replay, says_which_folder_can_not_be_made) {
+  Case c;
+  write_text(c.options.folder, "a file");
+  EXPECT_TRUE(contains(error_of<MachineError>([&] { replay(c.options); }), c.options.folder));
+}
+
+TEST(Replay, shows_the_other_frames_of_a_damaged_recording) {
+  Case c;
+  Database(c.options.recording, Database::Mode::read)
+      .run("UPDATE frame SET step = step + 1 WHERE frame = 4");
+  replay(c.options);
+  for (const RecordedFrame& frame : c.run.frames)
+    EXPECT_EQ(std::filesystem::exists(c.vtu(frame.frame)), frame.frame != 4);
+}
+
+TEST(Replay, refuses_a_frame_whose_displacements_are_not_those_of_the_mesh) {
+  Case c;
+  c.run.frames[3].u.resize(3);
+  write_run(c.run, c.options.recording);
+  EXPECT_TRUE(contains(input_error_of([&] { replay(c.options); }), "1 displacements for"));
+}
+
+}  // namespace
+}  // namespace trocar

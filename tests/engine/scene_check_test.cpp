@@ -1,0 +1,178 @@
+// What load_scene refuses beyond what a key alone can tell: each sentence names the place and what
+// would be right.
+#include <gtest/gtest.h>
+
+#include "engine_scene.h"
+
+namespace trocar {
+namespace {
+
+void expect_error(const std::string& more, const std::string& sentence) {
+  EXPECT_EQ(scene_error(scene_text()), "");
+  const std::string found = scene_error(scene_text(more));
+  EXPECT_TRUE(contains(found, sentence)) << "looked for: " << sentence << "\nfound: " << found;
+  EXPECT_TRUE(contains(found, "s.toml:")) << found;
+}
+
+TEST(SceneCheck, takes_the_least_scene) {
+  const Scene scene = load_scene_text(scene_text());
+  EXPECT_EQ(scene.time.duration, 1);
+  EXPECT_TRUE(scene.tissue.shape.has_value());
+}
+
+TEST(SceneCheck, knows_the_folder_that_mesh_files_are_relative_to) {
+  const TestFolder folder;
+  const std::string file = write_text(folder.file("s.toml"), scene_text());
+  EXPECT_EQ(load_scene(file, {}).folder, folder.path() + "/");
+}
+
+TEST(SceneCheck, needs_a_mesh_or_a_shape_and_not_both) {
+  const std::string time = "[time]\nduration = 1\n";
+  EXPECT_TRUE(contains(scene_error(time + "[tissue]\nthickness = 1\n"), "exactly one of them"));
+  EXPECT_TRUE(
+      contains(scene_error(time + "[tissue]\nmesh = \"m.msh\"\n[tissue.shape]\nkind = \"ball\"\n"),
+               "exactly one of them"));
+  EXPECT_EQ(scene_error(time + "[tissue]\nmesh = \"m.msh\"\n"), "");
+}
+
+TEST(SceneCheck, needs_a_box_with_its_low_corner_below_the_high_one) {
+  expect_error("low = [0, 0, 0]\nhigh = [1, 1, 0]\n",
+               "each component of low must be below that of high");
+  expect_error("low = [0, 2, 0]\nhigh = [1, 1, 1]\n",
+               "each component of low must be below that of high");
+}
+
+TEST(SceneCheck, needs_at_least_one_frame_and_at_most_ten_million) {
+  const std::string tissue = "[tissue.shape]\nkind = \"box\"\n";
+  EXPECT_TRUE(contains(scene_error("[time]\nduration = 0.03\nframe_rate = 30\n" + tissue),
+                       "shorter than one frame"));
+  EXPECT_TRUE(contains(scene_error("[time]\nduration = 2000\nframe_rate = 10000\n" + tissue),
+                       "10 million"));
+  EXPECT_EQ(scene_error("[time]\nduration = 0.1\nframe_rate = 10\n" + tissue), "");
+  EXPECT_EQ(scene_error("[time]\nduration = 1000\nframe_rate = 10000\n" + tissue), "");
+}
+
+TEST(SceneCheck, needs_components_of_a_support_to_be_letters_of_xyz_each_once) {
+  for (const std::string fix : {"", "xx", "xyzx", "a", "x y", "XYZ"})
+    expect_error("[[support]]\nregion = \"z-\"\nfix = \"" + fix + "\"\n", "each once");
+  for (const std::string fix : {"x", "zy", "xyz"})
+    EXPECT_EQ(scene_error(scene_text("[[support]]\nregion = \"z-\"\nfix = \"" + fix + "\"\n")), "")
+        << fix;
+}
+
+TEST(SceneCheck, needs_a_moving_support_to_be_fixed_in_all_components) {
+  const std::string path = "path = [ { time = 0, displacement = [0, 0, 0] } ]\n";
+  expect_error("[[support]]\nregion = \"z-\"\nfix = \"xy\"\n" + path, "a moving support needs fix");
+  EXPECT_EQ(scene_error(scene_text("[[support]]\nregion = \"z-\"\n" + path)), "");
+}
+
+TEST(SceneCheck, needs_ascending_times) {
+  expect_error(
+      "[[support]]\nregion = \"z-\"\npath = [ { time = 1, displacement = [0, 0, 0] }, { time = 1, "
+      "displacement = [0, 0, 1] } ]\n",
+      "must ascend");
+  expect_error(
+      instrument_text("probe",
+                      "{ time = 2, position = [0, 0, 1] }, { time = 1, position = [0, 0, 1] }"),
+      "must ascend");
+}
+
+TEST(SceneCheck, needs_a_direction_that_is_not_zero_and_a_forward_across_it) {
+  const auto key = [](const std::string& more) {
+    return instrument_text("probe", "{ time = 0, position = [0, 0, 1], " + more + " }");
+  };
+  expect_error(key("direction = [0, 0, 0]"), "must not be zero");
+  expect_error(key("direction = [1, 0, 0]"),
+               "forward must not be parallel");  // the default of forward
+  expect_error(key("forward = [0, 0, 0]"), "forward must not be parallel");
+  expect_error(key("direction = [1, 2, 3], forward = [-2, -4, -6]"),
+               "forward must not be parallel");
+  EXPECT_EQ(scene_error(scene_text(key("direction = [1, 0, 0], forward = [0, 1, 0]"))), "");
+}
+
+TEST(SceneCheck, needs_a_path_for_an_instrument) {
+  expect_error(instrument_text("probe", ""), "at least one key");
+}
+
+TEST(SceneCheck, gives_instruments_the_name_of_their_kind_and_refuses_two_of_one_name) {
+  const Scene scene = load_scene_text(scene_text(
+      instrument_text("probe") + instrument_text("grasper") + instrument_text("scalpel")));
+  EXPECT_EQ(scene.instruments[0].name, "probe");
+  EXPECT_EQ(scene.instruments[1].name, "grasper");
+  EXPECT_EQ(scene.instruments[2].name, "scalpel");
+  expect_error(instrument_text("probe") + instrument_text("probe"),
+               "two instruments are called \"probe\"");
+}
+
+TEST(SceneCheck, lets_only_graspers_act) {
+  const std::string keys = "{ time = 0, position = [0, 0, 1], action = \"close\" }";
+  expect_error(instrument_text("probe", keys), "only a grasper opens and closes");
+  EXPECT_EQ(scene_error(scene_text(instrument_text("grasper", keys))), "");
+}
+
+TEST(SceneCheck, needs_a_camera_that_looks_somewhere) {
+  expect_error("[[camera]]\neye = [1, 2, 3]\ntarget = [1, 2, 3]\n", "eye and target must differ");
+  expect_error("[[camera]]\neye = [0, 0, 1]\ntarget = [0, 0, 0]\n",
+               "up must not point along the view");
+  EXPECT_EQ(
+      scene_error(scene_text("[[camera]]\neye = [0, 0, 1]\ntarget = [0, 0, 0]\nup = [0, 1, 0]\n")),
+      "");
+}
+
+std::string output_text(const std::string& kind, const std::string& file,
+                        const std::string& more = "") {
+  return "[[output]]\nkind = \"" + kind + "\"\nfile = \"" + file + "\"\n" + more;
+}
+
+TEST(SceneCheck, keeps_outputs_inside_the_output_folder) {
+  for (const std::string file :
+       {"", "/tmp/m.csv", "../m.csv", "a/../../m.csv", "a/..", ".", "a/", "./"})
+    expect_error(output_text("metrics", file), "must be a relative path inside the output folder");
+  for (const std::string file : {"m.csv", "a/m.csv", "a b;c.csv", "..m.csv"})
+    EXPECT_EQ(scene_error(scene_text(output_text("metrics", file))), "") << file;
+}
+
+TEST(SceneCheck, refuses_two_outputs_of_one_name_however_it_is_written) {
+  expect_error(output_text("metrics", "a") + output_text("recording", "a"),
+               "two outputs write \"a\"");
+  expect_error(output_text("metrics", "b/a") + output_text("recording", "./b//a"),
+               "two outputs write");
+}
+
+TEST(SceneCheck, refuses_outputs_that_would_overwrite_the_files_of_every_run) {
+  for (const std::string file : {"summary.json", "scene.toml", "./summary.json"})
+    expect_error(output_text("metrics", file), "is written by every run");
+}
+
+TEST(SceneCheck, needs_a_known_camera_for_pictures) {
+  for (const std::string kind : {"video", "frames", "contact-sheet"}) {
+    expect_error(output_text(kind, "a"), "a picture needs a [[camera]]");
+    expect_error(camera_text + output_text(kind, "a", "camera = \"other\"\n"),
+                 "there is no camera \"other\"");
+    EXPECT_EQ(
+        scene_error(scene_text(camera_text + output_text(kind, "a", "camera = \"endoscope\"\n"))),
+        "");
+  }
+  EXPECT_EQ(scene_error(scene_text(output_text("metrics", "a"))), "");
+}
+
+TEST(SceneCheck, looks_at_overridden_values) {
+  const TestFolder folder;
+  const std::string file =
+      write_text(folder.file("s.toml"), scene_text(output_text("metrics", "m.csv")));
+  EXPECT_EQ(load_scene(file, {"time.duration=2 s"}).scene.time.duration, 2);
+  EXPECT_TRUE(contains(input_error_of([&] { load_scene(file, {"time.duration=1 ms"}); }),
+                       "shorter than one frame"));
+  EXPECT_TRUE(contains(input_error_of([&] { load_scene(file, {"output[0].file='../m.csv'"}); }),
+                       "inside the output folder"));
+}
+
+TEST(SceneCheck, says_which_line_is_wrong) {
+  const TestFolder folder;
+  const std::string file =
+      write_text(folder.file("s.toml"), scene_text("[[support]]\nregion = \"z-\"\nfix = \"q\"\n"));
+  EXPECT_TRUE(contains(input_error_of([&] { load_scene(file, {}); }), file + ":7:"));
+}
+
+}  // namespace
+}  // namespace trocar

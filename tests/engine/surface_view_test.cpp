@@ -1,0 +1,70 @@
+#include "engine/surface_view.h"
+
+#include <gtest/gtest.h>
+
+#include "mesh/generate.h"
+
+namespace trocar {
+namespace {
+
+struct Case {
+  Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(0.1, 0.1, 0.1), {3, 4, 3}, BoxElements::hex8);
+  Surface surface = boundary_surface(mesh);
+};
+
+// Displacement of a node that tells its number.
+Vec3 displacement(std::int32_t node) {
+  return {1e-3 * node, 2e-3 * node, -1e-3 * node};
+}
+
+std::vector<double> local_field(const Part& part) {
+  std::vector<double> u;
+  for (const std::int32_t global : part.node_global)
+    for (int i = 0; i < 3; ++i) u.push_back(displacement(global)[i]);
+  return u;
+}
+
+TEST(SurfaceView, on_one_rank_has_the_present_positions_of_all_surface_nodes) {
+  Case c;
+  const std::vector<std::int32_t> owner(c.mesh.X.size(), 0);
+  const Part part = make_part(c.mesh, owner, 0);
+  SurfaceView view = make_surface_view(c.surface, c.mesh.X, owner, part, 0);
+  Communicator alone;
+  gather_surface(view, c.mesh.X, local_field(part), alone);
+  EXPECT_EQ(view.node, c.surface.node);
+  for (const std::int32_t i : c.surface.node) EXPECT_EQ(view.x[i], c.mesh.X[i] + displacement(i));
+}
+
+TEST(SurfaceView, lists_each_surface_node_once_by_owner_and_number) {
+  Case c;
+  const std::vector<std::int32_t> owner = partition_nodes(c.mesh, 3);
+  const SurfaceView view =
+      make_surface_view(c.surface, c.mesh.X, owner, make_part(c.mesh, owner, 1), 1);
+  for (std::size_t k = 1; k < view.node.size(); ++k)
+    EXPECT_LT(std::pair(owner[view.node[k - 1]], view.node[k - 1]),
+              std::pair(owner[view.node[k]], view.node[k]));
+  std::vector<std::int32_t> sorted = view.node;
+  std::sort(sorted.begin(), sorted.end());
+  EXPECT_EQ(sorted, c.surface.node);
+}
+
+// What the ranks send, one after the other, must be what every rank expects to receive.
+TEST(SurfaceView, the_ranks_values_in_rank_order_meet_the_nodes_in_the_order_of_the_list) {
+  Case c;
+  const std::vector<std::int32_t> owner = partition_nodes(c.mesh, 3);
+  std::vector<std::int32_t> sent;
+  std::vector<std::int32_t> expected;
+  for (int rank = 0; rank < 3; ++rank) {
+    const Part part = make_part(c.mesh, owner, rank);
+    const SurfaceView view = make_surface_view(c.surface, c.mesh.X, owner, part, rank);
+    for (const std::int32_t local : view.local) {
+      EXPECT_LT(local, part.n_owned);
+      sent.push_back(part.node_global[local]);
+    }
+    expected = view.node;
+  }
+  EXPECT_EQ(sent, expected);
+}
+
+}  // namespace
+}  // namespace trocar

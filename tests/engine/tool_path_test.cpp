@@ -1,0 +1,208 @@
+#include "engine/tool_path.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace trocar {
+namespace {
+
+std::vector<InstrumentKey> random_keys(std::mt19937& random, int n) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<InstrumentKey> keys;
+  double time = 0.3;
+  for (int k = 0; k < n; ++k, time += 0.05 + 0.5 * (1 + unit(random)))
+    keys.push_back({.time = time,
+                    .position = 0.1 * Vec3(unit(random), unit(random), unit(random)),
+                    .direction = Vec3(unit(random), unit(random), -1.5),
+                    .forward = Vec3(1, unit(random), 0)});
+  return keys;
+}
+
+TEST(ToolPath, passes_through_its_keys_exactly) {
+  std::mt19937 random(1);
+  const std::vector<InstrumentKey> keys = random_keys(random, 8);
+  const ToolPath path(keys);
+  for (const InstrumentKey& key : keys) EXPECT_EQ(path.at(key.time).translation, key.position);
+}
+
+TEST(ToolPath, rests_before_the_first_key_and_after_the_last) {
+  std::mt19937 random(2);
+  const std::vector<InstrumentKey> keys = random_keys(random, 5);
+  const ToolPath path(keys);
+  for (const double time : {-1.0, 0.0, keys.front().time}) {
+    EXPECT_EQ(path.at(time).translation, keys.front().position);
+    EXPECT_EQ(path.at(time).rotation.coeffs(), path.at(keys.front().time).rotation.coeffs());
+  }
+  for (const double time : {keys.back().time, keys.back().time + 1, 1e9}) {
+    EXPECT_EQ(path.at(time).translation, keys.back().position);
+    EXPECT_EQ(path.at(time).rotation.coeffs(), path.at(keys.back().time).rotation.coeffs());
+  }
+}
+
+TEST(ToolPath, of_one_key_never_moves) {
+  const ToolPath path({{.time = 1, .position = Vec3(1, 2, 3)}});
+  for (const double time : {0.0, 1.0, 2.0}) EXPECT_EQ(path.at(time).translation, Vec3(1, 2, 3));
+}
+
+TEST(ToolPath, never_leaves_the_box_of_two_successive_keys) {
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 50; ++trial) {
+    const std::vector<InstrumentKey> keys = random_keys(random, 6);
+    const ToolPath path(keys);
+    for (std::size_t k = 0; k + 1 < keys.size(); ++k)
+      for (int n = 0; n <= 40; ++n) {
+        const Vec3 x =
+            path.at(keys[k].time + (keys[k + 1].time - keys[k].time) * n / 40).translation;
+        const Vec3 low = keys[k].position.cwiseMin(keys[k + 1].position);
+        const Vec3 high = keys[k].position.cwiseMax(keys[k + 1].position);
+        // The cubic is summed from terms of up to 0.1 m: a few roundings of 1.4e-17 m.
+        EXPECT_TRUE((x.array() >= low.array() - 1e-16).all() &&
+                    (x.array() <= high.array() + 1e-16).all());
+      }
+  }
+}
+
+TEST(ToolPath, moves_monotonically_between_keys) {
+  std::mt19937 random(4);
+  const std::vector<InstrumentKey> keys = random_keys(random, 10);
+  const ToolPath path(keys);
+  for (std::size_t k = 0; k + 1 < keys.size(); ++k)
+    for (int i = 0; i < 3; ++i) {
+      const double way = keys[k + 1].position[i] - keys[k].position[i];
+      double last = keys[k].position[i];
+      for (int n = 1; n <= 100; ++n) {
+        const double x =
+            path.at(keys[k].time + (keys[k + 1].time - keys[k].time) * n / 100).translation[i];
+        EXPECT_GE((x - last) * way, -1e-17);  // roundings of x (1e-17 m) times ways of up to 0.2 m
+        last = x;
+      }
+    }
+}
+
+// A jump of the velocity at a key would show as a difference of the two one-sided slopes that does
+// not vanish with h.
+TEST(ToolPath, has_a_continuous_velocity) {
+  std::mt19937 random(5);
+  const std::vector<InstrumentKey> keys = random_keys(random, 10);
+  const ToolPath path(keys);
+  const double h = 1e-6;
+  for (const InstrumentKey& key : keys) {
+    const Vec3 x = path.at(key.time).translation;
+    const Vec3 before = (x - path.at(key.time - h).translation) / h;
+    const Vec3 after = (path.at(key.time + h).translation - x) / h;
+    // One-sided differences differ by h times the mean second derivative; |x''| <= 12 * 0.2 m /
+    // (0.05 s)^2.
+    EXPECT_LT((after - before).norm(), h * 12 * 0.35 / (0.05 * 0.05)) << key.time;
+  }
+}
+
+TEST(ToolPath, starts_and_ends_at_rest) {
+  std::mt19937 random(6);
+  const std::vector<InstrumentKey> keys = random_keys(random, 4);
+  const ToolPath path(keys);
+  const double h = 1e-6;  // x = x0 + O(h^2) with |x''| as above
+  const double bound = h * 12 * 0.35 / (0.05 * 0.05);
+  EXPECT_LT((path.at(keys.front().time + h).translation - keys.front().position).norm() / h, bound);
+  EXPECT_LT((path.at(keys.back().time - h).translation - keys.back().position).norm() / h, bound);
+}
+
+TEST(ToolPath, turns_at_a_turning_point_without_going_beyond) {
+  std::vector<InstrumentKey> keys(3);
+  for (int k = 0; k < 3; ++k) keys[static_cast<std::size_t>(k)].time = k;
+  keys[1].position = Vec3(0.1, 0, 0);
+  const ToolPath path(keys);
+  double highest = 0;
+  for (int n = 0; n <= 2000; ++n) highest = std::max(highest, path.at(1e-3 * n).translation.x());
+  EXPECT_LE(highest, 0.1 + 1e-16);
+}
+
+TEST(ToolPath, of_equally_spaced_keys_on_a_line_keeps_its_speed_inside) {
+  std::vector<InstrumentKey> keys;
+  for (int k = 0; k < 6; ++k) keys.push_back({.time = 0.5 * k, .position = Vec3(0.01 * k, 0, 0)});
+  const ToolPath path(keys);
+  // Harmonic mean of equal slopes is the slope: the inner cubics are the line itself.
+  for (double time = 0.5; time <= 2.0; time += 0.07)
+    EXPECT_NEAR(path.at(time).translation.x(), 0.02 * time, 1e-16);
+}
+
+TEST(ToolPath, rotations_stay_unit_quaternions) {
+  std::mt19937 random(7);
+  const std::vector<InstrumentKey> keys = random_keys(random, 8);
+  const ToolPath path(keys);
+  for (double time = 0; time < keys.back().time + 0.5; time += 0.013) {
+    const Mat3 R = path.at(time).rotation.toRotationMatrix();
+    EXPECT_LT((R.transpose() * R - Mat3::Identity()).norm(), 1e-14);  // roundings of 27 products
+    EXPECT_GT(R.determinant(), 0);
+  }
+}
+
+TEST(ToolPath, rotations_take_the_short_way) {
+  const std::vector<InstrumentKey> keys = {{.time = 0, .direction = Vec3(0, 0.1, -1)},
+                                           {.time = 1, .direction = Vec3(0, -0.1, -1)}};
+  const ToolPath path(keys);
+  const Vec3 z = path.at(0.5).rotation * Vec3::UnitZ();
+  EXPECT_LT((z - Vec3::UnitZ()).norm(),
+            1e-15);  // the middle of two mirrored directions, by symmetry
+}
+
+TEST(ToolPath, between_equal_orientations_keeps_the_orientation) {
+  const std::vector<InstrumentKey> keys = {
+      {.time = 0, .direction = Vec3(0.3, 0.2, -1)},
+      {.time = 1, .position = Vec3(1, 0, 0), .direction = Vec3(0.3, 0.2, -1)}};
+  const ToolPath path(keys);
+  EXPECT_LT((path.at(0.37).rotation.coeffs() - path.at(0).rotation.coeffs()).norm(), 1e-15);
+}
+
+TEST(ToolRotation, puts_z_against_the_direction_and_x_towards_forward) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int k = 0; k < 100; ++k) {
+    const Vec3 direction(unit(random), unit(random), unit(random)),
+        forward(unit(random), unit(random), unit(random));
+    const Mat3 R = tool_rotation(direction, forward).toRotationMatrix();
+    EXPECT_LT((R.col(2) + direction.normalized()).norm(), 1e-14);
+    const Vec3 across = forward - R.col(2) * R.col(2).dot(forward);
+    EXPECT_LT((R.col(0) - across.normalized()).norm(),
+              1e-13);  // `across` may be ten times shorter than forward
+    EXPECT_GT(R.determinant(), 0);
+  }
+}
+
+TEST(ToolPath, travel_is_the_length_of_a_straight_way) {
+  const std::vector<InstrumentKey> keys = {{.time = 0},
+                                           {.time = 2, .position = Vec3(0, 0.03, 0.04)}};
+  const ToolPath path(keys);
+  EXPECT_NEAR(path.travel(0, 2, 0.1), 0.05, 1e-16);
+  EXPECT_EQ(path.travel(2, 5, 0.1), 0);
+}
+
+// A turn by the angle a about the tip moves a point at `reach` along chords, which are at most the
+// arc and at least the whole chord.
+TEST(ToolPath, travel_counts_the_turn_of_the_shaft) {
+  const double a = 0.5, reach = 0.02;
+  const std::vector<InstrumentKey> keys = {
+      {.time = 0, .direction = Vec3(0, 0, -1)},
+      {.time = 1, .direction = Vec3(0, std::sin(a), -std::cos(a))}};
+  const ToolPath path(keys);
+  EXPECT_LE(path.travel(0, 1, reach), reach * a);
+  EXPECT_GE(path.travel(0, 1, reach), 2 * reach * std::sin(a / 2));
+  EXPECT_EQ(path.travel(0, 1, 0), 0);
+}
+
+TEST(DisplacementPath, follows_the_same_rule_as_a_tool) {
+  std::mt19937 random(9);
+  const std::vector<InstrumentKey> keys = random_keys(random, 6);
+  std::vector<SupportKey> support;
+  for (const InstrumentKey& key : keys)
+    support.push_back({.time = key.time, .displacement = key.position});
+  const ToolPath tool(keys);
+  const DisplacementPath path(support);
+  for (double time = 0; time < keys.back().time + 0.5; time += 0.017)
+    EXPECT_EQ(path.at(time), tool.at(time).translation);
+}
+
+}  // namespace
+}  // namespace trocar

@@ -1,0 +1,150 @@
+#include "engine/tool.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+namespace trocar {
+namespace {
+
+SceneInstrument instrument(InstrumentKind kind) {
+  return {.kind = kind, .name = "tool", .path = {{.time = 0, .position = Vec3(0.1, 0.2, 0.3)}}};
+}
+
+// The thickened piece's least coordinate along an axis.
+double lowest(const ConvexPiece& piece, int axis) {
+  double low = 1e300;
+  for (const Vec3& point : piece.points) low = std::min(low, point[axis] - piece.radius);
+  return low;
+}
+
+TEST(Tool, of_every_kind_has_a_shaft_a_working_piece_and_a_picture) {
+  for (const InstrumentKind kind :
+       {InstrumentKind::probe, InstrumentKind::grasper, InstrumentKind::scalpel}) {
+    const Tool tool = make_tool(instrument(kind), {}, 1e-3);
+    ASSERT_GT(tool.shape.pieces.size(), static_cast<std::size_t>(first_working_piece));
+    EXPECT_FALSE(tool.parts.empty());
+    for (const ToolPart& part : tool.parts) {
+      EXPECT_FALSE(part.surface.triangle.empty());
+      for (const auto& triangle : part.surface.triangle)
+        for (const std::int32_t node : triangle) {
+          EXPECT_GE(node, 0);
+          EXPECT_LT(node, static_cast<std::int32_t>(part.surface.X.size()));
+        }
+    }
+  }
+}
+
+TEST(Tool, the_tip_of_a_probe_is_a_ball_that_touches_the_origin) {
+  const SceneInstrument probe = instrument(InstrumentKind::probe);
+  const Tool tool = make_tool(probe, {}, 1e-3);
+  EXPECT_DOUBLE_EQ(lowest(tool.shape.pieces[1], 2), 0);
+  for (const ConvexPiece& piece : tool.shape.pieces) EXPECT_GE(lowest(piece, 2), -1e-18);
+}
+
+TEST(Tool, a_scalpel_has_its_edge_on_the_z_axis_from_the_tip_to_the_blades_length) {
+  SceneInstrument scalpel = instrument(InstrumentKind::scalpel);
+  scalpel.blade_length = 0.02;
+  for (const double spacing : {1e-3, 3e-3, 1.0}) {
+    const Tool tool = make_tool(scalpel, {}, spacing);
+    ASSERT_GE(tool.edge.size(), 3u);
+    EXPECT_EQ(tool.edge.front(), Vec3::Zero());
+    EXPECT_EQ(tool.edge.back(), Vec3(0, 0, 0.02));
+    for (std::size_t k = 1; k < tool.edge.size(); ++k) {
+      EXPECT_LE((tool.edge[k] - tool.edge[k - 1]).norm(), std::min(spacing, 0.01) + 1e-17);
+      EXPECT_GT(tool.edge[k].z(), tool.edge[k - 1].z());
+    }
+  }
+}
+
+TEST(Tool, the_body_of_a_blade_lies_behind_its_edge) {
+  const Tool tool = make_tool(instrument(InstrumentKind::scalpel), {}, 1e-3);
+  for (const Vec3& point : tool.shape.pieces[first_working_piece].points) EXPECT_LE(point.x(), 0);
+}
+
+TEST(Tool, the_jaws_of_a_grasper_mirror_each_other) {
+  const Tool tool = make_tool(instrument(InstrumentKind::grasper), {}, 1e-3);
+  ASSERT_EQ(tool.shape.pieces.size(), 3u);
+  const ConvexPiece &upper = tool.shape.pieces[1], &lower = tool.shape.pieces[2];
+  for (std::size_t k = 0; k < upper.points.size(); ++k)
+    EXPECT_EQ(upper.points[k],
+              Vec3(-lower.points[k].x(), lower.points[k].y(), lower.points[k].z()));
+  EXPECT_GT(upper.points[1].x(), 0);
+}
+
+TEST(Tool, a_surface_of_the_users_own_replaces_the_working_piece_and_the_picture) {
+  const TriangleMesh own = make_box_surface(Vec3(-1e-3, -1e-3, 0), Vec3(1e-3, 1e-3, 5e-3));
+  const Tool tool = make_tool(instrument(InstrumentKind::probe), own, 1e-3);
+  ASSERT_EQ(tool.shape.pieces.size(), 2u);
+  EXPECT_EQ(tool.shape.pieces[first_working_piece].points, own.X);
+  EXPECT_EQ(tool.shape.pieces[first_working_piece].radius, 0);
+  ASSERT_EQ(tool.parts.size(), 1u);
+  EXPECT_EQ(tool.parts[0].surface.X, own.X);
+  EXPECT_EQ(tool.own_mesh.X, own.X);
+}
+
+Tool grasper_with(const std::vector<std::pair<double, GraspAction>>& actions) {
+  SceneInstrument grasper = instrument(InstrumentKind::grasper);
+  grasper.path.clear();
+  for (const auto& [time, action] : actions)
+    grasper.path.push_back({.time = time, .action = action});
+  return make_tool(grasper, {}, 1e-3);
+}
+
+TEST(JawOpening, is_full_until_the_jaws_start_to_close_and_none_when_they_meet_at_the_key) {
+  const Tool tool =
+      grasper_with({{0, GraspAction::none}, {1, GraspAction::close}, {2, GraspAction::open}});
+  EXPECT_EQ(jaw_opening(tool, 0), 1);
+  EXPECT_DOUBLE_EQ(jaw_opening(tool, 0.8), 1);
+  EXPECT_NEAR(jaw_opening(tool, 0.9), 0.5, 1e-15);  // half of the 0.2 s
+  EXPECT_NEAR(jaw_opening(tool, 1), 0, 1e-15);
+  EXPECT_NEAR(jaw_opening(tool, 1.5), 0, 1e-15);
+  EXPECT_NEAR(jaw_opening(tool, 1.9), 0.5, 1e-14);
+  EXPECT_NEAR(jaw_opening(tool, 2), 1, 1e-15);
+  EXPECT_EQ(jaw_opening(tool, 9), 1);
+}
+
+TEST(JawOpening, stays_between_open_and_closed_without_jumps) {
+  const Tool tool = grasper_with(
+      {{0.1, GraspAction::close}, {0.5, GraspAction::open}, {0.9, GraspAction::close}});
+  double last = jaw_opening(tool, 0);
+  for (double time = 0; time < 1.5; time += 1e-3) {
+    const double opening = jaw_opening(tool, time);
+    EXPECT_GE(opening, 0);
+    EXPECT_LE(opening, 1);
+    EXPECT_LE(std::abs(opening - last), 1e-3 / 0.2 + 1e-12) << time;  // 0.2 s for the whole way
+    last = opening;
+  }
+}
+
+TEST(PartPose, of_the_shaft_is_the_tools_and_that_of_a_jaw_keeps_the_hinge) {
+  const Tool tool = grasper_with({{0, GraspAction::none}, {1, GraspAction::close}});
+  const Vec3 hinge(0, 0, tool.hinge_height);
+  for (const double time : {0.0, 0.9, 1.0})
+    for (const ToolPart& part : tool.parts) {
+      const Pose pose = part_pose(tool, part, time), whole = tool.path.at(time);
+      EXPECT_LT((pose.apply(hinge) - whole.apply(hinge)).norm(), 1e-16) << time;
+      if (part.jaw == 0) {
+        EXPECT_EQ(pose.rotation.coeffs(), whole.rotation.coeffs());
+      }
+    }
+}
+
+TEST(PartPose, jaws_open_to_both_sides_and_come_together) {
+  const Tool tool = grasper_with({{0, GraspAction::none}, {1, GraspAction::close}});
+  std::map<int, std::vector<double>> tip_x;
+  for (const ToolPart& part : tool.parts)
+    for (const double time : {0.0, 0.9, 1.0})
+      tip_x[part.jaw].push_back(part_pose(tool, part, time).apply(Vec3::Zero()).x());
+  ASSERT_EQ(tip_x[1].size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_GT(tip_x[1][k], 0);
+    EXPECT_NEAR(tip_x[1][k], -tip_x[-1][k], 1e-17);
+  }
+  EXPECT_GT(tip_x[1][0], tip_x[1][1]);
+  EXPECT_GT(tip_x[1][1], tip_x[1][2]);
+}
+
+}  // namespace
+}  // namespace trocar

@@ -1,0 +1,151 @@
+// Wrong input ends with one clear sentence on rank 0 and exit code 2 or 4, never a hang, on one
+// rank and on two.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+
+#include "program.h"
+
+namespace trocar {
+namespace {
+
+constexpr int input_wrong = 2, machine_failed = 4;
+
+// Copies a configuration into `folder` with one text replaced.
+std::string changed_config(const std::string& folder, const std::string& name,
+                           const std::string& from, const std::string& to) {
+  std::string text = read_text(config(name));
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  if (at != std::string::npos) text.replace(at, from.size(), to);
+  const std::string file = folder + "/scene.toml";
+  std::ofstream(file) << text;
+  return file;
+}
+
+int count(const std::string& text, const std::string& word) {
+  int n = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++n;
+  return n;
+}
+
+// One error, with these words, on one rank and on two.
+void expect_refusal(const std::string& scene, const std::string& folder, int exit_code,
+                    const std::string& words, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {"run", scene, "-o", folder + "/out"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  for (const int ranks : {1, 2}) {
+    const Finished run = ranks == 1 ? run_trocar(arguments, folder, 60)
+                                    : run_trocar_on(ranks, arguments, folder, 60);
+    EXPECT_EQ(run.exit_code, exit_code) << run.err;
+    EXPECT_EQ(count(run.err, "error"), 1) << "on " << ranks << " ranks: " << run.err;
+    EXPECT_NE(run.err.find(words), std::string::npos) << run.err;
+  }
+}
+
+TEST(BadInput, a_misspelt_key_is_named_with_its_place_and_the_nearest_key) {
+  const std::string folder = test_folder("misspelt");
+  const std::string scene =
+      changed_config(folder, "block_hex.toml", "young_modulus", "young_moduls");
+  expect_refusal(scene, folder, input_wrong, scene + ":18:1: ");
+  expect_refusal(scene, folder, input_wrong, "young_modulus");
+}
+
+TEST(BadInput, a_negative_density_is_refused_with_the_allowed_range) {
+  const std::string folder = test_folder("density");
+  const std::string scene = changed_config(folder, "block_hex.toml", "\"1060 kg/m^3\"", "-1060");
+  expect_refusal(scene, folder, input_wrong, "density");
+}
+
+TEST(BadInput, a_poisson_ratio_of_one_half_is_refused) {
+  const std::string folder = test_folder("poisson");
+  const std::string scene =
+      changed_config(folder, "block_hex.toml", "poisson_ratio = 0.45", "poisson_ratio = 0.5");
+  expect_refusal(scene, folder, input_wrong, scene + ":19:17: ");
+}
+
+TEST(BadInput, a_missing_mesh_is_named) {
+  const std::string folder = test_folder("missing");
+  const std::string scene =
+      changed_config(folder, "liver_incision.toml", "meshes/liver.msh", "nothing.msh");
+  expect_refusal(scene, folder, input_wrong, "nothing.msh");
+}
+
+TEST(BadInput, a_truncated_mesh_is_refused) {
+  const std::string folder = test_folder("truncated");
+  const std::string whole = read_text(config("meshes/liver.msh"));
+  std::ofstream(folder + "/cut.msh") << whole.substr(0, whole.size() / 2);
+  const std::string scene =
+      changed_config(folder, "liver_incision.toml", "meshes/liver.msh", "cut.msh");
+  expect_refusal(scene, folder, input_wrong, "cut.msh");
+}
+
+TEST(BadInput, a_mesh_with_an_inverted_element_names_the_element) {
+  const std::string folder = test_folder("inverted");
+  std::ofstream(folder + "/bad.msh")
+      << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 "
+         "0.3 0.3 -1\n$EndNodes\n"
+         "$Elements\n2\n1 4 2 1 1 1 2 3 4\n2 4 2 1 1 1 2 3 5\n$EndElements\n";
+  const std::string scene =
+      changed_config(folder, "liver_incision.toml", "meshes/liver.msh", "bad.msh");
+  expect_refusal(scene, folder, input_wrong, "inverted");
+}
+
+TEST(BadInput, an_unwritable_output_folder_is_refused) {
+  const std::string folder = test_folder("unwritable");
+  std::ofstream(folder + "/out") << "a file where the folder should be\n";
+  expect_refusal(config("block_hex.toml"), folder, machine_failed, "can't be written");
+}
+
+TEST(BadInput, too_many_ranks_for_a_tiny_mesh_are_refused) {
+  const std::string folder = test_folder("ranks");
+  std::ofstream(folder + "/scene.toml")
+      << "[time]\nduration = 1\n[tissue.shape]\nkind = \"box\"\ncells = [1, 1, 1]\n";
+  const Finished run =
+      run_trocar_on(64, {"run", folder + "/scene.toml", "-o", folder + "/out"}, folder, 120);
+  EXPECT_EQ(run.exit_code, input_wrong) << run.err;
+  EXPECT_EQ(count(run.err, "64 ranks"), 1) << run.err;
+}
+
+TEST(BadInput, an_unknown_command_suggests_the_nearest) {
+  const std::string folder = test_folder("command");
+  const Finished run = run_trocar({"rnu"}, folder);
+  EXPECT_EQ(run.exit_code, input_wrong);
+  EXPECT_NE(run.err.find("\"run\""), std::string::npos) << run.err;
+}
+
+TEST(BadInput, a_region_that_is_not_there_lists_those_that_are) {
+  const std::string folder = test_folder("region");
+  const std::string scene =
+      changed_config(folder, "block_hex.toml", "region = \"z-\"", "region = \"bottom\"");
+  expect_refusal(scene, folder, input_wrong, "\"z+\"");
+}
+
+TEST(BadInput, an_output_outside_its_folder_is_refused) {
+  const std::string folder = test_folder("outside");
+  const std::string scene = changed_config(folder, "block_hex.toml", "file = \"metrics.csv\"",
+                                           "file = \"../metrics.csv\"");
+  expect_refusal(scene, folder, input_wrong, "inside the output folder");
+}
+
+TEST(Simulation, that_can_not_be_continued_ends_with_code_3_and_keeps_its_summary) {
+  const std::string folder = test_folder("unstable");
+  // The probe is driven through the block at 50 m/s.
+  const std::string scene =
+      changed_config(folder, "block_hex.toml",
+                     "{ time = \"1.0 s\", position = [\"-15 mm\", \"-10 mm\", \"85 mm\"]",
+                     "{ time = \"0.402 s\", position = [\"-15 mm\", \"-10 mm\", \"5 mm\"]");
+  const Finished run = run_trocar({"run", scene, "-o", folder + "/out", "--set", "output=[]",
+                                   "--set", "contact.stiffness=1", "--set", "solver.step_factor=1"},
+                                  folder);
+  if (run.exit_code == 0) {  // survived: allowed, if nothing was inverted on the way
+    EXPECT_GT(read_summary(folder + "/out")["least_det_F"]["value"], 0.0);
+    return;
+  }
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_EQ(read_summary(folder + "/out")["finished"], false);
+}
+
+}  // namespace
+}  // namespace trocar

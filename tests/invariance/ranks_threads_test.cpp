@@ -1,0 +1,65 @@
+// The same bits for any number of ranks and threads.
+#include <gtest/gtest.h>
+
+#include "program.h"
+
+namespace trocar {
+namespace {
+
+std::string digest_of(const std::string& scene, const std::vector<std::string>& settings, int ranks,
+                      int threads) {
+  const std::string folder = test_folder("invariance");
+  std::vector<std::string> arguments = {"run",       config(scene),          "-o", folder, "-q",
+                                        "--threads", std::to_string(threads)};
+  for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+  const Finished run = run_trocar_on(ranks, arguments, folder);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json summary = read_summary(folder);
+  if (summary.is_discarded()) return "no summary";
+  EXPECT_EQ(summary["ranks"], ranks);
+  EXPECT_EQ(summary["threads"], threads);
+  std::string digest = summary["state_digest"];
+  for (const auto& cut : summary["cuts"]) digest += " cut " + cut["nodes_duplicated"].dump();
+  return digest;
+}
+
+// All combinations of {1, 2, 3, 4} ranks and {1, 2} threads. No pictures: they don't touch the
+// state.
+void expect_one_digest(const std::string& scene, std::vector<std::string> settings) {
+  settings.push_back("output=[]");
+  const std::string first = digest_of(scene, settings, 1, 1);
+  for (int ranks = 1; ranks <= 4; ++ranks)
+    for (int threads = 1; threads <= 2; ++threads)
+      if (ranks * threads > 1) {
+        EXPECT_EQ(digest_of(scene, settings, ranks, threads), first)
+            << scene << " on " << ranks << " x " << threads;
+      }
+}
+
+TEST(StateDigest, of_the_liver_is_the_same_on_any_ranks_and_threads_while_it_is_cut) {
+  expect_one_digest("liver_incision.toml", {"time.duration='3.6 s'"});
+}
+
+TEST(StateDigest, of_the_hexahedral_block_is_the_same_on_any_ranks_and_threads) {
+  expect_one_digest("block_hex.toml", {"time.duration='1.7 s'"});
+}
+
+TEST(StateDigest, of_the_plane_cut_is_the_same_on_any_ranks_and_threads) {
+  expect_one_digest("plane_cut.toml", {});
+}
+
+TEST(StateDigest, changes_when_an_input_changes_in_its_sixteenth_digit) {
+  const std::vector<std::string> short_run = {"output=[]", "time.duration='0.2 s'"};
+  std::vector<std::string> other = short_run;
+  other.push_back("tissue.material.young_modulus=6000.000000000004");
+  EXPECT_NE(digest_of("block_hex.toml", short_run, 1, 1), digest_of("block_hex.toml", other, 1, 1));
+}
+
+TEST(StateDigest, is_the_same_in_two_runs) {
+  const std::vector<std::string> short_run = {"output=[]", "time.duration='1.2 s'"};
+  EXPECT_EQ(digest_of("plane_cut.toml", short_run, 1, 2),
+            digest_of("plane_cut.toml", short_run, 1, 2));
+}
+
+}  // namespace
+}  // namespace trocar

@@ -1,0 +1,93 @@
+// Owners of nodes.
+#include "mesh/partition.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "base/error.h"
+#include "mesh_fixtures.h"
+
+using namespace trocar;
+
+static std::vector<int> part_sizes(std::span<const std::int32_t> owner, int n_parts) {
+  std::vector<int> size(static_cast<std::size_t>(n_parts), 0);
+  for (const std::int32_t part : owner) ++size.at(static_cast<std::size_t>(part));
+  return size;
+}
+
+TEST(PartitionNodes, is_balanced_on_twenty_thousand_nodes) {
+  const Mesh mesh = make_box(Vec3::Zero(), Vec3::Ones(), {26, 26, 26}, BoxElements::tet4_kuhn);
+  for (const int n_parts : {2, 3, 4}) {
+    const std::vector<std::int32_t> owner = partition_nodes(mesh, n_parts);
+    ASSERT_EQ(owner.size(), mesh.X.size());
+    const std::vector<int> size = part_sizes(owner, n_parts);
+    const double mean = static_cast<double>(mesh.n_nodes()) / n_parts;
+    EXPECT_LT(*std::max_element(size.begin(), size.end()), 1.1 * mean) << n_parts;
+    EXPECT_GT(*std::min_element(size.begin(), size.end()), 0.9 * mean) << n_parts;
+  }
+}
+
+TEST(PartitionNodes, cuts_few_edges) {
+  // Two halves of a cube of n^3 nodes meet in n^2 nodes: about 7 edges each for Kuhn's tetrahedra
+  // (14 a node).
+  const Mesh mesh = make_box(Vec3::Zero(), Vec3::Ones(), {20, 20, 20}, BoxElements::tet4_kuhn);
+  const std::vector<std::int32_t> owner = partition_nodes(mesh, 2);
+  int n_cut = 0;
+  for (const auto& [i, j] : mesh_edges(mesh)) n_cut += owner[i] != owner[j] ? 1 : 0;
+  EXPECT_LT(n_cut,
+            2 * 7 * 21 * 21);  // twice the plane cut: a random partition has 14 times as many
+}
+
+TEST(PartitionNodes, is_repeatable) {
+  for (const NamedMesh& named : all_meshes()) {
+    const std::vector<std::int32_t> owner = partition_nodes(named.mesh, 3);
+    std::srand(99);  // METIS draws from the C library's generator
+    EXPECT_EQ(partition_nodes(named.mesh, 3), owner) << named.name;
+  }
+}
+
+TEST(PartitionNodes, leaves_no_rank_without_a_node_on_tiny_meshes) {
+  const Mesh mesh = make_box(Vec3::Zero(), Vec3::Ones(), {2, 1, 1}, BoxElements::hex8);
+  for (int n_parts = 1; n_parts <= mesh.n_nodes(); ++n_parts)
+    for (const int size : part_sizes(partition_nodes(mesh, n_parts), n_parts))
+      EXPECT_GE(size, 1) << n_parts;
+}
+
+TEST(PartitionNodes, refuses_more_ranks_than_nodes_with_the_number_that_would_do) {
+  const Mesh mesh = make_box(Vec3::Zero(), Vec3::Ones(), {1, 1, 1}, BoxElements::hex8);
+  try {
+    partition_nodes(mesh, 64);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "the mesh has 8 nodes, too few for 64 ranks: use at most 8");
+  }
+}
+
+TEST(PartitionNodes, gives_everything_to_a_single_rank) {
+  const Mesh mesh = make_rectangle(1, 1, 4, 4);
+  Communicator alone;
+  EXPECT_EQ(partition_nodes(mesh, alone), std::vector<std::int32_t>(16, 0));
+}
+
+TEST(PartitionNodes, splits_a_mesh_of_several_pieces) {
+  Mesh mesh;
+  for (int piece = 0; piece < 4; ++piece) {
+    const std::int32_t first = mesh.n_nodes();
+    const Mesh box = make_box(Vec3(3.0 * piece, 0, 0), Vec3(3.0 * piece + 1, 1, 1), {4, 4, 4},
+                              BoxElements::hex8);
+    mesh.X.insert(mesh.X.end(), box.X.begin(), box.X.end());
+    for (std::int32_t e = 0; e < box.n_elements(); ++e) {
+      std::vector<std::int32_t> corners(box.corners(e).begin(), box.corners(e).end());
+      for (std::int32_t& i : corners) i += first;
+      add_element(mesh, ElementType::hex8, corners);
+    }
+  }
+  for (const int size : part_sizes(partition_nodes(mesh, 3), 3)) EXPECT_GT(size, 100);  // of 167
+}
+
+TEST(ApplyEditToOwners, leaves_a_duplicate_with_its_parent_s_owner) {
+  std::vector<std::int32_t> owner = {0, 2, 1};
+  apply_edit_to_owners(std::vector<std::int32_t>{1, 2, 3}, owner);  // node 3 is the first duplicate
+  EXPECT_EQ(owner, (std::vector<std::int32_t>{0, 2, 1, 2, 1, 2}));
+}

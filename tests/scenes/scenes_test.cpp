@@ -1,0 +1,168 @@
+// Whole scenes through the front door: what a user is promised of them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "program.h"
+
+namespace trocar {
+namespace {
+
+using Column = std::vector<double>;
+
+// metrics.csv by column name.
+std::map<std::string, Column> read_metrics(const std::string& file) {
+  std::stringstream text(read_text(file));
+  std::string line, cell;
+  std::getline(text, line);
+  std::vector<std::string> names;
+  for (std::stringstream head(line); std::getline(head, cell, ',');) names.push_back(cell);
+  std::map<std::string, Column> columns;
+  while (std::getline(text, line)) {
+    std::stringstream row(line);
+    for (std::size_t k = 0; std::getline(row, cell, ','); ++k)
+      columns[names[k]].push_back(std::stod(cell));
+  }
+  return columns;
+}
+
+Column force_size(const std::map<std::string, Column>& metrics, const std::string& tool) {
+  Column size(metrics.at("time_s").size());
+  for (std::size_t k = 0; k < size.size(); ++k)
+    for (const char* axis : {"_force_x_N", "_force_y_N", "_force_z_N"})
+      size[k] += std::pow(metrics.at(tool + axis)[k], 2);
+  for (double& value : size) value = std::sqrt(value);
+  return size;
+}
+
+double at_time(const std::map<std::string, Column>& metrics, const Column& values, double time) {
+  const Column& t = metrics.at("time_s");
+  const auto k = std::lower_bound(t.begin(), t.end(), time - 1e-9) - t.begin();
+  return values.at(static_cast<std::size_t>(k));
+}
+
+struct Ran {
+  std::string folder;
+  Finished program;
+  nlohmann::json summary;
+  std::map<std::string, Column> metrics;
+};
+
+Ran run_scene_file(const std::string& name, const std::string& outputs) {
+  Ran ran{.folder = test_folder("scene-" + name)};
+  ran.program = run_trocar_on(
+      2,
+      {"run", config(name), "-q", "--threads", "1", "-o", ran.folder, "--set", "output=" + outputs},
+      ran.folder, 500);
+  EXPECT_EQ(ran.program.exit_code, 0) << ran.program.err;
+  ran.summary = read_summary(ran.folder);
+  if (!ran.summary.is_discarded()) ran.metrics = read_metrics(ran.folder + "/metrics.csv");
+  return ran;
+}
+
+void expect_sound_cuts(const nlohmann::json& summary) {
+  EXPECT_FALSE(summary["cuts"].empty());
+  for (const auto& cut : summary["cuts"]) {
+    EXPECT_GT(cut["nodes_duplicated"], 0);
+    EXPECT_EQ(cut["elements_added"], 0);
+    EXPECT_LE(cut["mass_change"], 1e-12);
+    EXPECT_LE(cut["momentum_change"], 1e-12);
+    EXPECT_LT(cut["deviation_max_m"], cut["edge_mean_m"]);
+  }
+}
+
+TEST(LiverIncision, is_pressed_grasped_cut_and_opened) {
+  const Ran ran = run_scene_file("liver_incision.toml", "[{kind='metrics', file='metrics.csv'}]");
+  ASSERT_FALSE(ran.summary.is_discarded());
+  EXPECT_EQ(ran.summary["finished"], true);
+  EXPECT_GE(ran.summary["mesh"]["elements"]["tet4"], 20000);
+  EXPECT_EQ(ran.summary["mesh"]["pieces"], 1);
+  EXPECT_GT(ran.summary["least_det_F"]["value"], 0.0);  // nothing was inverted at any frame
+  expect_sound_cuts(ran.summary);
+
+  const Column probe = force_size(ran.metrics, "probe");
+  EXPECT_EQ(at_time(ran.metrics, probe, 0.4), 0.0);
+  EXPECT_GT(at_time(ran.metrics, probe, 1.1), 0.2);
+  EXPECT_EQ(at_time(ran.metrics, probe, 2.0), 0.0);
+  const Column& wound = ran.metrics.at("wound_width_m");
+  EXPECT_EQ(at_time(ran.metrics, wound, 3.0), 0.0);
+  const double before_pull = at_time(ran.metrics, wound, 4.9), after_pull = wound.back();
+  EXPECT_GT(after_pull, before_pull + 2e-3);  // the grasper pulls the wound open
+}
+
+TEST(BlockHex, is_pressed_and_comes_back) {
+  const Ran ran = run_scene_file("block_hex.toml", "[{kind='metrics', file='metrics.csv'}]");
+  ASSERT_FALSE(ran.summary.is_discarded());
+  EXPECT_EQ(ran.summary["mesh"]["elements"]["hex8"], 8000);
+  EXPECT_GT(ran.summary["least_det_F"]["value"], 0.0);
+  const Column probe = force_size(ran.metrics, "probe"),
+               grasper = force_size(ran.metrics, "grasper");
+  EXPECT_GT(at_time(ran.metrics, probe, 1.1), 0.1);
+  EXPECT_EQ(at_time(ran.metrics, probe, 1.9), 0.0);
+  EXPECT_GT(at_time(ran.metrics, grasper, 2.3), 0.1);
+  // Released, it swings back to where gravity alone had put it: same strain energy within 1 %, at
+  // rest.
+  const Column& strain = ran.metrics.at("strain_J");
+  EXPECT_NEAR(strain.back(), at_time(ran.metrics, strain, 0.7), 0.01 * strain.back());
+  EXPECT_LT(ran.metrics.at("kinetic_J").back(), 1e-6 * strain.back());
+  EXPECT_LT(ran.metrics.at("hourglass_J").back(), 0.05 * strain.back());
+}
+
+TEST(PlaneCut, opens_and_its_recording_can_be_replayed) {
+  const Ran ran = run_scene_file(
+      "plane_cut.toml",
+      "[{kind='metrics', file='metrics.csv'}, {kind='recording', file='cut.trocar'}]");
+  ASSERT_FALSE(ran.summary.is_discarded());
+  EXPECT_EQ(ran.summary["mesh"]["elements"]["tri3"], 570);
+  expect_sound_cuts(ran.summary);
+  EXPECT_GT(ran.summary["wound"]["width_at_end_m"], 2e-3);
+
+  const std::string recording = ran.folder + "/cut.trocar", folder = ran.folder + "/replay";
+  const Finished list = run_trocar({"replay", recording, "--list"}, ran.folder);
+  EXPECT_EQ(list.exit_code, 0) << list.err;
+  const std::string digest = ran.summary["state_digest"];
+  EXPECT_NE(list.out.rfind(digest), std::string::npos);  // the last frame is the final state
+  const Finished vtu = run_trocar(
+      {"replay", recording, "--vtu", "-o", folder, "--from", "1.9", "--to", "2.1"}, ran.folder);
+  EXPECT_EQ(vtu.exit_code, 0) << vtu.err;
+  EXPECT_TRUE(std::filesystem::exists(folder + "/recording.pvd"));
+  EXPECT_TRUE(std::filesystem::exists(folder + "/frame_000060.vtu"));
+}
+
+TEST(Pictures, are_drawn_for_a_running_scene) {
+  const std::string folder = test_folder("pictures");
+  const Finished run = run_trocar(
+      {"run", config("plane_cut.toml"), "-q", "-o", folder, "--set", "time.duration='0.3 s'",
+       "--set",
+       "output=[{kind='frames', file='png', size=[320, 180]}, {kind='contact-sheet', "
+       "file='sheet.png', size=[320, 180]}, {kind='video', file='film.mp4', size=[320, 180]}]"},
+      folder);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  for (const char* name : {"png/000001.png", "png/000009.png", "sheet.png", "film.mp4"}) {
+    ASSERT_TRUE(std::filesystem::exists(folder + "/" + name)) << name;
+    EXPECT_GT(std::filesystem::file_size(folder + "/" + name), 500u) << name;
+  }
+}
+
+TEST(Commands, check_mesh_doctor_and_help_answer) {
+  const std::string folder = test_folder("commands");
+  const Finished check = run_trocar({"check", config("block_hex.toml")}, folder);
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_NE(check.out.find("stable step"), std::string::npos);
+  const Finished mesh = run_trocar({"mesh", config("meshes/liver.msh")}, folder);
+  EXPECT_EQ(mesh.exit_code, 0) << mesh.err;
+  EXPECT_NE(mesh.out.find("\"attachment\""), std::string::npos);
+  EXPECT_EQ(run_trocar({"doctor"}, folder).exit_code, 0);
+  const Finished help = run_trocar({"help", "scene"}, folder);
+  EXPECT_NE(help.out.find("young_modulus"), std::string::npos);
+  for (const char* command : {"run", "check", "replay", "mesh", "doctor"}) {
+    const Finished usage = run_trocar({command, "--help"}, folder);
+    EXPECT_EQ(usage.exit_code, 0);
+    EXPECT_NE(usage.out.find("examples:"), std::string::npos) << command;
+  }
+}
+
+}  // namespace
+}  // namespace trocar

@@ -1,0 +1,70 @@
+// Powers of J and eigenvalues without libm, against libm and Eigen.
+#include "solver/isochoric.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "solver/largest_eigenvalue.h"
+#include "solver_body.h"
+
+using namespace trocar;
+
+// A few roundings of 1.1e-16 each; expm1 and log1p have no cancellation either.
+constexpr double rounding = 12 * 1.2e-16;
+// What goes into the last correction is off by 3e-11, of which a few roundings are left.
+constexpr double absolute_error = 4e-26;
+
+// Near J = 0, j = J - 1 itself is only known to eps / J; far above 1 the last correction
+// subtracts numbers of size J.
+static double condition(double J) {
+  return std::max(std::abs(J), 1 / std::abs(J));
+}
+
+TEST(Isochoric, q_is_relatively_exact_from_tiny_to_huge_volume_changes) {
+  for (double magnitude = 1e-12; magnitude < 1e3; magnitude *= 1.37)
+    for (const double j : {magnitude, -magnitude}) {
+      if (j <= -1) continue;
+      const double q = std::expm1(-2.0 / 3 * std::log1p(j));
+      const double tolerance = rounding * condition(1 + j) * std::abs(q);
+      EXPECT_NEAR(isochoric(j).q, q, tolerance + absolute_error) << "j = " << j;
+    }
+}
+
+TEST(Isochoric, inverse_J_is_one_over_J_with_its_sign) {
+  for (const double J : {1e-3, 0.2, 0.9, 1.0, 1.1, 7.99, 8.01, 1e3, -1e-3, -0.5, -2.0, -40.0})
+    EXPECT_NEAR(isochoric(J - 1).inverse_J * J, 1, rounding * condition(J)) << J;
+}
+
+TEST(Isochoric, an_inverted_element_gets_the_power_of_the_absolute_value) {
+  for (const double J : {-0.01, -0.072, -1.0, -3.0})
+    EXPECT_NEAR((1 + isochoric(J - 1).q) * std::pow(-J, 2.0 / 3), 1, 100 * rounding);
+}
+
+TEST(Isochoric, vanishes_without_volume_change) {
+  EXPECT_NEAR(isochoric(0.0).q, 0, absolute_error);
+}
+
+TEST(LargestEigenvalue,
+     agrees_with_an_iterative_solver_and_never_lies_below_by_more_than_rounding) {
+  Noise noise(1);
+  for (int k = 0; k < 2000; ++k) {
+    Mat3 R;
+    for (int i = 0; i < 9; ++i) R.data()[i] = noise();
+    const Mat3 Q = Eigen::HouseholderQR<Mat3>(R).householderQ();
+    // Also double and triple eigenvalues, where the cubic's derivative vanishes.
+    Vec3 d(noise(), noise(), noise());
+    if (k % 4 == 1) d[1] = d[0];
+    if (k % 4 == 2) d[1] = d[0] + 1e-9 * noise();
+    if (k % 16 == 3) d = Vec3::Constant(d[0]);
+    const Mat3 A = Q * d.asDiagonal() * Q.transpose();
+    const SymmetricTensor<double> S = {{A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(1, 2), A(2, 0)}};
+    // Double roots are known to sqrt(eps) only.
+    EXPECT_NEAR(largest_eigenvalue(S), d.maxCoeff(), 1e-7);
+    EXPECT_GT(largest_eigenvalue(S), d.maxCoeff() - 1e-7);
+    if (k % 4 == 0) {
+      EXPECT_NEAR(largest_eigenvalue(S), d.maxCoeff(), 1e-9);
+    }
+  }
+}

@@ -1,0 +1,122 @@
+// Building a model: blocks, the order of corner forces, and input that can't be simulated.
+#include "solver/model.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "solver_body.h"
+
+using namespace trocar;
+
+// Two regions of different materials in one mesh of 27 cells, every second cell.
+static Body two_material_body() {
+  Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(.03, .03, .03), {3, 3, 3}, BoxElements::tet4_kuhn);
+  mesh.region_name = {"a", "b"};
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) mesh.element_region[e] = e / 6 % 2;
+  return make_body(mesh, {.materials = {material_of(MaterialModel::neo_hookean, 1000, 9000),
+                                        material_of(MaterialModel::linear, 2000, 5000)}});
+}
+
+TEST(BuildModel, puts_each_element_into_one_list_of_its_type_and_material) {
+  const Body body = two_material_body();
+  ASSERT_EQ(body.model.blocks.size(), 2U);
+  std::vector<int> n_found(body.mesh.element_type.size(), 0);
+  for (const ElementBlocks& blocks : body.model.blocks)
+    for (std::int32_t k = 0; k < blocks.n_elements; ++k) {
+      const std::int32_t e = body.part.element_global[blocks.element_local[k]];
+      ++n_found[e];
+      EXPECT_EQ(body.materials[body.mesh.element_region[e]].model, blocks.material);
+    }
+  EXPECT_EQ(n_found, std::vector<int>(body.mesh.element_type.size(), 1));
+}
+
+TEST(BuildModel, links_each_corner_force_of_a_node_once_in_ascending_element_number) {
+  const Body body = two_material_body();
+  // Element and node of each slot, from the blocks alone.
+  std::vector<std::pair<std::int32_t, std::int32_t>> slot(body.scratch.slot.size() / 4, {-1, -1});
+  for (const ElementBlocks& blocks : body.model.blocks)
+    for (std::int64_t k = 0; k < blocks.n_elements; ++k)
+      for (std::int64_t a = 0; a < 4; ++a) {
+        const std::int64_t at = (k / block_lanes * 4 + a) * block_lanes + k % block_lanes;
+        slot[blocks.first_slot + at] = {body.part.element_global[blocks.element_local[k]],
+                                        blocks.corner[at]};
+      }
+  std::size_t n_linked = 0;
+  for (std::int32_t i = 0; i < body.model.n_owned; ++i) {
+    std::int32_t last = -1;
+    for (auto k = body.model.slot_offset[i]; k < body.model.slot_offset[i + 1]; ++k, ++n_linked) {
+      const auto [element, node] = slot[body.model.slot[k]];
+      EXPECT_EQ(node, i);
+      EXPECT_GT(element, last);
+      last = element;
+    }
+  }
+  EXPECT_EQ(n_linked, body.mesh.corner_node.size());
+}
+
+TEST(BuildModel, the_elements_of_a_mixed_body_add_up_to_the_forces_of_each_alone) {
+  Body body = two_material_body();
+  shake(body.state.u, 1e-3, 4);
+  const std::vector<double> f = force(body);
+  std::vector<double> expected(f.size(), 0.0);
+  for (std::int32_t e = 0; e < body.mesh.n_elements(); ++e) {
+    std::vector<Vec3> X;
+    for (const std::int32_t i : body.mesh.corners(e)) X.push_back(body.mesh.X[i]);
+    Body single = make_body(one_element(ElementType::tet4, X),
+                            {.materials = {body.materials[body.mesh.element_region[e]]}});
+    for (std::size_t k = 0; k < 12; ++k)
+      single.state.u[k] = body.state.u[3 * body.mesh.corners(e)[k / 3] + k % 3];
+    force(single);
+    for (std::size_t k = 0; k < 12; ++k)
+      expected[3 * body.mesh.corners(e)[k / 3] + k % 3] += single.scratch.force[k];
+  }
+  for (std::size_t k = 0; k < f.size(); ++k)
+    EXPECT_NEAR(f[k], expected[k], 1e-14 * largest(f));  // the same terms in the same order
+}
+
+TEST(BuildModel, a_heavier_element_has_a_longer_step) {
+  Mesh mesh = irregular_elements()[1];
+  const double step = make_body(mesh).model.element_step[0];
+  mesh.density_factor[0] = 4;
+  EXPECT_NEAR(make_body(mesh).model.element_step[0], 2 * step, 1e-14 * step);
+}
+
+TEST(BuildModel, plane_meshes_stay_in_their_plane) {
+  const Body body = make_body(make_rectangle(.03, .02, 4, 3));
+  for (const FixedMask mask : body.model.fixed) EXPECT_EQ(mask, 4);
+}
+
+TEST(BuildModel, refuses_an_element_without_positive_volume_by_its_number) {
+  Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {2, 1, 1}, BoxElements::tet4_kuhn);
+  std::swap(mesh.corner_node[4 * 7], mesh.corner_node[4 * 7 + 1]);
+  const std::vector<double> mass(mesh.X.size(), 1.0);
+  const std::vector<FixedMask> fixed(mesh.X.size(), 0);
+  const Part part = make_part(mesh, std::vector<std::int32_t>(mesh.X.size(), 0), 0);
+  try {
+    build_model(mesh, part, std::vector<Material>{Material{}}, fixed, mass, {});
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("element 7 "), std::string::npos) << error.what();
+  }
+}
+
+TEST(BuildModel, refuses_impossible_materials_and_nodes_without_mass) {
+  const Mesh mesh = irregular_elements()[1];
+  for (const Material& bad : {Material{.young_modulus = 0}, Material{.poisson_ratio = 0.5},
+                              Material{.poisson_ratio = -1}, Material{.density = -1}})
+    EXPECT_THROW(make_body(mesh, {.materials = {bad}}), InputError);
+  Mesh loose = mesh;
+  loose.X.emplace_back(1, 1, 1);
+  EXPECT_THROW(make_body(loose), InputError);
+}
+
+TEST(MemoryBytes, counts_what_a_tetrahedron_needs) {
+  const Body body =
+      make_body(make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {8, 8, 8}, BoxElements::tet4_kuhn));
+  // 3072 tetrahedra in full blocks: 11 constants, 16 slot values, 4 links and one step of 8 bytes,
+  // 4 corners and a place of 4; 729 nodes: mass, offset and 3 forces of 8, order, first and last
+  // block of 4, two marks of 1, and the offset's end.
+  const std::size_t n_bytes = 8 * (11 + 16 + 4 + 1) + 4 * 5, n_node_bytes = 8 * 5 + 4 * 3 + 2;
+  const std::size_t expected = 3072 * n_bytes + 729 * n_node_bytes + 8;
+  EXPECT_EQ(memory_bytes(body.model, body.scratch), expected);
+}

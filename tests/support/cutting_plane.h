@@ -1,0 +1,111 @@
+// Plane meshes and cuts that several tests of the plane cut share.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "cutting/cut_plane.h"
+#include "mesh/facets.h"
+#include "mesh/generate.h"
+#include "mesh/quality.h"
+
+namespace trocar {
+
+inline constexpr double mm = 1e-3;
+
+// The meshes of Serby et al. 2001, Table 1; 70 mm wide.
+inline Mesh paper_mesh(int configuration) {
+  switch (configuration) {
+    case 1:
+      return make_rectangle(70 * mm, 40 * mm, 10, 8);
+    case 2:
+      return make_rectangle(70 * mm, 40 * mm, 20, 16);
+    case 3:
+      return make_triangular_rectangle(70 * mm, 10, 8);
+    default:
+      return make_triangular_rectangle(70 * mm, 20, 16);
+  }
+}
+
+inline std::vector<Vec3> paper_cut(int configuration) {
+  if (configuration <= 2) return {{17.8 * mm, 35.2 * mm, 0}, {41.6 * mm, 18 * mm, 0}};
+  return {{14 * mm, 24.1 * mm, 0}, {52 * mm, 24.1 * mm, 0}};
+}
+
+inline std::vector<std::uint8_t> none_held(const Mesh& mesh) {
+  return std::vector<std::uint8_t>(mesh.X.size(), 0);
+}
+
+inline PlaneCut cut(const Mesh& mesh, const std::vector<Vec3>& path, std::int32_t tip = -1,
+                    bool is_robust = true) {
+  CutPlaneOptions options;
+  options.is_robust = is_robust;
+  return cut_plane(mesh, path, tip, none_held(mesh), options);
+}
+
+inline Mesh applied(const MeshEdit& edit, Mesh mesh) {
+  apply_edit(edit, mesh);
+  return mesh;
+}
+
+inline double total_area(const Mesh& mesh) {
+  double sum = 0;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) sum += element_volume(mesh, e, mesh.X);
+  return sum;
+}
+
+inline double total_mass(const Mesh& mesh) {
+  double sum = 0;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    sum += mesh.density_factor[e] * element_volume(mesh, e, mesh.X);
+  return sum;
+}
+
+inline double least_altitude(const Mesh& mesh) {
+  double least = 1e300;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    least = std::min(least, least_altitude(mesh, e, mesh.X));
+  return least;
+}
+
+inline std::int32_t n_pieces(const Mesh& mesh) {
+  std::vector<std::int32_t> piece;
+  return mesh_pieces(mesh, piece);
+}
+
+// Every boundary edge runs from a node to the next, one in and one out a node.
+inline bool has_closed_boundary(const Mesh& mesh) {
+  const FacetNeighbours across = facet_neighbours(mesh);
+  std::map<std::int32_t, int> in, out;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    for (int f = 0; f < 3; ++f)
+      if (across.of(e, f) < 0) {
+        ++out[mesh.corners(e)[(f + 1) % 3]];
+        ++in[mesh.corners(e)[(f + 2) % 3]];
+      }
+  const auto is_one = [](const auto& entry) { return entry.second == 1; };
+  return in.size() == out.size() && std::all_of(in.begin(), in.end(), is_one) &&
+         std::all_of(out.begin(), out.end(), is_one);
+}
+
+// Number of element sides that are marked as opened, and whether each is a boundary edge now.
+inline int n_marked_sides(const Mesh& mesh, bool& are_on_boundary) {
+  const FacetNeighbours across = facet_neighbours(mesh);
+  int n = 0;
+  are_on_boundary = true;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    for (int f = 0; f < 3; ++f)
+      if ((mesh.cut_facets[e] >> f & 1) != 0) {
+        ++n;
+        are_on_boundary = are_on_boundary && across.of(e, f) < 0;
+      }
+  return n;
+}
+
+}  // namespace trocar
