@@ -98,6 +98,15 @@ std::vector<std::pair<std::int64_t, double>> chosen_frames(const RecordingReader
   return chosen;
 }
 
+// The displacements are counted in the frame, the nodes follow from the edits before it.
+void check_frame(const RecordedFrame& frame, const Mesh& mesh, const std::string& recording) {
+  const std::size_t n = frame.u.size() / 3;
+  if (frame.u.size() != 3 * mesh.X.size())
+    throw InputError(recording + ": frame " + std::to_string(frame.frame) + ": has " +
+                     std::to_string(n) + " displacements for " + std::to_string(mesh.X.size()) +
+                     " nodes");
+}
+
 void make_folder(const std::string& folder) {
   std::error_code trouble;
   std::filesystem::create_directories(folder, trouble);
@@ -152,6 +161,7 @@ void replay(const ReplayOptions& options) {
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const RecordedFrame frame = reader.read(frames[k].first);
     const Mesh mesh = reader.mesh_at(frames[k].first);
+    check_frame(frame, mesh, options.recording);
     if (options.vtu) entries.push_back(write_frame_vtu(mesh, frame, options.folder));
     if (studio) studio->add(film_frame(mesh, frame, n_orders(options)));
     bar.update(static_cast<double>(k + 1) / static_cast<double>(frames.size()),
