@@ -39,14 +39,18 @@ void parallel_for_nodes(std::int64_t n, const Body& body) {
 }
 
 inline const BlockKernels& kernels_for(const Kernels& kernels, const ElementBlocks& blocks) {
-  return kernels.block[static_cast<int>(blocks.type)][static_cast<int>(blocks.material)];
+  return kernels.of[static_cast<int>(blocks.precision)]
+      .block[static_cast<int>(blocks.formulation)][static_cast<int>(blocks.material)];
 }
 
 inline BlockTask block_task(const ElementBlocks& blocks, const BlockKernels& kernels,
                             const State& state, std::int64_t first, std::int64_t n) {
+  const std::int64_t at = first * kernels.n_values * blocks.lanes;
+  const bool is_single = blocks.precision == Precision::in_single;
   return {.u = state.u.data(),
-          .corner = blocks.corner.data() + first * kernels.n_corners * block_lanes,
-          .data = blocks.data.data() + first * kernels.n_values * block_lanes,
+          .corner = blocks.corner.data() + first * kernels.n_corners * blocks.lanes,
+          .data = is_single ? static_cast<const void*>(blocks.data_single.data() + at)
+                            : static_cast<const void*>(blocks.data.data() + at),
           .n_blocks = n};
 }
 

@@ -1,9 +1,12 @@
-// Between nodes in memory and lanes in registers: displacements in, corner forces out.
+// Between nodes in memory and lanes in registers: displacements in, corner forces out. Nodes are in
+// double always; single-precision elements get differences to their first corner, so that a body
+// that is far from where it started keeps its strains.
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
-#include "solver/pack.h"
+#include "solver/block_data.h"
 
 namespace trocar {
 
@@ -17,7 +20,7 @@ template <class Pack>
 [[gnu::always_inline]] inline void gather_corner(const double* u, const std::int32_t* node,
                                                  Pack (&x)[3]) {
   constexpr int width = pack_width<Pack>;
-  using Quad = PackOf<4>::Real;
+  using Quad = PackOf<double, 4>;
   if constexpr (width == 1) {
     for (int i = 0; i < 3; ++i) x[i] = u[3 * std::int64_t{node[0]} + i];
   } else if constexpr (width == 2) {
@@ -49,9 +52,8 @@ template <class Pack>
   }
 }
 
-// To [lane][4], the last of four being zero.
 template <class Pack>
-[[gnu::always_inline]] inline void store_corner(double* to, const Pack (&f)[3]) {
+[[gnu::always_inline]] inline void store_doubles(double* to, const Pack (&f)[3]) {
   constexpr int width = pack_width<Pack>;
   const Pack zero = Pack{} + 0.0;
   if constexpr (width == 1) {
@@ -87,6 +89,101 @@ template <class Pack>
     store(to + 16, __builtin_shufflevector(high0, high1, 0, 1, 2, 3, 8, 9, 10, 11));
     store(to + 24, __builtin_shufflevector(high0, high1, 4, 5, 6, 7, 12, 13, 14, 15));
   }
+}
+
+// Lanes of two registers as one, the first one's first.
+template <class Pack, class Half, std::size_t... k>
+[[gnu::always_inline]] inline Pack join(const Half& low, const Half& high,
+                                        std::index_sequence<k...>) {
+  return __builtin_shufflevector(low, high, k...);
+}
+
+// What is added to a double corner for singles: the half registers that hold it.
+template <class Pack>
+struct Halves {
+  static constexpr int width = pack_width<Pack> > 1 ? pack_width<Pack> / 2 : 1;
+  using Double = PackOf<double, width>;
+  using Single = PackOf<float, width>;
+  Double low[3], high[3];
+
+  [[gnu::always_inline]] Halves(const double* u, const std::int32_t* node) {
+    gather_corner(u, node, low);
+    if constexpr (pack_width < Pack >> 1) gather_corner(u, node + width, high);
+  }
+
+  // Differences to `origin`, rounded.
+  [[gnu::always_inline]] void minus(const Halves& origin, Pack (&x)[3]) const {
+    for (int i = 0; i < 3; ++i) {
+      if constexpr (pack_width < Pack >> 1)
+        x[i] = join<Pack>(__builtin_convertvector(low[i] - origin.low[i], Single),
+                          __builtin_convertvector(high[i] - origin.high[i], Single),
+                          std::make_index_sequence<pack_width<Pack>>{});
+      else
+        x[i] = Pack{static_cast<float>(low[i] - origin.low[i])};
+    }
+  }
+};
+
+// Displacements of all corners of a group; corner[corner][lane].
+template <class Pack, int n>
+[[gnu::always_inline]] inline void gather_corners(const double* u, const std::int32_t* corner,
+                                                  Pack (&x)[n][3]) {
+  if constexpr (sizeof(RealOf<Pack>) == sizeof(double)) {
+    for (int a = 0; a < n; ++a) gather_corner(u, corner + a * block_lanes<Pack>, x[a]);
+  } else {
+    const Halves<Pack> origin(u, corner);
+    for (int i = 0; i < 3; ++i) x[0][i] = Pack{};
+    for (int a = 1; a < n; ++a) Halves<Pack>(u, corner + a * block_lanes<Pack>).minus(origin, x[a]);
+  }
+}
+
+// Lanes 4 r / width … of [lane][x y z 0], as many as fit into the r-th register.
+template <int r, class Pack, std::size_t... k>
+[[gnu::always_inline]] inline Pack rows_of_four(const Pack (&f)[3], std::index_sequence<k...>) {
+  constexpr std::size_t width = sizeof...(k), first = r * width / 4;
+  const Pack xy = __builtin_shufflevector(f[0], f[1], (first + k / 4 + (k % 2) * width)...);
+  const Pack z0 = __builtin_shufflevector(f[2], Pack{}, (first + k / 4 + (k % 2) * width)...);
+  return __builtin_shufflevector(xy, z0, (k % 4 < 2 ? k : width + k - 2)...);
+}
+
+template <class Pack, int... r>
+[[gnu::always_inline]] inline void store_singles(float* to, const Pack (&f)[3],
+                                                 std::integer_sequence<int, r...>) {
+  constexpr int width = pack_width<Pack>;
+  (store(to + r * width, rows_of_four<r>(f, std::make_index_sequence<width>{})), ...);
+}
+
+// To [lane][4], the last of four being zero.
+template <class Pack>
+[[gnu::always_inline]] inline void store_corner(RealOf<Pack>* to, const Pack (&f)[3]) {
+  if constexpr (sizeof(RealOf<Pack>) == sizeof(double)) {
+    store_doubles(to, f);
+  } else if constexpr (pack_width<Pack> == 1) {
+    for (int i = 0; i < 3; ++i) to[i] = f[i][0];
+    to[3] = 0;
+  } else {
+    store_singles(to, f, std::make_integer_sequence<int, 4>{});
+  }
+}
+
+// Lanes of any precision to doubles.
+template <class Pack>
+[[gnu::always_inline]] inline void store_in_double(double* to, const Pack& x) {
+  RealOf<Pack> lane[pack_width<Pack>];
+  store(lane, x);
+  for (int l = 0; l < pack_width<Pack>; ++l) to[l] = lane[l];
+}
+
+template <class Pack>
+[[gnu::always_inline]] inline Pack load_in_double(const double* from) {
+  return load<Pack>(from);
+}
+template <class Pack>
+[[gnu::always_inline]] inline Pack load_in_double(const float* from) {
+  if constexpr (pack_width<Pack> == 1)
+    return *from;
+  else
+    return __builtin_convertvector(load<PackOf<float, pack_width<Pack>>>(from), Pack);
 }
 
 }  // namespace trocar

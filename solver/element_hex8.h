@@ -9,15 +9,17 @@
 #pragma once
 
 #include "solver/block_data.h"
+#include "solver/formulation.h"
 #include "solver/tensor.h"
 
 namespace trocar {
 
 struct ElementHex8 {
+  static constexpr Formulation formulation = Formulation::hex8_one_point;
   static constexpr int n_corners = 8;
-  static constexpr int value_b = first_element_value;  // b_0 … b_5 [1/m]
-  static constexpr int value_X = value_b + 18;         // X_3 … X_6 [m]
-  static constexpr int value_k = value_X + 12;         // hourglass stiffness [N/m]
+  static constexpr int value_b = 0;             // b_0 … b_5 [1/m]
+  static constexpr int value_X = value_b + 18;  // X_3 … X_6 [m]
+  static constexpr int value_k = value_X + 12;  // hourglass stiffness [N/m]
   static constexpr int n_values = value_k + 1;
 
   template <class Pack>
@@ -70,7 +72,7 @@ struct ElementHex8 {
   template <class Pack>
   [[gnu::always_inline]] static Pack hourglass_energy(const BlockValues<Pack>& value,
                                                       const Strain<Pack>& s) {
-    Pack sum = Pack{} + 0.0;
+    Pack sum = zero_of(s.H(0, 0));
     for (int p = 0; p < 4; ++p)
       for (int i = 0; i < 3; ++i) sum += s.q[p][i] * s.q[p][i];
     return 0.5 * value(value_k) * sum;

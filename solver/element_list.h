@@ -1,13 +1,16 @@
-// Every element, in the order of ElementType. A new one is a header, its set-up and a line here.
+// Every element, in the order of Formulation. A new one is a header, its set-up and a line here and
+// in element_setup.cpp.
 #pragma once
 
 #include "solver/element_hex8.h"
+#include "solver/element_one_point.h"
 #include "solver/element_tet4.h"
 #include "solver/element_tri3.h"
 #include "solver/type_list.h"
 
 namespace trocar {
 
-using ElementList = TypeList<ElementTri3, ElementTet4, ElementHex8>;
+using ElementList = TypeList<OnePoint<ElementTri3>, OnePoint<ElementTet4>, OnePoint<ElementHex8>>;
+inline constexpr int n_formulations = ElementList::size;
 
 }  // namespace trocar

@@ -3,16 +3,15 @@
 
 #include <algorithm>
 
+#include "solver/element_list.h"
 #include "solver/largest_eigenvalue.h"
 
 namespace trocar {
 
-ElementConstants element_constants(ElementType type, const ElementInput& input) {
+ElementConstants element_constants(Formulation formulation, const ElementInput& input) {
   constexpr std::array setup = {constants_tri3, constants_tet4, constants_hex8};
-  ElementConstants constants = setup[static_cast<std::size_t>(type)](input);
-  constants.value[value_lambda_V] = input.lambda * constants.volume;
-  constants.value[value_mu_V] = input.mu * constants.volume;
-  return constants;
+  static_assert(setup.size() == n_formulations);
+  return setup[static_cast<std::size_t>(formulation)](input);
 }
 
 void add_gradient(const Vec3& B, SymmetricTensor<double>& G) {

@@ -8,9 +8,16 @@
 #include "base/vec.h"
 #include "mesh/mesh.h"
 #include "solver/block_data.h"
+#include "solver/formulation.h"
 #include "solver/tensor.h"
 
 namespace trocar {
+
+// Shape that the formulation is for.
+constexpr ElementType shape_of(Formulation formulation) {
+  constexpr ElementType shape[] = {ElementType::tri3, ElementType::tet4, ElementType::hex8};
+  return shape[static_cast<int>(formulation)];
+}
 
 struct ElementInput {
   std::span<const Vec3> X;    // (n_corners) [m]
@@ -20,13 +27,15 @@ struct ElementInput {
   double thickness = 0;       // [m], tri3
 };
 
+inline constexpr int max_element_values = 31;  // hex8_one_point
+
 struct ElementConstants {
-  std::array<double, max_element_values> value{};
-  double volume = 0;  // [m^3]; not positive: the rest means nothing
+  std::array<double, max_element_values> value{};  // of element_<type>.h
+  double volume = 0;                               // [m^3]; not positive: the rest means nothing
   double omega2 = 0;  // no free element of this kind vibrates faster [1/s^2]
 };
 
-ElementConstants element_constants(ElementType type, const ElementInput& input);
+ElementConstants element_constants(Formulation formulation, const ElementInput& input);
 
 // One file each.
 ElementConstants constants_tri3(const ElementInput& input);

@@ -3,13 +3,15 @@
 #pragma once
 
 #include "solver/block_data.h"
+#include "solver/formulation.h"
 #include "solver/tensor.h"
 
 namespace trocar {
 
 struct ElementTet4 {
+  static constexpr Formulation formulation = Formulation::tet4;
   static constexpr int n_corners = 4;
-  static constexpr int value_B = first_element_value;  // B_1, B_2, B_3
+  static constexpr int value_B = 0;  // B_1, B_2, B_3
   static constexpr int n_values = value_B + 9;
 
   template <class Pack>
@@ -44,8 +46,8 @@ struct ElementTet4 {
 
   template <class Pack>
   [[gnu::always_inline]] static Pack hourglass_energy(const BlockValues<Pack>&,
-                                                      const Strain<Pack>&) {
-    return Pack{} + 0.0;
+                                                      const Strain<Pack>& s) {
+    return zero_of(s.H(0, 0));
   }
 };
 

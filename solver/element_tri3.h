@@ -3,13 +3,15 @@
 #pragma once
 
 #include "solver/block_data.h"
+#include "solver/formulation.h"
 #include "solver/tensor.h"
 
 namespace trocar {
 
 struct ElementTri3 {
+  static constexpr Formulation formulation = Formulation::tri3_plane_strain;
   static constexpr int n_corners = 3;
-  static constexpr int value_B = first_element_value;  // B_1, B_2: x and y each
+  static constexpr int value_B = 0;  // B_1, B_2: x and y each
   static constexpr int n_values = value_B + 4;
 
   template <class Pack>
@@ -21,7 +23,7 @@ struct ElementTri3 {
   [[gnu::always_inline]] static Strain<Pack> strain(const BlockValues<Pack>& value,
                                                     const Pack (&u)[3][3]) {
     Strain<Pack> s;
-    const Pack zero = Pack{} + 0.0;
+    const Pack zero = zero_of(u[0][0]);
     for (int i = 0; i < 3; ++i) s.H(i, 2) = s.H(2, i) = zero;
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j)
@@ -38,13 +40,13 @@ struct ElementTri3 {
         f[a][i] = VP(i, 0) * value(value_B + 2 * a - 2) + VP(i, 1) * value(value_B + 2 * a - 1);
       f[0][i] = -(f[1][i] + f[2][i]);
     }
-    for (int a = 0; a < 3; ++a) f[a][2] = Pack{} + 0.0;
+    for (int a = 0; a < 3; ++a) f[a][2] = zero_of(VP(0, 0));
   }
 
   template <class Pack>
   [[gnu::always_inline]] static Pack hourglass_energy(const BlockValues<Pack>&,
-                                                      const Strain<Pack>&) {
-    return Pack{} + 0.0;
+                                                      const Strain<Pack>& s) {
+    return zero_of(s.H(0, 0));
   }
 };
 

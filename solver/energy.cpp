@@ -20,11 +20,11 @@ void take_kinetic(const Model& model, const State& state, std::vector<double>& k
 // Of the ranks that compute an element, one counts it: the owner of its lowest global node.
 bool is_counted_here(const Model& model, const Part& part, const ElementBlocks& blocks,
                      std::int64_t lane) {
-  const std::int64_t n = std::ssize(blocks.corner) / (std::int64_t{blocks.n_blocks} * block_lanes);
-  const std::int64_t first = lane / block_lanes * n * block_lanes + lane % block_lanes;
+  const std::int64_t n = std::ssize(blocks.corner) / (std::int64_t{blocks.n_blocks} * blocks.lanes);
+  const std::int64_t first = lane / blocks.lanes * n * blocks.lanes + lane % blocks.lanes;
   std::int32_t lowest = blocks.corner[first];
   for (std::int64_t a = 1; a < n; ++a) {
-    const std::int32_t node = blocks.corner[first + a * block_lanes];
+    const std::int32_t node = blocks.corner[first + a * blocks.lanes];
     if (part.node_global[node] < part.node_global[lowest]) lowest = node;
   }
   return lowest < model.n_owned;
@@ -36,7 +36,7 @@ void take_list(const Model& model, const Part& part, const State& state,
   std::vector<double> strain(blocks.element_local.size()), hourglass(strain.size());
   parallel_for(std::int64_t{blocks.n_blocks}, [&](std::int64_t begin, std::int64_t end) {
     kernels.energy(block_task(blocks, kernels, state, begin, end - begin),
-                   strain.data() + begin * block_lanes, hourglass.data() + begin * block_lanes);
+                   strain.data() + begin * blocks.lanes, hourglass.data() + begin * blocks.lanes);
   });
   for (std::int64_t lane = 0; lane < blocks.n_elements; ++lane) {
     if (!is_counted_here(model, part, blocks, lane)) continue;

@@ -3,82 +3,84 @@
 
 #include "solver/corner_access.h"
 #include "solver/kernels.h"
+#include "solver/material_law.h"
 
 namespace trocar {
 
 // A pack's worth of elements: their constants and where their corners are.
-template <class Pack, class Element>
+template <class Pack, class Element, class Material>
 struct Group {
+  static constexpr int n_values = Material::n_values + Element::n_values;
+  Law<Material, Pack> law;
   BlockValues<Pack> value;
   const std::int32_t* corner;  // [corner][lane], from the group's first lane on
 
-  Group(const BlockTask& task, std::int64_t block, int lane)
-      : value{task.data + block * Element::n_values * block_lanes + lane},
-        corner(task.corner + block * Element::n_corners * block_lanes + lane) {}
+  [[gnu::always_inline]] Group(const BlockTask& task, std::int64_t block, int lane)
+      : law{static_cast<const RealOf<Pack>*>(task.data) + block * n_values * block_lanes<Pack> +
+            lane},
+        value{law.value.at + Material::n_values * block_lanes<Pack>},
+        corner(task.corner + block * Element::n_corners * block_lanes<Pack> + lane) {}
 };
-
-template <class Pack, class Element>
-[[gnu::always_inline]] inline auto group_strain(const Group<Pack, Element>& group,
-                                                const double* u) {
-  Pack corner_u[Element::n_corners][3];
-  for (int a = 0; a < Element::n_corners; ++a)
-    gather_corner(u, group.corner + a * block_lanes, corner_u[a]);
-  return Element::strain(group.value, corner_u);
-}
 
 template <class Pack, class Element, class Material>
 struct BlockLoops {
-  static void force(const BlockTask& task, double* slot) {
-    constexpr int n = Element::n_corners;
+  static constexpr int n = Element::n_corners;
+  static constexpr int lanes = block_lanes<Pack>;
+
+  // Calls body(group, u, block, lane) for every group with the displacements of its corners.
+  template <class Body>
+  [[gnu::always_inline]] static void for_groups(const BlockTask& task, const Body& body) {
     for (std::int64_t block = 0; block < task.n_blocks; ++block)
-      for (int lane = 0; lane < block_lanes; lane += pack_width<Pack>) {
-        const Group<Pack, Element> group(task, block, lane);
-        const auto strain = group_strain(group, task.u);
-        const Tensor<Pack> VP =
-            Material::stress(strain.H, group.value(value_lambda_V), group.value(value_mu_V));
-        Pack f[n][3];
-        Element::forces(group.value, strain, VP, f);
-        double* to = slot + (block * n * block_lanes + lane) * slot_width;
-        for (int a = 0; a < n; ++a) store_corner(to + a * block_lanes * slot_width, f[a]);
+      for (int lane = 0; lane < lanes; lane += pack_width<Pack>) {
+        const Group<Pack, Element, Material> group(task, block, lane);
+        Pack u[n][3];
+        gather_corners(task.u, group.corner, u);
+        body(group, u, block, lane);
       }
   }
 
-  static void energy(const BlockTask& task, double* strain_energy, double* hourglass) {
-    for (std::int64_t block = 0; block < task.n_blocks; ++block)
-      for (int lane = 0; lane < block_lanes; lane += pack_width<Pack>) {
-        const Group<Pack, Element> group(task, block, lane);
-        const auto strain = group_strain(group, task.u);
-        const Pack W =
-            Material::energy(strain.H, group.value(value_lambda_V), group.value(value_mu_V));
-        store(strain_energy + block * block_lanes + lane, W);
-        store(hourglass + block * block_lanes + lane,
-              Element::hourglass_energy(group.value, strain));
-      }
+  static void force(const BlockTask& task, void* slot) {
+    for_groups(
+        task, [&](const auto& group, const auto& u, std::int64_t block, int lane)
+                  __attribute__((always_inline)) {
+                    Pack f[n][3];
+                    Element::force(group.value, group.law, u, f);
+                    RealOf<Pack>* to =
+                        static_cast<RealOf<Pack>*>(slot) + (block * n * lanes + lane) * slot_width;
+                    for (int a = 0; a < n; ++a) store_corner(to + a * lanes * slot_width, f[a]);
+                  });
+  }
+
+  static void energy(const BlockTask& task, double* strain, double* hourglass) {
+    for_groups(task, [&](const auto& group, const auto& u, std::int64_t block, int lane) {
+      const auto energy = Element::energy(group.value, group.law, u);
+      store_in_double(strain + block * lanes + lane, energy.strain);
+      store_in_double(hourglass + block * lanes + lane, energy.hourglass);
+    });
   }
 
   static void watch(const BlockTask& task, double* J, double* stiffening) {
-    for (std::int64_t block = 0; block < task.n_blocks; ++block)
-      for (int lane = 0; lane < block_lanes; lane += pack_width<Pack>) {
-        const Group<Pack, Element> group(task, block, lane);
-        const Tensor<Pack> H = group_strain(group, task.u).H;
-        store(J + block * block_lanes + lane, Pack(1.0 + volume_change(H, cofactor(H))));
-        store(stiffening + block * block_lanes + lane,
-              Material::stiffening(H, group.value(value_lambda_V), group.value(value_mu_V)));
-      }
+    for_groups(task, [&](const auto& group, const auto& u, std::int64_t block, int lane) {
+      const auto watch = Element::watch(group.value, group.law, u);
+      store_in_double(J + block * lanes + lane, watch.J);
+      store_in_double(stiffening + block * lanes + lane, watch.stiffening);
+    });
   }
 };
 
-template <class Pack>
+// The Pack of doubles is the sum's; Slot is the precision of the corner forces.
+template <class Pack, class Slot>
 void sum_corner_forces(const SumTask& task) {
+  const Slot* const slot = static_cast<const Slot*>(task.slot);
+  constexpr int width = pack_width<Pack> < slot_width ? pack_width<Pack> : slot_width;
+  using Part = PackOf<double, width>;
   for (std::int64_t k = 0; k < task.n_nodes; ++k) {
     const std::int64_t i = task.node[k];
     const std::int64_t first = task.slot_offset[i], last = task.slot_offset[i + 1];
-    constexpr int width = pack_width<Pack> < slot_width ? pack_width<Pack> : slot_width;
-    using Part = typename PackOf<width>::Real;
     Part sum[slot_width / width] = {};
     for (std::int64_t at = first; at < last; ++at)
       for (int j = 0; j < slot_width; j += width)
-        sum[j / width] += load<Part>(task.slot + task.slot_index[at] * slot_width + j);
+        sum[j / width] += load_in_double<Part>(slot + task.slot_index[at] * slot_width + j);
     double total[slot_width];
     for (int j = 0; j < slot_width; j += width) store(total + j, sum[j / width]);
     for (int j = 0; j < 3; ++j) task.force[3 * i + j] = task.mass[i] * task.gravity[j] - total[j];
@@ -86,21 +88,20 @@ void sum_corner_forces(const SumTask& task) {
 }
 
 template <class Pack, class Element, class... Materials>
-constexpr void fill_materials(BlockKernels* row, TypeList<Materials...>) {
-  ((row[static_cast<int>(Materials::model)] = {Element::n_corners, Element::n_values,
-                                               BlockLoops<Pack, Element, Materials>::force,
-                                               BlockLoops<Pack, Element, Materials>::energy,
-                                               BlockLoops<Pack, Element, Materials>::watch}),
+void fill_element(BlockKernels* row, TypeList<Materials...>) {
+  ((row[static_cast<int>(Materials::model)] =
+        {Element::n_corners, Group<Pack, Element, Materials>::n_values, Materials::n_values,
+         BlockLoops<Pack, Element, Materials>::force, BlockLoops<Pack, Element, Materials>::energy,
+         BlockLoops<Pack, Element, Materials>::watch}),
    ...);
 }
 
-template <class Pack, class... Elements>
-constexpr Kernels make_kernels(TypeList<Elements...>) {
-  Kernels kernels{};
-  kernels.sum = sum_corner_forces<Pack>;
-  int type = 0;
-  ((fill_materials<Pack, Elements>(kernels.block[type++], MaterialList{})), ...);
-  return kernels;
+// One element's kernels in both precisions; `doubles` is the width of a register.
+template <class Element, int doubles, int singles>
+void fill_formulation(Kernels& kernels) {
+  const int f = static_cast<int>(Element::formulation);
+  fill_element<PackOf<double, doubles>, Element>(kernels.of[0].block[f], MaterialList{});
+  fill_element<PackOf<float, singles>, Element>(kernels.of[1].block[f], MaterialList{});
 }
 
 }  // namespace trocar

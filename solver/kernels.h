@@ -1,6 +1,6 @@
 // What the kernels of one instruction set offer: a table of functions over blocks, resolved once
-// per element type and material model. Raw pointers only, because each instruction set is compiled
-// on its own.
+// per formulation, material model and precision. Raw pointers only, because each instruction set is
+// compiled on its own.
 #pragma once
 
 #include <cstdint>
@@ -10,27 +10,28 @@
 
 namespace trocar {
 
-// Blocks of one list, from its first to its n-th, and where their results go.
+// Blocks of one list, from its first to its n-th, and where their results go. `data` and the
+// results of a kernel are of the list's precision.
 struct BlockTask {
   const double* u;             // (n_local * 3) [m]
   const std::int32_t* corner;  // [block][corner][lane] local node
-  const double* data;          // [block][value][lane]
+  const void* data;            // [block][value][lane]
   std::int64_t n_blocks;
 };
 
-// Doubles of a corner force in Scratch::slot: x, y, z and one that keeps them aligned.
+// Numbers of a corner force in Scratch::slot: x, y, z and one that keeps them aligned.
 inline constexpr int slot_width = 4;
 
 // Corner forces [N] to [block][corner][lane][slot_width].
-using ForceKernel = void (*)(const BlockTask& task, double* slot);
+using ForceKernel = void (*)(const BlockTask& task, void* slot);
 // Strain and hourglass energy [J] to [block][lane].
 using EnergyKernel = void (*)(const BlockTask& task, double* strain, double* hourglass);
-// det F and growth of the bound of omega^2 (stiffening.h) to [block][lane].
+// Least det F and growth of the bound of omega^2 (stiffening.h) to [block][lane].
 using WatchKernel = void (*)(const BlockTask& task, double* J, double* stiffening);
 
 // Owned nodes whose corner forces are complete.
 struct SumTask {
-  const double* slot;
+  const void* slot;
   const std::int64_t* slot_offset;  // of every owned node
   const std::int64_t* slot_index;
   const double* mass;        // of every owned node [kg]
@@ -39,19 +40,24 @@ struct SumTask {
   const std::int32_t* node;  // those to sum
   std::int64_t n_nodes;
 };
-// force = m g - corner forces in the order of slot_index.
+// force = m g - corner forces in the order of slot_index, summed in double.
 using SumKernel = void (*)(const SumTask& task);
 
 struct BlockKernels {
   int n_corners, n_values;
+  int n_material_values;  // of n_values, the first ones
   ForceKernel force;
   EnergyKernel energy;
   WatchKernel watch;
 };
 
-struct Kernels {
+struct KernelsOfPrecision {
   SumKernel sum;
-  BlockKernels block[ElementList::size][n_material_models];
+  BlockKernels block[n_formulations][n_material_models];
+};
+
+struct Kernels {
+  KernelsOfPrecision of[n_precisions];  // in the order of Precision
 };
 
 }  // namespace trocar

@@ -11,13 +11,13 @@ namespace trocar {
 // iterate on: the result is exact or a hair too large.
 template <class Pack>
 [[gnu::always_inline]] inline Pack largest_eigenvalue(const SymmetricTensor<Pack>& A) {
-  const Pack m = trace(A) * (1.0 / 3);
+  const Pack m = trace(A) * real<Pack>(1.0 / 3);
   SymmetricTensor<Pack> D = A;
   for (int i = 0; i < 3; ++i) D.v[i] -= m;
   const auto& d = D.v;
   const Pack p2 =
       (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + 2.0 * (d[3] * d[3] + d[4] * d[4] + d[5] * d[5])) *
-      (1.0 / 6);
+      real<Pack>(1.0 / 6);
   const Pack p = square_root(p2);
   const SymmetricTensor<Pack> C = cofactor(D);
   const Pack det = d[0] * C.v[0] + d[3] * C.v[3] + d[5] * C.v[5];
@@ -28,7 +28,7 @@ template <class Pack>
   for (int k = 0; k < 4; ++k) {
     const Pack slope = 12.0 * y * y - 3.0;
     const Pack step = (y * (4.0 * y * y - 3.0) - c) / slope;
-    y -= slope > 1e-9 ? step : zero;
+    y -= slope > real<Pack>(1e-9) ? step : zero;
   }
   return m + 2.0 * p * y;
 }

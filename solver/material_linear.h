@@ -2,6 +2,7 @@
 // small displacements and for comparison with the paper's K U.
 #pragma once
 
+#include "solver/block_data.h"
 #include "solver/material.h"
 #include "solver/tensor.h"
 
@@ -10,9 +11,13 @@ namespace trocar {
 struct MaterialLinear {
   static constexpr MaterialModel model = MaterialModel::linear;
 
+  static constexpr int n_values = 2;
+  static constexpr bool is_decoupled = false;
+
   template <class Pack>
-  [[gnu::always_inline]] static Tensor<Pack> stress(const Tensor<Pack>& H, const Pack& lambda,
-                                                    const Pack& mu) {
+  [[gnu::always_inline]] static Tensor<Pack> stress(const Tensor<Pack>& H,
+                                                    const BlockValues<Pack>& value) {
+    const Pack mu = value(value_mu_V), lambda = value(value_K_V) - real<Pack>(2.0 / 3) * mu;
     const Pack pressure = lambda * trace(H);
     Tensor<Pack> P;
     for (int i = 0; i < 3; ++i)
@@ -25,9 +30,8 @@ struct MaterialLinear {
 
   // W = P : H / 2
   template <class Pack>
-  [[gnu::always_inline]] static Pack energy(const Tensor<Pack>& H, const Pack& lambda,
-                                            const Pack& mu) {
-    const Tensor<Pack> P = stress(H, lambda, mu);
+  [[gnu::always_inline]] static Pack energy(const Tensor<Pack>& H, const BlockValues<Pack>& value) {
+    const Tensor<Pack> P = stress(H, value);
     Pack sum = P(0, 0) * H(0, 0);
     for (int i = 0; i < 3; ++i)
       for (int j = i == 0 ? 1 : 0; j < 3; ++j) sum += P(i, j) * H(i, j);
@@ -35,8 +39,8 @@ struct MaterialLinear {
   }
 
   template <class Pack>
-  [[gnu::always_inline]] static Pack stiffening(const Tensor<Pack>&, const Pack&, const Pack& mu) {
-    return mu - mu + 1.0;
+  [[gnu::always_inline]] static Pack stiffening(const Tensor<Pack>& H, const BlockValues<Pack>&) {
+    return zero_of(H(0, 0)) + 1.0;
   }
 };
 

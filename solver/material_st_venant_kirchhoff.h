@@ -2,6 +2,7 @@
 // in compression (numerics 1.4): for moderate strain and large rotation.
 #pragma once
 
+#include "solver/block_data.h"
 #include "solver/largest_eigenvalue.h"
 #include "solver/material.h"
 #include "solver/stiffening.h"
@@ -10,11 +11,14 @@ namespace trocar {
 
 struct MaterialStVenantKirchhoff {
   static constexpr MaterialModel model = MaterialModel::st_venant_kirchhoff;
+  static constexpr int n_values = 2;
+  static constexpr bool is_decoupled = false;
 
   // P = F S,  S = lambda tr E I + 2 mu E
   template <class Pack>
-  [[gnu::always_inline]] static Tensor<Pack> stress(const Tensor<Pack>& H, const Pack& lambda,
-                                                    const Pack& mu) {
+  [[gnu::always_inline]] static Tensor<Pack> stress(const Tensor<Pack>& H,
+                                                    const BlockValues<Pack>& value) {
+    const Pack mu = value(value_mu_V), lambda = value(value_K_V) - real<Pack>(2.0 / 3) * mu;
     SymmetricTensor<Pack> S = twice_green_strain(H);
     const Pack pressure = 0.5 * lambda * trace(S);
     for (int i = 0; i < 3; ++i) S.v[i] = mu * S.v[i] + pressure;
@@ -26,8 +30,8 @@ struct MaterialStVenantKirchhoff {
   }
 
   template <class Pack>
-  [[gnu::always_inline]] static Pack energy(const Tensor<Pack>& H, const Pack& lambda,
-                                            const Pack& mu) {
+  [[gnu::always_inline]] static Pack energy(const Tensor<Pack>& H, const BlockValues<Pack>& value) {
+    const Pack mu = value(value_mu_V), lambda = value(value_K_V) - real<Pack>(2.0 / 3) * mu;
     const SymmetricTensor<Pack> S = twice_green_strain(H);
     const auto& s = S.v;
     const Pack square =
@@ -39,8 +43,9 @@ struct MaterialStVenantKirchhoff {
   //     <= lambda (F:dF)^2 + (max(0, lambda_max(S)) + 2 mu s^2) |dF|^2,  s^2 = lambda_max(C),
   // and (F:dF)^2 counts at most s^2 tr G in the element's bound.
   template <class Pack>
-  [[gnu::always_inline]] static Pack stiffening(const Tensor<Pack>& H, const Pack& lambda,
-                                                const Pack& mu) {
+  [[gnu::always_inline]] static Pack stiffening(const Tensor<Pack>& H,
+                                                const BlockValues<Pack>& value) {
+    const Pack mu = value(value_mu_V), lambda = value(value_K_V) - real<Pack>(2.0 / 3) * mu;
     const SymmetricTensor<Pack> twice_E = twice_green_strain(H);
     const Pack e = largest_eigenvalue(twice_E), zero = e - e, s2 = 1.0 + e;
     const Pack stress = larger(zero, Pack(0.5 * lambda * trace(twice_E) + mu * e));

@@ -9,8 +9,10 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "base/threads.h"
+#include "solver/block_ranges.h"
 #include "solver/element_setup.h"
 #include "solver/kernels.h"
+#include "solver/material_setup.h"
 #include "solver/simd.h"
 #include "solver/sum_order.h"
 
@@ -50,8 +52,20 @@ void check_source(const Source& source, std::span<const FixedMask> fixed,
   for (std::size_t r = 0; r < source.materials.size(); ++r) check_material(source.materials[r], r);
 }
 
-int list_key(ElementType type, MaterialModel model) {
-  return static_cast<int>(type) * n_material_models + static_cast<int>(model);
+Formulation formulation_of(const Source& source, std::int32_t e) {
+  const Formulation of_shape[] = {source.options.tri3, source.options.tet4, source.options.hex8};
+  return of_shape[static_cast<int>(source.mesh.element_type[e])];
+}
+
+void check_formulations(const SolverOptions& options) {
+  CHECK(shape_of(options.tri3) == ElementType::tri3);
+  CHECK(shape_of(options.tet4) == ElementType::tet4);
+  CHECK(shape_of(options.hex8) == ElementType::hex8);
+}
+
+// Lists are in the order of their keys.
+int list_key(Formulation formulation, int region) {
+  return region * n_formulations + static_cast<int>(formulation);
 }
 
 // Where each local element lies: list, and position within the list.
@@ -59,32 +73,38 @@ struct Placement {
   std::vector<std::int32_t> list, position;
 };
 
-ElementBlocks empty_blocks(int key, std::int32_t n_elements, std::int64_t first_slot) {
+ElementBlocks empty_blocks(const Source& source, int key, std::int32_t n_elements,
+                           std::int64_t first_slot) {
   ElementBlocks blocks;
-  blocks.type = static_cast<ElementType>(key / n_material_models);
-  blocks.material = static_cast<MaterialModel>(key % n_material_models);
+  blocks.region = key / n_formulations;
+  blocks.formulation = static_cast<Formulation>(key % n_formulations);
+  blocks.material = source.materials[static_cast<std::size_t>(blocks.region)].model;
+  blocks.precision = source.options.precision;
+  const bool is_single = blocks.precision == Precision::in_single;
+  blocks.lanes = is_single ? lanes_of_block<float> : lanes_of_block<double>;
   blocks.n_elements = n_elements;
-  blocks.n_blocks = (n_elements + block_lanes - 1) / block_lanes;
+  blocks.n_blocks = (n_elements + blocks.lanes - 1) / blocks.lanes;
   blocks.first_slot = first_slot;
-  const BlockKernels& kernels =
-      kernels_of(Simd::scalar).block[key / n_material_models][key % n_material_models];
-  CHECK_OP(kernels.n_corners, ==, n_corners(blocks.type));
-  const std::size_t n_lanes = static_cast<std::size_t>(blocks.n_blocks) * block_lanes;
+  const BlockKernels& kernels = kernels_for(kernels_of(Simd::scalar), blocks);
+  CHECK_OP(kernels.n_corners, ==, n_corners(shape_of(blocks.formulation)));
+  const auto n_lanes = static_cast<std::size_t>(blocks.n_blocks * blocks.lanes);
+  const std::size_t n_numbers = n_lanes * static_cast<std::size_t>(kernels.n_values);
   blocks.element_local.resize(n_lanes);
   blocks.corner.resize(n_lanes * static_cast<std::size_t>(kernels.n_corners));
-  blocks.data.resize(n_lanes * static_cast<std::size_t>(kernels.n_values));
+  blocks.data.resize(is_single ? 0 : n_numbers);
+  blocks.data_single.resize(is_single ? n_numbers : 0);
   return blocks;
 }
 
 // Counts the elements of each kind and gives each kind that occurs its blocks.
 Placement make_lists(const Source& source, Model& model) {
-  constexpr int n_keys = n_element_types * n_material_models;
+  const int n_keys = n_formulations * static_cast<int>(source.materials.size());
   const std::int32_t n = source.n_elements();
-  std::array<std::int32_t, n_keys> count{}, list_of_key{};
+  std::vector<std::int32_t> count(static_cast<std::size_t>(n_keys)), list_of_key(count.size());
   Placement placement{std::vector<std::int32_t>(n), std::vector<std::int32_t>(n)};
   for (std::int32_t k = 0; k < n; ++k) {
     const std::int32_t e = source.part.element_global[k];
-    const int key = list_key(source.mesh.element_type[e], source.material(e).model);
+    const int key = list_key(formulation_of(source, e), source.mesh.element_region[e]);
     placement.list[k] = key;
     placement.position[k] = count[static_cast<std::size_t>(key)]++;
   }
@@ -93,7 +113,7 @@ Placement make_lists(const Source& source, Model& model) {
     const auto at = static_cast<std::size_t>(key);
     if (count[at] == 0) continue;
     list_of_key[at] = static_cast<std::int32_t>(model.blocks.size());
-    model.blocks.push_back(empty_blocks(key, count[at], first_slot));
+    model.blocks.push_back(empty_blocks(source, key, count[at], first_slot));
     first_slot += static_cast<std::int64_t>(model.blocks.back().corner.size());
   }
   for (std::int32_t k = 0; k < n; ++k) {
@@ -109,7 +129,7 @@ ElementConstants constants_of(const Source& source, std::int32_t e) {
   std::array<Vec3, max_corners> X;
   for (std::size_t a = 0; a < node.size(); ++a) X[a] = source.mesh.X[node[a]];
   const Material& material = source.material(e);
-  return element_constants(source.mesh.element_type[e],
+  return element_constants(formulation_of(source, e),
                            {.X = {X.data(), node.size()},
                             .lambda = lame_lambda(material),
                             .mu = lame_mu(material),
@@ -118,22 +138,39 @@ ElementConstants constants_of(const Source& source, std::int32_t e) {
                             .thickness = source.options.thickness});
 }
 
+// Constants of the lane's element: those of the material, then those of the element.
+void fill_values(const BlockKernels& kernels, const Material& material,
+                 const ElementConstants& element, std::int64_t lane, ElementBlocks& blocks) {
+  std::array<double, max_values> value{};
+  fill_material(material, element.volume, value);
+  std::copy_n(element.value.begin(), kernels.n_values - kernels.n_material_values,
+              value.begin() + kernels.n_material_values);
+  const std::int64_t first =
+      lane / blocks.lanes * kernels.n_values * blocks.lanes + lane % blocks.lanes;
+  for (std::int64_t k = 0; k < kernels.n_values; ++k) {
+    const double x = value[static_cast<std::size_t>(k)];
+    if (blocks.precision == Precision::in_single)
+      blocks.data_single[first + k * blocks.lanes] = static_cast<float>(x);
+    else
+      blocks.data[first + k * blocks.lanes] = x;
+  }
+}
+
 // A lane's element; lanes behind the last element repeat its corners with all constants zero.
 void fill_lane(const Source& source, std::int64_t lane, ElementBlocks& blocks,
                std::vector<double>& element_step) {
-  const std::int64_t block = lane / block_lanes, l = lane % block_lanes;
+  const std::int64_t block = lane / blocks.lanes, l = lane % blocks.lanes;
   const bool is_padding = lane >= blocks.n_elements;
   if (is_padding) blocks.element_local[lane] = blocks.element_local[blocks.n_elements - 1];
   const std::int32_t k = blocks.element_local[lane], e = source.part.element_global[k];
   const std::span<const std::int32_t> node = source.mesh.corners(e);
   const auto n = static_cast<std::int64_t>(node.size());
   for (std::int64_t a = 0; a < n; ++a)
-    blocks.corner[(block * n + a) * block_lanes + l] = source.part.node_local[node[a]];
+    blocks.corner[(block * n + a) * blocks.lanes + l] = source.part.node_local[node[a]];
   if (is_padding) return;
   const ElementConstants constants = constants_of(source, e);
-  const std::int64_t n_values = std::ssize(blocks.data) / (blocks.n_blocks * block_lanes);
-  for (std::int64_t value = 0; value < n_values; ++value)
-    blocks.data[(block * n_values + value) * block_lanes + l] = constants.value[value];
+  fill_values(kernels_for(kernels_of(Simd::scalar), blocks), source.material(e), constants, lane,
+              blocks);
   element_step[k] = constants.volume > 0 ? 2 / std::sqrt(constants.omega2) : 0;
 }
 
@@ -141,7 +178,7 @@ void fill_blocks(const Source& source, Model& model) {
   model.element_step.resize(source.part.element_global.size());
   for (ElementBlocks& blocks : model.blocks)
     parallel_for(std::int64_t{blocks.n_blocks}, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t lane = begin * block_lanes; lane < end * block_lanes; ++lane)
+      for (std::int64_t lane = begin * blocks.lanes; lane < end * blocks.lanes; ++lane)
         fill_lane(source, lane, blocks, model.element_step);
     });
   for (std::size_t k = 0; k < model.element_step.size(); ++k)
@@ -159,11 +196,11 @@ void link_slots(const Source& source, const Placement& placement, Model& model) 
       const ElementBlocks& blocks = model.blocks[placement.list[k]];
       const std::span<const std::int32_t> node = source.mesh.corners(source.part.element_global[k]);
       const std::int64_t position = placement.position[k];
-      const std::int64_t first = blocks.first_slot + position % block_lanes +
-                                 position / block_lanes * std::ssize(node) * block_lanes;
+      const std::int64_t first = blocks.first_slot + position % blocks.lanes +
+                                 position / blocks.lanes * std::ssize(node) * blocks.lanes;
       for (std::int64_t a = 0; a < std::ssize(node); ++a) {
         const std::int32_t i = source.part.node_local[node[a]];
-        if (i < model.n_owned) body(i, first + a * block_lanes);
+        if (i < model.n_owned) body(i, first + a * blocks.lanes);
       }
     }
   };
@@ -199,6 +236,7 @@ Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> 
                   const SolverOptions& options) {
   const Source source{mesh, part, materials, options};
   check_source(source, fixed, mass);
+  check_formulations(options);
   Model model;
   model.options = options;
   take_nodes(source, fixed, mass, model);
@@ -220,7 +258,9 @@ Scratch make_scratch(const Model& model) {
   std::size_t n_corners = 0;
   for (const ElementBlocks& blocks : model.blocks) n_corners += blocks.corner.size();
   Scratch scratch;
-  scratch.slot.resize(n_corners * slot_width);
+  const bool is_single = model.options.precision == Precision::in_single;
+  scratch.slot.resize(is_single ? 0 : n_corners * slot_width);
+  scratch.slot_single.resize(is_single ? n_corners * slot_width : 0);
   scratch.force.resize(static_cast<std::size_t>(model.n_owned) * 3);
   scratch.is_summed.assign(static_cast<std::size_t>(model.n_owned), 0);
   return scratch;

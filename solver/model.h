@@ -10,6 +10,7 @@
 #include "mesh/mesh.h"
 #include "mesh/partition.h"
 #include "solver/block_data.h"
+#include "solver/formulation.h"
 #include "solver/material.h"
 
 namespace trocar {
@@ -20,20 +21,30 @@ using FixedMask = std::uint8_t;
 struct SolverOptions {
   double mass_damping = 0;      // alpha of C = alpha M [1/s]
   double hourglass = 0.15;      // c_mu of k = c_mu mu V sum|B|^2 / 8 (numerics 1.2), hex8
-  double thickness = 1e-3;      // of plane meshes [m] (plane strain)
+  double thickness = 1e-3;      // of plane meshes [m]
   Vec3 gravity = Vec3::Zero();  // [m/s^2]
+  Precision precision = Precision::in_double;
+  // How triangles, tetrahedra and hexahedra are computed.
+  Formulation tri3 = Formulation::tri3_plane_strain;
+  Formulation tet4 = Formulation::tet4;
+  Formulation hex8 = Formulation::hex8_one_point;
 };
 
-// All elements of one type and material model on this rank, ascending global number, padded to
-// whole blocks with the corners of the last one and constants of zero (which make no force).
+// All elements of one formulation and region on this rank, ascending global number, padded to whole
+// blocks with the corners of the last one and constants of zero (which make no force).
 struct ElementBlocks {
-  ElementType type = ElementType::tet4;
+  Formulation formulation = Formulation::tet4;
+  Precision precision = Precision::in_double;
+  std::int32_t region = 0;  // index of its material
   MaterialModel material = MaterialModel::neo_hookean;
   std::int32_t n_elements = 0;
   std::int32_t n_blocks = 0;
+  int lanes = 0;                            // of a block, 64 bytes' worth of the precision
   std::vector<std::int32_t> element_local;  // (n_blocks * lanes) position in Part::element_global
   std::vector<std::int32_t> corner;         // [block][corner][lane] local node
-  std::vector<double> data;                 // [block][value][lane], see element_<type>.h
+  // [block][value][lane], see block_data.h; the one of the list's precision, the other is empty.
+  std::vector<double> data;
+  std::vector<float> data_single;
   std::int64_t first_slot = 0;  // corner forces of these blocks start here in Scratch::slot
 };
 
@@ -41,7 +52,7 @@ struct Model {
   std::int32_t n_local = 0, n_owned = 0;
   std::vector<double> mass;           // (n_owned) [kg]
   std::vector<FixedMask> fixed;       // (n_owned)
-  std::vector<ElementBlocks> blocks;  // one a (type, material model)
+  std::vector<ElementBlocks> blocks;  // one a (formulation, region)
   // (n_owned + 1) A node's corner forces, in ascending global element number; a slot is one corner
   // force of Scratch::slot.
   std::vector<std::int64_t> slot_offset;
@@ -72,8 +83,10 @@ State make_state(const Model& model);
 
 // Neither saved nor shown. Allocated once a model.
 struct Scratch {
-  std::vector<double> slot;   // corner forces, [block][corner][lane][x y z 0] of each block list
-  std::vector<double> force;  // (n_owned * 3) external - internal force [N]
+  // Corner forces, [block][corner][lane][x y z 0] of each block list, in the model's precision.
+  std::vector<double> slot;
+  std::vector<float> slot_single;
+  std::vector<double> force;            // (n_owned * 3) external - internal force [N]
   std::vector<std::uint8_t> is_summed;  // (n_owned) all zero between steps
 };
 Scratch make_scratch(const Model& model);

@@ -1,22 +1,24 @@
-// Picks the kernels at run time and holds the scalar instance.
+// Picks the kernels at run time.
 #include "solver/simd.h"
 
 #include <atomic>
 
 #include "base/error.h"
-#include "solver/kernel_loops.h"
 #include "solver/step.h"
 
 namespace trocar {
 
+namespace scalar {
+Kernels make_kernels();
+}
 namespace sse2 {
-const Kernels& kernels();
+Kernels make_kernels();
 }
 namespace avx2 {
-const Kernels& kernels();
+Kernels make_kernels();
 }
 namespace avx512 {
-const Kernels& kernels();
+Kernels make_kernels();
 }
 
 const char* name_of(Simd simd) {
@@ -34,19 +36,26 @@ bool is_supported(Simd simd) {
   return true;
 }
 
+// Each table is made when it is first asked for, by code of its own instruction set.
 const Kernels& kernels_of(Simd simd) {
-  static constexpr Kernels scalar = make_kernels<double>(ElementList{});
   switch (simd) {
-    case Simd::sse2:
-      return sse2::kernels();
-    case Simd::avx2:
-      return avx2::kernels();
-    case Simd::avx512:
-      return avx512::kernels();
+    case Simd::sse2: {
+      static const Kernels kernels = sse2::make_kernels();
+      return kernels;
+    }
+    case Simd::avx2: {
+      static const Kernels kernels = avx2::make_kernels();
+      return kernels;
+    }
+    case Simd::avx512: {
+      static const Kernels kernels = avx512::make_kernels();
+      return kernels;
+    }
     case Simd::scalar:
       break;
   }
-  return scalar;
+  static const Kernels kernels = scalar::make_kernels();
+  return kernels;
 }
 
 static Simd widest() {

@@ -14,8 +14,14 @@ namespace trocar {
 
 namespace {
 
-// Blocks between two looks at the nodes: 256 elements, about 64 kB of corner forces.
+// Blocks between two looks at the nodes: 256 elements in double, about 64 kB of corner forces.
 constexpr std::int64_t stride_blocks = 32;
+
+void* slot_at(const Model& model, Scratch& scratch, std::int64_t at) {
+  return model.options.precision == Precision::in_single
+             ? static_cast<void*>(scratch.slot_single.data() + at)
+             : static_cast<void*>(scratch.slot.data() + at);
+}
 
 void run_blocks(const Model& model, const State& state, std::int64_t begin, std::int64_t end,
                 Scratch& scratch) {
@@ -23,22 +29,23 @@ void run_blocks(const Model& model, const State& state, std::int64_t begin, std:
   for_block_range(
       model, begin, end, [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
         const BlockKernels& kernel = kernels_for(kernels, blocks);
-        const std::int64_t slot = blocks.first_slot + first * kernel.n_corners * block_lanes;
+        const std::int64_t slot = blocks.first_slot + first * kernel.n_corners * blocks.lanes;
         kernel.force(block_task(blocks, kernel, state, first, n),
-                     scratch.slot.data() + slot * slot_width);
+                     slot_at(model, scratch, slot * slot_width));
       });
 }
 
 // Nodes [begin, end) of the order of sums.
 void sum_nodes(const Model& model, std::int64_t begin, std::int64_t end, Scratch& scratch) {
-  active_kernels().sum({.slot = scratch.slot.data(),
-                        .slot_offset = model.slot_offset.data(),
-                        .slot_index = model.slot.data(),
-                        .mass = model.mass.data(),
-                        .gravity = model.options.gravity.data(),
-                        .force = scratch.force.data(),
-                        .node = model.sum_node.data() + begin,
-                        .n_nodes = end - begin});
+  const auto precision = static_cast<int>(model.options.precision);
+  active_kernels().of[precision].sum({.slot = slot_at(model, scratch, 0),
+                                      .slot_offset = model.slot_offset.data(),
+                                      .slot_index = model.slot.data(),
+                                      .mass = model.mass.data(),
+                                      .gravity = model.options.gravity.data(),
+                                      .force = scratch.force.data(),
+                                      .node = model.sum_node.data() + begin,
+                                      .n_nodes = end - begin});
 }
 
 // Sums the nodes of [begin, end) for which `is_due`, run by run.
@@ -93,9 +100,10 @@ std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
   std::size_t sum = bytes(model.mass) + bytes(model.fixed) + bytes(model.slot_offset) +
                     bytes(model.slot) + bytes(model.sum_node) + bytes(model.sum_first_block) +
                     bytes(model.sum_last_block) + bytes(model.element_step) + bytes(scratch.slot) +
-                    bytes(scratch.force) + bytes(scratch.is_summed);
+                    bytes(scratch.slot_single) + bytes(scratch.force) + bytes(scratch.is_summed);
   for (const ElementBlocks& blocks : model.blocks)
-    sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.data);
+    sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.data) +
+           bytes(blocks.data_single);
   return sum;
 }
 

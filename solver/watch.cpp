@@ -49,11 +49,11 @@ void take_blocks(const Model& model, const Part& part, const State& state,
                  const ElementBlocks& blocks, std::int64_t first, std::int64_t n,
                  LeastOfElements& least) {
   const BlockKernels& kernels = kernels_for(active_kernels(), blocks);
-  std::array<double, batch_blocks * block_lanes> J, stiffening;
+  std::array<double, batch_blocks * lanes_of_block<float>> J, stiffening;
   kernels.watch(block_task(blocks, kernels, state, first, n), J.data(), stiffening.data());
-  const std::int64_t n_lanes = std::min(n * block_lanes, blocks.n_elements - first * block_lanes);
+  const std::int64_t n_lanes = std::min(n * blocks.lanes, blocks.n_elements - first * blocks.lanes);
   for (std::int64_t lane = 0; lane < n_lanes; ++lane) {
-    const std::int32_t k = blocks.element_local[first * block_lanes + lane];
+    const std::int32_t k = blocks.element_local[first * blocks.lanes + lane];
     take_element(model.element_step[k], J[lane], stiffening[lane], part.element_global[k], least);
   }
 }

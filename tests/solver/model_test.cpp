@@ -37,7 +37,7 @@ TEST(BuildModel, links_each_corner_force_of_a_node_once_in_ascending_element_num
   for (const ElementBlocks& blocks : body.model.blocks)
     for (std::int64_t k = 0; k < blocks.n_elements; ++k)
       for (std::int64_t a = 0; a < 4; ++a) {
-        const std::int64_t at = (k / block_lanes * 4 + a) * block_lanes + k % block_lanes;
+        const std::int64_t at = (k / blocks.lanes * 4 + a) * blocks.lanes + k % blocks.lanes;
         slot[blocks.first_slot + at] = {body.part.element_global[blocks.element_local[k]],
                                         blocks.corner[at]};
       }

@@ -31,19 +31,30 @@ static std::vector<Mesh> meshes() {
   return {hex, tet, make_rectangle(.03, .02, 7, 6)};
 }
 
-// Runs `check` on each mesh with each material, displaced at random by up to a tenth of an edge.
+constexpr Precision precisions[] = {Precision::in_double, Precision::in_single};
+
+// Half a unit in the last place of 1, what one operation is off by.
+static double rounding(const Body& body) {
+  return body.model.options.precision == Precision::in_single ? 6e-8 : 1.1e-16;
+}
+
+// Runs `check` on each mesh with each material in both precisions, displaced at random by up to a
+// tenth of an edge.
 template <class Check>
 static void for_each_body(const Check& check) {
   for (const Mesh& mesh : meshes())
-    for (const MaterialModel model : all_models()) {
-      Body body = make_body(mesh, {.materials = {material_of(model, 1000, 9000)}});
-      shake(body.state.u, 5e-4, 11);
-      check(body);
-    }
+    for (const MaterialModel model : all_models())
+      for (const Precision precision : precisions) {
+        Body body = make_body(mesh, {.materials = {material_of(model, 1000, 9000)},
+                                     .solver = {.precision = precision}});
+        shake(body.state.u, 5e-4, 11);
+        check(body);
+      }
 }
 
 TEST(Simd, every_instruction_set_gives_the_scalar_forces_energies_and_watch_to_rounding) {
   for_each_body([](Body& body) {
+    const double eps = rounding(body);
     const WithSimd scalar("scalar");
     const std::vector<double> f = force(body);
     const double W = stored_energy(body);
@@ -52,40 +63,82 @@ TEST(Simd, every_instruction_set_gives_the_scalar_forces_energies_and_watch_to_r
       select_simd(name);
       force(body);
       for (std::size_t k = 0; k < f.size(); ++k)  // a hundred roundings, up to 24 elements a node
-        EXPECT_NEAR(body.scratch.force[k], f[k], 3e-14 * largest(f)) << name;
-      EXPECT_NEAR(stored_energy(body), W, 1e-13 * W) << name;
+        EXPECT_NEAR(body.scratch.force[k], f[k], 270 * eps * largest(f)) << name;
+      EXPECT_NEAR(stored_energy(body), W, 1000 * eps * W) << name;
       const Watch other = watch(body.model, body.part, body.state);
-      EXPECT_NEAR(other.stable_step, w.stable_step, 1e-13 * w.stable_step) << name;
-      EXPECT_NEAR(other.least_J, w.least_J, 1e-13) << name;
+      EXPECT_NEAR(other.stable_step, w.stable_step, 1000 * eps * w.stable_step) << name;
+      EXPECT_NEAR(other.least_J, w.least_J, 1000 * eps) << name;
       EXPECT_EQ(other.least_J_element, w.least_J_element) << name;
     }
   });
 }
 
-// The same element in each lane of several blocks: an accident of vectorisation would show.
+TEST(Simd, single_precision_is_as_close_to_double_as_its_digits_allow) {
+  for (const Mesh& mesh : meshes())
+    for (const MaterialModel model : all_models()) {
+      Body exact = make_body(mesh, {.materials = {material_of(model, 1000, 9000)}});
+      shake(exact.state.u, 5e-4, 11);
+      Body body = make_body(mesh, {.materials = {material_of(model, 1000, 9000)},
+                                   .solver = {.precision = Precision::in_single}});
+      body.state = exact.state;
+      const std::vector<double> f = force(exact);
+      force(body);
+      for (std::size_t k = 0; k < f.size(); ++k)  // some ten roundings of the stress survive
+        EXPECT_NEAR(body.scratch.force[k], f[k], 30 * 6e-8 * largest(f));
+      EXPECT_NEAR(stored_energy(body) / stored_energy(exact), 1, 100 * 6e-8);
+      EXPECT_NEAR(watch(body.model, body.part, body.state).stable_step /
+                      watch(exact.model, exact.part, exact.state).stable_step,
+                  1, 100 * 6e-8);
+    }
+}
+
+TEST(Simd, single_precision_does_not_mind_a_body_that_has_moved_ten_metres) {
+  for (const Mesh& mesh : meshes()) {
+    Body body = make_body(mesh, {.solver = {.precision = Precision::in_single}});
+    shake(body.state.u, 1e-6, 12);
+    const std::vector<double> f = force(body);
+    for (std::size_t k = 0; k < body.state.u.size(); k += 3) body.state.u[k] += 10;
+    force(body);
+    // u is rounded to 1e-15 m of 1e-6 m.
+    for (std::size_t k = 0; k < f.size(); ++k)
+      EXPECT_NEAR(body.scratch.force[k], f[k], 1e-7 * largest(f));
+  }
+}
+
+// Copies of a small mesh beside each other, in each lane of several blocks.
+static Mesh copies_of(const Mesh& single, int n_copies) {
+  Mesh mesh;
+  const int n = static_cast<int>(single.X.size());
+  for (int copy = 0; copy < n_copies; ++copy) {
+    std::vector<std::int32_t> corner;
+    for (int a = 0; a < n; ++a) corner.push_back(copy * n + a);
+    mesh.X.insert(mesh.X.end(), single.X.begin(), single.X.end());
+    add_element(mesh, single.element_type[0], corner);
+  }
+  return mesh;
+}
+
+// An accident of vectorisation would show.
+static void check_copies(Body& body, int n) {
+  Noise noise(2);
+  for (std::size_t k = 0; k < body.state.u.size(); ++k)
+    body.state.u[k] =
+        k < static_cast<std::size_t>(3 * n) ? 1e-3 * noise() : body.state.u[k - 3 * n];
+  for (const std::string& name : supported()) {
+    const WithSimd choice(name);
+    const std::vector<double> f = force(body);
+    for (std::size_t k = 0; k < f.size(); ++k) EXPECT_EQ(f[k], f[k % (3 * n)]) << name;
+  }
+}
+
 TEST(Simd, an_elements_force_does_not_depend_on_its_lane_or_block) {
   for (const Mesh& single : irregular_elements())
-    for (const MaterialModel model : all_models()) {
-      Mesh mesh;
-      const int n = static_cast<int>(single.X.size());
-      for (int copy = 0; copy < 21; ++copy) {
-        std::vector<std::int32_t> corner;
-        for (int a = 0; a < n; ++a) corner.push_back(copy * n + a);
-        mesh.X.insert(mesh.X.end(), single.X.begin(), single.X.end());
-        add_element(mesh, single.element_type[0], corner);
+    for (const MaterialModel model : all_models())
+      for (const Precision precision : precisions) {
+        Body body = make_body(copies_of(single, 35), {.materials = {material_of(model, 1000, 9000)},
+                                                      .solver = {.precision = precision}});
+        check_copies(body, static_cast<int>(single.X.size()));
       }
-      Body body = make_body(mesh, {.materials = {material_of(model, 1000, 9000)}});
-      Noise noise(2);
-      for (int k = 0; k < 3 * n; ++k) {
-        const double u = 1e-3 * noise();
-        for (int copy = 0; copy < 21; ++copy) body.state.u[3 * n * copy + k] = u;
-      }
-      for (const std::string& name : supported()) {
-        const WithSimd choice(name);
-        const std::vector<double> f = force(body);
-        for (std::size_t k = 0; k < f.size(); ++k) EXPECT_EQ(f[k], f[k % (3 * n)]) << name;
-      }
-    }
 }
 
 TEST(SelectSimd, picks_what_it_is_told_and_auto_picks_the_widest) {

@@ -1,0 +1,19 @@
+// How an element of the mesh is computed: its kind of integration and kinematics. One of them for
+// each shape in a model (SolverOptions).
+#pragma once
+
+#include <cstdint>
+
+namespace trocar {
+
+enum class Formulation : std::uint8_t {
+  tri3_plane_strain,
+  tet4,
+  hex8_one_point,
+};
+
+// Numbers that elements compute with; nodes are in double always.
+enum class Precision : std::uint8_t { in_double, in_single };
+inline constexpr int n_precisions = 2;
+
+}  // namespace trocar

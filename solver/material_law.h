@@ -1,0 +1,28 @@
+// A material bound to the constants of a pack's worth of elements: what elements ask for stress.
+#pragma once
+
+#include "solver/block_data.h"
+#include "solver/tensor.h"
+
+namespace trocar {
+
+template <class MaterialType, class Pack>
+struct Law {
+  using Material = MaterialType;
+  BlockValues<Pack> value;
+
+  // First Piola-Kirchhoff stress times the element's volume. [J]
+  [[gnu::always_inline]] Tensor<Pack> stress(const Tensor<Pack>& H) const {
+    return Material::stress(H, value);
+  }
+  // Strain energy times the element's volume. [J]
+  [[gnu::always_inline]] Pack energy(const Tensor<Pack>& H) const {
+    return Material::energy(H, value);
+  }
+  // Growth of the bound of omega^2 (stiffening.h).
+  [[gnu::always_inline]] Pack stiffening(const Tensor<Pack>& H) const {
+    return Material::stiffening(H, value);
+  }
+};
+
+}  // namespace trocar
