@@ -135,6 +135,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   const std::vector<std::int32_t> nodes_before = nodes_of(s.mesh, elements);
   const double step_before = least_element_step(s, elements);
   const double mass_before = total(s.mass);
+  const double energy_before = s.energy ? mechanical_energy(s).sum() : 0;
   Motion before = motion_of(nodes_before, s.mass, global, Vec3::Zero());
   before = motion_of(nodes_before, s.mass, global, before.centre);
 
@@ -149,6 +150,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   restore_momentum(nodes_of(s.mesh, elements), s.mass, before, global, record);
   scatter_state(s, global);
   watch_state(s);
+  if (s.energy) s.energy->works.cut += mechanical_energy(s).sum() - energy_before;
 
   for (const std::int32_t e : elements)
     record.least_quality = std::min(record.least_quality, element_quality(s.mesh, e, s.mesh.X));

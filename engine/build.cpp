@@ -142,6 +142,7 @@ void rebuild_topology(Simulation& s) {
                          .thickness = s.scene.tissue.thickness,
                          .gravity = solver.gravity});
   s.scratch = make_scratch(s.model);
+  if (s.energy) s.scratch.damping_work.assign(static_cast<std::size_t>(s.model.n_owned), 0.0);
   s.surface = boundary_surface(s.mesh);
   s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part, rank);
   localise_holds(s.holds, s.part);
@@ -164,8 +165,9 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   refresh_surface(s);
   watch_state(s);
   s.log.least_stable_step = s.log.largest_stable_step = s.watch.stable_step;
-  for (const SceneOutput& output : s.scene.outputs)
-    s.reports_energies = s.reports_energies || output.kind == OutputKind::metrics;
+  if (std::any_of(s.scene.outputs.begin(), s.scene.outputs.end(),
+                  [](const SceneOutput& output) { return output.kind == OutputKind::metrics; }))
+    open_energy_ledger(s);
   return simulation;
 }
 

@@ -57,6 +57,7 @@ void substep(Simulation& s, const FrameSpan& span, double t) {
   }
   {
     const PhaseScope scope(s.timers, phase_integrate);
+    if (s.energy) note_velocities(s, span.dt);
     aim_holds(s.holds, s.tools, s.mesh.X, t + span.dt);
     integrate(s.model, s.scratch, s.holds.prescribed, span.dt, s.state);
     add_hold_reactions(s.holds);
@@ -64,6 +65,7 @@ void substep(Simulation& s, const FrameSpan& span, double t) {
   const PhaseScope scope(s.timers, phase_exchange);
   s.exchange_u->exchange(s.state.u, *s.communicator);
   s.exchange_v->exchange(s.state.v, *s.communicator);
+  if (s.energy) add_work(s);
 }
 
 // All substeps of the frame; on trouble back to its beginning with half the step, at most
@@ -73,6 +75,7 @@ FrameSpan step_safely(Simulation& s) {
   for (int tries = 0;; ++tries) {
     const FrameSpan span = plan_frame(s);
     if (s.contact) detect(s, span);
+    if (s.energy) begin_frame_work(s);
     for (std::int64_t k = 0; k < span.n_substeps; ++k)
       substep(s, span, span.t0 + static_cast<double>(k) * span.dt);
     watch_state(s);
@@ -89,6 +92,7 @@ void run_frame(Simulation& s, Outputs& outputs) {
   const double start = monotonic_seconds();
   grasp(s, plan_frame(s));
   const FrameSpan span = step_safely(s);
+  if (s.energy) close_frame_work(s);
   FrameRow row = report_forces(s, span);
   if (!s.cuts.empty()) cut_along_blades(s, span);
   ++s.frame;

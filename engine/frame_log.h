@@ -15,12 +15,32 @@ struct ToolRow {
   Vec3 force = Vec3::Zero();     // of the tissue on the tool, mean over the frame [N]
 };
 
+// Energy that a body holds. [J]
+struct EnergyState {
+  double kinetic = 0, strain = 0, hourglass = 0;
+  double gravity = 0;  // -sum m g·u
+  double sum() const { return kinetic + strain + hourglass + gravity; }
+};
+
+// Work done on the body since the start. [J]
+struct EnergyWorks {
+  double contact = 0;  // instruments that touch it
+  double holds = 0;    // grasped nodes and moving supports
+  double blade = 0;    // the resistance to blades
+  double damping = 0;  // mass-proportional damping; not positive
+  double cut = 0;      // change of the energy held at edits of the mesh
+  double sum() const { return contact + holds + blade + damping + cut; }
+};
+
 struct FrameRow {
   std::int64_t frame = 0, step = 0, n_substeps = 0;
   double time = 0, dt = 0, stable_step = 0;  // [s]
   double least_J = 1;
-  double kinetic = 0, strain = 0, hourglass = 0;  // [J], only with a metrics output
-  double wound_width = 0, wound_width_mean = 0;   // [m] distance of partner nodes, largest and mean
+  // Only with a metrics output [J]; what is held = what was held at the start + works + error.
+  EnergyState energy;
+  EnergyWorks works;
+  double energy_error = 0;
+  double wound_width = 0, wound_width_mean = 0;  // [m] distance of partner nodes, largest and mean
   std::int64_t n_contacts = 0, n_held = 0, n_edits = 0;
   std::vector<ToolRow> tools;
   double seconds = 0;  // wall time of the frame without waiting

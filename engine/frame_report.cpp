@@ -31,20 +31,6 @@ void sum_forces(Simulation& s, const FrameSpan& span, FrameRow& row) {
     row.tools[static_cast<std::size_t>(stage.tool)].force += stage.resistance;
 }
 
-double sum_over_ranks(const std::vector<double>& terms, const Communicator& communicator) {
-  ExactSum sum;
-  for (const double term : terms) sum.add(term);
-  sum.all_sum(communicator);
-  return sum.value();
-}
-
-void report_energies(Simulation& s, FrameRow& row) {
-  energy_terms(s.model, s.part, s.state, s.energies);
-  row.kinetic = sum_over_ranks(s.energies.kinetic, *s.communicator);
-  row.strain = sum_over_ranks(s.energies.strain, *s.communicator);
-  row.hourglass = sum_over_ranks(s.energies.hourglass, *s.communicator);
-}
-
 // Partner nodes lay on each other when they were cut apart: their distance is how far the wound
 // gapes.
 void report_wound(const Simulation& s, FrameRow& row) {
@@ -90,7 +76,7 @@ FrameRow report_forces(Simulation& s, const FrameSpan& span) {
 void report_state(Simulation& s, FrameRow& row) {
   row.stable_step = s.watch.stable_step;
   row.least_J = s.watch.least_J;
-  if (s.reports_energies) report_energies(s, row);
+  if (s.energy) report_energies(s, row);
   if (!s.duplicate_node.empty()) report_wound(s, row);
   for (const CutStage& stage : s.cuts)
     for (const CutRecord& stroke : stage.strokes) row.n_edits += stroke.n_edits;

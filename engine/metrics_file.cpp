@@ -21,7 +21,9 @@ std::string csv_text(const std::string& text) {
 MetricsFile::MetricsFile(const std::string& file, std::span<const Tool> tools)
     : file_(file), stream_(file) {
   stream_ << "time_s,frame,step,substeps,dt_s,stable_step_s,least_J,kinetic_J,strain_J,hourglass_J,"
-             "contacts,held_nodes,cut_edits,wound_width_m,wound_width_mean_m,frame_seconds";
+             "gravity_J,contact_work_J,hold_work_J,blade_work_J,damping_work_J,cut_energy_J,"
+             "energy_error_J,contacts,held_nodes,cut_edits,wound_width_m,wound_width_mean_m,frame_"
+             "seconds";
   for (const Tool& tool : tools)
     for (const char* column : {"_x_m", "_y_m", "_z_m", "_force_x_N", "_force_y_N", "_force_z_N"})
       stream_ << ',' << csv_text(tool.name + column);
@@ -32,7 +34,9 @@ MetricsFile::MetricsFile(const std::string& file, std::span<const Tool> tools)
 void MetricsFile::add(const FrameRow& row) {
   stream_ << number_text(row.time) << ',' << row.frame << ',' << row.step << ',' << row.n_substeps;
   for (const double value :
-       {row.dt, row.stable_step, row.least_J, row.kinetic, row.strain, row.hourglass})
+       {row.dt, row.stable_step, row.least_J, row.energy.kinetic, row.energy.strain,
+        row.energy.hourglass, row.energy.gravity, row.works.contact, row.works.holds,
+        row.works.blade, row.works.damping, row.works.cut, row.energy_error})
     stream_ << ',' << number_text(value);
   stream_ << ',' << row.n_contacts << ',' << row.n_held << ',' << row.n_edits;
   for (const double value : {row.wound_width, row.wound_width_mean, row.seconds})

@@ -11,6 +11,7 @@
 #include "base/timers.h"
 #include "engine/contact_stage.h"
 #include "engine/cut_stage.h"
+#include "engine/energy_ledger.h"
 #include "engine/frame_log.h"
 #include "engine/holds.h"
 #include "engine/scene.h"
@@ -70,13 +71,12 @@ struct Simulation {
   std::vector<CutStage> cuts;             // one a scalpel, only on bodies that can be cut
   SurfaceView view;                       // positions of surface nodes, replicated, once a frame
 
-  std::int64_t frame = 0;         // frames done
-  double contact_reach = 0;       // how far tissue may come towards a tool within a frame [m]
-  bool reports_energies = false;  // a metrics output wants them
-  double start_seconds = 0;       // monotonic clock at the first frame
-  EnergyTerms energies;
-  double step_scale = 1;  // halved by each roll-back
-  Watch watch;            // of the last frame, over all ranks
+  std::int64_t frame = 0;    // frames done
+  double contact_reach = 0;  // how far tissue may come towards a tool within a frame [m]
+  double start_seconds = 0;  // monotonic clock at the first frame
+  std::unique_ptr<EnergyLedger> energy;  // only with a metrics output
+  double step_scale = 1;                 // halved by each roll-back
+  Watch watch;                           // of the last frame, over all ranks
   double stable_step_before_cut = 0;
   FrameLog log;  // what each frame told
   PhaseTimers timers;

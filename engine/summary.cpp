@@ -90,6 +90,31 @@ Json phases_json(const Simulation& s, const RunTimes& times) {
   return phases;
 }
 
+// What the body holds at the end, the works since the start, and how well the balance closes.
+Json energies_json(const Simulation& s, const FrameRow& last) {
+  double error = 0, turned_over = 0;
+  for (const FrameRow& row : s.log.rows) {
+    error = std::max(error, std::abs(row.energy_error));
+    const EnergyState& e = row.energy;
+    turned_over = std::max({turned_over, e.kinetic, e.strain, std::abs(e.gravity),
+                            std::abs(row.works.contact), std::abs(row.works.holds)});
+  }
+  const EnergyState& e = last.energy;
+  const EnergyWorks& w = last.works;
+  return {{"kinetic", e.kinetic},
+          {"strain", e.strain},
+          {"hourglass", e.hourglass},
+          {"gravity", e.gravity},
+          {"contact_work", w.contact},
+          {"hold_work", w.holds},
+          {"blade_work", w.blade},
+          {"damping_work", w.damping},
+          {"cut", w.cut},
+          {"largest_balance_error", error},
+          {"largest_balance_error_share", turned_over > 0 ? error / turned_over : 0},
+          {"largest_hourglass_share", s.energy->largest_hourglass_share}};
+}
+
 }  // namespace
 
 double quantile(std::vector<double> values, double q) {
@@ -137,9 +162,7 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
                 {"largest_width_m", wound},
                 {"width_at_end_m", last.wound_width}};
   j["cuts"] = cuts_json(s);
-  if (s.reports_energies)
-    j["energies_J"] = {
-        {"kinetic", last.kinetic}, {"strain", last.strain}, {"hourglass", last.hourglass}};
+  if (s.energy) j["energies_J"] = energies_json(s, last);
   j["events"] = s.log.events;
   j["state_digest"] = digest_text(state_digest(s));
   return j.dump(2) + "\n";

@@ -54,6 +54,24 @@ void integrate_nodes(const Model& model, const Coefficients& c, double dt, const
   });
 }
 
+// alpha m |v|^2 dt_m with v = (v+ + v-) / 2; call before the velocities change.
+void add_damping_work(const Model& model, const Coefficients& c, const State& state,
+                      Scratch& scratch) {
+  const double alpha = model.options.mass_damping;
+  if (scratch.damping_work.empty() || alpha == 0) return;
+  for (std::int64_t i = 0; i < model.n_owned; ++i) {
+    double sum = 0;
+    for (int j = 0; j < 3; ++j) {
+      const std::int64_t k = 3 * i + j;
+      if (is_fixed(model, i, j)) continue;
+      const double v_next = c.keep * state.v[k] + c.gain / model.mass[i] * scratch.force[k];
+      const double v = (state.v[k] + v_next) / 2;
+      sum += v * v;
+    }
+    scratch.damping_work[i] += alpha * model.mass[i] * sum * c.dt_m;
+  }
+}
+
 }  // namespace
 
 void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> prescribed,
@@ -65,6 +83,7 @@ void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> p
     CHECK_OP(node.node, <, model.n_owned);
     add_reaction(model, c, dt, state, scratch, node);
   }
+  add_damping_work(model, c, state, scratch);
   integrate_nodes(model, c, dt, scratch, state);
   // Exactly there, without the rounding of u + dt (u_next - u) / dt.
   for (const PrescribedNode& node : prescribed)

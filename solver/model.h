@@ -88,6 +88,8 @@ struct Scratch {
   std::vector<float> slot_single;
   std::vector<double> force;            // (n_owned * 3) external - internal force [N]
   std::vector<std::uint8_t> is_summed;  // (n_owned) all zero between steps
+  // Empty, or (n_owned): energy that mass damping takes from each node, added up by integrate [J].
+  std::vector<double> damping_work;
 };
 Scratch make_scratch(const Model& model);
 

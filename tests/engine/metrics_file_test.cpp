@@ -48,9 +48,9 @@ FrameRow example_row() {
                .dt = 1.0 / 1200,
                .stable_step = 1e-3,
                .least_J = 0.9,
-               .kinetic = 1,
-               .strain = 2,
-               .hourglass = 3,
+               .energy = {.kinetic = 1, .strain = 2, .hourglass = 3, .gravity = 21},
+               .works = {.contact = 22, .holds = 23, .blade = 24, .damping = -25, .cut = 26},
+               .energy_error = 27,
                .wound_width = 4,
                .wound_width_mean = 5,
                .n_contacts = 6,
@@ -80,21 +80,41 @@ TEST(MetricsFile, has_each_value_of_a_row_under_its_column) {
     ADD_FAILURE() << "no column " << name;
     return 0.0;
   };
-  const std::vector<std::pair<std::string, double>> expected = {
-      {"time_s", 0.1},         {"frame", 3},
-      {"step", 120},           {"substeps", 40},
-      {"dt_s", 1.0 / 1200},    {"stable_step_s", 1e-3},
-      {"least_J", 0.9},        {"kinetic_J", 1},
-      {"strain_J", 2},         {"hourglass_J", 3},
-      {"wound_width_m", 4},    {"wound_width_mean_m", 5},
-      {"contacts", 6},         {"held_nodes", 7},
-      {"cut_edits", 8},        {"frame_seconds", 9},
-      {"probe_x_m", 10},       {"probe_y_m", 11},
-      {"probe_z_m", 12},       {"probe_force_x_N", 13},
-      {"probe_force_y_N", 14}, {"probe_force_z_N", 15},
-      {"blade_x_m", 16},       {"blade_y_m", 17},
-      {"blade_z_m", 18},       {"blade_force_x_N", 19},
-      {"blade_force_y_N", 20}, {"blade_force_z_N", 1.0 / 3}};
+  const std::vector<std::pair<std::string, double>> expected = {{"time_s", 0.1},
+                                                                {"frame", 3},
+                                                                {"step", 120},
+                                                                {"substeps", 40},
+                                                                {"dt_s", 1.0 / 1200},
+                                                                {"stable_step_s", 1e-3},
+                                                                {"least_J", 0.9},
+                                                                {"kinetic_J", 1},
+                                                                {"strain_J", 2},
+                                                                {"hourglass_J", 3},
+                                                                {"gravity_J", 21},
+                                                                {"contact_work_J", 22},
+                                                                {"hold_work_J", 23},
+                                                                {"blade_work_J", 24},
+                                                                {"damping_work_J", -25},
+                                                                {"cut_energy_J", 26},
+                                                                {"energy_error_J", 27},
+                                                                {"wound_width_m", 4},
+                                                                {"wound_width_mean_m", 5},
+                                                                {"contacts", 6},
+                                                                {"held_nodes", 7},
+                                                                {"cut_edits", 8},
+                                                                {"frame_seconds", 9},
+                                                                {"probe_x_m", 10},
+                                                                {"probe_y_m", 11},
+                                                                {"probe_z_m", 12},
+                                                                {"probe_force_x_N", 13},
+                                                                {"probe_force_y_N", 14},
+                                                                {"probe_force_z_N", 15},
+                                                                {"blade_x_m", 16},
+                                                                {"blade_y_m", 17},
+                                                                {"blade_z_m", 18},
+                                                                {"blade_force_x_N", 19},
+                                                                {"blade_force_y_N", 20},
+                                                                {"blade_force_z_N", 1.0 / 3}};
   EXPECT_EQ(names.size(), expected.size());
   for (const auto& [name, number] : expected)
     EXPECT_EQ(value(name), number) << name;  // texts read back to the same bits
@@ -120,7 +140,7 @@ TEST(MetricsFile, keeps_its_columns_whatever_an_instrument_is_called) {
   }
   const std::vector<std::string> text = lines(read_text(file));
   EXPECT_EQ(fields(text[0]).size(), fields(text[1]).size());
-  EXPECT_EQ(fields(text[0])[16], "left, \"old\" probe_x_m");
+  EXPECT_EQ(fields(text[0])[23], "left, \"old\" probe_x_m");
 }
 
 TEST(MetricsFile, says_which_file_can_not_be_written) {

@@ -65,6 +65,34 @@ TEST(Step, the_fall_of_a_damped_body_follows_the_recursion_with_varying_steps) {
   }
 }
 
+// m (v+ - v-) / dt + alpha m v = f with v = (v+ + v-) / 2, times v: what the kinetic energy lacks
+// of the work of f is the damping's.
+TEST(Step, kinetic_energy_changes_by_the_work_of_the_forces_less_what_damping_takes) {
+  Body body = make_body(block(BoxElements::tet4_kuhn),
+                        {.solver = {.mass_damping = 40, .gravity = Vec3(1, 2, -9.81)}});
+  body.scratch.damping_work.assign(static_cast<std::size_t>(body.model.n_owned), 0.0);
+  shake(body.state.u, 1e-3, 5);
+  shake(body.state.v, 0.1, 6);
+  const auto kinetic = [&] {
+    double sum = 0;
+    for (std::size_t k = 0; k < body.state.v.size(); ++k)
+      sum += 0.5 * body.model.mass[k / 3] * body.state.v[k] * body.state.v[k];
+    return sum;
+  };
+  const double dt = 0.3 * least_element_step(body), start = kinetic();
+  double work = 0;
+  for (int n = 0; n < 20; ++n) {
+    const std::vector<double> before = body.state.v, f = force(body);
+    const double dt_m = (body.state.last_dt + dt) / 2;
+    step(body, dt);
+    for (std::size_t k = 0; k < f.size(); ++k)
+      work += dt_m * f[k] * (before[k] + body.state.v[k]) / 2;
+  }
+  const double taken = sum(body.scratch.damping_work);
+  EXPECT_GT(taken, 0.01 * start);
+  EXPECT_NEAR(kinetic(), start + work - taken, 1e-13 * start);  // some thousand roundings
+}
+
 TEST(Step, supported_components_stay_and_the_others_move) {
   const Mesh mesh = block(BoxElements::tet4_kuhn);
   std::vector<FixedMask> fixed(mesh.X.size(), 0);

@@ -1,0 +1,158 @@
+#include "engine/energy_ledger.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/frame_report.h"
+#include "engine/simulation.h"
+#include "solver/step.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr double hourglass_alarm = 0.05;  // numerics 1.2: 5 to 10 %
+
+double sum_over_ranks(std::span<const double> terms, const Communicator& communicator) {
+  ExactSum sum;
+  for (const double term : terms) sum.add(term);
+  sum.all_sum(communicator);
+  return sum.value();
+}
+
+Vec3 velocity_of(const State& state, std::int32_t local) {
+  const double* v = state.v.data() + 3 * std::int64_t{local};
+  return {v[0], v[1], v[2]};
+}
+
+Vec3 contact_velocity(const State& state, const ContactSet::Item& item) {
+  Vec3 v = Vec3::Zero();
+  for (std::size_t a = 0; a < 3; ++a)
+    v += item.contact.weight[a] * velocity_of(state, item.local[a]);
+  return v;
+}
+
+// Calls body(stage, velocity) for every place where a blade is held back; the rank that owns the
+// element's first node counts it.
+template <class Body>
+void for_engaged_places(const Simulation& s, const Body& body) {
+  for (const CutStage& stage : s.cuts)
+    for (const Location& location : stage.engaged) {
+      const auto corner = s.mesh.corners(location.element);
+      const auto local = [&](std::size_t a) {
+        return s.part.node_local[static_cast<std::size_t>(corner[a])];
+      };
+      if (local(0) < 0 || local(0) >= s.part.n_owned) continue;
+      Vec3 v = Vec3::Zero();
+      for (std::size_t a = 0; a < corner.size(); ++a)
+        v += location.weight[a] * velocity_of(s.state, local(a));
+      body(stage, v);
+    }
+}
+
+// 1/2 m v- · v- + dt/2 v- · f and -m g · u of each owned node.
+void take_nodes(const Simulation& s, std::vector<double>& kinetic, std::vector<double>& gravity) {
+  const double half_dt = s.state.last_dt / 2;
+  for (std::int64_t i = 0; i < s.model.n_owned; ++i) {
+    double v2 = 0, vf = 0, gu = 0;
+    for (std::int64_t j = 0; j < 3; ++j) {
+      const auto k = static_cast<std::size_t>(3 * i + j);
+      v2 += s.state.v[k] * s.state.v[k];
+      vf += s.state.v[k] * s.scratch.force[k];
+      gu += s.model.options.gravity[j] * s.state.u[k];
+    }
+    const double m = s.model.mass[static_cast<std::size_t>(i)];
+    kinetic.push_back(0.5 * m * v2 + half_dt * vf);
+    gravity.push_back(-m * gu);
+  }
+}
+
+}  // namespace
+
+void open_energy_ledger(Simulation& s) {
+  s.energy = std::make_unique<EnergyLedger>();
+  s.scratch.damping_work.assign(static_cast<std::size_t>(s.model.n_owned), 0.0);
+  s.energy->initial = mechanical_energy(s).sum();
+}
+
+EnergyState mechanical_energy(Simulation& s) {
+  compute_force(s.model, s.state, s.scratch);
+  EnergyTerms terms;
+  energy_terms(s.model, s.part, s.state, terms);
+  std::vector<double> kinetic, gravity;
+  take_nodes(s, kinetic, gravity);
+  const Communicator& communicator = *s.communicator;
+  return {.kinetic = sum_over_ranks(kinetic, communicator),
+          .strain = sum_over_ranks(terms.strain, communicator),
+          .hourglass = sum_over_ranks(terms.hourglass, communicator),
+          .gravity = sum_over_ranks(gravity, communicator)};
+}
+
+void begin_frame_work(Simulation& s) {
+  EnergyLedger& ledger = *s.energy;
+  ledger.contact_work.assign(s.contact ? s.contact->set.items.size() : 0, 0.0);
+  ledger.hold_work.assign(s.holds.owned.size(), 0.0);
+  ledger.blade_work = {};
+  std::fill(s.scratch.damping_work.begin(), s.scratch.damping_work.end(), 0.0);
+}
+
+void note_velocities(Simulation& s, double dt) {
+  EnergyLedger& ledger = *s.energy;
+  ledger.dt_mid = (s.state.last_dt + dt) / 2;
+  ledger.contact_velocity.clear();
+  if (s.contact)
+    for (const ContactSet::Item& item : s.contact->set.items)
+      ledger.contact_velocity.push_back(contact_velocity(s.state, item));
+  ledger.hold_velocity.clear();
+  for (const PrescribedNode& node : s.holds.prescribed)
+    ledger.hold_velocity.push_back(velocity_of(s.state, node.node));
+  ledger.blade_velocity.clear();
+  for_engaged_places(s,
+                     [&](const CutStage&, const Vec3& v) { ledger.blade_velocity.push_back(v); });
+}
+
+void add_work(Simulation& s) {
+  EnergyLedger& ledger = *s.energy;
+  const double half_dt = ledger.dt_mid / 2;
+  for (std::size_t k = 0; k < ledger.contact_work.size(); ++k) {
+    const Vec3 v = ledger.contact_velocity[k] + contact_velocity(s.state, s.contact->set.items[k]);
+    ledger.contact_work[k] -= half_dt * s.contact->reaction[k].dot(v);
+  }
+  for (std::size_t k = 0; k < ledger.hold_work.size(); ++k) {
+    const PrescribedNode& node = s.holds.prescribed[k];
+    ledger.hold_work[k] +=
+        half_dt * node.reaction.dot(ledger.hold_velocity[k] + velocity_of(s.state, node.node));
+  }
+  std::size_t k = 0;
+  for_engaged_places(s, [&](const CutStage& stage, const Vec3& v) {
+    const Vec3 drag = -stage.resistance / static_cast<double>(stage.engaged.size());
+    ledger.blade_work.add(half_dt * drag.dot(ledger.blade_velocity[k++] + v));
+  });
+}
+
+void close_frame_work(Simulation& s) {
+  EnergyLedger& ledger = *s.energy;
+  ledger.works.contact += sum_over_ranks(ledger.contact_work, *s.communicator);
+  ledger.works.holds += sum_over_ranks(ledger.hold_work, *s.communicator);
+  ledger.blade_work.all_sum(*s.communicator);
+  ledger.works.blade += ledger.blade_work.value();
+  ledger.works.damping -= sum_over_ranks(s.scratch.damping_work, *s.communicator);
+}
+
+void report_energies(Simulation& s, FrameRow& row) {
+  EnergyLedger& ledger = *s.energy;
+  row.energy = mechanical_energy(s);
+  row.works = ledger.works;
+  row.energy_error = row.energy.sum() - ledger.initial - row.works.sum();
+  const double stored = row.energy.strain + row.energy.hourglass;
+  ledger.largest_stored = std::max(ledger.largest_stored, stored);
+  if (stored < 0.01 * ledger.largest_stored || !(stored > 0)) return;  // next to nothing is stored
+  const double share = row.energy.hourglass / stored;
+  if (share > hourglass_alarm && ledger.largest_hourglass_share <= hourglass_alarm)
+    note_event(s, row.time,
+               "hourglass energy is " + number_text(std::round(1000 * share) / 10) +
+                   " % of the stored energy: a finer mesh or more solver.hourglass is needed");
+  ledger.largest_hourglass_share = std::max(ledger.largest_hourglass_share, share);
+}
+
+}  // namespace trocar

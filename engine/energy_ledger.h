@@ -1,0 +1,52 @@
+// Where the body's energy comes from and goes to: the energies that it holds, and the work that
+// contact, grasped or moved nodes, blades and damping have done on it since the start. Only for
+// scenes with a metrics output.
+//
+// Central differences obey m (v+ - v-) / dt + alpha m v = f exactly at every node, v = (v+ + v-)/2,
+// so that F·v dt summed over the steps is the work of a force F to rounding. Kinetic energy and
+// works then belong to the middle of the last step; sum dt/2 v-·f carries the kinetic energy to its
+// end, where strain and gravity are evaluated (numerics 1.1).
+#pragma once
+
+#include <vector>
+
+#include "base/exact_sum.h"
+#include "base/vec.h"
+#include "engine/frame_log.h"
+
+namespace trocar {
+
+struct Simulation;
+
+struct EnergyLedger {
+  EnergyWorks works;                   // since the start
+  double initial = 0;                  // mechanical energy at the start [J]
+  double largest_stored = 0;           // strain and hourglass energy of any frame [J]
+  double largest_hourglass_share = 0;  // of frames that store 1 % of that or more
+
+  // Of this frame on this rank: velocities [m/s] before the step of where forces act, and their
+  // work [J], in the order of the contact set and of the holds.
+  std::vector<Vec3> contact_velocity, hold_velocity, blade_velocity;
+  std::vector<double> contact_work, hold_work;
+  ExactSum blade_work;
+  double dt_mid = 0;  // between the two velocities of the step [s]
+};
+
+// Starts the ledger with what the body holds now. Collective.
+void open_energy_ledger(Simulation& s);
+
+// Kinetic, strain and hourglass energy and that in the field of gravity. Collective.
+EnergyState mechanical_energy(Simulation& s);
+
+// Empties the sums of the frame; call when its contacts are known.
+void begin_frame_work(Simulation& s);
+// Before and after integration and exchange: both velocities of the step.
+void note_velocities(Simulation& s, double dt);
+void add_work(Simulation& s);
+// Adds the frame's work of all ranks to the ledger. Collective.
+void close_frame_work(Simulation& s);
+// The ledger of the frame into its row; warns once when hourglass energy is above 5 % of what is
+// stored. Collective.
+void report_energies(Simulation& s, FrameRow& row);
+
+}  // namespace trocar
