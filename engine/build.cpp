@@ -146,6 +146,8 @@ void rebuild_topology(Simulation& s) {
   s.surface = boundary_surface(s.mesh);
   s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part, rank);
   localise_holds(s.holds, s.part);
+  s.fastest_mode.clear();
+  if (solver.stable_step == StableStep::frequency) s.edge_length = mean_edge_length(s.mesh);
   if (s.contact) s.contact->detector.set_surface(s.surface);
 }
 

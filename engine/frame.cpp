@@ -69,9 +69,10 @@ void substep(Simulation& s, const FrameSpan& span, double t) {
 }
 
 // All substeps of the frame; on trouble back to its beginning with half the step, at most
-// `most_roll_backs` times.
+// `most_roll_backs` times, and likewise with a smaller one if the tissue stiffened beyond it.
 FrameSpan step_safely(Simulation& s) {
   const State good = s.state;
+  const Watch watched = s.watch;
   for (int tries = 0;; ++tries) {
     const FrameSpan span = plan_frame(s);
     if (s.contact) detect(s, span);
@@ -80,9 +81,14 @@ FrameSpan step_safely(Simulation& s) {
       substep(s, span, span.t0 + static_cast<double>(k) * span.dt);
     watch_state(s);
     const std::string trouble = find_trouble(s);
-    if (trouble.empty()) return span;
+    if (trouble.empty() && span.dt <= s.watch.stable_step) return span;
     s.state = good;
-    roll_back(s, trouble, tries);
+    if (trouble.empty()) {
+      repeat_frame(s, span, tries);
+    } else {
+      s.watch = watched;
+      roll_back(s, trouble, tries);
+    }
   }
 }
 

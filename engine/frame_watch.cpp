@@ -7,6 +7,8 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "engine/frame_report.h"
+#include "solver/frequency.h"
+#include "solver/step.h"
 
 namespace trocar {
 
@@ -18,6 +20,32 @@ void least_of_all(const Communicator& communicator, double& value, std::int32_t&
   const double mine = value == least && number >= 0 ? number : 1e18;
   number = static_cast<std::int32_t>(std::min(communicator.all_min(mine), 2147483647.0));
   value = least;
+}
+
+// Forces of displacements for the search, halos and all.
+void force_of(Simulation& s, State& probe, std::vector<double>& u, std::vector<double>& force) {
+  probe.u.swap(u);
+  s.exchange_u->exchange(probe.u, *s.communicator);
+  compute_force(s.model, probe, s.scratch);
+  force.swap(s.scratch.force);
+  s.scratch.force.resize(force.size());
+  probe.u.swap(u);
+}
+
+// A search that ends leaves the step at 2 / omega less a margin; if it doesn't, the element bound
+// stays.
+void use_frequency(Simulation& s) {
+  State probe = s.state;
+  FrequencyOptions options;
+  // Small beside an element, large beside the rounding of the elements' numbers.
+  const bool is_single = s.model.options.precision == Precision::in_single;
+  options.amplitude = (is_single ? 1e-2 : 1e-6) * s.edge_length;
+  const HighestFrequency found = find_highest_frequency(
+      s.model, s.part, s.state,
+      [&](std::vector<double>& u, std::vector<double>& force) { force_of(s, probe, u, force); },
+      options, *s.communicator, s.fastest_mode);
+  if (found.is_converged)
+    s.watch.stable_step = std::max(s.watch.stable_step, 2 / (frequency_margin * found.omega));
 }
 
 }  // namespace
@@ -37,6 +65,7 @@ void watch_state(Simulation& s) {
   least_of_all(communicator, w.stable_step, w.stable_element);
   least_of_all(communicator, w.least_J, w.least_J_element);
   s.watch = w;
+  if (s.scene.solver.stable_step == StableStep::frequency && w.least_J > 0) use_frequency(s);
 }
 
 std::string find_trouble(const Simulation& s) {
@@ -49,18 +78,36 @@ std::string find_trouble(const Simulation& s) {
   return {};
 }
 
-void roll_back(Simulation& s, const std::string& trouble, int tries) {
+namespace {
+
+// What both ways back to the frame's beginning have in common; the sentence's beginning.
+std::string go_back(Simulation& s, const std::string& trouble, int tries) {
   const double time = static_cast<double>(s.frame) / s.scene.time.frame_rate;
   ++s.log.n_roll_backs;
-  const std::string sentence = "in the frame after " + number_text(time) + " s: " + trouble;
   if (tries >= most_roll_backs)
-    throw SimulationError(sentence + "; " + std::to_string(tries) +
+    throw SimulationError("in the frame after " + number_text(time) + " s: " + trouble + "; " +
+                          std::to_string(tries) +
                           " roll-backs with smaller steps did not help: slower instruments, a "
                           "finer mesh or a lower poisson_ratio may");
-  s.step_scale *= 0.5;
   s.watch.is_finite = true;
   for (Vec3& sum : s.holds.reaction_sum) sum = Vec3::Zero();
-  note_event(s, time, "rolled back: " + trouble + "; step scale now " + number_text(s.step_scale));
+  return "rolled back: " + trouble;
+}
+
+}  // namespace
+
+void repeat_frame(Simulation& s, const FrameSpan& span, int tries) {
+  const std::string trouble = "the tissue's stable step fell to " +
+                              number_text(s.watch.stable_step) + " s, below the step of " +
+                              number_text(span.dt) + " s";
+  note_event(s, span.t0, go_back(s, trouble, tries));
+}
+
+void roll_back(Simulation& s, const std::string& trouble, int tries) {
+  const std::string sentence = go_back(s, trouble, tries);
+  s.step_scale *= 0.5;
+  note_event(s, static_cast<double>(s.frame) / s.scene.time.frame_rate,
+             sentence + "; step scale now " + number_text(s.step_scale));
 }
 
 void wait_for_deadline(Simulation& s, const FrameRow& row) {

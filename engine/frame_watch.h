@@ -13,6 +13,9 @@ inline constexpr int most_roll_backs = 4;
 void watch_state(Simulation& s);
 // A sentence with element or node and cause, "" if all is well. The same on every rank.
 std::string find_trouble(const Simulation& s);
+// Notes that the frame is done again with the stable step of its end, which its own exceeded;
+// throws as roll_back does.
+void repeat_frame(Simulation& s, const FrameSpan& span, int tries);
 // Halves the step for what follows; throws SimulationError after most_roll_backs tries.
 void roll_back(Simulation& s, const std::string& trouble, int tries);
 

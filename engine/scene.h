@@ -63,11 +63,15 @@ struct SceneTissue {
   SceneLook look;
 };
 
+// Where the time step comes from: bounds of each element, or the body's highest frequency.
+enum class StableStep { element_bound, frequency };
+
 struct SceneSolver {
   Vec3 gravity = Vec3::Zero();
   double mass_damping = 0;
   double hourglass = 0.15;
   double step_factor = 0.9;
+  StableStep stable_step = StableStep::frequency;
 };
 
 struct SceneContact {

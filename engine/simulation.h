@@ -77,6 +77,10 @@ struct Simulation {
   std::unique_ptr<EnergyLedger> energy;  // only with a metrics output
   double step_scale = 1;                 // halved by each roll-back
   Watch watch;                           // of the last frame, over all ranks
+  // Only with stable_step = "frequency": the mode (n_owned * 3) found last, where the next search
+  // starts, and the mean edge [m].
+  std::vector<double> fastest_mode;
+  double edge_length = 0;
   double stable_step_before_cut = 0;
   FrameLog log;  // what each frame told
   PhaseTimers timers;

@@ -66,5 +66,19 @@ TEST(RollBack, gives_up_after_its_last_try_with_time_and_cause) {
   EXPECT_TRUE(contains(sentence, "in the frame after 0.5 s: element 7 is inverted")) << sentence;
 }
 
+TEST(RepeatFrame, keeps_the_new_stable_step_and_the_scale_and_says_why) {
+  Simulation s = sound_simulation();
+  s.watch.stable_step = 1e-4;
+  const double scale = s.step_scale;
+  repeat_frame(s, {.t0 = 0.5, .t1 = 0.6, .dt = 2e-4}, 0);
+  EXPECT_EQ(s.step_scale, scale);
+  EXPECT_EQ(s.watch.stable_step, 1e-4);
+  EXPECT_EQ(s.log.n_roll_backs, 1);
+  EXPECT_TRUE(
+      contains(s.log.events.back(), "stable step fell to 0.0001 s, below the step of 0.0002"))
+      << s.log.events.back();
+  EXPECT_THROW(repeat_frame(s, {.dt = 2e-4}, most_roll_backs), SimulationError);
+}
+
 }  // namespace
 }  // namespace trocar

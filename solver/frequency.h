@@ -1,0 +1,45 @@
+// The highest frequency of a body in its present deformation, whatever its elements and materials:
+// the largest eigenvalue of M^-1 K from differences of the forces, by the locally optimal
+// three-term iteration (Knyazev 2001, LOBPCG for one vector). It comes from below; the element
+// bounds (numerics 1.5) come from above and lie 1.4 to 3 times higher.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "base/communicator.h"
+#include "mesh/partition.h"
+#include "solver/model.h"
+
+namespace trocar {
+
+struct FrequencyOptions {
+  double amplitude = 1e-9;  // largest displacement of the difference [m]: well below an edge
+  double tolerance = 0.01;  // residual that ends the search
+  int least_iterations = 2, most_iterations = 100;
+};
+
+struct HighestFrequency {
+  double omega = 0;     // root of the Rayleigh quotient w2 of the mode x found [1/s]
+  double residual = 0;  // |M^-1 K x - w2 x| / w2: an eigenvalue lies within w2 (1 +- residual)
+  int n_iterations = 0;
+  bool is_converged = false;
+};
+
+// A search that has converged to the default tolerance was below the largest eigenvalue's root by
+// less than this (tests/solver/frequency_test.cpp prints by how much).
+inline constexpr double frequency_margin = 1.02;
+
+// Fills `force` (n_owned * 3) with the forces of displacements u (n_local * 3), owned ones set.
+// Collective.
+using ForceOfDisplacement = std::function<void(std::vector<double>& u, std::vector<double>& force)>;
+
+// mode (n_owned * 3): where the search starts, empty for a start from the node numbers alone; what
+// it found, of norm 1 in M. The result does not depend on ranks and threads. Collective.
+HighestFrequency find_highest_frequency(const Model& model, const Part& part, const State& state,
+                                        const ForceOfDisplacement& forces,
+                                        const FrequencyOptions& options,
+                                        const Communicator& communicator,
+                                        std::vector<double>& mode);
+
+}  // namespace trocar

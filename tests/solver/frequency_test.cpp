@@ -1,0 +1,103 @@
+// The highest frequency from forces alone, against the eigenvalues of the assembled stiffness, the
+// measured limits of numerics 1.5 and the step at which a body really becomes unstable.
+#include "solver/frequency.h"
+
+#include <gtest/gtest.h>
+
+#include "solver_stiffness.h"
+
+using namespace trocar;
+
+namespace {
+
+HighestFrequency search(Body& body, std::vector<double>& mode, const FrequencyOptions& options) {
+  const auto forces = [&](std::vector<double>& u, std::vector<double>& f) {
+    State state = body.state;
+    state.u = u;
+    compute_force(body.model, state, body.scratch);
+    f = body.scratch.force;
+  };
+  return find_highest_frequency(body.model, body.part, body.state, forces, options, Communicator(),
+                                mode);
+}
+
+HighestFrequency search(Body& body, double tolerance = .01, int most = 100) {
+  std::vector<double> mode;
+  return search(body, mode, {.tolerance = tolerance, .most_iterations = most});
+}
+
+Mesh cube(BoxElements elements, int n, double irregularity) {
+  Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(.1, .1, .1), {n, n, n}, elements);
+  jitter(mesh, irregularity, 5);
+  return mesh;
+}
+
+TEST(HighestFrequency, agrees_with_the_eigenvalues_of_the_assembled_stiffness) {
+  for (const BoxElements elements : {BoxElements::hex8, BoxElements::tet4_kuhn})
+    for (const double irregularity : {0., .2})
+      for (const double strain : {0., 3e-3}) {
+        Body body = make_body(cube(elements, 4, irregularity));
+        shake(body.state.u, strain, 3);
+        const double omega = 2 / true_limit(body, 1e-7);
+        EXPECT_NEAR(search(body, 1e-6, 300).omega / omega, 1, 1e-6);  // differences of 1e-9 m
+        // Stopped early it lies below, by less than the margin that callers leave.
+        const HighestFrequency early = search(body);
+        std::printf("stopped after %d iterations at %.4f of it, residual %.3f\n",
+                    early.n_iterations, early.omega / omega, early.residual);
+        EXPECT_TRUE(early.is_converged);
+        EXPECT_LT(early.omega / omega, 1 + 1e-6);
+        EXPECT_GT(early.omega / omega, 1 / frequency_margin);
+      }
+}
+
+TEST(HighestFrequency, of_a_block_of_cubes_is_the_known_one) {
+  // dt in units of h / c_d (numerics 1.5: 8 cells and more along an edge).
+  const std::vector<std::pair<double, double>> known = {
+      {0, 1}, {.3, .981}, {.45, .894}, {.49, .860}, {.499, .853}};
+  for (const auto& [nu, steps] : known) {
+    const Material material{MaterialModel::neo_hookean, 3000, nu, 1000};
+    Body body = make_body(cube(BoxElements::hex8, 10, 0), {.materials = {material}});
+    const double c_d = std::sqrt((bulk_modulus(material) + 4. / 3 * lame_mu(material)) / 1000);
+    const HighestFrequency found = search(body, 1e-3, 200);
+    EXPECT_TRUE(found.is_converged);
+    const double courant = 2 / found.omega * c_d / .01;
+    std::printf("nu %.3f: limit %.4f h/c_d (known %.3f), bound %.4f, %d iterations\n", nu, courant,
+                steps, least_element_step(body) * c_d / .01, found.n_iterations);
+    EXPECT_NEAR(courant, steps, .008);  // the known ones are of other block sizes
+  }
+}
+
+TEST(HighestFrequency, is_found_again_in_a_few_iterations_from_the_mode_found_before) {
+  Body body = make_body(cube(BoxElements::tet4_kuhn, 6, .2));
+  std::vector<double> mode;
+  const HighestFrequency first = search(body, mode, {.tolerance = 1e-2});
+  shake(body.state.u, 1e-4, 7);  // the tissue has moved on
+  const HighestFrequency again = search(body, mode, {});
+  EXPECT_LT(again.n_iterations, first.n_iterations / 2);
+  EXPECT_NEAR(again.omega / search(body, 1e-5, 300).omega, 1, .01);
+}
+
+TEST(HighestFrequency, leaves_supported_components_out) {
+  const Mesh mesh = cube(BoxElements::tet4_kuhn, 2, .2);
+  Body body = make_body(mesh, {.fixed = std::vector<FixedMask>(mesh.X.size(), 5)});  // x and z
+  Eigen::MatrixXd K = tangent_stiffness(body, 1e-7);
+  for (Eigen::Index i = 0; i < K.rows(); ++i)
+    for (Eigen::Index j = 0; j < K.cols(); ++j)
+      K(i, j) = i % 3 == 1 && j % 3 == 1
+                    ? K(i, j) / std::sqrt(body.model.mass[static_cast<std::size_t>(i / 3)] *
+                                          body.model.mass[static_cast<std::size_t>(j / 3)])
+                    : 0;
+  const double omega =
+      std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues().maxCoeff());
+  EXPECT_NEAR(search(body, 1e-6, 300).omega / omega, 1, 1e-6);
+}
+
+TEST(HighestFrequency, of_single_precision_elements_is_within_a_percent) {
+  Body body =
+      make_body(cube(BoxElements::hex8, 4, .2), {.solver = {.precision = Precision::in_single}});
+  const double omega = 2 / true_limit(body, 1e-4);
+  std::vector<double> mode;
+  EXPECT_NEAR(search(body, mode, {.amplitude = 1e-4, .tolerance = .02}).omega / omega, 1, .01);
+}
+
+}  // namespace
