@@ -70,7 +70,7 @@ struct SceneSolver {
   Vec3 gravity = Vec3::Zero();
   double mass_damping = 0;
   double hourglass = 0.15;
-  double step_factor = 0.9;
+  double step_factor = 0.85;  // below 0.866: see docs/stability.md
   StableStep stable_step = StableStep::frequency;
 };
 

@@ -98,7 +98,8 @@ Options<SceneSolver> solver_options() {
   s.number("hourglass", &SceneSolver::hourglass, dim::none, {.low = 0, .high = 1},
            "Hourglass stiffness of one-point hexahedra, as a share of mu.");
   s.number("step_factor", &SceneSolver::step_factor, dim::none,
-           {.low = 0, .high = 1, .is_low_open = true}, "Time step / computed stable step.");
+           {.low = 0, .high = 1, .is_low_open = true},
+           "Time step / computed stable step; from 0.866 on the scheme has a resonance.");
   s.choice("stable_step", &SceneSolver::stable_step,
            {{"element-bound", StableStep::element_bound}, {"frequency", StableStep::frequency}},
            "From the body's highest frequency, searched for once a frame and less 2 %, or from "

@@ -1,0 +1,110 @@
+// Blocks of tissue and what the stability cases measure on them.
+#pragma once
+
+#include <cstdarg>
+#include <cstdio>
+#include <limits>
+
+#include "solver/frequency.h"
+#include "solver_body.h"
+#include "stability.h"
+
+namespace trocar {
+
+inline std::string text(const char* format, ...) __attribute__((format(printf, 1, 2)));
+inline std::string text(const char* format, ...) {
+  char line[240];
+  va_list values;
+  va_start(values, format);
+  std::vsnprintf(line, sizeof line, format, values);
+  va_end(values);
+  return line;
+}
+
+constexpr double edge = .01;  // of a cell [m]
+
+inline Mesh block(BoxElements elements, int n, double irregularity) {
+  Mesh mesh = make_box(Vec3(0, 0, 0), Vec3::Constant(n * edge), {n, n, n}, elements);
+  if (irregularity > 0) jitter(mesh, irregularity, 5);
+  return mesh;
+}
+
+inline const char* name_of(BoxElements elements) {
+  return elements == BoxElements::hex8 ? "hex8" : "tet4";
+}
+inline const char* name_of(Precision precision) {
+  return precision == Precision::in_single ? "single" : "double";
+}
+
+constexpr BoxElements both[] = {BoxElements::hex8, BoxElements::tet4_kuhn};
+constexpr Precision precisions[] = {Precision::in_double, Precision::in_single};
+
+// 2 / omega of the present deformation.
+inline double limit_of(Body& body, double tolerance = 1e-3) {
+  const bool is_single = body.model.options.precision == Precision::in_single;
+  std::vector<double> mode;
+  const auto forces = [&](std::vector<double>& u, std::vector<double>& f) {
+    State state = body.state;
+    state.u = u;
+    compute_force(body.model, state, body.scratch);
+    f = body.scratch.force;
+  };
+  const HighestFrequency found =
+      find_highest_frequency(body.model, body.part, body.state, forces,
+                             {.amplitude = (is_single ? 1e-2 : 1e-6) * edge,
+                              .tolerance = tolerance,
+                              .most_iterations = 300},
+                             Communicator(), mode);
+  return 2 / found.omega;
+}
+
+inline double kinetic(const Body& body) {
+  double sum = 0;
+  for (std::size_t k = 0; k < body.state.v.size(); ++k)
+    sum += .5 * body.model.mass[k / 3] * body.state.v[k] * body.state.v[k];
+  return sum;
+}
+
+inline bool is_finite(const Body& body) {
+  return std::isfinite(largest(body.state.u)) && std::isfinite(largest(body.state.v));
+}
+
+inline int count(double full, double scale) {
+  return std::max(1, static_cast<int>(full * scale));
+}
+
+// One step; the energy at its beginning, with the kinetic part 1/2 m v- · v+ that central
+// differences conserve (numerics 1.1; that of one velocity alone swings with the step).
+inline double step_and_measure(Body& body, double dt) {
+  const double W = stored_energy(body);
+  const std::vector<double> before = body.state.v;
+  step(body, dt);
+  double T = 0;
+  for (std::size_t k = 0; k < before.size(); ++k)
+    T += .5 * body.model.mass[k / 3] * before[k] * body.state.v[k];
+  return T + W;
+}
+
+// Largest energy of n steps over that of the first one; looked at every 16th step.
+inline double energy_growth(Body& body, double dt, int n) {
+  double start = 0, most = 0;
+  for (int k = 0; k < n; ++k) {
+    if (k % 16 != 1) {
+      step(body, dt);
+      continue;
+    }
+    const double energy = step_and_measure(body, dt);
+    if (k == 1) start = energy;
+    most = std::max(most, energy);
+  }
+  return is_finite(body) ? most / start - 1 : std::numeric_limits<double>::infinity();
+}
+
+inline Vec3 momentum_of(const Body& body) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < body.state.v.size(); ++k)
+    sum[static_cast<Eigen::Index>(k % 3)] += body.model.mass[k / 3] * body.state.v[k];
+  return sum;
+}
+
+}  // namespace trocar
