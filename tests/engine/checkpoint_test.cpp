@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/threads.h"
 #include "engine/build.h"
 #include "engine/frame.h"
 #include "engine/output.h"
@@ -14,6 +15,7 @@ namespace trocar {
 namespace {
 
 LoadedScene loaded_text(const std::string& text) {
+  set_thread_count(1);  // bodies so small that threads would only wait for each other
   const TestFolder folder;
   return load_scene(write_text(folder.file("s.toml"), text), {"checkpoint.every=0"});
 }
@@ -95,6 +97,78 @@ TEST(Checkpoint, of_each_frame_of_a_plane_cut_leads_to_the_next_one) {
         std::max(longest_path, checkpoint_from_bytes(bytes, "c").cuts[0].plane_path.size());
   EXPECT_GT(longest_path, 2u);
   EXPECT_GT(checkpoint_from_bytes(checkpoints.back(), "c").duplicate_node.size(), 2u);
+}
+
+using Forget = void (*)(CutMemory&);
+
+// Whether the run leads elsewhere within a few frames if a checkpoint has lost something.
+bool leads_elsewhere(const LoadedScene& scene,
+                     const std::vector<std::vector<std::byte>>& checkpoints, std::size_t k,
+                     Forget forget) {
+  Communicator alone;
+  const auto s = build(scene, alone);
+  Checkpoint c = checkpoint_from_bytes(checkpoints[k], "c");
+  forget(c.cuts[0]);
+  restore_checkpoint(c, *s);
+  Outputs outputs;
+  for (std::size_t j = k + 1; j < std::min(k + 6, checkpoints.size()); ++j) {
+    run_frame(*s, outputs);
+    if (bytes_of(*s) != checkpoints[j]) return true;
+  }
+  return false;
+}
+
+// The round trips above have power over these only if the scenes need them.
+void expect_each_is_needed(const LoadedScene& scene,
+                           const std::vector<std::pair<const char*, Forget>>& parts) {
+  const auto checkpoints = uninterrupted(scene);
+  for (const auto& [name, forget] : parts) {
+    bool is_needed = false;
+    for (std::size_t k = 0; k + 1 < checkpoints.size() && !is_needed; ++k)
+      is_needed = checkpoint_from_bytes(checkpoints[k], "c").cuts[0].is_in_stroke &&
+                  leads_elsewhere(scene, checkpoints, k, forget);
+    EXPECT_TRUE(is_needed) << name;
+  }
+}
+
+TEST(Checkpoint, needs_each_part_of_a_stroke_through_tetrahedra) {
+  expect_each_is_needed(loaded_text(resume_block_text),
+                        {{"hit", [](CutMemory& m) { m.stroke.hit.clear(); }},
+                         {"side", [](CutMemory& m) { m.stroke.side.clear(); }},
+                         {"opened", [](CutMemory& m) { m.stroke.opened.clear(); }},
+                         {"altitude", [](CutMemory& m) { m.stroke.altitude.clear(); }},
+                         {"surface_node", [](CutMemory& m) { m.stroke.surface_node.clear(); }},
+                         {"parted_node", [](CutMemory& m) { m.stroke.parted_node.clear(); }},
+                         {"fresh", [](CutMemory& m) { m.stroke.fresh.clear(); }},
+                         {"unfinished", [](CutMemory& m) { m.stroke.unfinished.clear(); }},
+                         {"edge", [](CutMemory& m) { m.stroke.edge.clear(); }},
+                         {"mean_edge", [](CutMemory& m) { m.stroke.mean_edge = 0; }},
+                         {"swept", [](CutMemory& m) { m.stroke.swept = 0; }},
+                         {"is_in_stroke", [](CutMemory& m) { m.is_in_stroke = false; }},
+                         {"n_idle_frames", [](CutMemory& m) { m.n_idle_frames = 0; }},
+                         {"engaged", [](CutMemory& m) { m.engaged.clear(); }},
+                         {"resistance", [](CutMemory& m) { m.resistance.setZero(); }}});
+}
+
+TEST(Checkpoint, needs_each_part_of_a_plane_cut) {
+  expect_each_is_needed(loaded_text(resume_plane_text),
+                        {{"plane_path", [](CutMemory& m) { m.plane_path.clear(); }},
+                         {"plane_tip", [](CutMemory& m) { m.plane_tip = -1; }}});
+}
+
+TEST(Checkpoint, keeps_a_step_that_roll_backs_have_halved) {
+  Communicator alone;
+  const LoadedScene scene = loaded_text(resume_plane_text);
+  const auto s = build(scene, alone), t = build(scene, alone);
+  Outputs outputs;
+  s->step_scale = 0.5;
+  s->log.n_roll_backs = 1;
+  restore_checkpoint(take_checkpoint(*s), *t);
+  run_frame(*s, outputs);
+  run_frame(*t, outputs);
+  EXPECT_EQ(bytes_of(*t), bytes_of(*s));
+  EXPECT_EQ(t->step_scale, 0.5);
+  EXPECT_EQ(t->log.n_roll_backs, 1);
 }
 
 TEST(Checkpoint, of_a_frame_that_failed_is_that_of_its_beginning) {
