@@ -16,6 +16,8 @@ const char* const examples_run =
     "\nexamples:\n"
     "  trocar run configs/liver_incision.toml -o out/liver\n"
     "  mpirun -np 4 trocar run scene.toml --threads 2\n"
+    "  trocar run configs/liver_incision.toml -o out/liver --resume      after it was stopped or "
+    "killed\n"
     "  trocar run scene.toml --set time.duration='2 s' --set tissue.material.young_modulus='5 "
     "kPa'\n";
 const char* const examples_check =
@@ -56,6 +58,13 @@ void add_run(CLI::App& app, CommandLine& line) {
   add_scene_options(*run, line.run);
   run->add_option("-o,--output", line.run.folder, "Folder for everything that is written")
       ->capture_default_str();
+  run->add_flag(
+      "--resume", line.run.resume,
+      "Continue the run that was stopped in the output folder from its last checkpoint, to "
+      "the same bits, on any number of ranks and threads. The scene must be the same but for "
+      "time.duration, [checkpoint], cameras and outputs. Recording, metrics and pictures go "
+      "on; films and contact sheets can't: they go on in NAME.from-frame-N.mp4 (trocar "
+      "replay makes a whole film of the recording)");
   add_machine_options(*run, line.machine);
   run->footer(examples_run);
   run->callback([&] { line.command = Command::run; });

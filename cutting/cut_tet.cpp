@@ -27,6 +27,13 @@ void TetCutter::start_stroke() {
   front_->stroke = std::move(next);
 }
 
+const CutStroke& TetCutter::stroke() const {
+  return front_->stroke;
+}
+void TetCutter::set_stroke(CutStroke stroke) {
+  front_->stroke = std::move(stroke);
+}
+
 static void check_arguments(const Mesh& mesh, std::span<const Vec3> x,
                             std::span<const std::uint8_t> is_held, const BladeSweep& sweep) {
   CHECK_OP(x.size(), ==, mesh.X.size());

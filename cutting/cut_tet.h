@@ -10,6 +10,7 @@
 #include "base/vec.h"
 #include "cutting/blade_sweep.h"
 #include "cutting/cut_figures.h"
+#include "cutting/cut_stroke.h"
 #include "mesh/edit.h"
 #include "mesh/mesh.h"
 
@@ -39,10 +40,12 @@ class TetCutter {
   // A new stroke: forgets the front (faces that are open stay open).
   void start_stroke();
 
+  // All that a cut under way remembers, for checkpoints: with the same stroke another cutter goes
+  // on to the same bits. Node and element numbers are global and survive edits.
+  const CutStroke& stroke() const;
+  void set_stroke(CutStroke stroke);
+
  private:
-  // What a cut under way remembers: where the swept surface crosses element edges (reference
-  // coordinates) and the sides of the elements at the front. Node and element numbers are global
-  // and survive edits.
   struct Front;
   std::unique_ptr<Front> front_;
 };

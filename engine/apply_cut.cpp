@@ -93,21 +93,6 @@ double total(std::span<const double> values) {
   return sum.value();
 }
 
-void scatter_state(Simulation& s, const GlobalState& global) {
-  State state = make_state(s.model);
-  state.time = s.state.time;
-  state.last_dt = s.state.last_dt;
-  state.step = s.state.step;
-  for (std::size_t i = 0; i < s.part.node_global.size(); ++i) {
-    const auto g = static_cast<std::size_t>(s.part.node_global[i]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      state.u[3 * i + k] = global.u[3 * g + k];
-      state.v[3 * i + k] = global.v[3 * g + k];
-    }
-  }
-  s.state = std::move(state);
-}
-
 // Supports and partner pairs go with the nodes.
 void inherit_by_duplicates(Simulation& s, const MeshEdit& edit, std::int32_t n_before) {
   for (std::size_t d = 0; d < edit.duplicate_parent.size(); ++d) {
@@ -127,6 +112,21 @@ GlobalState gather_state(Simulation& s) {
   global.v = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.state.v, *s.communicator);
   global.x = present_positions(s.mesh.X, global.u);
   return global;
+}
+
+void scatter_state(Simulation& s, const GlobalState& global) {
+  State state = make_state(s.model);
+  state.time = s.state.time;
+  state.last_dt = s.state.last_dt;
+  state.step = s.state.step;
+  for (std::size_t i = 0; i < s.part.node_global.size(); ++i) {
+    const auto g = static_cast<std::size_t>(s.part.node_global[i]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      state.u[3 * i + k] = global.u[3 * g + k];
+      state.v[3 * i + k] = global.v[3 * g + k];
+    }
+  }
+  s.state = std::move(state);
 }
 
 void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutRecord& record) {
@@ -150,7 +150,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   restore_momentum(nodes_of(s.mesh, elements), s.mass, before, global, record);
   scatter_state(s, global);
   watch_state(s);
-  if (s.energy) s.energy->works.cut += mechanical_energy(s).sum() - energy_before;
+  if (s.energy) s.energy->memory.works.cut += mechanical_energy(s).sum() - energy_before;
 
   for (const std::int32_t e : elements)
     record.least_quality = std::min(record.least_quality, element_quality(s.mesh, e, s.mesh.X));

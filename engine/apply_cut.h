@@ -14,6 +14,8 @@ struct GlobalState {
 };
 // Collective.
 GlobalState gather_state(Simulation& s);
+// This rank's part of it; time, step and last dt stay.
+void scatter_state(Simulation& s, const GlobalState& global);
 
 // Mesh, mass, owners, part, model, state, surface, holds, contact; linear and angular momentum of
 // the patch are restored by a rigid velocity increment. `global` is carried along. Collective. Adds

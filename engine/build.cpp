@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/digest.h"
 #include "base/log.h"
 #include "engine/bytes.h"
 #include "engine/frame_report.h"
@@ -85,6 +86,12 @@ TriangleMesh load_tool_mesh(const LoadedScene& loaded, std::size_t k, Communicat
   return surface;
 }
 
+std::uint32_t crc_of_body(const Simulation& s) {
+  std::uint32_t crc = crc32c(mesh_to_bytes(s.mesh));
+  for (const Tool& tool : s.tools) crc = crc32c(std::as_bytes(std::span(tool.own_mesh.X)), crc);
+  return crc;
+}
+
 bool can_be_cut(const Mesh& mesh) {
   const auto is_type = [&](ElementType type) {
     return std::all_of(mesh.element_type.begin(), mesh.element_type.end(),
@@ -162,6 +169,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   s.node_owner = partition_nodes(s.mesh, communicator);
   build_supports(s);
   build_instruments(loaded, s);
+  s.body_crc = crc_of_body(s);
   rebuild_topology(s);
   s.state = make_state(s.model);
   refresh_surface(s);

@@ -37,7 +37,7 @@ void remove_old(const std::string& file) {
 
 Database::Database(const std::string& file, Mode mode)
     : file_(file), mode_(mode), handle_(std::make_unique<Handle>()) {
-  if (mode == Mode::read) check_is_file(file);
+  if (mode != Mode::create) check_is_file(file);
   if (mode == Mode::create) remove_old(file);
   const int flags =
       mode == Mode::create ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READWRITE;
@@ -58,7 +58,7 @@ Database::Database(const std::string& file, Mode mode)
   // A file of unknown origin: nothing that it brings along is called, broken pages are looked for.
   if (mode == Mode::read) run("PRAGMA trusted_schema=OFF; PRAGMA cell_size_check=ON;");
   // Exclusive locking keeps the log's index in memory: no -shm file, nothing to mend after a kill.
-  if (mode == Mode::create)
+  if (mode != Mode::read)
     run("PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
 }
 

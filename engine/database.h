@@ -41,9 +41,9 @@ class Statement {
 
 class Database {
  public:
-  enum class Mode { create, read };
-  // create: replaces the file; failures are MachineErrors. read: failures are InputErrors. Both
-  // "path: reason".
+  enum class Mode { create, extend, read };
+  // create: replaces the file; failures are MachineErrors, also of extend, which goes on with one
+  // that is there. read: failures are InputErrors. All "path: reason".
   Database(const std::string& file, Mode mode);
   ~Database();
   Database(const Database&) = delete;

@@ -72,7 +72,7 @@ void take_nodes(const Simulation& s, std::vector<double>& kinetic, std::vector<d
 void open_energy_ledger(Simulation& s) {
   s.energy = std::make_unique<EnergyLedger>();
   s.scratch.damping_work.assign(static_cast<std::size_t>(s.model.n_owned), 0.0);
-  s.energy->initial = mechanical_energy(s).sum();
+  s.energy->memory.initial = mechanical_energy(s).sum();
 }
 
 EnergyState mechanical_energy(Simulation& s) {
@@ -132,27 +132,28 @@ void add_work(Simulation& s) {
 
 void close_frame_work(Simulation& s) {
   EnergyLedger& ledger = *s.energy;
-  ledger.works.contact += sum_over_ranks(ledger.contact_work, *s.communicator);
-  ledger.works.holds += sum_over_ranks(ledger.hold_work, *s.communicator);
+  ledger.memory.works.contact += sum_over_ranks(ledger.contact_work, *s.communicator);
+  ledger.memory.works.holds += sum_over_ranks(ledger.hold_work, *s.communicator);
   ledger.blade_work.all_sum(*s.communicator);
-  ledger.works.blade += ledger.blade_work.value();
-  ledger.works.damping -= sum_over_ranks(s.scratch.damping_work, *s.communicator);
+  ledger.memory.works.blade += ledger.blade_work.value();
+  ledger.memory.works.damping -= sum_over_ranks(s.scratch.damping_work, *s.communicator);
 }
 
 void report_energies(Simulation& s, FrameRow& row) {
   EnergyLedger& ledger = *s.energy;
   row.energy = mechanical_energy(s);
-  row.works = ledger.works;
-  row.energy_error = row.energy.sum() - ledger.initial - row.works.sum();
+  row.works = ledger.memory.works;
+  row.energy_error = row.energy.sum() - ledger.memory.initial - row.works.sum();
   const double stored = row.energy.strain + row.energy.hourglass;
-  ledger.largest_stored = std::max(ledger.largest_stored, stored);
-  if (stored < 0.01 * ledger.largest_stored || !(stored > 0)) return;  // next to nothing is stored
+  ledger.memory.largest_stored = std::max(ledger.memory.largest_stored, stored);
+  if (stored < 0.01 * ledger.memory.largest_stored || !(stored > 0))
+    return;  // next to nothing is stored
   const double share = row.energy.hourglass / stored;
-  if (share > hourglass_alarm && ledger.largest_hourglass_share <= hourglass_alarm)
+  if (share > hourglass_alarm && ledger.memory.largest_hourglass_share <= hourglass_alarm)
     note_event(s, row.time,
                "hourglass energy is " + number_text(std::round(1000 * share) / 10) +
                    " % of the stored energy: a finer mesh or more solver.hourglass is needed");
-  ledger.largest_hourglass_share = std::max(ledger.largest_hourglass_share, share);
+  ledger.memory.largest_hourglass_share = std::max(ledger.memory.largest_hourglass_share, share);
 }
 
 }  // namespace trocar

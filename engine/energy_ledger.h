@@ -18,12 +18,16 @@ namespace trocar {
 
 struct Simulation;
 
-struct EnergyLedger {
+// What a ledger keeps from frame to frame.
+struct EnergyMemory {
   EnergyWorks works;                   // since the start
   double initial = 0;                  // mechanical energy at the start [J]
   double largest_stored = 0;           // strain and hourglass energy of any frame [J]
   double largest_hourglass_share = 0;  // of frames that store 1 % of that or more
+};
 
+struct EnergyLedger {
+  EnergyMemory memory;
   // Of this frame on this rank: velocities [m/s] before the step of where forces act, and their
   // work [J], in the order of the contact set and of the holds.
   std::vector<Vec3> contact_velocity, hold_velocity, blade_velocity;

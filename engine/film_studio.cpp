@@ -202,6 +202,7 @@ FilmStudio::FilmStudio(std::vector<FilmOrder> orders, SceneLook look, bool is_pl
   t.tools = std::move(tools);
   for (FilmOrder& order : orders) {
     t.films.emplace_back();
+    t.films.back().n_seen = order.n_before;
     t.films.back().order = std::move(order);
   }
   t.worker = std::thread([&t] { t.run(); });

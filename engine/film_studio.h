@@ -19,7 +19,8 @@ struct FilmOrder {
   SceneCamera camera;
   int width = 1280, height = 720;
   double frame_rate = 30;     // of a video [1/s]
-  std::int64_t n_frames = 0;  // that will come, for the nine moments of a contact sheet
+  std::int64_t n_frames = 0;  // of the whole run, for the nine moments of a contact sheet
+  std::int64_t n_before = 0;  // of them, drawn before the run was resumed
 };
 
 // All that a frame's picture needs, copied out of the simulation.

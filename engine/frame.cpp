@@ -6,6 +6,7 @@
 
 #include "base/log.h"
 #include "engine/apply_cut.h"
+#include "engine/checkpoint_output.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "solver/step.h"
@@ -106,8 +107,9 @@ void run_frame(Simulation& s, Outputs& outputs) {
   report_state(s, row);
   row.seconds = monotonic_seconds() - start;
   write_outputs(s, outputs, row);
-  wait_for_deadline(s, row);
   s.log.rows.push_back(std::move(row));
+  if (is_checkpoint_due(s)) write_checkpoint(s, outputs);
+  wait_for_deadline(s, s.log.rows.back());
 }
 
 }  // namespace trocar

@@ -54,7 +54,7 @@ struct FrameEdit {
 
 struct FrameLog {
   std::vector<FrameRow> rows;
-  std::vector<FrameEdit> new_edits;  // since the last recording
+  std::vector<FrameEdit> new_edits;  // of this frame
   std::int64_t n_roll_backs = 0;
   std::int64_t n_deadlines_missed = 0;
   double least_J = 1;

@@ -7,7 +7,10 @@
 
 #include "base/digest.h"
 #include "base/error.h"
+#include "base/log.h"
 #include "engine/apply_cut.h"
+#include "engine/checkpoint.h"
+#include "engine/checkpoint_file.h"
 #include "engine/film_studio.h"
 #include "engine/frame_report.h"
 #include "engine/metrics_file.h"
@@ -38,7 +41,8 @@ SceneCamera camera_of(const Scene& scene, const std::string& name) {
   return {};
 }
 
-std::vector<FilmOrder> film_orders(const Scene& scene, const Outputs& outputs) {
+std::vector<FilmOrder> film_orders(const Scene& scene, const Outputs& outputs,
+                                   std::int64_t first_frame) {
   const auto n_frames = std::llround(scene.time.duration * scene.time.frame_rate);
   std::vector<FilmOrder> orders;
   for (std::size_t k = 0; k < scene.outputs.size(); ++k) {
@@ -51,7 +55,8 @@ std::vector<FilmOrder> film_orders(const Scene& scene, const Outputs& outputs) {
                       .width = output.size[0],
                       .height = output.size[1],
                       .frame_rate = scene.time.frame_rate / static_cast<double>(slot.interval),
-                      .n_frames = n_frames / slot.interval});
+                      .n_frames = n_frames / slot.interval,
+                      .n_before = first_frame / slot.interval});
   }
   return orders;
 }
@@ -67,24 +72,82 @@ void make_folder(const std::string& folder) {
   std::filesystem::remove(probe, trouble);
 }
 
-void open_writers(const Simulation& s, const std::string& folder, Outputs& outputs) {
-  make_folder(folder);
-  std::ofstream(folder + "/scene.toml") << echo_options(scene_options(), &s.scene);
+std::unique_ptr<RecordingWriter> new_recording(const Simulation& s, const std::string& file) {
+  RecordingHead head{
+      .version = version_text(), .scene = echo_options(scene_options(), &s.scene), .mesh = s.mesh};
+  for (const Tool& tool : s.tools) head.tool_meshes.push_back(tool.own_mesh);
+  return std::make_unique<RecordingWriter>(file, head);
+}
+
+// Cut off behind the last frame that the checkpoint knows of, which must be there and whole.
+std::unique_ptr<RecordingWriter> old_recording(const std::string& file, std::int64_t last_frame) {
+  {
+    RecordingReader reader(file);
+    for (const std::string& sentence : reader.damage()) log_warning(file + ": " + sentence);
+    if (last_frame > 0) reader.read(last_frame);
+  }
+  return std::make_unique<RecordingWriter>(file, last_frame);
+}
+
+// Rows of the frames before a resumed run are written again: the checkpoint has them.
+std::unique_ptr<MetricsFile> open_metrics(const Simulation& s, const OutputSlot& slot,
+                                          const Checkpoint* resumed) {
+  auto metrics = std::make_unique<MetricsFile>(slot.file, s.tools);
+  if (!resumed) return metrics;
+  if (!resumed->has_energies) {
+    log_warning(slot.file + ": begins where the run is resumed, it was not asked for before");
+    return metrics;
+  }
+  for (const FrameRow& row : resumed->log.rows)
+    if (slot.is_due(row.frame)) metrics->add(row);
+  return metrics;
+}
+
+// On every rank: a recording that the checkpoint knows goes on after its last frame.
+void take_over_marks(const Scene& scene, const Checkpoint& resumed, Outputs& outputs) {
+  for (std::size_t k = 0; k < outputs.slots.size(); ++k)
+    for (const RecordingMark& mark : resumed.recordings)
+      if (mark.file == scene.outputs[k].file) {
+        outputs.slots[k].is_continued = outputs.slots[k].kind == OutputKind::recording;
+        outputs.slots[k].last_frame = mark.last_frame;
+        outputs.slots[k].pending = mark.pending;
+      }
+}
+
+// "liver.mp4" resumed at frame 75 goes on in "liver.from-frame-75.mp4": an encoder can't go on with
+// a finished film, and to draw its first part again would take as long as it did.
+void rename_films(const Simulation& s, Outputs& outputs) {
+  if (s.first_frame == 0) return;
+  for (OutputSlot& slot : outputs.slots) {
+    if (slot.kind != OutputKind::video && slot.kind != OutputKind::contact_sheet) continue;
+    std::filesystem::path path(slot.file);
+    path.replace_filename(path.stem().string() + ".from-frame-" + std::to_string(s.first_frame) +
+                          path.extension().string());
+    log_info(slot.file + " can't be continued: what follows goes into " + path.string());
+    slot.file = path.string();
+  }
+}
+
+void open_writers(const Simulation& s, const Checkpoint* resumed, Outputs& outputs) {
+  make_folder(outputs.folder);
+  if (resumed)
+    rename_films(s, outputs);
+  else
+    remove_checkpoint(outputs.folder);  // it would not belong to the files that are written now
+  std::ofstream(outputs.folder + "/scene.toml") << echo_options(scene_options(), &s.scene);
   for (const OutputSlot& slot : outputs.slots) {
     std::filesystem::create_directories(std::filesystem::path(slot.file).parent_path());
-    outputs.metrics.push_back(slot.kind == OutputKind::metrics
-                                  ? std::make_unique<MetricsFile>(slot.file, s.tools)
-                                  : nullptr);
+    outputs.metrics.push_back(slot.kind == OutputKind::metrics ? open_metrics(s, slot, resumed)
+                                                               : nullptr);
     outputs.recordings.push_back(nullptr);
     if (slot.kind != OutputKind::recording) continue;
-    RecordingHead head{.version = version_text(),
-                       .scene = echo_options(scene_options(), &s.scene),
-                       .mesh = s.mesh};
-    for (const Tool& tool : s.tools) head.tool_meshes.push_back(tool.own_mesh);
-    outputs.recordings.back() = std::make_unique<RecordingWriter>(slot.file, head);
+    outputs.recordings.back() =
+        slot.is_continued ? old_recording(slot.file, slot.last_frame) : new_recording(s, slot.file);
   }
-  const std::vector<FilmOrder> orders = film_orders(s.scene, outputs);
-  if (!orders.empty())
+  const std::vector<FilmOrder> orders = film_orders(s.scene, outputs, s.first_frame);
+  const bool is_over =
+      s.first_frame >= std::llround(s.scene.time.duration * s.scene.time.frame_rate);
+  if (!orders.empty() && !is_over)
     outputs.studio =
         std::make_unique<FilmStudio>(orders, s.scene.tissue.look, s.mesh.dimension() == 2, s.tools);
 }
@@ -105,45 +168,62 @@ void add_film_frame(const Simulation& s, Outputs& outputs, const FrameRow& row) 
 }
 
 // Collective: the displacements come from all ranks.
-void add_recorded_frame(Simulation& s, RecordingWriter* writer, const FrameRow& row) {
+void add_recorded_frame(Simulation& s, OutputSlot& slot, RecordingWriter* writer,
+                        const FrameRow& row) {
   RecordedFrame frame{
       .frame = row.frame, .step = row.step, .time = row.time, .digest = state_digest(s)};
   frame.u = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.state.u, *s.communicator);
   for (const ToolRow& tool : row.tools)
     for (int i = 0; i < 3; ++i) frame.tool_forces.push_back(tool.force[i]);
-  if (writer) writer->add(s.log.new_edits, frame);
+  if (writer) writer->add(slot.pending, frame);
+  slot.pending.clear();
+  slot.last_frame = row.frame;
+}
+
+// Each recording keeps the edits until its next frame is due.
+void hand_out_edits(Simulation& s, Outputs& outputs) {
+  for (OutputSlot& slot : outputs.slots)
+    if (slot.kind == OutputKind::recording)
+      slot.pending.insert(slot.pending.end(), s.log.new_edits.begin(), s.log.new_edits.end());
   s.log.new_edits.clear();
 }
 
 }  // namespace
 
-Outputs open_outputs(Simulation& s, const std::string& folder) {
+Outputs open_outputs(Simulation& s, const std::string& folder, const Checkpoint* resumed) {
   Outputs outputs;
+  outputs.folder = folder;
   for (const SceneOutput& output : s.scene.outputs)
     outputs.slots.push_back({.kind = output.kind,
                              .file = folder + "/" + output.file,
                              .interval = interval_of(output, s.scene.time.frame_rate)});
-  std::string error;
+  if (resumed) take_over_marks(s.scene, *resumed, outputs);
+  std::string error, wrong_input;
   if (s.communicator->is_root()) {
     try {
-      open_writers(s, folder, outputs);
+      open_writers(s, resumed, outputs);
+    } catch (const InputError& trouble) {
+      wrong_input = trouble.what();
     } catch (const std::exception& trouble) {
       error = trouble.what();
     }
   }
+  wrong_input = s.communicator->first_text(wrong_input);
   error = s.communicator->first_text(error);
+  if (!wrong_input.empty()) throw InputError(wrong_input);
   if (!error.empty()) throw SharedMachineError(error);
   return outputs;
 }
 
 void write_outputs(Simulation& s, Outputs& outputs, const FrameRow& row) {
   const PhaseScope scope(s.timers, phase_output);
+  hand_out_edits(s, outputs);
   for (std::size_t k = 0; k < outputs.slots.size(); ++k) {
-    const OutputSlot& slot = outputs.slots[k];
+    OutputSlot& slot = outputs.slots[k];
     if (!slot.is_due(row.frame)) continue;
     if (slot.kind == OutputKind::recording)
-      add_recorded_frame(s, outputs.recordings.empty() ? nullptr : outputs.recordings[k].get(),
-                         row);
+      add_recorded_frame(s, slot,
+                         outputs.recordings.empty() ? nullptr : outputs.recordings[k].get(), row);
     if (!outputs.metrics.empty() && outputs.metrics[k]) outputs.metrics[k]->add(row);
   }
   if (outputs.studio) add_film_frame(s, outputs, row);

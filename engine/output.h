@@ -11,19 +11,25 @@
 
 namespace trocar {
 
+struct Checkpoint;
 struct Simulation;
 class FilmStudio;
 class MetricsFile;
 
 struct OutputSlot {
   OutputKind kind = OutputKind::metrics;
-  std::string file;           // full path
-  std::int64_t interval = 1;  // [frames]
+  std::string file;                // full path
+  std::int64_t interval = 1;       // [frames]
+  std::int64_t last_frame = 0;     // of a recording: the last one in it, 0 none
+  std::vector<FrameEdit> pending;  // of a recording: edits since then
+  bool is_continued = false;       // a recording that a stopped run began
   bool is_due(std::int64_t frame) const { return frame % interval == 0; }
 };
 
 // The writers exist on rank 0 only, and only those that the scene asks for.
 struct Outputs {
+  std::string folder;
+  std::int64_t last_checkpoint = -1;  // its frame
   std::vector<OutputSlot> slots;
   std::unique_ptr<FilmStudio> studio;
   std::vector<std::unique_ptr<MetricsFile>> metrics;  // one a slot, null for other kinds
@@ -35,8 +41,10 @@ struct Outputs {
 };
 
 // Makes the folder and opens all files. Collective; throws MachineError on every rank if the folder
-// can't be written.
-Outputs open_outputs(Simulation& s, const std::string& folder);
+// can't be written. resumed: where the run goes on, null at time zero: recordings and metrics are
+// cut off there and go on, films and contact sheets get files of their own. Throws InputError on
+// every rank if a recording is not what the checkpoint says.
+Outputs open_outputs(Simulation& s, const std::string& folder, const Checkpoint* resumed);
 // Collective.
 void write_outputs(Simulation& s, Outputs& outputs, const FrameRow& row);
 // Waits for encoders and closes files. Throws MachineError on rank 0.

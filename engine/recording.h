@@ -41,11 +41,16 @@ class RecordingWriter {
   // Replaces a file of that name. Throws MachineError with path and reason (here and below: full
   // disk, …).
   RecordingWriter(const std::string& file, const RecordingHead& head);
+  // Goes on with a recording: drops all that follows `last_frame` (0: every frame), which must be
+  // there.
+  RecordingWriter(const std::string& file, std::int64_t last_frame);
   ~RecordingWriter();
   RecordingWriter(RecordingWriter&&) noexcept;
   // The edits since the last frame, then the frame: one transaction. After it returns the frame
   // survives a kill.
   void add(std::span<const FrameEdit> edits, const RecordedFrame& frame);
+  // Returns when all that was added is on the disk, safe from a loss of power too.
+  void sync();
   // The end of the run: says in the file that this is all, and leaves a single file. Call once,
   // last.
   void finish();

@@ -8,6 +8,9 @@ namespace trocar {
 
 namespace {
 
+constexpr const char* insert_edit = "INSERT INTO edit VALUES (?, ?, ?, ?, ?, ?)";
+constexpr const char* insert_frame = "INSERT INTO frame VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
+
 std::vector<std::byte> surface_bytes(const TriangleMesh& surface) {
   Mesh carrier{.X = surface.X};
   for (const auto& triangle : surface.triangle) add_element(carrier, ElementType::tri3, triangle);
@@ -24,13 +27,18 @@ void bind_blob(Statement& statement, int k, const Blob& blob) {
 
 struct RecordingWriter::Database {
   trocar::Database file;  // the tables and the head are there before the statements are prepared
-  Statement add_edit, add_frame;
   FramePlace next;
+  Statement add_edit, add_frame;
 
   Database(const std::string& name, const RecordingHead& head)
       : file(name, trocar::Database::Mode::create),
-        add_edit((write_head(head), file), "INSERT INTO edit VALUES (?, ?, ?, ?, ?, ?)"),
-        add_frame(file, "INSERT INTO frame VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)") {}
+        add_edit((write_head(head), file), insert_edit),
+        add_frame(file, insert_frame) {}
+  Database(const std::string& name, std::int64_t last_frame)
+      : file(name, trocar::Database::Mode::extend),
+        add_edit((go_back_to(last_frame), file), insert_edit),
+        add_frame(file, insert_frame) {}
+  void go_back_to(std::int64_t last_frame);
   void write_head(const RecordingHead& head);
   void write_tool(std::int64_t number, const TriangleMesh& surface);
   void write_edit(const FrameEdit& edit, std::int64_t frame);
@@ -52,6 +60,19 @@ void RecordingWriter::Database::write_head(const RecordingHead& head) {
   for (std::int64_t k = 0; k < n_tools; ++k)
     write_tool(k, head.tool_meshes[static_cast<std::size_t>(k)]);
   file.run("COMMIT");
+}
+
+void RecordingWriter::Database::go_back_to(std::int64_t last_frame) {
+  if (last_frame > 0) {
+    Statement row(file, "SELECT place, n_edits FROM frame WHERE frame = ?");
+    if (!row.bind(0, last_frame).step())
+      file.fail("frame " + std::to_string(last_frame) + " is not recorded");
+    next = {.place = row.integer(0) + 1, .n_edits = row.integer(1)};
+  }
+  const std::string number = std::to_string(last_frame);
+  file.run("BEGIN; DELETE FROM frame WHERE frame > " + number +
+           "; DELETE FROM edit WHERE number >= " + std::to_string(next.n_edits) +
+           "; DELETE FROM closing; COMMIT");
 }
 
 void RecordingWriter::Database::write_tool(std::int64_t number, const TriangleMesh& surface) {
@@ -92,6 +113,8 @@ void RecordingWriter::Database::write_frame(const RecordedFrame& frame) {
 
 RecordingWriter::RecordingWriter(const std::string& file, const RecordingHead& head)
     : database_(std::make_unique<Database>(file, head)) {}
+RecordingWriter::RecordingWriter(const std::string& file, std::int64_t last_frame)
+    : database_(std::make_unique<Database>(file, last_frame)) {}
 RecordingWriter::~RecordingWriter() = default;
 RecordingWriter::RecordingWriter(RecordingWriter&&) noexcept = default;
 
@@ -101,6 +124,11 @@ void RecordingWriter::add(std::span<const FrameEdit> edits, const RecordedFrame&
   for (const FrameEdit& edit : edits) d.write_edit(edit, frame.frame);
   d.write_frame(frame);
   d.file.run("COMMIT");
+}
+
+// In WAL mode a commit reaches the disk with the next emptying of the write-ahead log.
+void RecordingWriter::sync() {
+  database_->file.run("PRAGMA wal_checkpoint(FULL)");
 }
 
 void RecordingWriter::finish() {

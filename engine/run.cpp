@@ -5,13 +5,16 @@
 #include <csignal>
 #include <cstdio>
 #include <fstream>
+#include <optional>
 
 #include "base/error.h"
 #include "base/log.h"
 #include "engine/build.h"
 #include "engine/bytes.h"
+#include "engine/checkpoint_output.h"
 #include "engine/film_studio.h"
 #include "engine/frame.h"
+#include "engine/resume.h"
 #include "engine/summary.h"
 #include "engine/tissue.h"
 
@@ -35,29 +38,37 @@ bool is_stopped(const Communicator& communicator) {
   return communicator.all_max(stop_asked ? 1 : 0) > 0;
 }
 
+// start: of this process's first frame, on the monotonic clock.
 std::string progress_note(const Simulation& s, double start) {
   const double wall = monotonic_seconds() - start;
-  const double simulated = static_cast<double>(s.frame) / s.scene.time.frame_rate;
+  const double rate = s.scene.time.frame_rate;
+  const double done = static_cast<double>(s.frame - s.first_frame) / rate;
   char note[96];
-  std::snprintf(note, sizeof note, "%.2f of %.2f s, real-time factor %.2f", simulated,
-                s.scene.time.duration, wall > 0 ? simulated / wall : 0.0);
+  std::snprintf(note, sizeof note, "%.2f of %.2f s, real-time factor %.2f",
+                static_cast<double>(s.frame) / rate, s.scene.time.duration,
+                wall > 0 ? done / wall : 0.0);
   return note;
 }
 
-// All frames, until the end, a signal or trouble; the sentence of the trouble, "" if none.
+// All frames, until the end, a signal or trouble, and the checkpoint there; the sentence of the
+// trouble, "" if none.
 std::string run_frames(Simulation& s, Outputs& outputs) {
   const auto n_frames = std::llround(s.scene.time.duration * s.scene.time.frame_rate);
   ProgressBar bar(s.scene.name);
-  s.start_seconds = monotonic_seconds();
+  const double start = monotonic_seconds();
+  s.start_seconds = start - static_cast<double>(s.frame) / s.scene.time.frame_rate;
   while (s.frame < n_frames && !is_stopped(*s.communicator)) {
+    const FrameStart frame_start = start_of_frame(s);
     try {
       run_frame(s, outputs);
     } catch (const SimulationError& trouble) {
+      write_checkpoint(s, outputs, &frame_start);
       return trouble.what();
     }
     bar.update(static_cast<double>(s.frame) / static_cast<double>(n_frames),
-               progress_note(s, s.start_seconds));
+               progress_note(s, start));
   }
+  write_checkpoint(s, outputs);
   return s.frame < n_frames ? "stopped by a signal" : "";
 }
 
@@ -91,8 +102,11 @@ bool run_scene(const RunOptions& options, Communicator& communicator) {
   const double start = monotonic_seconds();
   listen_to_signals();
   const LoadedScene loaded = share_scene(options.scene_file, options.overrides, communicator);
+  std::optional<Checkpoint> checkpoint;
+  if (options.resume) checkpoint = load_checkpoint(options.folder, loaded, communicator);
   const auto simulation = build(loaded, communicator);
-  Outputs outputs = open_outputs(*simulation, options.folder);
+  if (checkpoint) restore_checkpoint(*checkpoint, *simulation);
+  Outputs outputs = open_outputs(*simulation, options.folder, checkpoint ? &*checkpoint : nullptr);
   RunTimes times{.setup_seconds = monotonic_seconds() - start};
 
   const std::string trouble = run_frames(*simulation, outputs);

@@ -87,6 +87,10 @@ struct SceneCutting {
   double spring = 1, particle = 0.1;
 };
 
+struct SceneCheckpoint {
+  double every = 1;  // [s], 0: none
+};
+
 struct SceneRegion {
   std::string name;
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
@@ -145,6 +149,7 @@ struct Scene {
   SceneSolver solver;
   SceneContact contact;
   SceneCutting cutting;
+  SceneCheckpoint checkpoint;
   std::vector<SceneRegion> regions;
   std::vector<SceneSupport> supports;
   std::vector<SceneInstrument> instruments;

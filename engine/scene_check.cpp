@@ -86,7 +86,7 @@ void check_outputs(const Scene& scene, const SourceMap& where) {
       where.fail(path + ".file",
                  "\"" + output.file + "\" must be a relative path inside the output folder");
     const std::string plain = std::filesystem::path(output.file).lexically_normal().string();
-    if (plain == "summary.json" || plain == "scene.toml")
+    if (plain == "summary.json" || plain == "scene.toml" || plain.starts_with("checkpoint.bin"))
       where.fail(path + ".file", "\"" + plain + "\" is written by every run: choose another name");
     if (!files.insert(plain).second)
       where.fail(path + ".file", "two outputs write \"" + output.file + "\"");

@@ -133,6 +133,15 @@ Options<SceneCutting> cutting_options() {
   return c;
 }
 
+Options<SceneCheckpoint> checkpoint_options() {
+  Options<SceneCheckpoint> c("What a stopped run can be continued from.");
+  c.number(
+      "every", &SceneCheckpoint::every, dim::time, not_negative,
+      "Interval of simulated time at which checkpoint.bin is replaced; also when a run stops or "
+      "ends. 0: no checkpoints.");
+  return c;
+}
+
 Options<SceneRegion> region_options() {
   Options<SceneRegion> r("A named set of nodes: those in a box, in the body's first position.");
   r.text("name", &SceneRegion::name, "Name for supports.", Need::required);
@@ -232,6 +241,8 @@ Options<Scene> scene_options() {
   s.table("solver", &Scene::solver, solver_options(), "Solver.");
   s.table("contact", &Scene::contact, contact_options(), "Contact.");
   s.table("cutting", &Scene::cutting, cutting_options(), "Cutting.");
+  s.table("checkpoint", &Scene::checkpoint, checkpoint_options(),
+          "What \"trocar run --resume\" continues from.");
   s.list("region", &Scene::regions, region_options(), "Regions.");
   s.list("support", &Scene::supports, support_options(), "Supports.");
   s.list("instrument", &Scene::instruments, instrument_options(), "Instruments.");

@@ -35,13 +35,22 @@ enum Phase : std::size_t {
   phase_watch,
   phase_gather,
   phase_output,
+  phase_checkpoint,
   phase_wait,
   n_phases
 };
 
-inline constexpr const char* phase_names[n_phases] = {
-    "contact detection", "element forces", "contact forces", "integration", "halo exchange",
-    "cutting",           "watch",          "gather",         "output",      "waiting"};
+inline constexpr const char* phase_names[n_phases] = {"contact detection",
+                                                      "element forces",
+                                                      "contact forces",
+                                                      "integration",
+                                                      "halo exchange",
+                                                      "cutting",
+                                                      "watch",
+                                                      "gather",
+                                                      "output",
+                                                      "checkpoint",
+                                                      "waiting"};
 
 struct Simulation {
   Communicator* communicator = nullptr;  // owned by main
@@ -71,9 +80,11 @@ struct Simulation {
   std::vector<CutStage> cuts;             // one a scalpel, only on bodies that can be cut
   SurfaceView view;                       // positions of surface nodes, replicated, once a frame
 
-  std::int64_t frame = 0;    // frames done
-  double contact_reach = 0;  // how far tissue may come towards a tool within a frame [m]
-  double start_seconds = 0;  // monotonic clock at the first frame
+  std::int64_t frame = 0;        // frames done
+  std::int64_t first_frame = 0;  // where this process began: 0, or the checkpoint it resumed from
+  std::uint32_t body_crc = 0;    // of the mesh at time zero and the user's tool surfaces
+  double contact_reach = 0;      // how far tissue may come towards a tool within a frame [m]
+  double start_seconds = 0;      // monotonic clock at time zero of the scene
   std::unique_ptr<EnergyLedger> energy;  // only with a metrics output
   double step_scale = 1;                 // halved by each roll-back
   Watch watch;                           // of the last frame, over all ranks

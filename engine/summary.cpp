@@ -112,7 +112,7 @@ Json energies_json(const Simulation& s, const FrameRow& last) {
           {"cut", w.cut},
           {"largest_balance_error", error},
           {"largest_balance_error_share", turned_over > 0 ? error / turned_over : 0},
-          {"largest_hourglass_share", s.energy->largest_hourglass_share}};
+          {"largest_hourglass_share", s.energy->memory.largest_hourglass_share}};
 }
 
 }  // namespace
@@ -129,6 +129,7 @@ double quantile(std::vector<double> values, double q) {
 
 std::string make_summary(Simulation& s, const RunTimes& times, const std::string& trouble) {
   const double simulated = static_cast<double>(s.frame) / s.scene.time.frame_rate;
+  const double resumed_at = static_cast<double>(s.first_frame) / s.scene.time.frame_rate;
   const FrameRow last = s.log.rows.empty() ? FrameRow{} : s.log.rows.back();
   ExactSum mass;
   for (const double m : s.mass) mass.add(m);
@@ -139,6 +140,7 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   j["version"] = version_text();
   j["finished"] = trouble.empty();
   if (!trouble.empty()) j["trouble"] = trouble;
+  if (s.first_frame > 0) j["resumed_at_s"] = resumed_at;
   j["ranks"] = s.communicator->size();
   j["threads"] = thread_count();
   j["precision"] = "double";
@@ -152,7 +154,8 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   j["wall_seconds"] = {{"total", times.setup_seconds + times.loop_seconds + times.finish_seconds},
                        {"loop", times.loop_seconds},
                        {"by_phase", phases_json(s, times)}};
-  j["real_time_factor"] = times.loop_seconds > 0 ? simulated / times.loop_seconds : 0;
+  j["real_time_factor"] =
+      times.loop_seconds > 0 ? (simulated - resumed_at) / times.loop_seconds : 0;
   j["deadlines_missed"] = s.log.n_deadlines_missed;
   j["frame_latency_ms"] = latency_json(s);
   j["roll_backs"] = s.log.n_roll_backs;

@@ -60,6 +60,47 @@ TEST(RecordingWriter, without_finish_leaves_all_frames_readable) {
   EXPECT_EQ(reader.frames().size(), 4u);
 }
 
+// The frames and meshes that a reader finds are those of `run`, no more and no less.
+void expect_whole(const std::string& file, const ExampleRun& run) {
+  RecordingReader reader(file);
+  EXPECT_TRUE(reader.damage().empty()) << reader.damage().front();
+  ASSERT_EQ(reader.frames().size(), run.frames.size());
+  for (std::size_t k = 0; k < run.frames.size(); ++k) {
+    EXPECT_TRUE(is_equal(reader.read(run.frames[k].frame), run.frames[k])) << "frame " << k;
+    EXPECT_TRUE(is_equal(reader.mesh_at(run.frames[k].frame), run.meshes[k])) << "frame " << k;
+  }
+}
+
+TEST(RecordingWriter, goes_on_after_any_frame_of_a_finished_or_unfinished_recording) {
+  const ExampleRun run = example_run(9);
+  for (const bool with_finish : {true, false})
+    for (std::size_t last = 1; last < run.frames.size(); ++last) {  // frame 0 has number 0: none
+      const TestFolder folder;
+      write_run(run, folder.file("r"), with_finish);
+      {
+        RecordingWriter writer(folder.file("r"), run.frames[last].frame);
+        writer.sync();
+        for (std::size_t k = last + 1; k < run.frames.size(); ++k)
+          writer.add(run.edits[k], run.frames[k]);
+        writer.finish();
+      }
+      expect_whole(folder.file("r"), run);
+    }
+}
+
+TEST(RecordingWriter, does_not_go_on_after_a_frame_that_is_not_there) {
+  const TestFolder folder;
+  write_run(example_run(3), folder.file("r"));
+  EXPECT_TRUE(contains(error_of<MachineError>([&] { RecordingWriter(folder.file("r"), 3); }),
+                       "frame 3 is not recorded"));
+}
+
+TEST(RecordingWriter, does_not_go_on_with_a_file_that_is_not_there) {
+  const TestFolder folder;
+  EXPECT_TRUE(
+      contains(input_error_of([&] { RecordingWriter(folder.file("r"), 1); }), "no such recording"));
+}
+
 // Writes frames until it is killed, and says after each one that it is safe.
 [[noreturn]] void write_until_killed(const std::string& file, const ExampleRun& run, int pipe_end) {
   RecordingWriter writer(file, run.head);

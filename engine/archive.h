@@ -1,0 +1,82 @@
+// One description of a struct's members for writing and reading: `visit(archive, value)` names them
+// in order, a Saver turns them into bytes, a Loader gets them back. Member by member, so that no
+// padding is stored.
+#pragma once
+
+#include <array>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "base/vec.h"
+#include "engine/bytes.h"
+
+namespace trocar {
+
+template <class T>
+inline constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+template <class T, std::size_t n>
+inline constexpr bool is_plain<std::array<T, n>> = is_plain<T>;
+
+class Saver {
+ public:
+  template <class... Values>
+  void operator()(Values&... values) {
+    (put(values), ...);
+  }
+  std::vector<std::byte> take() { return writer_.take(); }
+
+ private:
+  void put(std::string& text) { writer_.put_text(text); }
+  void put(Vec3& v) { (*this)(v[0], v[1], v[2]); }
+  template <class T>
+  void put(std::vector<T>& values) {
+    if constexpr (is_plain<T>) {
+      writer_.put_vector(values);
+    } else {
+      writer_.put(static_cast<std::uint64_t>(values.size()));
+      for (T& value : values) put(value);
+    }
+  }
+  template <class T>
+  void put(T& value) {
+    if constexpr (is_plain<T>)
+      writer_.put(value);
+    else
+      visit(*this, value);
+  }
+  ByteWriter writer_;
+};
+
+// Throws InputError where the bytes end early.
+class Loader {
+ public:
+  explicit Loader(std::span<const std::byte> bytes) : reader_(bytes) {}
+  template <class... Values>
+  void operator()(Values&... values) {
+    (get(values), ...);
+  }
+
+ private:
+  void get(std::string& text) { text = reader_.get_text(); }
+  void get(Vec3& v) { (*this)(v[0], v[1], v[2]); }
+  template <class T>
+  void get(std::vector<T>& values) {
+    if constexpr (is_plain<T>) {
+      values = reader_.get_vector<T>();
+    } else {
+      values.resize(reader_.get_count(1));
+      for (T& value : values) get(value);
+    }
+  }
+  template <class T>
+  void get(T& value) {
+    if constexpr (is_plain<T>)
+      value = reader_.get<T>();
+    else
+      visit(*this, value);
+  }
+  ByteReader reader_;
+};
+
+}  // namespace trocar

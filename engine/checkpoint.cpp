@@ -1,0 +1,158 @@
+#include "engine/checkpoint.h"
+
+#include "base/digest.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "engine/apply_cut.h"
+#include "engine/frame_report.h"
+#include "engine/mesh_measures.h"
+#include "engine/version.h"
+#include "solver/step.h"
+
+namespace trocar {
+
+namespace {
+
+CutMemory memory_of(const CutStage& stage) {
+  return {.stroke = stage.tet.stroke(),
+          .plane_path = stage.plane_path,
+          .plane_tip = stage.plane_tip,
+          .is_in_stroke = stage.is_in_stroke,
+          .n_idle_frames = stage.n_idle_frames,
+          .strokes = stage.strokes,
+          .engaged = stage.engaged,
+          .engaged_length = stage.engaged_length,
+          .resistance = stage.resistance};
+}
+
+void remember(const CutMemory& memory, CutStage& stage) {
+  stage.tet.set_stroke(memory.stroke);
+  stage.plane_path = memory.plane_path;
+  stage.plane_tip = memory.plane_tip;
+  stage.is_in_stroke = memory.is_in_stroke;
+  stage.n_idle_frames = memory.n_idle_frames;
+  stage.strokes = memory.strokes;
+  stage.engaged = memory.engaged;
+  stage.engaged_length = memory.engaged_length;
+  stage.resistance = memory.resistance;
+}
+
+void check_fit(const Checkpoint& c, const Simulation& s) {
+  if (c.body_crc != s.body_crc)
+    throw InputError(
+        "the body or an instrument's surface is not the one that the checkpoint was made with: a "
+        "mesh "
+        "file has changed; put the old one back, or start without --resume");
+  const std::size_t n = c.mesh.X.size();
+  if (c.u.size() != 3 * n || c.v.size() != 3 * n || c.fixed.size() != n ||
+      (!c.fastest_mode.empty() && c.fastest_mode.size() != 3 * n) ||
+      c.cuts.size() != s.cuts.size() || c.is_open.size() != s.tools.size())
+    throw InputError("the checkpoint does not fit the scene; start without --resume");
+}
+
+// Bits are promised for one program and one instruction set.
+void check_machine(const Checkpoint& c) {
+  if (c.version != version_text() || c.simd != simd_name())
+    log_warning("the checkpoint was made by " + c.version + " with " + c.simd +
+                " kernels, this is " + version_text() + " with " + simd_name() +
+                ": the result may differ in its last digits from that of an uninterrupted run");
+}
+
+// The mode from which the next search for the highest frequency starts, and the energy ledger; one
+// that the checkpoint lacks starts here.
+void restore_searches(const Checkpoint& c, Simulation& s) {
+  for (std::int32_t i = 0; i < s.part.n_owned && !c.fastest_mode.empty(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      s.fastest_mode.push_back(
+          c.fastest_mode[3 * static_cast<std::size_t>(s.part.node_global[i]) + k]);
+  if (s.energy && c.has_energies)
+    s.energy->memory = c.energy;
+  else if (s.energy)
+    open_energy_ledger(s);
+}
+
+}  // namespace
+
+Checkpoint take_checkpoint(Simulation& s) {
+  const GlobalState global = gather_state(s);
+  Checkpoint c{.version = version_text(),
+               .simd = simd_name(),
+               .scene = echo_options(scene_options(), &s.scene),
+               .body_crc = s.body_crc,
+               .frame = s.frame,
+               .digest = state_digest(s),
+               .mesh = s.mesh,
+               .fixed = s.fixed,
+               .duplicate_parent = s.duplicate_parent,
+               .duplicate_node = s.duplicate_node,
+               .u = global.u,
+               .v = global.v,
+               .time = s.state.time,
+               .last_dt = s.state.last_dt,
+               .step = s.state.step,
+               .step_scale = s.step_scale,
+               .stable_step_before_cut = s.stable_step_before_cut,
+               .watch = s.watch,
+               .holds = s.holds.holds,
+               .is_open = s.holds.is_open,
+               .log = s.log,
+               .has_energies = s.energy != nullptr};
+  if (s.energy) c.energy = s.energy->memory;
+  // A rank may own no node; a search may not have run.
+  if (s.communicator->all_max(s.fastest_mode.empty() ? 0 : 1) > 0)
+    c.fastest_mode = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.fastest_mode, *s.communicator);
+  for (const CutStage& stage : s.cuts) c.cuts.push_back(memory_of(stage));
+  return c;
+}
+
+void restore_checkpoint(const Checkpoint& c, Simulation& s) {
+  check_fit(c, s);
+  check_machine(c);
+  s.mesh = c.mesh;
+  s.fixed = c.fixed;
+  s.node_owner = partition_nodes(s.mesh, *s.communicator);
+  s.duplicate_parent = c.duplicate_parent;
+  s.duplicate_node = c.duplicate_node;
+  s.holds.holds = c.holds;
+  s.holds.is_open = c.is_open;
+  rebuild_topology(s);
+  s.state.time = c.time;
+  s.state.last_dt = c.last_dt;
+  s.state.step = c.step;
+  scatter_state(s, {.u = c.u, .v = c.v});
+  for (std::size_t k = 0; k < s.cuts.size(); ++k) remember(c.cuts[k], s.cuts[k]);
+  s.step_scale = c.step_scale;
+  s.stable_step_before_cut = c.stable_step_before_cut;
+  s.watch = c.watch;
+  s.log = c.log;
+  s.frame = s.first_frame = c.frame;
+  restore_searches(c, s);
+  refresh_surface(s);
+  if (state_digest(s) != c.digest)
+    throw InputError("the checkpoint does not give the state that it was made of: its digest is " +
+                     digest_text(state_digest(s)) + " instead of " + digest_text(c.digest));
+}
+
+FrameStart start_of_frame(const Simulation& s) {
+  return {.watch = s.watch,
+          .step_scale = s.step_scale,
+          .holds = s.holds.holds,
+          .is_open = s.holds.is_open,
+          .fastest_mode = s.fastest_mode,
+          .n_events = s.log.events.size(),
+          .n_roll_backs = s.log.n_roll_backs};
+}
+
+Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start) {
+  s.fastest_mode = start.fastest_mode;
+  Checkpoint c = take_checkpoint(s);
+  c.watch = start.watch;
+  c.step_scale = start.step_scale;
+  c.holds = start.holds;
+  c.is_open = start.is_open;
+  c.log.events.resize(start.n_events);
+  c.log.n_roll_backs = start.n_roll_backs;
+  return c;
+}
+
+}  // namespace trocar

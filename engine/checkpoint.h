@@ -1,0 +1,86 @@
+// A run at the end of a frame, as data in global numbers: all that the next frame depends on, and
+// what the summary and the metrics tell of the frames before. What follows from the scene (tools,
+// paths) or from the mesh (model, partition, surface) is not in it but built again.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/simulation.h"
+
+namespace trocar {
+
+// Of a CutStage, what it keeps from frame to frame.
+struct CutMemory {
+  CutStroke stroke;
+  std::vector<Vec3> plane_path;
+  std::int32_t plane_tip = -1;
+  bool is_in_stroke = false;
+  std::int32_t n_idle_frames = 0;
+  std::vector<CutRecord> strokes;
+  std::vector<Location> engaged;
+  double engaged_length = 0;
+  Vec3 resistance = Vec3::Zero();
+};
+
+// How far a recording has come.
+struct RecordingMark {
+  std::string file;                // as the scene names it
+  std::int64_t last_frame = 0;     // recorded, 0: none
+  std::vector<FrameEdit> pending;  // edits since then
+};
+
+struct Checkpoint {
+  std::string version, simd;   // of the program and of its kernels: bits are promised for the same
+  std::string scene;           // effective scene, TOML
+  std::uint32_t body_crc = 0;  // Simulation::body_crc
+  std::int64_t frame = 0;
+  std::uint64_t digest = 0;  // state_digest
+
+  Mesh mesh;
+  std::vector<FixedMask> fixed;                                // (n_nodes)
+  std::vector<std::int32_t> duplicate_parent, duplicate_node;  // partner nodes
+  std::vector<double> u, v;                                    // (n_nodes * 3) [m], [m/s]
+  double time = 0, last_dt = 0;
+  std::int64_t step = 0;
+  double step_scale = 1, stable_step_before_cut = 0;
+  Watch watch;
+  std::vector<Hold> holds;
+  std::vector<std::uint8_t> is_open;  // (n_tools)
+  std::vector<CutMemory> cuts;        // one a scalpel
+  FrameLog log;                       // without new_edits, which outputs have taken
+  std::vector<double> fastest_mode;   // (n_nodes * 3), empty: not searched for
+  bool has_energies = false;          // in the rows of the log
+  EnergyMemory energy;
+  std::vector<RecordingMark> recordings;
+};
+
+// Of everything but the recordings. Collective.
+Checkpoint take_checkpoint(Simulation& s);
+// Puts a simulation that was built from the same scene where the checkpoint was taken. Collective;
+// throws InputError on every rank if body and checkpoint don't belong together.
+void restore_checkpoint(const Checkpoint& checkpoint, Simulation& s);
+
+// What a frame changes before its substeps have gone well: a run that fails within a frame keeps
+// the frame's beginning.
+struct FrameStart {
+  Watch watch;
+  double step_scale = 1;
+  std::vector<Hold> holds;
+  std::vector<std::uint8_t> is_open;
+  std::vector<double> fastest_mode;
+  std::size_t n_events = 0;
+  std::int64_t n_roll_backs = 0;
+};
+FrameStart start_of_frame(const Simulation& s);
+// Of a simulation whose frame failed: its state is back at the frame's beginning, and so is the
+// rest of the checkpoint. Collective.
+Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start);
+
+// Packed, with checksums that find every flipped byte (checkpoint_bytes.cpp).
+std::vector<std::byte> checkpoint_to_bytes(Checkpoint checkpoint);
+// Throws InputError "<name>: …" for damaged bytes or another format.
+Checkpoint checkpoint_from_bytes(std::span<const std::byte> bytes, const std::string& name);
+
+}  // namespace trocar

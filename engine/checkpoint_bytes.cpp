@@ -1,0 +1,185 @@
+// A checkpoint's layout: mark, format, two packed blobs (displacements and velocities, whose bytes
+// are shuffled, and all the rest), checksum of everything before it.
+#include "base/digest.h"
+#include "base/error.h"
+#include "engine/archive.h"
+#include "engine/blob.h"
+#include "engine/checkpoint.h"
+#include "mesh/quality.h"
+
+namespace trocar {
+
+constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
+constexpr std::uint32_t checkpoint_format = 1;
+
+static void visit(Saver& a, Mesh& mesh) {
+  std::vector<std::byte> bytes = mesh_to_bytes(mesh);
+  a(bytes);
+}
+static void visit(Loader& a, Mesh& mesh) {
+  std::vector<std::byte> bytes;
+  a(bytes);
+  mesh = mesh_from_bytes(bytes);
+}
+static void visit(Saver& a, MeshEdit& edit) {
+  std::vector<std::byte> bytes = edit_to_bytes(edit);
+  a(bytes);
+}
+static void visit(Loader& a, MeshEdit& edit) {
+  std::vector<std::byte> bytes;
+  a(bytes);
+  edit = edit_from_bytes(bytes);
+}
+
+template <class Archive>
+static void visit(Archive& a, CutHit& h) {
+  a(h.element, h.edge, h.is_first_plus, h.X, h.N);
+}
+template <class Archive, class T>
+static void visit(Archive& a, OfElement<T>& entry) {
+  a(entry.element, entry.value);
+}
+template <class Archive>
+static void visit(Archive& a, BladePoint& p) {
+  a(p.element, p.X, p.x);
+}
+template <class Archive>
+static void visit(Archive& a, CutStroke& s) {
+  a(s.hit, s.side, s.opened, s.altitude, s.surface_node, s.parted_node, s.fresh, s.unfinished,
+    s.edge, s.mean_edge, s.swept);
+}
+template <class Archive>
+static void visit(Archive& a, CutRecord& r) {
+  a(r.tool, r.start, r.end, r.n_edits, r.n_refused, r.n_moved, r.n_duplicated, r.n_opened_facets,
+    r.n_elements_added, r.n_elements_dissolved, r.stable_step_ratio, r.scene_step_ratio,
+    r.least_quality, r.mass_change, r.momentum_change, r.kinetic_energy_change, r.largest_deviation,
+    r.mean_deviation, r.mean_edge, r.blade_travel, r.deepest, r.milliseconds, r.worst_milliseconds);
+}
+template <class Archive>
+static void visit(Archive& a, Location& l) {
+  a(l.element, l.weight);
+}
+template <class Archive>
+static void visit(Archive& a, CutMemory& m) {
+  a(m.stroke, m.plane_path, m.plane_tip, m.is_in_stroke, m.n_idle_frames, m.strokes, m.engaged,
+    m.engaged_length, m.resistance);
+}
+template <class Archive>
+static void visit(Archive& a, Hold& h) {
+  a(h.node, h.tool, h.support, h.offset);
+}
+template <class Archive>
+static void visit(Archive& a, Watch& w) {
+  a(w.stable_step, w.stable_element, w.least_J, w.least_J_element, w.is_finite, w.bad_node);
+}
+template <class Archive>
+static void visit(Archive& a, ToolRow& r) {
+  a(r.position, r.force);
+}
+template <class Archive>
+static void visit(Archive& a, EnergyState& e) {
+  a(e.kinetic, e.strain, e.hourglass, e.gravity);
+}
+template <class Archive>
+static void visit(Archive& a, EnergyWorks& w) {
+  a(w.contact, w.holds, w.blade, w.damping, w.cut);
+}
+template <class Archive>
+static void visit(Archive& a, EnergyMemory& m) {
+  a(m.works, m.initial, m.largest_stored, m.largest_hourglass_share);
+}
+template <class Archive>
+static void visit(Archive& a, FrameRow& r) {
+  a(r.frame, r.step, r.n_substeps, r.time, r.dt, r.stable_step, r.least_J, r.energy, r.works,
+    r.energy_error, r.wound_width, r.wound_width_mean, r.n_contacts, r.n_held, r.n_edits, r.tools,
+    r.seconds);
+}
+template <class Archive>
+static void visit(Archive& a, FrameLog& l) {
+  a(l.rows, l.n_roll_backs, l.n_deadlines_missed, l.least_J, l.least_J_element, l.least_stable_step,
+    l.largest_stable_step, l.events);
+}
+template <class Archive>
+static void visit(Archive& a, FrameEdit& e) {
+  a(e.frame, e.edit);
+}
+template <class Archive>
+static void visit(Archive& a, RecordingMark& m) {
+  a(m.file, m.last_frame, m.pending);
+}
+// All but u and v.
+template <class Archive>
+static void visit(Archive& a, Checkpoint& c) {
+  a(c.version, c.simd, c.scene, c.body_crc, c.frame, c.digest, c.mesh, c.fixed, c.duplicate_parent,
+    c.duplicate_node, c.time, c.last_dt, c.step, c.step_scale, c.stable_step_before_cut, c.watch,
+    c.holds, c.is_open, c.cuts, c.log, c.fastest_mode, c.has_energies, c.energy, c.recordings);
+}
+
+static void put_blob(ByteWriter& writer, const Blob& blob) {
+  writer.put(blob.plain_size);
+  writer.put(blob.crc);
+  writer.put_vector(blob.packed);
+}
+
+static Blob get_blob(ByteReader& reader) {
+  Blob blob;
+  blob.plain_size = reader.get<std::uint64_t>();
+  blob.crc = reader.get<std::uint32_t>();
+  blob.packed = reader.get_vector<std::byte>();
+  return blob;
+}
+
+std::vector<std::byte> checkpoint_to_bytes(Checkpoint checkpoint) {
+  std::vector<double> motion = std::move(checkpoint.u);
+  motion.insert(motion.end(), checkpoint.v.begin(), checkpoint.v.end());
+  Saver rest;
+  rest(checkpoint);
+  ByteWriter writer;
+  writer.put(checkpoint_mark);
+  writer.put(checkpoint_format);
+  put_blob(writer, pack_blob(std::as_bytes(std::span(motion)), sizeof(double)));
+  put_blob(writer, pack_blob(rest.take(), 1));
+  std::vector<std::byte> bytes = writer.take();
+  const std::array<std::uint32_t, 1> crc = {crc32c(bytes)};
+  const auto end = std::as_bytes(std::span(crc));
+  bytes.insert(bytes.end(), end.begin(), end.end());
+  return bytes;
+}
+
+// The blobs without mark, format and checksum.
+static std::span<const std::byte> checked_body(std::span<const std::byte> bytes,
+                                               const std::string& name) {
+  constexpr std::size_t head = sizeof checkpoint_mark + sizeof checkpoint_format;
+  if (bytes.size() < head + sizeof(std::uint32_t) ||
+      std::memcmp(bytes.data(), checkpoint_mark.data(), sizeof checkpoint_mark) != 0)
+    throw InputError(name + ": is no checkpoint");
+  const std::span<const std::byte> covered = bytes.first(bytes.size() - sizeof(std::uint32_t));
+  if (ByteReader(bytes.last(sizeof(std::uint32_t))).get<std::uint32_t>() != crc32c(covered))
+    throw InputError(name + ": damaged (its checksum does not match); start without --resume");
+  const auto format = ByteReader(bytes.subspan(sizeof checkpoint_mark)).get<std::uint32_t>();
+  if (format != checkpoint_format)
+    throw InputError(name + ": has checkpoint format " + std::to_string(format) +
+                     ", this program reads " + std::to_string(checkpoint_format));
+  return covered.subspan(head);
+}
+
+Checkpoint checkpoint_from_bytes(std::span<const std::byte> bytes, const std::string& name) {
+  ByteReader reader(checked_body(bytes, name));
+  const std::vector<std::byte> motion = unpack_blob(get_blob(reader), sizeof(double), name);
+  const std::vector<std::byte> rest = unpack_blob(get_blob(reader), 1, name);
+  Checkpoint c;
+  Loader load(rest);
+  load(c);
+  const std::size_t n = motion.size() / sizeof(double) / 2;
+  c.u.resize(n);
+  c.v.resize(n);
+  if (n > 0) {
+    std::memcpy(c.u.data(), motion.data(), n * sizeof(double));
+    std::memcpy(c.v.data(), motion.data() + n * sizeof(double), n * sizeof(double));
+  }
+  const std::vector<std::string> faults = validate(c.mesh, 1);
+  if (!faults.empty()) throw InputError(name + ": mesh: " + faults.front());
+  return c;
+}
+
+}  // namespace trocar

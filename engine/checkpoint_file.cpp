@@ -1,0 +1,73 @@
+#include "engine/checkpoint_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "base/error.h"
+
+namespace trocar {
+
+namespace {
+
+// An open file; closed with the object.
+struct OpenFile {
+  int number = -1;
+  OpenFile(const std::string& file, int flags) : number(open(file.c_str(), flags, 0666)) {}
+  ~OpenFile() {
+    if (number >= 0) close(number);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+};
+
+bool write_all(const OpenFile& file, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = write(file.number, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  }
+  return true;
+}
+
+bool write_to_disk(const std::string& file, std::span<const std::byte> bytes) {
+  const OpenFile stream(file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC);
+  return stream.number >= 0 && write_all(stream, bytes) && fsync(stream.number) == 0;
+}
+
+// A rename is on the disk once the folder is. Some file systems can't: then it comes a little
+// later.
+void sync_folder(const std::string& file) {
+  const std::string parent = std::filesystem::path(file).parent_path().string();
+  const OpenFile folder(parent.empty() ? "." : parent, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder.number >= 0) fsync(folder.number);
+}
+
+}  // namespace
+
+void replace_file(const std::string& file, std::span<const std::byte> bytes) {
+  const std::string fresh = file + ".new";
+  if (!write_to_disk(fresh, bytes) || std::rename(fresh.c_str(), file.c_str()) != 0) {
+    const std::string reason = std::strerror(errno);
+    unlink(fresh.c_str());
+    throw MachineError(file + ": can't be written (" + reason + ", " +
+                       std::to_string(bytes.size()) + " bytes needed)");
+  }
+  sync_folder(file);
+}
+
+void remove_checkpoint(const std::string& folder) {
+  const std::string file = folder + "/" + checkpoint_name;
+  std::error_code trouble;
+  std::filesystem::remove(file, trouble);
+  std::filesystem::remove(file + ".new", trouble);
+  if (std::filesystem::exists(file))
+    throw MachineError(file + ": an old checkpoint that can't be removed");
+}
+
+}  // namespace trocar

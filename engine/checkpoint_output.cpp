@@ -1,0 +1,56 @@
+#include "engine/checkpoint_output.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "engine/checkpoint_file.h"
+
+namespace trocar {
+
+namespace {
+
+std::vector<RecordingMark> recording_marks(const Simulation& s, const Outputs& outputs) {
+  std::vector<RecordingMark> marks;
+  for (std::size_t k = 0; k < outputs.slots.size(); ++k)
+    if (outputs.slots[k].kind == OutputKind::recording)
+      marks.push_back({.file = s.scene.outputs[k].file,
+                       .last_frame = outputs.slots[k].last_frame,
+                       .pending = outputs.slots[k].pending});
+  return marks;
+}
+
+void save(Checkpoint checkpoint, Outputs& outputs) {
+  for (const auto& recording : outputs.recordings)
+    if (recording) recording->sync();
+  replace_file(outputs.folder + "/" + checkpoint_name, checkpoint_to_bytes(std::move(checkpoint)));
+}
+
+}  // namespace
+
+bool is_checkpoint_due(const Simulation& s) {
+  const double every = s.scene.checkpoint.every;
+  if (every == 0) return false;
+  return s.frame % std::max<std::int64_t>(1, std::llround(every * s.scene.time.frame_rate)) == 0;
+}
+
+void write_checkpoint(Simulation& s, Outputs& outputs, const FrameStart* failed) {
+  if (s.scene.checkpoint.every == 0 || s.frame == outputs.last_checkpoint) return;
+  const double start = monotonic_seconds();
+  Checkpoint checkpoint = failed ? take_checkpoint_of_start(s, *failed) : take_checkpoint(s);
+  checkpoint.recordings = recording_marks(s, outputs);
+  std::string error;
+  if (s.communicator->is_root()) {
+    try {
+      save(std::move(checkpoint), outputs);
+    } catch (const MachineError& trouble) {
+      error = trouble.what();
+    }
+  }
+  error = s.communicator->first_text(error);
+  if (!error.empty()) throw SharedMachineError(error);
+  outputs.last_checkpoint = s.frame;
+  s.timers.add(phase_checkpoint, monotonic_seconds() - start);
+}
+
+}  // namespace trocar

@@ -1,0 +1,119 @@
+#include "engine/resume.h"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "engine/checkpoint_file.h"
+#include "engine/frame_report.h"
+#include "engine/tissue.h"
+#include "mesh/whole_file.h"
+
+namespace trocar {
+
+namespace {
+
+struct KeyValue {
+  std::string key, value;  // "instrument[1].path[0].time"
+};
+
+// "instrument.path" as instrument[1].path[0], by how often each list was begun so far.
+std::string numbered(const std::string& table, const std::map<std::string, int>& n_begun) {
+  std::string path, plain;
+  std::istringstream words(table);
+  for (std::string word; std::getline(words, word, '.');) {
+    plain += (plain.empty() ? "" : ".") + word;
+    path += (path.empty() ? "" : ".") + word;
+    const auto found = n_begun.find(plain);
+    if (found != n_begun.end()) path += "[" + std::to_string(found->second) + "]";
+  }
+  return path;
+}
+
+// The lines of an effective scene with the whole path of each key.
+std::vector<KeyValue> keys_of(const Scene& scene) {
+  std::vector<KeyValue> keys;
+  std::map<std::string, int> n_begun;  // index of the present item of each list
+  std::string table;
+  std::istringstream lines(echo_options(scene_options(), &scene));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("[[")) {
+      table = line.substr(2, line.size() - 4);
+      std::erase_if(n_begun, [&](const auto& list) { return list.first.starts_with(table + "."); });
+      n_begun.try_emplace(table, -1).first->second += 1;
+    } else if (line.starts_with("[")) {
+      table = line.substr(1, line.size() - 2);
+    } else if (const std::size_t at = line.find(" = "); at != std::string::npos) {
+      const std::string path = table.empty() ? "" : numbered(table, n_begun) + ".";
+      keys.push_back({.key = path + line.substr(0, at), .value = line.substr(at + 3)});
+    }
+  }
+  return keys;
+}
+
+Scene without_free_keys(Scene scene) {
+  scene.time.duration = 1;
+  scene.checkpoint = {};
+  scene.cameras.clear();
+  scene.outputs.clear();
+  return scene;
+}
+
+std::string time_text(const Checkpoint& checkpoint, const LoadedScene& loaded) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f s",
+                static_cast<double>(checkpoint.frame) / loaded.scene.time.frame_rate);
+  return text;
+}
+
+void check_end(const Checkpoint& checkpoint, const LoadedScene& loaded) {
+  const SceneTime& time = loaded.scene.time;
+  if (checkpoint.frame > std::llround(time.duration * time.frame_rate))
+    loaded.where.fail("time.duration", "the checkpoint is at " + time_text(checkpoint, loaded) +
+                                           ", behind the end of this scene");
+}
+
+}  // namespace
+
+void require_same_scene(const std::string& before, const LoadedScene& now) {
+  Scene old;
+  SourceMap where;
+  read_options_text(scene_options(), before, "the checkpoint's scene", {}, &old, where);
+  const std::vector<KeyValue> a = keys_of(without_free_keys(old)),
+                              b = keys_of(without_free_keys(now.scene));
+  for (std::size_t k = 0; k < std::max(a.size(), b.size()); ++k) {
+    const KeyValue was = k < a.size() ? a[k] : KeyValue{}, is = k < b.size() ? b[k] : KeyValue{};
+    if (was.key == is.key && was.value == is.value) continue;
+    const bool is_same_key = was.key == is.key;
+    now.where.fail(is.key.empty() ? was.key : is.key,
+                   "the stopped run had " +
+                       (is_same_key ? was.value : "no such key here, but \"" + was.key + "\"") +
+                       ": resume it with the same scene, or start anew without --resume");
+  }
+}
+
+Checkpoint load_checkpoint(const std::string& folder, const LoadedScene& loaded,
+                           Communicator& communicator) {
+  const std::string file = folder + "/" + checkpoint_name;
+  const std::vector<std::byte> bytes = read_on_root(communicator, [&] {
+    if (!std::filesystem::exists(file))
+      throw InputError("\"" + folder + "\" holds no checkpoint (" + checkpoint_name +
+                       ") to resume from; start the run without --resume");
+    const std::string content = read_whole_file(file);
+    const auto read = std::as_bytes(std::span(content));
+    const Checkpoint checkpoint = checkpoint_from_bytes(read, file);
+    require_same_scene(checkpoint.scene, loaded);
+    check_end(checkpoint, loaded);
+    return std::vector<std::byte>(read.begin(), read.end());
+  });
+  Checkpoint checkpoint = checkpoint_from_bytes(bytes, file);
+  log_info("resuming at " + time_text(checkpoint, loaded) + ", frame " +
+           std::to_string(checkpoint.frame));
+  return checkpoint;
+}
+
+}  // namespace trocar

@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+
+#include "base/digest.h"
+#include "engine/bytes.h"
+#include "engine/checkpoint.h"
+#include "engine_files.h"
+#include "engine_recording.h"
+
+namespace trocar {
+namespace {
+
+// Every kind of member once, with numbers that can't be mistaken for each other.
+Checkpoint example_checkpoint() {
+  Checkpoint c{.version = "trocar test", .scene = "name = \"x\"\n", .frame = 17, .digest = 99};
+  c.mesh = make_rectangle(0.02, 0.01, 3, 2);
+  c.fixed = {1, 2, 3, 4, 5, 6};
+  for (int i = 0; i < 18; ++i) {
+    c.u.push_back(0.1 * i);
+    c.v.push_back(-0.3 * i);
+  }
+  c.step = 5;
+  c.holds = {{.node = 2, .tool = 1, .offset = Vec3(1, 2, 3)}};
+  c.cuts.resize(1);
+  c.cuts[0].stroke.hit = {{.element = 3, .edge = 2, .is_first_plus = true, .X = Vec3(4, 5, 6)}};
+  c.cuts[0].stroke.altitude = {{.element = 7, .value = 0.25}};
+  c.cuts[0].engaged = {{.element = 1, .weight = {0.25, 0.5, 0.25, 0}}};
+  c.cuts[0].strokes = {{.tool = "scalpel", .n_edits = 4}};
+  c.log.rows.resize(2);
+  c.log.rows[1].tools = {{.position = Vec3(7, 8, 9)}};
+  c.log.events = {"0.1 s: something"};
+  c.recordings = {{.file = "r.trocar", .last_frame = 16}};
+  c.recordings[0].pending = {{.frame = 17, .edit = example_edit(c.mesh, 1)}};
+  return c;
+}
+
+TEST(CheckpointBytes, read_back_give_the_same_checkpoint) {
+  const Checkpoint c = example_checkpoint();
+  const Checkpoint back = checkpoint_from_bytes(checkpoint_to_bytes(c), "c");
+  EXPECT_EQ(back.scene, c.scene);
+  EXPECT_EQ(back.frame, 17);
+  EXPECT_EQ(back.digest, 99u);
+  EXPECT_TRUE(is_equal(back.mesh, c.mesh));
+  EXPECT_EQ(back.fixed, c.fixed);
+  EXPECT_EQ(back.u, c.u);
+  EXPECT_EQ(back.v, c.v);
+  EXPECT_EQ(back.holds.at(0).offset, Vec3(1, 2, 3));
+  EXPECT_TRUE(back.cuts.at(0).stroke.hit.at(0).is_first_plus);
+  EXPECT_EQ(back.cuts[0].stroke.hit[0].X, Vec3(4, 5, 6));
+  EXPECT_EQ(back.cuts[0].stroke.altitude.at(0).value, 0.25);
+  EXPECT_EQ(back.cuts[0].engaged.at(0).weight, c.cuts[0].engaged[0].weight);
+  EXPECT_EQ(back.cuts[0].strokes.at(0).tool, "scalpel");
+  EXPECT_EQ(back.cuts[0].strokes[0].n_edits, 4);
+  EXPECT_EQ(back.log.rows.at(1).tools.at(0).position, Vec3(7, 8, 9));
+  EXPECT_EQ(back.log.events, c.log.events);
+  EXPECT_EQ(back.recordings.at(0).last_frame, 16);
+  EXPECT_EQ(edit_to_bytes(back.recordings[0].pending.at(0).edit),
+            edit_to_bytes(c.recordings[0].pending[0].edit));
+}
+
+TEST(CheckpointBytes, with_any_byte_changed_are_refused) {
+  const std::vector<std::byte> good = checkpoint_to_bytes(example_checkpoint());
+  for (std::size_t k = 0; k < good.size(); ++k)
+    for (const int change : {1, 128, 255}) {
+      std::vector<std::byte> bad = good;
+      bad[k] ^= static_cast<std::byte>(change);
+      EXPECT_THROW(checkpoint_from_bytes(bad, "c"), InputError) << "byte " << k << " ^ " << change;
+    }
+}
+
+TEST(CheckpointBytes, cut_off_anywhere_are_refused) {
+  const std::vector<std::byte> good = checkpoint_to_bytes(example_checkpoint());
+  for (std::size_t n = 0; n < good.size(); ++n)
+    EXPECT_THROW(checkpoint_from_bytes(std::span(good).first(n), "c"), InputError) << n << " bytes";
+}
+
+TEST(CheckpointBytes, that_are_damaged_say_so_and_how_to_go_on) {
+  std::vector<std::byte> bytes = checkpoint_to_bytes(example_checkpoint());
+  bytes[40] ^= std::byte{1};
+  EXPECT_EQ(input_error_of([&] { checkpoint_from_bytes(bytes, "out/checkpoint.bin"); }),
+            "out/checkpoint.bin: damaged (its checksum does not match); start without --resume");
+}
+
+TEST(CheckpointBytes, of_another_format_are_named_as_such) {
+  std::vector<std::byte> bytes = checkpoint_to_bytes(example_checkpoint());
+  bytes[8] = std::byte{2};  // behind the mark of eight bytes
+  const std::uint32_t crc = crc32c(std::span(bytes).first(bytes.size() - 4));
+  std::memcpy(bytes.data() + bytes.size() - 4, &crc, 4);
+  EXPECT_TRUE(contains(input_error_of([&] { checkpoint_from_bytes(bytes, "c"); }), "format 2"));
+}
+
+}  // namespace
+}  // namespace trocar

@@ -1,0 +1,207 @@
+// A run that goes on from a checkpoint has the bits of one that never stopped: each frame's
+// checkpoint, restored into a new simulation, gives the next frame's checkpoint byte by byte.
+#include "engine/checkpoint.h"
+
+#include <gtest/gtest.h>
+
+#include "base/threads.h"
+#include "engine/build.h"
+#include "engine/frame.h"
+#include "engine/output.h"
+#include "engine_files.h"
+#include "engine_resume.h"
+
+namespace trocar {
+namespace {
+
+LoadedScene loaded_text(const std::string& text) {
+  set_thread_count(1);  // bodies so small that threads would only wait for each other
+  const TestFolder folder;
+  return load_scene(write_text(folder.file("s.toml"), text), {"checkpoint.every=0"});
+}
+
+// Wall times are the only part that no two runs share.
+Checkpoint without_wall_times(Checkpoint c) {
+  for (FrameRow& row : c.log.rows) row.seconds = 0;
+  for (CutMemory& cut : c.cuts)
+    for (CutRecord& stroke : cut.strokes) stroke.milliseconds = stroke.worst_milliseconds = 0;
+  c.log.n_deadlines_missed = 0;
+  return c;
+}
+
+std::vector<std::byte> bytes_of(Simulation& s) {
+  return checkpoint_to_bytes(without_wall_times(take_checkpoint(s)));
+}
+
+// Checkpoints of all frames of a run that is not stopped, from time zero on.
+std::vector<std::vector<std::byte>> uninterrupted(const LoadedScene& scene) {
+  Communicator alone;
+  const auto s = build(scene, alone);
+  Outputs outputs;
+  const auto n = std::llround(scene.scene.time.duration * scene.scene.time.frame_rate);
+  std::vector<std::vector<std::byte>> checkpoints = {bytes_of(*s)};
+  while (s->frame < n) {
+    run_frame(*s, outputs);
+    checkpoints.push_back(bytes_of(*s));
+  }
+  return checkpoints;
+}
+
+void expect_same_next_frames(const LoadedScene& scene,
+                             const std::vector<std::vector<std::byte>>& checkpoints) {
+  Communicator alone;
+  for (std::size_t k = 0; k + 1 < checkpoints.size(); ++k) {
+    const auto s = build(scene, alone);
+    restore_checkpoint(checkpoint_from_bytes(checkpoints[k], "c"), *s);
+    EXPECT_EQ(bytes_of(*s), checkpoints[k]) << "restored at frame " << k;
+    Outputs outputs;
+    run_frame(*s, outputs);
+    EXPECT_EQ(bytes_of(*s), checkpoints[k + 1]) << "one frame after frame " << k;
+  }
+}
+
+TEST(Checkpoint, of_each_frame_of_a_cut_grasped_and_pressed_block_leads_to_the_next_one) {
+  const LoadedScene scene = loaded_text(resume_block_text);
+  const auto checkpoints = uninterrupted(scene);
+  expect_same_next_frames(scene, checkpoints);
+
+  // All that a checkpoint has to keep did happen.
+  bool is_in_stroke = false, has_engaged = false;
+  for (const auto& bytes : checkpoints) {
+    const Checkpoint c = checkpoint_from_bytes(bytes, "c");
+    is_in_stroke = is_in_stroke || (c.cuts[0].is_in_stroke && !c.cuts[0].stroke.opened.empty());
+    has_engaged = has_engaged || !c.cuts[0].engaged.empty();
+  }
+  const Checkpoint last = checkpoint_from_bytes(checkpoints.back(), "c");
+  std::int64_t most_contacts = 0, most_held = 0;
+  for (const FrameRow& row : last.log.rows) {
+    most_contacts = std::max(most_contacts, row.n_contacts);
+    most_held = std::max(most_held, row.n_held);
+  }
+  EXPECT_TRUE(is_in_stroke);
+  EXPECT_TRUE(has_engaged);
+  EXPECT_GT(last.duplicate_node.size(), 5u);
+  EXPECT_GT(most_contacts, 0);
+  EXPECT_GT(most_held, static_cast<std::int64_t>(last.holds.size()));  // opened again
+  EXPECT_GT(last.holds.size(), 0u);                                    // the moving support
+  EXPECT_EQ(last.log.events.size(), 2u);                               // closes, opens
+}
+
+TEST(Checkpoint, of_each_frame_of_a_plane_cut_leads_to_the_next_one) {
+  const LoadedScene scene = loaded_text(resume_plane_text);
+  const auto checkpoints = uninterrupted(scene);
+  expect_same_next_frames(scene, checkpoints);
+  std::size_t longest_path = 0;
+  for (const auto& bytes : checkpoints)
+    longest_path =
+        std::max(longest_path, checkpoint_from_bytes(bytes, "c").cuts[0].plane_path.size());
+  EXPECT_GT(longest_path, 2u);
+  EXPECT_GT(checkpoint_from_bytes(checkpoints.back(), "c").duplicate_node.size(), 2u);
+}
+
+using Forget = void (*)(CutMemory&);
+
+// Whether the run leads elsewhere within a few frames if a checkpoint has lost something.
+bool leads_elsewhere(const LoadedScene& scene,
+                     const std::vector<std::vector<std::byte>>& checkpoints, std::size_t k,
+                     Forget forget) {
+  Communicator alone;
+  const auto s = build(scene, alone);
+  Checkpoint c = checkpoint_from_bytes(checkpoints[k], "c");
+  forget(c.cuts[0]);
+  restore_checkpoint(c, *s);
+  Outputs outputs;
+  for (std::size_t j = k + 1; j < std::min(k + 6, checkpoints.size()); ++j) {
+    run_frame(*s, outputs);
+    if (bytes_of(*s) != checkpoints[j]) return true;
+  }
+  return false;
+}
+
+// The round trips above have power over these only if the scenes need them.
+void expect_each_is_needed(const LoadedScene& scene,
+                           const std::vector<std::pair<const char*, Forget>>& parts) {
+  const auto checkpoints = uninterrupted(scene);
+  for (const auto& [name, forget] : parts) {
+    bool is_needed = false;
+    for (std::size_t k = 0; k + 1 < checkpoints.size() && !is_needed; ++k)
+      is_needed = checkpoint_from_bytes(checkpoints[k], "c").cuts[0].is_in_stroke &&
+                  leads_elsewhere(scene, checkpoints, k, forget);
+    EXPECT_TRUE(is_needed) << name;
+  }
+}
+
+TEST(Checkpoint, needs_each_part_of_a_stroke_through_tetrahedra) {
+  expect_each_is_needed(loaded_text(resume_block_text),
+                        {{"hit", [](CutMemory& m) { m.stroke.hit.clear(); }},
+                         {"side", [](CutMemory& m) { m.stroke.side.clear(); }},
+                         {"opened", [](CutMemory& m) { m.stroke.opened.clear(); }},
+                         {"altitude", [](CutMemory& m) { m.stroke.altitude.clear(); }},
+                         {"surface_node", [](CutMemory& m) { m.stroke.surface_node.clear(); }},
+                         {"parted_node", [](CutMemory& m) { m.stroke.parted_node.clear(); }},
+                         {"fresh", [](CutMemory& m) { m.stroke.fresh.clear(); }},
+                         {"unfinished", [](CutMemory& m) { m.stroke.unfinished.clear(); }},
+                         {"edge", [](CutMemory& m) { m.stroke.edge.clear(); }},
+                         {"mean_edge", [](CutMemory& m) { m.stroke.mean_edge = 0; }},
+                         {"swept", [](CutMemory& m) { m.stroke.swept = 0; }},
+                         {"is_in_stroke", [](CutMemory& m) { m.is_in_stroke = false; }},
+                         {"n_idle_frames", [](CutMemory& m) { m.n_idle_frames = 0; }},
+                         {"engaged", [](CutMemory& m) { m.engaged.clear(); }},
+                         {"resistance", [](CutMemory& m) { m.resistance.setZero(); }}});
+}
+
+TEST(Checkpoint, needs_each_part_of_a_plane_cut) {
+  expect_each_is_needed(loaded_text(resume_plane_text),
+                        {{"plane_path", [](CutMemory& m) { m.plane_path.clear(); }},
+                         {"plane_tip", [](CutMemory& m) { m.plane_tip = -1; }}});
+}
+
+TEST(Checkpoint, keeps_a_step_that_roll_backs_have_halved) {
+  Communicator alone;
+  const LoadedScene scene = loaded_text(resume_plane_text);
+  const auto s = build(scene, alone), t = build(scene, alone);
+  Outputs outputs;
+  s->step_scale = 0.5;
+  s->log.n_roll_backs = 1;
+  restore_checkpoint(take_checkpoint(*s), *t);
+  run_frame(*s, outputs);
+  run_frame(*t, outputs);
+  EXPECT_EQ(bytes_of(*t), bytes_of(*s));
+  EXPECT_EQ(t->step_scale, 0.5);
+  EXPECT_EQ(t->log.n_roll_backs, 1);
+}
+
+TEST(Checkpoint, of_a_frame_that_failed_is_that_of_its_beginning) {
+  Communicator alone;
+  const auto s = build(loaded_text(resume_block_text), alone);
+  Outputs outputs;
+  for (int k = 0; k < 8; ++k) run_frame(*s, outputs);
+  const std::vector<std::byte> before = bytes_of(*s);
+  const FrameStart start = start_of_frame(*s);
+  s->scene.solver.gravity = Vec3(0, 0, -1e300);  // no step is small enough
+  rebuild_topology(*s);
+  EXPECT_THROW(run_frame(*s, outputs), SimulationError);
+  s->scene.solver.gravity = Vec3(0, 0, -9.81);
+  const Checkpoint after = take_checkpoint_of_start(*s, start);
+  EXPECT_EQ(checkpoint_to_bytes(without_wall_times(after)), before);
+}
+
+TEST(Checkpoint, of_another_body_is_refused) {
+  Communicator alone;
+  const auto s = build(loaded_text(resume_plane_text), alone);
+  Checkpoint c = take_checkpoint(*s);
+  c.body_crc ^= 1;
+  EXPECT_TRUE(
+      contains(input_error_of([&] { restore_checkpoint(c, *s); }), "mesh file has changed"));
+}
+
+TEST(Checkpoint, that_gives_another_state_than_it_was_made_of_is_refused) {
+  Communicator alone;
+  const auto s = build(loaded_text(resume_plane_text), alone);
+  Checkpoint c = take_checkpoint(*s);
+  c.v[3] += 1e-300;
+  EXPECT_TRUE(contains(input_error_of([&] { restore_checkpoint(c, *s); }), "its digest is"));
+}
+
+}  // namespace
+}  // namespace trocar

@@ -1,0 +1,148 @@
+#include "engine/resume.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/checkpoint_file.h"
+#include "engine/recording.h"
+#include "engine/run.h"
+#include "engine_files.h"
+#include "engine_resume.h"
+#include "mesh/generate.h"
+
+namespace trocar {
+namespace {
+
+// The block scene as a file, changed by --set.
+LoadedScene block(const std::vector<std::string>& settings) {
+  const TestFolder folder;
+  return load_scene(write_text(folder.file("s.toml"), resume_block_text), settings);
+}
+
+std::string refusal(const std::vector<std::string>& settings) {
+  const Scene before = block({}).scene;
+  return input_error_of(
+      [&] { require_same_scene(echo_options(scene_options(), &before), block(settings)); });
+}
+
+TEST(Resume, takes_the_same_scene) {
+  EXPECT_EQ(refusal({}), "");
+}
+
+TEST(Resume, lets_duration_checkpoints_cameras_and_outputs_differ) {
+  EXPECT_EQ(
+      refusal({"time.duration=9", "checkpoint.every=0.1", "camera=[{eye=[0,-1,0],target=[0,0,0]}]",
+               "output=[{kind='metrics',file='m.csv'}]"}),
+      "");
+}
+
+TEST(Resume, names_the_first_key_that_differs_and_both_values) {
+  const std::string sentence = refusal({"tissue.material.young_modulus=7000"});
+  EXPECT_TRUE(contains(sentence, "tissue.material.young_modulus")) << sentence;
+  EXPECT_TRUE(contains(sentence, "the stopped run had 6000")) << sentence;
+}
+
+TEST(Resume, names_a_key_within_lists_by_their_numbers) {
+  std::string text = resume_block_text;
+  const std::string key = "time = \"0.6 s\"";  // the grasper's second one
+  text.replace(text.find(key), key.size(), "time = \"0.65 s\"");
+  const TestFolder folder;
+  const LoadedScene now = load_scene(write_text(folder.file("s.toml"), text), {});
+  const Scene before = block({}).scene;
+  const std::string sentence =
+      input_error_of([&] { require_same_scene(echo_options(scene_options(), &before), now); });
+  EXPECT_TRUE(contains(sentence, "instrument[1].path[1].time")) << sentence;
+}
+
+TEST(Resume, refuses_a_scene_with_one_instrument_less) {
+  EXPECT_NE(refusal({"instrument=[]"}), "");
+}
+
+TEST(Resume, without_a_checkpoint_says_how_to_start) {
+  const TestFolder folder;
+  Communicator alone;
+  const std::string sentence =
+      input_error_of([&] { load_checkpoint(folder.path(), block({}), alone); });
+  EXPECT_EQ(sentence, "\"" + folder.path() +
+                          "\" holds no checkpoint (checkpoint.bin) to resume from; start the run "
+                          "without --resume");
+}
+
+// A run of the block into a folder; `settings` as --set has them.
+bool run_block(const TestFolder& folder, const std::vector<std::string>& settings,
+               bool resume = false) {
+  Communicator alone;
+  return run_scene({.scene_file = write_text(folder.file("s.toml"), resume_block_text),
+                    .folder = folder.file("out"),
+                    .overrides = settings,
+                    .resume = resume},
+                   alone);
+}
+
+std::string resume_error(const TestFolder& folder, const std::vector<std::string>& settings) {
+  return input_error_of([&] { run_block(folder, settings, true); });
+}
+
+TEST(Resume, refuses_a_scene_that_ends_before_the_checkpoint) {
+  const TestFolder folder;
+  run_block(folder, {"time.duration=0.4"});
+  EXPECT_TRUE(contains(resume_error(folder, {"time.duration=0.2"}), "time.duration"));
+}
+
+TEST(Resume, refuses_a_damaged_checkpoint) {
+  const TestFolder folder;
+  run_block(folder, {"time.duration=0.1"});
+  std::string bytes = read_text(folder.file("out/checkpoint.bin"));
+  bytes[bytes.size() / 2] ^= 1;
+  write_text(folder.file("out/checkpoint.bin"), bytes);
+  EXPECT_TRUE(contains(resume_error(folder, {}), "damaged"));
+}
+
+TEST(Resume, refuses_a_recording_that_lacks_frames_which_the_checkpoint_knows) {
+  const std::string output = "output=[{kind='recording',file='r.trocar'}]";
+  const TestFolder folder;
+  run_block(folder, {"time.duration=0.2", output});
+  std::filesystem::remove(folder.file("out/r.trocar"));
+  EXPECT_TRUE(contains(resume_error(folder, {output}), "r.trocar"));
+  {
+    RecordingWriter(folder.file("out/r.trocar"),
+                    RecordingHead{.mesh = make_rectangle(0.07, 0.04, 4, 3)});
+  }
+  EXPECT_TRUE(contains(resume_error(folder, {output}), "frame 6: is not recorded"));
+}
+
+TEST(Resume, is_not_possible_into_what_a_later_run_without_it_has_replaced) {
+  const TestFolder folder;
+  run_block(folder, {"time.duration=0.2"});
+  run_block(folder, {"time.duration=0.2", "checkpoint.every=0"});
+  EXPECT_TRUE(contains(resume_error(folder, {}), "holds no checkpoint"));
+}
+
+TEST(Resume, begins_a_recording_that_was_not_asked_for_before_with_the_present_mesh) {
+  const std::string output = "output=[{kind='recording',file='r.trocar'}]";
+  const TestFolder folder;
+  run_block(folder, {"time.duration=0.6"});  // cut by then
+  run_block(folder, {"time.duration=0.8", output}, true);
+  RecordingReader reader(folder.file("out/r.trocar"));
+  EXPECT_EQ(reader.frames().front().first, 19);
+  EXPECT_EQ(reader.frames().back().first, 24);
+  EXPECT_EQ(reader.read(24).u.size(), 3 * reader.mesh_at(24).X.size());
+}
+
+TEST(Resume, keeps_the_edits_of_frames_that_a_sparse_recording_has_yet_to_take) {
+  const std::string output = "output=[{kind='recording',file='r.trocar',every='0.2 s'}]";
+  const TestFolder whole, parts;
+  run_block(whole, {"time.duration=0.8", output});
+  run_block(parts, {"time.duration=0.5", output});  // frame 15, between 12 and 18
+  run_block(parts, {"time.duration=0.8", output}, true);
+  RecordingReader a(whole.file("out/r.trocar")), b(parts.file("out/r.trocar"));
+  EXPECT_TRUE(b.damage().empty());
+  ASSERT_EQ(a.frames(), b.frames());
+  for (const auto& [frame, time] : a.frames()) {
+    EXPECT_EQ(a.read(frame).digest, b.read(frame).digest);
+    EXPECT_EQ(a.mesh_at(frame).X, b.mesh_at(frame).X);
+    EXPECT_EQ(a.mesh_at(frame).corner_node, b.mesh_at(frame).corner_node);
+  }
+}
+
+}  // namespace
+}  // namespace trocar

@@ -1,0 +1,253 @@
+// A run that was stopped and resumed has the bits of one that never stopped: digests of all
+// recorded frames, cut ledger, events and metrics, also on other ranks and threads than before.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "engine_resume.h"
+#include "program.h"
+
+namespace trocar {
+namespace {
+
+constexpr int stopped = 75;
+
+struct Machine {
+  int ranks = 1, threads = 1;
+};
+
+std::vector<std::string> run_arguments(const std::string& scene, const std::string& folder,
+                                       const std::vector<std::string>& more) {
+  std::vector<std::string> arguments = {"run",
+                                        scene,
+                                        "-o",
+                                        folder + "/out",
+                                        "-q",
+                                        "--set",
+                                        "output=[{kind='recording',file='r.trocar'},"
+                                        "{kind='metrics',file='m.csv'}]"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+void run(const std::string& scene, const std::string& folder, const Machine& machine,
+         std::vector<std::string> more) {
+  more.insert(more.end(), {"--threads", std::to_string(machine.threads)});
+  const std::vector<std::string> arguments = run_arguments(scene, folder, more);
+  // mpirun's environment keeps waiting threads from spinning, so one rank with threads needs it
+  // too.
+  const bool is_plain = machine.ranks == 1 && machine.threads == 1;
+  const Finished finished =
+      is_plain ? run_trocar(arguments, folder) : run_trocar_on(machine.ranks, arguments, folder);
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+}
+
+// The metrics without the wall times of the frames.
+std::string metrics_of(const std::string& folder) {
+  std::istringstream lines(read_text(folder + "/out/m.csv"));
+  std::string kept;
+  int seconds = -1;  // their column, known from the first line on
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    std::string cell;
+    for (int k = 0; std::getline(cells, cell, ','); ++k) {
+      if (cell == "frame_seconds") seconds = k;
+      if (k != seconds) kept += cell + ",";
+    }
+    kept += "\n";
+  }
+  EXPECT_GE(seconds, 0);
+  return kept;
+}
+
+// Everything that a run leaves and that a second run must leave too.
+std::string result_of(const std::string& folder) {
+  nlohmann::json summary = read_summary(folder + "/out");
+  if (summary.is_discarded()) return "no summary";
+  for (auto& cut : summary["cuts"])
+    for (const char* time : {"milliseconds", "milliseconds_worst"}) cut.erase(time);
+  std::string result;
+  for (const char* key : {"state_digest", "frames", "steps", "mesh", "mass_kg", "stable_step_s",
+                          "least_det_F", "instruments", "wound", "cuts", "energies_J", "events"})
+    result += std::string(key) + " " + summary[key].dump() + "\n";
+  result += metrics_of(folder);
+  const Finished list = run_trocar({"replay", folder + "/out/r.trocar", "--list"}, folder);
+  EXPECT_EQ(list.exit_code, 0) << list.err;
+  return result + list.out;
+}
+
+std::string scene_file(const std::string& folder, const std::string& text) {
+  std::ofstream(folder + "/scene.toml") << text;
+  return folder + "/scene.toml";
+}
+
+// Stops at `half` on one machine and goes on to `end` on others.
+void expect_resumes(const std::string& name, const std::string& scene, const std::string& half,
+                    const std::string& end) {
+  const std::vector<std::string> to_half = {"--set", "time.duration='" + half + "'"},
+                                 to_end = {"--set", "time.duration='" + end + "'"};
+  std::vector<std::string> go_on = to_end;
+  go_on.push_back("--resume");
+  const std::string whole = test_folder(name + "-whole");
+  run(scene, whole, {1, 1}, to_end);
+  const std::string expected = result_of(whole);
+  struct Change {
+    Machine from, to;
+  };
+  for (const auto& [from, to] : {Change{{1, 1}, {2, 1}}, {{2, 2}, {1, 1}}, {{3, 1}, {1, 2}}}) {
+    const std::string parts = test_folder(name + "-parts");
+    run(scene, parts, from, to_half);
+    run(scene, parts, to, go_on);
+    EXPECT_EQ(result_of(parts), expected) << "from " << from.ranks << " x " << from.threads
+                                          << " to " << to.ranks << " x " << to.threads;
+  }
+}
+
+TEST(Resume, in_the_middle_of_a_stroke_through_tetrahedra_gives_the_same_bits_on_other_ranks) {
+  const std::string folder = test_folder("block-scene");
+  expect_resumes("block", scene_file(folder, resume_block_text), "0.5 s", "1.2 s");
+}
+
+TEST(Resume, in_the_middle_of_a_plane_cut_gives_the_same_bits_on_other_ranks) {
+  expect_resumes("plane", config("plane_cut.toml"), "1.4 s", "2.2 s");
+}
+
+TEST(Resume, of_the_grasped_hexahedral_block_gives_the_same_bits_on_other_ranks) {
+  expect_resumes("hexahedra", config("block_hex.toml"), "1.6 s", "1.8 s");
+}
+
+TEST(Resume, goes_on_with_pictures_and_begins_a_film_and_a_sheet_of_its_own) {
+  const std::string whole = test_folder("pictures-whole"), parts = test_folder("pictures-parts");
+  const std::string outputs =
+      "output=[{kind='frames',file='png',size=[64,48],every='0.2 s'},"
+      "{kind='contact-sheet',file='sheet.png',size=[64,48]}]";
+  const std::vector<std::string> pictures = {
+      "--set", "camera=[{eye=[0.03,0.02,0.15],target=[0.03,0.02,0],up=[0,1,0]}]", "--set", outputs};
+  const std::string scene = scene_file(whole, resume_plane_text);
+  run(scene, whole, {}, pictures);
+  std::vector<std::string> half = pictures, go_on = pictures;
+  half.insert(half.end(), {"--set", "time.duration='0.7 s'"});
+  go_on.push_back("--resume");
+  run(scene, parts, {}, half);
+  run(scene, parts, {}, go_on);
+  for (const char* name : {"000006", "000012", "000018", "000024", "000030", "000036"}) {
+    const std::string picture = std::string("/out/png/") + name + ".png";
+    EXPECT_FALSE(read_text(whole + picture).empty()) << picture;
+    EXPECT_EQ(read_text(parts + picture), read_text(whole + picture)) << picture;
+  }
+  EXPECT_TRUE(std::filesystem::exists(parts + "/out/sheet.png"));
+  EXPECT_TRUE(std::filesystem::exists(parts + "/out/sheet.from-frame-21.png"));
+}
+
+TEST(Resume, of_a_finished_run_leaves_its_result_as_it_is) {
+  const std::string folder = test_folder("finished");
+  const std::string scene = scene_file(folder, resume_plane_text);
+  run(scene, folder, {}, {});
+  const std::string before = result_of(folder);
+  run(scene, folder, {}, {"--resume"});
+  EXPECT_EQ(result_of(folder), before);
+}
+
+// Starts the program and lets it run on.
+pid_t start(std::vector<std::string> words, const std::string& folder) {
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
+  for (const int stream : {1, 2})
+    posix_spawn_file_actions_addopen(&files, stream, (folder + "/first").c_str(),
+                                     O_WRONLY | O_CREAT | O_APPEND, 0644);
+  pid_t child = -1;
+  EXPECT_EQ(posix_spawnp(&child, words[0].c_str(), &files, nullptr, argv.data(), environ), 0);
+  posix_spawn_file_actions_destroy(&files);
+  return child;
+}
+
+// Runs until there is a checkpoint and some time more, sends the signal; the exit code, -1 if the
+// signal killed it. In real time, so that the end is a second away.
+int run_until_signal(std::vector<std::string> words, const std::string& folder, int signal,
+                     int milliseconds) {
+  const pid_t child = start(words, folder);
+  for (int k = 0; k < 6000 && !std::filesystem::exists(folder + "/out/checkpoint.bin"); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+  kill(child, signal);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+const std::vector<std::string> often_in_real_time = {"--set", "checkpoint.every='0.1 s'", "--set",
+                                                     "time.pace='real-time'"};
+
+std::string uninterrupted(const std::string& scene) {
+  const std::string folder = test_folder("uninterrupted");
+  run(scene, folder, {}, {});
+  return result_of(folder);
+}
+
+void resume_and_compare(const std::string& scene, const std::string& folder, const Machine& machine,
+                        const std::string& expected) {
+  std::vector<std::string> go_on = often_in_real_time;
+  go_on.push_back("--resume");
+  run(scene, folder, machine, go_on);
+  EXPECT_EQ(result_of(folder), expected);
+  EXPECT_GT(read_summary(folder + "/out")["resumed_at_s"], 0.0);
+  EXPECT_FALSE(std::filesystem::exists(folder + "/out/checkpoint.bin.new"));
+}
+
+TEST(Resume, after_a_kill_at_some_moment_gives_the_same_bits) {
+  const std::string folder = test_folder("killed");
+  const std::string scene = scene_file(folder, resume_block_text);
+  const std::string expected = uninterrupted(scene);
+  for (const int milliseconds : {0, 7, 150, 333, 520}) {
+    std::filesystem::remove_all(folder + "/out");
+    std::vector<std::string> words = run_arguments(scene, folder, often_in_real_time);
+    words.insert(words.begin(), TROCAR_PROGRAM);
+    EXPECT_EQ(run_until_signal(words, folder, SIGKILL, milliseconds), -1);
+    resume_and_compare(scene, folder, {1, 2}, expected);
+  }
+}
+
+TEST(Resume, after_a_signal_goes_on_at_the_frame_where_it_stopped) {
+  const std::string folder = test_folder("signalled");
+  const std::string scene = scene_file(folder, resume_block_text);
+  const std::string expected = uninterrupted(scene);
+  for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) {
+    std::filesystem::remove_all(folder + "/out");
+    std::vector<std::string> words = run_arguments(scene, folder, often_in_real_time);
+    words.insert(words.begin(), TROCAR_PROGRAM);
+    ASSERT_EQ(run_until_signal(words, folder, signal, 170), stopped);
+    const double at = read_summary(folder + "/out")["duration_s"];
+    resume_and_compare(scene, folder, {2, 1}, expected);
+    EXPECT_EQ(read_summary(folder + "/out")["resumed_at_s"], at);
+  }
+}
+
+TEST(Resume, of_two_ranks_that_were_signalled_goes_on_with_one) {
+  const std::string folder = test_folder("two-signalled");
+  const std::string scene = scene_file(folder, resume_block_text);
+  const std::string expected = uninterrupted(scene);
+  std::vector<std::string> words;
+  std::stringstream mpirun(TROCAR_MPIRUN);
+  for (std::string word; mpirun >> word;) words.push_back(word);
+  words.insert(words.end(), {"-np", "2", TROCAR_PROGRAM});
+  const std::vector<std::string> arguments = run_arguments(scene, folder, often_in_real_time);
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  EXPECT_EQ(run_until_signal(words, folder, SIGUSR1, 200), stopped);
+  resume_and_compare(scene, folder, {1, 1}, expected);
+}
+
+TEST(Resume, without_a_checkpoint_is_refused_on_every_rank_with_one_sentence) {
+  const std::string folder = test_folder("nothing");
+  const Finished run = run_trocar_on(
+      2, {"run", config("plane_cut.toml"), "-o", folder + "/out", "--resume"}, folder);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("start the run without --resume"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace trocar

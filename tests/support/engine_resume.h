@@ -1,0 +1,98 @@
+// Small scenes with all that a run keeps from frame to frame, for the tests of checkpoints:
+// contact, grasped nodes, a moving support, cuts. About 0.1 s of computing a simulated second.
+#pragma once
+
+#include <string>
+
+namespace trocar {
+
+// Tetrahedra, pressed by a probe from 0.1 s, held by a grasper from 0.2 s to 0.9 s, cut from 0.25 s
+// to 0.75 s, moved by a support.
+inline const std::string resume_block_text = R"(name = "resumed block"
+[time]
+duration = "1.2 s"
+frame_rate = "30 Hz"
+[tissue.shape]
+kind = "box"
+elements = "tet4-five"
+low = ["-30 mm", "-20 mm", "0 mm"]
+high = ["30 mm", "20 mm", "30 mm"]
+cells = [8, 5, 4]
+[tissue.material]
+young_modulus = "6 kPa"
+poisson_ratio = 0.4
+[solver]
+gravity = [0, 0, "-9.81 m/s^2"]
+mass_damping = "20 1/s"
+[cutting]
+resistance = "10 N/m"
+[[support]]
+region = "z-"
+fix = "xyz"
+[[support]]
+region = "x+"
+path = [
+  { time = "0.2 s", displacement = [0, 0, 0] },
+  { time = "1.0 s", displacement = ["1 mm", 0, 0] },
+]
+[[instrument]]
+kind = "probe"
+radius = "5 mm"
+path = [
+  { time = "0.1 s", position = ["18 mm", "-8 mm", "34 mm"] },
+  { time = "0.5 s", position = ["18 mm", "-8 mm", "25 mm"] },
+  { time = "1.0 s", position = ["18 mm", "-8 mm", "40 mm"] },
+]
+[[instrument]]
+kind = "grasper"
+grip_radius = "9 mm"
+path = [
+  { time = "0.2 s", position = ["-28 mm", "18 mm", "30 mm"], action = "close" },
+  { time = "0.6 s", position = ["-32 mm", "22 mm", "32 mm"] },
+  { time = "0.9 s", position = ["-32 mm", "22 mm", "32 mm"], action = "open" },
+]
+[[instrument]]
+kind = "scalpel"
+blade_length = "20 mm"
+path = [
+  { time = "0.1 s", position = ["-45 mm", "1 mm", "12 mm"] },
+  { time = "0.25 s", position = ["-33 mm", "1 mm", "12 mm"] },
+  { time = "0.7 s", position = ["5 mm", "1 mm", "12 mm"] },
+  { time = "0.9 s", position = ["5 mm", "1 mm", "50 mm"] },
+]
+)";
+
+// Triangles, cut in pieces, pulled by a support.
+inline const std::string resume_plane_text = R"(name = "resumed plane"
+[time]
+duration = "1.2 s"
+frame_rate = "30 Hz"
+[tissue]
+thickness = "5 mm"
+[tissue.shape]
+kind = "rectangle"
+high = ["70 mm", "40 mm", 0]
+cells = [20, 16, 1]
+[tissue.material]
+young_modulus = "6 kPa"
+poisson_ratio = 0.4
+[solver]
+mass_damping = "20 1/s"
+[[support]]
+region = "x-"
+fix = "xyz"
+[[support]]
+region = "x+"
+path = [ { time = "0.1 s", displacement = [0, 0, 0] }, { time = "1.0 s", displacement = ["4 mm", 0, 0] } ]
+[[instrument]]
+kind = "scalpel"
+radius = "2 mm"
+path = [
+  { time = "0.1 s", position = ["17.8 mm", "35.2 mm", "30 mm"], forward = [23.8, -17.2, 0] },
+  { time = "0.3 s", position = ["17.8 mm", "35.2 mm", 0], forward = [23.8, -17.2, 0] },
+  { time = "0.9 s", position = ["41.6 mm", "18.0 mm", 0], forward = [23.8, -17.2, 0] },
+  { time = "1.0 s", position = ["41.6 mm", "18.0 mm", "40 mm"], forward = [23.8, -17.2, 0] },
+]
+)";
+
+}  // namespace trocar
