@@ -70,6 +70,7 @@ void substep(Simulation& s, const FrameSpan& span, double t) {
 // `most_roll_backs` times.
 FrameSpan step_safely(Simulation& s) {
   const State good = s.state;
+  const Watch good_watch = s.watch;  // that of a failed frame holds no step to go on with
   for (int tries = 0;; ++tries) {
     const FrameSpan span = plan_frame(s);
     if (s.contact) detect(s, span);
@@ -79,6 +80,7 @@ FrameSpan step_safely(Simulation& s) {
     const std::string trouble = find_trouble(s);
     if (trouble.empty()) return span;
     s.state = good;
+    s.watch = good_watch;
     roll_back(s, trouble, tries);
   }
 }

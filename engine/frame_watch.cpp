@@ -46,6 +46,10 @@ std::string find_trouble(const Simulation& s) {
   if (!(s.watch.least_J > 0))
     return "element " + std::to_string(s.watch.least_J_element) +
            " is inverted (det F = " + std::to_string(s.watch.least_J) + ")";
+  if (s.watch.stable_step < crushed_step * s.rest_step)
+    return "element " + std::to_string(s.watch.stable_element) +
+           " is crushed or overstretched: its stable step is " + number_text(s.watch.stable_step) +
+           " s, the body's at rest " + number_text(s.rest_step) + " s";
   return {};
 }
 
@@ -58,7 +62,6 @@ void roll_back(Simulation& s, const std::string& trouble, int tries) {
                           " roll-backs with smaller steps did not help: slower instruments, a "
                           "finer mesh or a lower poisson_ratio may");
   s.step_scale *= 0.5;
-  s.watch.is_finite = true;
   for (Vec3& sum : s.holds.reaction_sum) sum = Vec3::Zero();
   note_event(s, time, "rolled back: " + trouble + "; step scale now " + number_text(s.step_scale));
 }

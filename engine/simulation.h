@@ -77,6 +77,7 @@ struct Simulation {
   EnergyTerms energies;
   double step_scale = 1;  // halved by each roll-back
   Watch watch;            // of the last frame, over all ranks
+  double rest_step = 0;   // least stable step of the undeformed mesh, over all ranks [s]
   double stable_step_before_cut = 0;
   FrameLog log;  // what each frame told
   PhaseTimers timers;
