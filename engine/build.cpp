@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/digest.h"
 #include "base/log.h"
@@ -68,7 +69,7 @@ TriangleMesh load_tool_mesh(const LoadedScene& loaded, std::size_t k, Communicat
     Mesh carrier;
     try {
       const TriangleMesh surface =
-          read_triangle_mesh(loaded.folder + instrument.mesh, instrument.scale);
+          read_triangle_mesh(scene_path(loaded, instrument.mesh), instrument.scale);
       carrier.X = surface.X;
       for (const auto& triangle : surface.triangle)
         add_element(carrier, ElementType::tri3, triangle);
@@ -133,6 +134,17 @@ void build_instruments(const LoadedScene& loaded, Simulation& s) {
   build_cuts(s);
 }
 
+// One sliver makes every frame slow, and from outside that looks like a run that hangs.
+void warn_of_slow_element(const Simulation& s) {
+  constexpr double many_substeps = 20000;
+  const double n = 1 / (s.scene.time.frame_rate * s.scene.solver.step_factor * s.watch.stable_step);
+  if (n > many_substeps)
+    log_warning("a frame needs " + number_text(std::ceil(n)) + " steps, because element " +
+                std::to_string(s.watch.stable_element) + " allows only " +
+                number_text(s.watch.stable_step) +
+                " s a step: \"trocar mesh\" shows the mesh's quality");
+}
+
 }  // namespace
 
 void rebuild_topology(Simulation& s) {
@@ -148,6 +160,9 @@ void rebuild_topology(Simulation& s) {
                          .hourglass = solver.hourglass,
                          .thickness = s.scene.tissue.thickness,
                          .gravity = solver.gravity});
+  double rest_step = std::numeric_limits<double>::max();
+  for (const double step : s.model.element_step) rest_step = std::min(rest_step, step);
+  s.rest_step = s.communicator->all_min(rest_step);
   s.scratch = make_scratch(s.model);
   if (s.energy) s.scratch.damping_work.assign(static_cast<std::size_t>(s.model.n_owned), 0.0);
   s.surface = boundary_surface(s.mesh);
@@ -174,6 +189,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   s.state = make_state(s.model);
   refresh_surface(s);
   watch_state(s);
+  warn_of_slow_element(s);
   s.log.least_stable_step = s.log.largest_stable_step = s.watch.stable_step;
   if (std::any_of(s.scene.outputs.begin(), s.scene.outputs.end(),
                   [](const SceneOutput& output) { return output.kind == OutputKind::metrics; }))

@@ -73,7 +73,7 @@ void substep(Simulation& s, const FrameSpan& span, double t) {
 // `most_roll_backs` times, and likewise with a smaller one if the tissue stiffened beyond it.
 FrameSpan step_safely(Simulation& s) {
   const State good = s.state;
-  const Watch watched = s.watch;
+  const Watch good_watch = s.watch;  // that of a failed frame holds no step to go on with
   for (int tries = 0;; ++tries) {
     const FrameSpan span = plan_frame(s);
     if (s.contact) detect(s, span);
@@ -87,7 +87,7 @@ FrameSpan step_safely(Simulation& s) {
     if (trouble.empty()) {
       repeat_frame(s, span, tries);
     } else {
-      s.watch = watched;
+      s.watch = good_watch;
       roll_back(s, trouble, tries);
     }
   }

@@ -75,6 +75,10 @@ std::string find_trouble(const Simulation& s) {
   if (!(s.watch.least_J > 0))
     return "element " + std::to_string(s.watch.least_J_element) +
            " is inverted (det F = " + std::to_string(s.watch.least_J) + ")";
+  if (s.watch.stable_step < crushed_step * s.rest_step)
+    return "element " + std::to_string(s.watch.stable_element) +
+           " is crushed or overstretched: its stable step is " + number_text(s.watch.stable_step) +
+           " s, the body's at rest " + number_text(s.rest_step) + " s";
   return {};
 }
 
@@ -89,7 +93,6 @@ std::string go_back(Simulation& s, const std::string& trouble, int tries) {
                           std::to_string(tries) +
                           " roll-backs with smaller steps did not help: slower instruments, a "
                           "finer mesh or a lower poisson_ratio may");
-  s.watch.is_finite = true;
   for (Vec3& sum : s.holds.reaction_sum) sum = Vec3::Zero();
   return "rolled back: " + trouble;
 }

@@ -88,6 +88,7 @@ struct Simulation {
   std::unique_ptr<EnergyLedger> energy;  // only with a metrics output
   double step_scale = 1;                 // halved by each roll-back
   Watch watch;                           // of the last frame, over all ranks
+  double rest_step = 0;  // least element bound of the undeformed mesh, over all ranks [s]
   // Only with stable_step = "frequency": the mode (n_owned * 3) found last, where the next search
   // starts, and the mean edge [m].
   std::vector<double> fastest_mode;

@@ -88,10 +88,8 @@ Mesh read_tissue(const LoadedScene& loaded) {
   if (tissue.shape) {
     mesh = generate_tissue(*tissue.shape);
   } else {
-    const std::string file =
-        tissue.mesh.starts_with('/') ? tissue.mesh : loaded.folder + tissue.mesh;
     try {
-      mesh = read_mesh(file, tissue.scale);
+      mesh = read_mesh(scene_path(loaded, tissue.mesh), tissue.scale);
     } catch (const InputError& trouble) {
       loaded.where.fail("tissue.mesh", trouble.what());
     }
@@ -105,6 +103,10 @@ Mesh read_tissue(const LoadedScene& loaded) {
 }
 
 }  // namespace
+
+std::string scene_path(const LoadedScene& loaded, const std::string& file) {
+  return file.starts_with('/') ? file : loaded.folder + file;
+}
 
 Mesh load_tissue(const LoadedScene& loaded, Communicator& communicator) {
   const auto bytes = read_on_root(communicator, [&] { return mesh_to_bytes(read_tissue(loaded)); });

@@ -11,6 +11,9 @@ namespace trocar {
 // node sets of [[region]].
 Mesh load_tissue(const LoadedScene& loaded, Communicator& communicator);
 
+// The path of a file that the scene names: relative ones start at the scene file's folder.
+std::string scene_path(const LoadedScene& loaded, const std::string& file);
+
 // Runs `read` on rank 0 and hands its InputError to everyone; its bytes too. Collective.
 template <class Read>
 std::vector<std::byte> read_on_root(Communicator& communicator, const Read& read) {

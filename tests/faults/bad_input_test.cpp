@@ -72,6 +72,13 @@ TEST(BadInput, a_missing_mesh_is_named) {
   expect_refusal(scene, folder, input_wrong, "nothing.msh");
 }
 
+TEST(BadInput, a_missing_instrument_mesh_with_an_absolute_path_is_named_as_it_was_given) {
+  const std::string folder = test_folder("missing_tip");
+  const std::string scene = changed_config(folder, "block_hex.toml", "radius = \"8 mm\"",
+                                           "radius = \"8 mm\"\nmesh = \"/nowhere/tip.stl\"");
+  expect_refusal(scene, folder, input_wrong, "mesh: /nowhere/tip.stl");
+}
+
 TEST(BadInput, a_truncated_mesh_is_refused) {
   const std::string folder = test_folder("truncated");
   const std::string whole = read_text(config("meshes/liver.msh"));
