@@ -73,6 +73,8 @@ void print_surface(const std::string& file, double scale) {
       high.z() - low.z());
 }
 
+constexpr double sliver_quality = 0.02;
+
 void print_mesh(const std::string& file, const Mesh& mesh) {
   const MeshStatistics m = mesh_statistics(mesh);
   const Vec3 size = m.high - m.low;
@@ -88,6 +90,9 @@ void print_mesh(const std::string& file, const Mesh& mesh) {
               m.edge_mean);
   std::printf("  quality           least %.3f (element %d), mean %.3f (mean ratio, 1 is ideal)\n",
               m.quality_min, m.worst_element, m.quality_mean);
+  if (m.quality_min < sliver_quality)
+    std::printf("  SLIVERS           below a quality of %g: a few elements make every step small\n",
+                sliver_quality);
   for (const NodeSet& set : mesh.node_sets)
     std::printf("  region            \"%s\", %zu nodes\n", set.name.c_str(), set.node.size());
   std::printf("  stable step       %.4g ms with the default material (3 kPa, 0.45, 1060 kg/m^3)\n",

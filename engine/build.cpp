@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/digest.h"
+#include "base/error.h"
 #include "base/log.h"
 #include "engine/bytes.h"
 #include "engine/frame_report.h"
@@ -134,15 +135,18 @@ void build_instruments(const LoadedScene& loaded, Simulation& s) {
   build_cuts(s);
 }
 
-// One sliver makes every frame slow, and from outside that looks like a run that hangs.
-void warn_of_slow_element(const Simulation& s) {
-  constexpr double many_substeps = 20000;
+// One sliver makes every frame slow, and from outside that looks like a run that hangs; signals are
+// heeded between frames only.
+void check_slow_element(const Simulation& s) {
+  constexpr double many_substeps = 20000, too_many_substeps = 1e6;
   const double n = 1 / (s.scene.time.frame_rate * s.scene.solver.step_factor * s.watch.stable_step);
-  if (n > many_substeps)
-    log_warning("a frame needs " + number_text(std::ceil(n)) + " steps, because element " +
-                std::to_string(s.watch.stable_element) + " allows only " +
-                number_text(s.watch.stable_step) +
-                " s a step: \"trocar mesh\" shows the mesh's quality");
+  if (n < many_substeps) return;
+  const std::string sentence = "a frame needs " + number_text(std::ceil(n)) +
+                               " steps, because element " + std::to_string(s.watch.stable_element) +
+                               " allows only " + number_text(s.watch.stable_step) +
+                               " s a step: \"trocar mesh\" shows the mesh's quality";
+  if (n > too_many_substeps) throw InputError(sentence + "; without such slivers it can be run");
+  log_warning(sentence);
 }
 
 }  // namespace
@@ -189,7 +193,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   s.state = make_state(s.model);
   refresh_surface(s);
   watch_state(s);
-  warn_of_slow_element(s);
+  check_slow_element(s);
   s.log.least_stable_step = s.log.largest_stable_step = s.watch.stable_step;
   if (std::any_of(s.scene.outputs.begin(), s.scene.outputs.end(),
                   [](const SceneOutput& output) { return output.kind == OutputKind::metrics; }))

@@ -99,6 +99,18 @@ TEST(BadInput, a_mesh_with_an_inverted_element_names_the_element) {
   expect_refusal(scene, folder, input_wrong, "inverted");
 }
 
+TEST(BadInput, a_mesh_with_a_sliver_that_would_take_for_ever_is_refused_with_its_element) {
+  const std::string folder = test_folder("sliver");
+  std::ofstream(folder + "/sliver.msh")
+      << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0.3 0.3 "
+         "1e-8\n5 0.3 0.3 -1\n$EndNodes\n"
+         "$Elements\n2\n1 4 2 1 1 1 2 3 4\n2 4 2 1 1 1 3 2 5\n$EndElements\n";
+  const std::string scene = folder + "/scene.toml";
+  std::ofstream(scene) << "[time]\nduration = \"1 s\"\n[tissue]\nmesh = \"sliver.msh\"\nscale = "
+                          "\"10 mm\"\n";
+  expect_refusal(scene, folder, input_wrong, "because element 0 allows only");
+}
+
 TEST(BadInput, an_unwritable_output_folder_is_refused) {
   const std::string folder = test_folder("unwritable");
   std::ofstream(folder + "/out") << "a file where the folder should be\n";

@@ -227,6 +227,23 @@ TEST(Resume, after_a_signal_goes_on_at_the_frame_where_it_stopped) {
   }
 }
 
+// A frame of about 20 s, during which the first signal is only noted.
+TEST(Signals, a_second_one_ends_a_run_at_once) {
+  const std::string folder = test_folder("second-signal");
+  const pid_t child = start(
+      {TROCAR_PROGRAM, "run", config("block_hex.toml"), "-q", "-o", folder + "/out", "--set",
+       "output=[]", "--set", "time.frame_rate='1 Hz'", "--set", "tissue.shape.cells=[40, 40, 40]"},
+      folder);
+  std::this_thread::sleep_for(std::chrono::seconds(4));
+  int status = 0;
+  kill(child, SIGTERM);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(waitpid(child, &status, WNOHANG), 0);  // it finishes its frame
+  kill(child, SIGTERM);
+  EXPECT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, stopped);
+}
+
 TEST(Resume, of_two_ranks_that_were_signalled_goes_on_with_one) {
   const std::string folder = test_folder("two-signalled");
   const std::string scene = scene_file(folder, resume_block_text);
