@@ -20,7 +20,9 @@ FrameSpan plan_frame(const Simulation& s) {
   FrameSpan span;
   span.t0 = static_cast<double>(s.frame) / s.scene.time.frame_rate;
   span.t1 = static_cast<double>(s.frame + 1) / s.scene.time.frame_rate;
-  const double dt = s.scene.solver.step_factor * s.step_scale * s.watch.stable_step;
+  const bool has_contacts = !s.log.rows.empty() && s.log.rows.back().n_contacts > 0;
+  const double dt = s.scene.solver.step_factor * s.step_scale * s.watch.stable_step /
+                    (has_contacts ? s.scene.contact.refinement : 1);
   span.n_substeps = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / dt)));
   span.dt = length / static_cast<double>(span.n_substeps);
   return span;

@@ -75,7 +75,8 @@ struct SceneSolver {
 };
 
 struct SceneContact {
-  double stiffness = 0.2;
+  double stiffness = 0.6;
+  double refinement = 3;
   double friction = 0.2;
 };
 

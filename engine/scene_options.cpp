@@ -113,6 +113,8 @@ Options<SceneContact> contact_options() {
   c.number("stiffness", &SceneContact::stiffness, dim::none,
            {.low = 0, .high = 1, .is_low_open = true},
            "Penalty stiffness of a node in units of m/dt^2.");
+  c.number("refinement", &SceneContact::refinement, dim::none, {.low = 1, .high = 100},
+           "Steps of a frame with contact / steps without: less penetration, more work.");
   c.number("friction", &SceneContact::friction, dim::none, not_negative, "Coulomb's coefficient.");
   return c;
 }
