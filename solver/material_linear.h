@@ -3,7 +3,7 @@
 #pragma once
 
 #include "solver/block_data.h"
-#include "solver/material.h"
+#include "solver/material_model.h"
 #include "solver/tensor.h"
 
 namespace trocar {

@@ -4,7 +4,7 @@
 
 #include "solver/block_data.h"
 #include "solver/largest_eigenvalue.h"
-#include "solver/material.h"
+#include "solver/material_model.h"
 #include "solver/stiffening.h"
 
 namespace trocar {

@@ -32,16 +32,9 @@ struct Source {
 };
 
 void check_material(const Material& material, std::size_t region) {
-  const bool is_sound = material.young_modulus > 0 && std::isfinite(material.young_modulus) &&
-                        material.poisson_ratio > -1 && material.poisson_ratio < 0.5 &&
-                        material.density > 0 && std::isfinite(material.density);
-  if (!is_sound)
-    throw InputError("material of region " + std::to_string(region) +
-                     ": young_modulus and density must be positive, poisson_ratio between -1 and "
-                     "0.5 (got " +
-                     std::to_string(material.young_modulus) + " Pa, " +
-                     std::to_string(material.density) + " kg/m^3, " +
-                     std::to_string(material.poisson_ratio) + ")");
+  const std::string fault = fault_of(material);
+  if (!fault.empty())
+    throw InputError("material of region " + std::to_string(region) + ": " + fault);
 }
 
 void check_source(const Source& source, std::span<const FixedMask> fixed,
@@ -78,7 +71,9 @@ ElementBlocks empty_blocks(const Source& source, int key, std::int32_t n_element
   ElementBlocks blocks;
   blocks.region = key / n_formulations;
   blocks.formulation = static_cast<Formulation>(key % n_formulations);
-  blocks.material = source.materials[static_cast<std::size_t>(blocks.region)].model;
+  const Material& material = source.materials[static_cast<std::size_t>(blocks.region)];
+  blocks.material = material.model;
+  blocks.stiffening_at_rest = stiffening_at_rest(material);
   blocks.precision = source.options.precision;
   const bool is_single = blocks.precision == Precision::in_single;
   blocks.lanes = is_single ? lanes_of_block<float> : lanes_of_block<double>;
@@ -138,11 +133,17 @@ ElementConstants constants_of(const Source& source, std::int32_t e) {
                             .thickness = source.options.thickness});
 }
 
-// Constants of the lane's element: those of the material, then those of the element.
-void fill_values(const BlockKernels& kernels, const Material& material,
-                 const ElementConstants& element, std::int64_t lane, ElementBlocks& blocks) {
+// Unit vector.
+Vec3 fibre_of_element(const Source& source, std::int32_t e) {
+  return source.mesh.fibre.empty() ? unit_fibre(source.material(e)) : source.mesh.fibre[e];
+}
+
+// Constants of the lane's element e: those of the material, then those of the element.
+void fill_values(const Source& source, std::int32_t e, const ElementConstants& element,
+                 std::int64_t lane, ElementBlocks& blocks) {
+  const BlockKernels& kernels = kernels_for(kernels_of(Simd::scalar), blocks);
   std::array<double, max_values> value{};
-  fill_material(material, element.volume, value);
+  fill_material(source.material(e), element.volume, fibre_of_element(source, e), value);
   std::copy_n(element.value.begin(), kernels.n_values - kernels.n_material_values,
               value.begin() + kernels.n_material_values);
   const std::int64_t first =
@@ -169,9 +170,9 @@ void fill_lane(const Source& source, std::int64_t lane, ElementBlocks& blocks,
     blocks.corner[(block * n + a) * blocks.lanes + l] = source.part.node_local[node[a]];
   if (is_padding) return;
   const ElementConstants constants = constants_of(source, e);
-  fill_values(kernels_for(kernels_of(Simd::scalar), blocks), source.material(e), constants, lane,
-              blocks);
-  element_step[k] = constants.volume > 0 ? 2 / std::sqrt(constants.omega2) : 0;
+  fill_values(source, e, constants, lane, blocks);
+  element_step[k] =
+      constants.volume > 0 ? 2 / std::sqrt(constants.omega2 * blocks.stiffening_at_rest) : 0;
 }
 
 void fill_blocks(const Source& source, Model& model) {

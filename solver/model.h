@@ -37,6 +37,7 @@ struct ElementBlocks {
   Precision precision = Precision::in_double;
   std::int32_t region = 0;  // index of its material
   MaterialModel material = MaterialModel::neo_hookean;
+  double stiffening_at_rest = 1;  // in element_step already (material_setup.h)
   std::int32_t n_elements = 0;
   std::int32_t n_blocks = 0;
   int lanes = 0;                            // of a block, 64 bytes' worth of the precision

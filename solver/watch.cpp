@@ -54,7 +54,8 @@ void take_blocks(const Model& model, const Part& part, const State& state,
   const std::int64_t n_lanes = std::min(n * blocks.lanes, blocks.n_elements - first * blocks.lanes);
   for (std::int64_t lane = 0; lane < n_lanes; ++lane) {
     const std::int32_t k = blocks.element_local[first * blocks.lanes + lane];
-    take_element(model.element_step[k], J[lane], stiffening[lane], part.element_global[k], least);
+    const double growth = std::max(1.0, stiffening[lane] / blocks.stiffening_at_rest);
+    take_element(model.element_step[k], J[lane], growth, part.element_global[k], least);
   }
 }
 

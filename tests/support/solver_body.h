@@ -147,16 +147,30 @@ inline std::vector<Mesh> irregular_elements() {
 }
 
 inline const std::vector<MaterialModel>& all_models() {
-  static const std::vector<MaterialModel> models = {
-      MaterialModel::linear, MaterialModel::st_venant_kirchhoff, MaterialModel::neo_hookean};
+  static const std::vector<MaterialModel> models = {MaterialModel::linear,
+                                                    MaterialModel::st_venant_kirchhoff,
+                                                    MaterialModel::neo_hookean,
+                                                    MaterialModel::mooney_rivlin,
+                                                    MaterialModel::yeoh,
+                                                    MaterialModel::ogden,
+                                                    MaterialModel::transversely_isotropic,
+                                                    MaterialModel::holzapfel_gasser_ogden};
   return models;
 }
 
-// E and nu from the shear and bulk moduli.
+// The models' parameters from the shear and bulk moduli at small strain, in the ratios of numerics
+// V4; only those of the model count.
 inline Material material_of(MaterialModel model, double mu, double K, double density = 1000) {
   const double nu = (3 * K - 2 * mu) / (6 * K + 2 * mu);
-  return {
+  Material m{
       .model = model, .young_modulus = 2 * mu * (1 + nu), .poisson_ratio = nu, .density = density};
+  m.c10 = .3 * mu, m.c01 = .2 * mu;
+  m.c1 = .5 * mu, m.c2 = .1 * mu, m.c3 = .05 * mu;
+  m.ogden[0] = {.mu = mu, .alpha = -8};
+  m.eta = 2 * mu;
+  m.k1 = 2 * mu, m.k2 = 5, m.kappa = .1;
+  m.fibre_angle = 3.14159265358979323846 / 6;
+  return m;
 }
 
 }  // namespace trocar
