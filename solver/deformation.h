@@ -61,6 +61,17 @@ struct Decoupled {
     return Material::stress_at(d, zero_of(d.change.j), value);
   }
 
+  // K j cof F
+  template <class Pack>
+  [[gnu::always_inline]] static Tensor<Pack> volumetric_stress(const Tensor<Pack>& H,
+                                                               const BlockValues<Pack>& value) {
+    const VolumeChange<Pack> change = volume_and_area_change(H);
+    Tensor<Pack> P = change.cof_F;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) P(i, j) *= value(value_K_V) * change.j;
+    return P;
+  }
+
   template <class Pack>
   [[gnu::always_inline]] static Pack energy(const Tensor<Pack>& H, const BlockValues<Pack>& value) {
     const Deformation<Pack> d = deformation_of(H);

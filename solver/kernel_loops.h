@@ -4,6 +4,7 @@
 #include "solver/corner_access.h"
 #include "solver/kernels.h"
 #include "solver/material_law.h"
+#include "solver/viscosity.h"
 
 namespace trocar {
 
@@ -51,6 +52,19 @@ struct BlockLoops {
                   });
   }
 
+  static void viscous_force(const BlockTask& task, const ViscousStep& step, double* history,
+                            void* slot) {
+    const std::int64_t width = Element::n_points * history_of_point(step.n_branches);
+    for_groups(task, [&](const auto& group, const auto& u, std::int64_t block, int lane) {
+      const ViscousLaw<Material, Pack> law{group.law.value, step,
+                                           history + block * width * lanes + lane};
+      Pack f[n][3];
+      Element::force(group.value, law, u, f);
+      RealOf<Pack>* to = static_cast<RealOf<Pack>*>(slot) + (block * n * lanes + lane) * slot_width;
+      for (int a = 0; a < n; ++a) store_corner(to + a * lanes * slot_width, f[a]);
+    });
+  }
+
   static void energy(const BlockTask& task, double* strain, double* hourglass) {
     for_groups(task, [&](const auto& group, const auto& u, std::int64_t block, int lane) {
       const auto energy = Element::energy(group.value, group.law, u);
@@ -87,12 +101,24 @@ void sum_corner_forces(const SumTask& task) {
   }
 }
 
+// Viscosity is for elements that ask for one stress at each of n_points; others lack n_points.
+template <class Loops, class Element>
+void fill_viscous(BlockKernels& kernels) {
+  if constexpr (requires { Element::n_points; }) {
+    kernels.n_points = Element::n_points;
+    kernels.viscous_force = Loops::viscous_force;
+  }
+}
+
 template <class Pack, class Element, class... Materials>
 void fill_element(BlockKernels* row, TypeList<Materials...>) {
   ((row[static_cast<int>(Materials::model)] =
         {Element::n_corners, Group<Pack, Element, Materials>::n_values, Materials::n_values,
          BlockLoops<Pack, Element, Materials>::force, BlockLoops<Pack, Element, Materials>::energy,
-         BlockLoops<Pack, Element, Materials>::watch}),
+         BlockLoops<Pack, Element, Materials>::watch, 0, nullptr}),
+   ...);
+  (fill_viscous<BlockLoops<Pack, Element, Materials>, Element>(
+       row[static_cast<int>(Materials::model)]),
    ...);
 }
 

@@ -24,6 +24,11 @@ inline constexpr int slot_width = 4;
 
 // Corner forces [N] to [block][corner][lane][slot_width].
 using ForceKernel = void (*)(const BlockTask& task, void* slot);
+// The same of viscoelastic elements; their history, [block][point][number][lane] of doubles, goes
+// along (viscosity.h).
+struct ViscousStep;
+using ViscousForceKernel = void (*)(const BlockTask& task, const ViscousStep& step, double* history,
+                                    void* slot);
 // Strain and hourglass energy [J] to [block][lane].
 using EnergyKernel = void (*)(const BlockTask& task, double* strain, double* hourglass);
 // Least det F and growth of the bound of omega^2 (stiffening.h) to [block][lane].
@@ -49,6 +54,8 @@ struct BlockKernels {
   ForceKernel force;
   EnergyKernel energy;
   WatchKernel watch;
+  int n_points;                      // with a history each; 0: viscosity is not available
+  ViscousForceKernel viscous_force;  // nullptr then
 };
 
 struct KernelsOfPrecision {

@@ -15,7 +15,6 @@ struct PronyBranch {
   double share = 0;  // g of G(t) / G(0) = 1 - sum g (1 - exp(-t / tau)), > 0
   double time = 1;   // tau [s], > 0
 };
-inline constexpr int max_prony_branches = 4;
 
 struct OgdenTerm {
   double mu = 0;     // share of the shear modulus [Pa], > 0, or 0: no term

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solver/material_list.h"
+#include "solver/viscous_step.h"
 
 namespace trocar {
 

@@ -11,6 +11,7 @@
 #include "base/threads.h"
 #include "solver/block_ranges.h"
 #include "solver/element_setup.h"
+#include "solver/history.h"
 #include "solver/kernels.h"
 #include "solver/material_setup.h"
 #include "solver/simd.h"
@@ -74,6 +75,7 @@ ElementBlocks empty_blocks(const Source& source, int key, std::int32_t n_element
   const Material& material = source.materials[static_cast<std::size_t>(blocks.region)];
   blocks.material = material.model;
   blocks.stiffening_at_rest = stiffening_at_rest(material);
+  blocks.prony = material.prony;
   blocks.precision = source.options.precision;
   const bool is_single = blocks.precision == Precision::in_single;
   blocks.lanes = is_single ? lanes_of_block<float> : lanes_of_block<double>;
@@ -82,6 +84,9 @@ ElementBlocks empty_blocks(const Source& source, int key, std::int32_t n_element
   blocks.first_slot = first_slot;
   const BlockKernels& kernels = kernels_for(kernels_of(Simd::scalar), blocks);
   CHECK_OP(kernels.n_corners, ==, n_corners(shape_of(blocks.formulation)));
+  if (!blocks.prony.empty() && kernels.n_points == 0)
+    throw InputError("material of region " + std::to_string(blocks.region) +
+                     ": this kind of element can't be viscoelastic (prony)");
   const auto n_lanes = static_cast<std::size_t>(blocks.n_blocks * blocks.lanes);
   const std::size_t n_numbers = n_lanes * static_cast<std::size_t>(kernels.n_values);
   blocks.element_local.resize(n_lanes);
@@ -245,6 +250,7 @@ Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> 
   fill_blocks(source, model);
   link_slots(source, placement, model);
   order_sums(model);
+  model.n_history = place_history(model.blocks);
   return model;
 }
 
@@ -252,6 +258,7 @@ State make_state(const Model& model) {
   State state;
   state.u.assign(static_cast<std::size_t>(model.n_local) * 3, 0.0);
   state.v.assign(static_cast<std::size_t>(model.n_local) * 3, 0.0);
+  state.history.assign(static_cast<std::size_t>(model.n_history), 0.0);
   return state;
 }
 
@@ -263,6 +270,7 @@ Scratch make_scratch(const Model& model) {
   scratch.slot.resize(is_single ? 0 : n_corners * slot_width);
   scratch.slot_single.resize(is_single ? n_corners * slot_width : 0);
   scratch.force.resize(static_cast<std::size_t>(model.n_owned) * 3);
+  scratch.viscous.resize(model.blocks.size());
   scratch.is_summed.assign(static_cast<std::size_t>(model.n_owned), 0);
   return scratch;
 }

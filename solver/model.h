@@ -12,6 +12,7 @@
 #include "solver/block_data.h"
 #include "solver/formulation.h"
 #include "solver/material.h"
+#include "solver/viscous_step.h"
 
 namespace trocar {
 
@@ -46,7 +47,9 @@ struct ElementBlocks {
   // [block][value][lane], see block_data.h; the one of the list's precision, the other is empty.
   std::vector<double> data;
   std::vector<float> data_single;
-  std::int64_t first_slot = 0;  // corner forces of these blocks start here in Scratch::slot
+  std::vector<PronyBranch> prony;  // of the material; empty: no viscosity
+  std::int64_t first_history = 0;  // history of these blocks starts here in State::history
+  std::int64_t first_slot = 0;     // corner forces of these blocks start here in Scratch::slot
 };
 
 struct Model {
@@ -63,6 +66,7 @@ struct Model {
   std::vector<std::int32_t> sum_node, sum_first_block, sum_last_block;
   // (n local elements) stable step of the undeformed element (numerics 1.5) [s]
   std::vector<double> element_step;
+  std::int64_t n_history = 0;  // numbers of State::history
   SolverOptions options;
 };
 
@@ -79,6 +83,9 @@ struct State {
   double time = 0;
   double last_dt = 0;  // length of the last step, 0 before the first
   std::int64_t step = 0;
+  // [block][point][number][lane] of each viscoelastic list (viscosity.h), at history_time. [J], [s]
+  std::vector<double> history;
+  double history_time = 0;
 };
 State make_state(const Model& model);
 
@@ -89,6 +96,7 @@ struct Scratch {
   std::vector<float> slot_single;
   std::vector<double> force;            // (n_owned * 3) external - internal force [N]
   std::vector<std::uint8_t> is_summed;  // (n_owned) all zero between steps
+  std::vector<ViscousStep> viscous;     // (block lists) of the step that is being computed
 };
 Scratch make_scratch(const Model& model);
 
