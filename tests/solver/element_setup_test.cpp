@@ -156,7 +156,9 @@ TEST(Element, a_translation_makes_no_force_and_forces_sum_to_zero) {
       EXPECT_NEAR(total, 0, 1e-14 * largest(f));  // eight roundings
     }
     displace(body, [](const Vec3&) { return Vec3(0.3, -0.7, 0); });
-    EXPECT_EQ(largest(force(body)), 0);  // only differences of displacements enter
+    // Only differences of displacements enter; fibres make 10 mu h^2 out of q's error, 4e-26.
+    const double of_q = has_fibres(body.materials[0].model) ? 4e-26 : 0;
+    EXPECT_LE(largest(force(body)), of_q);
   });
 }
 

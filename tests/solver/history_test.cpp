@@ -113,8 +113,8 @@ TEST(Viscosity, single_precision_does_not_stop_relaxing_at_a_million_steps_a_tim
   share_of(body, 0, elastic);
   double share = 1;
   for (int k = 1; k <= 20000; ++k) share = share_of(body, 1e-3 * k, elastic);
-  // A float history would round each change, 1e-6 of it, to something else.
-  EXPECT_NEAR(share, 1 - .5 * (1 - std::exp(-20. / 1000)), 2e-7);
+  // A few roundings of single; a float history would lose a per cent of the 1e-2 (numerics 1.8).
+  EXPECT_NEAR(share, 1 - .5 * (1 - std::exp(-20. / 1000)), 5e-7);
 }
 
 TEST(Viscosity, a_second_call_at_the_same_time_changes_nothing) {

@@ -11,7 +11,7 @@ using namespace trocar;
 
 static Body cube(BoxElements elements, MaterialModel model, double nu) {
   return make_body(make_box(Vec3(0, 0, 0), Vec3(.02, .02, .02), {2, 2, 2}, elements),
-                   {.materials = {{model, 3000, nu, 1000}}});
+                   {.materials = {material_of(model, 1500 / (1 + nu), 1000 / (1 - 2 * nu))}});
 }
 
 static Watch look(const Body& body) {
