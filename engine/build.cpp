@@ -15,19 +15,25 @@ namespace trocar {
 
 namespace {
 
-Material to_material(const SceneMaterial& m) {
-  const MaterialModel models[] = {MaterialModel::linear, MaterialModel::st_venant_kirchhoff,
-                                  MaterialModel::neo_hookean};
-  return {.model = models[static_cast<int>(m.model)],
-          .young_modulus = m.young_modulus,
-          .poisson_ratio = m.poisson_ratio,
-          .density = m.density};
-}
-
 std::vector<double> region_densities(const std::vector<Material>& materials) {
   std::vector<double> density;
   for (const Material& material : materials) density.push_back(material.density);
   return density;
+}
+
+std::vector<Material> region_materials(const LoadedScene& loaded, const Mesh& mesh) {
+  const SceneTissue& tissue = loaded.scene.tissue;
+  std::vector<Material> materials(mesh.region_name.size(), to_material(tissue.material));
+  for (std::size_t k = 0; k < tissue.region_materials.size(); ++k) {
+    const SceneRegionMaterial& other = tissue.region_materials[k];
+    const auto at = std::find(mesh.region_name.begin(), mesh.region_name.end(), other.region);
+    if (at == mesh.region_name.end())
+      loaded.where.fail("tissue.region_material[" + std::to_string(k) + "].region",
+                        "the mesh has no region \"" + other.region + "\"");
+    materials[static_cast<std::size_t>(at - mesh.region_name.begin())] =
+        to_material(other.material);
+  }
+  return materials;
 }
 
 FixedMask fixed_mask(const std::string& components) {
@@ -155,7 +161,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   s.scene = loaded.scene;
   for (std::size_t k = 0; k < n_phases; ++k) s.timers.phase(phase_names[k]);
   s.mesh = load_tissue(loaded, communicator);
-  s.materials.assign(s.mesh.region_name.size(), to_material(s.scene.tissue.material));
+  s.materials = region_materials(loaded, s.mesh);
   s.node_owner = partition_nodes(s.mesh, communicator);
   build_supports(s);
   build_instruments(loaded, s);

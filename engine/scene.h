@@ -9,11 +9,11 @@
 
 #include "base/options.h"
 #include "base/vec.h"
+#include "engine/scene_material.h"
 
 namespace trocar {
 
 enum class Pace { fast, real_time };
-enum class MaterialName { linear, st_venant_kirchhoff, neo_hookean };
 enum class ShapeKind { box, ball, cylinder, rectangle, triangular_rectangle };
 enum class ElementKind { hex8, tet4_kuhn, tet4_five };
 enum class InstrumentKind { probe, grasper, scalpel };
@@ -27,11 +27,10 @@ struct SceneTime {
   Pace pace = Pace::fast;
 };
 
-struct SceneMaterial {
-  MaterialName model = MaterialName::neo_hookean;
-  double young_modulus = 3000;
-  double poisson_ratio = 0.45;
-  double density = 1060;
+// Elements of this region of the mesh are made of something else.
+struct SceneRegionMaterial {
+  std::string region;
+  SceneMaterial material;
 };
 
 struct SceneShape {
@@ -59,6 +58,7 @@ struct SceneTissue {
   Vec3 translate = Vec3::Zero();
   std::optional<SceneShape> shape;
   SceneMaterial material;
+  std::vector<SceneRegionMaterial> region_materials;
   double thickness = 1e-3;
   SceneLook look;
 };

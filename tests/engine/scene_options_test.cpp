@@ -123,7 +123,7 @@ TEST(SceneOptions, every_key_reaches_its_member_in_si) {
   EXPECT_LT((s.tissue.translate - Vec3(1e-3, 2e-3, 3e-3)).norm(), 1e-18);
   EXPECT_FALSE(s.tissue.shape.has_value());
   EXPECT_DOUBLE_EQ(s.tissue.thickness, 4e-3);
-  EXPECT_EQ(s.tissue.material.model, MaterialName::linear);
+  EXPECT_EQ(s.tissue.material.model, MaterialModel::linear);
   EXPECT_DOUBLE_EQ(s.tissue.material.young_modulus, 3500);
   EXPECT_EQ(s.tissue.material.poisson_ratio, 0.3);
   EXPECT_DOUBLE_EQ(s.tissue.material.density, 1100);
