@@ -30,6 +30,7 @@ static BodyOptions options(const Mesh& mesh) {
                                     material_of(MaterialModel::st_venant_kirchhoff, 1500, 5000),
                                     material_of(MaterialModel::linear, 800, 4000)},
                       .solver = {.mass_damping = 2, .gravity = Vec3(0, 1, -9.81)}};
+  options.materials[0].prony = {{.3, .01}, {.2, 1}};
   options.fixed.assign(mesh.X.size(), 0);
   for (std::size_t i = 0; i < mesh.X.size(); ++i)
     if (mesh.X[i].x() == 0) options.fixed[i] = 7;
