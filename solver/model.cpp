@@ -15,6 +15,7 @@
 #include "solver/material_setup.h"
 #include "solver/simd.h"
 #include "solver/sum_order.h"
+#include "solver/volume_averages.h"
 
 namespace trocar {
 
@@ -211,7 +212,7 @@ void link_slots(const Source& source, const Placement& placement, Model& model) 
   for_owned_corners([&](std::int32_t i, std::int64_t slot) { model.slot[next[i]++] = slot; });
 }
 
-// Plane strain holds z.
+// Plane bodies hold z.
 void take_nodes(const Source& source, std::span<const FixedMask> fixed,
                 std::span<const double> mass, Model& model) {
   const FixedMask plane = source.mesh.dimension() == 2 ? 4 : 0;
@@ -244,6 +245,7 @@ Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> 
   fill_blocks(source, model);
   link_slots(source, placement, model);
   order_sums(model);
+  link_volume_averages(mesh, materials, model);
   return model;
 }
 
@@ -251,6 +253,9 @@ State make_state(const Model& model) {
   State state;
   state.u.assign(static_cast<std::size_t>(model.n_local) * 3, 0.0);
   state.v.assign(static_cast<std::size_t>(model.n_local) * 3, 0.0);
+  state.theta.assign(
+      static_cast<std::size_t>(model.n_local) * static_cast<std::size_t>(model.averages.n_fields),
+      0.0);
   return state;
 }
 
@@ -261,6 +266,7 @@ Scratch make_scratch(const Model& model) {
   const bool is_single = model.options.precision == Precision::in_single;
   scratch.slot.resize(is_single ? 0 : n_corners * slot_width);
   scratch.slot_single.resize(is_single ? n_corners * slot_width : 0);
+  scratch.volume_change.resize(static_cast<std::size_t>(model.averages.n_lanes));
   scratch.force.resize(static_cast<std::size_t>(model.n_owned) * 3);
   scratch.is_summed.assign(static_cast<std::size_t>(model.n_owned), 0);
   return scratch;

@@ -30,7 +30,7 @@ void run_blocks(const Model& model, const State& state, std::int64_t begin, std:
       model, begin, end, [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
         const BlockKernels& kernel = kernels_for(kernels, blocks);
         const std::int64_t slot = blocks.first_slot + first * kernel.n_corners * blocks.lanes;
-        kernel.force(block_task(blocks, kernel, state, first, n),
+        kernel.force(block_task(model, blocks, kernel, state, first, n),
                      slot_at(model, scratch, slot * slot_width));
       });
 }
@@ -88,6 +88,7 @@ void sum_remaining(const Model& model, Scratch& scratch) {
 
 void compute_force(const Model& model, const State& state, Scratch& scratch) {
   CHECK_OP(std::ssize(state.u), ==, 3 * std::int64_t{model.n_local});
+  CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
   CHECK_OP(std::ssize(scratch.force), ==, 3 * std::int64_t{model.n_owned});
   parallel_for(count_blocks(model), [&](std::int64_t begin, std::int64_t end) {
     compute_run(model, state, begin, end, scratch);
@@ -97,10 +98,12 @@ void compute_force(const Model& model, const State& state, Scratch& scratch) {
 
 std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
   const auto bytes = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
-  std::size_t sum = bytes(model.mass) + bytes(model.fixed) + bytes(model.slot_offset) +
-                    bytes(model.slot) + bytes(model.sum_node) + bytes(model.sum_first_block) +
-                    bytes(model.sum_last_block) + bytes(model.element_step) + bytes(scratch.slot) +
-                    bytes(scratch.slot_single) + bytes(scratch.force) + bytes(scratch.is_summed);
+  std::size_t sum =
+      bytes(model.mass) + bytes(model.fixed) + bytes(model.slot_offset) + bytes(model.slot) +
+      bytes(model.sum_node) + bytes(model.sum_first_block) + bytes(model.sum_last_block) +
+      bytes(model.element_step) + bytes(model.averages.offset) + bytes(model.averages.lane) +
+      bytes(model.averages.stiffness) + bytes(scratch.volume_change) + bytes(scratch.slot) +
+      bytes(scratch.slot_single) + bytes(scratch.force) + bytes(scratch.is_summed);
   for (const ElementBlocks& blocks : model.blocks)
     sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.data) +
            bytes(blocks.data_single);
