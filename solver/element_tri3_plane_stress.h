@@ -36,11 +36,10 @@ struct ElementTri3PlaneStress {
     return {1.0 + volume_change(H, cofactor(H)), law.stiffening(H)};
   }
 
- private:
-  // The start F33 = 1 / (1 + c (A - 1)), A = det of the in-plane F, is exact for small strain and
-  // for incompressible materials. The first step goes by the stiffness at rest, each further one by
-  // the last two points while they lie far enough apart to tell a slope, then by the last slope.
-  // No step takes more than half of the thickness.
+  // H with the thickness that has no stress. The start F33 = 1 / (1 + c (A - 1)), A = det of the
+  // in-plane F, is exact for small strain and for incompressible materials. The first step goes by
+  // the stiffness at rest, each further one by the last two points while they lie far enough apart
+  // to tell a slope, then by the last slope. No step takes more than half of the thickness.
   template <class Law, class Pack>
   [[gnu::always_inline]] static ElementTri3::Strain<Pack> relaxed_strain(
       const BlockValues<Pack>& value, const Law& law, const Pack (&u)[3][3]) {
