@@ -146,7 +146,13 @@ void rebuild_topology(Simulation& s) {
                         {.mass_damping = solver.mass_damping,
                          .hourglass = solver.hourglass,
                          .thickness = s.scene.tissue.thickness,
-                         .gravity = solver.gravity});
+                         .gravity = solver.gravity,
+                         .precision = solver.precision,
+                         .tri3 = solver.triangle,
+                         .tet4 = solver.tetrahedron,
+                         .hex8 = solver.hexahedron});
+  s.exchange_theta.reset();
+  if (s.model.averages.n_fields > 0) s.exchange_theta.emplace(s.halo, s.model.averages.n_fields);
   s.scratch = make_scratch(s.model);
   s.surface = boundary_surface(s.mesh);
   s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part, rank);

@@ -41,7 +41,9 @@ double sum_over_ranks(const std::vector<double>& terms, const Communicator& comm
 void report_energies(Simulation& s, FrameRow& row) {
   energy_terms(s.model, s.part, s.state, s.energies);
   row.kinetic = sum_over_ranks(s.energies.kinetic, *s.communicator);
-  row.strain = sum_over_ranks(s.energies.strain, *s.communicator);
+  std::vector<double>& strain = s.energies.strain;
+  strain.insert(strain.end(), s.energies.volumetric.begin(), s.energies.volumetric.end());
+  row.strain = sum_over_ranks(strain, *s.communicator);
   row.hourglass = sum_over_ranks(s.energies.hourglass, *s.communicator);
 }
 

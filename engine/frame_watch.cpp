@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "engine/frame_report.h"
+#include "solver/step.h"
 
 namespace trocar {
 
@@ -22,7 +23,18 @@ void least_of_all(const Communicator& communicator, double& value, std::int32_t&
 
 }  // namespace
 
+void average_volume(Simulation& s) {
+  if (!s.exchange_theta) return;
+  {
+    const PhaseScope scope(s.timers, phase_force);
+    average_volume_change(s.model, s.state, s.scratch);
+  }
+  const PhaseScope scope(s.timers, phase_exchange);
+  s.exchange_theta->exchange(s.state.theta, *s.communicator);
+}
+
 void watch_state(Simulation& s) {
+  average_volume(s);
   const PhaseScope scope(s.timers, phase_watch);
   Watch w = watch(s.model, s.part, s.state);
   const Communicator& communicator = *s.communicator;

@@ -10,6 +10,7 @@
 #include "base/options.h"
 #include "base/vec.h"
 #include "engine/scene_material.h"
+#include "solver/formulation.h"
 
 namespace trocar {
 
@@ -68,6 +69,10 @@ struct SceneSolver {
   double mass_damping = 0;
   double hourglass = 0.15;
   double step_factor = 0.9;
+  Precision precision = Precision::in_double;
+  Formulation triangle = Formulation::tri3_plane_strain;
+  Formulation tetrahedron = Formulation::tet4;
+  Formulation hexahedron = Formulation::hex8_one_point;
 };
 
 struct SceneContact {

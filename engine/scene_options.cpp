@@ -79,8 +79,7 @@ Options<SceneTissue> tissue_options() {
   t.table("material", &SceneTissue::material, material_options(), "Material.");
   t.list("region_material", &SceneTissue::region_materials, region_material_options(),
          "Materials of single regions.");
-  t.number("thickness", &SceneTissue::thickness, dim::length, positive,
-           "Of a plane (2D) body, plane strain.");
+  t.number("thickness", &SceneTissue::thickness, dim::length, positive, "Of a plane (2D) body.");
   t.table("look", &SceneTissue::look, look_options(), "Look.");
   return t;
 }
@@ -92,6 +91,23 @@ Options<SceneSolver> solver_options() {
            "alpha of C = alpha M.");
   s.number("hourglass", &SceneSolver::hourglass, dim::none, {.low = 0, .high = 1},
            "Hourglass stiffness of one-point hexahedra, as a share of mu.");
+  s.choice(
+      "hexahedron", &SceneSolver::hexahedron,
+      {{"one-point", Formulation::hex8_one_point},
+       {"enhanced", Formulation::hex8_enhanced},
+       {"full", Formulation::hex8_full}},
+      "one-point: with hourglass stiffness; enhanced: hourglass energy of the material's shear "
+      "modulus, without a free constant; full: eight points, locks when nu is near 0.5.");
+  s.choice("tetrahedron", &SceneSolver::tetrahedron,
+           {{"linear", Formulation::tet4}, {"nodal-pressure", Formulation::tet4_nodal_pressure}},
+           "linear: locks when nu is near 0.5; nodal-pressure: averages the pressure at nodes.");
+  s.choice("triangle", &SceneSolver::triangle,
+           {{"plane-strain", Formulation::tri3_plane_strain},
+            {"plane-stress", Formulation::tri3_plane_stress}},
+           "plane-strain: the thickness is held; plane-stress: it is free.");
+  s.choice("precision", &SceneSolver::precision,
+           {{"double", Precision::in_double}, {"single", Precision::in_single}},
+           "Numbers that elements compute with; positions and velocities are double.");
   s.number("step_factor", &SceneSolver::step_factor, dim::none,
            {.low = 0, .high = 1, .is_low_open = true}, "Time step / computed stable step.");
   return s;

@@ -19,6 +19,13 @@ struct Law {
   [[gnu::always_inline]] Pack energy(const Tensor<Pack>& H) const {
     return Material::energy(H, value);
   }
+  // Their parts that don't depend on J, if Material::is_decoupled.
+  [[gnu::always_inline]] Tensor<Pack> isochoric_stress(const Tensor<Pack>& H) const {
+    return Material::isochoric_stress(H, value);
+  }
+  [[gnu::always_inline]] Pack isochoric_energy(const Tensor<Pack>& H) const {
+    return Material::isochoric_energy(H, value);
+  }
   // Growth of the bound of omega^2 (stiffening.h).
   [[gnu::always_inline]] Pack stiffening(const Tensor<Pack>& H) const {
     return Material::stiffening(H, value);

@@ -16,6 +16,7 @@
 #include "solver/material_setup.h"
 #include "solver/simd.h"
 #include "solver/sum_order.h"
+#include "solver/volume_averages.h"
 
 namespace trocar {
 
@@ -217,7 +218,7 @@ void link_slots(const Source& source, const Placement& placement, Model& model) 
   for_owned_corners([&](std::int32_t i, std::int64_t slot) { model.slot[next[i]++] = slot; });
 }
 
-// Plane strain holds z.
+// Plane bodies hold z.
 void take_nodes(const Source& source, std::span<const FixedMask> fixed,
                 std::span<const double> mass, Model& model) {
   const FixedMask plane = source.mesh.dimension() == 2 ? 4 : 0;
@@ -251,6 +252,7 @@ Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> 
   link_slots(source, placement, model);
   order_sums(model);
   model.n_history = place_history(model.blocks);
+  link_volume_averages(mesh, materials, model);
   return model;
 }
 
@@ -259,6 +261,9 @@ State make_state(const Model& model) {
   state.u.assign(static_cast<std::size_t>(model.n_local) * 3, 0.0);
   state.v.assign(static_cast<std::size_t>(model.n_local) * 3, 0.0);
   state.history.assign(static_cast<std::size_t>(model.n_history), 0.0);
+  state.theta.assign(
+      static_cast<std::size_t>(model.n_local) * static_cast<std::size_t>(model.averages.n_fields),
+      0.0);
   return state;
 }
 
@@ -269,6 +274,7 @@ Scratch make_scratch(const Model& model) {
   const bool is_single = model.options.precision == Precision::in_single;
   scratch.slot.resize(is_single ? 0 : n_corners * slot_width);
   scratch.slot_single.resize(is_single ? n_corners * slot_width : 0);
+  scratch.volume_change.resize(static_cast<std::size_t>(model.averages.n_lanes));
   scratch.force.resize(static_cast<std::size_t>(model.n_owned) * 3);
   scratch.viscous.resize(model.blocks.size());
   scratch.is_summed.assign(static_cast<std::size_t>(model.n_owned), 0);

@@ -35,7 +35,7 @@ void run_blocks(const Model& model, State& state, std::int64_t begin, std::int64
       model, begin, end, [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
         const BlockKernels& kernel = kernels_for(kernels, blocks);
         const std::int64_t slot = blocks.first_slot + first * kernel.n_corners * blocks.lanes;
-        const BlockTask task = block_task(blocks, kernel, state, first, n);
+        const BlockTask task = block_task(model, blocks, kernel, state, first, n);
         void* const to = slot_at(model, scratch, slot * slot_width);
         if (blocks.prony.empty()) return kernel.force(task, to);
         kernel.viscous_force(task, scratch.viscous[&blocks - model.blocks.data()],
@@ -96,6 +96,7 @@ void sum_remaining(const Model& model, Scratch& scratch) {
 
 void compute_force(const Model& model, State& state, Scratch& scratch) {
   CHECK_OP(std::ssize(state.u), ==, 3 * std::int64_t{model.n_local});
+  CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
   CHECK_OP(std::ssize(scratch.force), ==, 3 * std::int64_t{model.n_owned});
   CHECK_OP(std::ssize(state.history), ==, model.n_history);
   for (std::size_t k = 0; k < model.blocks.size(); ++k)
@@ -110,10 +111,12 @@ void compute_force(const Model& model, State& state, Scratch& scratch) {
 
 std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
   const auto bytes = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
-  std::size_t sum = bytes(model.mass) + bytes(model.fixed) + bytes(model.slot_offset) +
-                    bytes(model.slot) + bytes(model.sum_node) + bytes(model.sum_first_block) +
-                    bytes(model.sum_last_block) + bytes(model.element_step) + bytes(scratch.slot) +
-                    bytes(scratch.slot_single) + bytes(scratch.force) + bytes(scratch.is_summed);
+  std::size_t sum =
+      bytes(model.mass) + bytes(model.fixed) + bytes(model.slot_offset) + bytes(model.slot) +
+      bytes(model.sum_node) + bytes(model.sum_first_block) + bytes(model.sum_last_block) +
+      bytes(model.element_step) + bytes(model.averages.offset) + bytes(model.averages.lane) +
+      bytes(model.averages.stiffness) + bytes(scratch.volume_change) + bytes(scratch.slot) +
+      bytes(scratch.slot_single) + bytes(scratch.force) + bytes(scratch.is_summed);
   for (const ElementBlocks& blocks : model.blocks)
     sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.data) +
            bytes(blocks.data_single);

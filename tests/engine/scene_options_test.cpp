@@ -62,6 +62,10 @@ gravity = [0, 0, "-9.81 m/s^2"]
 mass_damping = "5 1/s"
 hourglass = 0.2
 step_factor = 0.8
+hexahedron = "full"
+tetrahedron = "nodal-pressure"
+triangle = "plane-stress"
+precision = "single"
 [contact]
 stiffness = 0.1
 friction = 0.3
@@ -136,6 +140,10 @@ TEST(SceneOptions, every_key_reaches_its_member_in_si) {
   EXPECT_EQ(s.solver.mass_damping, 5);
   EXPECT_EQ(s.solver.hourglass, 0.2);
   EXPECT_EQ(s.solver.step_factor, 0.8);
+  EXPECT_EQ(s.solver.hexahedron, Formulation::hex8_full);
+  EXPECT_EQ(s.solver.tetrahedron, Formulation::tet4_nodal_pressure);
+  EXPECT_EQ(s.solver.triangle, Formulation::tri3_plane_stress);
+  EXPECT_EQ(s.solver.precision, Precision::in_single);
   EXPECT_EQ(s.contact.stiffness, 0.1);
   EXPECT_EQ(s.contact.friction, 0.3);
 }
