@@ -33,7 +33,8 @@ const char* const examples_mesh =
     "\nexamples:\n  trocar mesh liver.msh\n  trocar mesh liver.msh --scale '1 mm'\n";
 const char* const examples_doctor = "\nexamples:\n  trocar doctor\n  mpirun -np 4 trocar doctor\n";
 const char* const examples_help =
-    "\nexamples:\n  trocar help scene\n  trocar help scene --markdown > docs/scene.md\n";
+    "\nexamples:\n  trocar help scene\n  trocar help scene --markdown > docs/scene.md\n"
+    "  trocar help tissues --markdown > docs/tissues.md\n";
 
 void add_machine_options(CLI::App& app, MachineOptions& machine) {
   app.add_option("--threads", machine.threads,
@@ -117,12 +118,17 @@ void add_others(CLI::App& app, CommandLine& line) {
       app.add_subcommand("doctor", "What this machine offers, what is missing and how to get it");
   doctor->footer(examples_doctor);
   doctor->callback([&] { line.command = Command::doctor; });
-  CLI::App* help = app.add_subcommand("help", "Explain something: scene");
+  CLI::App* help = app.add_subcommand("help", "Explain something: scene, tissues");
   help->add_subcommand("scene", "All keys of a scene file with units, ranges and defaults")
       ->add_flag("--markdown", line.is_markdown, "As Markdown");
   help->require_subcommand(1);
   help->footer(examples_help);
-  help->callback([&] { line.command = Command::help_scene; });
+  CLI::App* tissues =
+      help->add_subcommand("tissues", "The tissues that a scene can name, and their sources");
+  tissues->add_flag("--markdown", line.is_markdown, "As Markdown");
+  help->callback([&, tissues] {
+    line.command = tissues->parsed() ? Command::help_tissues : Command::help_scene;
+  });
 }
 
 // "trocar rnu": the word that was probably meant.
@@ -185,6 +191,8 @@ ExitCode run_command(const CommandLine& line, Communicator& communicator) {
       return command_doctor(communicator);
     case Command::help_scene:
       return communicator.is_root() ? command_help_scene(line.is_markdown) : ExitCode::done;
+    case Command::help_tissues:
+      return communicator.is_root() ? command_help_tissues(line.is_markdown) : ExitCode::done;
   }
   return ExitCode::done;
 }

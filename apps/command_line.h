@@ -8,7 +8,7 @@
 
 namespace trocar {
 
-enum class Command { run, check, replay, mesh, doctor, help_scene };
+enum class Command { run, check, replay, mesh, doctor, help_scene, help_tissues };
 
 struct CommandLine {
   Command command = Command::run;

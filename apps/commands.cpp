@@ -12,6 +12,7 @@
 #include "base/threads.h"
 #include "engine/build.h"
 #include "engine/predict.h"
+#include "engine/tissue_table.h"
 #include "engine/version.h"
 #include "mesh/mesh_file.h"
 #include "mesh/quality.h"
@@ -173,6 +174,11 @@ ExitCode command_doctor(const Communicator& communicator) {
 ExitCode command_help_scene(bool is_markdown) {
   const Options<Scene> options = scene_options();
   std::fputs((is_markdown ? markdown_options(options) : help_options(options)).c_str(), stdout);
+  return ExitCode::done;
+}
+
+ExitCode command_help_tissues(bool is_markdown) {
+  std::fputs((is_markdown ? tissues_markdown() : tissues_text()).c_str(), stdout);
   return ExitCode::done;
 }
 

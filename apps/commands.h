@@ -27,5 +27,7 @@ ExitCode command_mesh(const std::string& file, const std::string& scale);
 ExitCode command_doctor(const Communicator& communicator);
 // All keys of a scene file; as Markdown for docs/scene.md.
 ExitCode command_help_scene(bool is_markdown);
+// The tissues that a scene can name; as Markdown for docs/tissues.md.
+ExitCode command_help_tissues(bool is_markdown);
 
 }  // namespace trocar

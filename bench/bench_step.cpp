@@ -1,7 +1,8 @@
-// Nanoseconds of one whole step per element: tet4 and hex8, neo-Hookean, by instruction set; and
-// the multiply-add peak of this core in the same run, because others may use the machine. One
-// thread is timed by its processor time, several by the wall clock. JSON to stdout.
-// bench_step [threads] [cells along an edge of the hexahedral cube]
+// Nanoseconds of one whole step per element, neo-Hookean: tet4 and hex8 in double by instruction
+// set, or every formulation and precision; and the multiply-add peak of this core in the same run,
+// because others may use the machine. One thread is timed by its processor time, several by the
+// wall clock. JSON to stdout.
+// bench_step [threads] [cells along an edge of the hexahedral cube] [formulations]
 #include <time.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "base/threads.h"
 #include "base/timers.h"
 #include "mesh/generate.h"
+#include "solver/element_setup.h"
 #include "solver/simd.h"
 #include "solver/step.h"
 #include "solver/watch.h"
@@ -72,39 +74,65 @@ static double peak_gflops() {
   return 1e-9 * n_chains * n_rounds * 8 * 2 / best;
 }
 
-static Timing measure(const Mesh& mesh) {
+static Timing measure(const Mesh& mesh, const SolverOptions& options) {
   const std::vector<Material> materials = {Material{}};
   const std::vector<FixedMask> fixed(mesh.X.size(), 0);
   const std::vector<double> density = {materials[0].density};
   const std::vector<double> mass = lumped_mass(mesh, density, 1e-3);
   const Part part = make_part(mesh, std::vector<std::int32_t>(mesh.X.size(), 0), 0);
-  const Model model = build_model(mesh, part, materials, fixed, mass, {});
+  const Model model = build_model(mesh, part, materials, fixed, mass, options);
   State state = make_state(model);
   Scratch scratch = make_scratch(model);
   for (std::size_t i = 0; i < mesh.X.size(); ++i) state.u[3 * i] = 0.05 * mesh.X[i].y();
   const double dt = 1e-9;  // stays near the deformation it starts from
   Timing timing;
-  timing.build = best_seconds([&] { build_model(mesh, part, materials, fixed, mass, {}); });
-  timing.force = best_seconds([&] { compute_force(model, state, scratch); });
+  timing.build = best_seconds([&] { build_model(mesh, part, materials, fixed, mass, options); });
+  timing.force = best_seconds([&] {
+    average_volume_change(model, state, scratch);
+    compute_force(model, state, scratch);
+  });
   timing.integrate = best_seconds([&] { integrate(model, scratch, {}, dt, state); });
   timing.watch = best_seconds([&] { watch(model, part, state); });
   return timing;
 }
 
-static void report(const char* name, const Mesh& mesh, bool& is_first) {
+static void report(const char* name, const Mesh& mesh, const SolverOptions& options,
+                   bool& is_first) {
+  const Timing t = measure(mesh, options);
+  const double ns = 1e9 / mesh.n_elements();
+  std::printf(
+      "%s\n  {\"element\": \"%s\", \"precision\": \"%s\", \"simd\": \"%s\", \"threads\": %d, "
+      "\"elements\": %d, \"nodes\": %d, \"step_ns\": %.2f, \"force_ns\": %.2f, "
+      "\"integrate_ns\": %.2f, \"watch_ns\": %.2f, \"build_ns\": %.1f}",
+      is_first ? "" : ",", name, name_of(options.precision), simd_name(), thread_count(),
+      mesh.n_elements(), mesh.n_nodes(), (t.force + t.integrate) * ns, t.force * ns,
+      t.integrate * ns, t.watch * ns, t.build * ns);
+  is_first = false;
+}
+
+static void report_instruction_sets(const char* name, const Mesh& mesh, bool& is_first) {
   for (int i = 0; i < n_simd; ++i) {
     if (!is_supported(static_cast<Simd>(i))) continue;
     select_simd(name_of(static_cast<Simd>(i)));
-    const Timing t = measure(mesh);
-    const double ns = 1e9 / mesh.n_elements();
-    std::printf(
-        "%s\n  {\"element\": \"%s\", \"simd\": \"%s\", \"threads\": %d, \"elements\": %d, "
-        "\"nodes\": %d, \"step_ns\": %.2f, \"force_ns\": %.2f, \"integrate_ns\": %.2f, "
-        "\"watch_ns\": %.2f, \"build_ns\": %.1f}",
-        is_first ? "" : ",", name, simd_name(), thread_count(), mesh.n_elements(), mesh.n_nodes(),
-        (t.force + t.integrate) * ns, t.force * ns, t.integrate * ns, t.watch * ns, t.build * ns);
-    is_first = false;
+    report(name, mesh, {}, is_first);
   }
+}
+
+// With the widest instruction set.
+static void report_formulations(const Mesh& tet, const Mesh& hex, int n, bool& is_first) {
+  const Mesh plane = make_rectangle(.1, .1, 4 * n, 4 * n);
+  for (const Precision precision : {Precision::in_double, Precision::in_single})
+    for (int k = 0; k < n_formulations; ++k) {
+      const auto f = static_cast<Formulation>(k);
+      SolverOptions options{.precision = precision};
+      const ElementType shape = shape_of(f);
+      if (shape == ElementType::tri3) options.tri3 = f;
+      if (shape == ElementType::tet4) options.tet4 = f;
+      if (shape == ElementType::hex8) options.hex8 = f;
+      report(name_of(f),
+             shape == ElementType::tri3 ? plane : (shape == ElementType::tet4 ? tet : hex), options,
+             is_first);
+    }
 }
 
 int main(int argc, char** argv) {
@@ -112,10 +140,16 @@ int main(int argc, char** argv) {
   const int n = argc > 2 ? std::atoi(argv[2]) : 37;
   const int n_tet = std::max(1, n * 20 / 37);  // about as many tetrahedra as hexahedra
   const Vec3 low(0, 0, 0), high(.1, .1, .1);
+  const Mesh tet = make_box(low, high, {n_tet, n_tet, n_tet}, BoxElements::tet4_kuhn);
+  const Mesh hex = make_box(low, high, {n, n, n}, BoxElements::hex8);
   bool is_first = true;
   if (is_supported(Simd::avx512)) std::printf("{\"peak_gflops\": %.1f,\n", peak_gflops());
   std::printf("%s\"steps\": [", is_supported(Simd::avx512) ? "" : "{");
-  report("tet4", make_box(low, high, {n_tet, n_tet, n_tet}, BoxElements::tet4_kuhn), is_first);
-  report("hex8", make_box(low, high, {n, n, n}, BoxElements::hex8), is_first);
+  if (argc > 3 && std::string(argv[3]) == "formulations") {
+    report_formulations(tet, hex, n, is_first);
+  } else {
+    report_instruction_sets("tet4", tet, is_first);
+    report_instruction_sets("hex8", hex, is_first);
+  }
   std::printf("\n]}\n");
 }

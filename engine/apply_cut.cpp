@@ -6,6 +6,7 @@
 #include "engine/frame_watch.h"
 #include "engine/mesh_measures.h"
 #include "mesh/quality.h"
+#include "solver/history.h"
 
 namespace trocar {
 
@@ -93,6 +94,16 @@ double total(std::span<const double> values) {
   return sum.value();
 }
 
+// Volumes of the elements after the edit over those before it; 1 where it left them.
+std::vector<double> volume_ratios(const Mesh& after, std::span<const std::int32_t> elements,
+                                  std::span<const double> before) {
+  std::vector<double> ratio(after.element_type.size(), 1.0);
+  for (std::size_t k = 0; k < elements.size(); ++k)
+    ratio[static_cast<std::size_t>(elements[k])] =
+        element_volume(after, elements[k], after.X) / before[k];
+  return ratio;
+}
+
 // Supports and partner pairs go with the nodes.
 void inherit_by_duplicates(Simulation& s, const MeshEdit& edit, std::int32_t n_before) {
   for (std::size_t d = 0; d < edit.duplicate_parent.size(); ++d) {
@@ -119,6 +130,7 @@ void scatter_state(Simulation& s, const GlobalState& global) {
   state.time = s.state.time;
   state.last_dt = s.state.last_dt;
   state.step = s.state.step;
+  state.history_time = s.state.history_time;
   for (std::size_t i = 0; i < s.part.node_global.size(); ++i) {
     const auto g = static_cast<std::size_t>(s.part.node_global[i]);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -139,6 +151,12 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   Motion before = motion_of(nodes_before, s.mass, global, Vec3::Zero());
   before = motion_of(nodes_before, s.mass, global, before.centre);
 
+  const std::vector<double> history =
+      s.communicator->all_gather(copy_history(s.model, s.part, s.state));
+  std::vector<double> volume_before;
+  for (const std::int32_t e : elements)
+    volume_before.push_back(element_volume(s.mesh, e, s.mesh.X));
+
   apply_edit(edit, s.mesh, 3, global.u);
   apply_edit(edit, s.mesh, 3, global.v);
   apply_edit(edit, s.mesh);
@@ -149,6 +167,8 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   rebuild_topology(s);
   restore_momentum(nodes_of(s.mesh, elements), s.mass, before, global, record);
   scatter_state(s, global);
+  restore_history(s.model, s.part, history, volume_ratios(s.mesh, elements, volume_before),
+                  s.state);
   watch_state(s);
   if (s.energy) s.energy->memory.works.cut += mechanical_energy(s).sum() - energy_before;
 

@@ -18,19 +18,25 @@ namespace trocar {
 
 namespace {
 
-Material to_material(const SceneMaterial& m) {
-  const MaterialModel models[] = {MaterialModel::linear, MaterialModel::st_venant_kirchhoff,
-                                  MaterialModel::neo_hookean};
-  return {.model = models[static_cast<int>(m.model)],
-          .young_modulus = m.young_modulus,
-          .poisson_ratio = m.poisson_ratio,
-          .density = m.density};
-}
-
 std::vector<double> region_densities(const std::vector<Material>& materials) {
   std::vector<double> density;
   for (const Material& material : materials) density.push_back(material.density);
   return density;
+}
+
+std::vector<Material> region_materials(const LoadedScene& loaded, const Mesh& mesh) {
+  const SceneTissue& tissue = loaded.scene.tissue;
+  std::vector<Material> materials(mesh.region_name.size(), to_material(tissue.material));
+  for (std::size_t k = 0; k < tissue.region_materials.size(); ++k) {
+    const SceneRegionMaterial& other = tissue.region_materials[k];
+    const auto at = std::find(mesh.region_name.begin(), mesh.region_name.end(), other.region);
+    if (at == mesh.region_name.end())
+      loaded.where.fail("tissue.region_material[" + std::to_string(k) + "].region",
+                        "the mesh has no region \"" + other.region + "\"");
+    materials[static_cast<std::size_t>(at - mesh.region_name.begin())] =
+        to_material(other.material);
+  }
+  return materials;
 }
 
 FixedMask fixed_mask(const std::string& components) {
@@ -163,7 +169,13 @@ void rebuild_topology(Simulation& s) {
                         {.mass_damping = solver.mass_damping,
                          .hourglass = solver.hourglass,
                          .thickness = s.scene.tissue.thickness,
-                         .gravity = solver.gravity});
+                         .gravity = solver.gravity,
+                         .precision = solver.precision,
+                         .tri3 = solver.triangle,
+                         .tet4 = solver.tetrahedron,
+                         .hex8 = solver.hexahedron});
+  s.exchange_theta.reset();
+  if (s.model.averages.n_fields > 0) s.exchange_theta.emplace(s.halo, s.model.averages.n_fields);
   double rest_step = std::numeric_limits<double>::max();
   for (const double step : s.model.element_step) rest_step = std::min(rest_step, step);
   s.rest_step = s.communicator->all_min(rest_step);
@@ -184,7 +196,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   s.scene = loaded.scene;
   for (std::size_t k = 0; k < n_phases; ++k) s.timers.phase(phase_names[k]);
   s.mesh = load_tissue(loaded, communicator);
-  s.materials.assign(s.mesh.region_name.size(), to_material(s.scene.tissue.material));
+  s.materials = region_materials(loaded, s.mesh);
   s.node_owner = partition_nodes(s.mesh, communicator);
   build_supports(s);
   build_instruments(loaded, s);

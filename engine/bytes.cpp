@@ -76,6 +76,7 @@ std::vector<std::byte> mesh_to_bytes(const Mesh& mesh) {
   writer.put_vector(mesh.element_region);
   writer.put_vector(mesh.density_factor);
   writer.put_vector(mesh.cut_facets);
+  put_points(writer, mesh.fibre);
   writer.put(static_cast<std::uint64_t>(mesh.region_name.size()));
   for (const std::string& name : mesh.region_name) writer.put_text(name);
   writer.put(static_cast<std::uint64_t>(mesh.node_sets.size()));
@@ -96,6 +97,7 @@ Mesh mesh_from_bytes(std::span<const std::byte> bytes) {
   mesh.element_region = reader.get_vector<std::int32_t>();
   mesh.density_factor = reader.get_vector<double>();
   mesh.cut_facets = reader.get_vector<std::uint8_t>();
+  mesh.fibre = get_points(reader);
   check_arrays(mesh);
   mesh.region_name.resize(reader.get_count(8));
   for (std::string& name : mesh.region_name) name = reader.get_text();

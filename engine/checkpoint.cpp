@@ -7,6 +7,7 @@
 #include "engine/frame_report.h"
 #include "engine/mesh_measures.h"
 #include "engine/version.h"
+#include "solver/history.h"
 #include "solver/step.h"
 
 namespace trocar {
@@ -96,6 +97,8 @@ Checkpoint take_checkpoint(Simulation& s) {
                .holds = s.holds.holds,
                .is_open = s.holds.is_open,
                .log = s.log,
+               .history = s.communicator->all_gather(copy_history(s.model, s.part, s.state)),
+               .history_time = s.state.history_time,
                .has_energies = s.energy != nullptr};
   if (s.energy) c.energy = s.energy->memory;
   // A rank may own no node; a search may not have run.
@@ -119,7 +122,10 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   s.state.time = c.time;
   s.state.last_dt = c.last_dt;
   s.state.step = c.step;
+  s.state.history_time = c.history_time;
   scatter_state(s, {.u = c.u, .v = c.v});
+  const std::vector<double> same(s.mesh.element_type.size(), 1.0);
+  restore_history(s.model, s.part, c.history, same, s.state);
   for (std::size_t k = 0; k < s.cuts.size(); ++k) remember(c.cuts[k], s.cuts[k]);
   s.step_scale = c.step_scale;
   s.stable_step_before_cut = c.stable_step_before_cut;

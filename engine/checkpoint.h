@@ -50,8 +50,10 @@ struct Checkpoint {
   std::vector<std::uint8_t> is_open;  // (n_tools)
   std::vector<CutMemory> cuts;        // one a scalpel
   FrameLog log;                       // without new_edits, which outputs have taken
-  std::vector<double> fastest_mode;   // (n_nodes * 3), empty: not searched for
-  bool has_energies = false;          // in the rows of the log
+  std::vector<double> history;        // of viscoelastic elements, see solver/history.h
+  double history_time = 0;
+  std::vector<double> fastest_mode;  // (n_nodes * 3), empty: not searched for
+  bool has_energies = false;         // in the rows of the log
   EnergyMemory energy;
   std::vector<RecordingMark> recordings;
 };

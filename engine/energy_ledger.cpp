@@ -79,6 +79,7 @@ EnergyState mechanical_energy(Simulation& s) {
   compute_force(s.model, s.state, s.scratch);
   EnergyTerms terms;
   energy_terms(s.model, s.part, s.state, terms);
+  terms.strain.insert(terms.strain.end(), terms.volumetric.begin(), terms.volumetric.end());
   std::vector<double> kinetic, gravity;
   take_nodes(s, kinetic, gravity);
   const Communicator& communicator = *s.communicator;

@@ -45,6 +45,7 @@ void detect(Simulation& s, const FrameSpan& span) {
 }
 
 void substep(Simulation& s, const FrameSpan& span, double t) {
+  average_volume(s);
   {
     const PhaseScope scope(s.timers, phase_force);
     compute_force(s.model, s.state, s.scratch);

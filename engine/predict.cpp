@@ -5,6 +5,7 @@
 
 #include "base/threads.h"
 #include "base/timers.h"
+#include "engine/frame_watch.h"
 #include "mesh/quality.h"
 #include "solver/step.h"
 
@@ -21,6 +22,7 @@ double measure_step(Simulation& s, double dt) {
   double elapsed = 0;
   while (elapsed < 0.25) {
     for (int k = 0; k < 20; ++k, ++n) {
+      average_volume(s);
       compute_force(s.model, s.state, s.scratch);
       integrate(s.model, s.scratch, {}, dt, s.state);
       s.exchange_u->exchange(s.state.u, *s.communicator);

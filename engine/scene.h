@@ -9,11 +9,12 @@
 
 #include "base/options.h"
 #include "base/vec.h"
+#include "engine/scene_material.h"
+#include "solver/formulation.h"
 
 namespace trocar {
 
 enum class Pace { fast, real_time };
-enum class MaterialName { linear, st_venant_kirchhoff, neo_hookean };
 enum class ShapeKind { box, ball, cylinder, rectangle, triangular_rectangle };
 enum class ElementKind { hex8, tet4_kuhn, tet4_five };
 enum class InstrumentKind { probe, grasper, scalpel };
@@ -27,11 +28,10 @@ struct SceneTime {
   Pace pace = Pace::fast;
 };
 
-struct SceneMaterial {
-  MaterialName model = MaterialName::neo_hookean;
-  double young_modulus = 3000;
-  double poisson_ratio = 0.45;
-  double density = 1060;
+// Elements of this region of the mesh are made of something else.
+struct SceneRegionMaterial {
+  std::string region;
+  SceneMaterial material;
 };
 
 struct SceneShape {
@@ -59,6 +59,7 @@ struct SceneTissue {
   Vec3 translate = Vec3::Zero();
   std::optional<SceneShape> shape;
   SceneMaterial material;
+  std::vector<SceneRegionMaterial> region_materials;
   double thickness = 1e-3;
   SceneLook look;
 };
@@ -72,6 +73,10 @@ struct SceneSolver {
   double hourglass = 0.15;
   double step_factor = 0.85;  // below 0.866: see docs/stability.md
   StableStep stable_step = StableStep::frequency;
+  Precision precision = Precision::in_double;
+  Formulation triangle = Formulation::tri3_plane_strain;
+  Formulation tetrahedron = Formulation::tet4;
+  Formulation hexahedron = Formulation::hex8_one_point;
 };
 
 struct SceneContact {

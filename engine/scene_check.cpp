@@ -26,6 +26,13 @@ void check_tissue(const Scene& scene, const SourceMap& where) {
     where.fail("tissue.shape", "each component of low must be below that of high");
 }
 
+void complete_materials(SceneTissue& tissue, const SourceMap& where) {
+  complete_material(where, "tissue.material", tissue.material);
+  for (std::size_t k = 0; k < tissue.region_materials.size(); ++k)
+    complete_material(where, item("tissue.region_material", k) + ".material",
+                      tissue.region_materials[k].material);
+}
+
 void check_supports(const Scene& scene, const SourceMap& where) {
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
     const SceneSupport& support = scene.supports[k];
@@ -127,6 +134,7 @@ LoadedScene load_scene(const std::string& file, const std::vector<std::string>& 
   const Scene& scene = located.value;
   check_time(scene, located.where);
   check_tissue(scene, located.where);
+  complete_materials(located.value.tissue, located.where);
   check_supports(scene, located.where);
   check_instruments(located.value, located.where);
   check_cameras(scene, located.where);

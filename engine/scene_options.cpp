@@ -18,20 +18,13 @@ Options<SceneTime> time_options() {
   return t;
 }
 
-Options<SceneMaterial> material_options() {
-  Options<SceneMaterial> m("What the tissue is made of.");
-  m.choice("model", &SceneMaterial::model,
-           {{"linear", MaterialName::linear},
-            {"st-venant-kirchhoff", MaterialName::st_venant_kirchhoff},
-            {"neo-hookean", MaterialName::neo_hookean}},
-           "neo-hookean: W = mu/2 (I1bar - 3) + K/2 (J - 1)^2; linear only for small strains.");
-  m.number("young_modulus", &SceneMaterial::young_modulus, dim::pressure, positive,
-           "Young's modulus E.");
-  m.number("poisson_ratio", &SceneMaterial::poisson_ratio, dim::none,
-           {.low = -1, .high = 0.5, .is_low_open = true, .is_high_open = true},
-           "Poisson's ratio nu; 0.5 itself has no finite stable step.");
-  m.number("density", &SceneMaterial::density, dim::density, positive, "Mass density rho.");
-  return m;
+Options<SceneRegionMaterial> region_material_options() {
+  Options<SceneRegionMaterial> r("Another material for a region of the mesh.");
+  r.text("region", &SceneRegionMaterial::region, "Name of the region in the mesh file.",
+         Need::required);
+  r.table("material", &SceneRegionMaterial::material, material_options(), "Material.",
+          Need::required);
+  return r;
 }
 
 Options<SceneShape> shape_options() {
@@ -84,8 +77,9 @@ Options<SceneTissue> tissue_options() {
   t.vector("translate", &SceneTissue::translate, dim::length, any, "Added to all positions, last.");
   t.table("shape", &SceneTissue::shape, shape_options(), "A generated body.");
   t.table("material", &SceneTissue::material, material_options(), "Material.");
-  t.number("thickness", &SceneTissue::thickness, dim::length, positive,
-           "Of a plane (2D) body, plane strain.");
+  t.list("region_material", &SceneTissue::region_materials, region_material_options(),
+         "Materials of single regions.");
+  t.number("thickness", &SceneTissue::thickness, dim::length, positive, "Of a plane (2D) body.");
   t.table("look", &SceneTissue::look, look_options(), "Look.");
   return t;
 }
@@ -97,6 +91,23 @@ Options<SceneSolver> solver_options() {
            "alpha of C = alpha M.");
   s.number("hourglass", &SceneSolver::hourglass, dim::none, {.low = 0, .high = 1},
            "Hourglass stiffness of one-point hexahedra, as a share of mu.");
+  s.choice(
+      "hexahedron", &SceneSolver::hexahedron,
+      {{"one-point", Formulation::hex8_one_point},
+       {"enhanced", Formulation::hex8_enhanced},
+       {"full", Formulation::hex8_full}},
+      "one-point: with hourglass stiffness; enhanced: hourglass energy of the material's shear "
+      "modulus, without a free constant; full: eight points, locks when nu is near 0.5.");
+  s.choice("tetrahedron", &SceneSolver::tetrahedron,
+           {{"linear", Formulation::tet4}, {"nodal-pressure", Formulation::tet4_nodal_pressure}},
+           "linear: locks when nu is near 0.5; nodal-pressure: averages the pressure at nodes.");
+  s.choice("triangle", &SceneSolver::triangle,
+           {{"plane-strain", Formulation::tri3_plane_strain},
+            {"plane-stress", Formulation::tri3_plane_stress}},
+           "plane-strain: the thickness is held; plane-stress: it is free.");
+  s.choice("precision", &SceneSolver::precision,
+           {{"double", Precision::in_double}, {"single", Precision::in_single}},
+           "Numbers that elements compute with; positions and velocities are double.");
   s.number("step_factor", &SceneSolver::step_factor, dim::none,
            {.low = 0, .high = 1, .is_low_open = true},
            "Time step / computed stable step; from 0.866 on the scheme has a resonance.");

@@ -70,6 +70,7 @@ struct Simulation {
   Part part;
   Halo halo;
   std::optional<HaloExchange> exchange_u, exchange_v;
+  std::optional<HaloExchange> exchange_theta;  // only with averaged nodal pressure
   Model model;
   State state;
   Scratch scratch;

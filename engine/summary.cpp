@@ -18,14 +18,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json mesh_json(const Mesh& mesh) {
+Json mesh_json(const Mesh& mesh, const SceneSolver& solver) {
   const MeshStatistics m = mesh_statistics(mesh);
-  Json elements;
+  const Formulation of_type[n_element_types] = {solver.triangle, solver.tetrahedron,
+                                                solver.hexahedron};
+  Json elements, formulations;
   for (int type = 0; type < n_element_types; ++type)
-    if (const auto n = m.n_elements_by_type[static_cast<std::size_t>(type)]; n > 0)
+    if (const auto n = m.n_elements_by_type[static_cast<std::size_t>(type)]; n > 0) {
       elements[element_type_name(static_cast<ElementType>(type))] = n;
+      formulations.push_back(name_of(of_type[type]));
+    }
   return {{"nodes", m.n_nodes},
           {"elements", elements},
+          {"formulations", formulations},
           {"pieces", m.n_pieces},
           {"quality_min", m.quality_min}};
 }
@@ -143,9 +148,9 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   if (s.first_frame > 0) j["resumed_at_s"] = resumed_at;
   j["ranks"] = s.communicator->size();
   j["threads"] = thread_count();
-  j["precision"] = "double";
+  j["precision"] = name_of(s.scene.solver.precision);
   j["simd"] = simd_name();
-  j["mesh"] = mesh_json(s.mesh);
+  j["mesh"] = mesh_json(s.mesh, s.scene.solver);
   j["mass_kg"] = mass.value();
   j["duration_s"] = simulated;
   j["frames"] = s.frame;

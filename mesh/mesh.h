@@ -34,6 +34,8 @@ struct Mesh {
       density_factor;  // (n_elements) keeps the mass when a cut moves nodes of a curved surface
   std::vector<std::uint8_t>
       cut_facets;  // (n_elements) bit f: facet f was opened by a cut (facets.h numbers them)
+  // (n_elements) direction of the fibres, unit vectors in the reference; or empty: the material's.
+  std::vector<Vec3> fibre;
   std::vector<NodeSet> node_sets;
 
   std::int32_t n_nodes() const { return static_cast<std::int32_t>(X.size()); }

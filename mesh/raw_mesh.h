@@ -30,6 +30,7 @@ struct NamedGroup {
 
 // A number that a file gives to some cells (a density factor).
 using CellValues = std::vector<std::pair<std::int32_t, double>>;
+using CellDirections = std::vector<std::pair<std::int32_t, Vec3>>;
 
 struct RawMesh {
   std::string file;
@@ -44,6 +45,7 @@ struct RawMesh {
   std::vector<std::int32_t> group_tag;           // physical tags, one list after the other
   std::vector<NamedGroup> named_groups;
   CellValues density_factor, cut_facets;
+  CellDirections fibre;
 
   std::int32_t n_cells() const { return static_cast<std::int32_t>(cell_kind.size()); }
   std::span<const std::int32_t> groups(std::int32_t list) const {

@@ -209,8 +209,8 @@ void orient_elements(const RawMesh& raw, Mesh& mesh) {
 }
 
 // Element of each cell that a value is given for; cells below the elements' dimension have none.
-template <class F>
-void for_values(const RawMesh& raw, int dimension, const CellValues& values, const F& f) {
+template <class Values, class F>
+void for_values(const RawMesh& raw, int dimension, const Values& values, const F& f) {
   if (values.empty()) return;
   std::vector<std::int32_t> element(raw.cell_kind.size(), -1);
   std::int32_t next = 0;
@@ -218,6 +218,17 @@ void for_values(const RawMesh& raw, int dimension, const CellValues& values, con
             [&](std::int32_t c, std::span<const std::int32_t>) { element[c] = next++; });
   for (const auto& [cell, value] : values)
     if (element[cell] >= 0) f(element[cell], value);
+}
+
+void take_fibres(const RawMesh& raw, int dimension, Mesh& mesh) {
+  if (raw.fibre.empty()) return;
+  mesh.fibre.assign(mesh.element_type.size(), Vec3::Zero());
+  for_values(raw, dimension, raw.fibre, [&](std::int32_t e, const Vec3& direction) {
+    const double length = std::sqrt(direction.dot(direction));
+    if (!(length > 0) || !std::isfinite(length))
+      fail_element(raw, mesh, e, "has a fibre direction of length " + number_text(length));
+    mesh.fibre[e] = direction / length;
+  });
 }
 
 void take_values(const RawMesh& raw, int dimension, Mesh& mesh) {
@@ -251,6 +262,7 @@ Mesh make_mesh(RawMesh raw, double scale) {
   }
   orient_elements(raw, mesh);
   take_values(raw, dimension, mesh);
+  take_fibres(raw, dimension, mesh);
   return mesh;
 }
 

@@ -50,6 +50,7 @@ bool check_arrays(Report& report, const Mesh& mesh) {
   check_count(report, "element_region", mesh.element_region.size(), n);
   check_count(report, "density_factor", mesh.density_factor.size(), n);
   check_count(report, "cut_facets", mesh.cut_facets.size(), n);
+  if (!mesh.fibre.empty()) check_count(report, "fibre", mesh.fibre.size(), n);
   if (!report.sentences.empty()) return false;
   std::int64_t offset = 0;
   for (std::size_t e = 0; e < n; offset += n_corners(mesh.element_type[e++]))
@@ -103,6 +104,8 @@ void check_element_values(Report& report, const Mesh& mesh, std::int32_t e) {
   if (!(mesh.density_factor[e] > 0) || !std::isfinite(mesh.density_factor[e]))
     report.add(element_text(mesh, e) + " has density factor " + number(mesh.density_factor[e]) +
                ", which must be positive");
+  if (!mesh.fibre.empty() && !(std::abs(mesh.fibre[e].dot(mesh.fibre[e]) - 1) < 1e-6))
+    report.add(element_text(mesh, e) + " has a fibre direction that is not a unit vector");
 }
 
 // False if the corners of some element can't be followed.

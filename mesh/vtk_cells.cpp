@@ -197,6 +197,7 @@ void add_vtk_cells(const ByteReader& in, const VtkCells& cells, RawMesh& raw) {
     const std::span<std::int32_t> corners(corner.data(), static_cast<std::size_t>(end - begin));
     order_corners(cells.type[c], corners);
     const std::int32_t region = cells.region.empty() ? 0 : cells.region[c];
+    if (!cells.fibre.empty()) raw.fibre.emplace_back(raw.n_cells(), cells.fibre[c]);
     add_cell(raw, *kind, corners, static_cast<std::int64_t>(c), region);
   }
   name_regions(raw);

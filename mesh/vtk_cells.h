@@ -30,6 +30,7 @@ struct VtkCells {
   std::vector<std::int32_t> offset;        // (n_cells + 1)
   std::vector<std::int32_t> connectivity;  // (offset.back())
   std::vector<std::int32_t> region;        // (n_cells) or empty
+  std::vector<Vec3> fibre;                 // (n_cells) or empty
 };
 // Adds the cells to raw.X and so on. Vertices and lines are left out: they carry nothing.
 // Throws InputError naming the cell.

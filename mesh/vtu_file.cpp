@@ -88,6 +88,9 @@ void write_vtu(const Mesh& mesh, std::span<const Vec3> x, std::span<const VtuFie
   append_fields(text, nodal, mesh.X.size());
   text += "</PointData>\n<CellData>\n";
   append_array<std::int32_t>(text, {"Int32", "region"}, mesh.element_region);
+  const std::span<const double> fibre(mesh.fibre.empty() ? nullptr : mesh.fibre[0].data(),
+                                      3 * mesh.fibre.size());
+  if (!fibre.empty()) append_array(text, {"Float64", "fibre", 3}, fibre);
   append_fields(text, elemental, mesh.element_type.size());
   text += "</CellData>\n<Points>\n";
   static_assert(sizeof(Vec3) == 3 * sizeof(double));

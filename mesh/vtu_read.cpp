@@ -27,7 +27,7 @@ struct VtuReader {
   ByteReader& in;
   VtuEncoding encoding;
   std::int64_t n_pieces = 0, n_points = 0, n_cells = 0;
-  VtuArray points, connectivity, offsets, types, region;
+  VtuArray points, connectivity, offsets, types, region, fibre;
   std::string_view appended;  // behind its "_"
   bool is_appended_base64 = true;
 };
@@ -74,6 +74,7 @@ void read_piece_tag(VtuReader& r, const XmlTag& tag) {
 VtuArray* find_array(VtuReader& r, std::string_view section, std::string_view name) {
   if (section == "Points") return &r.points;
   if (section == "CellData" && name == "region") return &r.region;
+  if (section == "CellData" && name == "fibre") return &r.fibre;
   if (section != "Cells") return nullptr;
   if (name == "connectivity") return &r.connectivity;
   if (name == "offsets") return &r.offsets;
@@ -198,19 +199,26 @@ std::vector<std::int32_t> read_integers(const VtuReader& r, const VtuArray& arra
   return values;
 }
 
-std::vector<Vec3> read_points(const VtuReader& r) {
-  check_present(r, r.points, "of points");
+// `what` is an item of the array in messages.
+std::vector<Vec3> read_vectors(const VtuReader& r, const VtuArray& array, std::int64_t count,
+                               const char* what) {
   std::vector<Vec3> X;
-  const std::size_t n = 3 * static_cast<std::size_t>(r.n_points);
+  const std::size_t n = 3 * static_cast<std::size_t>(count);
   std::size_t k = 0;
-  read_numbers<double>(r, r.points, n, [&](const ByteReader& at, double x) {
+  read_numbers<double>(r, array, n, [&](const ByteReader& at, double x) {
     if (!std::isfinite(x))
-      at.fail("a coordinate of point " + std::to_string(k / 3) + " is not finite");
+      at.fail("a coordinate of " + std::string(what) + " " + std::to_string(k / 3) +
+              " is not finite");
     if (k == 0) X.reserve(n / 3);
     if (k % 3 == 0) X.emplace_back();
     X.back()[static_cast<Eigen::Index>(k++ % 3)] = x;
   });
   return X;
+}
+
+std::vector<Vec3> read_points(const VtuReader& r) {
+  check_present(r, r.points, "of points");
+  return read_vectors(r, r.points, r.n_points, "point");
 }
 
 // From 1, since group 0 is none.
@@ -237,6 +245,7 @@ VtkCells read_cells(const VtuReader& r) {
   cells.connectivity =
       read_integers(r, r.connectivity, static_cast<std::size_t>(n_corners), "connectivity");
   cells.region = read_regions(r, n);
+  if (r.fibre.is_present) cells.fibre = read_vectors(r, r.fibre, r.n_cells, "the fibre of cell");
   return cells;
 }
 
@@ -250,6 +259,7 @@ RawMesh read_vtu_cells(ByteReader& in) {
               .offsets = {},
               .types = {},
               .region = {},
+              .fibre = {},
               .appended = {}};
   scan_tags(r);
   if (r.n_pieces == 0) in.fail_file("holds no <Piece>");

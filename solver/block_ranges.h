@@ -43,15 +43,19 @@ inline const BlockKernels& kernels_for(const Kernels& kernels, const ElementBloc
       .block[static_cast<int>(blocks.formulation)][static_cast<int>(blocks.material)];
 }
 
-inline BlockTask block_task(const ElementBlocks& blocks, const BlockKernels& kernels,
-                            const State& state, std::int64_t first, std::int64_t n) {
+inline BlockTask block_task(const Model& model, const ElementBlocks& blocks,
+                            const BlockKernels& kernels, const State& state, std::int64_t first,
+                            std::int64_t n) {
   const std::int64_t at = first * kernels.n_values * blocks.lanes;
   const bool is_single = blocks.precision == Precision::in_single;
   return {.u = state.u.data(),
           .corner = blocks.corner.data() + first * kernels.n_corners * blocks.lanes,
           .data = is_single ? static_cast<const void*>(blocks.data_single.data() + at)
                             : static_cast<const void*>(blocks.data.data() + at),
-          .n_blocks = n};
+          .n_blocks = n,
+          .theta = state.theta.data() + blocks.field,
+          .n_fields = model.averages.n_fields,
+          .element_share = model.options.element_share};
 }
 
 }  // namespace trocar

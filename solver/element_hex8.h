@@ -1,31 +1,34 @@
 // Eight-node hexahedron, one point: mean gradients and total hourglass control (Flanagan and
-// Belytschko 1981) in the modal basis of its corners, signs S_m,a of the monomials
-//   m = 0..6: xi, eta, zeta, eta zeta, zeta xi, xi eta, xi eta zeta   (3..6 are G1..G4, hourglass).
-// With modal displacements w_m = sum_a S_m,a u_a and B_a = sum_m S_m,a b_m:
+// Belytschko 1981) in the modes of hex8_modes.h. With modal displacements w_m = sum_a S_m,a u_a and
+// B_a = sum_m S_m,a b_m:
 //   H = sum_m w_m (x) b_m        (b_6 = 0: the volume does not depend on xi eta zeta)
-//   q_p = w_p - H X_p,  X_p = sum_a G_p,a X_a,  W_hg = k/2 sum_p |q_p|^2
-//   f_a = sum_m S_m,a (P' b_m) + k sum_p G_p,a q_p,  P' = V P - k sum_p q_p (x) X_p.
+//   q_p = w_p - H X_p,  X_p = sum_a G_p,a X_a,  g_p = dW_hg/dq_p (hourglass.h)
+//   f_a = sum_m S_m,a (P' b_m) + sum_p G_p,a g_p,  P' = V P - sum_p g_p (x) X_p.
 // The modes cost 7 x 3 values less than gradients per corner, and a translation gives exactly zero.
 #pragma once
 
 #include "solver/block_data.h"
 #include "solver/formulation.h"
+#include "solver/hex8_modes.h"
+#include "solver/hourglass.h"
 #include "solver/tensor.h"
 
 namespace trocar {
 
-struct ElementHex8 {
-  static constexpr Formulation formulation = Formulation::hex8_one_point;
+template <class HourglassType>
+struct OnePointHex8 {
+  using Hourglass = HourglassType;
+  static constexpr Formulation formulation = Hourglass::formulation;
   static constexpr int n_corners = 8;
   static constexpr int value_b = 0;             // b_0 … b_5 [1/m]
   static constexpr int value_X = value_b + 18;  // X_3 … X_6 [m]
-  static constexpr int value_k = value_X + 12;  // hourglass stiffness [N/m]
-  static constexpr int n_values = value_k + 1;
+  static constexpr int value_k = value_X + 12;  // hourglass stiffness of hourglass.h [N/m]
+  static constexpr int n_values = value_k + Hourglass::n_values;
 
   template <class Pack>
   struct Strain {
     Tensor<Pack> H;
-    Pack q[4][3];
+    Pack q[n_hourglass_modes][3];
   };
 
   template <class Pack>
@@ -33,7 +36,7 @@ struct ElementHex8 {
                                                     const Pack (&u)[8][3]) {
     Strain<Pack> s;
     for (int i = 0; i < 3; ++i) {
-      Pack w[7];
+      Pack w[n_hex_modes];
       modes_of_corners(u, i, w);
       for (int j = 0; j < 3; ++j) {
         s.H(i, j) = w[0] * value(value_b + j);
@@ -51,71 +54,46 @@ struct ElementHex8 {
   template <class Pack>
   [[gnu::always_inline]] static void forces(const BlockValues<Pack>& value, const Strain<Pack>& s,
                                             const Tensor<Pack>& VP, Pack (&f)[8][3]) {
-    const Pack k = value(value_k);
+    Pack g[n_hourglass_modes][3];
+    hourglass_forces(value, s, g);
     for (int i = 0; i < 3; ++i) {
-      Pack kq[4], P[3], g[7];
-      for (int p = 0; p < 4; ++p) kq[p] = k * s.q[p][i];
+      Pack P[3], w[n_hex_modes];
       for (int j = 0; j < 3; ++j) {
         P[j] = VP(i, j);
-        for (int p = 0; p < 4; ++p) P[j] -= kq[p] * value(value_X + 3 * p + j);
+        for (int p = 0; p < 4; ++p) P[j] -= g[p][i] * value(value_X + 3 * p + j);
       }
       for (int m = 0; m < 6; ++m) {
         const int b = value_b + 3 * m;
-        g[m] = P[0] * value(b) + P[1] * value(b + 1) + P[2] * value(b + 2);
+        w[m] = P[0] * value(b) + P[1] * value(b + 1) + P[2] * value(b + 2);
       }
-      for (int p = 0; p < 3; ++p) g[3 + p] += kq[p];
-      g[6] = kq[3];
-      corners_of_modes(g, i, f);
+      for (int p = 0; p < 3; ++p) w[3 + p] += g[p][i];
+      w[6] = g[3][i];
+      corners_of_modes(w, i, f);
     }
   }
 
   template <class Pack>
   [[gnu::always_inline]] static Pack hourglass_energy(const BlockValues<Pack>& value,
                                                       const Strain<Pack>& s) {
-    Pack sum = zero_of(s.H(0, 0));
+    Pack g[n_hourglass_modes][3], sum = zero_of(s.H(0, 0));
+    hourglass_forces(value, s, g);
     for (int p = 0; p < 4; ++p)
-      for (int i = 0; i < 3; ++i) sum += s.q[p][i] * s.q[p][i];
-    return 0.5 * value(value_k) * sum;
+      for (int i = 0; i < 3; ++i) sum += s.q[p][i] * g[p][i];
+    return 0.5 * sum;
   }
 
  private:
-  // w_m = sum_a S_m,a u_a as a butterfly: edges along xi, then faces, then the whole.
   template <class Pack>
-  [[gnu::always_inline]] static void modes_of_corners(const Pack (&u)[8][3], int i, Pack (&w)[7]) {
-    const Pack s0 = u[1][i] + u[0][i], d0 = u[1][i] - u[0][i];  // eta-, zeta-
-    const Pack s1 = u[2][i] + u[3][i], d1 = u[2][i] - u[3][i];  // eta+, zeta-
-    const Pack s2 = u[5][i] + u[4][i], d2 = u[5][i] - u[4][i];  // eta-, zeta+
-    const Pack s3 = u[6][i] + u[7][i], d3 = u[6][i] - u[7][i];  // eta+, zeta+
-    const Pack low_s = s1 + s0, low_se = s1 - s0, high_s = s3 + s2, high_se = s3 - s2;
-    const Pack low_d = d1 + d0, low_de = d1 - d0, high_d = d3 + d2, high_de = d3 - d2;
-    w[0] = high_d + low_d;
-    w[1] = high_se + low_se;
-    w[2] = high_s - low_s;
-    w[3] = high_se - low_se;
-    w[4] = high_d - low_d;
-    w[5] = high_de + low_de;
-    w[6] = high_de - low_de;
-  }
-
-  // f_a = sum_m S_m,a g_m, the same butterfly backwards.
-  template <class Pack>
-  [[gnu::always_inline]] static void corners_of_modes(const Pack (&g)[7], int i, Pack (&f)[8][3]) {
-    const Pack high_se = g[1] + g[3], low_se = g[1] - g[3];
-    const Pack high_d = g[0] + g[4], low_d = g[0] - g[4];
-    const Pack high_de = g[5] + g[6], low_de = g[5] - g[6];
-    const Pack s3 = g[2] + high_se, s2 = g[2] - high_se;
-    const Pack s1 = low_se - g[2], s0 = -(low_se + g[2]);
-    const Pack d3 = high_d + high_de, d2 = high_d - high_de;
-    const Pack d1 = low_d + low_de, d0 = low_d - low_de;
-    f[0][i] = s0 - d0;
-    f[1][i] = s0 + d0;
-    f[2][i] = s1 + d1;
-    f[3][i] = s1 - d1;
-    f[4][i] = s2 - d2;
-    f[5][i] = s2 + d2;
-    f[6][i] = s3 + d3;
-    f[7][i] = s3 - d3;
+  [[gnu::always_inline]] static void hourglass_forces(const BlockValues<Pack>& value,
+                                                      const Strain<Pack>& s,
+                                                      Pack (&g)[n_hourglass_modes][3]) {
+    Hourglass::forces(BlockValues<Pack>{value.at + value_k * block_lanes<Pack>}, s.q, g);
   }
 };
+
+// Hourglass stiffness k, see hourglass.h.
+using ElementHex8 = OnePointHex8<HourglassStiffness>;
+// Its stiffness follows from the shape of the element.
+using ElementHex8Enhanced = OnePointHex8<HourglassEnhanced>;
 
 }  // namespace trocar

@@ -1,58 +1,16 @@
-// Set-up of the one-point hexahedron. In the modal basis of element_hex8.h, X = sum_m S_m x_m, the
-// exact volume of the trilinear element is
-//   V = 8 ([x0 x1 x2] + ([x4 x3 x2] + [x5 x1 x3] + [x0 x5 x4]) / 3),
-// and since B_a = (dV/dX_a) / V (Flanagan and Belytschko 1981), b_m = (dV/dx_m) / (8 V).
+// Set-up of the one-point hexahedra. Since B_a = (dV/dX_a) / V (Flanagan and Belytschko 1981),
+// b_m = (dV/dx_m) / (8 V) in the modes of hex8_modes.h.
 #include <algorithm>
 #include <cmath>
 
 #include "solver/element_hex8.h"
 #include "solver/element_setup.h"
+#include "solver/hex8_reference.h"
+#include "solver/largest_eigenvalue.h"
 
 namespace trocar {
 
 namespace {
-
-using Modes = std::array<Vec3, 7>;
-
-// xi, eta, zeta of the corners, then S_m,a.
-constexpr int corner_xi[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-                                 {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
-
-int mode_sign(std::size_t m, std::size_t a) {
-  const auto& [x, y, z] = corner_xi[a];
-  const int sign[7] = {x, y, z, y * z, z * x, x * y, x * y * z};
-  return sign[m];
-}
-
-// sum_a S_m,a X_a, from differences to the first corner.
-Modes position_modes(std::span<const Vec3> X) {
-  Modes modes;
-  for (std::size_t m = 0; m < 7; ++m) {
-    modes[m] = Vec3::Zero();
-    for (std::size_t a = 1; a < 8; ++a) modes[m] += mode_sign(m, a) * (X[a] - X[0]);
-  }
-  return modes;
-}
-
-double triple(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return a.dot(b.cross(c));
-}
-
-double hexahedron_volume(const Modes& x) {
-  return 8 * (triple(x[0], x[1], x[2]) +
-              (triple(x[4], x[3], x[2]) + triple(x[5], x[1], x[3]) + triple(x[0], x[5], x[4])) / 3);
-}
-
-// dV/dx_m / 8
-Modes volume_gradient(const Modes& x) {
-  return {x[1].cross(x[2]) + x[5].cross(x[4]) / 3,
-          x[2].cross(x[0]) + x[3].cross(x[5]) / 3,
-          x[0].cross(x[1]) + x[4].cross(x[3]) / 3,
-          (x[2].cross(x[4]) + x[5].cross(x[1])) / 3,
-          (x[3].cross(x[2]) + x[0].cross(x[5])) / 3,
-          (x[1].cross(x[3]) + x[4].cross(x[0])) / 3,
-          Vec3::Zero()};
-}
 
 struct HourglassNorms {
   double gram = 0;      // bound of the largest eigenvalue of gamma_p . gamma_q (row sums)
@@ -60,7 +18,7 @@ struct HourglassNorms {
 };
 
 // gamma_p has the modal coefficients delta_(m, 3+p) - b_m . X_p, and S_m . S_n = 8 delta_mn.
-HourglassNorms hourglass_norms(const Modes& b, const Modes& X) {
+HourglassNorms hourglass_norms(const HexModes& b, const HexModes& X) {
   double gamma[4][7];
   for (std::size_t p = 0; p < 4; ++p)
     for (std::size_t m = 0; m < 7; ++m) gamma[p][m] = (m == 3 + p ? 1 : 0) - b[m].dot(X[3 + p]);
@@ -82,9 +40,10 @@ HourglassNorms hourglass_norms(const Modes& b, const Modes& X) {
   return norms;
 }
 
-// With the stiffness of the mean strain A A^T <= a and the hourglass stiffness C C^T <= c, both
-// over the corner mass: lambda_max(A A^T + C C^T) <= (a + c)/2 + sqrt((a - c)^2/4 + |A^T C|^2). For
-// a parallelepiped A^T C = 0, so that the larger of the two governs.
+// With the stiffness of the mean strain A A^T <= a and the hourglass stiffness C C^T <= c, of which
+// k is the largest eigenvalue of the matrix in q, both over the corner mass: lambda_max(A A^T + C
+// C^T) <= (a + c)/2 + sqrt((a - c)^2/4 + |A^T C|^2). For a parallelepiped A^T C = 0, so that the
+// larger of the two governs.
 double combined_bound(double a, double k, double V, const HourglassNorms& norms,
                       const ElementInput& input) {
   const double mass = input.density * V / 8, c = k * norms.gram / mass;
@@ -93,33 +52,74 @@ double combined_bound(double a, double k, double V, const HourglassNorms& norms,
   return (a + c) / 2 + std::sqrt((a - c) * (a - c) / 4 + s * s);
 }
 
+// A one-point hexahedron but for its hourglass stiffness.
+struct OnePointShape {
+  HexModes X, b;
+  double volume = 0;
+  double bound = 0;  // of omega^2 of the mean strain
+};
+
+OnePointShape one_point_shape(const ElementInput& input) {
+  OnePointShape shape;
+  shape.X = position_modes(input.X);
+  HexModes x = shape.X;
+  for (Vec3& mode : x) mode /= 8;
+  shape.volume = hexahedron_volume(x);
+  if (!(shape.volume > 0)) return shape;
+  shape.b = volume_gradient(x);
+  SymmetricTensor<double> G{};
+  for (Vec3& b : shape.b) {
+    b /= shape.volume;
+    add_gradient(std::sqrt(8.0) * b, G);
+  }
+  shape.bound = frequency_bound(G, 8, input);
+  return shape;
+}
+
+// stiffness: of hourglass.h; k: the largest eigenvalue of A.
+ElementConstants one_point_constants(const ElementInput& input, const OnePointShape& shape,
+                                     std::span<const double> stiffness, double k) {
+  ElementConstants c{.volume = shape.volume};
+  for (std::size_t j = 0; j < 3; ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    for (std::size_t m = 0; m < 6; ++m) c.value[ElementHex8::value_b + 3 * m + j] = shape.b[m][i];
+    for (std::size_t p = 0; p < 4; ++p)
+      c.value[ElementHex8::value_X + 3 * p + j] = shape.X[3 + p][i];
+  }
+  std::copy(stiffness.begin(), stiffness.end(), c.value.begin() + ElementHex8::value_k);
+  c.omega2 = combined_bound(shape.bound, k, c.volume, hourglass_norms(shape.b, shape.X), input);
+  return c;
+}
+
 }  // namespace
 
 ElementConstants constants_hex8(const ElementInput& input) {
-  const Modes X = position_modes(input.X);
-  Modes x = X;
-  for (Vec3& mode : x) mode /= 8;
-  ElementConstants c{.volume = hexahedron_volume(x)};
-  if (!(c.volume > 0)) return c;
-  Modes b = volume_gradient(x);
-  SymmetricTensor<double> G{};
-  double b2 = 0;
-  for (std::size_t m = 0; m < 7; ++m) {
-    b[m] /= c.volume;
-    b2 += b[m].squaredNorm();
-    add_gradient(std::sqrt(8.0) * b[m], G);
-  }
+  const OnePointShape shape = one_point_shape(input);
+  if (!(shape.volume > 0)) return {.volume = shape.volume};
   // k = c_mu mu V (sum_a |B_a|^2) / 8, and the sum over corners is 8 times the sum over modes.
-  const double k = input.hourglass * input.mu * c.volume * b2;
-  for (std::size_t j = 0; j < 3; ++j) {
-    const auto i = static_cast<Eigen::Index>(j);
-    for (std::size_t m = 0; m < 6; ++m) c.value[ElementHex8::value_b + 3 * m + j] = b[m][i];
-    for (std::size_t p = 0; p < 4; ++p) c.value[ElementHex8::value_X + 3 * p + j] = X[3 + p][i];
+  double b2 = 0;
+  for (const Vec3& b : shape.b) b2 += b.squaredNorm();
+  const double k = input.hourglass * input.mu * shape.volume * b2;
+  return one_point_constants(input, shape, {&k, 1}, k);
+}
+
+ElementConstants constants_hex8_enhanced(const ElementInput& input) {
+  const OnePointShape shape = one_point_shape(input);
+  if (!(shape.volume > 0)) return {.volume = shape.volume};
+  const double third = input.mu * shape.volume / 3;
+  SymmetricTensor<double> A{};
+  double b2 = 0;
+  for (int p = 0; p < 3; ++p) {
+    const Vec3& b = shape.b[static_cast<std::size_t>(p)];
+    b2 += b.squaredNorm();
+    for (int r = p + 1; r < 3; ++r)
+      A.v[symmetric_index[p][r]] = third * b.dot(shape.b[static_cast<std::size_t>(r)]);
   }
-  c.value[ElementHex8::value_k] = k;
-  c.omega2 =
-      combined_bound(frequency_bound(G, 8, input), k, c.volume, hourglass_norms(b, X), input);
-  return c;
+  for (std::size_t p = 0; p < 3; ++p) A.v[p] = third * (b2 - shape.b[p].squaredNorm());
+  std::array<double, HourglassEnhanced::n_values> stiffness{};
+  std::copy_n(A.v, 6, stiffness.begin());
+  stiffness[HourglassEnhanced::value_A3] = third * b2 / 3;  // a sixth of tr A: never the largest
+  return one_point_constants(input, shape, stiffness, largest_eigenvalue(A));
 }
 
 }  // namespace trocar

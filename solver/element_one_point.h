@@ -25,6 +25,7 @@ struct OnePoint {
   static constexpr Formulation formulation = Element::formulation;
   static constexpr int n_corners = Element::n_corners;
   static constexpr int n_values = Element::n_values;
+  static constexpr int n_points = 1;  // force asks the law for one stress at each (viscosity.h)
 
   // f: corner forces of the present displacements u. [N], [m]
   template <class Law, class Pack>

@@ -9,7 +9,10 @@
 namespace trocar {
 
 ElementConstants element_constants(Formulation formulation, const ElementInput& input) {
-  constexpr std::array setup = {constants_tri3, constants_tet4, constants_hex8};
+  constexpr std::array setup = {constants_tri3,     constants_tri3_plane_stress,
+                                constants_tet4,     constants_tet4_nodal_pressure,
+                                constants_hex8,     constants_hex8_enhanced,
+                                constants_hex8_full};
   static_assert(setup.size() == n_formulations);
   return setup[static_cast<std::size_t>(formulation)](input);
 }

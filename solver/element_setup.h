@@ -15,7 +15,9 @@ namespace trocar {
 
 // Shape that the formulation is for.
 constexpr ElementType shape_of(Formulation formulation) {
-  constexpr ElementType shape[] = {ElementType::tri3, ElementType::tet4, ElementType::hex8};
+  constexpr ElementType shape[] = {ElementType::tri3, ElementType::tri3, ElementType::tet4,
+                                   ElementType::tet4, ElementType::hex8, ElementType::hex8,
+                                   ElementType::hex8};
   return shape[static_cast<int>(formulation)];
 }
 
@@ -23,11 +25,11 @@ struct ElementInput {
   std::span<const Vec3> X;    // (n_corners) [m]
   double lambda = 0, mu = 0;  // [Pa]
   double density = 0;         // [kg/m^3]
-  double hourglass = 0;       // c_mu
+  double hourglass = 0;       // c_mu, hex8_one_point
   double thickness = 0;       // [m], tri3
 };
 
-inline constexpr int max_element_values = 31;  // hex8_one_point
+inline constexpr int max_element_values = 80;  // hex8_full
 
 struct ElementConstants {
   std::array<double, max_element_values> value{};  // of element_<type>.h
@@ -37,10 +39,14 @@ struct ElementConstants {
 
 ElementConstants element_constants(Formulation formulation, const ElementInput& input);
 
-// One file each.
+// In element_<type>_setup.cpp.
 ElementConstants constants_tri3(const ElementInput& input);
+ElementConstants constants_tri3_plane_stress(const ElementInput& input);
 ElementConstants constants_tet4(const ElementInput& input);
+ElementConstants constants_tet4_nodal_pressure(const ElementInput& input);
 ElementConstants constants_hex8(const ElementInput& input);
+ElementConstants constants_hex8_enhanced(const ElementInput& input);
+ElementConstants constants_hex8_full(const ElementInput& input);
 
 // G = sum_a B_a (x) B_a grows by one gradient. [1/m^2]
 void add_gradient(const Vec3& B, SymmetricTensor<double>& G);

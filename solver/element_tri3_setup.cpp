@@ -1,6 +1,7 @@
-// Set-up of the plane-strain triangle.
+// Set-up of the triangles.
 #include "solver/element_setup.h"
 #include "solver/element_tri3.h"
+#include "solver/element_tri3_plane_stress.h"
 
 namespace trocar {
 
@@ -17,6 +18,14 @@ ElementConstants constants_tri3(const ElementInput& input) {
     c.value[static_cast<std::size_t>(ElementTri3::value_B + 2 + j)] = B2[j];
   }
   c.omega2 = frequency_bound(G, 3, input);
+  return c;
+}
+
+ElementConstants constants_tri3_plane_stress(const ElementInput& input) {
+  ElementConstants c = constants_tri3(input);
+  const double stiffness = input.lambda + 2 * input.mu;
+  c.value[ElementTri3PlaneStress::value_ratio] = input.lambda / stiffness;
+  c.value[ElementTri3PlaneStress::value_compliance] = 1 / (stiffness * c.volume);
   return c;
 }
 

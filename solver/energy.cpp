@@ -35,7 +35,7 @@ void take_list(const Model& model, const Part& part, const State& state,
   const BlockKernels& kernels = kernels_for(active_kernels(), blocks);
   std::vector<double> strain(blocks.element_local.size()), hourglass(strain.size());
   parallel_for(std::int64_t{blocks.n_blocks}, [&](std::int64_t begin, std::int64_t end) {
-    kernels.energy(block_task(blocks, kernels, state, begin, end - begin),
+    kernels.energy(block_task(model, blocks, kernels, state, begin, end - begin),
                    strain.data() + begin * blocks.lanes, hourglass.data() + begin * blocks.lanes);
   });
   for (std::int64_t lane = 0; lane < blocks.n_elements; ++lane) {
@@ -45,10 +45,22 @@ void take_list(const Model& model, const Part& part, const State& state,
   }
 }
 
+// sum_a (V_a/4) K/2 theta_a^2 less the elements' share, of owned nodes.
+void take_volumetric(const Model& model, const State& state, std::vector<double>& volumetric) {
+  const std::vector<double>& stiffness = model.averages.stiffness;
+  volumetric.clear();
+  for (std::size_t item = 0; item < stiffness.size(); ++item) {
+    const double theta = state.theta[item];
+    if (stiffness[item] > 0)
+      volumetric.push_back((1 - model.options.element_share) * stiffness[item] / 8 * theta * theta);
+  }
+}
+
 }  // namespace
 
 void energy_terms(const Model& model, const Part& part, const State& state, EnergyTerms& terms) {
   take_kinetic(model, state, terms.kinetic);
+  take_volumetric(model, state, terms.volumetric);
   terms.strain.clear();
   terms.hourglass.clear();
   for (const ElementBlocks& blocks : model.blocks) take_list(model, part, state, blocks, terms);

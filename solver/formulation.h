@@ -8,12 +8,20 @@ namespace trocar {
 
 enum class Formulation : std::uint8_t {
   tri3_plane_strain,
+  tri3_plane_stress,
   tet4,
+  tet4_nodal_pressure,
   hex8_one_point,
+  hex8_enhanced,
+  hex8_full,
 };
 
 // Numbers that elements compute with; nodes are in double always.
 enum class Precision : std::uint8_t { in_double, in_single };
 inline constexpr int n_precisions = 2;
+
+// "hex8-one-point"; "double".
+const char* name_of(Formulation formulation);
+const char* name_of(Precision precision);
 
 }  // namespace trocar

@@ -4,8 +4,22 @@
 #include "solver/corner_access.h"
 #include "solver/kernels.h"
 #include "solver/material_law.h"
+#include "solver/viscosity.h"
 
 namespace trocar {
+
+// Mean over the corners of an element's lanes of x[node * stride].
+template <class Pack, int n>
+[[gnu::always_inline]] inline Pack mean_of_corners(const double* x, std::int64_t stride,
+                                                   const std::int32_t* corner) {
+  RealOf<Pack> mean[pack_width<Pack>];
+  for (int lane = 0; lane < pack_width<Pack>; ++lane) {
+    double sum = 0;
+    for (int a = 0; a < n; ++a) sum += x[stride * corner[a * block_lanes<Pack> + lane]];
+    mean[lane] = static_cast<RealOf<Pack>>(sum * (1.0 / n));
+  }
+  return load<Pack>(mean);
+}
 
 // A pack's worth of elements: their constants and where their corners are.
 template <class Pack, class Element, class Material>
@@ -21,6 +35,19 @@ struct Group {
         value{law.value.at + Material::n_values * block_lanes<Pack>},
         corner(task.corner + block * Element::n_corners * block_lanes<Pack> + lane) {}
 };
+
+// What the element asks for stress.
+template <class Pack, class Element, class Material>
+[[gnu::always_inline]] inline auto law_of(const BlockTask& task,
+                                          const Group<Pack, Element, Material>& group) {
+  if constexpr (averages_volume_v<Element>)
+    return LawAtPressure<Law<Material, Pack>, Pack>{
+        group.law,
+        mean_of_corners<Pack, Element::n_corners>(task.theta, task.n_fields, group.corner),
+        static_cast<RealOf<Pack>>(task.element_share)};
+  else
+    return group.law;
+}
 
 template <class Pack, class Element, class Material>
 struct BlockLoops {
@@ -44,16 +71,29 @@ struct BlockLoops {
         task, [&](const auto& group, const auto& u, std::int64_t block, int lane)
                   __attribute__((always_inline)) {
                     Pack f[n][3];
-                    Element::force(group.value, group.law, u, f);
+                    Element::force(group.value, law_of(task, group), u, f);
                     RealOf<Pack>* to =
                         static_cast<RealOf<Pack>*>(slot) + (block * n * lanes + lane) * slot_width;
                     for (int a = 0; a < n; ++a) store_corner(to + a * lanes * slot_width, f[a]);
                   });
   }
 
+  static void viscous_force(const BlockTask& task, const ViscousStep& step, double* history,
+                            void* slot) {
+    const std::int64_t width = Element::n_points * history_of_point(step.n_branches);
+    for_groups(task, [&](const auto& group, const auto& u, std::int64_t block, int lane) {
+      const ViscousLaw<Material, Pack> law{group.law.value, step,
+                                           history + block * width * lanes + lane};
+      Pack f[n][3];
+      Element::force(group.value, law, u, f);
+      RealOf<Pack>* to = static_cast<RealOf<Pack>*>(slot) + (block * n * lanes + lane) * slot_width;
+      for (int a = 0; a < n; ++a) store_corner(to + a * lanes * slot_width, f[a]);
+    });
+  }
+
   static void energy(const BlockTask& task, double* strain, double* hourglass) {
     for_groups(task, [&](const auto& group, const auto& u, std::int64_t block, int lane) {
-      const auto energy = Element::energy(group.value, group.law, u);
+      const auto energy = Element::energy(group.value, law_of(task, group), u);
       store_in_double(strain + block * lanes + lane, energy.strain);
       store_in_double(hourglass + block * lanes + lane, energy.hourglass);
     });
@@ -61,9 +101,17 @@ struct BlockLoops {
 
   static void watch(const BlockTask& task, double* J, double* stiffening) {
     for_groups(task, [&](const auto& group, const auto& u, std::int64_t block, int lane) {
-      const auto watch = Element::watch(group.value, group.law, u);
+      const auto watch = Element::watch(group.value, law_of(task, group), u);
       store_in_double(J + block * lanes + lane, watch.J);
       store_in_double(stiffening + block * lanes + lane, watch.stiffening);
+    });
+  }
+
+  static void volume_change(const BlockTask& task, double* K_V_j) {
+    for_groups(task, [&](const auto& group, const auto& u, std::int64_t block, int lane) {
+      const Tensor<Pack> H = ElementTet4::strain(group.value, u).H;
+      const Pack j = trocar::volume_change(H, cofactor(H));
+      store_in_double(K_V_j + block * lanes + lane, Pack(group.law.value(value_K_V) * j));
     });
   }
 };
@@ -87,13 +135,30 @@ void sum_corner_forces(const SumTask& task) {
   }
 }
 
+// Viscosity is for elements that ask for one stress at each of n_points; others lack n_points.
+template <class Pack, class Element, class Material>
+BlockKernels block_kernels() {
+  BlockKernels kernels{.n_corners = Element::n_corners,
+                       .n_values = Group<Pack, Element, Material>::n_values,
+                       .n_material_values = Material::n_values};
+  using Loops = BlockLoops<Pack, Element, Material>;
+  if constexpr (!averages_volume_v<Element> || Material::is_decoupled) {
+    kernels.force = Loops::force;
+    kernels.energy = Loops::energy;
+    kernels.watch = Loops::watch;
+    if constexpr (averages_volume_v<Element>)
+      kernels.volume_change = Loops::volume_change;
+    else if constexpr (requires { Element::n_points; }) {
+      kernels.n_points = Element::n_points;
+      kernels.viscous_force = Loops::viscous_force;
+    }
+  }
+  return kernels;
+}
+
 template <class Pack, class Element, class... Materials>
 void fill_element(BlockKernels* row, TypeList<Materials...>) {
-  ((row[static_cast<int>(Materials::model)] =
-        {Element::n_corners, Group<Pack, Element, Materials>::n_values, Materials::n_values,
-         BlockLoops<Pack, Element, Materials>::force, BlockLoops<Pack, Element, Materials>::energy,
-         BlockLoops<Pack, Element, Materials>::watch}),
-   ...);
+  ((row[static_cast<int>(Materials::model)] = block_kernels<Pack, Element, Materials>()), ...);
 }
 
 // One element's kernels in both precisions; `doubles` is the width of a register.

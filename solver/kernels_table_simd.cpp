@@ -6,15 +6,21 @@
 namespace trocar::TROCAR_ISA {
 
 void fill_tri3(Kernels& kernels);
+void fill_tri3_plane_stress(Kernels& kernels);
 void fill_tet4(Kernels& kernels);
+void fill_tet4_nodal_pressure(Kernels& kernels);
 void fill_hex8(Kernels& kernels);
+void fill_hex8_enhanced(Kernels& kernels);
+void fill_hex8_full(Kernels& kernels);
 Kernels make_kernels();
 
 Kernels make_kernels() {
   Kernels kernels{};
   kernels.of[0].sum = sum_corner_forces<PackOf<double, doubles>, double>;
   kernels.of[1].sum = sum_corner_forces<PackOf<double, doubles>, float>;
-  for (auto* const fill : {fill_tri3, fill_tet4, fill_hex8}) fill(kernels);
+  for (auto* const fill : {fill_tri3, fill_tri3_plane_stress, fill_tet4, fill_tet4_nodal_pressure,
+                           fill_hex8, fill_hex8_enhanced, fill_hex8_full})
+    fill(kernels);
   return kernels;
 }
 

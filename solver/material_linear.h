@@ -3,7 +3,7 @@
 #pragma once
 
 #include "solver/block_data.h"
-#include "solver/material.h"
+#include "solver/material_model.h"
 #include "solver/tensor.h"
 
 namespace trocar {
@@ -25,6 +25,30 @@ struct MaterialLinear {
         P(i, j) = mu * (H(i, j) + H(j, i));
         if (i == j) P(i, j) += pressure;
       }
+    return P;
+  }
+
+  // For viscosity: the stress with K = 0, and the rest.
+  template <class Pack>
+  [[gnu::always_inline]] static Tensor<Pack> isochoric_stress(const Tensor<Pack>& H,
+                                                              const BlockValues<Pack>& value) {
+    const Pack mu = value(value_mu_V), mean = trace(H) * real<Pack>(1.0 / 3);
+    Tensor<Pack> P;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        P(i, j) = mu * (H(i, j) + H(j, i));
+        if (i == j) P(i, j) = 2.0 * mu * (H(i, i) - mean);
+      }
+    return P;
+  }
+
+  template <class Pack>
+  [[gnu::always_inline]] static Tensor<Pack> volumetric_stress(const Tensor<Pack>& H,
+                                                               const BlockValues<Pack>& value) {
+    Tensor<Pack> P;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        P(i, j) = i == j ? Pack(value(value_K_V) * trace(H)) : zero_of(H(0, 0));
     return P;
   }
 

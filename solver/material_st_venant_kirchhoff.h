@@ -4,7 +4,7 @@
 
 #include "solver/block_data.h"
 #include "solver/largest_eigenvalue.h"
-#include "solver/material.h"
+#include "solver/material_model.h"
 #include "solver/stiffening.h"
 
 namespace trocar {
@@ -26,6 +26,33 @@ struct MaterialStVenantKirchhoff {
     Tensor<Pack> P = product(H, S);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) P(i, j) += S.v[symmetric_index[i][j]];
+    return P;
+  }
+
+  // For viscosity: the stress with K = 0, P = F 2 mu dev E, and the rest, P = F K tr E.
+  template <class Pack>
+  [[gnu::always_inline]] static Tensor<Pack> isochoric_stress(const Tensor<Pack>& H,
+                                                              const BlockValues<Pack>& value) {
+    const Pack mu = value(value_mu_V);
+    SymmetricTensor<Pack> S = twice_green_strain(H);
+    const Pack mean = trace(S) * real<Pack>(1.0 / 3);
+    for (int i = 0; i < 3; ++i) S.v[i] -= mean;
+    for (Pack& s : S.v) s *= mu;
+    Tensor<Pack> P = product(H, S);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) P(i, j) += S.v[symmetric_index[i][j]];
+    return P;
+  }
+
+  template <class Pack>
+  [[gnu::always_inline]] static Tensor<Pack> volumetric_stress(const Tensor<Pack>& H,
+                                                               const BlockValues<Pack>& value) {
+    const Pack pressure = 0.5 * value(value_K_V) * trace(twice_green_strain(H));
+    Tensor<Pack> P = H;
+    for (int i = 0; i < 3; ++i) {
+      P(i, i) += 1.0;
+      for (int j = 0; j < 3; ++j) P(i, j) *= pressure;
+    }
     return P;
   }
 

@@ -11,10 +11,12 @@
 #include "base/threads.h"
 #include "solver/block_ranges.h"
 #include "solver/element_setup.h"
+#include "solver/history.h"
 #include "solver/kernels.h"
 #include "solver/material_setup.h"
 #include "solver/simd.h"
 #include "solver/sum_order.h"
+#include "solver/volume_averages.h"
 
 namespace trocar {
 
@@ -32,16 +34,9 @@ struct Source {
 };
 
 void check_material(const Material& material, std::size_t region) {
-  const bool is_sound = material.young_modulus > 0 && std::isfinite(material.young_modulus) &&
-                        material.poisson_ratio > -1 && material.poisson_ratio < 0.5 &&
-                        material.density > 0 && std::isfinite(material.density);
-  if (!is_sound)
-    throw InputError("material of region " + std::to_string(region) +
-                     ": young_modulus and density must be positive, poisson_ratio between -1 and "
-                     "0.5 (got " +
-                     std::to_string(material.young_modulus) + " Pa, " +
-                     std::to_string(material.density) + " kg/m^3, " +
-                     std::to_string(material.poisson_ratio) + ")");
+  const std::string fault = fault_of(material);
+  if (!fault.empty())
+    throw InputError("material of region " + std::to_string(region) + ": " + fault);
 }
 
 void check_source(const Source& source, std::span<const FixedMask> fixed,
@@ -78,7 +73,10 @@ ElementBlocks empty_blocks(const Source& source, int key, std::int32_t n_element
   ElementBlocks blocks;
   blocks.region = key / n_formulations;
   blocks.formulation = static_cast<Formulation>(key % n_formulations);
-  blocks.material = source.materials[static_cast<std::size_t>(blocks.region)].model;
+  const Material& material = source.materials[static_cast<std::size_t>(blocks.region)];
+  blocks.material = material.model;
+  blocks.stiffening_at_rest = stiffening_at_rest(material);
+  blocks.prony = material.prony;
   blocks.precision = source.options.precision;
   const bool is_single = blocks.precision == Precision::in_single;
   blocks.lanes = is_single ? lanes_of_block<float> : lanes_of_block<double>;
@@ -87,6 +85,9 @@ ElementBlocks empty_blocks(const Source& source, int key, std::int32_t n_element
   blocks.first_slot = first_slot;
   const BlockKernels& kernels = kernels_for(kernels_of(Simd::scalar), blocks);
   CHECK_OP(kernels.n_corners, ==, n_corners(shape_of(blocks.formulation)));
+  if (!blocks.prony.empty() && kernels.n_points == 0)
+    throw InputError("material of region " + std::to_string(blocks.region) +
+                     ": this kind of element can't be viscoelastic (prony)");
   const auto n_lanes = static_cast<std::size_t>(blocks.n_blocks * blocks.lanes);
   const std::size_t n_numbers = n_lanes * static_cast<std::size_t>(kernels.n_values);
   blocks.element_local.resize(n_lanes);
@@ -138,11 +139,17 @@ ElementConstants constants_of(const Source& source, std::int32_t e) {
                             .thickness = source.options.thickness});
 }
 
-// Constants of the lane's element: those of the material, then those of the element.
-void fill_values(const BlockKernels& kernels, const Material& material,
-                 const ElementConstants& element, std::int64_t lane, ElementBlocks& blocks) {
+// Unit vector.
+Vec3 fibre_of_element(const Source& source, std::int32_t e) {
+  return source.mesh.fibre.empty() ? unit_fibre(source.material(e)) : source.mesh.fibre[e];
+}
+
+// Constants of the lane's element e: those of the material, then those of the element.
+void fill_values(const Source& source, std::int32_t e, const ElementConstants& element,
+                 std::int64_t lane, ElementBlocks& blocks) {
+  const BlockKernels& kernels = kernels_for(kernels_of(Simd::scalar), blocks);
   std::array<double, max_values> value{};
-  fill_material(material, element.volume, value);
+  fill_material(source.material(e), element.volume, fibre_of_element(source, e), value);
   std::copy_n(element.value.begin(), kernels.n_values - kernels.n_material_values,
               value.begin() + kernels.n_material_values);
   const std::int64_t first =
@@ -169,9 +176,9 @@ void fill_lane(const Source& source, std::int64_t lane, ElementBlocks& blocks,
     blocks.corner[(block * n + a) * blocks.lanes + l] = source.part.node_local[node[a]];
   if (is_padding) return;
   const ElementConstants constants = constants_of(source, e);
-  fill_values(kernels_for(kernels_of(Simd::scalar), blocks), source.material(e), constants, lane,
-              blocks);
-  element_step[k] = constants.volume > 0 ? 2 / std::sqrt(constants.omega2) : 0;
+  fill_values(source, e, constants, lane, blocks);
+  element_step[k] =
+      constants.volume > 0 ? 2 / std::sqrt(constants.omega2 * blocks.stiffening_at_rest) : 0;
 }
 
 void fill_blocks(const Source& source, Model& model) {
@@ -211,7 +218,7 @@ void link_slots(const Source& source, const Placement& placement, Model& model) 
   for_owned_corners([&](std::int32_t i, std::int64_t slot) { model.slot[next[i]++] = slot; });
 }
 
-// Plane strain holds z.
+// Plane bodies hold z.
 void take_nodes(const Source& source, std::span<const FixedMask> fixed,
                 std::span<const double> mass, Model& model) {
   const FixedMask plane = source.mesh.dimension() == 2 ? 4 : 0;
@@ -244,6 +251,8 @@ Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> 
   fill_blocks(source, model);
   link_slots(source, placement, model);
   order_sums(model);
+  model.n_history = place_history(model.blocks);
+  link_volume_averages(mesh, materials, model);
   return model;
 }
 
@@ -251,6 +260,10 @@ State make_state(const Model& model) {
   State state;
   state.u.assign(static_cast<std::size_t>(model.n_local) * 3, 0.0);
   state.v.assign(static_cast<std::size_t>(model.n_local) * 3, 0.0);
+  state.history.assign(static_cast<std::size_t>(model.n_history), 0.0);
+  state.theta.assign(
+      static_cast<std::size_t>(model.n_local) * static_cast<std::size_t>(model.averages.n_fields),
+      0.0);
   return state;
 }
 
@@ -261,7 +274,9 @@ Scratch make_scratch(const Model& model) {
   const bool is_single = model.options.precision == Precision::in_single;
   scratch.slot.resize(is_single ? 0 : n_corners * slot_width);
   scratch.slot_single.resize(is_single ? n_corners * slot_width : 0);
+  scratch.volume_change.resize(static_cast<std::size_t>(model.averages.n_lanes));
   scratch.force.resize(static_cast<std::size_t>(model.n_owned) * 3);
+  scratch.viscous.resize(model.blocks.size());
   scratch.is_summed.assign(static_cast<std::size_t>(model.n_owned), 0);
   return scratch;
 }

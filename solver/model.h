@@ -12,6 +12,7 @@
 #include "solver/block_data.h"
 #include "solver/formulation.h"
 #include "solver/material.h"
+#include "solver/viscous_step.h"
 
 namespace trocar {
 
@@ -24,6 +25,8 @@ struct SolverOptions {
   double thickness = 1e-3;      // of plane meshes [m]
   Vec3 gravity = Vec3::Zero();  // [m/s^2]
   Precision precision = Precision::in_double;
+  // Share s of an element's own volume change in its pressure, tet4_nodal_pressure.
+  double element_share = 0.05;
   // How triangles, tetrahedra and hexahedra are computed.
   Formulation tri3 = Formulation::tri3_plane_strain;
   Formulation tet4 = Formulation::tet4;
@@ -37,6 +40,7 @@ struct ElementBlocks {
   Precision precision = Precision::in_double;
   std::int32_t region = 0;  // index of its material
   MaterialModel material = MaterialModel::neo_hookean;
+  double stiffening_at_rest = 1;  // in element_step already (material_setup.h)
   std::int32_t n_elements = 0;
   std::int32_t n_blocks = 0;
   int lanes = 0;                            // of a block, 64 bytes' worth of the precision
@@ -45,7 +49,23 @@ struct ElementBlocks {
   // [block][value][lane], see block_data.h; the one of the list's precision, the other is empty.
   std::vector<double> data;
   std::vector<float> data_single;
-  std::int64_t first_slot = 0;  // corner forces of these blocks start here in Scratch::slot
+  std::vector<PronyBranch> prony;  // of the material; empty: no viscosity
+  std::int64_t first_history = 0;  // history of these blocks starts here in State::history
+  std::int64_t first_slot = 0;     // corner forces of these blocks start here in Scratch::slot
+  // Elements that average volume changes: their field of VolumeAverages, and where the lanes of
+  // these blocks start in Scratch::volume_change.
+  std::int32_t field = 0;
+  std::int64_t first_lane = 0;
+};
+
+// Volume changes averaged around nodes (element_tet4_nodal_pressure.h), one field for each region
+// with elements that do so; no fields if the model has none. Item i * n_fields + field is node i's.
+struct VolumeAverages {
+  std::int32_t n_fields = 0;         // the same on all ranks
+  std::int64_t n_lanes = 0;          // of the lists concerned
+  std::vector<std::int64_t> offset;  // (n_owned * n_fields + 1) into lane
+  std::vector<std::int64_t> lane;    // of Scratch::volume_change, ascending global element number
+  std::vector<double> stiffness;     // (n_owned * n_fields) sum of K V [J]; 0: no such element
 };
 
 struct Model {
@@ -62,6 +82,8 @@ struct Model {
   std::vector<std::int32_t> sum_node, sum_first_block, sum_last_block;
   // (n local elements) stable step of the undeformed element (numerics 1.5) [s]
   std::vector<double> element_step;
+  std::int64_t n_history = 0;  // numbers of State::history
+  VolumeAverages averages;
   SolverOptions options;
 };
 
@@ -75,9 +97,14 @@ Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> 
 struct State {
   std::vector<double> u;  // (n_local * 3) displacement at `time`
   std::vector<double> v;  // (n_local * 3) velocity half a step earlier
+  // (n_local * n_fields) averaged J - 1 of VolumeAverages, see average_volume_change
+  std::vector<double> theta;
   double time = 0;
   double last_dt = 0;  // length of the last step, 0 before the first
   std::int64_t step = 0;
+  // [block][point][number][lane] of each viscoelastic list (viscosity.h), at history_time. [J], [s]
+  std::vector<double> history;
+  double history_time = 0;
 };
 State make_state(const Model& model);
 
@@ -86,10 +113,12 @@ struct Scratch {
   // Corner forces, [block][corner][lane][x y z 0] of each block list, in the model's precision.
   std::vector<double> slot;
   std::vector<float> slot_single;
+  std::vector<double> volume_change;    // K V (J - 1) of lanes, see VolumeAverages [J]
   std::vector<double> force;            // (n_owned * 3) external - internal force [N]
   std::vector<std::uint8_t> is_summed;  // (n_owned) all zero between steps
   // Empty, or (n_owned): energy that mass damping takes from each node, added up by integrate [J].
   std::vector<double> damping_work;
+  std::vector<ViscousStep> viscous;     // (block lists) of the step that is being computed
 };
 Scratch make_scratch(const Model& model);
 

@@ -8,6 +8,7 @@
 
 #include "base/check.h"
 #include "solver/block_ranges.h"
+#include "solver/history.h"
 #include "solver/simd.h"
 
 namespace trocar {
@@ -23,15 +24,22 @@ void* slot_at(const Model& model, Scratch& scratch, std::int64_t at) {
              : static_cast<void*>(scratch.slot.data() + at);
 }
 
-void run_blocks(const Model& model, const State& state, std::int64_t begin, std::int64_t end,
+double* history_at(const ElementBlocks& blocks, std::int64_t block, State& state) {
+  return state.history.data() + blocks.first_history + block * blocks.lanes * history_width(blocks);
+}
+
+void run_blocks(const Model& model, State& state, std::int64_t begin, std::int64_t end,
                 Scratch& scratch) {
   const Kernels& kernels = active_kernels();
   for_block_range(
       model, begin, end, [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
         const BlockKernels& kernel = kernels_for(kernels, blocks);
         const std::int64_t slot = blocks.first_slot + first * kernel.n_corners * blocks.lanes;
-        kernel.force(block_task(blocks, kernel, state, first, n),
-                     slot_at(model, scratch, slot * slot_width));
+        const BlockTask task = block_task(model, blocks, kernel, state, first, n);
+        void* const to = slot_at(model, scratch, slot * slot_width);
+        if (blocks.prony.empty()) return kernel.force(task, to);
+        kernel.viscous_force(task, scratch.viscous[&blocks - model.blocks.data()],
+                             history_at(blocks, first, state), to);
       });
 }
 
@@ -61,7 +69,7 @@ void sum_due_nodes(const Model& model, std::int64_t begin, std::int64_t end, con
 }
 
 // The blocks [begin, end) of one thread, and the nodes that only they touch.
-void compute_run(const Model& model, const State& state, std::int64_t begin, std::int64_t end,
+void compute_run(const Model& model, State& state, std::int64_t begin, std::int64_t end,
                  Scratch& scratch) {
   const std::vector<std::int32_t>& last = model.sum_last_block;
   std::int64_t k = std::lower_bound(last.begin(), last.end(), begin) - last.begin();
@@ -86,21 +94,29 @@ void sum_remaining(const Model& model, Scratch& scratch) {
 
 }  // namespace
 
-void compute_force(const Model& model, const State& state, Scratch& scratch) {
+void compute_force(const Model& model, State& state, Scratch& scratch) {
   CHECK_OP(std::ssize(state.u), ==, 3 * std::int64_t{model.n_local});
+  CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
   CHECK_OP(std::ssize(scratch.force), ==, 3 * std::int64_t{model.n_owned});
+  CHECK_OP(std::ssize(state.history), ==, model.n_history);
+  for (std::size_t k = 0; k < model.blocks.size(); ++k)
+    if (!model.blocks[k].prony.empty())
+      scratch.viscous[k] = viscous_step(model.blocks[k].prony, state.time - state.history_time);
   parallel_for(count_blocks(model), [&](std::int64_t begin, std::int64_t end) {
     compute_run(model, state, begin, end, scratch);
   });
   sum_remaining(model, scratch);
+  state.history_time = state.time;
 }
 
 std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
   const auto bytes = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
-  std::size_t sum = bytes(model.mass) + bytes(model.fixed) + bytes(model.slot_offset) +
-                    bytes(model.slot) + bytes(model.sum_node) + bytes(model.sum_first_block) +
-                    bytes(model.sum_last_block) + bytes(model.element_step) + bytes(scratch.slot) +
-                    bytes(scratch.slot_single) + bytes(scratch.force) + bytes(scratch.is_summed);
+  std::size_t sum =
+      bytes(model.mass) + bytes(model.fixed) + bytes(model.slot_offset) + bytes(model.slot) +
+      bytes(model.sum_node) + bytes(model.sum_first_block) + bytes(model.sum_last_block) +
+      bytes(model.element_step) + bytes(model.averages.offset) + bytes(model.averages.lane) +
+      bytes(model.averages.stiffness) + bytes(scratch.volume_change) + bytes(scratch.slot) +
+      bytes(scratch.slot_single) + bytes(scratch.force) + bytes(scratch.is_summed);
   for (const ElementBlocks& blocks : model.blocks)
     sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.data) +
            bytes(blocks.data_single);

@@ -10,9 +10,15 @@
 
 namespace trocar {
 
+// state.theta of owned nodes, from u: before compute_force, watch and energy_terms, which read it.
+// The caller exchanges theta (model.averages.n_fields a node) afterwards. Does nothing without
+// fields.
+void average_volume_change(const Model& model, State& state, Scratch& scratch);
+
 // scratch.force = mass * gravity - internal force(u), for owned nodes; each node sums its corners
-// in ascending global element number.
-void compute_force(const Model& model, const State& state, Scratch& scratch);
+// in ascending global element number. Brings the history of viscoelastic elements to state.time:
+// a second call at the same time and displacement changes nothing.
+void compute_force(const Model& model, State& state, Scratch& scratch);
 
 // A node whose motion is given: an instrument holds it.
 struct PrescribedNode {

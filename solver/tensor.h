@@ -47,6 +47,15 @@ template <class Pack>
            a[5] * a[4] - a[3] * a[2], a[3] * a[5] - a[4] * a[0], a[3] * a[4] - a[5] * a[1]}};
 }
 
+// A A for symmetric A.
+template <class Pack>
+[[gnu::always_inline]] inline SymmetricTensor<Pack> square(const SymmetricTensor<Pack>& A) {
+  const auto& a = A.v;
+  return {{a[0] * a[0] + a[3] * a[3] + a[5] * a[5], a[3] * a[3] + a[1] * a[1] + a[4] * a[4],
+           a[5] * a[5] + a[4] * a[4] + a[2] * a[2], a[0] * a[3] + a[3] * a[1] + a[5] * a[4],
+           a[3] * a[5] + a[1] * a[4] + a[4] * a[2], a[5] * a[0] + a[4] * a[3] + a[2] * a[5]}};
+}
+
 // A S for symmetric S.
 template <class Pack>
 [[gnu::always_inline]] inline Tensor<Pack> product(const Tensor<Pack>& A,

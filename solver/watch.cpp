@@ -50,11 +50,12 @@ void take_blocks(const Model& model, const Part& part, const State& state,
                  LeastOfElements& least) {
   const BlockKernels& kernels = kernels_for(active_kernels(), blocks);
   std::array<double, batch_blocks * lanes_of_block<float>> J, stiffening;
-  kernels.watch(block_task(blocks, kernels, state, first, n), J.data(), stiffening.data());
+  kernels.watch(block_task(model, blocks, kernels, state, first, n), J.data(), stiffening.data());
   const std::int64_t n_lanes = std::min(n * blocks.lanes, blocks.n_elements - first * blocks.lanes);
   for (std::int64_t lane = 0; lane < n_lanes; ++lane) {
     const std::int32_t k = blocks.element_local[first * blocks.lanes + lane];
-    take_element(model.element_step[k], J[lane], stiffening[lane], part.element_global[k], least);
+    const double growth = std::max(1.0, stiffening[lane] / blocks.stiffening_at_rest);
+    take_element(model.element_step[k], J[lane], growth, part.element_global[k], least);
   }
 }
 
@@ -94,6 +95,7 @@ std::int32_t first_bad_node(const Model& model, const Part& part, const State& s
 
 Watch watch(const Model& model, const Part& part, const State& state) {
   CHECK_OP(part.n_local(), ==, model.n_local);
+  CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
   const LeastOfElements least = least_of_elements(model, part, state);
   Watch w;
   w.stable_step = least.step.value;

@@ -21,7 +21,8 @@ struct Watch {
   bool is_finite = true;       // all owned u and v
   std::int32_t bad_node = -1;  // global number of the first non-finite one
 };
-// Ties go to the lower global element number.
+// Of state.theta and state.u, see average_volume_change. Ties go to the lower global element
+// number.
 Watch watch(const Model& model, const Part& part, const State& state);
 
 // Energies of single items, so that engine can add them exactly in any order. [J]
@@ -29,6 +30,9 @@ struct EnergyTerms {
   std::vector<double> kinetic;    // of owned nodes, 1/2 m v.v
   std::vector<double> strain;     // of elements whose lowest global node is owned here
   std::vector<double> hourglass;  // of the same elements, in the same order
+  // Of owned nodes: strain energy of averaged volume changes (element_tet4_nodal_pressure.h), which
+  // the elements leave out. Empty without such elements.
+  std::vector<double> volumetric;
 };
 void energy_terms(const Model& model, const Part& part, const State& state, EnergyTerms& terms);
 

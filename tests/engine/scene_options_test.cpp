@@ -62,6 +62,10 @@ gravity = [0, 0, "-9.81 m/s^2"]
 mass_damping = "5 1/s"
 hourglass = 0.2
 step_factor = 0.8
+hexahedron = "full"
+tetrahedron = "nodal-pressure"
+triangle = "plane-stress"
+precision = "single"
 [contact]
 stiffness = 0.1
 friction = 0.3
@@ -123,7 +127,7 @@ TEST(SceneOptions, every_key_reaches_its_member_in_si) {
   EXPECT_LT((s.tissue.translate - Vec3(1e-3, 2e-3, 3e-3)).norm(), 1e-18);
   EXPECT_FALSE(s.tissue.shape.has_value());
   EXPECT_DOUBLE_EQ(s.tissue.thickness, 4e-3);
-  EXPECT_EQ(s.tissue.material.model, MaterialName::linear);
+  EXPECT_EQ(s.tissue.material.model, MaterialModel::linear);
   EXPECT_DOUBLE_EQ(s.tissue.material.young_modulus, 3500);
   EXPECT_EQ(s.tissue.material.poisson_ratio, 0.3);
   EXPECT_DOUBLE_EQ(s.tissue.material.density, 1100);
@@ -136,6 +140,10 @@ TEST(SceneOptions, every_key_reaches_its_member_in_si) {
   EXPECT_EQ(s.solver.mass_damping, 5);
   EXPECT_EQ(s.solver.hourglass, 0.2);
   EXPECT_EQ(s.solver.step_factor, 0.8);
+  EXPECT_EQ(s.solver.hexahedron, Formulation::hex8_full);
+  EXPECT_EQ(s.solver.tetrahedron, Formulation::tet4_nodal_pressure);
+  EXPECT_EQ(s.solver.triangle, Formulation::tri3_plane_stress);
+  EXPECT_EQ(s.solver.precision, Precision::in_single);
   EXPECT_EQ(s.contact.stiffness, 0.1);
   EXPECT_EQ(s.contact.friction, 0.3);
 }

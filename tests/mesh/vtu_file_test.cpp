@@ -26,6 +26,7 @@ TEST(VtuFile, reads_back_positions_elements_and_regions) {
     mesh.node_sets.clear();  // VTU has no place for them
     mesh.region_name = {"region-0", "region-1"};
     for (std::int32_t e = 0; e < mesh.n_elements(); ++e) mesh.element_region[e] = e % 2;
+    for (std::int32_t e = 0; e < mesh.n_elements(); ++e) mesh.fibre.push_back(Vec3::Unit(e % 3));
     write_vtu(mesh, mesh.X, {}, {}, folder.file("a.vtu"));
     expect_equal(read_vtu(folder.file("a.vtu")), mesh);
   }

@@ -32,7 +32,7 @@ struct BlockOfOne {
   std::array<double, static_cast<std::size_t>(M::n_values) * block_lanes<double>> number{};
   BlockOfOne() {
     std::array<double, M::n_values> value{};
-    fill_material(material_of(M::model, mu, K), 1, value);
+    fill_material(material_of(M::model, mu, K), 1, Vec3(1, 0, 0), value);
     for (std::size_t k = 0; k < value.size(); ++k) number[k * block_lanes<double>] = value[k];
   }
   BlockValues<double> values() const { return {number.data()}; }
@@ -79,6 +79,7 @@ TEST(Material, agrees_with_linear_elasticity_at_small_strain) {
   for_each_material(MaterialList{}, []<class M>() {
     Noise noise(8);
     const Mat3 F = random_gradient(noise, 1e-7);
+    if (has_fibres(M::model)) return;  // fibre.h adds to it
     const Mat3 expected = stress<MaterialLinear>(F);
     // Second-order terms: strain 1e-7 times moduli of order K.
     EXPECT_LT((stress<M>(F) - expected).norm(), 1e-5 * expected.norm());
@@ -87,7 +88,8 @@ TEST(Material, agrees_with_linear_elasticity_at_small_strain) {
 
 TEST(Material, stress_and_energy_vanish_without_deformation) {
   for_each_material(MaterialList{}, []<class M>() {
-    EXPECT_EQ(stress<M>(Mat3::Identity()).norm(), 0);
+    // Fibres make up to 10 mu out of the error of q, 4e-26 (isochoric_test.cpp).
+    EXPECT_LT(stress<M>(Mat3::Identity()).norm(), 4e-25 * mu);
     EXPECT_NEAR(energy<M>(Mat3::Identity()), 0, 4e-26 * 1.5 * mu);  // of q, isochoric_test.cpp
   });
 }
@@ -97,12 +99,13 @@ TEST(Material, a_rotation_turns_the_stress_with_it_except_for_the_linear_one) {
   Noise noise(9);
   const Mat3 F = random_gradient(noise, 0.2);
   const double tolerance = 1e-13 * K * 100;  // some hundred roundings of moduli
-  EXPECT_LT((stress<MaterialNeoHookean>(R * F) - R * stress<MaterialNeoHookean>(F)).norm(),
-            tolerance);
-  EXPECT_LT(
-      (stress<MaterialStVenantKirchhoff>(R * F) - R * stress<MaterialStVenantKirchhoff>(F)).norm(),
-      tolerance);
-  EXPECT_GT(stress<MaterialLinear>(R).norm(), K);
+  for_each_material(MaterialList{}, [&]<class M>() {
+    const double change = (stress<M>(R * F) - R * stress<M>(F)).norm();
+    if (M::model == MaterialModel::linear)
+      EXPECT_GT(change, 0.1 * K);
+    else
+      EXPECT_LT(change, tolerance);
+  });
 }
 
 // The lateral stretch b of a laterally free bar solves P22(l, b) = 0.
@@ -215,7 +218,8 @@ static double largest_tangent(const Mat3& F, const Mat3& G_root) {
 TEST(Material, stiffening_bounds_the_tangent_of_any_deformation) {
   for_each_material(MaterialList{}, []<class M>() {
     Noise noise(10);
-    double sharpest = 0;
+    double sharpest = 0, sum = 0;
+    int n = 0;
     for (int k = 0; k < 3000; ++k) {
       const Mat3 F = random_gradient(noise, k % 3 == 0 ? 0.7 : 0.3);
       if (F.determinant() < 0.05) continue;
@@ -228,7 +232,11 @@ TEST(Material, stiffening_bounds_the_tangent_of_any_deformation) {
       const double tangent = largest_tangent<M>(F, root);
       EXPECT_LT(tangent, bound * (1 + 1e-6)) << F;  // differences of the stress: 1e-6
       sharpest = std::max(sharpest, tangent / bound);
+      sum += tangent / bound;
+      ++n;
     }
+    std::printf("material %d: true / bound at most %.3f, mean %.3f\n", static_cast<int>(M::model),
+                sharpest, sum / n);
     EXPECT_GT(sharpest, 0.5);  // a bound that is far off would be useless
   });
 }

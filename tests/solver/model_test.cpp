@@ -120,3 +120,36 @@ TEST(MemoryBytes, counts_what_a_tetrahedron_needs) {
   const std::size_t expected = 3072 * n_bytes + 729 * n_node_bytes + 8;
   EXPECT_EQ(memory_bytes(body.model, body.scratch), expected);
 }
+
+TEST(BuildModel, refuses_averaged_pressure_with_a_material_that_has_no_volumetric_energy) {
+  const Mesh mesh = irregular_elements()[1];
+  for (const MaterialModel model : all_models()) {
+    const BodyOptions options{.materials = {material_of(model, 1000, 9000)},
+                              .solver = with(Formulation::tet4_nodal_pressure)};
+    if (is_possible(Formulation::tet4_nodal_pressure, model))
+      EXPECT_NO_THROW(make_body(mesh, options));
+    else
+      EXPECT_THROW(make_body(mesh, options), InputError);
+  }
+}
+
+TEST(BuildModel, averages_volume_changes_around_a_node_of_each_region_on_its_own) {
+  // Two tetrahedra that share a face, in two regions: each node of a region has the change of its
+  // only tetrahedron.
+  Mesh mesh = irregular_patch(Formulation::tet4_nodal_pressure);
+  mesh.region_name = {"a", "b"};
+  mesh.element_region[1] = 1;
+  Body body = make_body(mesh, {.materials = {Material{}, Material{}},
+                               .solver = with(Formulation::tet4_nodal_pressure)});
+  shake(body.state.u, 1e-3, 3);
+  force(body);
+  std::vector<Vec3> x = mesh.X;
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += Vec3::Map(&body.state.u[3 * i]);
+  for (std::int32_t e = 0; e < 2; ++e) {
+    const double j = element_volume(mesh, e, x) / element_volume(mesh, e, mesh.X) - 1;
+    for (const std::int32_t node : mesh.corners(e))
+      EXPECT_NEAR(body.state.theta[2 * node + e], j, 1e-15);
+  }
+  EXPECT_EQ(body.state.theta[2 * 0 + 1], 0);  // node 0 has no element of region b
+  EXPECT_EQ(body.state.theta[2 * 4 + 0], 0);
+}

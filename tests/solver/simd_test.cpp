@@ -23,33 +23,44 @@ static std::vector<std::string> supported() {
   return names;
 }
 
-static std::vector<Mesh> meshes() {
-  Mesh hex = make_box(Vec3(0, 0, 0), Vec3(.03, .02, .02), {3, 3, 3}, BoxElements::hex8);
-  Mesh tet = make_box(Vec3(0, 0, 0), Vec3(.03, .02, .02), {3, 2, 3}, BoxElements::tet4_kuhn);
-  jitter(hex, .2, 1);
-  jitter(tet, .2, 1);
-  return {hex, tet, make_rectangle(.03, .02, 7, 6)};
+static Mesh mesh_for(Formulation formulation) {
+  if (shape_of(formulation) == ElementType::tri3) return make_rectangle(.03, .02, 7, 6);
+  const bool is_hex = shape_of(formulation) == ElementType::hex8;
+  Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(.03, .02, .02), {3, is_hex ? 3 : 2, 3},
+                       is_hex ? BoxElements::hex8 : BoxElements::tet4_kuhn);
+  jitter(mesh, .2, 1);
+  return mesh;
 }
-
-constexpr Precision precisions[] = {Precision::in_double, Precision::in_single};
 
 // Half a unit in the last place of 1, what one operation is off by.
 static double rounding(const Body& body) {
   return body.model.options.precision == Precision::in_single ? 6e-8 : 1.1e-16;
 }
 
-// Runs `check` on each mesh with each material in both precisions, displaced at random by up to a
-// tenth of an edge.
+// Calls body(formulation, material model) for all that go together.
+template <class Check>
+static void for_each_kind(const Check& check) {
+  for (const Formulation formulation : all_formulations())
+    for (const MaterialModel model : all_models()) {
+      if (!is_possible(formulation, model)) continue;
+      SCOPED_TRACE(std::string(name_of(formulation)) + " material " +
+                   std::to_string(static_cast<int>(model)));
+      check(formulation, model);
+    }
+}
+
+// Runs `check` on each kind in both precisions, displaced at random by up to a tenth of an edge.
 template <class Check>
 static void for_each_body(const Check& check) {
-  for (const Mesh& mesh : meshes())
-    for (const MaterialModel model : all_models())
-      for (const Precision precision : precisions) {
-        Body body = make_body(mesh, {.materials = {material_of(model, 1000, 9000)},
-                                     .solver = {.precision = precision}});
-        shake(body.state.u, 5e-4, 11);
-        check(body);
-      }
+  for_each_kind([&](Formulation formulation, MaterialModel model) {
+    for (const Precision precision : precisions) {
+      Body body =
+          make_body(mesh_for(formulation), {.materials = {material_of(model, 1000, 9000)},
+                                            .solver = with(formulation, {.precision = precision})});
+      shake(body.state.u, 5e-4, 11);
+      check(body);
+    }
+  });
 }
 
 TEST(Simd, every_instruction_set_gives_the_scalar_forces_energies_and_watch_to_rounding) {
@@ -58,14 +69,14 @@ TEST(Simd, every_instruction_set_gives_the_scalar_forces_energies_and_watch_to_r
     const WithSimd scalar("scalar");
     const std::vector<double> f = force(body);
     const double W = stored_energy(body);
-    const Watch w = watch(body.model, body.part, body.state);
+    const Watch w = look(body);
     for (const std::string& name : supported()) {
       select_simd(name);
       force(body);
       for (std::size_t k = 0; k < f.size(); ++k)  // a hundred roundings, up to 24 elements a node
         EXPECT_NEAR(body.scratch.force[k], f[k], 270 * eps * largest(f)) << name;
       EXPECT_NEAR(stored_energy(body), W, 1000 * eps * W) << name;
-      const Watch other = watch(body.model, body.part, body.state);
+      const Watch other = look(body);
       EXPECT_NEAR(other.stable_step, w.stable_step, 1000 * eps * w.stable_step) << name;
       EXPECT_NEAR(other.least_J, w.least_J, 1000 * eps) << name;
       EXPECT_EQ(other.least_J_element, w.least_J_element) << name;
@@ -74,27 +85,28 @@ TEST(Simd, every_instruction_set_gives_the_scalar_forces_energies_and_watch_to_r
 }
 
 TEST(Simd, single_precision_is_as_close_to_double_as_its_digits_allow) {
-  for (const Mesh& mesh : meshes())
-    for (const MaterialModel model : all_models()) {
-      Body exact = make_body(mesh, {.materials = {material_of(model, 1000, 9000)}});
-      shake(exact.state.u, 5e-4, 11);
-      Body body = make_body(mesh, {.materials = {material_of(model, 1000, 9000)},
-                                   .solver = {.precision = Precision::in_single}});
-      body.state = exact.state;
-      const std::vector<double> f = force(exact);
-      force(body);
-      for (std::size_t k = 0; k < f.size(); ++k)  // some ten roundings of the stress survive
-        EXPECT_NEAR(body.scratch.force[k], f[k], 30 * 6e-8 * largest(f));
-      EXPECT_NEAR(stored_energy(body) / stored_energy(exact), 1, 100 * 6e-8);
-      EXPECT_NEAR(watch(body.model, body.part, body.state).stable_step /
-                      watch(exact.model, exact.part, exact.state).stable_step,
-                  1, 100 * 6e-8);
-    }
+  for_each_kind([](Formulation formulation, MaterialModel model) {
+    const BodyOptions options{.materials = {material_of(model, 1000, 9000)},
+                              .solver = with(formulation)};
+    BodyOptions single = options;
+    single.solver.precision = Precision::in_single;
+    Body exact = make_body(mesh_for(formulation), options);
+    shake(exact.state.u, 5e-4, 11);
+    Body body = make_body(mesh_for(formulation), single);
+    body.state = exact.state;
+    const std::vector<double> f = force(exact);
+    force(body);
+    for (std::size_t k = 0; k < f.size(); ++k)  // some ten roundings of the stress survive
+      EXPECT_NEAR(body.scratch.force[k], f[k], 30 * 6e-8 * largest(f));
+    EXPECT_NEAR(stored_energy(body) / stored_energy(exact), 1, 100 * 6e-8);
+    EXPECT_NEAR(look(body).stable_step / look(exact).stable_step, 1, 100 * 6e-8);
+  });
 }
 
 TEST(Simd, single_precision_does_not_mind_a_body_that_has_moved_ten_metres) {
-  for (const Mesh& mesh : meshes()) {
-    Body body = make_body(mesh, {.solver = {.precision = Precision::in_single}});
+  for (const Formulation formulation : all_formulations()) {
+    Body body = make_body(mesh_for(formulation),
+                          {.solver = with(formulation, {.precision = Precision::in_single})});
     shake(body.state.u, 1e-6, 12);
     const std::vector<double> f = force(body);
     for (std::size_t k = 0; k < body.state.u.size(); k += 3) body.state.u[k] += 10;
@@ -132,13 +144,15 @@ static void check_copies(Body& body, int n) {
 }
 
 TEST(Simd, an_elements_force_does_not_depend_on_its_lane_or_block) {
-  for (const Mesh& single : irregular_elements())
-    for (const MaterialModel model : all_models())
-      for (const Precision precision : precisions) {
-        Body body = make_body(copies_of(single, 35), {.materials = {material_of(model, 1000, 9000)},
-                                                      .solver = {.precision = precision}});
-        check_copies(body, static_cast<int>(single.X.size()));
-      }
+  for_each_kind([](Formulation formulation, MaterialModel model) {
+    const Mesh single = irregular_elements()[static_cast<std::size_t>(shape_of(formulation))];
+    for (const Precision precision : precisions) {
+      Body body =
+          make_body(copies_of(single, 35), {.materials = {material_of(model, 1000, 9000)},
+                                            .solver = with(formulation, {.precision = precision})});
+      check_copies(body, static_cast<int>(single.X.size()));
+    }
+  });
 }
 
 TEST(SelectSimd, picks_what_it_is_told_and_auto_picks_the_widest) {

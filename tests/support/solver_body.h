@@ -11,7 +11,9 @@
 #include "mesh/generate.h"
 #include "mesh/mesh.h"
 #include "mesh/partition.h"
+#include "solver/element_setup.h"
 #include "solver/model.h"
+#include "solver/simd.h"
 #include "solver/step.h"
 #include "solver/watch.h"
 
@@ -58,6 +60,11 @@ inline Body make_body(Mesh mesh, BodyOptions options = {},
   return body;
 }
 
+inline Watch look(Body& body) {
+  average_volume_change(body.model, body.state, body.scratch);
+  return watch(body.model, body.part, body.state);
+}
+
 // u = field(X) at all local nodes.
 template <class Field>
 void displace(Body& body, const Field& field) {
@@ -89,6 +96,7 @@ inline void shake(std::vector<double>& values, double amount, std::uint64_t seed
 
 // External minus internal force of the present displacement.
 inline const std::vector<double>& force(Body& body) {
+  average_volume_change(body.model, body.state, body.scratch);
   compute_force(body.model, body.state, body.scratch);
   return body.scratch.force;
 }
@@ -106,14 +114,16 @@ inline double largest(const std::vector<double>& values) {
   return most;
 }
 
-// Strain plus hourglass energy.
-inline double stored_energy(const Body& body) {
+// Strain plus hourglass energy of the present displacement.
+inline double stored_energy(Body& body) {
+  average_volume_change(body.model, body.state, body.scratch);
   EnergyTerms terms;
   energy_terms(body.model, body.part, body.state, terms);
-  return sum(terms.strain) + sum(terms.hourglass);
+  return sum(terms.strain) + sum(terms.hourglass) + sum(terms.volumetric);
 }
 
 inline void step(Body& body, double dt) {
+  average_volume_change(body.model, body.state, body.scratch);
   compute_force(body.model, body.state, body.scratch);
   integrate(body.model, body.scratch, {}, dt, body.state);
 }
@@ -146,17 +156,63 @@ inline std::vector<Mesh> irregular_elements() {
                                           {0, .011, .0105}})};
 }
 
+// One irregular element, or two tetrahedra where elements share more than forces.
+inline Mesh irregular_patch(Formulation formulation) {
+  Mesh mesh = irregular_elements()[static_cast<std::size_t>(shape_of(formulation))];
+  if (formulation == Formulation::tet4_nodal_pressure) {
+    mesh.X.emplace_back(.009, .010, .011);
+    add_element(mesh, ElementType::tet4, std::vector<std::int32_t>{1, 4, 2, 3});
+  }
+  return mesh;
+}
+
+inline std::vector<Formulation> all_formulations() {
+  std::vector<Formulation> all;
+  for (int f = 0; f < n_formulations; ++f) all.push_back(static_cast<Formulation>(f));
+  return all;
+}
+inline constexpr Precision precisions[] = {Precision::in_double, Precision::in_single};
+
+// Options that compute the formulation's shape with it.
+inline SolverOptions with(Formulation formulation, SolverOptions options = {}) {
+  if (shape_of(formulation) == ElementType::tri3) options.tri3 = formulation;
+  if (shape_of(formulation) == ElementType::tet4) options.tet4 = formulation;
+  if (shape_of(formulation) == ElementType::hex8) options.hex8 = formulation;
+  return options;
+}
+// Whether elements of the formulation can be of the material.
+inline bool is_possible(Formulation formulation, MaterialModel model) {
+  return kernels_of(Simd::scalar)
+             .of[0]
+             .block[static_cast<int>(formulation)][static_cast<int>(model)]
+             .force != nullptr;
+}
+
 inline const std::vector<MaterialModel>& all_models() {
-  static const std::vector<MaterialModel> models = {
-      MaterialModel::linear, MaterialModel::st_venant_kirchhoff, MaterialModel::neo_hookean};
+  static const std::vector<MaterialModel> models = {MaterialModel::linear,
+                                                    MaterialModel::st_venant_kirchhoff,
+                                                    MaterialModel::neo_hookean,
+                                                    MaterialModel::mooney_rivlin,
+                                                    MaterialModel::yeoh,
+                                                    MaterialModel::ogden,
+                                                    MaterialModel::transversely_isotropic,
+                                                    MaterialModel::holzapfel_gasser_ogden};
   return models;
 }
 
-// E and nu from the shear and bulk moduli.
+// The models' parameters from the shear and bulk moduli at small strain, in the ratios of numerics
+// V4; only those of the model count.
 inline Material material_of(MaterialModel model, double mu, double K, double density = 1000) {
   const double nu = (3 * K - 2 * mu) / (6 * K + 2 * mu);
-  return {
+  Material m{
       .model = model, .young_modulus = 2 * mu * (1 + nu), .poisson_ratio = nu, .density = density};
+  m.c10 = .3 * mu, m.c01 = .2 * mu;
+  m.c1 = .5 * mu, m.c2 = .1 * mu, m.c3 = .05 * mu;
+  m.ogden[0] = {.mu = mu, .alpha = -8};
+  m.eta = 2 * mu;
+  m.k1 = 2 * mu, m.k2 = 5, m.kappa = .1;
+  m.fibre_angle = 3.14159265358979323846 / 6;
+  return m;
 }
 
 }  // namespace trocar

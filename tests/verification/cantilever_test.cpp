@@ -26,9 +26,11 @@ static std::vector<double> tip_weights(const Body& body, int n) {
 }
 
 // Deflection under 1e-4 N after damped motion, which decays by exp(-alpha t / 2).
-static double static_deflection(int n, double c_mu, double nu) {
-  Body body = cantilever(n, {.materials = {{MaterialModel::neo_hookean, 3000, nu, 1000}},
-                             .solver = {.mass_damping = 7, .hourglass = c_mu}});
+static double static_deflection(int n, double nu, const SolverOptions& solver) {
+  BodyOptions options{.materials = {{MaterialModel::neo_hookean, 3000, nu, 1000}},
+                      .solver = solver};
+  options.solver.mass_damping = 7;
+  Body body = cantilever(n, options);
   const std::vector<double> weight = tip_weights(body, n);
   const double dt = .95 * least_element_step(body);
   while (body.state.time < 3) {
@@ -45,9 +47,20 @@ static double static_deflection(int n, double c_mu, double nu) {
 TEST(Cantilever, deflection_of_one_point_hexahedra_is_the_known_one) {
   // numerics 1.2: tip / exact at nu = .49 (exact 8.305e-4 m), to its printed digits and 1 % for
   // where on the end face it was taken.
-  EXPECT_NEAR(static_deflection(2, .1, .49) / 8.305e-4, 1.16, .012);
-  EXPECT_NEAR(static_deflection(4, .1, .49) / 8.305e-4, 1.032, .011);
-  EXPECT_NEAR(static_deflection(2, 1. / 3, .49) / 8.305e-4, .921, .011);
+  EXPECT_NEAR(static_deflection(2, .49, {.hourglass = .1}) / 8.305e-4, 1.16, .012);
+  EXPECT_NEAR(static_deflection(4, .49, {.hourglass = .1}) / 8.305e-4, 1.032, .011);
+  EXPECT_NEAR(static_deflection(2, .49, {.hourglass = 1. / 3}) / 8.305e-4, .921, .011);
+}
+
+TEST(Cantilever, the_fully_integrated_hexahedron_locks_as_known_and_the_enhanced_one_does_not) {
+  // numerics 1.2: full 2 x 2 x 2 .56 at nu = .49; the enhanced form lies between c_mu = .2 and 1/3.
+  const double full = static_deflection(2, .49, with(Formulation::hex8_full)) / 8.305e-4;
+  const double enhanced = static_deflection(2, .49, with(Formulation::hex8_enhanced)) / 8.305e-4;
+  std::printf("cantilever, 2 elements thick, nu = .49: full %.3f, enhanced %.3f of the exact one\n",
+              full, enhanced);
+  EXPECT_NEAR(full, .56, .012);
+  EXPECT_GT(enhanced, static_deflection(2, .49, {.hourglass = 1. / 3}) / 8.305e-4);
+  EXPECT_LT(enhanced, static_deflection(2, .49, {.hourglass = .2}) / 8.305e-4);
 }
 
 // 1/2 v-^T M v+ + W(u), which the scheme conserves exactly for linear bodies.

@@ -1,0 +1,198 @@
+#include "engine/scene_material.h"
+
+#include <array>
+#include <cmath>
+#include <initializer_list>
+
+#include "engine/tissue_table.h"
+#include "solver/material_setup.h"
+
+namespace trocar {
+
+namespace {
+
+using Model = MaterialModel;
+
+const std::vector<std::pair<std::string, Model>> models = {
+    {"linear", Model::linear},
+    {"st-venant-kirchhoff", Model::st_venant_kirchhoff},
+    {"neo-hookean", Model::neo_hookean},
+    {"mooney-rivlin", Model::mooney_rivlin},
+    {"yeoh", Model::yeoh},
+    {"ogden", Model::ogden},
+    {"transversely-isotropic", Model::transversely_isotropic},
+    {"holzapfel-gasser-ogden", Model::holzapfel_gasser_ogden}};
+
+constexpr unsigned bit(Model model) {
+  return 1U << static_cast<unsigned>(model);
+}
+constexpr unsigned has_young = bit(Model::linear) | bit(Model::st_venant_kirchhoff) |
+                               bit(Model::neo_hookean) | bit(Model::transversely_isotropic) |
+                               bit(Model::holzapfel_gasser_ogden);
+constexpr unsigned all_models = ~0U;
+constexpr unsigned is_hgo = bit(Model::holzapfel_gasser_ogden);
+
+// A number of a material: who has it, and what stands for it when absent (NaN: it is needed).
+struct Parameter {
+  const char* key;
+  double SceneMaterial::*member;
+  Dimension dimension;
+  Range range;
+  unsigned of_models;
+  double otherwise;
+  const char* doc;
+};
+
+const std::vector<Parameter>& parameters() {
+  constexpr double needed = SceneMaterial::absent;
+  constexpr Range poisson{.low = -1, .high = 0.5, .is_low_open = true, .is_high_open = true};
+  static const std::vector<Parameter> list = {
+      {"young_modulus", &SceneMaterial::young_modulus, dim::pressure, positive, has_young, 3000,
+       "Young's modulus E (of what is between the fibres); 3 kPa if absent. Not for mooney-rivlin, "
+       "yeoh and ogden, whose constants say it."},
+      {"poisson_ratio", &SceneMaterial::poisson_ratio, dim::none, poisson, all_models, 0.45,
+       "Poisson's ratio nu, which gives K = 2 mu (1 + nu) / (3 (1 - 2 nu)) with the shear modulus "
+       "mu at small strain; 0.45 if absent; 0.5 itself has no finite stable step."},
+      {"density", &SceneMaterial::density, dim::density, positive, all_models, 1060,
+       "Mass density rho; 1060 kg/m^3 if absent."},
+      {"c10", &SceneMaterial::c10, dim::pressure, any, bit(Model::mooney_rivlin), needed,
+       "mooney-rivlin: mu = 2 (c10 + c01)."},
+      {"c01", &SceneMaterial::c01, dim::pressure, any, bit(Model::mooney_rivlin), 0,
+       "mooney-rivlin."},
+      {"c1", &SceneMaterial::c1, dim::pressure, positive, bit(Model::yeoh), needed,
+       "yeoh: mu = 2 c1."},
+      {"c2", &SceneMaterial::c2, dim::pressure, any, bit(Model::yeoh), 0, "yeoh."},
+      {"c3", &SceneMaterial::c3, dim::pressure, any, bit(Model::yeoh), 0, "yeoh."},
+      {"eta", &SceneMaterial::eta, dim::pressure, not_negative, bit(Model::transversely_isotropic),
+       needed, "transversely-isotropic: fibre modulus."},
+      {"k1", &SceneMaterial::k1, dim::pressure, not_negative, is_hgo, needed,
+       "holzapfel-gasser-ogden: fibre modulus."},
+      {"k2", &SceneMaterial::k2, dim::none, positive, is_hgo, needed,
+       "holzapfel-gasser-ogden: exponent."},
+      {"kappa",
+       &SceneMaterial::kappa,
+       dim::none,
+       {.low = 0, .high = 1.0 / 3},
+       is_hgo,
+       0,
+       "holzapfel-gasser-ogden: dispersion, 0 aligned … 1/3 isotropic."},
+      {"fibre_angle",
+       &SceneMaterial::fibre_angle,
+       dim::angle,
+       {.low = 0, .high = 1.5707963},
+       is_hgo,
+       0,
+       "holzapfel-gasser-ogden: two families at plus and minus this angle to fibre, in the plane "
+       "across fibre_normal; 0: one family. \"30 deg\"."}};
+  return list;
+}
+
+bool is_given(const SourceMap& where, const std::string& path, const char* key) {
+  return where.places.contains(path + "." + key);
+}
+
+// What the scene does not say, the tissue does.
+void take_tissue(const SourceMap& where, const std::string& path, SceneMaterial& m) {
+  const Tissue* tissue = find_tissue(m.tissue);
+  if (tissue == nullptr)
+    where.fail(path + ".tissue",
+               "there is no tissue \"" + m.tissue + "\"; there are " + known_tissues());
+  const SceneMaterial& base = tissue->material;
+  if (is_given(where, path, "model") && m.model != base.model)
+    where.fail(path + ".model", "tissue \"" + m.tissue + "\" is of model " +
+                                    model_name(base.model) + ": leave model or tissue out");
+  m.model = base.model;
+  for (const Parameter& p : parameters())
+    if (std::isnan(m.*p.member)) m.*p.member = base.*p.member;
+  if (m.ogden.empty()) m.ogden = base.ogden;
+  if (m.prony.empty()) m.prony = base.prony;
+}
+
+void check_parameter(const SourceMap& where, const std::string& path, const Parameter& p,
+                     const SceneMaterial& m) {
+  const bool is_absent = std::isnan(m.*p.member), belongs = (p.of_models & bit(m.model)) != 0;
+  if (!is_absent && !belongs)
+    where.fail(path + "." + p.key,
+               std::string(p.key) + " is no parameter of model " + model_name(m.model));
+  if (is_absent && belongs && std::isnan(p.otherwise))
+    where.fail(path, "model " + model_name(m.model) + " needs " + p.key);
+}
+
+void fill_defaults(SceneMaterial& m) {
+  for (const Parameter& p : parameters())
+    if (std::isnan(m.*p.member) && (p.of_models & bit(m.model)) != 0) m.*p.member = p.otherwise;
+}
+
+}  // namespace
+
+std::string model_name(MaterialModel model) {
+  return models[static_cast<std::size_t>(model)].first;
+}
+
+Options<SceneMaterial> material_options() {
+  Options<SceneOgden> term("A term of Ogden's energy.");
+  term.number("mu", &SceneOgden::mu, dim::pressure, positive, "Its share of the shear modulus.",
+              Need::required);
+  term.number("alpha", &SceneOgden::alpha, dim::none, any, "Its exponent, not 0.", Need::required);
+  Options<SceneProny> branch("A branch of the relaxing isochoric stress.");
+  branch.number("share", &SceneProny::share, dim::none, {.low = 0, .high = 1, .is_low_open = true},
+                "g of G(t) / G(0) = 1 - sum g (1 - exp(-t / time)).", Need::required);
+  branch.number("time", &SceneProny::time, dim::time, positive, "Time constant.", Need::required);
+  Options<SceneMaterial> m("What the tissue is made of.");
+  m.text("tissue", &SceneMaterial::tissue,
+         "Name of a tissue whose values stand for what is absent here (docs/tissues.md).");
+  m.choice("model", &SceneMaterial::model, models,
+           "neo-hookean: W = mu/2 (I1bar - 3) + K/2 (J - 1)^2; linear only for small strains; "
+           "st-venant-kirchhoff not for compression. All but these two have the volumetric "
+           "energy K/2 (J - 1)^2.");
+  for (const Parameter& p : parameters()) m.number(p.key, p.member, p.dimension, p.range, p.doc);
+  m.vector("fibre", &SceneMaterial::fibre, dim::none, any,
+           "Direction of the fibres where the mesh gives none (cell data \"fibre\" of a .vtu).");
+  m.vector("fibre_normal", &SceneMaterial::fibre_normal, dim::none, any,
+           "Normal of the plane of two families.");
+  m.list("ogden", &SceneMaterial::ogden, term,
+         "ogden: up to three terms 2 mu/alpha^2 (sum of stretches^alpha - 3).");
+  m.list("prony", &SceneMaterial::prony, branch, "Viscoelasticity of any model.");
+  return m;
+}
+
+void complete_material(const SourceMap& where, const std::string& path, SceneMaterial& m) {
+  if (!m.tissue.empty()) take_tissue(where, path, m);
+  for (const Parameter& p : parameters()) check_parameter(where, path, p, m);
+  if ((m.model == Model::ogden) == m.ogden.empty())
+    where.fail(path, m.ogden.empty() ? "model ogden needs terms: ogden = [{mu = \"1 kPa\", alpha = "
+                                       "2}]"
+                                     : "ogden terms belong to model ogden");
+  if (m.ogden.size() > 3) where.fail(path + ".ogden", "at most three terms are allowed");
+  fill_defaults(m);
+  const std::string fault = fault_of(to_material(m));
+  if (!fault.empty()) where.fail(path, fault);
+}
+
+Material to_material(const SceneMaterial& given) {
+  SceneMaterial m = given;
+  fill_defaults(m);
+  const auto number = [](double x, double otherwise) { return std::isnan(x) ? otherwise : x; };
+  Material material{.model = m.model,
+                    .young_modulus = number(m.young_modulus, 3000),
+                    .poisson_ratio = m.poisson_ratio,
+                    .density = m.density,
+                    .c10 = number(m.c10, 0),
+                    .c01 = number(m.c01, 0),
+                    .c1 = number(m.c1, 0),
+                    .c2 = number(m.c2, 0),
+                    .c3 = number(m.c3, 0),
+                    .eta = number(m.eta, 0),
+                    .k1 = number(m.k1, 0),
+                    .k2 = number(m.k2, 1),
+                    .kappa = number(m.kappa, 0),
+                    .fibre_angle = number(m.fibre_angle, 0),
+                    .fibre = m.fibre,
+                    .fibre_normal = m.fibre_normal};
+  for (std::size_t k = 0; k < m.ogden.size() && k < material.ogden.size(); ++k)
+    material.ogden[k] = {m.ogden[k].mu, m.ogden[k].alpha};
+  for (const SceneProny& branch : m.prony) material.prony.push_back({branch.share, branch.time});
+  return material;
+}
+
+}  // namespace trocar

@@ -1,0 +1,89 @@
+// What decoupled materials are made of: invariants of H = F - I without cancellation
+// (numerics 1.4), and the four functions that their energy W(F) = W_iso(J^(-1/3) F) + K/2 (J - 1)^2
+// gives.
+#pragma once
+
+#include "solver/block_data.h"
+#include "solver/isochoric.h"
+#include "solver/tensor.h"
+
+namespace trocar {
+
+template <class Pack>
+struct Deformation {
+  Tensor<Pack> H;
+  VolumeChange<Pack> change;
+  Isochoric<Pack> iso;
+  SymmetricTensor<Pack> twice_E;
+  Pack I1bar_3;  // I1bar - 3 = 3 q + (1+q) tr 2E
+};
+
+template <class Pack>
+[[gnu::always_inline]] inline Deformation<Pack> deformation_of(const Tensor<Pack>& H) {
+  Deformation<Pack> d;
+  d.H = H;
+  d.change = volume_and_area_change(H);
+  d.iso = isochoric(d.change.j);
+  d.twice_E = twice_green_strain(H);
+  d.I1bar_3 = 3.0 * d.iso.q + (1.0 + d.iso.q) * trace(d.twice_E);
+  return d;
+}
+
+// P = cof F [ shear/J dev A + pressure I ] = F^-T [ shear dev A + J pressure I ]
+template <class Pack>
+[[gnu::always_inline]] inline Tensor<Pack> stress_of(const Deformation<Pack>& d, const Pack& shear,
+                                                     const SymmetricTensor<Pack>& A,
+                                                     const Pack& pressure) {
+  const Pack mean = trace(A) * real<Pack>(1.0 / 3), scale = shear * d.iso.inverse_J;
+  SymmetricTensor<Pack> S;
+  for (int i = 0; i < 3; ++i) S.v[i] = scale * (A.v[i] - mean) + pressure;
+  for (int i = 3; i < 6; ++i) S.v[i] = scale * A.v[i];
+  return product(d.change.cof_F, S);
+}
+
+// Material has stress_at(d, pressure, value): isochoric stress plus pressure cof F, and
+// isochoric_energy_at(d, value).
+template <class Material>
+struct Decoupled {
+  static constexpr bool is_decoupled = true;
+
+  template <class Pack>
+  [[gnu::always_inline]] static Tensor<Pack> stress(const Tensor<Pack>& H,
+                                                    const BlockValues<Pack>& value) {
+    const Deformation<Pack> d = deformation_of(H);
+    return Material::stress_at(d, Pack(value(value_K_V) * d.change.j), value);
+  }
+
+  template <class Pack>
+  [[gnu::always_inline]] static Tensor<Pack> isochoric_stress(const Tensor<Pack>& H,
+                                                              const BlockValues<Pack>& value) {
+    const Deformation<Pack> d = deformation_of(H);
+    return Material::stress_at(d, zero_of(d.change.j), value);
+  }
+
+  // K j cof F
+  template <class Pack>
+  [[gnu::always_inline]] static Tensor<Pack> volumetric_stress(const Tensor<Pack>& H,
+                                                               const BlockValues<Pack>& value) {
+    const VolumeChange<Pack> change = volume_and_area_change(H);
+    Tensor<Pack> P = change.cof_F;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) P(i, j) *= value(value_K_V) * change.j;
+    return P;
+  }
+
+  template <class Pack>
+  [[gnu::always_inline]] static Pack energy(const Tensor<Pack>& H, const BlockValues<Pack>& value) {
+    const Deformation<Pack> d = deformation_of(H);
+    return Material::isochoric_energy_at(d, value) +
+           0.5 * (value(value_K_V) * d.change.j * d.change.j);
+  }
+
+  template <class Pack>
+  [[gnu::always_inline]] static Pack isochoric_energy(const Tensor<Pack>& H,
+                                                      const BlockValues<Pack>& value) {
+    return Material::isochoric_energy_at(deformation_of(H), value);
+  }
+};
+
+}  // namespace trocar

@@ -1,0 +1,137 @@
+// Eight-node hexahedron with 2 x 2 x 2 Gauss points, the expensive reference: no hourglass modes,
+// but locks when nu tends to 1/2. In the modes of hex8_modes.h, with dS_m = grad_xi of the monomial
+// at a point and C = (dX/dxi)^-1 / 8 there:
+//   H = (sum_m w_m (x) dS_m) C,   f_a = sum_m S_m,a g_m,   g_m = sum_points (V_point P C^T) dS_m.
+#pragma once
+
+#include "solver/block_data.h"
+#include "solver/element_one_point.h"
+#include "solver/hex8_modes.h"
+
+namespace trocar {
+
+// sqrt(1/3): abscissa of the two-point Gauss rule.
+inline constexpr double gauss_point = 0.57735026918962576451;
+
+struct ElementHex8Full {
+  static constexpr Formulation formulation = Formulation::hex8_full;
+  static constexpr int n_corners = 8;
+  static constexpr int n_points = 8;
+  static constexpr int value_share = 9;  // of a point, behind C: V_point / V
+  static constexpr int values_of_point = 10;
+  static constexpr int n_values = n_points * values_of_point;
+
+  template <class Law, class Pack>
+  [[gnu::always_inline]] static void force(const BlockValues<Pack>& value, const Law& law,
+                                           const Pack (&u)[8][3], Pack (&f)[8][3]) {
+    Pack g[n_hex_modes][3];
+    for (auto& mode : g)
+      for (Pack& x : mode) x = zero_of(u[0][0]);
+    for_points(
+        value,
+        u, [&](const Point<Pack>& point, const Tensor<Pack>& H) __attribute__((always_inline)) {
+          add_point(point, law.stress(H), g);
+        });
+    for (int i = 0; i < 3; ++i) {
+      Pack mode[n_hex_modes];
+      for (int m = 0; m < n_hex_modes; ++m) mode[m] = g[m][i];
+      corners_of_modes(mode, i, f);
+    }
+  }
+
+  template <class Law, class Pack>
+  [[gnu::always_inline]] static ElementEnergy<Pack> energy(const BlockValues<Pack>& value,
+                                                           const Law& law, const Pack (&u)[8][3]) {
+    const Pack zero = zero_of(u[0][0]);
+    Pack sum = zero;
+    for_points(
+        value,
+        u, [&](const Point<Pack>& point, const Tensor<Pack>& H) __attribute__((always_inline)) {
+          sum += point.value(value_share) * law.energy(H);
+        });
+    return {sum, zero};
+  }
+
+  // The bound of element_hex8_full_setup.cpp grows at most as at its worst point.
+  template <class Law, class Pack>
+  [[gnu::always_inline]] static ElementWatch<Pack> watch(const BlockValues<Pack>& value,
+                                                         const Law& law, const Pack (&u)[8][3]) {
+    const Pack zero = zero_of(u[0][0]);
+    Pack least_j = zero, most = zero;
+    bool is_first = true;
+    for_points(
+        value, u, [&](const Point<Pack>&, const Tensor<Pack>& H) __attribute__((always_inline)) {
+          const Pack j = volume_change(H, cofactor(H)), s = law.stiffening(H);
+          // The order of the operands keeps a NaN.
+          least_j = is_first ? j : (least_j < j ? least_j : j);
+          most = is_first ? s : (most > s ? most : s);
+          is_first = false;
+        });
+    return {1.0 + least_j, most};
+  }
+
+ private:
+  template <class Pack>
+  struct Point {
+    RealOf<Pack> x, y, z;  // xi, eta, zeta
+    BlockValues<Pack> value;
+  };
+
+  // Calls body(point, H) for each point. Not unrolled: eight copies of a material are too much
+  // code.
+  template <class Pack, class Body>
+  [[gnu::always_inline]] static void for_points(const BlockValues<Pack>& value,
+                                                const Pack (&u)[8][3], const Body& body) {
+    Pack w[n_hex_modes][3];
+    for (int i = 0; i < 3; ++i) {
+      Pack mode[n_hex_modes];
+      modes_of_corners(u, i, mode);
+      for (int m = 0; m < n_hex_modes; ++m) w[m][i] = mode[m];
+    }
+#pragma GCC unroll 1
+    for (int k = 0; k < n_points; ++k) {
+      constexpr auto g = real<Pack>(gauss_point);
+      const Point<Pack> point{(k & 1) != 0 ? g : -g,
+                              (k & 2) != 0 ? g : -g,
+                              (k & 4) != 0 ? g : -g,
+                              {value.at + k * values_of_point * block_lanes<Pack>}};
+      body(point, gradient(point, w));
+    }
+  }
+
+  template <class Pack>
+  [[gnu::always_inline]] static Tensor<Pack> gradient(const Point<Pack>& p,
+                                                      const Pack (&w)[n_hex_modes][3]) {
+    Tensor<Pack> H;
+    for (int i = 0; i < 3; ++i) {
+      const Pack dx = w[0][i] + p.z * w[4][i] + p.y * (w[5][i] + p.z * w[6][i]);
+      const Pack dy = w[1][i] + p.x * w[5][i] + p.z * (w[3][i] + p.x * w[6][i]);
+      const Pack dz = w[2][i] + p.y * w[3][i] + p.x * (w[4][i] + p.y * w[6][i]);
+      for (int j = 0; j < 3; ++j)
+        H(i, j) = dx * p.value(j) + dy * p.value(3 + j) + dz * p.value(6 + j);
+    }
+    return H;
+  }
+
+  // VP: stress times the volume of the whole element.
+  template <class Pack>
+  [[gnu::always_inline]] static void add_point(const Point<Pack>& p, const Tensor<Pack>& VP,
+                                               Pack (&g)[n_hex_modes][3]) {
+    const Pack share = p.value(value_share);
+    for (int i = 0; i < 3; ++i) {
+      Pack T[3];
+      for (int k = 0; k < 3; ++k)
+        T[k] = share * (VP(i, 0) * p.value(3 * k) + VP(i, 1) * p.value(3 * k + 1) +
+                        VP(i, 2) * p.value(3 * k + 2));
+      g[0][i] += T[0];
+      g[1][i] += T[1];
+      g[2][i] += T[2];
+      g[3][i] += p.z * T[1] + p.y * T[2];
+      g[4][i] += p.x * T[2] + p.z * T[0];
+      g[5][i] += p.y * T[0] + p.x * T[1];
+      g[6][i] += p.y * (p.z * T[0]) + p.x * (p.z * T[1]) + p.x * (p.y * T[2]);
+    }
+  }
+};
+
+}  // namespace trocar

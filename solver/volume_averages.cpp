@@ -1,0 +1,130 @@
+#include "solver/volume_averages.h"
+
+#include <string>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "solver/block_ranges.h"
+#include "solver/element_setup.h"
+#include "solver/simd.h"
+#include "solver/step.h"
+
+namespace trocar {
+
+namespace {
+
+bool averages_volume(const ElementBlocks& blocks) {
+  return kernels_for(active_kernels(), blocks).volume_change != nullptr;
+}
+
+// One field for each region of the whole mesh with such elements, so that all ranks have the same.
+std::vector<std::int32_t> number_fields(const Mesh& mesh, VolumeAverages& averages) {
+  std::vector<std::int32_t> field(mesh.region_name.size(), -1);
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    if (mesh.element_type[e] == shape_of(Formulation::tet4_nodal_pressure))
+      field[mesh.element_region[e]] = 0;
+  for (std::int32_t& f : field)
+    if (f == 0) f = averages.n_fields++;
+  return field;
+}
+
+void check_materials(std::span<const Material> materials, std::span<const std::int32_t> field,
+                     const Model& model) {
+  const auto& row = kernels_of(Simd::scalar)
+                        .of[static_cast<int>(model.options.precision)]
+                        .block[static_cast<int>(Formulation::tet4_nodal_pressure)];
+  for (std::size_t r = 0; r < field.size(); ++r)
+    if (field[r] >= 0 && row[static_cast<int>(materials[r].model)].force == nullptr)
+      throw InputError("region " + std::to_string(r) +
+                       ": averaged nodal pressure needs a material with a volumetric energy of its "
+                       "own, such as neo-hookean");
+}
+
+double stiffness_of(const ElementBlocks& blocks, int n_values, std::int64_t lane) {
+  const std::int64_t at =
+      (lane / blocks.lanes * n_values + value_K_V) * blocks.lanes + lane % blocks.lanes;
+  return blocks.precision == Precision::in_single ? static_cast<double>(blocks.data_single[at])
+                                                  : blocks.data[at];
+}
+
+// Calls body(item, lane, K V) for each owned corner of a list, ascending global element number; an
+// item is a node's number in a field.
+template <class Body>
+void for_owned_corners(const Model& model, const ElementBlocks& blocks, const Body& body) {
+  const BlockKernels& kernels = kernels_for(active_kernels(), blocks);
+  for (std::int64_t lane = 0; lane < blocks.n_elements; ++lane)
+    for (std::int64_t a = 0; a < kernels.n_corners; ++a) {
+      const std::int64_t row = lane / blocks.lanes * kernels.n_corners + a;
+      const std::int64_t node = blocks.corner[row * blocks.lanes + lane % blocks.lanes];
+      if (node < model.n_owned)
+        body(node * model.averages.n_fields + blocks.field, blocks.first_lane + lane,
+             stiffness_of(blocks, kernels.n_values, lane));
+    }
+}
+
+template <class Body>
+void for_averaging_lists(const Model& model, const Body& body) {
+  for (const ElementBlocks& blocks : model.blocks)
+    if (averages_volume(blocks)) body(blocks);
+}
+
+void link_lanes(Model& model) {
+  VolumeAverages& averages = model.averages;
+  const std::int64_t n = std::int64_t{model.n_owned} * averages.n_fields;
+  averages.stiffness.assign(static_cast<std::size_t>(n), 0);
+  averages.offset.assign(static_cast<std::size_t>(n) + 1, 0);
+  for_averaging_lists(model, [&](const ElementBlocks& blocks) {
+    for_owned_corners(model, blocks, [&](std::int64_t item, std::int64_t, double K_V) {
+      ++averages.offset[item + 1];
+      averages.stiffness[item] += K_V;
+    });
+  });
+  for (std::int64_t item = 0; item < n; ++item) averages.offset[item + 1] += averages.offset[item];
+  averages.lane.resize(static_cast<std::size_t>(averages.offset.back()));
+  std::vector<std::int64_t> next(averages.offset.begin(), averages.offset.end() - 1);
+  for_averaging_lists(model, [&](const ElementBlocks& blocks) {
+    for_owned_corners(model, blocks, [&](std::int64_t item, std::int64_t lane, double) {
+      averages.lane[next[item]++] = lane;
+    });
+  });
+}
+
+}  // namespace
+
+void link_volume_averages(const Mesh& mesh, std::span<const Material> materials, Model& model) {
+  if (model.options.tet4 != Formulation::tet4_nodal_pressure) return;
+  const std::vector<std::int32_t> field = number_fields(mesh, model.averages);
+  check_materials(materials, field, model);
+  for (ElementBlocks& blocks : model.blocks) {
+    if (!averages_volume(blocks)) continue;
+    blocks.field = field[blocks.region];
+    blocks.first_lane = model.averages.n_lanes;
+    model.averages.n_lanes += std::ssize(blocks.element_local);
+  }
+  link_lanes(model);
+}
+
+void average_volume_change(const Model& model, State& state, Scratch& scratch) {
+  const VolumeAverages& averages = model.averages;
+  if (averages.n_fields == 0) return;
+  CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * averages.n_fields);
+  for_averaging_lists(model, [&](const ElementBlocks& blocks) {
+    const BlockKernels& kernels = kernels_for(active_kernels(), blocks);
+    parallel_for(std::int64_t{blocks.n_blocks}, [&](std::int64_t begin, std::int64_t end) {
+      kernels.volume_change(
+          block_task(model, blocks, kernels, state, begin, end - begin),
+          scratch.volume_change.data() + blocks.first_lane + begin * blocks.lanes);
+    });
+  });
+  const std::int64_t n = std::int64_t{model.n_owned} * averages.n_fields;
+  parallel_for_nodes(n, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t item = begin; item < end; ++item) {
+      double sum = 0;
+      for (std::int64_t k = averages.offset[item]; k < averages.offset[item + 1]; ++k)
+        sum += scratch.volume_change[averages.lane[k]];
+      state.theta[item] = averages.stiffness[item] > 0 ? sum / averages.stiffness[item] : 0;
+    }
+  });
+}
+
+}  // namespace trocar
