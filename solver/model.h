@@ -25,8 +25,9 @@ struct SolverOptions {
   double thickness = 1e-3;      // of plane meshes [m]
   Vec3 gravity = Vec3::Zero();  // [m/s^2]
   Precision precision = Precision::in_double;
-  // Share s of an element's own volume change in its pressure, tet4_nodal_pressure.
-  double element_share = 0.05;
+  // Share s of an element's own volume change in its pressure, tet4_nodal_pressure. Free cubes show
+  // no low modes even without it, and 0.05 adds 1.8 % to the force of the indentation test.
+  double element_share = 0.02;
   // How triangles, tetrahedra and hexahedra are computed.
   Formulation tri3 = Formulation::tri3_plane_strain;
   Formulation tet4 = Formulation::tet4;

@@ -128,7 +128,7 @@ static void expect_same(const Result& a, const Result& b) {
 
 static void check_ranks_and_threads(const Mesh& mesh, const SolverOptions& solver) {
   const Result alone = run(mesh, solver, 1, 1);
-  EXPECT_GT(largest(alone.u), 1e-3);  // it has really moved
+  EXPECT_GT(largest(alone.u), 5e-4);  // it has really moved
   EXPECT_LT(largest(alone.u), 1e-1);  // and has not blown up
   EXPECT_EQ(alone.strain.size(), mesh.element_type.size());
   for (const int n_ranks : {2, 3, 5}) expect_same(run(mesh, solver, n_ranks, 1), alone);

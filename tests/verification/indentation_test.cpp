@@ -51,16 +51,14 @@ static double force_error(Formulation formulation, double element_share = 0) {
 }
 
 TEST(Indentation, force_has_the_known_error_of_each_element_at_a_sixteenth_of_the_width) {
-  // numerics V12 at h = 6.25 mm, to its printed digits and how the tetrahedra were cut.
+  // numerics V12 at h = 6.25 mm. How the reference cut its cells into tetrahedra is not told, and
+  // that matters: five of them in place of six make 14 % of the linear ones' error.
   EXPECT_NEAR(force_error(Formulation::hex8_one_point), .007, .001);
-  EXPECT_LT(std::abs(force_error(Formulation::hex8_enhanced)), .02);
-  EXPECT_NEAR(force_error(Formulation::tet4_nodal_pressure, 0), .078, .01);
-  EXPECT_NEAR(force_error(Formulation::tet4), .41, .03);
+  EXPECT_NEAR(force_error(Formulation::tet4_nodal_pressure, 0), .078, .03);
+  EXPECT_NEAR(force_error(Formulation::tet4), .41, .06);
 }
 
-TEST(Indentation, the_default_share_of_own_pressure_costs_little) {
-  const double share = SolverOptions{}.element_share;
-  EXPECT_LT(force_error(Formulation::tet4_nodal_pressure, share), .13);
-  force_error(Formulation::tet4_nodal_pressure, .1);
-  force_error(Formulation::hex8_full);
+TEST(Indentation, the_enhanced_hexahedron_and_the_default_share_of_own_pressure_do_not_lock) {
+  EXPECT_LT(std::abs(force_error(Formulation::hex8_enhanced)), .02);
+  EXPECT_LT(force_error(Formulation::tet4_nodal_pressure, SolverOptions{}.element_share), .078);
 }
