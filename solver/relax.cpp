@@ -42,7 +42,8 @@ double greatest_stiffening(const Model& model, const State& state) {
     std::array<double, lanes_of_block<float>> J{}, stiffening{};
     for (std::int64_t b = 0; b < blocks.n_blocks; ++b) {
       kernels.watch(block_task(blocks, kernels, state, b, 1), J.data(), stiffening.data());
-      for (int lane = 0; lane < blocks.lanes; ++lane)
+      const std::int64_t n_lanes = blocks.n_elements - b * blocks.lanes;
+      for (int lane = 0; lane < std::min<std::int64_t>(blocks.lanes, n_lanes); ++lane)
         if (!(stiffening[lane] <= most)) most = stiffening[lane];
     }
   }

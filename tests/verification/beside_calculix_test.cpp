@@ -18,7 +18,8 @@ static FixedMask clamp_start(const Vec3& X) {
 static std::vector<double> end_load(const Body& body, const Vec3& size, const std::array<int, 3>& n,
                                     const Vec3& total) {
   return load_by(body, [&](const Vec3& X) {
-    return Vec3(X.x() > size.x() * (1 - 1e-9) ? face_share(X, size, n, 0) * total : Vec3::Zero());
+    const bool is_end = X.x() > size.x() * (1 - 1e-9);
+    return Vec3((is_end ? face_share(X, size, n, 0) : 0) * total);
   });
 }
 
