@@ -20,7 +20,8 @@ struct RelaxTask {
   // Loads, gravity and held nodes come on smoothly over the first ones; 0: at once.
   std::int64_t ramp_iterations = 500;
   std::int64_t max_iterations = 1000000;
-  // Largest residual, relative to the forces of supports and holders (see Relaxation).
+  // Largest residual, relative to the forces of supports and holders (see Relaxation). Elements in
+  // single precision leave some 1e-6 of it: ask for no less than 3e-5 there.
   double tolerance = 1e-6;
   // Of other ranks; null where there are none.
   Communicator* communicator = nullptr;

@@ -65,7 +65,9 @@ static Body indented_block(const Variant& variant, int n) {
     const double r2 = X.x() * X.x() + X.y() * X.y();
     top.push_back({.node = i, .u_next = Vec3(0, 0, -.01 * std::exp(-r2 / (2 * .012 * .012)))});
   }
-  settle(body, {.prescribed = top});
+  // Rounding of forces in single precision leaves a residual of some 1e-6.
+  settle(body,
+         {.prescribed = top, .tolerance = variant.precision == Precision::in_single ? 3e-5 : 1e-6});
   return body;
 }
 
@@ -78,13 +80,14 @@ static void check_indentation(const Variant& variant, int n, double tolerance) {
   const std::string name = "V12 Smooth indentation", mesh = mesh_name(variant, {n, n, n});
   check_figure({name, "force [N]", mesh, indentation_force(body), -.9730, tolerance, mixed_solver});
   check_figure(
-      {name, "energy [J]", mesh, 4 * stored_energy(body), 3.649e-3, tolerance, mixed_solver});
+      {name, "energy [J]", mesh, 4 * stored_energy(body), 3.649e-3, 8 * tolerance, mixed_solver});
   check_figure({name, "u_z at half depth [m]", mesh, displacement_at(body, {0, 0, .025}).z(),
-                -.002772, 2 * tolerance, mixed_solver});
+                -.002772, 8 * tolerance, mixed_solver});
 }
 
 TEST(V12SmoothIndentation, force_and_energy_are_those_of_the_mixed_solver) {
-  // numerics V12: -.9796 at h = 6.25 mm, -.9759 at 3.1 mm.
+  // numerics V12: force -.9796 at h = 6.25 mm, -.9759 at 3.1 mm. Half a Gaussian of 12 mm over
+  // such cells has 6 % less energy.
   check_indentation(hex_one_point, 8, .009);
   check_indentation(hex_one_point_single, 8, .009);
   if (is_report()) check_indentation(hex_one_point, 16, .004);
@@ -125,11 +128,19 @@ static double block_settlement(const Variant& variant, int n, double r) {
   return -displacement_at(body, {0, 1, 0}).y();
 }
 
+static void check_settlement(int n, double r, double expected, double tolerance) {
+  check_figure({"V13 Nearly incompressible block",
+                "settlement at r = " + std::to_string(static_cast<int>(r)),
+                mesh_name(hex_one_point, {n, n, n}), block_settlement(hex_one_point, n, r),
+                expected, tolerance, "implicit Q2/P1 mixed solver"});
+}
+
 TEST(V13NearlyIncompressibleBlock, settlement_is_that_of_the_mixed_solver) {
-  const std::vector<std::pair<double, double>> cases = {
-      {20, .2197}, {40, .4249}, {60, .5857}, {80, .694}};
-  for (const auto& [r, expected] : cases)
-    check_figure({"V13 Nearly incompressible block", "settlement at " + std::to_string(int(r)),
-                  mesh_name(hex_one_point, {8, 8, 8}), block_settlement(hex_one_point, 8, r),
-                  expected, .03, "implicit Q2/P1 mixed solver"});
+  check_settlement(8, 20, .2197, .01);
+  check_settlement(8, 40, .4249, .01);
+  // The cells under the patch are squeezed to a third, and c_mu = .1 holds their hourglass modes
+  // too weakly.
+  check_settlement(8, 60, .5857, .02);
+  check_settlement(8, 80, .694, .07);
+  if (is_report()) check_settlement(16, 80, .694, .04);
 }
