@@ -1,0 +1,146 @@
+// V11, V12, V13: blocks that are stretched, squeezed and indented, against an implicit mixed solver
+// of high order (numerics 2).
+#include "verification_figure.h"
+#include "verification_statics.h"
+
+using namespace trocar;
+
+static const std::string mixed_solver = "implicit Q3/P2 mixed solver";
+static const Material tissue = {MaterialModel::neo_hookean, 3000, .49, 1000};
+
+// A quarter of the cube of edge .1 about the z axis, mirror planes x = 0 and y = 0, top moved by
+// `lift`. n: cells over half an edge.
+static Body bonded_cube(const Variant& variant, int n, double lift) {
+  Body body = make_box_body(
+      variant,
+      {.size = {.05, .05, .1}, .n = {n, n, 2 * n}, .material = tissue, .fixed = [](const Vec3& X) {
+         if (X.z() < 1e-9 || X.z() > .1 - 1e-9) return FixedMask{3};
+         return static_cast<FixedMask>((X.x() < 1e-9 ? 1 : 0) | (X.y() < 1e-9 ? 2 : 0));
+       }});
+  std::vector<PrescribedNode> ends;
+  for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i) {
+    const double z = body.mesh.X[i].z();
+    if (z < 1e-9) ends.push_back({.node = i});
+    if (z > .1 - 1e-9) ends.push_back({.node = i, .u_next = Vec3(0, 0, lift)});
+  }
+  settle(body, {.prescribed = ends});
+  return body;
+}
+
+static double top_reaction(const Body& body) {
+  return 4 * reaction_of(body, [](const Vec3& X) { return X.z() > .1 - 1e-9; }).z();
+}
+
+static void check_cube(const Variant& variant, int n, double lift, double force, double bulge,
+                       double tolerance) {
+  const Body body = bonded_cube(variant, n, lift);
+  const std::string mesh = mesh_name(variant, {n, n, 2 * n});
+  const std::string end = lift > 0 ? " at +20 %" : " at -20 %";
+  check_figure({"V11 Bonded cube", "force" + end + " [N]", mesh, top_reaction(body), force,
+                tolerance, mixed_solver});
+  check_figure({"V11 Bonded cube", "bulge of the face" + end + " [m]", mesh,
+                displacement_at(body, {.05, 0, .05}).x(), bulge, tolerance, mixed_solver});
+}
+
+TEST(V11BondedCube, force_and_bulge_are_those_of_the_mixed_solver) {
+  // numerics V11: one-point hexahedra +.8 % and +2.9 % at n = 4, +.3 % and +1.8 % at n = 8.
+  check_cube(hex_one_point, 4, .02, 6.084, -.005372, .012);
+  check_cube(hex_one_point, 4, -.02, -9.0, .00749, .035);
+  check_cube(hex_one_point, 8, .02, 6.084, -.005372, .006);
+  check_cube(hex_one_point, 8, -.02, -9.0, .00749, .023);
+}
+
+// A quarter of the block .1 x .1 x .05, its glued top pressed in by a Gaussian of width .012.
+static Body indented_block(const Variant& variant, int n) {
+  Body body = make_box_body(
+      variant,
+      {.size = {.05, .05, .05}, .n = {n, n, n}, .material = tissue, .fixed = [](const Vec3& X) {
+         if (X.z() < 1e-9) return FixedMask{7};
+         return static_cast<FixedMask>((X.x() < 1e-9 ? 1 : 0) | (X.y() < 1e-9 ? 2 : 0));
+       }});
+  std::vector<PrescribedNode> top;
+  for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i) {
+    const Vec3& X = body.mesh.X[i];
+    if (X.z() < .05 - 1e-9) continue;
+    const double r2 = X.x() * X.x() + X.y() * X.y();
+    top.push_back({.node = i, .u_next = Vec3(0, 0, -.01 * std::exp(-r2 / (2 * .012 * .012)))});
+  }
+  // Rounding of forces in single precision leaves a residual of some 1e-6.
+  settle(body,
+         {.prescribed = top, .tolerance = variant.precision == Precision::in_single ? 3e-5 : 1e-6});
+  return body;
+}
+
+static double indentation_force(const Body& body) {
+  return 4 * reaction_of(body, [](const Vec3& X) { return X.z() > .05 - 1e-9; }).z();
+}
+
+static void check_indentation(const Variant& variant, int n, double tolerance) {
+  const Body body = indented_block(variant, n);
+  const std::string name = "V12 Smooth indentation", mesh = mesh_name(variant, {n, n, n});
+  check_figure({name, "force [N]", mesh, indentation_force(body), -.9730, tolerance, mixed_solver});
+  check_figure(
+      {name, "energy [J]", mesh, 4 * stored_energy(body), 3.649e-3, 8 * tolerance, mixed_solver});
+  check_figure({name, "u_z at half depth [m]", mesh, displacement_at(body, {0, 0, .025}).z(),
+                -.002772, 8 * tolerance, mixed_solver});
+}
+
+TEST(V12SmoothIndentation, force_and_energy_are_those_of_the_mixed_solver) {
+  // numerics V12: force -.9796 at h = 6.25 mm, -.9759 at 3.1 mm. Half a Gaussian of 12 mm over
+  // such cells has 6 % less energy.
+  check_indentation(hex_one_point, 8, .009);
+  check_indentation(hex_one_point_single, 8, .009);
+  if (is_report()) check_indentation(hex_one_point, 16, .004);
+}
+
+TEST(V12SmoothIndentation, plain_tetrahedra_lock) {
+  // numerics V12: 41 % too stiff at this mesh; it is here to show that the problem tells.
+  const Body body = indented_block(tet_plain, 8);
+  const Figure figure{.problem = "V12 Smooth indentation",
+                      .quantity = "force [N] (locks)",
+                      .mesh = mesh_name(tet_plain, {8, 8, 8}),
+                      .number = indentation_force(body),
+                      .reference = -.9730,
+                      .tolerance = .5,
+                      .source = mixed_solver};
+  check_figure(figure);
+  EXPECT_LT(error_of(figure), -.2);
+}
+
+// Pressure 4 r on a quarter of the top of the unit cube.
+static double block_settlement(const Variant& variant, int n, double r) {
+  Body body = make_box_body(
+      variant, {.size = {1, 1, 1},
+                .n = {n, n, n},
+                .material = material_of(MaterialModel::neo_hookean, 80.194, 400889.806),
+                .fixed = [](const Vec3& X) {
+                  if (X.y() > 1 - 1e-9) return FixedMask{5};
+                  return static_cast<FixedMask>((X.x() < 1e-9 ? 1 : 0) | (X.y() < 1e-9 ? 2 : 0) |
+                                                (X.z() < 1e-9 ? 4 : 0));
+                }});
+  const Vec3 patch(.5, 1, .5);
+  const std::vector<double> load = load_by(body, [&](const Vec3& X) {
+    const bool is_loaded = X.y() > 1 - 1e-9 && X.x() < .5 + 1e-9 && X.z() < .5 + 1e-9;
+    const double share = is_loaded ? face_share(X, patch, {n / 2, 1, n / 2}, 1) : 0;
+    return Vec3(0, -4 * r * .25 * share, 0);
+  });
+  settle(body, {.load = load, .ramp_iterations = 4000, .tolerance = 1e-5});
+  return -displacement_at(body, {0, 1, 0}).y();
+}
+
+static void check_settlement(int n, double r, double expected, double tolerance) {
+  check_figure({"V13 Nearly incompressible block",
+                "settlement at r = " + std::to_string(static_cast<int>(r)),
+                mesh_name(hex_one_point, {n, n, n}), block_settlement(hex_one_point, n, r),
+                expected, tolerance, "implicit Q2/P1 mixed solver"});
+}
+
+TEST(V13NearlyIncompressibleBlock, settlement_is_that_of_the_mixed_solver) {
+  check_settlement(8, 20, .2197, .01);
+  check_settlement(8, 40, .4249, .01);
+  // The cells under the patch are squeezed to a third, and c_mu = .1 holds their hourglass modes
+  // too weakly.
+  check_settlement(8, 60, .5857, .02);
+  check_settlement(8, 80, .694, .07);
+  if (is_report()) check_settlement(16, 80, .694, .04);
+}

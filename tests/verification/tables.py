@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""tables.py RECORD PAGE: renews the tables of PAGE, which stand between marker comments."""
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+compare = Path(__file__).parent / "calculix" / "compare.py"
+
+
+def error(figure):
+    if figure["reference"] == 0:
+        return f"{figure['error']:+.1e}"
+    return f"{100 * figure['error']:+.2g} %" if abs(figure["error"]) >= 1e-5 else f"{figure['error']:+.1e}"
+
+
+def row(figure):
+    order = f"{figure['order']:.2f}" if figure["order"] else ""
+    reference = f"{figure['reference']:.6g}" if figure["reference"] else "0"
+    return (f"| {figure['quantity']} | {figure['mesh']} | {reference} | {figure['source']} "
+            f"| {figure['number']:.6g} | {error(figure)} | {order} |")
+
+
+def problem_table(figures):
+    """One heading a problem, in the order of their numbers."""
+    problems = {}
+    for figure in figures:
+        problems.setdefault(figure["problem"], []).append(figure)
+    def number(name):
+        match = re.match(r"V(\d+)", name)
+        return int(match[1]) if match else 1000
+    text = []
+    for name in sorted(problems, key=lambda n: (number(n), n)):
+        text += [f"### {name}", "", "| quantity | mesh | reference | source | Trocar | error | order |",
+                 "|---|---|---|---|---|---|---|"]
+        text += [row(figure) for figure in problems[name]] + [""]
+    return "\n".join(text)
+
+
+def put(page, name, text):
+    begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
+    before, rest = page.split(begin)
+    return before + begin + "\n" + text.strip() + "\n" + end + rest.split(end)[1]
+
+
+def main():
+    record, page_file = sys.argv[1], Path(sys.argv[2])
+    figures = [json.loads(line) for line in open(record, encoding="utf-8")]
+    page = page_file.read_text(encoding="utf-8")
+    page = put(page, "problems",
+               problem_table([f for f in figures if f["problem"] != "Beside CalculiX"]))
+    if shutil.which("ccx"):
+        table = subprocess.run([sys.executable, compare, record], check=True, capture_output=True,
+                               text=True).stdout
+        page = put(page, "calculix", table)
+    page_file.write_text(page, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,156 @@
+// V5, V6, V21: waves and modes with closed forms.
+#include <numbers>
+
+#include "verification_dynamics.h"
+#include "verification_figure.h"
+
+using namespace trocar;
+
+using std::numbers::pi;
+
+// The bar of numerics V5: nu = 0, one cell across, traction s on the end x = L from t = 0 on.
+struct Bar {
+  static constexpr double L = .1, E = 3000, rho = 1000, s = 10;
+  int n = 50;
+  double c() const { return std::sqrt(E / rho); }
+};
+
+static Body bar_body(const Bar& bar) {
+  const double h = Bar::L / bar.n;
+  return make_box_body(hex_one_point,
+                       {.size = {Bar::L, h, h},
+                        .n = {bar.n, 1, 1},
+                        .material = {MaterialModel::linear, Bar::E, 0, Bar::rho},
+                        .fixed = [](const Vec3& X) { return FixedMask(X.x() < 1e-9 ? 7 : 0); }});
+}
+
+static void pull_end(Body& body) {
+  const double h = body.mesh.X[1].x();
+  for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)
+    if (body.mesh.X[i].x() > Bar::L - 1e-9) body.scratch.force[3 * i] += Bar::s * h * h / 4;
+}
+
+// Tip displacement: a triangle between 0 and 2 s L / E with period 4 L / c.
+static double exact_tip(const Bar& bar, double t) {
+  const double T = 4 * Bar::L / bar.c(), phase = t / T - std::floor(t / T);
+  return 2 * Bar::s * Bar::L / Bar::E * (phase < .5 ? 2 * phase : 2 - 2 * phase);
+}
+
+TEST(V05BarWave, the_end_of_the_bar_follows_the_travelling_step) {
+  const Bar bar;
+  // numerics V5 measured .12 % (dt = .99) and .25 % (dt = .5). For nu = 0 the bar's limit is h / c;
+  // at .99 it carries the step nearly without dispersion, which rounds the kinks otherwise.
+  for (const auto& [factor, tolerance] : {std::pair{.99, .002}, std::pair{.5, .004}}) {
+    Body body = bar_body(bar);
+    const double dt = factor * Bar::L / bar.n / bar.c();
+    double square = 0, most = 0;
+    int n = 0;
+    for (; body.state.time < 4 * Bar::L / bar.c(); ++n) {
+      forced_step(body, dt, pull_end);
+      const double u = body.state.u[3 * static_cast<std::size_t>(bar.n)];
+      square += std::pow(u - exact_tip(bar, body.state.time), 2);
+      most = std::max(most, u);
+    }
+    const double amplitude = 2 * Bar::s * Bar::L / Bar::E;
+    const std::string mesh =
+        "hex8 50 x 1 x 1, dt = " + std::to_string(factor).substr(0, 4) + " h/c";
+    // The peak of the triangle is the kink itself.
+    check_figure({"V5 Bar wave", "greatest tip displacement [m]", mesh, most, amplitude, .012});
+    check_figure({"V5 Bar wave", "root mean square tip error over the amplitude", mesh,
+                  std::sqrt(square / n) / amplitude, 0, tolerance});
+  }
+}
+
+// V6: u = (cos sin, -sin cos)(pi x/a, pi y/a) of a free square prism, omega = sqrt 2 pi c_s / a for
+// any Poisson ratio.
+static double lame_error(int n, double nu) {
+  const double a = .04, E = 3000;
+  Variant variant = hex_one_point;
+  variant.hourglass = .2;
+  Body body = make_box_body(variant, {.size = {a, a, a / n},
+                                      .n = {n, n, 1},
+                                      .material = {MaterialModel::neo_hookean, E, nu, 1000}});
+  const double T = measured_period(
+      body,
+      [a](const Vec3& X) {
+        const double x = pi * X.x() / a, y = pi * X.y() / a;
+        return Vec3(std::cos(x) * std::sin(y), -std::sin(x) * std::cos(y), 0);
+      },
+      .5);
+  return T / (std::sqrt(2) * a / std::sqrt(E / (2 * (1 + nu)) / 1000)) - 1;
+}
+
+TEST(V06LameMode, one_point_hexahedra_have_the_known_error_which_falls_with_the_mesh) {
+  for (const double nu : {.3, .49}) {
+    const double exact = .04 * std::sqrt(2) / std::sqrt(3000 / (2 * (1 + nu)) / 1000);
+    const double coarse = lame_error(8, nu), fine = lame_error(16, nu);
+    // numerics V6: +2.6 % at n = 8, +0.5 % at n = 16, for c_mu = 0.2. The last digit is rounded,
+    // and the time step shortens the period by (omega dt)^2 / 24, below 0.1 %.
+    EXPECT_NEAR(coarse, .026, .0025) << nu;
+    EXPECT_NEAR(fine, .0050, .0015) << nu;
+    check_figure({"V6 Lame mode", "period at nu = " + std::to_string(nu).substr(0, 4) + " [s]",
+                  "hex8 16 x 16 x 1", exact * (1 + fine), exact, .0065, "closed form",
+                  order_between(coarse, fine)});
+  }
+}
+
+TEST(V06LameMode, the_error_does_not_grow_near_incompressibility) {
+  // Elements that lock shorten the period by 2 to 8 % there (numerics V6).
+  EXPECT_NEAR(lame_error(8, .3), lame_error(8, .499), .003);
+}
+
+// V21: normal components held on X_i = 0, tangential ones on X_i = L.
+static Body swinging_cube(const Variant& variant, int n, double nu) {
+  const double L = .1;
+  return make_box_body(variant, {.size = {L, L, L},
+                                 .n = {n, n, n},
+                                 .material = {MaterialModel::linear, 3000, nu, 1000},
+                                 .fixed = [L](const Vec3& X) {
+                                   unsigned mask = 0;
+                                   for (int j = 0; j < 3; ++j) {
+                                     if (X[j] < 1e-9) mask |= 1U << j;
+                                     if (X[j] > L - 1e-9) mask |= 7U & ~(1U << j);
+                                   }
+                                   return static_cast<FixedMask>(mask);
+                                 }});
+}
+
+static double swing_period(const Variant& variant, int n, double nu, const Vec3& a) {
+  Body body = swinging_cube(variant, n, nu);
+  return measured_period(
+      body,
+      [&](const Vec3& X) {
+        const Vec3 p = pi / .2 * X;
+        return Vec3(a.x() * std::sin(p.x()) * std::cos(p.y()) * std::cos(p.z()),
+                    a.y() * std::cos(p.x()) * std::sin(p.y()) * std::cos(p.z()),
+                    a.z() * std::cos(p.x()) * std::cos(p.y()) * std::sin(p.z()));
+      },
+      .5);
+}
+
+TEST(V21SwingingCube, periods_of_the_volume_and_the_shear_mode_are_the_closed_form) {
+  struct Case {
+    const char* name;
+    double nu;
+    Vec3 a;
+  };
+  for (const Case& c : {Case{"volume", .3, {1, 1, 1}}, Case{"volume", .49, {1, 1, 1}},
+                        Case{"shear", .3, {1, -1, 0}}, Case{"shear", .49, {1, 1, -2}}}) {
+    const double mu = 3000 / (2 * (1 + c.nu)), lambda = 2 * mu * c.nu / (1 - 2 * c.nu);
+    const double speed = std::sqrt((c.a.sum() > 0 ? lambda + 2 * mu : mu) / 1000);
+    const double exact = 2 * pi / (std::sqrt(3) / 2 * pi * speed / .1);
+    for (const Variant& variant : {hex_one_point, tet_plain}) {
+      const double coarse = swing_period(variant, 4, c.nu, c.a);
+      const double fine = swing_period(variant, 8, c.nu, c.a);
+      // omega^2 of linear elements and lumped mass is off by about (k h)^2 / 12 = .7 % at n = 8 for
+      // each of three directions; tetrahedra lock in shear at nu = .49.
+      const bool locks = variant.elements != BoxElements::hex8 && c.nu > .4 && c.a.sum() == 0;
+      check_figure({"V21 Swinging cube",
+                    std::string("period of the ") + c.name +
+                        " mode at nu = " + std::to_string(c.nu).substr(0, 4) + " [s]",
+                    mesh_name(variant, {8, 8, 8}), fine, exact, locks ? .3 : .02,
+                    locks ? "closed form (locks)" : "closed form",
+                    order_between(coarse - exact, fine - exact)});
+    }
+  }
+}
