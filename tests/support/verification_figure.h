@@ -1,0 +1,59 @@
+// What a verification problem reports: its number beside the reference. Every figure is checked
+// against its tolerance; with TROCAR_VERIFICATION_RECORD=<file> it is also appended there as one
+// line of JSON, from which scripts/verification makes the table of docs/verification.md.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+namespace trocar {
+
+struct Figure {
+  std::string problem;   // "V11 Bonded cube"
+  std::string quantity;  // "reaction at +20 % [N]"
+  std::string mesh;      // "hex8 8 x 8 x 16"
+  double number = 0;     // Trocar's
+  double reference = 0;
+  double tolerance = 0;  // of the error: relative, or absolute where the reference is 0
+  std::string source = "closed form";
+  double order = 0;  // of convergence to this mesh from the one before, 0: none
+};
+
+// Whether this run makes the report: larger meshes and longer runs are due.
+inline bool is_report() {
+  return std::getenv("TROCAR_VERIFICATION_RECORD") != nullptr;
+}
+
+inline double error_of(const Figure& figure) {
+  const double difference = figure.number - figure.reference;
+  return figure.reference == 0 ? difference : difference / std::abs(figure.reference);
+}
+
+inline void record(const Figure& figure) {
+  const char* path = std::getenv("TROCAR_VERIFICATION_RECORD");
+  std::FILE* file = path == nullptr ? nullptr : std::fopen(path, "a");
+  if (file == nullptr) return;
+  std::fprintf(file,
+               "{\"problem\": \"%s\", \"quantity\": \"%s\", \"mesh\": \"%s\", \"number\": %.10g, "
+               "\"reference\": %.10g, \"error\": %.4g, \"tolerance\": %g, \"source\": \"%s\", "
+               "\"order\": %.3g}\n",
+               figure.problem.c_str(), figure.quantity.c_str(), figure.mesh.c_str(), figure.number,
+               figure.reference, error_of(figure), figure.tolerance, figure.source.c_str(),
+               figure.order);
+  std::fclose(file);
+}
+
+inline void check_figure(const Figure& figure) {
+  std::printf("%s, %s, %s: %.8g, reference %.8g, error %.2g\n", figure.problem.c_str(),
+              figure.quantity.c_str(), figure.mesh.c_str(), figure.number, figure.reference,
+              error_of(figure));
+  record(figure);
+  EXPECT_LE(std::abs(error_of(figure)), figure.tolerance)
+      << figure.problem << ", " << figure.quantity << ", " << figure.mesh;
+}
+
+}  // namespace trocar
