@@ -84,10 +84,11 @@ std::string svg_text(SvgPoint at, const SvgText& text) {
 
 std::string svg_marker(SvgPoint at, int shape, const std::string& colour, bool is_filled,
                        const std::string& title) {
-  const std::string look = attribute("class", "point") +
+  const std::string look = (title.empty() ? "" : attribute("class", "point")) +
                            attribute("fill", is_filled ? colour : "#ffffff") +
                            attribute("stroke", colour) + " stroke-width=\"1.6\"";
-  const std::string tail = "><title>" + svg_escaped(title) + "</title>";
+  const std::string tail =
+      ">" + (title.empty() ? "" : "<title>" + svg_escaped(title) + "</title>");
   if (shape % 4 == 0)
     return "<circle" + attribute("cx", number(at.x)) + attribute("cy", number(at.y)) +
            " r=\"4.5\"" + look + tail + "</circle>\n";

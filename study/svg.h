@@ -34,7 +34,8 @@ std::string svg_line(SvgPoint a, SvgPoint b, const SvgStroke& stroke);
 std::string svg_polyline(const std::vector<SvgPoint>& points, const SvgStroke& stroke);
 std::string svg_rectangle(SvgPoint low, SvgPoint high, const std::string& fill);
 std::string svg_text(SvgPoint at, const SvgText& text);
-// Shape 0 circle, 1 square, 2 triangle, 3 diamond, and so on again. class="point".
+// Shape 0 circle, 1 square, 2 triangle, 3 diamond, and so on again. One with a title, which a
+// browser shows on hovering, is of class "point".
 std::string svg_marker(SvgPoint at, int shape, const std::string& colour, bool is_filled,
                        const std::string& title);
 std::string svg_document(double width, double height, const std::string& title,
