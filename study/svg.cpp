@@ -87,8 +87,7 @@ std::string svg_marker(SvgPoint at, int shape, const std::string& colour, bool i
   const std::string look = (title.empty() ? "" : attribute("class", "point")) +
                            attribute("fill", is_filled ? colour : "#ffffff") +
                            attribute("stroke", colour) + " stroke-width=\"1.6\"";
-  const std::string tail =
-      ">" + (title.empty() ? "" : "<title>" + svg_escaped(title) + "</title>");
+  const std::string tail = ">" + (title.empty() ? "" : "<title>" + svg_escaped(title) + "</title>");
   if (shape % 4 == 0)
     return "<circle" + attribute("cx", number(at.x)) + attribute("cy", number(at.y)) +
            " r=\"4.5\"" + look + tail + "</circle>\n";
