@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "base/error.h"
-#include "engine/apply_cut.h"
 #include "engine/build.h"
 #include "engine/frame.h"
 #include "engine/frame_watch.h"
@@ -147,7 +146,6 @@ bool has_shape(const SceneStudy& study, const Mesh& mesh, ElementType shape) {
 
 void describe(const SceneStudy& study, Problem& problem) {
   const Scene& scene = study.loaded.scene;
-  problem.name = std::filesystem::path(scene.name).stem().string();
   problem.title = scene.name;
   problem.quantity = "greatest distance of a surface point from where the finest run has it";
   problem.unit = "m";
@@ -183,6 +181,7 @@ SceneStudy load_study(const SceneStudyOptions& options, Communicator& communicat
 Problem problem_of_scene(const SceneStudyOptions& options, Communicator& communicator) {
   const auto study = std::make_shared<SceneStudy>(load_study(options, communicator));
   Problem problem;
+  problem.name = std::filesystem::path(options.scene_file).stem().string();
   describe(*study, problem);
   problem.sizes = sizes_of(*study, options.sizes);
   Case coarsest{.n = *std::min_element(problem.sizes.begin(), problem.sizes.end())};
