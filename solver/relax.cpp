@@ -35,14 +35,16 @@ std::vector<double> scaled_mass(const Model& model) {
 }
 
 // Greatest growth of an element's omega^2 in the present deformation; NaN where one is broken.
+// Lanes behind the last element mean nothing.
 double greatest_stiffening(const Model& model, const State& state) {
   double most = 1;
   for (const ElementBlocks& blocks : model.blocks) {
     const BlockKernels& kernels = kernels_for(active_kernels(), blocks);
     std::array<double, lanes_of_block<float>> J{}, stiffening{};
-    for (std::int64_t b = 0; b < blocks.n_blocks; ++b) {
+    for (std::int32_t b = 0; b < blocks.n_blocks; ++b) {
       kernels.watch(block_task(blocks, kernels, state, b, 1), J.data(), stiffening.data());
-      for (int lane = 0; lane < blocks.lanes; ++lane)
+      const int n = std::min(blocks.lanes, blocks.n_elements - b * blocks.lanes);
+      for (int lane = 0; lane < n; ++lane)
         if (!(stiffening[lane] <= most)) most = stiffening[lane];
     }
   }

@@ -65,8 +65,7 @@ Target read_target(const std::string& text) {
 
 Target median_target(const Study& study) {
   std::vector<double> errors;
-  for (const Run& run : study.runs)
-    if (counts(run)) errors.push_back(run.error);
+  for (const Run* run : pareto_front(study)) errors.push_back(run->error);
   if (errors.empty()) return {.error = study.problem.reference_error};
   std::sort(errors.begin(), errors.end());
   const bool is_length = study.problem.length > 0;

@@ -15,7 +15,7 @@ struct Target {
 
 // "1 mm", "2 %"; "" is no target. Throws InputError.
 Target read_target(const std::string& text);
-// The median of the errors that the sweep reached.
+// The median of the errors on the Pareto front: elements that lock would make it a useless one.
 Target median_target(const Study& study);
 
 // The cheapest sound run within the target; nullptr if there is none. Runs of another method than

@@ -11,7 +11,7 @@ namespace {
 TEST(StudyAdvice, the_cheapest_run_within_the_target_is_taken_and_then_another_method) {
   // Within 1 %: slow at 8 (25 s) and quick at 8 (2.5 s). Within 5 %: quick at 4 for 0.16 s.
   const Study study = made_up_study();
-  const Run* best = cheapest_within(study, {.error = .01});
+  const auto* best = cheapest_within(study, {.error = .01});
   ASSERT_NE(best, nullptr);
   EXPECT_EQ(best, &study.runs[5]);
   EXPECT_EQ(cheapest_within(study, {.error = .01}, method_text(*best)), &study.runs[2]);
@@ -41,7 +41,7 @@ TEST(StudyAdvice, broken_runs_and_the_reference_itself_are_never_advised) {
   EXPECT_EQ(cheapest_within(study, {.error = .09}), &study.runs[1]);
 }
 
-TEST(StudyAdvice, the_median_of_the_errors_is_the_target_by_default) {
+TEST(StudyAdvice, the_median_of_the_fronts_errors_is_the_target_by_default) {
   // .005 .008 .02 | .03 .08 .1: the lower one of the two in the middle.
   const Target target = median_target(made_up_study());
   EXPECT_TRUE(target.is_length);

@@ -47,6 +47,12 @@ TEST(StudyProblem, bending_columns_peak_on_4_hexahedra_is_within_half_a_percent)
   EXPECT_LT(error_of(problem_bending_column(), "hex8", 4), 1.5 * .003);
 }
 
+TEST(StudyProblem, bodies_that_fill_no_whole_block_of_lanes_relax_too) {
+  // 27 hexahedra: blocks hold 8 in double and 16 in single precision.
+  EXPECT_LT(error_of(problem_indentation(), "hex8", 3), .2);
+  EXPECT_LT(error_of(problem_indentation(), "hex8", 3, Precision::in_single), .2);
+}
+
 TEST(StudyProblem, plain_tetrahedra_lock_and_gain_by_refinement) {
   // The same separate program: +41 % at h = 6.25 mm.
   const Problem problem = problem_indentation();

@@ -38,12 +38,12 @@ TEST(StudySweep, it_runs_every_size_element_and_precision_coarse_ones_first) {
   ASSERT_EQ(study.runs.size(), 3 * 2 * solid_methods().size());
   for (std::size_t k = 1; k < study.runs.size(); ++k)
     EXPECT_GE(study.runs[k].n, study.runs[k - 1].n);
-  for (const Run& run : study.runs) EXPECT_NEAR(run.error, 1. / (run.n * run.n), 1e-15);
+  for (const auto& run : study.runs) EXPECT_NEAR(run.error, 1. / (run.n * run.n), 1e-15);
 }
 
 TEST(StudySweep, no_error_is_said_to_be_below_the_references_own) {
   const Study study = sweep(made_up_problem(.05), {});
-  for (const Run& run : study.runs) {
+  for (const auto& run : study.runs) {
     EXPECT_EQ(run.is_at_reference, run.n == 8);  // 1/64 < .05 < 1/16
     EXPECT_GE(run.error, .05);
   }
@@ -92,7 +92,7 @@ TEST(StudySweep, broken_runs_have_no_error) {
     if (c.n == 4) outcome.trouble = "inverted";
     return outcome;
   };
-  for (const Run& run : sweep(problem, {}).runs) EXPECT_EQ(std::isfinite(run.error), run.n != 4);
+  for (const auto& run : sweep(problem, {}).runs) EXPECT_EQ(std::isfinite(run.error), run.n != 4);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST(StudyTable, json_gives_back_what_the_study_holds) {
   EXPECT_EQ(all["problem"]["reference_relative_error"], study.problem.reference_error);
   ASSERT_EQ(all["runs"].size(), study.runs.size());
   for (std::size_t k = 0; k < study.runs.size(); ++k) {
-    const Run& run = study.runs[k];
+    const auto& run = study.runs[k];
     const nlohmann::json& row = all["runs"][k];
     EXPECT_EQ(row["elements"], run.method);
     EXPECT_EQ(row["size"], run.size);
@@ -55,7 +55,9 @@ TEST(StudyTable, json_gives_back_what_the_study_holds) {
     EXPECT_EQ(row["element_steps"], element_steps(run));
     EXPECT_EQ(row["stepping_cpu_s"], run.outcome.stepping_seconds);
     EXPECT_EQ(row["relative_error"].is_null(), k == 2);
-    if (k != 2) EXPECT_EQ(row["relative_error"], run.error);
+    if (k != 2) {
+      EXPECT_EQ(row["relative_error"], run.error);
+    }
   }
   EXPECT_EQ(all["runs"][2]["trouble"], study.runs[2].outcome.trouble);
 }
