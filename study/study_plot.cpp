@@ -46,7 +46,7 @@ std::vector<double> ticks_of(const Axis& axis) {
 
 std::string tick_text(double value) {
   const int exponent = static_cast<int>(std::lround(std::floor(std::log10(value) + 1e-9)));
-  if (exponent >= -4 && exponent <= 4) return significant(value, 1);
+  if (exponent >= -4 && exponent <= 3) return significant(value, 1);
   const auto digit = static_cast<int>(std::lround(value / std::pow(10., exponent)));
   return (digit == 1 ? "1" : std::to_string(digit)) + "e" + std::to_string(exponent);
 }
@@ -229,10 +229,7 @@ std::string study_svg(const Study& study) {
   const std::vector<Curve> curves = curves_of(study);
   const Problem& problem = study.problem;
   std::string svg = svg_text({84, 30}, {.text = problem.title, .size = 18, .is_bold = true});
-  svg += svg_text({84, 53},
-                  {.text = subtitle(problem) + " Filled points: nothing is better at their cost.",
-                   .size = 12,
-                   .colour = "#555555"});
+  svg += svg_text({84, 53}, {.text = subtitle(problem), .size = 12, .colour = "#555555"});
   if (curves.empty()) {
     svg += svg_text({84, 120}, {.text = "No run can be rated."});
     return svg_document(width, 160, problem.title, svg);
@@ -250,8 +247,13 @@ std::string study_svg(const Study& study) {
       draw_panel(study, curves,
                  {.x_label = "element-steps", .x_of = element_steps, .left = 620, .right = 1056});
   const double rows = std::ceil(static_cast<double>(curves.size()) / 4);
-  return svg_document(width, panel_bottom + 62 + legend_row * rows, problem.title,
-                      svg + draw_legend(curves));
+  const double height = panel_bottom + 86 + legend_row * rows;
+  svg += draw_legend(curves);
+  svg += svg_text({84, height - 14}, {.text = "Filled points: no other run is better in both error "
+                                              "and processor time.",
+                                      .size = 12,
+                                      .colour = "#555555"});
+  return svg_document(width, height, problem.title, svg);
 }
 
 }  // namespace trocar
