@@ -25,7 +25,7 @@ HighestFrequency search(StudyBody& body) {
       [&](std::vector<double>& u, std::vector<double>& force) {
         probe.u.swap(u);
         compute_force(body.model, probe, scratch);
-        std::copy(scratch.force.begin(), scratch.force.end(), force.begin());
+        force = scratch.force;
         probe.u.swap(u);
       },
       options, alone, body.fastest_mode);
