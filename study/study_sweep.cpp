@@ -91,31 +91,28 @@ double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b
   return most;
 }
 
-// The most expensive of the finest sound runs.
-Run* finest_run(std::vector<Run>& runs) {
-  Run* finest = nullptr;
-  for (Run& run : runs) {
-    if (!is_sound(run)) continue;
-    const auto key = [](const Run& r) {
-      return std::pair(r.n, std::pair(r.precision == "double", element_steps(r)));
-    };
-    if (finest == nullptr || key(run) > key(*finest)) finest = &run;
-  }
-  return finest;
+// What is left between a run and its own method's limit, as if it fell with the first power of the
+// edge: what refinement from the next coarser mesh changed, over the ratio of the edges less one.
+// Infinite if there is no coarser run. [m]
+double own_error(const std::vector<Run>& runs, const Run& run) {
+  const Run* next = nullptr;
+  for (const Run& other : runs)
+    if (is_sound(other) && method_text(other) == method_text(run) && other.n < run.n &&
+        (next == nullptr || other.n > next->n))
+      next = &other;
+  const double ratio = next == nullptr ? 1 : next->outcome.h / run.outcome.h;
+  if (!(ratio > 1)) return std::numeric_limits<double>::infinity();
+  return largest_difference(next->outcome.samples, run.outcome.samples) / (ratio - 1);
 }
 
-// The reference's own error, as if it fell with the first power of the edge: what refinement from
-// the next coarser mesh of the same method changed, over the ratio of the edges less one.
-double own_error(const std::vector<Run>& runs, const Run& finest, double scale) {
-  const Run* next = nullptr;
-  for (const Run& run : runs)
-    if (is_sound(run) && method_text(run) == method_text(finest) && run.n < finest.n &&
-        (next == nullptr || run.n > next->n))
-      next = &run;
-  if (next == nullptr) return 1;
-  const double ratio = next->outcome.h / finest.outcome.h;
-  const double change = largest_difference(next->outcome.samples, finest.outcome.samples);
-  return ratio > 1 ? change / (scale * (ratio - 1)) : 1;
+// Of the runs with the finest mesh the one with the least error of its own: elements that lock are
+// still on their way.
+Run* finest_run(std::vector<Run>& runs) {
+  const auto key = [&](const Run& run) { return std::pair(-run.n, own_error(runs, run)); };
+  Run* finest = nullptr;
+  for (Run& run : runs)
+    if (is_sound(run) && (finest == nullptr || key(run) < key(*finest))) finest = &run;
+  return finest;
 }
 
 void rate_scene(Study& study) {
@@ -123,9 +120,11 @@ void rate_scene(Study& study) {
   if (finest == nullptr) return;
   finest->is_reference = true;
   Problem& problem = study.problem;
+  if (!std::isfinite(own_error(study.runs, *finest)))
+    study.notes.push_back("the reference's own error is unknown: it needs a second, coarser size");
   const std::vector<Vec3> rest(finest->outcome.samples.size(), Vec3::Zero());
   problem.length = problem.reference = largest_difference(finest->outcome.samples, rest);
-  problem.reference_error = own_error(study.runs, *finest, problem.length);
+  problem.reference_error = std::min(1., own_error(study.runs, *finest) / problem.length);
   for (Run& run : study.runs)
     if (is_sound(run))
       run.error = largest_difference(run.outcome.samples, finest->outcome.samples) / problem.length;

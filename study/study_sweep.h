@@ -40,7 +40,7 @@ struct Study {
 Study sweep(const Problem& problem, const SweepOptions& options);
 
 // Errors of all runs, from values or samples; scenes get their reference here: of the runs with
-// the finest mesh the one that costs most.
+// the finest mesh the one that refinement of its own method changed least.
 void rate(Study& study);
 
 bool is_sound(const Run& run);

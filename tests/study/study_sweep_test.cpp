@@ -85,6 +85,19 @@ TEST(StudySweep, a_scenes_reference_is_its_finest_run_with_the_error_that_refine
   EXPECT_NEAR(study.runs[1].error_length, .25 - .125, 1e-14);
 }
 
+TEST(StudySweep, the_reference_of_a_scene_is_not_the_method_that_is_still_moving) {
+  Problem problem = made_up_problem(0);
+  problem.source.clear();
+  problem.solve = [](const Case& c) {
+    Outcome outcome = solve_made_up(c);
+    const bool is_slow = std::string(c.method.name) == "tet4";
+    outcome.samples = {Vec3(1 - (is_slow ? 3 : 1) * outcome.h, 0, 0)};
+    return outcome;
+  };
+  for (const auto& run : sweep(problem, {.precisions = {"double"}}).runs)
+    EXPECT_EQ(run.is_reference, run.method == "hex8" && run.n == 8);
+}
+
 TEST(StudySweep, broken_runs_have_no_error) {
   Problem problem = made_up_problem(0);
   problem.solve = [](const Case& c) {
