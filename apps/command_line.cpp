@@ -29,6 +29,14 @@ const char* const examples_replay =
     "  trocar replay out/liver/liver.trocar --video again.mp4 --eye 0.1 -0.2 0.2 -o again\n"
     "  trocar replay out/liver/liver.trocar --vtu -o vtu      then open vtu/recording.pvd in "
     "ParaView\n";
+const char* const examples_study =
+    "\nexamples:\n"
+    "  trocar study --list\n"
+    "  trocar study indentation --sizes 4,8,16 --target '1 %'\n"
+    "  trocar study bending-column --elements hex8 --precision single --step-factor 0.5,0.9\n"
+    "  trocar study scene.toml --sizes 5,10,20 --target '1 mm' --budget 60\n"
+    "  trocar study scene.toml --meshes coarse.msh,middle.msh,fine.msh --set time.duration='1 s'\n"
+    "  trocar study --all --docs docs\n";
 const char* const examples_mesh =
     "\nexamples:\n  trocar mesh liver.msh\n  trocar mesh liver.msh --scale '1 mm'\n";
 const char* const examples_doctor = "\nexamples:\n  trocar doctor\n  mpirun -np 4 trocar doctor\n";
@@ -78,6 +86,43 @@ void add_check(CLI::App& app, CommandLine& line) {
   add_machine_options(*check, line.machine);
   check->footer(examples_check);
   check->callback([&] { line.command = Command::check; });
+}
+
+void add_study(CLI::App& app, CommandLine& line) {
+  CLI::App* study = app.add_subcommand(
+      "study",
+      "Run time against error: sweep size, elements, precision and time step of a built-in problem "
+      "or a scene; writes CSV, JSON and a plot, and says what is cheapest for an error");
+  StudyOptions& s = line.study;
+  study->add_option("subject", s.subject, "Built-in problem (--list) or scene file (TOML)");
+  study->add_option("-o,--output", s.folder, "Folder for everything that is written")
+      ->capture_default_str();
+  study->add_flag("--list", s.list, "Print the built-in problems");
+  study->add_flag("--all", s.all, "All built-in problems");
+  study->add_option("--docs", s.docs, "With --all: folder for accuracy.md and images/");
+  study->add_option("--sizes", s.sweep.sizes, "Cells along an edge: 4,8,16")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 2000));
+  study->add_option("--meshes", s.meshes, "Mesh files of a scene, coarse to fine")->delimiter(',');
+  study->add_option("--elements", s.sweep.elements, "Elements; all that fit if absent")
+      ->delimiter(',');
+  study->add_option("--precision", s.sweep.precisions, "double,single; both if absent")
+      ->delimiter(',');
+  study->add_option("--step-factor", s.sweep.step_factors, "Time step / stable step: 0.5,0.9")
+      ->delimiter(',')
+      ->check(CLI::Range(1e-3, 1.0));
+  study->add_option("--target", s.target, "Error that the advice is for: '1 mm', '1 %'");
+  study
+      ->add_option("--budget", s.sweep.budget,
+                   "Processor seconds of a sweep; runs that would not fit are left out")
+      ->check(CLI::PositiveNumber);
+  study->add_option("--set", s.overrides, "Change a key of the scene; may be repeated")
+      ->allow_extra_args(false);
+  study->add_option("--simd", line.machine.simd, "Instruction set of the kernels")
+      ->capture_default_str();
+  study->add_flag("-q,--quiet", line.machine.is_quiet, "Errors only");
+  study->footer(examples_study);
+  study->callback([&] { line.command = Command::study; });
 }
 
 void add_replay(CLI::App& app, CommandLine& line) {
@@ -158,6 +203,7 @@ bool parse_command_line(int argc, char** argv, CommandLine& line, ExitCode& code
       "itself: trocar run --help");
   add_run(app, line);
   add_check(app, line);
+  add_study(app, line);
   add_replay(app, line);
   add_others(app, line);
   try {
@@ -182,6 +228,8 @@ ExitCode run_command(const CommandLine& line, Communicator& communicator) {
       return command_run(line.run, communicator);
     case Command::check:
       return command_check(line.run, communicator);
+    case Command::study:
+      return command_study(line.study, communicator);
     case Command::replay:
       return communicator.is_root() ? command_replay(line.replay) : ExitCode::done;
     case Command::mesh:

@@ -3,18 +3,20 @@
 
 #include <string>
 
+#include "apps/command_study.h"
 #include "apps/commands.h"
 #include "base/error.h"
 
 namespace trocar {
 
-enum class Command { run, check, replay, mesh, doctor, help_scene, help_tissues };
+enum class Command { run, check, study, replay, mesh, doctor, help_scene, help_tissues };
 
 struct CommandLine {
   Command command = Command::run;
   MachineOptions machine;
   RunOptions run;
   ReplayOptions replay;
+  StudyOptions study;
   std::string mesh_file, mesh_scale = "1 m";
   bool is_markdown = false;
 };

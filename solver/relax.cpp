@@ -35,15 +35,16 @@ std::vector<double> scaled_mass(const Model& model) {
 }
 
 // Greatest growth of an element's omega^2 in the present deformation; NaN where one is broken.
+// Lanes behind the last element mean nothing.
 double greatest_stiffening(const Model& model, const State& state) {
   double most = 1;
   for (const ElementBlocks& blocks : model.blocks) {
     const BlockKernels& kernels = kernels_for(active_kernels(), blocks);
     std::array<double, lanes_of_block<float>> J{}, stiffening{};
-    for (std::int64_t b = 0; b < blocks.n_blocks; ++b) {
-      kernels.watch(block_task(blocks, kernels, state, b, 1), J.data(), stiffening.data());
-      const std::int64_t n_lanes = blocks.n_elements - b * blocks.lanes;
-      for (int lane = 0; lane < std::min<std::int64_t>(blocks.lanes, n_lanes); ++lane)
+    for (std::int32_t b = 0; b < blocks.n_blocks; ++b) {
+      kernels.watch(block_task(model, blocks, kernels, state, b, 1), J.data(), stiffening.data());
+      const int n = std::min(blocks.lanes, blocks.n_elements - b * blocks.lanes);
+      for (int lane = 0; lane < n; ++lane)
         if (!(stiffening[lane] <= most)) most = stiffening[lane];
     }
   }
@@ -151,6 +152,15 @@ std::vector<Vec3> held_positions(const RelaxTask& task, const State& state) {
   return start;
 }
 
+// Forces of the present displacements, on every rank.
+void find_forces(const Model& model, const RelaxTask& task, Communicator& communicator,
+                 State& state, Scratch& scratch) {
+  if (task.exchange_u != nullptr) task.exchange_u->exchange(state.u, communicator);
+  average_volume_change(model, state, scratch);
+  if (task.exchange_theta != nullptr) task.exchange_theta->exchange(state.theta, communicator);
+  compute_force(model, state, scratch);
+}
+
 }  // namespace
 
 Relaxer make_relaxer(const Model& model, std::span<const PrescribedNode> prescribed) {
@@ -195,16 +205,14 @@ Relaxation relax(const Model& model, const RelaxTask& task, State& state, Scratc
   while (r.result.iterations < task.max_iterations) {
     const double share = ramp(task, r.result.iterations);
     place_held(model, task, start, share, state);
-    if (task.exchange_u != nullptr) task.exchange_u->exchange(state.u, communicator);
-    compute_force(model, state, scratch);
+    find_forces(model, task, communicator, state, scratch);
     add_load(model, task, share, scratch);
     const bool is_look = r.result.iterations % look_interval == 0;
     relax_step(model, scratch, communicator, r, state);
     r.result.is_converged = is_look && share == 1 && r.result.residual <= task.tolerance;
     if (r.result.is_converged || !r.result.is_finite) break;
   }
-  if (task.exchange_u != nullptr) task.exchange_u->exchange(state.u, communicator);
-  compute_force(model, state, scratch);
+  find_forces(model, task, communicator, state, scratch);
   add_load(model, task, 1, scratch);
   std::fill(state.v.begin(), state.v.end(), 0.0);
   state.last_dt = 0;

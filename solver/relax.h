@@ -26,6 +26,7 @@ struct RelaxTask {
   // Of other ranks; null where there are none.
   Communicator* communicator = nullptr;
   HaloExchange* exchange_u = nullptr;
+  HaloExchange* exchange_theta = nullptr;  // of State::theta, if elements average their volume
 };
 
 struct Relaxation {

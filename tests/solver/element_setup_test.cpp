@@ -90,8 +90,12 @@ TEST(Element, a_rigid_rotation_makes_no_force_except_with_the_linear_material) {
 TEST(Element, a_translation_by_ten_metres_makes_no_force_in_single_precision) {
   for_each_element_and_material(Precision::in_single, [](Body& body) {
     const std::vector<double> f = force(body);
+    // Exactly none, but for fibres: q of isochoric.h is 4e-11 at rest in single precision.
+    const bool has_fibres = body.materials[0].model == MaterialModel::transversely_isotropic ||
+                            body.materials[0].model == MaterialModel::holzapfel_gasser_ogden;
+    const double strained = largest(f);
     displace(body, [](const Vec3&) { return Vec3(10, -10, 0); });
-    EXPECT_EQ(largest(force(body)), 0);
+    EXPECT_LE(largest(force(body)), has_fibres ? 1e-9 * strained : 0);
     shake(body.state.u, 1e-3, 3);
     if (body.mesh.dimension() == 2)
       for (std::size_t k = 2; k < body.state.u.size(); k += 3) body.state.u[k] = 0;

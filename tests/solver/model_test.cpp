@@ -133,6 +133,17 @@ TEST(BuildModel, refuses_averaged_pressure_with_a_material_that_has_no_volumetri
   }
 }
 
+TEST(BuildModel, refuses_plane_stress_with_fibres_that_stiffen_exponentially) {
+  for (const MaterialModel model : all_models()) {
+    const BodyOptions options{.materials = {material_of(model, 1000, 9000)},
+                              .solver = with(Formulation::tri3_plane_stress)};
+    if (model == MaterialModel::holzapfel_gasser_ogden)
+      EXPECT_THROW(make_body(irregular_elements()[0], options), InputError);
+    else
+      EXPECT_NO_THROW(make_body(irregular_elements()[0], options));
+  }
+}
+
 TEST(BuildModel, averages_volume_changes_around_a_node_of_each_region_on_its_own) {
   // Two tetrahedra that share a face, in two regions: each node of a region has the change of its
   // only tetrahedron.

@@ -69,7 +69,7 @@ static double residual(const Material& material, const double (&H)[2][2]) {
                                                           .mu = lame_mu(material),
                                                           .density = 1,
                                                           .thickness = 2});
-  fill_material(material, c.volume, value);
+  fill_material(material, c.volume, Vec3::UnitX(), value);
   std::copy_n(c.value.begin(), ElementTri3PlaneStress::n_values, value.begin() + M::n_values);
   std::array<Real, static_cast<std::size_t>(max_values) * lanes> number{};
   for (std::size_t k = 0; k < value.size(); ++k) number[k * lanes] = static_cast<Real>(value[k]);

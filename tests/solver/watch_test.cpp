@@ -40,10 +40,15 @@ static void check_stretched(Formulation formulation, MaterialModel model, double
       return Vec3((l - 1) * X.x() + .1 * X.y(), (b - 1) * X.y(), (b - 1) * X.z());
     });
     const double ratio = look(body).stable_step / true_limit(body, 1e-8);
-    EXPECT_LT(ratio, 1 + 1e-6) << l << " " << nu;  // differences of forces: 1e-7
+    EXPECT_LT(ratio, 1 + 1e-6)  // differences of forces: 1e-7
+        << name_of(formulation) << " material " << static_cast<int>(model) << " l " << l << " nu "
+        << nu;
     loosest = std::min(loosest, ratio);
   }
-  EXPECT_GT(loosest, .1) << name_of(formulation) << " nu " << nu;
+  // Plane stress has no volumetric stiffness near the incompressible limit, which its bound, that
+  // of a solid, has all the same.
+  const double floor = formulation == Formulation::tri3_plane_stress ? .07 : .1;
+  EXPECT_GT(loosest, floor) << name_of(formulation) << " nu " << nu;
 }
 
 TEST(Watch, step_of_a_deformed_body_lies_below_its_true_limit) {

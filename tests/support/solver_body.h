@@ -182,6 +182,9 @@ inline SolverOptions with(Formulation formulation, SolverOptions options = {}) {
 }
 // Whether elements of the formulation can be of the material.
 inline bool is_possible(Formulation formulation, MaterialModel model) {
+  if (formulation == Formulation::tri3_plane_stress &&
+      model == MaterialModel::holzapfel_gasser_ogden)
+    return false;
   return kernels_of(Simd::scalar)
              .of[0]
              .block[static_cast<int>(formulation)][static_cast<int>(model)]

@@ -1,0 +1,125 @@
+#include "apps/command_study.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "base/log.h"
+#include "base/quoted.h"
+#include "base/threads.h"
+#include "study/study_advice.h"
+#include "study/study_page.h"
+#include "study/study_plot.h"
+#include "study/study_scene.h"
+#include "study/study_table.h"
+#include "study/study_text.h"
+
+namespace trocar {
+
+namespace {
+
+void write_file(const std::string& file, const std::string& text) {
+  std::error_code ignored;  // the stream says what matters
+  std::filesystem::create_directories(std::filesystem::path(file).parent_path(), ignored);
+  std::ofstream stream(file);
+  if (!(stream << text).flush())
+    throw MachineError(file + ": can't be written (disk full or no permission)");
+  log_info(file);
+}
+
+void print_list() {
+  for (const Problem& problem : built_in_problems()) {
+    std::string sizes;
+    for (const int n : problem.sizes) sizes += (sizes.empty() ? "" : ",") + std::to_string(n);
+    std::printf("%-15s %s: %s, sizes %s (%s)\n", problem.name.c_str(), problem.title.c_str(),
+                problem.quantity.c_str(), sizes.c_str(), problem.size_meaning.c_str());
+  }
+}
+
+Problem find_problem(const StudyOptions& options, Communicator& communicator) {
+  std::vector<std::string> known;
+  for (const Problem& problem : built_in_problems()) {
+    if (problem.name == options.subject) return problem;
+    known.push_back(problem.name);
+  }
+  if (std::filesystem::exists(options.subject))
+    return problem_of_scene({.scene_file = options.subject,
+                             .overrides = options.overrides,
+                             .meshes = options.meshes,
+                             .sizes = options.sweep.sizes},
+                            communicator);
+  const std::string nearest = nearest_name(options.subject, known);
+  throw InputError(in_quotes(options.subject) + " is neither a scene file nor a built-in problem" +
+                   (nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?") +
+                   " (trocar study --list)");
+}
+
+void check_sizes(const StudyOptions& options, const Problem& problem) {
+  const bool has_subject_options = !options.meshes.empty() || !options.overrides.empty();
+  if (has_subject_options && !problem.is_scene())
+    throw InputError("--meshes and --set belong to scenes, not to " + problem.name);
+  if (problem.name != "bending-column") return;
+  for (const int n : options.sweep.sizes)
+    if (n % 2 != 0)
+      throw InputError(
+          "--sizes: bending-column looks at the middle of its top, where only even "
+          "numbers of cells have a node; got " +
+          std::to_string(n));
+}
+
+Target target_of(const StudyOptions& options, const Study& study) {
+  return options.target.empty() ? median_target(study) : read_target(options.target);
+}
+
+void report(const StudyOptions& options, const Study& study) {
+  const Problem& problem = study.problem;
+  const std::string sentence = advice(study, target_of(options, study));
+  const std::string stem = options.folder + "/" + problem.name;
+  write_file(stem + ".csv", study_csv(study));
+  write_file(stem + ".json", study_json(study, sentence));
+  write_file(stem + ".svg", study_svg(study));
+  const std::string own = percent_text(problem.reference_error);
+  std::printf("%s: %s %s %s, known to %s\n%s\n%s\n", problem.title.c_str(),
+              problem.quantity.c_str(), significant(problem.reference, 5).c_str(),
+              problem.unit.c_str(), own.c_str(), front_table(study).c_str(), sentence.c_str());
+}
+
+void study_all(const StudyOptions& options) {
+  std::vector<Study> studies;
+  for (const Problem& problem : built_in_problems()) {
+    log_info(problem.title);
+    studies.push_back(sweep(problem, options.sweep));
+    report(options, studies.back());
+    if (!options.docs.empty())
+      write_file(options.docs + "/images/accuracy_" + problem.name + ".svg",
+                 study_svg(studies.back()));
+  }
+  if (!options.docs.empty())
+    write_file(options.docs + "/accuracy.md", accuracy_page(studies, "images"));
+}
+
+}  // namespace
+
+ExitCode command_study(const StudyOptions& options, Communicator& communicator) {
+  if (communicator.size() > 1)
+    throw InputError("study measures one process with one thread: start it without mpirun");
+  if (!options.target.empty()) read_target(options.target);
+  set_thread_count(1);
+  if (options.list) {
+    print_list();
+  } else if (options.all) {
+    if (!options.sweep.sizes.empty())
+      throw InputError("--sizes: what n counts differs between the problems of --all");
+    study_all(options);
+  } else if (options.subject.empty()) {
+    throw InputError("study: name a problem (trocar study --list), a scene file, or --all");
+  } else {
+    const Problem problem = find_problem(options, communicator);
+    check_sizes(options, problem);
+    report(options, sweep(problem, options.sweep));
+  }
+  return ExitCode::done;
+}
+
+}  // namespace trocar

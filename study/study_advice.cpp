@@ -1,0 +1,121 @@
+#include "study/study_advice.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "base/error.h"
+#include "base/quoted.h"
+#include "base/units.h"
+#include "study/study_text.h"
+
+namespace trocar {
+
+namespace {
+
+bool counts(const Run& run) {
+  return is_sound(run) && !run.is_reference;
+}
+
+double error_as(const Run& run, const Target& target) {
+  return target.is_length ? run.error_length : run.error;
+}
+
+std::string error_text(const Target& target, double error) {
+  return target.is_length ? length_text(error) : percent_text(error);
+}
+
+std::string cost_text(const Study& study, const Run& run) {
+  if (study.problem.is_static())
+    return seconds_text(run.outcome.stepping_seconds) + " of processor time";
+  return seconds_text(cost_of(study, run)) + " of processor time a simulated second";
+}
+
+std::string run_text(const Study& study, const Target& target, const Run& run) {
+  std::string text = method_text(run) + ", " + run.size + " (h = " + length_text(run.outcome.h);
+  if (run.outcome.dt > 0) text += ", dt = " + seconds_text(run.outcome.dt);
+  return text + "): " + (run.is_at_reference ? "at most " : "") +
+         error_text(target, error_as(run, target)) + " for " + cost_text(study, run);
+}
+
+const Run* nearest_run(const Study& study) {
+  const Run* nearest = nullptr;
+  for (const Run& run : study.runs)
+    if (counts(run) && (nearest == nullptr || run.error < nearest->error)) nearest = &run;
+  return nearest;
+}
+
+}  // namespace
+
+Target read_target(const std::string& text) {
+  const std::size_t percent = text.find('%');
+  try {
+    if (percent == std::string::npos)
+      return {.error = parse_quantity(text, dim::length), .is_length = true};
+    if (percent + 1 != text.size()) throw std::invalid_argument("nothing may follow the %");
+    std::size_t end = 0;
+    const double share = std::stod(text, &end) / 100;
+    if (text.find_first_not_of(' ', end) != percent) throw std::invalid_argument("no number");
+    return {.error = share};
+  } catch (const std::logic_error& trouble) {
+    throw InputError("--target: " + in_quotes(text) +
+                     " is neither a length such as \"1 mm\" nor a " + "share such as \"1 %\" (" +
+                     trouble.what() + ")");
+  }
+}
+
+Target median_target(const Study& study) {
+  std::vector<double> errors;
+  for (const Run* run : pareto_front(study)) errors.push_back(run->error);
+  if (errors.empty()) return {.error = study.problem.reference_error};
+  std::sort(errors.begin(), errors.end());
+  const bool is_length = study.problem.length > 0;
+  const double median = errors[(errors.size() - 1) / 2];
+  return {.error = is_length ? median * study.problem.length : median, .is_length = is_length};
+}
+
+const Run* cheapest_within(const Study& study, const Target& target,
+                           const std::string& other_than) {
+  const Run* cheapest = nullptr;
+  for (const Run& run : study.runs) {
+    const bool is_candidate = counts(run) && error_as(run, target) <= target.error &&
+                              (other_than.empty() || method_text(run) != other_than);
+    if (is_candidate && (cheapest == nullptr || cost_of(study, run) < cost_of(study, *cheapest)))
+      cheapest = &run;
+  }
+  return cheapest;
+}
+
+std::vector<const Run*> pareto_front(const Study& study) {
+  std::vector<const Run*> front;
+  for (const Run& run : study.runs)
+    if (counts(run)) front.push_back(&run);
+  std::stable_sort(front.begin(), front.end(), [&](const Run* a, const Run* b) {
+    return cost_of(study, *a) < cost_of(study, *b);
+  });
+  double least = std::numeric_limits<double>::infinity();
+  std::erase_if(front, [&](const Run* run) {
+    const bool is_beaten = run->error >= least;
+    least = std::min(least, run->error);
+    return is_beaten;
+  });
+  return front;
+}
+
+std::string advice(const Study& study, const Target& target) {
+  if (target.is_length && study.problem.length == 0)
+    throw InputError("--target: the result of " + study.problem.name + ", its " +
+                     study.problem.quantity + ", is no length; give a share such as \"1 %\"");
+  const Run* best = cheapest_within(study, target);
+  const Run* nearest = nearest_run(study);
+  if (nearest == nullptr) return "No run of this sweep can be rated.";
+  const std::string goal = error_text(target, target.error);
+  if (best == nullptr)
+    return "No run of this sweep is within " + goal + "; the nearest is " +
+           run_text(study, target, *nearest) + ".";
+  std::string text = "For " + goal + " error at least cost use " + run_text(study, target, *best);
+  if (const Run* next = cheapest_within(study, target, method_text(*best)))
+    text += "; next best is " + run_text(study, target, *next);
+  return text + ".";
+}
+
+}  // namespace trocar

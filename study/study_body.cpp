@@ -1,0 +1,95 @@
+#include "study/study_body.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/communicator.h"
+#include "solver/frequency.h"
+#include "solver/watch.h"
+
+namespace trocar {
+
+namespace {
+
+HighestFrequency search(StudyBody& body) {
+  State probe = body.state;
+  Scratch scratch = make_scratch(body.model);
+  FrequencyOptions options;
+  const bool is_single = body.model.options.precision == Precision::in_single;
+  options.amplitude = (is_single ? 1e-2 : 1e-6) * body.h;
+  const Communicator alone;
+  return find_highest_frequency(
+      body.model, body.part, body.state,
+      [&](std::vector<double>& u, std::vector<double>& force) {
+        probe.u.swap(u);
+        average_volume_change(body.model, probe, scratch);
+        compute_force(body.model, probe, scratch);
+        force = scratch.force;
+        probe.u.swap(u);
+      },
+      options, alone, body.fastest_mode);
+}
+
+void run_steps(StudyBody& body, std::int64_t n, double dt,
+               const std::function<void(double dt)>& after_step) {
+  for (std::int64_t k = 0; k < n; ++k) {
+    average_volume_change(body.model, body.state, body.scratch);
+    compute_force(body.model, body.state, body.scratch);
+    integrate(body.model, body.scratch, {}, dt, body.state);
+    after_step(dt);
+  }
+}
+
+}  // namespace
+
+StudyBody make_study_body(Mesh mesh, double h, const Material& material,
+                          const std::function<FixedMask(const Vec3& X)>& fixed,
+                          const SolverOptions& options) {
+  StudyBody body;
+  body.mesh = std::move(mesh);
+  body.h = h;
+  std::vector<FixedMask> mask;
+  for (const Vec3& X : body.mesh.X) mask.push_back(fixed ? fixed(X) : FixedMask{0});
+  body.mass = lumped_mass(body.mesh, std::vector<double>{material.density}, options.thickness);
+  body.part = make_part(body.mesh, std::vector<std::int32_t>(body.mesh.X.size(), 0), 0);
+  body.model =
+      build_model(body.mesh, body.part, std::vector<Material>{material}, mask, body.mass, options);
+  body.state = make_state(body.model);
+  body.scratch = make_scratch(body.model);
+  return body;
+}
+
+double stable_step(StudyBody& body) {
+  const Watch seen = watch(body.model, body.part, body.state);
+  if (!seen.is_finite || !(seen.least_J > 0)) return 0;
+  const HighestFrequency found = search(body);
+  return found.is_converged ? std::max(seen.stable_step, 2 / (frequency_margin * found.omega))
+                            : seen.stable_step;
+}
+
+bool advance_frame(StudyBody& body, double length, double factor,
+                   const std::function<void(double dt)>& after_step) {
+  const double dt_most = factor * stable_step(body);
+  if (!(dt_most > 0)) return false;
+  const auto n = static_cast<std::int64_t>(std::ceil(length / dt_most));
+  run_steps(body, n, length / static_cast<double>(n), after_step);
+  return true;
+}
+
+std::int32_t nearest_node(const Mesh& mesh, const Vec3& X) {
+  const auto nearer = [&](const Vec3& a, const Vec3& b) {
+    return (a - X).squaredNorm() < (b - X).squaredNorm();
+  };
+  return static_cast<std::int32_t>(std::min_element(mesh.X.begin(), mesh.X.end(), nearer) -
+                                   mesh.X.begin());
+}
+
+double processor_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+}  // namespace trocar

@@ -1,0 +1,192 @@
+#include "study/study_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "base/error.h"
+#include "engine/build.h"
+#include "engine/frame.h"
+#include "engine/frame_watch.h"
+#include "engine/mesh_measures.h"
+#include "engine/tissue.h"
+#include "solver/element_setup.h"
+#include "study/study_body.h"
+#include "study/study_interpolate.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr int n_sample_times = 5;
+constexpr std::size_t most_sample_points = 400;
+
+// What all runs share.
+struct SceneStudy {
+  LoadedScene loaded;  // without outputs
+  Communicator* communicator = nullptr;
+  std::vector<std::string> meshes;
+  std::vector<Vec3> points;
+
+  bool has_shape() const { return loaded.scene.tissue.shape.has_value(); }
+  std::int64_t n_frames() const {
+    return std::llround(loaded.scene.time.duration * loaded.scene.time.frame_rate);
+  }
+};
+
+int most_cells(const SceneShape& shape) {
+  return *std::max_element(shape.cells.begin(), shape.cells.end());
+}
+
+// n cells where the scene has most, the others in proportion.
+void scale_cells(int n, SceneShape& shape) {
+  const double ratio = static_cast<double>(n) / most_cells(shape);
+  for (int& cells : shape.cells) cells = std::max(1, static_cast<int>(std::lround(ratio * cells)));
+}
+
+LoadedScene scene_of(const SceneStudy& study, const Case& c) {
+  LoadedScene loaded = study.loaded;
+  SceneTissue& tissue = loaded.scene.tissue;
+  SceneSolver& solver = loaded.scene.solver;
+  solver.step_factor = c.step_factor;
+  solver.precision = c.precision;
+  Formulation* const of_shape[] = {&solver.triangle, &solver.tetrahedron, &solver.hexahedron};
+  *of_shape[static_cast<int>(shape_of(c.method.formulation))] = c.method.formulation;
+  if (!study.has_shape()) {
+    if (!study.meshes.empty()) tissue.mesh = study.meshes[static_cast<std::size_t>(c.n - 1)];
+    return loaded;
+  }
+  scale_cells(c.n, *tissue.shape);
+  if (c.method.elements == BoxElements::hex8)
+    tissue.shape->elements = ElementKind::hex8;
+  else if (tissue.shape->elements == ElementKind::hex8)
+    tissue.shape->elements = ElementKind::tet4_kuhn;
+  return loaded;
+}
+
+std::unique_ptr<Simulation> build_case(const SceneStudy& study, const Case& c) {
+  std::unique_ptr<Simulation> simulation = build(scene_of(study, c), *study.communicator);
+  if (!simulation->cuts.empty())
+    throw InputError(
+        "the scene cuts its body: meshes that are cut have different nodes, so a study can't "
+        "compare them; leave the scalpel out (--set instrument=[])");
+  return simulation;
+}
+
+void take_samples(const std::vector<SamplePoint>& points, const Simulation& s, Outcome& outcome) {
+  std::vector<double> u(s.mesh.X.size() * 3);
+  for (std::size_t k = 0; k < s.part.node_global.size(); ++k)
+    Vec3::Map(&u[3 * static_cast<std::size_t>(s.part.node_global[k])]) =
+        Vec3::Map(&s.state.u[3 * k]);
+  for (const SamplePoint& point : points) outcome.samples.push_back(interpolate(point, u));
+}
+
+bool is_sample_frame(std::int64_t frame, std::int64_t n_frames) {
+  for (int k = 1; k <= n_sample_times; ++k)
+    if (frame == n_frames * k / n_sample_times) return true;
+  return false;
+}
+
+void run_frames(const SceneStudy& study, Simulation& s, Outcome& outcome) {
+  const std::vector<SamplePoint> points = locate_samples(s.mesh, study.points);
+  Outputs outputs;
+  while (s.frame < study.n_frames()) {
+    const double start = processor_seconds();
+    run_frame(s, outputs);
+    outcome.stepping_seconds += processor_seconds() - start;
+    if (is_sample_frame(s.frame, study.n_frames())) take_samples(points, s, outcome);
+  }
+}
+
+Outcome solve(const SceneStudy& study, const Case& c) {
+  Outcome outcome;
+  const double start = processor_seconds();
+  const std::unique_ptr<Simulation> simulation = build_case(study, c);
+  outcome.setup_seconds = processor_seconds() - start;
+  outcome.h = mean_edge_length(simulation->mesh);
+  outcome.n_elements = simulation->mesh.n_elements();
+  try {
+    run_frames(study, *simulation, outcome);
+  } catch (const SimulationError& trouble) {
+    outcome.trouble = trouble.what();
+  }
+  outcome.n_steps = simulation->state.step;
+  outcome.dt =
+      simulation->state.time / static_cast<double>(std::max<std::int64_t>(1, outcome.n_steps));
+  return outcome;
+}
+
+std::vector<int> sizes_of(const SceneStudy& study, const std::vector<int>& wanted) {
+  std::vector<int> sizes;
+  if (study.has_shape()) {
+    const int n = most_cells(*study.loaded.scene.tissue.shape);
+    sizes = wanted.empty() ? std::vector<int>{std::max(1, n / 4), std::max(1, n / 2), n} : wanted;
+    sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
+  } else {
+    for (int k = 1; k <= std::max(1, static_cast<int>(study.meshes.size())); ++k)
+      sizes.push_back(k);
+  }
+  return sizes;
+}
+
+// Shapes of elements that the scene's body can have.
+bool has_shape(const SceneStudy& study, const Mesh& mesh, ElementType shape) {
+  const bool is_plane = mesh.dimension() == 2;
+  if (study.has_shape()) return is_plane == (shape == ElementType::tri3);
+  return std::find(mesh.element_type.begin(), mesh.element_type.end(), shape) !=
+         mesh.element_type.end();
+}
+
+void describe(const SceneStudy& study, Problem& problem) {
+  const Scene& scene = study.loaded.scene;
+  problem.title = scene.name;
+  problem.quantity = "greatest distance of a surface point from where the finest run has it";
+  problem.unit = "m";
+  problem.simulated_seconds = scene.time.duration;
+  problem.factors = {scene.solver.step_factor};
+  problem.size_meaning =
+      study.has_shape() ? "cells along the direction with most" : "mesh files, coarse to fine";
+  if (study.has_shape()) return;
+  const std::vector<std::string> meshes =
+      study.meshes.empty() ? std::vector<std::string>{scene.tissue.mesh} : study.meshes;
+  problem.size_label = [meshes](int n) {
+    return std::filesystem::path(meshes[static_cast<std::size_t>(n - 1)]).stem().string();
+  };
+}
+
+SceneStudy load_study(const SceneStudyOptions& options, Communicator& communicator) {
+  SceneStudy study{.loaded = load_scene(options.scene_file, options.overrides),
+                   .communicator = &communicator};
+  study.loaded.scene.outputs.clear();
+  study.loaded.scene.time.pace = Pace::fast;
+  if (study.n_frames() < 1) throw InputError("the scene has no frame to compare");
+  if (study.has_shape() && !options.meshes.empty())
+    throw InputError("--meshes: the scene generates its body; use --sizes");
+  if (!study.has_shape() && !options.sizes.empty())
+    throw InputError("--sizes: the scene's body is a mesh file; use --meshes");
+  for (const std::string& mesh : options.meshes)
+    study.meshes.push_back(std::filesystem::absolute(mesh).string());
+  return study;
+}
+
+}  // namespace
+
+Problem problem_of_scene(const SceneStudyOptions& options, Communicator& communicator) {
+  const auto study = std::make_shared<SceneStudy>(load_study(options, communicator));
+  Problem problem;
+  problem.name = std::filesystem::path(options.scene_file).stem().string();
+  describe(*study, problem);
+  problem.sizes = sizes_of(*study, options.sizes);
+  Case coarsest{.n = *std::min_element(problem.sizes.begin(), problem.sizes.end())};
+  if (study->has_shape() && study->loaded.scene.tissue.shape->elements != ElementKind::hex8)
+    coarsest.method.elements = BoxElements::tet4_kuhn;
+  const Mesh mesh = load_tissue(scene_of(*study, coarsest), communicator);
+  study->points = surface_points(mesh, most_sample_points);
+  for (const Method& method : methods())
+    if (has_shape(*study, mesh, shape_of(method.formulation))) problem.methods.push_back(method);
+  problem.solve = [study](const Case& c) { return solve(*study, c); };
+  return problem;
+}
+
+}  // namespace trocar

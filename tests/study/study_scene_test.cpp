@@ -1,0 +1,93 @@
+#include "study/study_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "mesh/generate.h"
+#include "mesh/mesh_file.h"
+#include "mesh_temporary_folder.h"
+#include "study/study_sweep.h"
+
+namespace trocar {
+namespace {
+
+using test::TemporaryFolder;
+
+const char* const hanging_box =
+    "name = \"hanging box\"\n"
+    "[time]\nduration = \"0.1 s\"\nframe_rate = \"50 Hz\"\n"
+    "[tissue.material]\nyoung_modulus = \"3 kPa\"\npoisson_ratio = 0.45\n"
+    "[solver]\ngravity = [0, 0, \"-9.81 m/s^2\"]\n"
+    "[[support]]\nregion = \"z+\"\nfix = \"xyz\"\n"
+    "[[output]]\nkind = \"metrics\"\nfile = \"m.csv\"\n";
+
+const char* const shape =
+    "[tissue.shape]\nkind = \"box\"\nelements = \"hex8\"\ncells = [4, 4, 8]\n"
+    "low = [0, 0, 0]\nhigh = [\"50 mm\", \"50 mm\", \"100 mm\"]\n";
+
+TEST(StudyScene, errors_fall_with_the_cells_and_are_small_beside_the_motion) {
+  const TemporaryFolder folder;
+  Communicator alone;
+  const Problem problem = problem_of_scene(
+      {.scene_file = folder.file("scene.toml", std::string(hanging_box) + shape)}, alone);
+  EXPECT_EQ(problem.sizes, (std::vector<int>{2, 4, 8}));
+  const Study study = sweep(problem, {.elements = {"hex8"}, .repeats = 1});
+  ASSERT_EQ(study.runs.size(), 6u);
+  // Free fall of .1 s is 49 mm; the elastic box stays behind that.
+  EXPECT_GT(study.problem.length, .01);
+  EXPECT_LT(study.problem.length, .05);
+  EXPECT_LT(study.runs[2].error, study.runs[0].error);
+  EXPECT_LT(study.runs[2].error, .2);
+  EXPECT_EQ(study.runs[0].outcome.n_elements, 1 * 1 * 2);
+  EXPECT_EQ(study.runs[4].outcome.n_elements, 4 * 4 * 8);
+}
+
+TEST(StudyScene, tetrahedra_and_hexahedra_of_one_scene_come_to_the_same_place) {
+  const TemporaryFolder folder;
+  Communicator alone;
+  const Problem problem = problem_of_scene(
+      {.scene_file = folder.file("scene.toml", std::string(hanging_box) + shape), .sizes = {8}},
+      alone);
+  ASSERT_EQ(problem.methods.size(), solid_methods().size());
+  const Outcome hexes = problem.solve({.method = method_named("hex8"), .n = 8});
+  const Outcome tets = problem.solve({.method = method_named("tet4"), .n = 8});
+  EXPECT_EQ(tets.n_elements, 6 * hexes.n_elements);
+  ASSERT_EQ(hexes.samples.size(), tets.samples.size());
+  double greatest = 0, difference = 0;
+  for (std::size_t k = 0; k < hexes.samples.size(); ++k) {
+    greatest = std::max(greatest, hexes.samples[k].norm());
+    difference = std::max(difference, (hexes.samples[k] - tets.samples[k]).norm());
+  }
+  EXPECT_GT(difference, 0);
+  EXPECT_LT(difference, .15 * greatest);  // plain tetrahedra are too stiff
+}
+
+TEST(StudyScene, mesh_files_take_the_place_of_cells) {
+  const TemporaryFolder folder;
+  Communicator alone;
+  std::vector<std::string> meshes;
+  for (const int n : {1, 2}) {
+    meshes.push_back(folder.file("box" + std::to_string(n) + ".msh"));
+    write_mesh(make_box(Vec3::Zero(), Vec3(.05, .05, .1), {n, n, 2 * n}, BoxElements::tet4_kuhn),
+               meshes.back());
+  }
+  const std::string text = std::string(hanging_box) + "[tissue]\nmesh = \"box1.msh\"\n";
+  const Problem problem =
+      problem_of_scene({.scene_file = folder.file("scene.toml", text), .meshes = meshes}, alone);
+  const Study study = sweep(problem, {.elements = {"tet4"}, .precisions = {"double"}});
+  ASSERT_EQ(study.runs.size(), 2u);
+  EXPECT_EQ(study.runs[0].size, "box1");
+  EXPECT_TRUE(study.runs[1].is_reference);
+  EXPECT_EQ(study.runs[1].outcome.n_elements, 6 * 16);
+  EXPECT_THROW(sweep(problem, {.elements = {"hex8"}}), InputError);
+}
+
+TEST(StudyScene, sizes_for_a_mesh_file_and_meshes_for_a_generated_body_are_refused) {
+  const TemporaryFolder folder;
+  Communicator alone;
+  const std::string scene = folder.file("scene.toml", std::string(hanging_box) + shape);
+  EXPECT_THROW(problem_of_scene({.scene_file = scene, .meshes = {"a.msh"}}, alone), InputError);
+}
+
+}  // namespace
+}  // namespace trocar

@@ -1,0 +1,112 @@
+#include "study/study_sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+
+namespace trocar {
+namespace {
+
+// Value 1 + n^-2 after n^3 elements and n steps of a microsecond each.
+Outcome solve_made_up(const Case& c) {
+  const double n = c.n;
+  return {.value = 1 + 1 / (n * n),
+          .h = 1 / n,
+          .n_elements = c.n * c.n * c.n,
+          .n_steps = c.n,
+          .stepping_seconds = 1e-6 * n * n * n * n};
+}
+
+Problem made_up_problem(double reference_error) {
+  return {.name = "made-up",
+          .title = "Made up",
+          .quantity = "value",
+          .unit = "1",
+          .reference = 1,
+          .reference_error = reference_error,
+          .source = "closed form",
+          .sizes = {4, 2, 8},
+          .methods = solid_methods(),
+          .factors = {1},
+          .solve = solve_made_up};
+}
+
+TEST(StudySweep, it_runs_every_size_element_and_precision_coarse_ones_first) {
+  const Study study = sweep(made_up_problem(0), {});
+  ASSERT_EQ(study.runs.size(), 3 * 2 * solid_methods().size());
+  for (std::size_t k = 1; k < study.runs.size(); ++k)
+    EXPECT_GE(study.runs[k].n, study.runs[k - 1].n);
+  for (const auto& run : study.runs) EXPECT_NEAR(run.error, 1. / (run.n * run.n), 1e-15);
+}
+
+TEST(StudySweep, no_error_is_said_to_be_below_the_references_own) {
+  const Study study = sweep(made_up_problem(.05), {});
+  for (const auto& run : study.runs) {
+    EXPECT_EQ(run.is_at_reference, run.n == 8);  // 1/64 < .05 < 1/16
+    EXPECT_GE(run.error, .05);
+  }
+}
+
+TEST(StudySweep, sizes_that_the_budget_does_not_hold_are_left_out_and_named) {
+  // n = 4096 is predicted to take (4096 / 2)^4 times the 16 microseconds of n = 2.
+  const Study study =
+      sweep(made_up_problem(0),
+            {.sizes = {2, 4096}, .elements = {"hex8"}, .precisions = {"double"}, .budget = 5});
+  ASSERT_EQ(study.runs.size(), 1u);
+  EXPECT_EQ(study.runs[0].n, 2);
+  ASSERT_EQ(study.notes.size(), 1u);
+  EXPECT_NE(study.notes[0].find("hex8 double, size 4096"), std::string::npos) << study.notes[0];
+}
+
+TEST(StudySweep, elements_and_precisions_that_do_not_exist_are_refused) {
+  EXPECT_THROW(sweep(made_up_problem(0), {.elements = {"hex9"}}), InputError);
+  EXPECT_THROW(sweep(made_up_problem(0), {.elements = {"tri3"}}), InputError);
+  EXPECT_THROW(sweep(made_up_problem(0), {.precisions = {"half"}}), InputError);
+}
+
+// As a scene: displacements (1 + h, 0, 0) of one point, first order.
+TEST(StudySweep, a_scenes_reference_is_its_finest_run_with_the_error_that_refinement_shows) {
+  Problem problem = made_up_problem(0);
+  problem.source.clear();
+  problem.solve = [](const Case& c) {
+    Outcome outcome = solve_made_up(c);
+    outcome.samples = {Vec3(1 + outcome.h, 0, 0)};
+    return outcome;
+  };
+  const Study study = sweep(problem, {.elements = {"hex8"}, .precisions = {"double"}});
+  ASSERT_EQ(study.runs.size(), 3u);
+  EXPECT_TRUE(study.runs[2].is_reference);
+  EXPECT_DOUBLE_EQ(study.problem.length, 1.125);
+  // h = 1/8: for a first-order method exactly what is left, 1/8 of 1.125.
+  EXPECT_NEAR(study.problem.reference_error, .125 / 1.125, 1e-14);
+  EXPECT_NEAR(study.runs[0].error_length, .5 - .125, 1e-14);
+  EXPECT_NEAR(study.runs[1].error_length, .25 - .125, 1e-14);
+}
+
+TEST(StudySweep, the_reference_of_a_scene_is_not_the_method_that_is_still_moving) {
+  Problem problem = made_up_problem(0);
+  problem.source.clear();
+  problem.solve = [](const Case& c) {
+    Outcome outcome = solve_made_up(c);
+    const bool is_slow = std::string(c.method.name) == "tet4";
+    outcome.samples = {Vec3(1 - (is_slow ? 3 : 1) * outcome.h, 0, 0)};
+    return outcome;
+  };
+  for (const auto& run : sweep(problem, {.precisions = {"double"}}).runs)
+    EXPECT_EQ(run.is_reference, run.method == "hex8" && run.n == 8);
+}
+
+TEST(StudySweep, broken_runs_have_no_error) {
+  Problem problem = made_up_problem(0);
+  problem.solve = [](const Case& c) {
+    Outcome outcome = solve_made_up(c);
+    if (c.n == 4) outcome.trouble = "inverted";
+    return outcome;
+  };
+  for (const auto& run : sweep(problem, {}).runs) EXPECT_EQ(std::isfinite(run.error), run.n != 4);
+}
+
+}  // namespace
+}  // namespace trocar
