@@ -119,7 +119,7 @@ struct Scratch {
   std::vector<std::uint8_t> is_summed;  // (n_owned) all zero between steps
   // Empty, or (n_owned): energy that mass damping takes from each node, added up by integrate [J].
   std::vector<double> damping_work;
-  std::vector<ViscousStep> viscous;     // (block lists) of the step that is being computed
+  std::vector<ViscousStep> viscous;  // (block lists) of the step that is being computed
 };
 Scratch make_scratch(const Model& model);
 

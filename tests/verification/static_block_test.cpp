@@ -76,7 +76,7 @@ static double indentation_force(const Body& body) {
 }
 
 static void check_indentation(const Variant& variant, int n, double tolerance) {
-  const Body body = indented_block(variant, n);
+  Body body = indented_block(variant, n);
   const std::string name = "V12 Smooth indentation", mesh = mesh_name(variant, {n, n, n});
   check_figure({name, "force [N]", mesh, indentation_force(body), -.9730, tolerance, mixed_solver});
   check_figure(
