@@ -37,7 +37,6 @@ inline const char* name_of(Precision precision) {
 }
 
 constexpr BoxElements both[] = {BoxElements::hex8, BoxElements::tet4_kuhn};
-constexpr Precision precisions[] = {Precision::in_double, Precision::in_single};
 
 // 2 / omega of the present deformation.
 inline double limit_of(Body& body, double tolerance = 1e-3) {
