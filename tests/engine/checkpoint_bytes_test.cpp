@@ -82,10 +82,10 @@ TEST(CheckpointBytes, that_are_damaged_say_so_and_how_to_go_on) {
 
 TEST(CheckpointBytes, of_another_format_are_named_as_such) {
   std::vector<std::byte> bytes = checkpoint_to_bytes(example_checkpoint());
-  bytes[8] = std::byte{2};  // behind the mark of eight bytes
+  bytes[8] = std::byte{99};  // behind the mark of eight bytes
   const std::uint32_t crc = crc32c(std::span(bytes).first(bytes.size() - 4));
   std::memcpy(bytes.data() + bytes.size() - 4, &crc, 4);
-  EXPECT_TRUE(contains(input_error_of([&] { checkpoint_from_bytes(bytes, "c"); }), "format 2"));
+  EXPECT_TRUE(contains(input_error_of([&] { checkpoint_from_bytes(bytes, "c"); }), "format 99"));
 }
 
 }  // namespace
