@@ -11,7 +11,7 @@ using namespace trocar;
 
 static constexpr const char* introduction = R"(# Stability, stress-tested
 
-Written by `build/release/bench/stability 1 --markdown docs/stability.md` (10 s on one core); the test command runs it with a twentieth of the steps.
+Written by `build/release/bench/stability 1 --markdown docs/stability.md` (10 s on one core).
 
 The limit of a step is 2/omega of the present deformation, searched for by `solver/frequency` (steps around it: sharp to a percent). How far below it a step must stay was measured, too:
 central differences have a third-order resonance where omega dt / 2 = sin(pi/3) = 0.866. A mode of that frequency grows without bound as soon as the strain energy has a cubic term and the
