@@ -1,3 +1,10 @@
+# What nearly every file includes, compiled once: half of a build's time. Files still include what they use, which
+# -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows.
+add_library(common_headers OBJECT ${CMAKE_SOURCE_DIR}/cmake/empty.cpp)
+target_link_libraries(common_headers PRIVATE Eigen3::Eigen OpenMP::OpenMP_CXX)
+target_precompile_headers(common_headers PRIVATE <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <memory>
+  <optional> <span> <string> <vector> <Eigen/Core>)
+
 # layer(<folder> <allowed folders...>): one library per folder. Its include root holds a link to that folder only, so
 # that including a folder that is not allowed does not compile.
 function(layer folder)
@@ -13,13 +20,17 @@ function(layer folder)
   target_sources(${folder} PUBLIC FILE_SET HEADERS BASE_DIRS ${root} FILES ${headers})
   set_target_properties(${folder} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
   target_compile_options(${folder} PRIVATE ${TROCAR_WARNINGS})
+  target_precompile_headers(${folder} REUSE_FROM common_headers)
   foreach(below ${ARGN})
     target_link_libraries(${folder} PUBLIC ${below})
   endforeach()
 endfunction()
 
-# Designated initialisers leave the other members at their defaults on purpose; GCC 12 warns falsely of -Wrestrict on text + std::string.
-set(TROCAR_WARNINGS -Wall -Wextra -Wshadow -Wconversion -Wno-missing-field-initializers -Wno-restrict -Werror)
+# Designated initialisers leave the other members at their defaults on purpose.
+set(TROCAR_TEST_WARNINGS -Wall -Wextra -Wshadow -Wno-missing-field-initializers -Werror)
+# GCC 12 warns falsely of what it inlines from std::string.
+list(APPEND TROCAR_TEST_WARNINGS -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
+set(TROCAR_WARNINGS ${TROCAR_TEST_WARNINGS} -Wconversion)
 # The same bits are a promise: no value-changing optimisation, contraction only where a kernel asks for it.
 add_compile_options(-ffp-contract=off)
 add_compile_definitions(EIGEN_MPL2_ONLY EIGEN_MAX_STATIC_ALIGN_BYTES=16)

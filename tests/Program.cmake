@@ -8,7 +8,7 @@ foreach(folder scenes invariance faults)
     add_dependencies(test_${folder} trocar)
     target_link_libraries(test_${folder} PRIVATE mesh nlohmann_json::nlohmann_json GTest::gtest GTest::gtest_main)
     target_include_directories(test_${folder} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/support)
-    target_compile_options(test_${folder} PRIVATE -Wall -Wextra -Wshadow -Wno-missing-field-initializers -Wno-restrict -Werror)
+    target_compile_options(test_${folder} PRIVATE ${TROCAR_TEST_WARNINGS})
     target_compile_definitions(test_${folder} PRIVATE TROCAR_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
       TROCAR_PROGRAM="$<TARGET_FILE:trocar>" TROCAR_MPIRUN="${mpirun_text}")
     # They use all cores of the machine themselves.
