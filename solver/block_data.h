@@ -21,7 +21,7 @@ inline constexpr int value_mu_V = 1;
 template <class Pack>
 struct BlockValues {
   const RealOf<Pack>* at;
-  [[gnu::always_inline]] Pack operator()(int value) const {
+  [[gnu::always_inline]] Pack operator()(std::int64_t value) const {
     return load<Pack>(at + value * block_lanes<Pack>);
   }
 };

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "base/threads.h"
 #include "solver/kernels.h"
 #include "solver/model.h"
+#include "solver/simd.h"
+#include "solver/stash.h"
 
 namespace trocar {
 
@@ -38,24 +41,66 @@ void parallel_for_nodes(std::int64_t n, const Body& body) {
   });
 }
 
-inline const BlockKernels& kernels_for(const Kernels& kernels, const ElementBlocks& blocks) {
-  return kernels.of[static_cast<int>(blocks.precision)]
-      .block[static_cast<int>(blocks.formulation)][static_cast<int>(blocks.material)];
+// The kernels of one list.
+struct BlockKernels {
+  const ElementKernels& element;
+  const LawKernels& law;
+  int n_material_values;
+  int n_values;  // of an element in all
+};
+
+inline BlockKernels kernels_for(const Kernels& kernels, const ElementBlocks& blocks) {
+  const KernelsOfPrecision& of = kernels.of[static_cast<int>(blocks.precision)];
+  const ElementKernels& element = of.element[static_cast<int>(blocks.formulation)];
+  const int model = static_cast<int>(blocks.material);
+  const int n = kernels.n_material_values[model];
+  return {element, of.law[static_cast<int>(element.law)][model], n, n + element.n_values};
 }
+
+// Blocks that go through the stash together: for hexahedra some 30 kB with their constants.
+inline constexpr std::int64_t stash_blocks = 8;
+inline constexpr int max_stash_values = tensor_values * 8;
+struct alignas(64) StashBytes {
+  std::byte byte[64 * max_stash_values * stash_blocks];
+};
 
 inline BlockTask block_task(const Model& model, const ElementBlocks& blocks,
                             const BlockKernels& kernels, const State& state, std::int64_t first,
-                            std::int64_t n) {
+                            std::int64_t n, StashBytes& stash) {
   const std::int64_t at = first * kernels.n_values * blocks.lanes;
   const bool is_single = blocks.precision == Precision::in_single;
+  const ElementKernels& element = kernels.element;
+  const int share = element.share > 0 ? kernels.n_material_values + element.share : 0;
   return {.u = state.u.data(),
-          .corner = blocks.corner.data() + first * kernels.n_corners * blocks.lanes,
+          .corner = blocks.corner.data() + first * element.n_corners * blocks.lanes,
           .data = is_single ? static_cast<const void*>(blocks.data_single.data() + at)
                             : static_cast<const void*>(blocks.data.data() + at),
           .n_blocks = n,
+          .n_values = kernels.n_values,
+          .n_material_values = kernels.n_material_values,
+          .stash = stash.byte,
+          .n_points = element.n_points,
+          .n_stash = element.n_stash,
+          .share = share,
+          .share_stride = element.share_stride,
           .theta = state.theta.data() + blocks.field,
           .n_fields = model.averages.n_fields,
           .element_share = model.options.element_share};
+}
+
+// Calls body(kernels, task, block) for the blocks [first, first + n) of a list, some at a time,
+// with their strains in the stash; block is the first of them.
+template <class Body>
+void for_strained_blocks(const Model& model, const ElementBlocks& blocks, const State& state,
+                         std::int64_t first, std::int64_t n, const Body& body) {
+  StashBytes stash;
+  const BlockKernels kernels = kernels_for(active_kernels(), blocks);
+  for (std::int64_t at = first; at < first + n; at += stash_blocks) {
+    const BlockTask task = block_task(model, blocks, kernels, state, at,
+                                      std::min(stash_blocks, first + n - at), stash);
+    kernels.element.strain(task);
+    body(kernels, task, at);
+  }
 }
 
 }  // namespace trocar

@@ -37,21 +37,28 @@ template <class Pack>
     x[1] = __builtin_shufflevector(y0, y2, 0, 1, 4, 5);
     x[2] = __builtin_shufflevector(xz0, xz2, 2, 3, 6, 7);
   } else {
-    Pack row[4];  // lane and lane + 4
-    for (int lane = 0; lane < 4; ++lane)
-      row[lane] =
-          __builtin_shufflevector(load_node<Quad>(u, node[lane]),
-                                  load_node<Quad>(u, node[lane + 4]), 0, 1, 2, 3, 4, 5, 6, 7);
-    const Pack xz0 = __builtin_shufflevector(row[0], row[1], 0, 8, 2, 10, 4, 12, 6, 14);
-    const Pack xz2 = __builtin_shufflevector(row[2], row[3], 0, 8, 2, 10, 4, 12, 6, 14);
-    const Pack y0 = __builtin_shufflevector(row[0], row[1], 1, 9, 3, 11, 5, 13, 7, 15);
-    const Pack y2 = __builtin_shufflevector(row[2], row[3], 1, 9, 3, 11, 5, 13, 7, 15);
-    x[0] = __builtin_shufflevector(xz0, xz2, 0, 1, 8, 9, 4, 5, 12, 13);
-    x[1] = __builtin_shufflevector(y0, y2, 0, 1, 8, 9, 4, 5, 12, 13);
-    x[2] = __builtin_shufflevector(xz0, xz2, 2, 3, 10, 11, 6, 7, 14, 15);
+    Pack row[4];  // lanes 2 k and 2 k + 1
+    for (int k = 0; k < 4; ++k)
+      row[k] = __builtin_shufflevector(load_node<Quad>(u, node[2 * k]),
+                                       load_node<Quad>(u, node[2 * k + 1]), 0, 1, 2, 3, 4, 5, 6, 7);
+    const Pack xy0 = __builtin_shufflevector(row[0], row[1], 0, 4, 8, 12, 1, 5, 9, 13);
+    const Pack xy4 = __builtin_shufflevector(row[2], row[3], 0, 4, 8, 12, 1, 5, 9, 13);
+    const Pack z0 = __builtin_shufflevector(row[0], row[1], 2, 6, 10, 14, 2, 6, 10, 14);
+    const Pack z4 = __builtin_shufflevector(row[2], row[3], 2, 6, 10, 14, 2, 6, 10, 14);
+    x[0] = __builtin_shufflevector(xy0, xy4, 0, 1, 2, 3, 8, 9, 10, 11);
+    x[1] = __builtin_shufflevector(xy0, xy4, 4, 5, 6, 7, 12, 13, 14, 15);
+    x[2] = __builtin_shufflevector(z0, z4, 0, 1, 2, 3, 8, 9, 10, 11);
   }
 }
 
+// Rows [x y z z] of the lanes l and l + 1 of eight.
+template <int l, class Pack>
+[[gnu::always_inline]] inline Pack two_rows(const Pack (&f)[3]) {
+  const Pack xy = __builtin_shufflevector(f[0], f[1], l, 8 + l, l, l, l + 1, 9 + l, l, l);
+  return __builtin_shufflevector(xy, f[2], 0, 1, 8 + l, 8 + l, 4, 5, 9 + l, 9 + l);
+}
+
+// To [lane][x y z and anything].
 template <class Pack>
 [[gnu::always_inline]] inline void store_doubles(double* to, const Pack (&f)[3]) {
   constexpr int width = pack_width<Pack>;
@@ -75,19 +82,10 @@ template <class Pack>
     store(to + 8, __builtin_shufflevector(xy0, z0, 2, 3, 6, 7));
     store(to + 12, __builtin_shufflevector(xy1, z1, 2, 3, 6, 7));
   } else {
-    const Pack xy0 = __builtin_shufflevector(f[0], f[1], 0, 8, 2, 10, 4, 12, 6, 14);
-    const Pack xy1 = __builtin_shufflevector(f[0], f[1], 1, 9, 3, 11, 5, 13, 7, 15);
-    const Pack z0 = __builtin_shufflevector(f[2], zero, 0, 8, 2, 10, 4, 12, 6, 14);
-    const Pack z1 = __builtin_shufflevector(f[2], zero, 1, 9, 3, 11, 5, 13, 7, 15);
-    // Now pairs (x y) and (z 0) of lanes 0 2 4 6 and 1 3 5 7; each store takes two lanes' four.
-    const Pack low0 = __builtin_shufflevector(xy0, z0, 0, 1, 8, 9, 2, 3, 10, 11);
-    const Pack low1 = __builtin_shufflevector(xy1, z1, 0, 1, 8, 9, 2, 3, 10, 11);
-    const Pack high0 = __builtin_shufflevector(xy0, z0, 4, 5, 12, 13, 6, 7, 14, 15);
-    const Pack high1 = __builtin_shufflevector(xy1, z1, 4, 5, 12, 13, 6, 7, 14, 15);
-    store(to, __builtin_shufflevector(low0, low1, 0, 1, 2, 3, 8, 9, 10, 11));
-    store(to + 8, __builtin_shufflevector(low0, low1, 4, 5, 6, 7, 12, 13, 14, 15));
-    store(to + 16, __builtin_shufflevector(high0, high1, 0, 1, 2, 3, 8, 9, 10, 11));
-    store(to + 24, __builtin_shufflevector(high0, high1, 4, 5, 6, 7, 12, 13, 14, 15));
+    store(to, two_rows<0>(f));
+    store(to + 8, two_rows<2>(f));
+    store(to + 16, two_rows<4>(f));
+    store(to + 24, two_rows<6>(f));
   }
 }
 
@@ -153,7 +151,7 @@ template <class Pack, int... r>
   (store(to + r * width, rows_of_four<r>(f, std::make_index_sequence<width>{})), ...);
 }
 
-// To [lane][4], the last of four being zero.
+// To [lane][x y z and anything].
 template <class Pack>
 [[gnu::always_inline]] inline void store_corner(RealOf<Pack>* to, const Pack (&f)[3]) {
   if constexpr (sizeof(RealOf<Pack>) == sizeof(double)) {
@@ -184,6 +182,25 @@ template <class Pack>
     return *from;
   else
     return __builtin_convertvector(load<PackOf<float, pack_width<Pack>>>(from), Pack);
+}
+
+// Adds the forces of a group's corners to sum[4 * target], one element after the other: so a node's
+// sum has the order of its elements, whatever the pack.
+template <class Pack, int n>
+[[gnu::always_inline]] inline void add_corners(const Pack (&f)[n][3], const std::int32_t* target,
+                                               double* sum) {
+  constexpr int width = sizeof(Pack) < 16 ? 1 : (sizeof(Pack) < 32 ? 2 : 4);
+  using Part = PackOf<double, width>;
+  alignas(64) RealOf<Pack> row[n][pack_width<Pack>][4];
+  for (int a = 0; a < n; ++a) store_corner(&row[a][0][0], f[a]);
+#pragma GCC unroll 16
+  for (int lane = 0; lane < pack_width<Pack>; ++lane)
+#pragma GCC unroll 8
+    for (int a = 0; a < n; ++a) {
+      double* const to = sum + 4 * std::int64_t{target[a * block_lanes<Pack> + lane]};
+      for (int j = 0; j < 4; j += width)
+        store(to + j, Part(load<Part>(to + j) + load_in_double<Part>(row[a][lane] + j)));
+    }
 }
 
 }  // namespace trocar

@@ -24,6 +24,7 @@ struct OnePointHex8 {
   static constexpr int value_X = value_b + 18;  // X_3 … X_6 [m]
   static constexpr int value_k = value_X + 12;  // hourglass stiffness of hourglass.h [N/m]
   static constexpr int n_values = value_k + Hourglass::n_values;
+  static constexpr int n_kept = 3 * n_hourglass_modes;
 
   template <class Pack>
   struct Strain {
@@ -75,7 +76,7 @@ struct OnePointHex8 {
   template <class Pack>
   [[gnu::always_inline]] static Pack hourglass_energy(const BlockValues<Pack>& value,
                                                       const Strain<Pack>& s) {
-    Pack g[n_hourglass_modes][3], sum = zero_of(s.H(0, 0));
+    Pack g[n_hourglass_modes][3], sum = zero_of(s.q[0][0]);
     hourglass_forces(value, s, g);
     for (int p = 0; p < 4; ++p)
       for (int i = 0; i < 3; ++i) sum += s.q[p][i] * g[p][i];

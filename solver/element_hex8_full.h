@@ -5,8 +5,9 @@
 #pragma once
 
 #include "solver/block_data.h"
-#include "solver/element_one_point.h"
+#include "solver/formulation.h"
 #include "solver/hex8_modes.h"
+#include "solver/stash.h"
 
 namespace trocar {
 
@@ -15,23 +16,38 @@ inline constexpr double gauss_point = 0.57735026918962576451;
 
 struct ElementHex8Full {
   static constexpr Formulation formulation = Formulation::hex8_full;
+  static constexpr LawKind law = LawKind::local;
   static constexpr int n_corners = 8;
   static constexpr int n_points = 8;
   static constexpr int value_share = 9;  // of a point, behind C: V_point / V
   static constexpr int values_of_point = 10;
   static constexpr int n_values = n_points * values_of_point;
 
-  template <class Law, class Pack>
-  [[gnu::always_inline]] static void force(const BlockValues<Pack>& value, const Law& law,
-                                           const Pack (&u)[8][3], Pack (&f)[8][3]) {
+  static constexpr int n_kept = 0;
+
+  template <class Pack>
+  [[gnu::always_inline]] static void strain(const BlockValues<Pack>& value, const Pack (&u)[8][3],
+                                            const Stash<Pack>& stash) {
+    Pack w[n_hex_modes][3];
+    for (int i = 0; i < 3; ++i) {
+      Pack mode[n_hex_modes];
+      modes_of_corners(u, i, mode);
+      for (int m = 0; m < n_hex_modes; ++m) w[m][i] = mode[m];
+    }
+    for_points(
+        value, [&](const Point<Pack>& point, int k)
+                   __attribute__((always_inline)) { stash.put_tensor(k, gradient(point, w)); });
+  }
+
+  template <class Pack>
+  [[gnu::always_inline]] static void force(const BlockValues<Pack>& value, const Stash<Pack>& stash,
+                                           Pack (&f)[8][3]) {
     Pack g[n_hex_modes][3];
     for (auto& mode : g)
-      for (Pack& x : mode) x = zero_of(u[0][0]);
+      for (Pack& x : mode) x = zero_of(stash.get(0));
     for_points(
-        value,
-        u, [&](const Point<Pack>& point, const Tensor<Pack>& H) __attribute__((always_inline)) {
-          add_point(point, law.stress(H), g);
-        });
+        value, [&](const Point<Pack>& point, int k)
+                   __attribute__((always_inline)) { add_point(point, stash.get_tensor(k), g); });
     for (int i = 0; i < 3; ++i) {
       Pack mode[n_hex_modes];
       for (int m = 0; m < n_hex_modes; ++m) mode[m] = g[m][i];
@@ -39,35 +55,10 @@ struct ElementHex8Full {
     }
   }
 
-  template <class Law, class Pack>
-  [[gnu::always_inline]] static ElementEnergy<Pack> energy(const BlockValues<Pack>& value,
-                                                           const Law& law, const Pack (&u)[8][3]) {
-    const Pack zero = zero_of(u[0][0]);
-    Pack sum = zero;
-    for_points(
-        value,
-        u, [&](const Point<Pack>& point, const Tensor<Pack>& H) __attribute__((always_inline)) {
-          sum += point.value(value_share) * law.energy(H);
-        });
-    return {sum, zero};
-  }
-
-  // The bound of element_hex8_full_setup.cpp grows at most as at its worst point.
-  template <class Law, class Pack>
-  [[gnu::always_inline]] static ElementWatch<Pack> watch(const BlockValues<Pack>& value,
-                                                         const Law& law, const Pack (&u)[8][3]) {
-    const Pack zero = zero_of(u[0][0]);
-    Pack least_j = zero, most = zero;
-    bool is_first = true;
-    for_points(
-        value, u, [&](const Point<Pack>&, const Tensor<Pack>& H) __attribute__((always_inline)) {
-          const Pack j = volume_change(H, cofactor(H)), s = law.stiffening(H);
-          // The order of the operands keeps a NaN.
-          least_j = is_first ? j : (least_j < j ? least_j : j);
-          most = is_first ? s : (most > s ? most : s);
-          is_first = false;
-        });
-    return {1.0 + least_j, most};
+  template <class Pack>
+  [[gnu::always_inline]] static Pack hourglass_energy(const BlockValues<Pack>&,
+                                                      const Stash<Pack>& stash) {
+    return zero_of(stash.get(0));
   }
 
  private:
@@ -77,25 +68,17 @@ struct ElementHex8Full {
     BlockValues<Pack> value;
   };
 
-  // Calls body(point, H) for each point. Not unrolled: eight copies of a material are too much
-  // code.
+  // Calls body(point, its number) for each point. Not unrolled: that would be much code.
   template <class Pack, class Body>
-  [[gnu::always_inline]] static void for_points(const BlockValues<Pack>& value,
-                                                const Pack (&u)[8][3], const Body& body) {
-    Pack w[n_hex_modes][3];
-    for (int i = 0; i < 3; ++i) {
-      Pack mode[n_hex_modes];
-      modes_of_corners(u, i, mode);
-      for (int m = 0; m < n_hex_modes; ++m) w[m][i] = mode[m];
-    }
+  [[gnu::always_inline]] static void for_points(const BlockValues<Pack>& value, const Body& body) {
 #pragma GCC unroll 1
     for (int k = 0; k < n_points; ++k) {
       constexpr auto g = real<Pack>(gauss_point);
-      const Point<Pack> point{(k & 1) != 0 ? g : -g,
-                              (k & 2) != 0 ? g : -g,
-                              (k & 4) != 0 ? g : -g,
-                              {value.at + k * values_of_point * block_lanes<Pack>}};
-      body(point, gradient(point, w));
+      body(Point<Pack>{(k & 1) != 0 ? g : -g,
+                       (k & 2) != 0 ? g : -g,
+                       (k & 4) != 0 ? g : -g,
+                       {value.at + k * values_of_point * block_lanes<Pack>}},
+           k);
     }
   }
 

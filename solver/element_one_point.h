@@ -1,54 +1,61 @@
-// What a block kernel asks of an element, for those with one stress point: Element has
-// strain(value, u) with the mean gradient H, forces(value, strain, V P, f) and
+// What the loops over blocks ask of an element: strains of its points and what it keeps to the
+// stash (stash.h), forces out of it. For elements with one stress point: Element has strain(value,
+// u) with the mean gradient H and hourglass displacements q, forces(value, strain, V P, f) and
 // hourglass_energy(value, strain).
 #pragma once
 
 #include "solver/block_data.h"
 #include "solver/formulation.h"
+#include "solver/stash.h"
 #include "solver/tensor.h"
 
 namespace trocar {
 
-template <class Pack>
-struct ElementEnergy {
-  Pack strain, hourglass;  // [J]
-};
-
-template <class Pack>
-struct ElementWatch {
-  Pack J;           // least det F
-  Pack stiffening;  // growth of the bound of omega^2 (stiffening.h)
-};
-
 template <class Element>
 struct OnePoint {
   static constexpr Formulation formulation = Element::formulation;
+  static constexpr LawKind law = LawKind::local;
   static constexpr int n_corners = Element::n_corners;
   static constexpr int n_values = Element::n_values;
-  static constexpr int n_points = 1;  // force asks the law for one stress at each (viscosity.h)
+  static constexpr int n_points = 1;
+  static constexpr int n_kept = Element::n_kept;
 
-  // f: corner forces of the present displacements u. [N], [m]
-  template <class Law, class Pack>
-  [[gnu::always_inline]] static void force(const BlockValues<Pack>& value, const Law& law,
-                                           const Pack (&u)[n_corners][3], Pack (&f)[n_corners][3]) {
-    const auto strain = Element::strain(value, u);
-    Element::forces(value, strain, law.stress(strain.H), f);
+  template <class Pack>
+  using Strain = typename Element::template Strain<Pack>;
+
+  template <class Pack>
+  [[gnu::always_inline]] static void strain(const BlockValues<Pack>& value,
+                                            const Pack (&u)[n_corners][3],
+                                            const Stash<Pack>& stash) {
+    const Strain<Pack> strain = Element::strain(value, u);
+    stash.put_tensor(0, strain.H);
+    if constexpr (n_kept > 0)
+      for (int k = 0; k < n_kept; ++k) stash.put(tensor_values + k, strain.q[k / 3][k % 3]);
   }
 
-  template <class Law, class Pack>
-  [[gnu::always_inline]] static ElementEnergy<Pack> energy(const BlockValues<Pack>& value,
-                                                           const Law& law,
-                                                           const Pack (&u)[n_corners][3]) {
-    const auto strain = Element::strain(value, u);
-    return {law.energy(strain.H), Element::hourglass_energy(value, strain)};
+  // f: corner forces. [N]
+  template <class Pack>
+  [[gnu::always_inline]] static void force(const BlockValues<Pack>& value, const Stash<Pack>& stash,
+                                           Pack (&f)[n_corners][3]) {
+    Element::forces(value, kept(stash), stash.get_tensor(0), f);
   }
 
-  template <class Law, class Pack>
-  [[gnu::always_inline]] static ElementWatch<Pack> watch(const BlockValues<Pack>& value,
-                                                         const Law& law,
-                                                         const Pack (&u)[n_corners][3]) {
-    const Tensor<Pack> H = Element::strain(value, u).H;
-    return {1.0 + volume_change(H, cofactor(H)), law.stiffening(H)};
+  template <class Pack>
+  [[gnu::always_inline]] static Pack hourglass_energy(const BlockValues<Pack>& value,
+                                                      const Stash<Pack>& stash) {
+    if constexpr (n_kept > 0)
+      return Element::hourglass_energy(value, kept(stash));
+    else
+      return zero_of(stash.get(0));
+  }
+
+ private:
+  template <class Pack>
+  [[gnu::always_inline]] static Strain<Pack> kept(const Stash<Pack>& stash) {
+    Strain<Pack> strain;
+    if constexpr (n_kept > 0)
+      for (int k = 0; k < n_kept; ++k) strain.q[k / 3][k % 3] = stash.get(tensor_values + k);
+    return strain;
   }
 };
 

@@ -14,6 +14,8 @@ struct ElementTet4 {
   static constexpr int value_B = 0;  // B_1, B_2, B_3
   static constexpr int n_values = value_B + 9;
 
+  static constexpr int n_kept = 0;
+
   template <class Pack>
   struct Strain {
     Tensor<Pack> H;
@@ -42,12 +44,6 @@ struct ElementTet4 {
       }
       f[0][i] = -(f[1][i] + f[2][i] + f[3][i]);
     }
-  }
-
-  template <class Pack>
-  [[gnu::always_inline]] static Pack hourglass_energy(const BlockValues<Pack>&,
-                                                      const Strain<Pack>& s) {
-    return zero_of(s.H(0, 0));
   }
 };
 

@@ -14,6 +14,8 @@ struct ElementTri3 {
   static constexpr int value_B = 0;  // B_1, B_2: x and y each
   static constexpr int n_values = value_B + 4;
 
+  static constexpr int n_kept = 0;
+
   template <class Pack>
   struct Strain {
     Tensor<Pack> H;
@@ -41,12 +43,6 @@ struct ElementTri3 {
       f[0][i] = -(f[1][i] + f[2][i]);
     }
     for (int a = 0; a < 3; ++a) f[a][2] = zero_of(VP(0, 0));
-  }
-
-  template <class Pack>
-  [[gnu::always_inline]] static Pack hourglass_energy(const BlockValues<Pack>&,
-                                                      const Strain<Pack>& s) {
-    return zero_of(s.H(0, 0));
   }
 };
 

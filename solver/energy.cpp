@@ -32,11 +32,14 @@ bool is_counted_here(const Model& model, const Part& part, const ElementBlocks& 
 
 void take_list(const Model& model, const Part& part, const State& state,
                const ElementBlocks& blocks, EnergyTerms& terms) {
-  const BlockKernels& kernels = kernels_for(active_kernels(), blocks);
   std::vector<double> strain(blocks.element_local.size()), hourglass(strain.size());
   parallel_for(std::int64_t{blocks.n_blocks}, [&](std::int64_t begin, std::int64_t end) {
-    kernels.energy(block_task(model, blocks, kernels, state, begin, end - begin),
-                   strain.data() + begin * blocks.lanes, hourglass.data() + begin * blocks.lanes);
+    for_strained_blocks(
+        model, blocks, state, begin, end - begin,
+        [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
+          kernels.law.energy(task, strain.data() + block * blocks.lanes);
+          kernels.element.hourglass(task, hourglass.data() + block * blocks.lanes);
+        });
   });
   for (std::int64_t lane = 0; lane < blocks.n_elements; ++lane) {
     if (!is_counted_here(model, part, blocks, lane)) continue;

@@ -16,6 +16,12 @@ enum class Formulation : std::uint8_t {
   hex8_full,
 };
 
+// What an element asks a material for: the stress of its own strain; of the thickness without
+// stress, too (law_plane_stress.h); at a pressure averaged over its neighbours
+// (law_averaged_pressure.h).
+enum class LawKind : std::uint8_t { local, plane_stress, averaged_pressure };
+inline constexpr int n_law_kinds = 3;
+
 // Numbers that elements compute with; nodes are in double always.
 enum class Precision : std::uint8_t { in_double, in_single };
 inline constexpr int n_precisions = 2;

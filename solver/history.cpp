@@ -21,7 +21,7 @@ ViscousStep viscous_step(const std::vector<PronyBranch>& prony, double dt) {
 
 int history_width(const ElementBlocks& blocks) {
   if (blocks.prony.empty()) return 0;
-  return kernels_for(kernels_of(Simd::scalar), blocks).n_points *
+  return kernels_for(kernels_of(Simd::scalar), blocks).element.n_points *
          history_of_point(static_cast<int>(blocks.prony.size()));
 }
 

@@ -1,5 +1,7 @@
-// What the kernels of one instruction set offer: a table of functions over blocks, resolved once
-// per formulation, material model and precision. Raw pointers only, because each instruction set is
+// What the kernels of one instruction set offer, resolved once per formulation, material model and
+// precision. Elements and laws meet in the stash: an element's kernel leaves there the strain at
+// each point, the law's puts stress in its place, the element's makes forces of it. So an element
+// is compiled once, not once a material. Raw pointers only, because each instruction set is
 // compiled on its own.
 #pragma once
 
@@ -10,70 +12,68 @@
 
 namespace trocar {
 
-// Blocks of one list, from its first to its n-th, and where their results go. `data` and the
-// results of a kernel are of the list's precision.
+// Blocks of one list that follow each other. `data`, `stash` and what kernels put there are of the
+// list's precision.
 struct BlockTask {
-  const double* u;             // (n_local * 3) [m]
-  const std::int32_t* corner;  // [block][corner][lane] local node
-  const void* data;            // [block][value][lane]
-  std::int64_t n_blocks;
+  const double* u = nullptr;             // (n_local * 3) [m]
+  const std::int32_t* corner = nullptr;  // [block][corner][lane] local node
+  const void* data = nullptr;            // [block][value][lane]: the material's, the element's
+  std::int64_t n_blocks = 0;
+  std::int64_t n_values = 0, n_material_values = 0;
+  // [block][value][lane]: H, then V P, of each point (row by row), then what the element keeps.
+  void* stash = nullptr;
+  std::int64_t n_points = 0, n_stash = 0;
+  // Value of point 0 that is its share of the element, and values from point to point; 0: one
+  // point.
+  std::int64_t share = 0, share_stride = 0;
   // For elements that average volume changes: theta of node i at theta[i * n_fields], and the share
   // s (element_tet4_nodal_pressure.h).
-  const double* theta;
-  std::int64_t n_fields;
-  double element_share;
+  const double* theta = nullptr;
+  std::int64_t n_fields = 0;
+  double element_share = 0;
 };
 
-// Numbers of a corner force in Scratch::slot: x, y, z and one that keeps them aligned.
-inline constexpr int slot_width = 4;
+using ElementKernel = void (*)(const BlockTask& task);
+// Adds corner forces [N] to sum[4 * target + (x, y, z)], element after element; target [block]
+// [corner][lane].
+using ForceKernel = void (*)(const BlockTask& task, const std::int32_t* target, double* sum);
+// K V (J - 1) or an energy [J] to [block][lane].
+using ValueKernel = void (*)(const BlockTask& task, double* to);
 
-// Corner forces [N] to [block][corner][lane][slot_width].
-using ForceKernel = void (*)(const BlockTask& task, void* slot);
-// The same of viscoelastic elements; their history, [block][point][number][lane] of doubles, goes
-// along (viscosity.h).
+struct ElementKernels {
+  int n_corners, n_points;
+  int n_values;  // behind those of the material
+  int n_stash;   // values of a lane in the stash
+  LawKind law;
+  int share, share_stride;    // as in BlockTask, without the material's values
+  ElementKernel strain;       // to the stash
+  ForceKernel force;          // from the stash
+  ValueKernel hourglass;      // energy, from the stash
+  ValueKernel volume_change;  // null: the element averages no volume changes
+};
+
+// Viscoelastic elements have a history, [block][point][number][lane] of doubles (viscosity.h).
 struct ViscousStep;
-using ViscousForceKernel = void (*)(const BlockTask& task, const ViscousStep& step, double* history,
-                                    void* slot);
-// Strain and hourglass energy [J] to [block][lane].
-using EnergyKernel = void (*)(const BlockTask& task, double* strain, double* hourglass);
+using ViscousKernel = void (*)(const BlockTask& task, const ViscousStep& step, double* history);
 // Least det F and growth of the bound of omega^2 (stiffening.h) to [block][lane].
 using WatchKernel = void (*)(const BlockTask& task, double* J, double* stiffening);
-// K V (J - 1) [J] to [block][lane].
-using VolumeKernel = void (*)(const BlockTask& task, double* K_V_j);
 
-// Owned nodes whose corner forces are complete.
-struct SumTask {
-  const void* slot;
-  const std::int64_t* slot_offset;  // of every owned node
-  const std::int64_t* slot_index;
-  const double* mass;        // of every owned node [kg]
-  const double* gravity;     // (3) [m/s^2]
-  double* force;             // (n_owned * 3) [N]
-  const std::int32_t* node;  // those to sum
-  std::int64_t n_nodes;
-};
-// force = m g - corner forces in the order of slot_index, summed in double.
-using SumKernel = void (*)(const SumTask& task);
-
-// All kernels null: the element can't be of this material.
-struct BlockKernels {
-  int n_corners, n_values;
-  int n_material_values;  // of n_values, the first ones
-  ForceKernel force;
-  EnergyKernel energy;
+// All null: elements of this kind can't be of this material.
+struct LawKernels {
+  ElementKernel stress;          // in place of strain, in the stash
+  ViscousKernel viscous_stress;  // null: viscosity is not available
+  ValueKernel energy;
   WatchKernel watch;
-  int n_points;                      // with a history each; 0: viscosity is not available
-  ViscousForceKernel viscous_force;  // nullptr then
-  VolumeKernel volume_change;        // null: the element averages no volume changes
 };
 
 struct KernelsOfPrecision {
-  SumKernel sum;
-  BlockKernels block[n_formulations][n_material_models];
+  ElementKernels element[n_formulations];
+  LawKernels law[n_law_kinds][n_material_models];
 };
 
 struct Kernels {
   KernelsOfPrecision of[n_precisions];  // in the order of Precision
+  int n_material_values[n_material_models];
 };
 
 }  // namespace trocar

@@ -1,4 +1,4 @@
-// Builds a model: elements into blocks, corner forces to nodes, stable steps of the undeformed
+// Builds a model: elements into blocks, the order of their sums, stable steps of the undeformed
 // elements.
 #include "solver/model.h"
 
@@ -63,13 +63,7 @@ int list_key(Formulation formulation, int region) {
   return region * n_formulations + static_cast<int>(formulation);
 }
 
-// Where each local element lies: list, and position within the list.
-struct Placement {
-  std::vector<std::int32_t> list, position;
-};
-
-ElementBlocks empty_blocks(const Source& source, int key, std::int32_t n_elements,
-                           std::int64_t first_slot) {
+ElementBlocks empty_blocks(const Source& source, int key, std::int32_t n_elements) {
   ElementBlocks blocks;
   blocks.region = key / n_formulations;
   blocks.formulation = static_cast<Formulation>(key % n_formulations);
@@ -82,53 +76,47 @@ ElementBlocks empty_blocks(const Source& source, int key, std::int32_t n_element
   blocks.lanes = is_single ? lanes_of_block<float> : lanes_of_block<double>;
   blocks.n_elements = n_elements;
   blocks.n_blocks = (n_elements + blocks.lanes - 1) / blocks.lanes;
-  blocks.first_slot = first_slot;
-  const BlockKernels& kernels = kernels_for(kernels_of(Simd::scalar), blocks);
-  CHECK_OP(kernels.n_corners, ==, n_corners(shape_of(blocks.formulation)));
+  const BlockKernels kernels = kernels_for(kernels_of(Simd::scalar), blocks);
+  CHECK_OP(kernels.element.n_corners, ==, n_corners(shape_of(blocks.formulation)));
+  CHECK_OP(kernels.element.n_stash, <=, max_stash_values);
   // Its fibres stiffen so fast that the fixed number of iterations for the thickness is too small.
   if (blocks.formulation == Formulation::tri3_plane_stress &&
       blocks.material == MaterialModel::holzapfel_gasser_ogden)
     throw InputError("material of region " + std::to_string(blocks.region) +
                      ": plane stress is not to be had with holzapfel-gasser-ogden; use plane "
                      "strain, or transversely-isotropic");
-  if (!blocks.prony.empty() && kernels.n_points == 0)
+  if (!blocks.prony.empty() && kernels.law.viscous_stress == nullptr)
     throw InputError("material of region " + std::to_string(blocks.region) +
                      ": this kind of element can't be viscoelastic (prony)");
   const auto n_lanes = static_cast<std::size_t>(blocks.n_blocks * blocks.lanes);
   const std::size_t n_numbers = n_lanes * static_cast<std::size_t>(kernels.n_values);
   blocks.element_local.resize(n_lanes);
-  blocks.corner.resize(n_lanes * static_cast<std::size_t>(kernels.n_corners));
+  blocks.corner.resize(n_lanes * static_cast<std::size_t>(kernels.element.n_corners));
   blocks.data.resize(is_single ? 0 : n_numbers);
   blocks.data_single.resize(is_single ? n_numbers : 0);
   return blocks;
 }
 
-// Counts the elements of each kind and gives each kind that occurs its blocks.
-Placement make_lists(const Source& source, Model& model) {
-  const int n_keys = n_formulations * static_cast<int>(source.materials.size());
-  const std::int32_t n = source.n_elements();
-  std::vector<std::int32_t> count(static_cast<std::size_t>(n_keys)), list_of_key(count.size());
-  Placement placement{std::vector<std::int32_t>(n), std::vector<std::int32_t>(n)};
-  for (std::int32_t k = 0; k < n; ++k) {
+// Counts the elements of each kind, gives each kind that occurs its blocks, and the elements their
+// lanes, ascending.
+void make_lists(const Source& source, Model& model) {
+  const auto key_of = [&](std::int32_t k) {
     const std::int32_t e = source.part.element_global[k];
-    const int key = list_key(formulation_of(source, e), source.mesh.element_region[e]);
-    placement.list[k] = key;
-    placement.position[k] = count[static_cast<std::size_t>(key)]++;
+    return static_cast<std::size_t>(
+        list_key(formulation_of(source, e), source.mesh.element_region[e]));
+  };
+  const std::size_t n_keys = n_formulations * source.materials.size();
+  std::vector<std::int32_t> count(n_keys), next(n_keys), list_of_key(n_keys);
+  for (std::int32_t k = 0; k < source.n_elements(); ++k) ++count[key_of(k)];
+  for (std::size_t key = 0; key < n_keys; ++key) {
+    if (count[key] == 0) continue;
+    list_of_key[key] = static_cast<std::int32_t>(model.blocks.size());
+    model.blocks.push_back(empty_blocks(source, static_cast<int>(key), count[key]));
   }
-  std::int64_t first_slot = 0;
-  for (int key = 0; key < n_keys; ++key) {
-    const auto at = static_cast<std::size_t>(key);
-    if (count[at] == 0) continue;
-    list_of_key[at] = static_cast<std::int32_t>(model.blocks.size());
-    model.blocks.push_back(empty_blocks(source, key, count[at], first_slot));
-    first_slot += static_cast<std::int64_t>(model.blocks.back().corner.size());
+  for (std::int32_t k = 0; k < source.n_elements(); ++k) {
+    const std::size_t key = key_of(k);
+    model.blocks[list_of_key[key]].element_local[next[key]++] = k;
   }
-  for (std::int32_t k = 0; k < n; ++k) {
-    std::int32_t& list = placement.list[k];
-    list = list_of_key[static_cast<std::size_t>(list)];
-    model.blocks[list].element_local[placement.position[k]] = k;
-  }
-  return placement;
 }
 
 ElementConstants constants_of(const Source& source, std::int32_t e) {
@@ -153,7 +141,7 @@ Vec3 fibre_of_element(const Source& source, std::int32_t e) {
 // Constants of the lane's element e: those of the material, then those of the element.
 void fill_values(const Source& source, std::int32_t e, const ElementConstants& element,
                  std::int64_t lane, ElementBlocks& blocks) {
-  const BlockKernels& kernels = kernels_for(kernels_of(Simd::scalar), blocks);
+  const BlockKernels kernels = kernels_for(kernels_of(Simd::scalar), blocks);
   std::array<double, max_values> value{};
   fill_material(source.material(e), element.volume, fibre_of_element(source, e), value);
   std::copy_n(element.value.begin(), kernels.n_values - kernels.n_material_values,
@@ -200,30 +188,6 @@ void fill_blocks(const Source& source, Model& model) {
                        " has no positive volume, or a stiffness or density that is not finite");
 }
 
-// A node's corner forces in ascending global element number, whatever list and lane they lie in.
-void link_slots(const Source& source, const Placement& placement, Model& model) {
-  const std::int32_t n = source.n_elements();
-  model.slot_offset.assign(static_cast<std::size_t>(model.n_owned) + 1, 0);
-  const auto for_owned_corners = [&](const auto& body) {
-    for (std::int32_t k = 0; k < n; ++k) {
-      const ElementBlocks& blocks = model.blocks[placement.list[k]];
-      const std::span<const std::int32_t> node = source.mesh.corners(source.part.element_global[k]);
-      const std::int64_t position = placement.position[k];
-      const std::int64_t first = blocks.first_slot + position % blocks.lanes +
-                                 position / blocks.lanes * std::ssize(node) * blocks.lanes;
-      for (std::int64_t a = 0; a < std::ssize(node); ++a) {
-        const std::int32_t i = source.part.node_local[node[a]];
-        if (i < model.n_owned) body(i, first + a * blocks.lanes);
-      }
-    }
-  };
-  for_owned_corners([&](std::int32_t i, std::int64_t) { ++model.slot_offset[i + 1]; });
-  for (std::int32_t i = 0; i < model.n_owned; ++i) model.slot_offset[i + 1] += model.slot_offset[i];
-  model.slot.resize(static_cast<std::size_t>(model.slot_offset.back()));
-  std::vector<std::int64_t> next(model.slot_offset.begin(), model.slot_offset.end() - 1);
-  for_owned_corners([&](std::int32_t i, std::int64_t slot) { model.slot[next[i]++] = slot; });
-}
-
 // Plane bodies hold z.
 void take_nodes(const Source& source, std::span<const FixedMask> fixed,
                 std::span<const double> mass, Model& model) {
@@ -253,9 +217,8 @@ Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> 
   Model model;
   model.options = options;
   take_nodes(source, fixed, mass, model);
-  const Placement placement = make_lists(source, model);
+  make_lists(source, model);
   fill_blocks(source, model);
-  link_slots(source, placement, model);
   order_sums(model);
   model.n_history = place_history(model.blocks);
   link_volume_averages(mesh, materials, model);
@@ -274,16 +237,11 @@ State make_state(const Model& model) {
 }
 
 Scratch make_scratch(const Model& model) {
-  std::size_t n_corners = 0;
-  for (const ElementBlocks& blocks : model.blocks) n_corners += blocks.corner.size();
   Scratch scratch;
-  const bool is_single = model.options.precision == Precision::in_single;
-  scratch.slot.resize(is_single ? 0 : n_corners * slot_width);
-  scratch.slot_single.resize(is_single ? n_corners * slot_width : 0);
+  scratch.sum.resize(static_cast<std::size_t>(model.sums.n_places) * 4);
   scratch.volume_change.resize(static_cast<std::size_t>(model.averages.n_lanes));
   scratch.force.resize(static_cast<std::size_t>(model.n_owned) * 3);
   scratch.viscous.resize(model.blocks.size());
-  scratch.is_summed.assign(static_cast<std::size_t>(model.n_owned), 0);
   return scratch;
 }
 

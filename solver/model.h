@@ -47,12 +47,13 @@ struct ElementBlocks {
   int lanes = 0;                            // of a block, 64 bytes' worth of the precision
   std::vector<std::int32_t> element_local;  // (n_blocks * lanes) position in Part::element_global
   std::vector<std::int32_t> corner;         // [block][corner][lane] local node
+  // [block][corner][lane] where its force is added in Scratch::sum; empty: at its node
+  std::vector<std::int32_t> target;
   // [block][value][lane], see block_data.h; the one of the list's precision, the other is empty.
   std::vector<double> data;
   std::vector<float> data_single;
   std::vector<PronyBranch> prony;  // of the material; empty: no viscosity
   std::int64_t first_history = 0;  // history of these blocks starts here in State::history
-  std::int64_t first_slot = 0;     // corner forces of these blocks start here in Scratch::slot
   // Elements that average volume changes: their field of VolumeAverages, and where the lanes of
   // these blocks start in Scratch::volume_change.
   std::int32_t field = 0;
@@ -69,18 +70,28 @@ struct VolumeAverages {
   std::vector<double> stiffness;     // (n_owned * n_fields) sum of K V [J]; 0: no such element
 };
 
+// Where corner forces are added up: at their node in the order of the elements. Threads take runs
+// of blocks (counted through all lists); corners at a node that several runs meet get a place each
+// behind the nodes, and are added up afterwards, in the same order. So the bits don't depend on the
+// number of runs.
+struct SumOrder {
+  std::int32_t n_runs = 1;
+  std::int64_t n_places = 0;  // of Scratch::sum, nodes first
+  // Owned nodes that one run alone meets, run by run, ascending by the last block that touches
+  // them: they are finished while they are in the cache.
+  std::vector<std::int32_t> node, last_block;
+  std::vector<std::int32_t> run_first;  // (n_runs + 1) into node
+  // Owned nodes that several runs meet, and the end of their places: the first one's begin at
+  // n_local, the next one's where those end.
+  std::vector<std::int32_t> shared_node, shared_end;
+};
+
 struct Model {
   std::int32_t n_local = 0, n_owned = 0;
   std::vector<double> mass;           // (n_owned) [kg]
   std::vector<FixedMask> fixed;       // (n_owned)
   std::vector<ElementBlocks> blocks;  // one a (formulation, region)
-  // (n_owned + 1) A node's corner forces, in ascending global element number; a slot is one corner
-  // force of Scratch::slot.
-  std::vector<std::int64_t> slot_offset;
-  std::vector<std::int64_t> slot;
-  // Owned nodes ascending by the last block (counted through all lists) that touches them, with the
-  // first and last one: a thread sums a node while its corner forces are still in its cache.
-  std::vector<std::int32_t> sum_node, sum_first_block, sum_last_block;
+  SumOrder sums;
   // (n local elements) stable step of the undeformed element (numerics 1.5) [s]
   std::vector<double> element_step;
   std::int64_t n_history = 0;  // numbers of State::history
@@ -111,12 +122,10 @@ State make_state(const Model& model);
 
 // Neither saved nor shown. Allocated once a model.
 struct Scratch {
-  // Corner forces, [block][corner][lane][x y z 0] of each block list, in the model's precision.
-  std::vector<double> slot;
-  std::vector<float> slot_single;
-  std::vector<double> volume_change;    // K V (J - 1) of lanes, see VolumeAverages [J]
-  std::vector<double> force;            // (n_owned * 3) external - internal force [N]
-  std::vector<std::uint8_t> is_summed;  // (n_owned) all zero between steps
+  std::vector<double> sum;            // (n_places * 4) corner forces of each place of SumOrder;
+                                      // all zero between steps [N]
+  std::vector<double> volume_change;  // K V (J - 1) of lanes, see VolumeAverages [J]
+  std::vector<double> force;          // (n_owned * 3) external - internal force [N]
   // Empty, or (n_owned): energy that mass damping takes from each node, added up by integrate [J].
   std::vector<double> damping_work;
   std::vector<ViscousStep> viscous;  // (block lists) of the step that is being computed

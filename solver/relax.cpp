@@ -39,14 +39,16 @@ std::vector<double> scaled_mass(const Model& model) {
 double greatest_stiffening(const Model& model, const State& state) {
   double most = 1;
   for (const ElementBlocks& blocks : model.blocks) {
-    const BlockKernels& kernels = kernels_for(active_kernels(), blocks);
-    std::array<double, lanes_of_block<float>> J{}, stiffening{};
-    for (std::int32_t b = 0; b < blocks.n_blocks; ++b) {
-      kernels.watch(block_task(model, blocks, kernels, state, b, 1), J.data(), stiffening.data());
-      const int n = std::min(blocks.lanes, blocks.n_elements - b * blocks.lanes);
-      for (int lane = 0; lane < n; ++lane)
-        if (!(stiffening[lane] <= most)) most = stiffening[lane];
-    }
+    std::array<double, stash_blocks * lanes_of_block<float>> J{}, stiffening{};
+    for_strained_blocks(
+        model, blocks, state, 0, blocks.n_blocks,
+        [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
+          kernels.law.watch(task, J.data(), stiffening.data());
+          const std::int64_t n = std::min<std::int64_t>(task.n_blocks * blocks.lanes,
+                                                        blocks.n_elements - block * blocks.lanes);
+          for (std::int64_t lane = 0; lane < n; ++lane)
+            if (!(stiffening[lane] <= most)) most = stiffening[lane];
+        });
   }
   return most;
 }

@@ -16,8 +16,9 @@ namespace trocar {
 void average_volume_change(const Model& model, State& state, Scratch& scratch);
 
 // scratch.force = mass * gravity - internal force(u), for owned nodes; each node sums its corners
-// in ascending global element number. Brings the history of viscoelastic elements to state.time:
-// a second call at the same time and displacement changes nothing.
+// list by list (region, then formulation), ascending by global element number. Brings the history
+// of viscoelastic elements to state.time: a second call at the same time and displacement changes
+// nothing.
 void compute_force(const Model& model, State& state, Scratch& scratch);
 
 // A node whose motion is given: an instrument holds it.

@@ -1,38 +1,110 @@
-// First and last block of each owned node, then a counting sort by the last.
 #include "solver/sum_order.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "base/check.h"
+#include "base/threads.h"
+#include "solver/block_ranges.h"
 
 namespace trocar {
 
-void order_sums(Model& model) {
-  const auto n = static_cast<std::size_t>(model.n_owned);
-  std::vector<std::int32_t> first(n, std::numeric_limits<std::int32_t>::max()), last(n, 0);
-  std::int32_t n_blocks = 0;
-  for (const ElementBlocks& blocks : model.blocks) {
-    const std::int64_t stride = std::ssize(blocks.corner) / blocks.n_blocks;
-    for (std::int64_t k = 0; k < std::ssize(blocks.corner); ++k) {
-      const std::int32_t i = blocks.corner[k];
-      if (i >= model.n_owned) continue;
-      const auto block = static_cast<std::int32_t>(n_blocks + k / stride);
-      first[i] = std::min(first[i], block);
-      last[i] = block;
+namespace {
+
+constexpr std::int32_t no_run = -1, several_runs = -2;
+
+std::int64_t corners_of_block(const ElementBlocks& blocks) {
+  return std::ssize(blocks.corner) / blocks.n_blocks;
+}
+
+// Calls body(run, block counted through all lists, list, place in its corners) for all corners, in
+// the order in which one thread would meet them: element after element.
+template <class List, class Body>
+void for_corners(std::vector<List>& lists, std::int64_t n_blocks, std::int64_t n_runs,
+                 const Body& body) {
+  std::int64_t block = 0, run = 0;
+  for (List& blocks : lists) {
+    const std::int64_t n = corners_of_block(blocks);
+    for (std::int64_t first = 0; first < std::ssize(blocks.corner); first += n, ++block) {
+      while (block >= first_block_of_run(run + 1, n_runs, n_blocks)) ++run;
+      for (std::int64_t lane = 0; lane < blocks.lanes; ++lane)
+        for (std::int64_t k = lane; k < n; k += blocks.lanes)
+          body(static_cast<std::int32_t>(run), static_cast<std::int32_t>(block), blocks, first + k);
     }
-    n_blocks += blocks.n_blocks;
   }
+}
+
+struct NodeUse {
+  std::vector<std::int32_t> run, last_block, n_corners;  // (n_local)
+};
+
+NodeUse use_of_nodes(Model& model, std::int64_t n_blocks) {
+  const auto n = static_cast<std::size_t>(model.n_local);
+  NodeUse use{std::vector<std::int32_t>(n, no_run), std::vector<std::int32_t>(n),
+              std::vector<std::int32_t>(n)};
+  for_corners(
+      model.blocks, n_blocks, model.sums.n_runs,
+      [&](std::int32_t run, std::int32_t block, const ElementBlocks& blocks, std::int64_t at) {
+        const std::int32_t i = blocks.corner[at];
+        use.run[i] = use.run[i] == no_run || use.run[i] == run ? run : several_runs;
+        use.last_block[i] = block;
+        ++use.n_corners[i];
+      });
+  return use;
+}
+
+// Own nodes of each run by a counting sort over their last blocks, which ascend from run to run.
+void order_own_nodes(const NodeUse& use, std::int64_t n_blocks, Model& model) {
+  SumOrder& sums = model.sums;
   std::vector<std::int32_t> next(static_cast<std::size_t>(n_blocks) + 1, 0);
-  for (const std::int32_t block : last) ++next[block + 1];
-  for (std::int32_t block = 0; block < n_blocks; ++block) next[block + 1] += next[block];
-  model.sum_node.resize(n);
-  model.sum_first_block.resize(n);
-  model.sum_last_block.resize(n);
+  const auto is_own = [&](std::int32_t i) { return use.run[i] >= 0; };
+  for (std::int32_t i = 0; i < model.n_owned; ++i)
+    if (is_own(i)) ++next[use.last_block[i] + 1];
+  for (std::int64_t block = 0; block < n_blocks; ++block) next[block + 1] += next[block];
+  sums.run_first.resize(static_cast<std::size_t>(sums.n_runs) + 1);
+  for (std::int32_t run = 0; run <= sums.n_runs; ++run)
+    sums.run_first[run] = next[first_block_of_run(run, sums.n_runs, n_blocks)];
+  sums.node.resize(static_cast<std::size_t>(next.back()));
+  sums.last_block.resize(sums.node.size());
   for (std::int32_t i = 0; i < model.n_owned; ++i) {
-    const std::int32_t at = next[last[i]]++;
-    model.sum_node[at] = i;
-    model.sum_first_block[at] = first[i];
-    model.sum_last_block[at] = last[i];
+    if (!is_own(i)) continue;
+    const std::int32_t at = next[use.last_block[i]]++;
+    sums.node[at] = i;
+    sums.last_block[at] = use.last_block[i];
   }
+}
+
+// A place for each corner at a shared node; those of owned nodes are added up later.
+void place_shared_corners(const NodeUse& use, std::int64_t n_blocks, Model& model) {
+  SumOrder& sums = model.sums;
+  std::vector<std::int32_t> next(static_cast<std::size_t>(model.n_local), 0);
+  std::int32_t place = model.n_local;
+  for (std::int32_t i = 0; i < model.n_local; ++i) {
+    if (use.run[i] != several_runs) continue;
+    next[i] = place;
+    place += use.n_corners[i];
+    if (i >= model.n_owned) continue;
+    sums.shared_node.push_back(i);
+    sums.shared_end.push_back(place);
+  }
+  sums.n_places = place;
+  if (place == model.n_local) return;
+  for (ElementBlocks& blocks : model.blocks) blocks.target = blocks.corner;
+  for_corners(model.blocks, n_blocks, sums.n_runs,
+              [&](std::int32_t, std::int32_t, ElementBlocks& blocks, std::int64_t at) {
+                const std::int32_t i = blocks.corner[at];
+                if (use.run[i] == several_runs) blocks.target[at] = next[i]++;
+              });
+}
+
+}  // namespace
+
+void order_sums(Model& model) {
+  const std::int64_t n_blocks = count_blocks(model);
+  CHECK_OP(n_blocks, >, 0);
+  model.sums.n_runs = chunk_count(n_blocks);
+  const NodeUse use = use_of_nodes(model, n_blocks);
+  order_own_nodes(use, n_blocks, model);
+  place_shared_corners(use, n_blocks, model);
 }
 
 }  // namespace trocar

@@ -1,11 +1,18 @@
-// The order in which a step sums the corner forces of nodes.
+// The order in which a step adds up the corner forces of nodes.
 #pragma once
 
 #include "solver/model.h"
 
 namespace trocar {
 
-// Fills sum_node, sum_first_block and sum_last_block of a model with blocks and n_owned.
+// Fills model.sums and the lists' targets; the model has its blocks and nodes. As many runs as
+// there are threads now.
 void order_sums(Model& model);
+
+// First block of a run.
+inline std::int64_t first_block_of_run(std::int64_t run, std::int64_t n_runs,
+                                       std::int64_t n_blocks) {
+  return run * n_blocks / n_runs;
+}
 
 }  // namespace trocar

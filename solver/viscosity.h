@@ -7,8 +7,8 @@
 // double always: single would stop relaxing at tau / dt ~ 1e6.
 #pragma once
 
+#include "solver/block_data.h"
 #include "solver/corner_access.h"
-#include "solver/material_law.h"
 #include "solver/material_model.h"
 #include "solver/viscous_step.h"
 
@@ -24,7 +24,7 @@ struct ViscousLaw {
   const ViscousStep& step;
   mutable double* history;
 
-  [[gnu::noinline]] Tensor<Pack> stress(const Tensor<Pack>& H) const {
+  [[gnu::always_inline]] Tensor<Pack> stress(const Tensor<Pack>& H) const {
     Tensor<Pack> P = isochoric_stress(H);
     const Tensor<Pack> volumetric = Material::volumetric_stress(H, value);
     for (int i = 0; i < 3; ++i)

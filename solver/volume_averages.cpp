@@ -14,7 +14,7 @@ namespace trocar {
 namespace {
 
 bool averages_volume(const ElementBlocks& blocks) {
-  return kernels_for(active_kernels(), blocks).volume_change != nullptr;
+  return kernels_for(active_kernels(), blocks).element.volume_change != nullptr;
 }
 
 // One field for each region of the whole mesh with such elements, so that all ranks have the same.
@@ -32,9 +32,9 @@ void check_materials(std::span<const Material> materials, std::span<const std::i
                      const Model& model) {
   const auto& row = kernels_of(Simd::scalar)
                         .of[static_cast<int>(model.options.precision)]
-                        .block[static_cast<int>(Formulation::tet4_nodal_pressure)];
+                        .law[static_cast<int>(LawKind::averaged_pressure)];
   for (std::size_t r = 0; r < field.size(); ++r)
-    if (field[r] >= 0 && row[static_cast<int>(materials[r].model)].force == nullptr)
+    if (field[r] >= 0 && row[static_cast<int>(materials[r].model)].stress == nullptr)
       throw InputError("region " + std::to_string(r) +
                        ": averaged nodal pressure needs a material with a volumetric energy of its "
                        "own, such as neo-hookean");
@@ -51,10 +51,11 @@ double stiffness_of(const ElementBlocks& blocks, int n_values, std::int64_t lane
 // item is a node's number in a field.
 template <class Body>
 void for_owned_corners(const Model& model, const ElementBlocks& blocks, const Body& body) {
-  const BlockKernels& kernels = kernels_for(active_kernels(), blocks);
+  const BlockKernels kernels = kernels_for(active_kernels(), blocks);
+  const std::int64_t n_corners = kernels.element.n_corners;
   for (std::int64_t lane = 0; lane < blocks.n_elements; ++lane)
-    for (std::int64_t a = 0; a < kernels.n_corners; ++a) {
-      const std::int64_t row = lane / blocks.lanes * kernels.n_corners + a;
+    for (std::int64_t a = 0; a < n_corners; ++a) {
+      const std::int64_t row = lane / blocks.lanes * n_corners + a;
       const std::int64_t node = blocks.corner[row * blocks.lanes + lane % blocks.lanes];
       if (node < model.n_owned)
         body(node * model.averages.n_fields + blocks.field, blocks.first_lane + lane,
@@ -109,10 +110,11 @@ void average_volume_change(const Model& model, State& state, Scratch& scratch) {
   if (averages.n_fields == 0) return;
   CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * averages.n_fields);
   for_averaging_lists(model, [&](const ElementBlocks& blocks) {
-    const BlockKernels& kernels = kernels_for(active_kernels(), blocks);
+    const BlockKernels kernels = kernels_for(active_kernels(), blocks);
     parallel_for(std::int64_t{blocks.n_blocks}, [&](std::int64_t begin, std::int64_t end) {
-      kernels.volume_change(
-          block_task(model, blocks, kernels, state, begin, end - begin),
+      StashBytes unused;
+      kernels.element.volume_change(
+          block_task(model, blocks, kernels, state, begin, end - begin, unused),
           scratch.volume_change.data() + blocks.first_lane + begin * blocks.lanes);
     });
   });

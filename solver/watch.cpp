@@ -48,9 +48,12 @@ constexpr std::int64_t batch_blocks = 16;
 void take_blocks(const Model& model, const Part& part, const State& state,
                  const ElementBlocks& blocks, std::int64_t first, std::int64_t n,
                  LeastOfElements& least) {
-  const BlockKernels& kernels = kernels_for(active_kernels(), blocks);
   std::array<double, batch_blocks * lanes_of_block<float>> J, stiffening;
-  kernels.watch(block_task(model, blocks, kernels, state, first, n), J.data(), stiffening.data());
+  for_strained_blocks(model, blocks, state, first, n,
+                      [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
+                        const std::int64_t at = (block - first) * blocks.lanes;
+                        kernels.law.watch(task, J.data() + at, stiffening.data() + at);
+                      });
   const std::int64_t n_lanes = std::min(n * blocks.lanes, blocks.n_elements - first * blocks.lanes);
   for (std::int64_t lane = 0; lane < n_lanes; ++lane) {
     const std::int32_t k = blocks.element_local[first * blocks.lanes + lane];

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "base/threads.h"
 #include "solver_body.h"
 
 using namespace trocar;
@@ -30,28 +31,57 @@ TEST(BuildModel, puts_each_element_into_one_list_of_its_type_and_material) {
   EXPECT_EQ(n_found, std::vector<int>(body.mesh.element_type.size(), 1));
 }
 
-TEST(BuildModel, links_each_corner_force_of_a_node_once_in_ascending_element_number) {
-  const Body body = two_material_body();
-  // Element and node of each slot, from the blocks alone.
-  std::vector<std::pair<std::int32_t, std::int32_t>> slot(body.scratch.slot.size() / 4, {-1, -1});
-  for (const ElementBlocks& blocks : body.model.blocks)
-    for (std::int64_t k = 0; k < blocks.n_elements; ++k)
-      for (std::int64_t a = 0; a < 4; ++a) {
-        const std::int64_t at = (k / blocks.lanes * 4 + a) * blocks.lanes + k % blocks.lanes;
-        slot[blocks.first_slot + at] = {body.part.element_global[blocks.element_local[k]],
-                                        blocks.corner[at]};
-      }
-  std::size_t n_linked = 0;
-  for (std::int32_t i = 0; i < body.model.n_owned; ++i) {
-    std::int32_t last = -1;
-    for (auto k = body.model.slot_offset[i]; k < body.model.slot_offset[i + 1]; ++k, ++n_linked) {
-      const auto [element, node] = slot[body.model.slot[k]];
-      EXPECT_EQ(node, i);
-      EXPECT_GT(element, last);
-      last = element;
+// Places of the corner forces of a body whose model was built for so many threads.
+static void check_places(int n_threads) {
+  set_thread_count(n_threads);
+  const Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {7, 6, 5}, BoxElements::tet4_kuhn);
+  const Body body = make_body(mesh);
+  set_thread_count(1);
+  const SumOrder& sums = body.model.sums;
+  ASSERT_EQ(sums.n_runs, n_threads);
+  // The node of each place, and how often each place is a target.
+  std::vector<std::int32_t> node(static_cast<std::size_t>(sums.n_places), -1);
+  std::vector<int> n_targets(node.size(), 0);
+  const ElementBlocks& blocks = body.model.blocks[0];
+  for (std::size_t k = 0; k < blocks.corner.size(); ++k) {
+    const std::int32_t place = blocks.target.empty() ? blocks.corner[k] : blocks.target[k];
+    ++n_targets[place];
+    EXPECT_TRUE(node[place] < 0 || node[place] == blocks.corner[k]);
+    node[place] = blocks.corner[k];
+  }
+  std::vector<int> n_finished(mesh.X.size(), 0);
+  for (const std::int32_t i : sums.node) ++n_finished[i];
+  std::int32_t place = body.model.n_local;
+  for (std::size_t k = 0; k < sums.shared_node.size(); ++k) {
+    ++n_finished[sums.shared_node[k]];
+    EXPECT_EQ(n_targets[sums.shared_node[k]], 0);
+    for (; place < sums.shared_end[k]; ++place) {
+      EXPECT_EQ(node[place], sums.shared_node[k]);
+      EXPECT_EQ(n_targets[place], 1);
     }
   }
-  EXPECT_EQ(n_linked, body.mesh.corner_node.size());
+  EXPECT_EQ(place, sums.n_places);
+  EXPECT_EQ(n_finished, std::vector<int>(mesh.X.size(), 1));
+  EXPECT_EQ(sums.shared_node.empty(), n_threads == 1);
+}
+
+TEST(BuildModel, gives_each_corner_at_a_node_of_several_threads_a_place_of_its_own) {
+  for (const int n_threads : {1, 2, 3}) check_places(n_threads);
+}
+
+TEST(BuildModel, forces_have_the_same_bits_for_any_number_of_threads) {
+  const Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {7, 6, 5}, BoxElements::tet4_kuhn);
+  std::vector<double> expected;
+  for (const int n_threads : {1, 2, 3, 4}) {
+    set_thread_count(n_threads);
+    Body body = make_body(mesh);
+    shake(body.state.u, 1e-2, 4);
+    const std::vector<double> f = force(body);
+    EXPECT_EQ(f, force(body));  // a second time, too: all sums are taken away
+    if (expected.empty()) expected = f;
+    EXPECT_EQ(f, expected);
+  }
+  set_thread_count(1);
 }
 
 TEST(BuildModel, the_elements_of_a_mixed_body_add_up_to_the_forces_of_each_alone) {
@@ -113,11 +143,10 @@ TEST(BuildModel, refuses_impossible_materials_and_nodes_without_mass) {
 TEST(MemoryBytes, counts_what_a_tetrahedron_needs) {
   const Body body =
       make_body(make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {8, 8, 8}, BoxElements::tet4_kuhn));
-  // 3072 tetrahedra in full blocks: 11 constants, 16 slot values, 4 links and one step of 8 bytes,
-  // 4 corners and a place of 4; 729 nodes: mass, offset and 3 forces of 8, order, first and last
-  // block of 4, two marks of 1, and the offset's end.
-  const std::size_t n_bytes = 8 * (11 + 16 + 4 + 1) + 4 * 5, n_node_bytes = 8 * 5 + 4 * 3 + 2;
-  const std::size_t expected = 3072 * n_bytes + 729 * n_node_bytes + 8;
+  // 3072 tetrahedra in full blocks: 11 constants and a step of 8 bytes, 4 corners and a place of 4;
+  // 729 nodes: mass, 3 forces and 4 sums of 8, order and last block of 4, a mark of 1.
+  const std::size_t n_bytes = 8 * (11 + 1) + 4 * 5, n_node_bytes = 8 * 8 + 4 * 2 + 1;
+  const std::size_t expected = 3072 * n_bytes + 729 * n_node_bytes;
   EXPECT_EQ(memory_bytes(body.model, body.scratch), expected);
 }
 

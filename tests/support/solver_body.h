@@ -185,10 +185,9 @@ inline bool is_possible(Formulation formulation, MaterialModel model) {
   if (formulation == Formulation::tri3_plane_stress &&
       model == MaterialModel::holzapfel_gasser_ogden)
     return false;
-  return kernels_of(Simd::scalar)
-             .of[0]
-             .block[static_cast<int>(formulation)][static_cast<int>(model)]
-             .force != nullptr;
+  const KernelsOfPrecision& kernels = kernels_of(Simd::scalar).of[0];
+  const LawKind law = kernels.element[static_cast<int>(formulation)].law;
+  return kernels.law[static_cast<int>(law)][static_cast<int>(model)].stress != nullptr;
 }
 
 inline const std::vector<MaterialModel>& all_models() {

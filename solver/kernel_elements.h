@@ -1,0 +1,111 @@
+// The elements' loops over blocks, written once for any pack and element.
+#pragma once
+
+#include "solver/corner_access.h"
+#include "solver/kernel_groups.h"
+
+namespace trocar {
+
+// Mean over the corners of an element's lanes of x[node * stride].
+template <class Pack, int n>
+[[gnu::always_inline]] inline Pack mean_of_corners(const double* x, std::int64_t stride,
+                                                   const std::int32_t* corner) {
+  RealOf<Pack> mean[pack_width<Pack>];
+  for (int lane = 0; lane < pack_width<Pack>; ++lane) {
+    double sum = 0;
+    for (int a = 0; a < n; ++a) sum += x[stride * corner[a * block_lanes<Pack> + lane]];
+    mean[lane] = static_cast<RealOf<Pack>>(sum * (1.0 / n));
+  }
+  return load<Pack>(mean);
+}
+
+template <class Pack, class Element>
+struct ElementLoops {
+  static constexpr int n = Element::n_corners;
+  static constexpr int lanes = block_lanes<Pack>;
+
+  static void strain(const BlockTask& task) {
+    for_elements(
+        task, [&](const auto& value, const auto& stash, std::int64_t block,
+                  int lane) __attribute__((always_inline)) {
+          const std::int32_t* corner = corners(task, block, lane);
+          Pack u[n][3];
+          gather_corners(task.u, corner, u);
+          Element::strain(value, u, stash);
+          if constexpr (averages_volume_v<Element>)
+            stash.put(tensor_values, mean_of_corners<Pack, n>(task.theta, task.n_fields, corner));
+        });
+  }
+
+  static void force(const BlockTask& task, const std::int32_t* target, double* sum) {
+    for_elements(
+        task, [&](const auto& value, const auto& stash, std::int64_t block, int lane)
+                  __attribute__((always_inline)) {
+                    Pack f[n][3];
+                    Element::force(value, stash, f);
+                    add_corners(f, target + block * n * lanes + lane, sum);
+                  });
+  }
+
+  static void hourglass(const BlockTask& task, double* to) {
+    for_elements(task, [&](const auto& value, const auto& stash, std::int64_t block, int lane) {
+      store_in_double(to + block * lanes + lane, Element::hourglass_energy(value, stash));
+    });
+  }
+
+  static void volume_change(const BlockTask& task, double* to) {
+    for_groups<Pack>(task, [&](const Group<Pack>& group, std::int64_t block, int lane) {
+      Pack u[n][3];
+      gather_corners(task.u, corners(task, block, lane), u);
+      const Tensor<Pack> H = ElementTet4::strain(behind_material(task, group), u).H;
+      const Pack j = trocar::volume_change(H, cofactor(H));
+      store_in_double(to + block * lanes + lane, Pack(group.value(value_K_V) * j));
+    });
+  }
+
+ private:
+  [[gnu::always_inline]] static BlockValues<Pack> behind_material(const BlockTask& task,
+                                                                  const Group<Pack>& group) {
+    return {group.value.at + task.n_material_values * lanes};
+  }
+  [[gnu::always_inline]] static const std::int32_t* corners(const BlockTask& task,
+                                                            std::int64_t block, int lane) {
+    return task.corner + block * n * lanes + lane;
+  }
+  // Calls body(the element's constants, stash, block, lane) for every group.
+  template <class Body>
+  [[gnu::always_inline]] static void for_elements(const BlockTask& task, const Body& body) {
+    for_groups<Pack>(
+        task, [&](const Group<Pack>& group, std::int64_t block, int lane)
+                  __attribute__((always_inline)) {
+                    body(behind_material(task, group), group.stash, block, lane);
+                  });
+  }
+};
+
+template <class Pack, class Element>
+ElementKernels element_kernels() {
+  using Loops = ElementLoops<Pack, Element>;
+  ElementKernels kernels{.n_corners = Element::n_corners,
+                         .n_points = Element::n_points,
+                         .n_values = Element::n_values,
+                         .n_stash = tensor_values * Element::n_points + Element::n_kept,
+                         .law = Element::law,
+                         .strain = Loops::strain,
+                         .force = Loops::force,
+                         .hourglass = Loops::hourglass};
+  if constexpr (requires { Element::value_share; }) {
+    kernels.share = Element::value_share;
+    kernels.share_stride = Element::values_of_point;
+  }
+  if constexpr (averages_volume_v<Element>) kernels.volume_change = Loops::volume_change;
+  return kernels;
+}
+
+template <class Pack, class... Elements>
+void fill_elements(KernelsOfPrecision& kernels, TypeList<Elements...>) {
+  ((kernels.element[static_cast<int>(Elements::formulation)] = element_kernels<Pack, Elements>()),
+   ...);
+}
+
+}  // namespace trocar

@@ -1,0 +1,104 @@
+// The materials' loops over blocks, written once for any pack, material and kind of law.
+#pragma once
+
+#include "solver/corner_access.h"
+#include "solver/kernel_groups.h"
+#include "solver/law_averaged_pressure.h"
+#include "solver/law_plane_stress.h"
+#include "solver/material_law.h"
+#include "solver/viscosity.h"
+
+namespace trocar {
+
+// A law at what its element kept behind the strains, or at its constants behind the material's.
+template <LawKind kind, class Law, class Pack>
+[[gnu::always_inline]] inline auto law_of_kind(const Law& law, const BlockTask& task,
+                                               const Group<Pack>& group) {
+  if constexpr (kind == LawKind::averaged_pressure)
+    return LawAveragedPressure<Law, Pack>{law, group.stash.get(tensor_values * task.n_points),
+                                          static_cast<RealOf<Pack>>(task.element_share)};
+  else if constexpr (kind == LawKind::plane_stress)
+    return LawPlaneStress<Law, Pack>{law,
+                                     {group.value.at + task.n_material_values * block_lanes<Pack>}};
+  else
+    return law;
+}
+
+template <class Pack, class Material, LawKind kind>
+struct LawLoops {
+  static constexpr int lanes = block_lanes<Pack>;
+
+  static void stress(const BlockTask& task) {
+    for_groups<Pack>(
+        task, [&](const Group<Pack>& group, std::int64_t, int) __attribute__((always_inline)) {
+          put_stress(task, group, law_of_kind<kind>(Law<Material, Pack>{group.value}, task, group));
+        });
+  }
+
+  static void viscous_stress(const BlockTask& task, const ViscousStep& step, double* history) {
+    const std::int64_t width = task.n_points * history_of_point(step.n_branches);
+    for_groups<Pack>(task, [&](const Group<Pack>& group, std::int64_t block, int lane) {
+      const ViscousLaw<Material, Pack> law{group.value, step,
+                                           history + block * width * lanes + lane};
+      put_stress(task, group, law_of_kind<kind>(law, task, group));
+    });
+  }
+
+  static void energy(const BlockTask& task, double* to) {
+    for_groups<Pack>(task, [&](const Group<Pack>& group, std::int64_t block, int lane) {
+      const auto law = law_of_kind<kind>(Law<Material, Pack>{group.value}, task, group);
+      Pack sum = zero_of(group.stash.get(0));
+      for (std::int64_t k = 0; k < task.n_points; ++k) {
+        const Pack energy = law.energy(group.stash.get_tensor(k));
+        sum += task.share > 0 ? group.value(task.share + k * task.share_stride) * energy : energy;
+      }
+      store_in_double(to + block * lanes + lane, sum);
+    });
+  }
+
+  // The bound of elements with several points grows at most as at the worst one.
+  static void watch(const BlockTask& task, double* J, double* stiffening) {
+    for_groups<Pack>(task, [&](const Group<Pack>& group, std::int64_t block, int lane) {
+      const auto law = law_of_kind<kind>(Law<Material, Pack>{group.value}, task, group);
+      Pack least = zero_of(group.value(0)), most = least;
+      for (std::int64_t k = 0; k < task.n_points; ++k) {
+        const Tensor<Pack> H = law.full_strain(group.stash.get_tensor(k));
+        const Pack j = volume_change(H, cofactor(H)), s = law.stiffening(H);
+        // The order of the operands keeps a NaN.
+        least = k == 0 ? j : (least < j ? least : j);
+        most = k == 0 ? s : (most > s ? most : s);
+      }
+      store_in_double(J + block * lanes + lane, Pack(1.0 + least));
+      store_in_double(stiffening + block * lanes + lane, most);
+    });
+  }
+
+ private:
+  template <class AnyLaw>
+  [[gnu::always_inline]] static void put_stress(const BlockTask& task, const Group<Pack>& group,
+                                                const AnyLaw& law) {
+    for (std::int64_t k = 0; k < task.n_points; ++k)
+      group.stash.put_tensor(k, law.stress(group.stash.get_tensor(k)));
+  }
+};
+
+// The thickness is found by trial stresses, each of which would move a history on.
+template <class Pack, class Material, LawKind kind>
+LawKernels law_kernels() {
+  LawKernels kernels{};
+  if constexpr (kind != LawKind::averaged_pressure || Material::is_decoupled) {
+    using Loops = LawLoops<Pack, Material, kind>;
+    kernels = {.stress = Loops::stress, .energy = Loops::energy, .watch = Loops::watch};
+    if constexpr (kind != LawKind::plane_stress) kernels.viscous_stress = Loops::viscous_stress;
+  }
+  return kernels;
+}
+
+template <class Pack, LawKind kind, class... Materials>
+void fill_laws(KernelsOfPrecision& kernels, TypeList<Materials...>) {
+  ((kernels.law[static_cast<int>(kind)][static_cast<int>(Materials::model)] =
+        law_kernels<Pack, Materials, kind>()),
+   ...);
+}
+
+}  // namespace trocar
