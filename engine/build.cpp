@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "engine/bytes.h"
+#include "engine/equilibrium.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "engine/mesh_measures.h"
@@ -199,6 +200,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   s.materials = region_materials(loaded, s.mesh);
   s.node_owner = partition_nodes(s.mesh, communicator);
   build_supports(s);
+  if (s.scene.start.state == StartState::equilibrium) check_is_held(loaded, s);
   build_instruments(loaded, s);
   s.body_crc = crc_of_body(s);
   rebuild_topology(s);

@@ -97,6 +97,15 @@ struct SceneCheckpoint {
   double every = 1;  // [s], 0: none
 };
 
+// What the body is like before the first frame.
+enum class StartState { undeformed, equilibrium };
+
+struct SceneStart {
+  StartState state = StartState::undeformed;
+  double tolerance = 3e-5;
+  int max_iterations = 200000;
+};
+
 struct SceneRegion {
   std::string name;
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
@@ -155,6 +164,7 @@ struct Scene {
   SceneSolver solver;
   SceneContact contact;
   SceneCutting cutting;
+  SceneStart start;
   SceneCheckpoint checkpoint;
   std::vector<SceneRegion> regions;
   std::vector<SceneSupport> supports;

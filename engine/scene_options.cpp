@@ -146,6 +146,21 @@ Options<SceneCutting> cutting_options() {
   return c;
 }
 
+Options<SceneStart> start_options() {
+  Options<SceneStart> s("The body before the first frame.");
+  s.choice("state", &SceneStart::state,
+           {{"undeformed", StartState::undeformed}, {"equilibrium", StartState::equilibrium}},
+           "undeformed: as in the mesh, so that gravity sets it swinging; equilibrium: at rest "
+           "under gravity and supports, found by dynamic relaxation without instruments; "
+           "viscoelastic material has relaxed (long-term moduli, no overstress).");
+  s.number("tolerance", &SceneStart::tolerance, dim::none,
+           {.low = 1e-12, .high = 0.01, .is_low_open = true},
+           "Forces out of balance / forces of supports that count as equilibrium.");
+  s.integer("max_iterations", &SceneStart::max_iterations, {.low = 1, .high = 100000000},
+            "The run ends with trouble if these are not enough.");
+  return s;
+}
+
 Options<SceneCheckpoint> checkpoint_options() {
   Options<SceneCheckpoint> c("What a stopped run can be continued from.");
   c.number(
@@ -254,6 +269,7 @@ Options<Scene> scene_options() {
   s.table("solver", &Scene::solver, solver_options(), "Solver.");
   s.table("contact", &Scene::contact, contact_options(), "Contact.");
   s.table("cutting", &Scene::cutting, cutting_options(), "Cutting.");
+  s.table("start", &Scene::start, start_options(), "Start.");
   s.table("checkpoint", &Scene::checkpoint, checkpoint_options(),
           "What \"trocar run --resume\" continues from.");
   s.list("region", &Scene::regions, region_options(), "Regions.");

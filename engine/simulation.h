@@ -52,6 +52,13 @@ inline constexpr const char* phase_names[n_phases] = {"contact detection",
                                                       "checkpoint",
                                                       "waiting"};
 
+// How the body came to rest before the first frame.
+struct Equilibrium {
+  std::int64_t iterations = 0;
+  double residual = 0;  // see Relaxation
+  double seconds = 0;
+};
+
 struct Simulation {
   Communicator* communicator = nullptr;  // owned by main
   Scene scene;
@@ -95,7 +102,8 @@ struct Simulation {
   std::vector<double> fastest_mode;
   double edge_length = 0;
   double stable_step_before_cut = 0;
-  FrameLog log;  // what each frame told
+  std::optional<Equilibrium> equilibrium;  // only if this process looked for one
+  FrameLog log;                            // what each frame told
   PhaseTimers timers;
 };
 

@@ -95,6 +95,10 @@ Json phases_json(const Simulation& s, const RunTimes& times) {
   return phases;
 }
 
+Json equilibrium_json(const Equilibrium& e) {
+  return {{"iterations", e.iterations}, {"residual", e.residual}, {"seconds", e.seconds}};
+}
+
 // What the body holds at the end, the works since the start, and how well the balance closes.
 Json energies_json(const Simulation& s, const FrameRow& last) {
   double error = 0, turned_over = 0;
@@ -152,6 +156,7 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   j["simd"] = simd_name();
   j["mesh"] = mesh_json(s.mesh, s.scene.solver);
   j["mass_kg"] = mass.value();
+  if (s.equilibrium) j["equilibrium"] = equilibrium_json(*s.equilibrium);
   j["duration_s"] = simulated;
   j["frames"] = s.frame;
   j["steps"] = s.state.step;

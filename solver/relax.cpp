@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/check.h"
 #include "base/exact_sum.h"
@@ -158,6 +159,7 @@ void find_forces(const Model& model, const RelaxTask& task, Communicator& commun
   if (task.exchange_u != nullptr) task.exchange_u->exchange(state.u, communicator);
   average_volume_change(model, state, scratch);
   if (task.exchange_theta != nullptr) task.exchange_theta->exchange(state.theta, communicator);
+  state.history_time = -std::numeric_limits<double>::infinity();  // all overstress has gone
   compute_force(model, state, scratch);
 }
 
