@@ -73,6 +73,7 @@ struct SceneSolver {
   double hourglass = 0.15;
   double step_factor = 0.85;  // below 0.866: see docs/stability.md
   StableStep stable_step = StableStep::frequency;
+  double mass_scaling_step = 0;  // [s], 0: none
   Precision precision = Precision::in_double;
   Formulation triangle = Formulation::tri3_plane_strain;
   Formulation tetrahedron = Formulation::tet4;

@@ -116,6 +116,10 @@ Options<SceneSolver> solver_options() {
            "From the body's highest frequency, searched for once a frame and less 2 %, or from "
            "bounds of "
            "each element, which need no search and are 1.4 to 3 times smaller.");
+  s.number("mass_scaling_step", &SceneSolver::mass_scaling_step, dim::time, not_negative,
+           "Selective mass scaling: undeformed elements whose own bound on the step is below this "
+           "get inertia against deformation, not against motion as a whole, until they reach it. "
+           "0: none.");
   return s;
 }
 

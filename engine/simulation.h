@@ -9,6 +9,7 @@
 
 #include "base/communicator.h"
 #include "base/timers.h"
+#include "engine/added_mass.h"
 #include "engine/contact_stage.h"
 #include "engine/cut_stage.h"
 #include "engine/energy_ledger.h"
@@ -102,10 +103,14 @@ struct Simulation {
   std::vector<double> fastest_mode;
   double edge_length = 0;
   double stable_step_before_cut = 0;
+  std::optional<AddedMass> added_mass;     // only with mass scaling
   std::optional<Equilibrium> equilibrium;  // only if this process looked for one
   FrameLog log;                            // what each frame told
   PhaseTimers timers;
 };
+
+// Of the scene's [solver].
+SolverOptions solver_options(const Scene& scene);
 
 // Everything that follows from mesh and owners: after building and after each edit.
 void rebuild_topology(Simulation& s);
