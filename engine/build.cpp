@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "engine/bytes.h"
+#include "engine/equilibrium.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "engine/mesh_measures.h"
@@ -157,23 +158,29 @@ void check_slow_element(const Simulation& s) {
 
 }  // namespace
 
+SolverOptions solver_options(const Scene& scene) {
+  const SceneSolver& solver = scene.solver;
+  return {.mass_damping = solver.mass_damping,
+          .hourglass = solver.hourglass,
+          .thickness = scene.tissue.thickness,
+          .gravity = solver.gravity,
+          .precision = solver.precision,
+          .tri3 = solver.triangle,
+          .tet4 = solver.tetrahedron,
+          .hex8 = solver.hexahedron};
+}
+
 void rebuild_topology(Simulation& s) {
-  const SceneSolver& solver = s.scene.solver;
   const int rank = s.communicator->rank();
+  const std::optional<MassScaling> scaling = plan_mass_scaling(s);
   s.mass = lumped_mass(s.mesh, region_densities(s.materials), s.scene.tissue.thickness);
   s.part = make_part(s.mesh, s.node_owner, rank);
   s.halo = make_halo(s.mesh, s.node_owner, s.part, rank);
   s.exchange_u.emplace(s.halo, 3);
   s.exchange_v.emplace(s.halo, 3);
-  s.model = build_model(s.mesh, s.part, s.materials, s.fixed, s.mass,
-                        {.mass_damping = solver.mass_damping,
-                         .hourglass = solver.hourglass,
-                         .thickness = s.scene.tissue.thickness,
-                         .gravity = solver.gravity,
-                         .precision = solver.precision,
-                         .tri3 = solver.triangle,
-                         .tet4 = solver.tetrahedron,
-                         .hex8 = solver.hexahedron});
+  s.model = build_model(s.mesh, s.part, s.materials, s.fixed, s.mass, solver_options(s.scene));
+  if (scaling) scale_mass(*scaling, s.part, s.model);
+  if (scaling) report_mass_scaling(*scaling, s);
   s.exchange_theta.reset();
   if (s.model.averages.n_fields > 0) s.exchange_theta.emplace(s.halo, s.model.averages.n_fields);
   double rest_step = std::numeric_limits<double>::max();
@@ -185,7 +192,7 @@ void rebuild_topology(Simulation& s) {
   s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part, rank);
   localise_holds(s.holds, s.part);
   s.fastest_mode.clear();
-  if (solver.stable_step == StableStep::frequency) s.edge_length = mean_edge_length(s.mesh);
+  if (s.scene.solver.stable_step == StableStep::frequency) s.edge_length = mean_edge_length(s.mesh);
   if (s.contact) s.contact->detector.set_surface(s.surface);
 }
 
@@ -199,6 +206,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   s.materials = region_materials(loaded, s.mesh);
   s.node_owner = partition_nodes(s.mesh, communicator);
   build_supports(s);
+  if (s.scene.start.state == StartState::equilibrium) check_is_held(loaded, s);
   build_instruments(loaded, s);
   s.body_crc = crc_of_body(s);
   rebuild_topology(s);

@@ -5,6 +5,7 @@
 
 #include "engine/frame_report.h"
 #include "engine/simulation.h"
+#include "solver/mass_clusters.h"
 #include "solver/step.h"
 
 namespace trocar {
@@ -65,6 +66,7 @@ void take_nodes(const Simulation& s, std::vector<double>& kinetic, std::vector<d
     kinetic.push_back(0.5 * m * v2 + half_dt * vf);
     gravity.push_back(-m * gu);
   }
+  add_cluster_kinetic(s.model, s.state.v, kinetic);
 }
 
 }  // namespace

@@ -60,6 +60,9 @@ std::string predict(Simulation& s) {
   text += line("least quality", "%.3f (mean ratio, 1 is ideal)", m.quality_min);
   text += line("stable step", "%.4g ms", 1e3 * s.watch.stable_step);
   text += line("set by element", "%.0f", s.watch.stable_element);
+  if (s.added_mass)
+    text += line("added mass", "%.3g %% of the body's, against deformation only",
+                 100 * s.added_mass->share);
   text += line("steps a frame", "%.0f", n_substeps);
   text += line("steps a second", "%.0f (without contact, cuts and pictures)", 1 / step_seconds);
   text +=

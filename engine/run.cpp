@@ -13,6 +13,7 @@
 #include "engine/build.h"
 #include "engine/bytes.h"
 #include "engine/checkpoint_output.h"
+#include "engine/equilibrium.h"
 #include "engine/film_studio.h"
 #include "engine/frame.h"
 #include "engine/resume.h"
@@ -75,6 +76,18 @@ std::string run_frames(Simulation& s, Outputs& outputs) {
   return s.frame < n_frames ? "stopped by a signal" : "";
 }
 
+// What comes before the first frame if the scene asks for it; the sentence of the trouble, "" if
+// none.
+std::string prepare_start(const LoadedScene& loaded, Simulation& s) {
+  if (s.scene.start.state != StartState::equilibrium) return "";
+  try {
+    start_in_equilibrium(loaded, s);
+  } catch (const SimulationError& trouble) {
+    return trouble.what();
+  }
+  return "";
+}
+
 void write_summary(const std::string& text, const std::string& file) {
   std::ofstream stream(file);
   if (!(stream << text).flush())
@@ -108,11 +121,15 @@ bool run_scene(const RunOptions& options, Communicator& communicator) {
   std::optional<Checkpoint> checkpoint;
   if (options.resume) checkpoint = load_checkpoint(options.folder, loaded, communicator);
   const auto simulation = build(loaded, communicator);
-  if (checkpoint) restore_checkpoint(*checkpoint, *simulation);
+  std::string trouble;
+  if (checkpoint)
+    restore_checkpoint(*checkpoint, *simulation);
+  else
+    trouble = prepare_start(loaded, *simulation);
   Outputs outputs = open_outputs(*simulation, options.folder, checkpoint ? &*checkpoint : nullptr);
   RunTimes times{.setup_seconds = monotonic_seconds() - start};
 
-  const std::string trouble = run_frames(*simulation, outputs);
+  if (trouble.empty()) trouble = run_frames(*simulation, outputs);
   times.loop_seconds = monotonic_seconds() - start - times.setup_seconds;
   const bool is_stopped_by_signal = trouble == "stopped by a signal";
   finish_outputs(outputs);

@@ -73,6 +73,7 @@ struct SceneSolver {
   double hourglass = 0.15;
   double step_factor = 0.85;  // below 0.866: see docs/stability.md
   StableStep stable_step = StableStep::frequency;
+  double mass_scaling_step = 0;  // [s], 0: none
   Precision precision = Precision::in_double;
   Formulation triangle = Formulation::tri3_plane_strain;
   Formulation tetrahedron = Formulation::tet4;
@@ -95,6 +96,15 @@ struct SceneCutting {
 
 struct SceneCheckpoint {
   double every = 1;  // [s], 0: none
+};
+
+// What the body is like before the first frame.
+enum class StartState { undeformed, equilibrium };
+
+struct SceneStart {
+  StartState state = StartState::undeformed;
+  double tolerance = 3e-5;
+  int max_iterations = 200000;
 };
 
 struct SceneRegion {
@@ -155,6 +165,7 @@ struct Scene {
   SceneSolver solver;
   SceneContact contact;
   SceneCutting cutting;
+  SceneStart start;
   SceneCheckpoint checkpoint;
   std::vector<SceneRegion> regions;
   std::vector<SceneSupport> supports;

@@ -119,6 +119,15 @@ void check_cameras(const Scene& scene, const SourceMap& where) {
   }
 }
 
+// Elements in single precision leave some 1e-6 of the supports' forces out of balance.
+void check_start(const Scene& scene, const SourceMap& where) {
+  constexpr double least_in_single = 3e-5;
+  if (scene.start.state == StartState::equilibrium &&
+      scene.solver.precision == Precision::in_single && scene.start.tolerance < least_in_single)
+    where.fail("start.tolerance",
+               "with solver.precision = \"single\" the tolerance must be 3e-5 or more");
+}
+
 void check_time(const Scene& scene, const SourceMap& where) {
   if (scene.time.duration * scene.time.frame_rate < 1)
     where.fail("time.duration", "the duration is shorter than one frame");
@@ -139,6 +148,7 @@ LoadedScene load_scene(const std::string& file, const std::vector<std::string>& 
   check_instruments(located.value, located.where);
   check_cameras(scene, located.where);
   check_outputs(scene, located.where);
+  check_start(scene, located.where);
   std::string folder = std::filesystem::path(file).parent_path().string();
   if (!folder.empty()) folder += "/";
   return {.scene = std::move(located.value),

@@ -116,6 +116,10 @@ Options<SceneSolver> solver_options() {
            "From the body's highest frequency, searched for once a frame and less 2 %, or from "
            "bounds of "
            "each element, which need no search and are 1.4 to 3 times smaller.");
+  s.number("mass_scaling_step", &SceneSolver::mass_scaling_step, dim::time, not_negative,
+           "Selective mass scaling: undeformed elements whose own bound on the step is below this "
+           "get inertia against deformation, not against motion as a whole, until they reach it. "
+           "0: none.");
   return s;
 }
 
@@ -144,6 +148,21 @@ Options<SceneCutting> cutting_options() {
            "Plane cuts: s_spring of the paper's eq. 6.");
   c.number("particle", &SceneCutting::particle, dim::none, not_negative, "Plane cuts: s_particle.");
   return c;
+}
+
+Options<SceneStart> start_options() {
+  Options<SceneStart> s("The body before the first frame.");
+  s.choice("state", &SceneStart::state,
+           {{"undeformed", StartState::undeformed}, {"equilibrium", StartState::equilibrium}},
+           "undeformed: as in the mesh, so that gravity sets it swinging; equilibrium: at rest "
+           "under gravity and supports, found by dynamic relaxation without instruments; "
+           "viscoelastic material has relaxed (long-term moduli, no overstress).");
+  s.number("tolerance", &SceneStart::tolerance, dim::none,
+           {.low = 1e-12, .high = 0.01, .is_low_open = true},
+           "Forces out of balance / forces of supports that count as equilibrium.");
+  s.integer("max_iterations", &SceneStart::max_iterations, {.low = 1, .high = 100000000},
+            "The run ends with trouble if these are not enough.");
+  return s;
 }
 
 Options<SceneCheckpoint> checkpoint_options() {
@@ -254,6 +273,7 @@ Options<Scene> scene_options() {
   s.table("solver", &Scene::solver, solver_options(), "Solver.");
   s.table("contact", &Scene::contact, contact_options(), "Contact.");
   s.table("cutting", &Scene::cutting, cutting_options(), "Cutting.");
+  s.table("start", &Scene::start, start_options(), "Start.");
   s.table("checkpoint", &Scene::checkpoint, checkpoint_options(),
           "What \"trocar run --resume\" continues from.");
   s.list("region", &Scene::regions, region_options(), "Regions.");

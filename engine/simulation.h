@@ -9,6 +9,7 @@
 
 #include "base/communicator.h"
 #include "base/timers.h"
+#include "engine/added_mass.h"
 #include "engine/contact_stage.h"
 #include "engine/cut_stage.h"
 #include "engine/energy_ledger.h"
@@ -51,6 +52,13 @@ inline constexpr const char* phase_names[n_phases] = {"contact detection",
                                                       "output",
                                                       "checkpoint",
                                                       "waiting"};
+
+// How the body came to rest before the first frame.
+struct Equilibrium {
+  std::int64_t iterations = 0;
+  double residual = 0;  // see Relaxation
+  double seconds = 0;
+};
 
 struct Simulation {
   Communicator* communicator = nullptr;  // owned by main
@@ -95,9 +103,14 @@ struct Simulation {
   std::vector<double> fastest_mode;
   double edge_length = 0;
   double stable_step_before_cut = 0;
-  FrameLog log;  // what each frame told
+  std::optional<AddedMass> added_mass;     // only with mass scaling
+  std::optional<Equilibrium> equilibrium;  // only if this process looked for one
+  FrameLog log;                            // what each frame told
   PhaseTimers timers;
 };
+
+// Of the scene's [solver].
+SolverOptions solver_options(const Scene& scene);
 
 // Everything that follows from mesh and owners: after building and after each edit.
 void rebuild_topology(Simulation& s);

@@ -95,6 +95,22 @@ Json phases_json(const Simulation& s, const RunTimes& times) {
   return phases;
 }
 
+Json added_mass_json(const AddedMass& a) {
+  return {{"kg", a.mass},
+          {"share_of_body", a.share},
+          {"elements", a.n_elements},
+          {"nodes", a.n_nodes},
+          {"clusters", a.n_clusters},
+          {"nodes_of_largest_cluster", a.largest_cluster},
+          {"heaviest_node", a.heaviest_node},
+          {"box_low_m", {a.low[0], a.low[1], a.low[2]}},
+          {"box_high_m", {a.high[0], a.high[1], a.high[2]}}};
+}
+
+Json equilibrium_json(const Equilibrium& e) {
+  return {{"iterations", e.iterations}, {"residual", e.residual}, {"seconds", e.seconds}};
+}
+
 // What the body holds at the end, the works since the start, and how well the balance closes.
 Json energies_json(const Simulation& s, const FrameRow& last) {
   double error = 0, turned_over = 0;
@@ -152,6 +168,8 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   j["simd"] = simd_name();
   j["mesh"] = mesh_json(s.mesh, s.scene.solver);
   j["mass_kg"] = mass.value();
+  if (s.added_mass) j["added_mass"] = added_mass_json(*s.added_mass);
+  if (s.equilibrium) j["equilibrium"] = equilibrium_json(*s.equilibrium);
   j["duration_s"] = simulated;
   j["frames"] = s.frame;
   j["steps"] = s.state.step;

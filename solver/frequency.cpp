@@ -3,9 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/digest.h"
 #include "base/exact_sum.h"
+#include "solver/mass_clusters.h"
 
 namespace trocar {
 
@@ -25,10 +27,9 @@ struct Search {
   const ForceOfDisplacement& forces;
   const FrequencyOptions& options;
   const Communicator& communicator;
-  Vector force_at_rest, u, force;
+  Vector force_at_rest, u, force, room;
 
   std::size_t size() const { return 3 * static_cast<std::size_t>(model.n_owned); }
-  double mass(std::size_t k) const { return model.mass[k / 3]; }
   bool is_fixed(std::size_t k) const { return (model.fixed[k / 3] >> (k % 3) & 1) != 0; }
 
   // a·b or a·M b over all ranks, the same bits however they are spread.
@@ -42,8 +43,9 @@ struct Search {
   double dot(const Vector& a, const Vector& b) const {
     return sum([&](std::size_t k) { return a[k] * b[k]; });
   }
-  double mass_dot(const Vector& a, const Vector& b) const {
-    return sum([&](std::size_t k) { return mass(k) * a[k] * b[k]; });
+  double mass_dot(const Vector& a, const Vector& b) {
+    multiply_by_mass(model, a, room);
+    return dot(room, b);
   }
 };
 
@@ -72,7 +74,7 @@ void apply_stiffness(Search& s, Direction& d) {
 
 // Removes from d its part along the unit directions of `basis` and makes it one; false if nothing
 // is left of it. K follows by linearity where it is known.
-bool orthonormalise(const Search& s, const std::vector<const Direction*>& basis, Direction& d) {
+bool orthonormalise(Search& s, const std::vector<const Direction*>& basis, Direction& d) {
   for (int pass = 0; pass < 2; ++pass)  // once more for what rounding left
     for (const Direction* b : basis) {
       const double c = s.mass_dot(b->x, d.x);
@@ -99,10 +101,10 @@ Direction start_direction(const Search& s, const Vector& mode) {
 }
 
 // The largest Ritz value of the directions; x becomes its vector, p the part of it that is new.
-double rayleigh_ritz(const Search& s, Direction& x, const Direction& r, Direction& p) {
-  const bool has_p = !p.x.empty();
+double rayleigh_ritz(const Search& s, Direction& x, const Direction& r,
+                     std::optional<Direction>& p) {
   const std::vector<const Direction*> basis =
-      has_p ? std::vector<const Direction*>{&x, &r, &p} : std::vector<const Direction*>{&x, &r};
+      p ? std::vector<const Direction*>{&x, &r, &*p} : std::vector<const Direction*>{&x, &r};
   const auto n = static_cast<Eigen::Index>(basis.size());
   Eigen::MatrixXd A(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
@@ -124,10 +126,11 @@ double rayleigh_ritz(const Search& s, Direction& x, const Direction& r, Directio
 }
 
 // M^-1 K x - omega^2 x
-Direction residual(const Search& s, const Direction& x, double omega2) {
-  Direction r{Vector(s.size())};
+Direction residual(Search& s, const Direction& x, double omega2) {
+  Direction r{x.Kx};
+  add_cluster_force(s.model, {}, r.x, s.room);
   for (std::size_t k = 0; k < s.size(); ++k)
-    r.x[k] = s.is_fixed(k) ? 0 : x.Kx[k] / s.mass(k) - omega2 * x.x[k];
+    r.x[k] = s.is_fixed(k) ? 0 : r.x[k] / s.model.inertia[k / 3] - omega2 * x.x[k];
   return r;
 }
 
@@ -137,9 +140,10 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
                                         const ForceOfDisplacement& forces,
                                         const FrequencyOptions& options,
                                         const Communicator& communicator, Vector& mode) {
-  Search s{model, part, state, forces, options, communicator, {}, state.u, {}};
+  Search s{model, part, state, forces, options, communicator, {}, state.u, {}, {}};
   forces(s.u, s.force_at_rest);
-  Direction x = start_direction(s, mode), p;
+  Direction x = start_direction(s, mode);
+  std::optional<Direction> p;  // not "empty": a rank without nodes has empty directions
   HighestFrequency found;
   if (!orthonormalise(s, {}, x)) return found;
   apply_stiffness(s, x);
@@ -152,7 +156,7 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
     if (found.is_converged || found.n_iterations == options.most_iterations) break;
     if (!orthonormalise(s, {&x}, r)) break;
     apply_stiffness(s, r);
-    if (!p.x.empty() && !orthonormalise(s, {&x, &r}, p)) p = {};
+    if (p && !orthonormalise(s, {&x, &r}, *p)) p.reset();
     omega2 = rayleigh_ritz(s, x, r, p);
   }
   found.omega = omega2 > 0 ? std::sqrt(omega2) : 0;

@@ -1,6 +1,7 @@
 // Central differences in leapfrog form with centred mass damping.
 #include "base/check.h"
 #include "solver/block_ranges.h"
+#include "solver/mass_clusters.h"
 #include "solver/step.h"
 
 namespace trocar {
@@ -21,6 +22,34 @@ bool is_fixed(const Model& model, std::int64_t i, int j) {
   return (model.fixed[i] >> j & 1) != 0;
 }
 
+// (v+ - v) / dt_m + alpha (v+ + v) / 2 of a component that goes from u to u_next; M times it is the
+// force.
+double given_acceleration(const Model& model, const Coefficients& c, double v, double v_next) {
+  return (v_next - v) / c.dt_m + model.options.mass_damping * (v_next + v) / 2;
+}
+
+Vec3 given_acceleration(const Model& model, const Coefficients& c, double dt, const State& state,
+                        const PrescribedNode& node) {
+  Vec3 a;
+  for (int j = 0; j < 3; ++j) {
+    const std::int64_t k = 3 * std::int64_t{node.node} + j;
+    a[j] = given_acceleration(model, c, state.v[k], (node.u_next[j] - state.u[k]) / dt);
+  }
+  return a;
+}
+
+// With it each node's equation stands for itself, with its inertia as mass.
+void couple_clusters(const Model& model, const Coefficients& c, double dt, const State& state,
+                     std::span<const PrescribedNode> prescribed, Scratch& scratch) {
+  if (model.clusters.node.empty()) return;
+  scratch.given.clear();
+  for (const PrescribedNode& node : prescribed)
+    if (model.clusters.of_node[node.node] >= 0)
+      scratch.given.push_back(
+          {.node = node.node, .a = given_acceleration(model, c, dt, state, node)});
+  add_cluster_force(model, scratch.given, scratch.force, scratch.cluster_sums);
+}
+
 // The equation of motion m (v+ - v) / dt_m + alpha m (v+ + v) / 2 = f + R with v+ = (u_next - u) /
 // dt gives the force R of the holder. Added to f, it makes the step arrive at u_next. A component
 // that a support holds stays: the support bears it, not the holder.
@@ -33,8 +62,7 @@ void add_reaction(const Model& model, const Coefficients& c, double dt, const St
     const double v = state.v[3 * i + j];
     const double v_next = (prescribed.u_next[j] - state.u[3 * i + j]) / dt;
     const double R =
-        model.mass[i] * ((v_next - v) / c.dt_m + model.options.mass_damping * (v_next + v) / 2) -
-        scratch.force[3 * i + j];
+        model.inertia[i] * given_acceleration(model, c, v, v_next) - scratch.force[3 * i + j];
     prescribed.reaction[j] = R;
     scratch.force[3 * i + j] += R;
   }
@@ -44,7 +72,7 @@ void integrate_nodes(const Model& model, const Coefficients& c, double dt, const
                      State& state) {
   parallel_for_nodes(model.n_owned, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
-      const double gain = c.gain / model.mass[i];
+      const double gain = c.gain / model.inertia[i];
       for (int j = 0; j < 3; ++j) {
         const std::int64_t k = 3 * i + j;
         state.v[k] = is_fixed(model, i, j) ? 0 : c.keep * state.v[k] + gain * scratch.force[k];
@@ -54,21 +82,33 @@ void integrate_nodes(const Model& model, const Coefficients& c, double dt, const
   });
 }
 
-// alpha m |v|^2 dt_m with v = (v+ + v-) / 2; call before the velocities change.
+// Of a node, (v+ + v-) / 2.
+Vec3 middle_velocity(const Model& model, const Coefficients& c, const State& state,
+                     const Scratch& scratch, std::int64_t i) {
+  Vec3 v = Vec3::Zero();
+  for (int j = 0; j < 3; ++j) {
+    const std::int64_t k = 3 * i + j;
+    if (is_fixed(model, i, j)) continue;
+    const double v_next = c.keep * state.v[k] + c.gain / model.inertia[i] * scratch.force[k];
+    v[j] = (state.v[k] + v_next) / 2;
+  }
+  return v;
+}
+
+// alpha v·M v dt_m with v = (v+ + v-) / 2; call before the velocities change.
 void add_damping_work(const Model& model, const Coefficients& c, const State& state,
                       Scratch& scratch) {
   const double alpha = model.options.mass_damping;
   if (scratch.damping_work.empty() || alpha == 0) return;
-  for (std::int64_t i = 0; i < model.n_owned; ++i) {
-    double sum = 0;
-    for (int j = 0; j < 3; ++j) {
-      const std::int64_t k = 3 * i + j;
-      if (is_fixed(model, i, j)) continue;
-      const double v_next = c.keep * state.v[k] + c.gain / model.mass[i] * scratch.force[k];
-      const double v = (state.v[k] + v_next) / 2;
-      sum += v * v;
-    }
-    scratch.damping_work[i] += alpha * model.mass[i] * sum * c.dt_m;
+  const auto v_of = [&](std::int64_t i) { return middle_velocity(model, c, state, scratch, i); };
+  for (std::int64_t i = 0; i < model.n_owned; ++i)
+    scratch.damping_work[i] += alpha * model.mass[i] * v_of(i).squaredNorm() * c.dt_m;
+  const MassClusters& clusters = model.clusters;
+  for (std::size_t cluster = 0; cluster < clusters.total.size(); ++cluster) {
+    const Vec3 mean = cluster_mean(clusters, cluster, v_of);
+    for (std::int32_t k = clusters.offset[cluster]; k < clusters.offset[cluster + 1]; ++k)
+      scratch.damping_work[clusters.node[k]] +=
+          alpha * clusters.added[k] * (v_of(clusters.node[k]) - mean).squaredNorm() * c.dt_m;
   }
 }
 
@@ -78,11 +118,12 @@ void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> p
                double dt, State& state) {
   CHECK_OP(dt, >, 0);
   const Coefficients c = coefficients(model.options.mass_damping, state.last_dt, dt);
-  for (PrescribedNode& node : prescribed) {
+  for (const PrescribedNode& node : prescribed) {
     CHECK_OP(node.node, >=, 0);
     CHECK_OP(node.node, <, model.n_owned);
-    add_reaction(model, c, dt, state, scratch, node);
   }
+  couple_clusters(model, c, dt, state, prescribed, scratch);
+  for (PrescribedNode& node : prescribed) add_reaction(model, c, dt, state, scratch, node);
   add_damping_work(model, c, state, scratch);
   integrate_nodes(model, c, dt, scratch, state);
   // Exactly there, without the rounding of u + dt (u_next - u) / dt.

@@ -157,6 +157,10 @@ void fill_values(const Source& source, std::int32_t e, const ElementConstants& e
   }
 }
 
+double resting_step(const ElementConstants& constants, double stiffening) {
+  return constants.volume > 0 ? 2 / std::sqrt(constants.omega2 * stiffening) : 0;
+}
+
 // A lane's element; lanes behind the last element repeat its corners with all constants zero.
 void fill_lane(const Source& source, std::int64_t lane, ElementBlocks& blocks,
                std::vector<double>& element_step) {
@@ -171,8 +175,7 @@ void fill_lane(const Source& source, std::int64_t lane, ElementBlocks& blocks,
   if (is_padding) return;
   const ElementConstants constants = constants_of(source, e);
   fill_values(source, e, constants, lane, blocks);
-  element_step[k] =
-      constants.volume > 0 ? 2 / std::sqrt(constants.omega2 * blocks.stiffening_at_rest) : 0;
+  element_step[k] = resting_step(constants, blocks.stiffening_at_rest);
 }
 
 void fill_blocks(const Source& source, Model& model) {
@@ -195,6 +198,7 @@ void take_nodes(const Source& source, std::span<const FixedMask> fixed,
   model.n_local = source.part.n_local();
   model.n_owned = source.part.n_owned;
   model.mass.reserve(static_cast<std::size_t>(model.n_owned));
+  model.inertia.reserve(static_cast<std::size_t>(model.n_owned));
   model.fixed.reserve(static_cast<std::size_t>(model.n_owned));
   for (std::int32_t i = 0; i < model.n_owned; ++i) {
     const std::int32_t global = source.part.node_global[i];
@@ -202,6 +206,7 @@ void take_nodes(const Source& source, std::span<const FixedMask> fixed,
       throw InputError("node " + std::to_string(global) +
                        " has no mass: each node must belong to an element");
     model.mass.push_back(mass[global]);
+    model.inertia.push_back(mass[global]);
     model.fixed.push_back(static_cast<FixedMask>(fixed[global] | plane));
   }
 }
@@ -223,6 +228,24 @@ Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> 
   model.n_history = place_history(model.blocks);
   link_volume_averages(mesh, materials, model);
   return model;
+}
+
+std::vector<RestingElement> resting_elements(const Mesh& mesh, std::span<const Material> materials,
+                                             const SolverOptions& options) {
+  const Part none;  // constants do not ask for it
+  const Source source{mesh, none, materials, options};
+  std::vector<RestingElement> elements(mesh.element_type.size());
+  parallel_for(std::ssize(elements), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k < end; ++k) {
+      const auto e = static_cast<std::int32_t>(k);
+      const ElementConstants constants = constants_of(source, e);
+      const double density = source.material(e).density * mesh.density_factor[e];
+      elements[k] = {.number = e,
+                     .step = resting_step(constants, stiffening_at_rest(source.material(e))),
+                     .mass = density * constants.volume};
+    }
+  });
+  return elements;
 }
 
 State make_state(const Model& model) {

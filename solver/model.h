@@ -86,9 +86,21 @@ struct SumOrder {
   std::vector<std::int32_t> shared_node, shared_end;
 };
 
+// Nodes of elements whose mass is scaled, in groups that hang together (mass_scaling.h). Each group
+// has one owner; empty where no mass is scaled.
+struct MassClusters {
+  std::vector<std::int32_t> offset = {0};  // (n_clusters + 1) into node
+  std::vector<std::int32_t> node;          // local, ascending in each cluster
+  std::vector<double> added;               // (node.size()) d [kg]
+  std::vector<double> total;               // (n_clusters) sum of d [kg]
+  std::vector<std::int32_t> of_node;       // (n_owned) cluster or -1; empty without clusters
+};
+
 struct Model {
   std::int32_t n_local = 0, n_owned = 0;
-  std::vector<double> mass;           // (n_owned) [kg]
+  std::vector<double> mass;     // (n_owned) what gravity acts on [kg]
+  std::vector<double> inertia;  // (n_owned) mass, and d where it is scaled [kg]
+  MassClusters clusters;
   std::vector<FixedMask> fixed;       // (n_owned)
   std::vector<ElementBlocks> blocks;  // one a (formulation, region)
   SumOrder sums;
@@ -104,6 +116,22 @@ struct Model {
 Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> materials,
                   std::span<const FixedMask> fixed, std::span<const double> mass,
                   const SolverOptions& options);
+
+// An element of the undeformed mesh.
+struct RestingElement {
+  std::int32_t number = 0;
+  double step = 0;  // element_step; 0 where the element is broken [s]
+  double mass = 0;  // [kg]
+};
+// All elements of the mesh, in parallel.
+std::vector<RestingElement> resting_elements(const Mesh& mesh, std::span<const Material> materials,
+                                             const SolverOptions& options);
+
+// A node whose acceleration is given: something holds it.
+struct GivenAcceleration {
+  std::int32_t node = 0;  // local, owned
+  Vec3 a = Vec3::Zero();  // [m/s^2]
+};
 
 // What a step changes. Halo nodes hold what their owners sent. [m], [m/s], [s]
 struct State {
@@ -128,6 +156,9 @@ struct Scratch {
   std::vector<double> force;          // (n_owned * 3) external - internal force [N]
   // Empty, or (n_owned): energy that mass damping takes from each node, added up by integrate [J].
   std::vector<double> damping_work;
+  // Of held nodes in clusters, and room for sums of clusters; used by integrate.
+  std::vector<GivenAcceleration> given;
+  std::vector<double> cluster_sums;
   std::vector<ViscousStep> viscous;  // (block lists) of the step that is being computed
 };
 Scratch make_scratch(const Model& model);

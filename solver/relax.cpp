@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/check.h"
 #include "base/exact_sum.h"
@@ -30,7 +31,7 @@ std::vector<double> scaled_mass(const Model& model) {
       if (node < model.n_owned) least[node] = std::max(least[node], 1 / (step * step));
     }
   }
-  for (std::size_t i = 0; i < least.size(); ++i) least[i] *= model.mass[i];
+  for (std::size_t i = 0; i < least.size(); ++i) least[i] *= model.inertia[i];
   return least;
 }
 
@@ -160,6 +161,7 @@ void find_forces(const Model& model, const RelaxTask& task, Communicator& commun
   if (task.exchange_u != nullptr) task.exchange_u->exchange(state.u, communicator);
   average_volume_change(model, state, scratch);
   if (task.exchange_theta != nullptr) task.exchange_theta->exchange(state.theta, communicator);
+  state.history_time = -std::numeric_limits<double>::infinity();  // all overstress has gone
   compute_force(model, state, scratch);
 }
 

@@ -39,10 +39,11 @@ struct Relaxation {
   bool is_finite = true;  // otherwise it diverged
 };
 
-// Moves `state` into equilibrium: u changes, v and last_dt become 0, time and step stay. Afterwards
-// scratch.force is load + gravity - internal force: the residual at free nodes, the negative of
-// the support's or holder's force at others. The same bits for any number of ranks and threads.
-// Collective.
+// Moves `state` into equilibrium: u changes, v and last_dt become 0, time and step stay.
+// Viscoelastic elements answer with their long-term moduli and are left without overstress, as if
+// they had always been there. Afterwards scratch.force is load + gravity - internal force: the
+// residual at free nodes, the negative of the support's or holder's force at others. The same bits
+// for any number of ranks and threads. Collective.
 Relaxation relax(const Model& model, const RelaxTask& task, State& state, Scratch& scratch);
 
 // The same iteration by iteration, for a caller that adds forces of its own (contact).

@@ -102,12 +102,12 @@ void compute_force(const Model& model, State& state, Scratch& scratch) {
 
 std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
   const auto bytes = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
-  std::size_t sum = bytes(model.mass) + bytes(model.fixed) + bytes(model.sums.node) +
-                    bytes(model.sums.last_block) + bytes(model.sums.shared_node) +
-                    bytes(model.sums.shared_end) + bytes(model.element_step) +
-                    bytes(model.averages.offset) + bytes(model.averages.lane) +
-                    bytes(model.averages.stiffness) + bytes(scratch.volume_change) +
-                    bytes(scratch.sum) + bytes(scratch.force);
+  std::size_t sum = bytes(model.mass) + bytes(model.inertia) + bytes(model.fixed) +
+                    bytes(model.sums.node) + bytes(model.sums.last_block) +
+                    bytes(model.sums.shared_node) + bytes(model.sums.shared_end) +
+                    bytes(model.element_step) + bytes(model.averages.offset) +
+                    bytes(model.averages.lane) + bytes(model.averages.stiffness) +
+                    bytes(scratch.volume_change) + bytes(scratch.sum) + bytes(scratch.force);
   for (const ElementBlocks& blocks : model.blocks)
     sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.target) +
            bytes(blocks.data) + bytes(blocks.data_single);

@@ -48,6 +48,27 @@ TEST(StateDigest, of_the_plane_cut_is_the_same_on_any_ranks_and_threads) {
   expect_one_digest("plane_cut.toml", {});
 }
 
+const std::vector<std::string> short_start = {"time.duration='0.1 s'", "start.state='equilibrium'"};
+
+std::vector<std::string> with_short_start(std::vector<std::string> settings) {
+  settings.insert(settings.end(), short_start.begin(), short_start.end());
+  return settings;
+}
+
+TEST(StateDigest, of_a_start_in_equilibrium_is_the_same_on_any_ranks_and_threads) {
+  const std::string coarse = "tissue.shape.cells=[6,6,6]";
+  expect_one_digest(
+      "block_hex.toml",
+      with_short_start({coarse, "tissue.material.prony=[{share=0.4, time='0.1 s'}]"}));
+  expect_one_digest("block_hex.toml", with_short_start({coarse, "tissue.shape.elements='tet4-five'",
+                                                        "solver.tetrahedron='nodal-pressure'"}));
+  expect_one_digest("plane_cut.toml", with_short_start({"solver.gravity=[0, -2, 0]"}));
+}
+
+TEST(StateDigest, with_scaled_masses_is_the_same_on_any_ranks_and_threads_while_it_is_cut) {
+  expect_one_digest("plane_cut.toml", {"time.duration='2 s'", "solver.mass_scaling_step='0.5 ms'"});
+}
+
 TEST(StateDigest, changes_when_an_input_changes_in_its_sixteenth_digit) {
   const std::vector<std::string> short_run = {"output=[]", "time.duration='0.2 s'"};
   std::vector<std::string> other = short_run;

@@ -117,6 +117,13 @@ TEST(Resume, of_the_grasped_hexahedral_block_gives_the_same_bits_on_other_ranks)
   expect_resumes("hexahedra", config("block_hex.toml"), "1.6 s", "1.8 s");
 }
 
+TEST(Resume, of_a_run_that_began_in_equilibrium_gives_the_same_bits_on_other_ranks) {
+  const std::string folder = test_folder("equilibrium-scene");
+  std::string text = resume_plane_text + "[start]\nstate = \"equilibrium\"\n";
+  text.replace(text.find("mass_damping"), 0, "gravity = [0, -2, 0]\n");
+  expect_resumes("equilibrium", scene_file(folder, text), "0.5 s", "0.8 s");
+}
+
 TEST(Resume, goes_on_with_pictures_and_begins_a_film_and_a_sheet_of_its_own) {
   const std::string whole = test_folder("pictures-whole"), parts = test_folder("pictures-parts");
   const std::string outputs =

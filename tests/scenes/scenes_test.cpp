@@ -176,5 +176,44 @@ TEST(Commands, check_mesh_doctor_and_help_answer) {
   }
 }
 
+Finished run_block_start(const std::string& folder, const std::string& setting) {
+  return run_trocar({"run", config("block_hex.toml"), "-q", "-o", folder, "--set", "output=[]",
+                     "--set", "time.duration='0.1 s'", "--set", "tissue.shape.cells=[6,6,6]",
+                     "--set", "start.state='equilibrium'", "--set", setting},
+                    folder);
+}
+
+TEST(Equilibrium, is_reported_with_iterations_residual_and_seconds) {
+  const std::string folder = test_folder("equilibrium");
+  EXPECT_EQ(run_block_start(folder, "start.tolerance=1e-4").exit_code, 0);
+  const nlohmann::json summary = read_summary(folder);
+  ASSERT_FALSE(summary.is_discarded());
+  EXPECT_GT(summary["equilibrium"]["iterations"], 0);
+  EXPECT_LE(summary["equilibrium"]["residual"], 1e-4);
+  EXPECT_GT(summary["equilibrium"]["seconds"], 0.0);
+  EXPECT_EQ(summary["events"].size(), 1u);
+}
+
+TEST(Equilibrium, that_is_not_found_ends_the_run_with_a_sentence_and_a_summary) {
+  const std::string folder = test_folder("no-equilibrium");
+  const Finished run = run_block_start(folder, "start.max_iterations=20");
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("no equilibrium to start from: after 20 iterations"), std::string::npos)
+      << run.err;
+  const nlohmann::json summary = read_summary(folder);
+  ASSERT_FALSE(summary.is_discarded());
+  EXPECT_EQ(summary["finished"], false);
+  EXPECT_EQ(summary["frames"], 0);
+}
+
+TEST(Equilibrium, of_a_floating_body_is_an_error_of_the_scene) {
+  const std::string folder = test_folder("floating");
+  const Finished run = run_block_start(folder, "support=[]");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("no support holds the piece of the body with node 0 along z"),
+            std::string::npos)
+      << run.err;
+}
+
 }  // namespace
 }  // namespace trocar

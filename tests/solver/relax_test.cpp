@@ -112,6 +112,29 @@ TEST(Relax, needs_about_as_many_iterations_as_the_ratio_of_frequencies_says) {
   EXPECT_LT(static_cast<double>(result.iterations), 4 * ideal);
 }
 
+TEST(Relax, finds_the_long_term_state_of_a_viscoelastic_body_and_leaves_it_at_rest) {
+  // The isochoric stress falls to 1 - .3 - .2 of the elastic one: a body with half the mu, same K.
+  const double mu = 1000, K = 5000;
+  const auto relaxed = [](const Material& material) {
+    Body body = clamped_block(BoxElements::tet4_kuhn, material);
+    const std::vector<double> load = random_load(body, 1e-4);
+    const RelaxTask task{.load = load, .tolerance = 1e-10};
+    EXPECT_TRUE(relax(body.model, task, body.state, body.scratch).is_converged);
+    return body;
+  };
+  Material viscous = material_of(MaterialModel::neo_hookean, mu, K);
+  viscous.prony = {{.share = .3, .time = .01}, {.share = .2, .time = 10}};
+  Body body = relaxed(viscous);
+  const std::vector<double> elastic =
+      relaxed(material_of(MaterialModel::neo_hookean, .5 * mu, K)).state.u;
+  for (std::size_t k = 0; k < elastic.size(); ++k)
+    EXPECT_NEAR(body.state.u[k], elastic[k], 1e-7 * largest(elastic)) << k;  // residuals of 1e-10
+  // Without overstress a second of waiting changes no force.
+  const std::vector<double> now = force(body);
+  body.state.time += 1;
+  EXPECT_EQ(force(body), now);
+}
+
 TEST(Relax, gives_the_same_bits_with_any_number_of_threads) {
   const auto run = [](int n_threads) {
     set_thread_count(n_threads);

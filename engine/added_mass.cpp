@@ -1,0 +1,74 @@
+#include "engine/added_mass.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "base/log.h"
+#include "engine/frame_report.h"
+#include "engine/simulation.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr double share_of_event = 0.05;
+
+AddedMass measure(const MassScaling& scaling, const Simulation& s) {
+  AddedMass added{.n_elements = static_cast<std::int32_t>(scaling.element.size()),
+                  .n_nodes = static_cast<std::int32_t>(scaling.node.size()),
+                  .n_clusters = scaling.n_clusters()};
+  if (scaling.node.empty()) return added;
+  ExactSum all, more;
+  for (const double m : s.mass) all.add(m);
+  for (const double m : scaling.added) more.add(m);
+  added.mass = more.value();
+  added.share = more.value() / all.value();
+  for (std::int32_t c = 0; c < scaling.n_clusters(); ++c)
+    added.largest_cluster =
+        std::max(added.largest_cluster, scaling.offset[static_cast<std::size_t>(c) + 1] -
+                                            scaling.offset[static_cast<std::size_t>(c)]);
+  const auto most = std::max_element(scaling.added.begin(), scaling.added.end());
+  added.heaviest_node = static_cast<std::int32_t>(most - scaling.added.begin());
+  added.low = added.high = s.mesh.X[static_cast<std::size_t>(added.heaviest_node)];
+  for (const std::int32_t node : scaling.node) {
+    added.low = added.low.cwiseMin(s.mesh.X[static_cast<std::size_t>(node)]);
+    added.high = added.high.cwiseMax(s.mesh.X[static_cast<std::size_t>(node)]);
+  }
+  return added;
+}
+
+std::string sentence(const AddedMass& added, const Simulation& s) {
+  const Vec3 X = s.mesh.X[static_cast<std::size_t>(added.heaviest_node)];
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "mass scaling adds %.3g kg, %.3g %% of the body, to %d nodes of %d elements in %d "
+                "clusters, most at node %d (%.4g %.4g %.4g m)",
+                added.mass, 100 * added.share, added.n_nodes, added.n_elements, added.n_clusters,
+                added.heaviest_node, X[0], X[1], X[2]);
+  return text;
+}
+
+}  // namespace
+
+std::optional<MassScaling> plan_mass_scaling(Simulation& s) {
+  const SceneSolver& solver = s.scene.solver;
+  if (solver.mass_scaling_step == 0) return std::nullopt;
+  MassScaling scaling =
+      find_mass_scaling(s.mesh, s.materials, solver_options(s.scene), solver.mass_scaling_step);
+  keep_clusters_whole(scaling, s.node_owner);
+  return scaling;
+}
+
+void report_mass_scaling(const MassScaling& scaling, Simulation& s) {
+  const bool is_first = !s.added_mass;
+  const double before = is_first ? 0 : s.added_mass->share;
+  s.added_mass = measure(scaling, s);
+  if (s.added_mass->share > share_of_event && before <= share_of_event)
+    note_event(s, s.state.time, sentence(*s.added_mass, s) + ": its motion is slowed visibly");
+  else if (is_first)
+    log_info(s.added_mass->n_nodes > 0
+                 ? sentence(*s.added_mass, s)
+                 : "mass scaling adds nothing: no element's step is below the wanted one");
+}
+
+}  // namespace trocar

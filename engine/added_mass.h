@@ -1,0 +1,28 @@
+// Selective mass scaling of a scene: what it adds, where, and who is told.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/vec.h"
+#include "solver/mass_scaling.h"
+
+namespace trocar {
+
+struct Simulation;
+
+struct AddedMass {
+  double mass = 0, share = 0;  // [kg], of the body's mass
+  std::int32_t n_elements = 0, n_nodes = 0, n_clusters = 0, largest_cluster = 0;  // in nodes
+  std::int32_t heaviest_node = -1;               // where most was added
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // box around the nodes concerned [m]
+};
+
+// Finds the elements to be scaled, if the scene asks for it, and moves clusters that lie on several
+// ranks to one: before the part is made.
+std::optional<MassScaling> plan_mass_scaling(Simulation& s);
+// Measures it, says it once, and notes an event when more than 5 % of the body's mass is added and
+// it was not before.
+void report_mass_scaling(const MassScaling& scaling, Simulation& s);
+
+}  // namespace trocar

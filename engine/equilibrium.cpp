@@ -1,0 +1,114 @@
+#include "engine/equilibrium.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/timers.h"
+#include "engine/frame_report.h"
+#include "engine/frame_watch.h"
+#include "mesh/connected_nodes.h"
+#include "solver/relax.h"
+
+namespace trocar {
+
+namespace {
+
+// (n_nodes) Components that supports hold anywhere in the piece, at the piece's lowest node.
+std::vector<FixedMask> held_components(const Simulation& s, std::span<const std::int32_t> piece) {
+  std::vector<FixedMask> held(piece.size(), 0);
+  const auto hold = [&](std::size_t node, FixedMask mask) {
+    FixedMask& of_piece = held[static_cast<std::size_t>(piece[node])];
+    of_piece = static_cast<FixedMask>(of_piece | mask);
+  };
+  for (std::size_t node = 0; node < piece.size(); ++node) hold(node, s.fixed[node]);
+  for (const Hold& moved : s.holds.holds) hold(static_cast<std::size_t>(moved.node), 7);
+  return held;
+}
+
+std::vector<std::int32_t> pieces_of(const Mesh& mesh) {
+  std::vector<std::int32_t> all(mesh.element_type.size());
+  std::iota(all.begin(), all.end(), 0);
+  return connected_nodes(mesh, all);
+}
+
+// Where the deepest of the contacts of time zero is, if any reaches into the body.
+void check_instruments(const LoadedScene& loaded, Simulation& s) {
+  detect_contacts(*s.contact, s.tools, s.holds, s.view, FrameSpan{}, 0);
+  const Contact* deepest = nullptr;
+  for (const Contact& contact : s.contact->contacts)
+    if (contact.gap < 0 && (deepest == nullptr || contact.gap < deepest->gap)) deepest = &contact;
+  if (deepest == nullptr) return;
+  const auto tool = static_cast<std::size_t>(deepest->tool);
+  loaded.where.fail("instrument[" + std::to_string(tool) + "].path[0].position",
+                    "\"" + s.tools[tool].name + "\" reaches " + number_text(-deepest->gap) +
+                        " m into the body in equilibrium, which is found without instruments: let "
+                        "it begin outside, or start with state = \"undeformed\"");
+}
+
+[[noreturn]] void give_up(Simulation& s, const std::string& cause) {
+  s.state = make_state(s.model);
+  throw SimulationError("no equilibrium to start from: " + cause +
+                        "; supports may leave the body free to turn, or it is too soft to bear "
+                        "its weight");
+}
+
+Relaxation relax_body(Simulation& s) {
+  aim_holds(s.holds, s.tools, s.mesh.X, 0);
+  return relax(s.model,
+               {.prescribed = s.holds.prescribed,
+                .max_iterations = s.scene.start.max_iterations,
+                .tolerance = s.scene.start.tolerance,
+                .communicator = s.communicator,
+                .exchange_u = &*s.exchange_u,
+                .exchange_theta = s.exchange_theta ? &*s.exchange_theta : nullptr},
+               s.state, s.scratch);
+}
+
+void check_found(const Relaxation& found, Simulation& s) {
+  const std::string n = std::to_string(found.iterations);
+  if (!found.is_finite) give_up(s, "the relaxation diverged after " + n + " iterations");
+  if (!found.is_converged)
+    give_up(s, "after " + n + " iterations (start.max_iterations) the residual is " +
+                   number_text(found.residual) + ", above start.tolerance");
+  watch_state(s);
+  const std::string trouble = find_trouble(s);
+  if (!trouble.empty()) give_up(s, trouble);
+}
+
+}  // namespace
+
+void check_is_held(const LoadedScene& loaded, const Simulation& s) {
+  const std::vector<std::int32_t> piece = pieces_of(s.mesh);
+  const std::vector<FixedMask> held = held_components(s, piece);
+  const Vec3& gravity = s.scene.solver.gravity;
+  for (std::size_t node = 0; node < piece.size(); ++node)
+    for (int j = 0; j < 3; ++j)
+      if (piece[node] == static_cast<std::int32_t>(node) && gravity[j] != 0 &&
+          (held[node] >> j & 1) == 0)
+        loaded.where.fail("start.state",
+                          "there is no equilibrium: no support holds the piece of the body with "
+                          "node " +
+                              std::to_string(node) + " along " + "xyz"[j] +
+                              ", and gravity moves it there");
+}
+
+void start_in_equilibrium(const LoadedScene& loaded, Simulation& s) {
+  const double start = monotonic_seconds();
+  const Relaxation found = relax_body(s);
+  check_found(found, s);
+  s.equilibrium = Equilibrium{.iterations = found.iterations,
+                              .residual = found.residual,
+                              .seconds = monotonic_seconds() - start};
+  refresh_surface(s);
+  if (s.contact) check_instruments(loaded, s);
+  s.log.least_J = s.watch.least_J;
+  s.log.least_J_element = s.watch.least_J_element;
+  s.log.least_stable_step = s.log.largest_stable_step = s.watch.stable_step;
+  if (s.energy) open_energy_ledger(s);
+  note_event(s, 0,
+             "in equilibrium after " + std::to_string(found.iterations) + " iterations, residual " +
+                 number_text(found.residual));
+}
+
+}  // namespace trocar

@@ -1,0 +1,19 @@
+// The body in equilibrium under gravity and supports before the first frame, so that no scene
+// begins with a body that drops and swings.
+#pragma once
+
+#include "engine/scene.h"
+#include "engine/simulation.h"
+
+namespace trocar {
+
+// Throws InputError if gravity moves a piece of the body along an axis in which nothing holds it.
+void check_is_held(const LoadedScene& loaded, const Simulation& s);
+
+// Relaxes the state that build made, with moving supports where they are at time zero; time and
+// step stay 0, viscous overstress too, and the energy ledger begins anew. Instruments take no part:
+// throws InputError if one reaches into the body that was found, and SimulationError, with the body
+// as it was, if there is none. Collective.
+void start_in_equilibrium(const LoadedScene& loaded, Simulation& s);
+
+}  // namespace trocar

@@ -1,0 +1,29 @@
+// Disjoint sets with path halving; a root is the lowest node of its set.
+#include "mesh/connected_nodes.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace trocar {
+
+static std::int32_t root_of(std::vector<std::int32_t>& above, std::int32_t node) {
+  while (above[node] != node) node = above[node] = above[above[node]];
+  return node;
+}
+
+std::vector<std::int32_t> connected_nodes(const Mesh& mesh,
+                                          std::span<const std::int32_t> elements) {
+  std::vector<std::int32_t> above(mesh.X.size());
+  std::iota(above.begin(), above.end(), 0);
+  for (const std::int32_t e : elements) {
+    const std::span<const std::int32_t> corner = mesh.corners(e);
+    for (const std::int32_t node : corner.subspan(1)) {
+      const std::int32_t a = root_of(above, corner[0]), b = root_of(above, node);
+      above[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  for (std::int32_t node = 0; node < mesh.n_nodes(); ++node) above[node] = root_of(above, node);
+  return above;
+}
+
+}  // namespace trocar

@@ -1,0 +1,40 @@
+#include "mesh/connected_nodes.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "mesh/generate.h"
+
+namespace trocar {
+namespace {
+
+TEST(ConnectedNodes, of_all_elements_of_a_box_are_one_group) {
+  const Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {3, 2, 2}, BoxElements::tet4_five);
+  std::vector<std::int32_t> all(static_cast<std::size_t>(mesh.n_elements()));
+  std::iota(all.begin(), all.end(), 0);
+  EXPECT_EQ(connected_nodes(mesh, all), std::vector<std::int32_t>(mesh.X.size(), 0));
+}
+
+TEST(ConnectedNodes, without_elements_stand_alone) {
+  const Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {2, 1, 1}, BoxElements::hex8);
+  std::vector<std::int32_t> themselves(mesh.X.size());
+  std::iota(themselves.begin(), themselves.end(), 0);
+  EXPECT_EQ(connected_nodes(mesh, {}), themselves);
+}
+
+// Three triangles: two share node 4, the third has no node with them.
+TEST(ConnectedNodes, carry_the_lowest_number_of_their_group) {
+  Mesh mesh;
+  mesh.X.assign(9, Vec3::Zero());
+  add_element(mesh, ElementType::tri3, std::vector<std::int32_t>{7, 4, 2});
+  add_element(mesh, ElementType::tri3, std::vector<std::int32_t>{0, 8, 3});
+  add_element(mesh, ElementType::tri3, std::vector<std::int32_t>{4, 1, 6});
+  EXPECT_EQ(connected_nodes(mesh, std::vector<std::int32_t>{0, 1, 2}),
+            (std::vector<std::int32_t>{0, 1, 1, 0, 1, 5, 1, 1, 0}));
+  EXPECT_EQ(connected_nodes(mesh, std::vector<std::int32_t>{0}),
+            (std::vector<std::int32_t>{0, 1, 2, 3, 2, 5, 6, 2, 8}));
+}
+
+}  // namespace
+}  // namespace trocar
