@@ -1,11 +1,8 @@
-// V23, V24: what Coulomb's law and energy say of bodies that slide and bounce on a rigid plane.
+// V23, V24: what Coulomb's law and energy say of nodes that slide and bounce on a rigid plane.
 #include <cmath>
 
-#include "collision/detector.h"
 #include "collision_contacts.h"
-#include "mesh/facets.h"
 #include "verification_figure.h"
-#include "verification_statics.h"
 
 using namespace trocar;
 
@@ -90,94 +87,4 @@ TEST(V23SlidingBlock, creeps_down_a_flatter_incline_with_the_speed_of_the_regula
   check_figure({sliding, "creep on an incline that should hold it [m/s]", "three nodes",
                 speed_along(bench, Vec3(-cosine, 0, -sine)), g * sine * bench.dt / .2, 1e-6,
                 "regularised law"});
-}
-
-// A ball as large as this is a plane that the detector finds; over .2 m it falls by 2e-6 m. Not a
-// hull: on triangles across its side a wide hull's contact pushes sideways.
-constexpr double ground_radius = 1e4;
-
-// A deformable block on the rigid ground.
-struct BlockOnGround {
-  Body body;
-  ContactDetector detector;
-  ContactOptions options;
-  double dt = 0;
-  std::vector<ToolMotion> tool = std::vector<ToolMotion>(1);
-  ContactSet set;
-  std::vector<Vec3> reaction;
-
-  void detect() {
-    std::vector<Vec3> x = body.mesh.X;
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += Vec3::Map(&body.state.u[3 * i]);
-    std::vector<Contact> contacts;
-    const std::vector<double> margin = {2e-3};
-    detector.detect(x, std::vector<Pose>{tool[0].pose}, margin, contacts);
-    set = prepare_contacts(contacts, body.part, body.mass, dt, options);
-    reaction.resize(set.items.size());
-  }
-  void step(std::int64_t k) {
-    if (k % 10 == 0) detect();
-    force(body);
-    add_contact_force(set, body.part, body.mesh.X, body.state.u, body.state.v, tool, options,
-                      body.scratch.force, reaction);
-    integrate(body.model, body.scratch, {}, dt, body.state);
-  }
-  Vec3 mean(const std::vector<double>& field) const {
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < body.mass.size(); ++i)
-      sum += body.mass[i] * Vec3::Map(&field[3 * i]);
-    return sum / trocar::sum(body.mass);
-  }
-};
-
-// Rests at z = 0, .02 x .02 x .01 m.
-static BlockOnGround block_on_ground(double young_modulus, double gravity,
-                                     const ContactOptions& options) {
-  BlockOnGround block{
-      .body = make_box_body(hex_one_point,
-                            {.size = {.02, .02, .01},
-                             .n = {4, 4, 2},
-                             .material = {MaterialModel::neo_hookean, young_modulus, .3, 1000},
-                             .gravity = {0, 0, -gravity}}),
-      .detector = ContactDetector(
-          {{.pieces = {{.points = {Vec3(0, 0, -ground_radius)}, .radius = ground_radius}}}}),
-      .options = options};
-  block.detector.set_surface(boundary_surface(block.body.mesh));
-  block.dt = .8 * least_element_step(block.body);
-  return block;
-}
-
-TEST(V23SlidingBlock, a_deformable_block_stops_after_the_distance_of_coulombs_law) {
-  BlockOnGround block = block_on_ground(1e5, g, {.friction = .3});
-  for (std::size_t i = 0; i < block.body.state.v.size(); i += 3) block.body.state.v[i] = 1;
-  double t = 0;
-  for (std::int64_t k = 0; block.body.state.time < .5; ++k) {
-    block.step(k);
-    if (t == 0 && block.mean(block.body.state.v).x() < .01) t = block.body.state.time;
-  }
-  // Its nodes bounce by some times the penetration of .01 mm under its weight.
-  check_figure({sliding, "distance [m]", "hex8 4 x 4 x 2", block.mean(block.body.state.u).x(),
-                1 / (2 * .3 * g), .02, "Coulomb"});
-  check_figure({sliding, "time [s]", "hex8 4 x 4 x 2", t, .99 / (.3 * g), .02, "Coulomb"});
-}
-
-TEST(V24Bounce, a_deformable_block_keeps_its_energy) {
-  BlockOnGround block = block_on_ground(3000, 0, {.friction = 0});
-  const double speed = .3;
-  for (std::size_t k = 0; k < block.body.state.v.size(); k += 3) {
-    block.body.state.u[k + 2] = 2e-3;
-    block.body.state.v[k + 2] = -speed;
-  }
-  for (std::int64_t k = 0; block.body.state.time < .1; ++k) block.step(k);
-  const std::vector<double> before = block.body.state.v;
-  const double stored = stored_energy(block.body);
-  step(block.body, block.dt);
-  double kinetic = 0;
-  for (std::size_t k = 0; k < before.size(); ++k)
-    kinetic += .5 * block.body.mass[k / 3] * before[k] * block.body.state.v[k];
-  EXPECT_GT(block.mean(block.body.state.u).z(), 2e-3);  // it has left the ground
-  EXPECT_GT(block.mean(block.body.state.v).z(), 0);
-  check_figure({"V24 Bounce", "energy after over energy before", "hex8 4 x 4 x 2",
-                (kinetic + stored) / (.5 * sum(block.body.mass) * speed * speed), 1, .02,
-                "elastic impact"});
 }
