@@ -1,11 +1,13 @@
-// One table: configuration, promise, kept or not. Exit code 1 if a promise is broken.
-// stability [share of the full step counts, 1] [--markdown FILE]
+// One table: configuration, promise, kept or not. Exit code 1 if a promise is broken that the
+// recorded page, if one is given, does not record as broken.
+// stability [share of the full step counts, 1] [--markdown FILE] [--recorded FILE]
 #include "stability.h"
 
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <set>
 
 using namespace trocar;
 
@@ -25,21 +27,36 @@ static std::string row_text(const StabilityRow& row) {
          (row.is_kept ? "kept" : "**not kept**") + " |\n";
 }
 
+// Configurations whose promise the page records as not kept.
+static std::set<std::string> recorded_as_broken(const std::string& file) {
+  std::set<std::string> broken;
+  std::ifstream page(file);
+  for (std::string line; std::getline(page, line);)
+    if (line.find("**not kept**") != std::string::npos)
+      broken.insert(line.substr(2, line.find(" | ") - 2));
+  return broken;
+}
+
 int main(int argc, char** argv) {
   double scale = 1;
-  std::string file;
+  std::string file, recorded;
   for (int k = 1; k < argc; ++k) {
     if (std::strcmp(argv[k], "--markdown") == 0 && k + 1 < argc)
       file = argv[++k];
+    else if (std::strcmp(argv[k], "--recorded") == 0 && k + 1 < argc)
+      recorded = argv[++k];
     else
       scale = std::atof(argv[k]);
   }
   if (!(scale > 0)) {
-    std::fprintf(stderr, "usage: stability [share of the full step counts] [--markdown FILE]\n");
+    std::fprintf(stderr,
+                 "usage: stability [share of the full step counts] [--markdown FILE] "
+                 "[--recorded FILE]\n");
     return 2;
   }
   std::string table = "| configuration | promise | measured | |\n|---|---|---|---|\n";
   std::printf("%s", table.c_str());
+  const std::set<std::string> known = recorded_as_broken(recorded);
   int n_broken = 0;
   for (const StabilityCase run :
        {steps_around_the_limit, third_order_resonance, nearly_incompressible, confined_compression,
@@ -50,7 +67,7 @@ int main(int argc, char** argv) {
       std::printf("%s", text.c_str());
       std::fflush(stdout);
       table += text;
-      n_broken += row.is_kept ? 0 : 1;
+      n_broken += row.is_kept || known.contains(row.configuration) ? 0 : 1;
     }
   if (!file.empty()) std::ofstream(file) << introduction << table;
   return n_broken == 0 ? 0 : 1;

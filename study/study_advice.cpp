@@ -12,6 +12,9 @@ namespace trocar {
 
 namespace {
 
+// Costs within this factor are the same: so much do two runs of one case differ.
+constexpr double scatter = 1.05;
+
 bool counts(const Run& run) {
   return is_sound(run) && !run.is_reference;
 }
@@ -69,20 +72,26 @@ Target median_target(const Study& study) {
   if (errors.empty()) return {.error = study.problem.reference_error};
   std::sort(errors.begin(), errors.end());
   const bool is_length = study.problem.length > 0;
-  const double median = errors[(errors.size() - 1) / 2];
+  // A little more than the run's own error: it would shut out its equals that are cheaper.
+  const double median = 1.1 * errors[(errors.size() - 1) / 2];
   return {.error = is_length ? median * study.problem.length : median, .is_length = is_length};
 }
 
 const Run* cheapest_within(const Study& study, const Target& target,
                            const std::string& other_than) {
-  const Run* cheapest = nullptr;
+  std::vector<const Run*> candidates;
+  double least = std::numeric_limits<double>::infinity();
   for (const Run& run : study.runs) {
-    const bool is_candidate = counts(run) && error_as(run, target) <= target.error &&
-                              (other_than.empty() || method_text(run) != other_than);
-    if (is_candidate && (cheapest == nullptr || cost_of(study, run) < cost_of(study, *cheapest)))
-      cheapest = &run;
+    if (!counts(run) || error_as(run, target) > target.error) continue;
+    if (!other_than.empty() && method_text(run) == other_than) continue;
+    candidates.push_back(&run);
+    least = std::min(least, cost_of(study, run));
   }
-  return cheapest;
+  const Run* best = nullptr;
+  for (const Run* run : candidates)
+    if (cost_of(study, *run) <= scatter * least && (best == nullptr || run->error < best->error))
+      best = run;
+  return best;
 }
 
 std::vector<const Run*> pareto_front(const Study& study) {

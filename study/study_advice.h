@@ -15,11 +15,13 @@ struct Target {
 
 // "1 mm", "2 %"; "" is no target. Throws InputError.
 Target read_target(const std::string& text);
-// The median of the errors on the Pareto front: elements that lock would make it a useless one.
+// 1.1 times the median of the errors on the Pareto front: elements that lock would make it a
+// useless one.
 Target median_target(const Study& study);
 
-// The cheapest sound run within the target; nullptr if there is none. Runs of another method than
-// `other_than` only, if that is not empty. The reference run itself never counts.
+// The cheapest sound run within the target, of those that cost as little (to 5 %) the most
+// accurate; nullptr if there is none. Runs of another method than `other_than` only, if that is not
+// empty. The reference run itself never counts.
 const Run* cheapest_within(const Study& study, const Target& target,
                            const std::string& other_than = "");
 // Sound runs that no other run beats in both error and cost, by cost.

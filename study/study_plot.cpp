@@ -200,12 +200,21 @@ std::string draw_panel(const Study& study, const std::vector<Curve>& curves, con
   return svg;
 }
 
+// Four labels of up to 31 letters of 6.6 units fit in a row; two, of longer ones.
+std::size_t legend_columns(const std::vector<Curve>& curves) {
+  const bool is_long = std::any_of(curves.begin(), curves.end(), [](const Curve& curve) {
+    return method_text(*curve.runs.front()).size() > 31;
+  });
+  return is_long ? 2 : 4;
+}
+
 std::string draw_legend(const std::vector<Curve>& curves) {
   std::string svg;
-  constexpr double column = 250;
+  const std::size_t n_columns = legend_columns(curves);
+  const double column = 1000.0 / static_cast<double>(n_columns);
   for (std::size_t k = 0; k < curves.size(); ++k) {
-    const double x = 84 + column * static_cast<double>(k % 4);
-    const double y = panel_bottom + 66 + legend_row * static_cast<double>(k / 4);
+    const double x = 84 + column * static_cast<double>(k % n_columns);
+    const double y = panel_bottom + 66 + legend_row * static_cast<double>(k / n_columns);
     svg += svg_polyline({{x, y}, {x + 34, y}}, curves[k].stroke);
     svg += svg_marker({x + 17, y}, curves[k].marker, curves[k].stroke.colour, false, "");
     svg += svg_text({x + 42, y + 4}, {.text = method_text(*curves[k].runs.front()), .size = 12});
@@ -246,7 +255,8 @@ std::string study_svg(const Study& study) {
   svg +=
       draw_panel(study, curves,
                  {.x_label = "element-steps", .x_of = element_steps, .left = 620, .right = 1056});
-  const double rows = std::ceil(static_cast<double>(curves.size()) / 4);
+  const double rows =
+      std::ceil(static_cast<double>(curves.size()) / static_cast<double>(legend_columns(curves)));
   const double height = panel_bottom + 86 + legend_row * rows;
   svg += draw_legend(curves);
   svg += svg_text({84, height - 14}, {.text = "Filled points: no other run is better in both error "

@@ -2,121 +2,11 @@
 // and the halo is copied from the owners.
 #include <gtest/gtest.h>
 
-#include "base/threads.h"
-#include "solver_body.h"
+#include "solver_ranks.h"
 
 using namespace trocar;
 
-// Half hexahedra, half tetrahedra on the same nodes, three materials that alternate: every list
-// occurs, and elements of different lists meet at most nodes.
-static Mesh mixed_mesh() {
-  const Vec3 high(.06, .03, .03);
-  const Mesh hex = make_box(Vec3(0, 0, 0), high, {8, 4, 4}, BoxElements::hex8);
-  const Mesh tet = make_box(Vec3(0, 0, 0), high, {8, 4, 4}, BoxElements::tet4_kuhn);
-  Mesh mesh;
-  mesh.X = hex.X;
-  mesh.region_name = {"a", "b", "c"};
-  for (std::int32_t cell = 0; cell < hex.n_elements(); ++cell)
-    if (cell % 8 < 4)
-      add_element(mesh, ElementType::hex8, hex.corners(cell), cell % 3);
-    else
-      for (int k = 0; k < 6; ++k)
-        add_element(mesh, ElementType::tet4, tet.corners(6 * cell + k), (cell + k) % 3);
-  return mesh;
-}
-
-static BodyOptions options_for(const Mesh& mesh, const SolverOptions& solver) {
-  const bool is_averaged = solver.tet4 == Formulation::tet4_nodal_pressure;
-  const auto model = [&](MaterialModel other) {
-    return is_averaged ? MaterialModel::neo_hookean : other;
-  };
-  BodyOptions options{
-      .materials = {material_of(MaterialModel::neo_hookean, 1000, 9000),
-                    material_of(model(MaterialModel::st_venant_kirchhoff), 1500, 5000),
-                    material_of(model(MaterialModel::linear), 800, 4000)},
-      .solver = solver};
-  options.solver.mass_damping = 2;
-  options.solver.gravity = Vec3(0, 1, -9.81);
-  const bool can_relax = !is_averaged && solver.tri3 != Formulation::tri3_plane_stress;
-  if (can_relax) options.materials[0].prony = {{.3, .01}, {.2, 1}};
-  options.fixed.assign(mesh.X.size(), 0);
-  for (std::size_t i = 0; i < mesh.X.size(); ++i)
-    if (mesh.X[i].x() == 0) options.fixed[i] = 7;
-  return options;
-}
-
-struct Result {
-  std::vector<double> u, v;  // global
-  double stable_step = 1e300, least_J = 1e300;
-  std::int32_t stable_element = -1;
-  std::vector<double> strain, volumetric;  // sorted
-};
-
-static void exchange(std::vector<Body>& ranks, const std::vector<std::int32_t>& owner,
-                     std::vector<double> State::*field, int width) {
-  for (Body& body : ranks)
-    for (std::int32_t k = body.part.n_owned; k < body.part.n_local(); ++k) {
-      const std::int32_t global = body.part.node_global[k];
-      const Body& other = ranks[owner[global]];
-      const std::int32_t there = other.part.node_local[global];
-      for (int j = 0; j < width; ++j)
-        (body.state.*field)[width * k + j] = (other.state.*field)[width * there + j];
-    }
-}
-
-static void average(std::vector<Body>& ranks, const std::vector<std::int32_t>& owner) {
-  for (Body& body : ranks) average_volume_change(body.model, body.state, body.scratch);
-  exchange(ranks, owner, &State::theta, ranks[0].model.averages.n_fields);
-}
-
-static void step(std::vector<Body>& ranks, const std::vector<std::int32_t>& owner, double dt) {
-  average(ranks, owner);
-  for (Body& body : ranks) {
-    compute_force(body.model, body.state, body.scratch);
-    integrate(body.model, body.scratch, {}, dt, body.state);
-  }
-  exchange(ranks, owner, &State::u, 3);
-  exchange(ranks, owner, &State::v, 3);
-}
-
-static Result collect(const std::vector<Body>& ranks, std::size_t n_nodes) {
-  Result result{.u = std::vector<double>(3 * n_nodes), .v = std::vector<double>(3 * n_nodes)};
-  for (const Body& body : ranks) {
-    for (std::int32_t k = 0; k < 3 * body.part.n_owned; ++k) {
-      const std::int32_t global = 3 * body.part.node_global[k / 3] + k % 3;
-      result.u[global] = body.state.u[k];
-      result.v[global] = body.state.v[k];
-    }
-    const Watch w = watch(body.model, body.part, body.state);
-    if (w.stable_step < result.stable_step) result.stable_element = w.stable_element;
-    result.stable_step = std::min(result.stable_step, w.stable_step);
-    result.least_J = std::min(result.least_J, w.least_J);
-    EnergyTerms terms;
-    energy_terms(body.model, body.part, body.state, terms);
-    result.strain.insert(result.strain.end(), terms.strain.begin(), terms.strain.end());
-    result.volumetric.insert(result.volumetric.end(), terms.volumetric.begin(),
-                             terms.volumetric.end());
-  }
-  std::sort(result.strain.begin(), result.strain.end());
-  std::sort(result.volumetric.begin(), result.volumetric.end());
-  return result;
-}
-
-static Result run(const Mesh& mesh, const SolverOptions& solver, int n_ranks, int n_threads) {
-  const int before = thread_count();
-  set_thread_count(n_threads);
-  const std::vector<std::int32_t> owner = partition_nodes(mesh, n_ranks);
-  std::vector<Body> ranks;
-  for (int rank = 0; rank < n_ranks; ++rank)
-    ranks.push_back(make_body(mesh, options_for(mesh, solver), owner, rank));
-  for (int k = 0; k < 200; ++k) step(ranks, owner, 2e-4);
-  average(ranks, owner);
-  Result result = collect(ranks, mesh.X.size());
-  set_thread_count(before);
-  return result;
-}
-
-static void expect_same(const Result& a, const Result& b) {
+static void expect_same(const RanksResult& a, const RanksResult& b) {
   EXPECT_EQ(a.u, b.u);
   EXPECT_EQ(a.v, b.v);
   EXPECT_EQ(a.stable_step, b.stable_step);
@@ -127,13 +17,15 @@ static void expect_same(const Result& a, const Result& b) {
 }
 
 static void check_ranks_and_threads(const Mesh& mesh, const SolverOptions& solver) {
-  const Result alone = run(mesh, solver, 1, 1);
+  const RanksResult alone = run_on_ranks(mesh, solver, 200, 1, 1);
   EXPECT_GT(largest(alone.u), 5e-4);  // it has really moved
   EXPECT_LT(largest(alone.u), 1e-1);  // and has not blown up
   EXPECT_EQ(alone.strain.size(), mesh.element_type.size());
-  for (const int n_ranks : {2, 3, 5}) expect_same(run(mesh, solver, n_ranks, 1), alone);
-  for (const int n_threads : {2, 3}) expect_same(run(mesh, solver, 1, n_threads), alone);
-  expect_same(run(mesh, solver, 2, 2), alone);
+  for (const int n_ranks : {2, 3, 5})
+    expect_same(run_on_ranks(mesh, solver, 200, n_ranks, 1), alone);
+  for (const int n_threads : {2, 3})
+    expect_same(run_on_ranks(mesh, solver, 200, 1, n_threads), alone);
+  expect_same(run_on_ranks(mesh, solver, 200, 2, 2), alone);
 }
 
 TEST(Invariance, any_number_of_ranks_and_threads_gives_the_same_bits_after_200_steps) {

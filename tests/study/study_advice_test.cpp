@@ -19,6 +19,16 @@ TEST(StudyAdvice, the_cheapest_run_within_the_target_is_taken_and_then_another_m
   EXPECT_EQ(cheapest_within(study, {.error = .001}), nullptr);
 }
 
+TEST(StudyAdvice, of_runs_that_cost_the_same_the_most_accurate_is_taken) {
+  Study study = made_up_study();
+  study.runs[4].error = .03;
+  study.runs[1].error = .02;
+  study.runs[1].outcome.stepping_seconds = 1.04 * study.runs[4].outcome.stepping_seconds;
+  EXPECT_EQ(cheapest_within(study, {.error = .05}), &study.runs[1]);
+  study.runs[1].outcome.stepping_seconds = 1.06 * study.runs[4].outcome.stepping_seconds;
+  EXPECT_EQ(cheapest_within(study, {.error = .05}), &study.runs[4]);
+}
+
 TEST(StudyAdvice, the_sentence_names_run_step_error_cost_and_the_next_best) {
   EXPECT_EQ(advice(made_up_study(), read_target("10 mm")),
             "For 10 mm error at least cost use quick double, step factor 0.9, n = 8 (h = 125 mm, "
@@ -42,10 +52,10 @@ TEST(StudyAdvice, broken_runs_and_the_reference_itself_are_never_advised) {
 }
 
 TEST(StudyAdvice, the_median_of_the_fronts_errors_is_the_target_by_default) {
-  // .005 .008 .02 | .03 .08 .1: the lower one of the two in the middle.
+  // .005 .008 .02 | .03 .08 .1: the lower one of the two in the middle, and a tenth more.
   const Target target = median_target(made_up_study());
   EXPECT_TRUE(target.is_length);
-  EXPECT_EQ(target.error, .02);
+  EXPECT_DOUBLE_EQ(target.error, 1.1 * .02);
 }
 
 TEST(StudyAdvice, the_front_holds_the_runs_that_none_beats_in_both_cost_and_error) {

@@ -11,7 +11,7 @@ namespace trocar {
 using AddForce = std::function<void(Body& body)>;
 
 inline void forced_step(Body& body, double dt, const AddForce& add_force = {}) {
-  compute_force(body.model, body.state, body.scratch);
+  force(body);
   if (add_force) add_force(body);
   integrate(body.model, body.scratch, {}, dt, body.state);
 }

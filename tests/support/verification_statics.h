@@ -19,15 +19,23 @@ struct Variant {
   Formulation formulation;
   Precision precision = Precision::in_double;
   double hourglass = 0.1;
+  double element_share = SolverOptions{}.element_share;
 };
 
 inline const Variant hex_one_point = {"hex8", BoxElements::hex8, Formulation::hex8_one_point};
 inline const Variant hex_one_point_single = {"hex8 single", BoxElements::hex8,
                                              Formulation::hex8_one_point, Precision::in_single};
+inline const Variant hex_enhanced = {"hex8-enhanced", BoxElements::hex8,
+                                     Formulation::hex8_enhanced};
+inline const Variant hex_full = {"hex8-full", BoxElements::hex8, Formulation::hex8_full};
 inline const Variant tet_plain = {"tet4", BoxElements::tet4_kuhn, Formulation::tet4};
+inline const Variant tet_nodal_pressure = {"tet4-nodal-pressure", BoxElements::tet4_kuhn,
+                                           Formulation::tet4_nodal_pressure};
 
 inline SolverOptions solver_options(const Variant& variant) {
-  SolverOptions options{.hourglass = variant.hourglass, .precision = variant.precision};
+  SolverOptions options{.hourglass = variant.hourglass,
+                        .precision = variant.precision,
+                        .element_share = variant.element_share};
   if (shape_of(variant.formulation) == ElementType::hex8)
     options.hex8 = variant.formulation;
   else

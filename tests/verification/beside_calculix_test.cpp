@@ -74,6 +74,14 @@ TEST(BesideCalculiX, the_forces_of_a_stretched_and_a_squeezed_cube_are_the_same)
                 cube_force(tet_plain, -.02), -11.14741, 1e-6, calculix});
 }
 
+TEST(BesideCalculiX, fully_integrated_hexahedra_are_those_of_calculix) {
+  const std::string mesh = "C3D8 / " + mesh_name(hex_full, {4, 4, 4});
+  check_figure({"Beside CalculiX", "C3 bonded cube of hexahedra at +20 %, force [N]", mesh,
+                cube_force(hex_full, .02), 6.818381, 1e-6, calculix});
+  check_figure({"Beside CalculiX", "C3 bonded cube of hexahedra at -20 %, force [N]", mesh,
+                cube_force(hex_full, -.02), -10.56887, 1e-6, calculix});
+}
+
 // Unit cube, three mirror planes, x = 1 moved.
 static double uniaxial_stress(const Variant& variant, double stretch) {
   Body body =

@@ -49,7 +49,7 @@ static Body swinging_cantilever(const Variant& variant, const std::array<int, 3>
 }
 
 TEST(V25Energy, the_range_of_the_energy_of_a_large_swing_is_bounded) {
-  for (const Variant& variant : {hex_one_point, tet_plain})
+  for (const Variant& variant : {hex_one_point, hex_enhanced, tet_plain, tet_nodal_pressure})
     for (const auto& [factor, tolerance] : {std::pair{.9, 2e-4}, std::pair{.1, 2e-6}}) {
       Body body = swinging_cantilever(variant, {10, 2, 2});
       const EnergyHistory history =
@@ -180,5 +180,7 @@ TEST(V27Spin, a_free_block_keeps_its_linear_and_angular_momentum) {
   // Rounding: 1e-16 a step and component, a random walk of 1e5 steps; in single 1e-7.
   check_momenta(hex_one_point, 1e-12);
   check_momenta(tet_plain, 1e-12);
+  check_momenta(hex_enhanced, 1e-12);
+  check_momenta(tet_nodal_pressure, 1e-12);
   check_momenta(hex_one_point_single, 1e-5);
 }

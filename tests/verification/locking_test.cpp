@@ -29,7 +29,7 @@ static Figure deflection(const Variant& variant, int n, double nu, double exact)
   return {.problem = "Locking: tip-loaded cantilever",
           .quantity = "deflection at nu = " + std::to_string(nu).substr(0, 5) + " [m]",
           .mesh = mesh_name(variant, {5 * n, n, n}) +
-                  (variant.elements == BoxElements::hex8
+                  (variant.formulation == Formulation::hex8_one_point
                        ? ", c_mu = " + std::to_string(variant.hourglass).substr(0, 4)
                        : ""),
           .number = tip_deflection(variant, n, nu),
@@ -56,10 +56,41 @@ TEST(Locking, deflection_of_one_point_hexahedra_is_the_known_one_whatever_the_po
   }
 }
 
-TEST(Locking, plain_tetrahedra_lock_near_incompressibility) {
-  const Figure soft = deflection(tet_plain, 2, .3, 8.478e-4);
-  const Figure hard = deflection(tet_plain, 2, .499, 8.293e-4);
-  check_figure(soft);
-  check_figure(hard);
-  EXPECT_LT(hard.number / hard.reference, .5 * soft.number / soft.reference);
+TEST(Locking, the_enhanced_hexahedron_bends_alike_near_incompressibility_and_the_full_one_locks) {
+  struct Case {
+    double nu, exact, full_2, full_4;
+  };
+  // numerics 1.2: fully integrated .56 and .31 with 2 elements over the thickness, .76 and .49 with
+  // 4; the enhanced form lies between c_mu = .1 and 1/3.
+  for (const Case& c : {Case{.49, 8.305e-4, .56, .76}, Case{.499, 8.293e-4, .31, .49}}) {
+    const Figure enhanced = deflection(hex_enhanced, 2, c.nu, c.exact);
+    const Figure full_2 = deflection(hex_full, 2, c.nu, c.exact);
+    const Figure full_4 = deflection(hex_full, 4, c.nu, c.exact);
+    for (const Figure& figure :
+         {enhanced, deflection(hex_enhanced, 4, c.nu, c.exact), full_2, full_4})
+      check_figure(figure);
+    EXPECT_GT(enhanced.number / c.exact, .921);
+    EXPECT_LT(enhanced.number / c.exact, 1.16);
+    EXPECT_NEAR(full_2.number / c.exact, c.full_2, .012);
+    EXPECT_NEAR(full_4.number / c.exact, c.full_4, .012);
+  }
+}
+
+TEST(Locking, averaged_pressures_free_tetrahedra_from_most_of_what_plain_ones_suffer) {
+  Variant without_share = tet_nodal_pressure;
+  without_share.element_share = 0;
+  without_share.name = "tet4-nodal-pressure, no own share,";
+  double kept[3];  // of the share of the exact deflection that is there at nu = .3
+  int k = 0;
+  for (const Variant& variant : {tet_plain, tet_nodal_pressure, without_share}) {
+    const Figure soft = deflection(variant, 2, .3, 8.478e-4);
+    const Figure hard = deflection(variant, 2, .499, 8.293e-4);
+    check_figure(soft);
+    check_figure(hard);
+    kept[k++] = hard.number / hard.reference / (soft.number / soft.reference);
+  }
+  EXPECT_LT(kept[0], .2);
+  // At nu = .499 the default share of .02 is a bulk modulus of 10 mu of the element's own.
+  EXPECT_GT(kept[1], 2 * kept[0]);
+  EXPECT_GT(kept[2], kept[1]);
 }

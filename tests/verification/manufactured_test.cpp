@@ -84,7 +84,8 @@ static double solution_error(const Variant& variant, int n, double nu) {
 }
 
 TEST(V09ManufacturedSolution, the_displacement_converges_with_the_square_of_the_element_width) {
-  for (const Variant& variant : {hex_one_point, tet_plain})
+  for (const Variant& variant :
+       {hex_one_point, hex_enhanced, hex_full, tet_plain, tet_nodal_pressure})
     for (const double nu : {.3, .45}) {
       const double coarse = solution_error(variant, 8, nu), fine = solution_error(variant, 16, nu);
       const double order = order_between(coarse, fine);

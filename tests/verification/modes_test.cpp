@@ -32,6 +32,8 @@ TEST(V07FreeCube, frequencies_are_those_of_the_high_order_analysis) {
                   {12.199, 12.199, 16.434, 16.434, 16.434, 16.709, 16.709, 16.709}, .045);
   check_free_cube(hex_one_point, 8, .49,
                   {11.398, 11.398, 15.515, 15.515, 15.515, 15.654, 15.654, 15.654}, .045);
+  check_free_cube(hex_enhanced, 8, .49,
+                  {11.398, 11.398, 15.515, 15.515, 15.515, 15.654, 15.654, 15.654}, .045);
 }
 
 static void check_cantilever(const Variant& variant, int n, double nu,

@@ -23,20 +23,29 @@ def row(figure):
             f"| {figure['number']:.6g} | {error(figure)} | {order} |")
 
 
-def problem_table(figures):
-    """One heading a problem, in the order of their numbers."""
+def between(page, name):
+    return page.split(f"<!-- {name} -->")[1].split(f"<!-- end of {name} -->")[0]
+
+
+def problem_table(figures, page):
+    """One heading a problem, in the order of their numbers; problems without figures stay as they
+    stand on the page."""
+    sections = {}
+    for section in between(page, "problems").split("### ")[1:]:
+        name, rows = section.split("\n", 1)
+        sections[name] = rows.strip()
     problems = {}
     for figure in figures:
         problems.setdefault(figure["problem"], []).append(figure)
+    for name, group in problems.items():
+        head = ["| quantity | mesh | reference | source | Trocar | error | order |",
+                "|---|---|---|---|---|---|---|"]
+        sections[name] = "\n".join(head + [row(figure) for figure in group])
     def number(name):
         match = re.match(r"V(\d+)", name)
         return int(match[1]) if match else 1000
-    text = []
-    for name in sorted(problems, key=lambda n: (number(n), n)):
-        text += [f"### {name}", "", "| quantity | mesh | reference | source | Trocar | error | order |",
-                 "|---|---|---|---|---|---|---|"]
-        text += [row(figure) for figure in problems[name]] + [""]
-    return "\n".join(text)
+    return "\n\n".join(f"### {name}\n\n{sections[name]}"
+                       for name in sorted(sections, key=lambda n: (number(n), n)))
 
 
 def put(page, name, text):
@@ -50,8 +59,8 @@ def main():
     figures = [json.loads(line) for line in open(record, encoding="utf-8")]
     page = page_file.read_text(encoding="utf-8")
     page = put(page, "problems",
-               problem_table([f for f in figures if f["problem"] != "Beside CalculiX"]))
-    if shutil.which("ccx"):
+               problem_table([f for f in figures if f["problem"] != "Beside CalculiX"], page))
+    if any(f["problem"] == "Beside CalculiX" for f in figures) and shutil.which("ccx"):
         table = subprocess.run([sys.executable, compare, record], check=True, capture_output=True,
                                text=True).stdout
         page = put(page, "calculix", table)

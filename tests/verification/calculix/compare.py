@@ -138,16 +138,17 @@ def gravity_cantilever():
     return {"C2 gravity cantilever, tip u_z [m]": uz, "C2 gravity cantilever, tip u_x [m]": ux}
 
 
-def bonded_cube(lift):
+def bonded_cube(lift, cells=KUHN, element="C3D4", remark=""):
     size, n = (.1, .1, .1), (4, 4, 4)
-    deck = Deck(box(size, n, KUHN), "C3D4")
+    deck = Deck(box(size, n, cells), element)
     top, bottom = deck.where(lambda x, y, z: z > .0999), deck.where(lambda x, y, z: z < 1e-9)
     deck.node_set("TOP", top)
     deck.neo_hookean(3000, .45)
     step(deck, ["*STATIC", ".1, 1."],
          clamp(bottom) + clamp(top, 1, 2) + clamp(top, 3, 3, lift)
          + ["*NODE PRINT, NSET=TOP, TOTALS=ONLY", "RF"], True)
-    return {f"C3 bonded cube at {100 * lift / .1:+.0f} %, force [N]": deck.run()[-1][-1][-1]}
+    name = f"C3 bonded cube{remark} at {100 * lift / .1:+.0f} %, force [N]"
+    return {name: deck.run()[-1][-1][-1]}
 
 
 def uniaxial(stretch):
@@ -195,6 +196,7 @@ def bar_wave(kind, label):
 def all_numbers():
     numbers = {}
     for part in (small_cantilever(), gravity_cantilever(), bonded_cube(.02), bonded_cube(-.02),
+                 *(bonded_cube(lift, HEX, "C3D8", " of hexahedra") for lift in (.02, -.02)),
                  uniaxial(.8), uniaxial(1.5), cook(),
                  bar_wave(["*DYNAMIC, EXPLICIT", "1e-4, .08"], "explicit"),
                  bar_wave(["*DYNAMIC, DIRECT, ALPHA=0.", "5e-4, .08"], "implicit")):

@@ -1,0 +1,137 @@
+// V22, a rigid sphere on a bonded elastic layer through the contact of collision/, against Hertz's
+// formula with Dimitriadis' terms of the finite thickness. Linear material, no friction.
+#include <numbers>
+
+#include "base/communicator.h"
+#include "collision/contact_force.h"
+#include "collision/detector.h"
+#include "mesh/facets.h"
+#include "verification_figure.h"
+#include "verification_statics.h"
+
+using namespace trocar;
+
+using std::numbers::pi;
+
+constexpr double E = 3000, nu = .49, depth = 1e-3;
+constexpr double plane_strain_E = E / (1 - nu * nu);
+// Of a layer bonded to its ground (Dimitriadis et al. 2002, eq. 12, 13).
+constexpr double alpha0 = -(1.2876 - 1.4678 * nu + 1.3442 * nu * nu) / (1 - nu);
+constexpr double beta0 = (.6387 - 1.0277 * nu + 1.5164 * nu * nu) / (1 - nu);
+
+// A quarter of a layer that ends `width` away; cells grow from `h0` at the indenter.
+struct Layer {
+  double thickness = 0, width = .1, h0 = 4e-4;
+  int n = 24, n_z = 24;
+};
+
+static double graded(double s, double length, double h0, int n) {
+  const double c = std::min(1.0, h0 * n / length);
+  return length * (c * s + (1 - c) * std::pow(s, 4));
+}
+
+static Body make_layer(const Variant& variant, const Layer& layer) {
+  return make_box_body(
+      variant,
+      {.size = {1, 1, 1},
+       .n = {layer.n, layer.n, layer.n_z},
+       .material = {MaterialModel::linear, E, nu, 1000},
+       .fixed =
+           [](const Vec3& s) {
+             if (s.z() < 1e-9) return FixedMask{7};
+             return static_cast<FixedMask>((s.x() < 1e-9 ? 1 : 0) | (s.y() < 1e-9 ? 2 : 0));
+           },
+       .map =
+           [&layer](const Vec3& s) {
+             return Vec3(graded(s.x(), layer.width, layer.h0, layer.n),
+                         graded(s.y(), layer.width, layer.h0, layer.n),
+                         -graded(1 - s.z(), layer.thickness, layer.h0, layer.n_z));
+           }});
+}
+
+// Contacts of the top; the mirror planes are no surface.
+struct Indentation {
+  ContactDetector detector;
+  std::vector<ToolMotion> tool = std::vector<ToolMotion>(1);
+  std::vector<double> mass;
+  ContactOptions options{.friction = 0, .release_speed = 1e9};
+  ContactSet set;
+  std::vector<Vec3> reaction;
+
+  void detect(const Body& body) {
+    std::vector<Vec3> x = body.mesh.X;
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += Vec3::Map(&body.state.u[3 * i]);
+    std::vector<Contact> contacts;
+    const std::vector<double> margin = {1e-3};
+    detector.detect(x, std::vector<Pose>{tool[0].pose}, margin, contacts);
+    std::erase_if(contacts, [&](const Contact& c) {
+      return std::any_of(c.node.begin(), c.node.end(),
+                         [&](std::int32_t i) { return body.mesh.X[i].z() < -1e-9; });
+    });
+    set = prepare_contacts(contacts, body.part, mass, 1, options);
+    reaction.resize(set.items.size());
+  }
+  double force() const {
+    double sum = 0;
+    for (const Vec3& r : reaction) sum += r.z();
+    return 4 * sum;
+  }
+};
+
+// Relaxes while the tool comes down to `depth`. Relaxation may choose its masses: heavy ones make
+// the contact, whose stiffness is kappa m / dt^2, a hundred times stiffer than elements.
+static double indent(Body& body, ToolShape shape) {
+  constexpr int ramp = 1000;
+  Communicator alone;
+  Relaxer relaxer = make_relaxer(body.model, {});
+  for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)
+    if (body.mesh.X[i].z() > -1e-9 && body.mesh.X[i].norm() < .01) relaxer.mass[i] *= 100;
+  Indentation contact{.detector = ContactDetector({std::move(shape)}), .mass = relaxer.mass};
+  contact.detector.set_surface(boundary_surface(body.mesh));
+  while (relaxer.result.iterations < 100000) {
+    const auto k = relaxer.result.iterations;
+    contact.tool[0].pose.translation.z() = -depth * std::min(1.0, double(k) / ramp);
+    if (k % 50 == 0) contact.detect(body);
+    force(body);
+    add_contact_force(contact.set, body.part, body.mesh.X, body.state.u, body.state.v, contact.tool,
+                      contact.options, body.scratch.force, contact.reaction);
+    relax_step(body.model, body.scratch, alone, relaxer, body.state);
+    if (k > ramp && k % 20 == 0 && relaxer.result.residual < 1e-4) break;
+  }
+  EXPECT_LT(relaxer.result.residual, 1.01e-4);
+  std::printf("relaxed in %lld iterations, %zu contacts\n",
+              static_cast<long long>(relaxer.result.iterations), contact.set.items.size());
+  return contact.force();
+}
+
+static double sphere_force(double R, double thickness) {
+  const double x = std::sqrt(R * depth) / thickness, a3 = alpha0 * alpha0 * alpha0;
+  return 4. / 3 * plane_strain_E * std::sqrt(R) * std::pow(depth, 1.5) *
+         (1 - 2 * alpha0 / pi * x + 4 * alpha0 * alpha0 / (pi * pi) * x * x -
+          8 / std::pow(pi, 3) * (a3 + 4 * pi * pi / 15 * beta0) * x * x * x +
+          16 * alpha0 / std::pow(pi, 4) * (a3 + 3 * pi * pi / 5 * beta0) * x * x * x * x);
+}
+
+static ToolShape sphere(double R) {
+  return {.pieces = {{.points = {Vec3(0, 0, R)}, .radius = R}}};
+}
+
+TEST(V22Hertz, the_formula_is_that_of_the_table_for_a_thick_layer) {
+  EXPECT_NEAR(sphere_force(.01, 1e6), .0166457569, 1e-9);  // sqrt(R d) / h = 3e-9 is left
+}
+
+TEST(V22Hertz, a_rigid_sphere_feels_the_layer_of_the_formula) {
+  // The formula is that of a paraboloid: a sphere of the same R needs .9 % less force at a / R =
+  // .32 (Sneddon 1965); the rest is that of the contact, which gives way by a little of the depth,
+  // and of the cells, .4 mm (.8 mm) at a contact of a = 3.2 mm.
+  for (const double thickness : {.05, .01}) {
+    Layer layer{.thickness = thickness, .h0 = 8e-4, .n = 14, .n_z = thickness > .02 ? 12 : 8};
+    if (is_report()) layer = {.thickness = thickness, .n_z = thickness > .02 ? 20 : 12};
+    Body body = make_layer(hex_one_point, layer);
+    check_figure({"V22 Sphere on a bonded layer",
+                  "force, h = " + std::to_string(thickness).substr(0, 4) + " m [N]",
+                  mesh_name(hex_one_point, {layer.n, layer.n, layer.n_z}) + ", graded",
+                  indent(body, sphere(.01)), sphere_force(.01, thickness), is_report() ? .04 : .08,
+                  "Hertz, Dimitriadis et al. 2002"});
+  }
+}
