@@ -50,6 +50,24 @@ TEST(Viscosity, relaxes_after_a_step_of_strain_by_its_shares_whatever_the_law) {
   }
 }
 
+// The share in the volume's energy that averages would change plays no part at J = 1.
+TEST(Viscosity, relaxes_tetrahedra_with_averaged_pressure_by_the_same_shares) {
+  Material material = material_of(MaterialModel::neo_hookean, mu, K);
+  material.prony = {{.5, .1}};
+  Body body =
+      make_body(make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {2, 2, 2}, BoxElements::tet4_kuhn),
+                {.materials = {material}, .solver = with(Formulation::tet4_nodal_pressure)});
+  shear(body, .2);
+  const std::vector<double> elastic = force(body);
+  for (const double t : {.05, .5}) {
+    body.state.time = t;
+    const std::vector<double>& relaxed = force(body);
+    for (std::size_t k = 0; k < elastic.size(); ++k)
+      EXPECT_NEAR(relaxed[k], (1 - .5 * (1 - std::exp(-t / .1))) * elastic[k],
+                  1e-12 * largest(elastic));
+  }
+}
+
 TEST(Viscosity, the_volumetric_stress_does_not_relax) {
   Body body = viscous_body({{.5, .1}}, MaterialModel::neo_hookean);
   displace(body, [](const Vec3& X) { return Vec3(.1 * X); });
