@@ -73,6 +73,7 @@ inline BlockTask block_task(const Model& model, const ElementBlocks& blocks,
   const int share = element.share > 0 ? kernels.n_material_values + element.share : 0;
   return {.u = state.u.data(),
           .corner = blocks.corner.data() + first * element.n_corners * blocks.lanes,
+          .row = blocks.row.data() + first,
           .data = is_single ? static_cast<const void*>(blocks.data_single.data() + at)
                             : static_cast<const void*>(blocks.data.data() + at),
           .n_blocks = n,

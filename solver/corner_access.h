@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "solver/block_data.h"
+#include "solver/row_order.h"
 
 namespace trocar {
 
@@ -16,9 +17,28 @@ template <class Quad>
   return _mm256_maskload_pd(u + 3 * std::int64_t{node}, Quad{0, 0, 0, 1} == Quad{});
 }
 
+// The same of nodes that follow each other: three registers, of which every third number is taken.
+template <class Pack>
+[[gnu::always_inline]] inline void gather_row(const double* u, Pack (&x)[3]) {
+  constexpr int width = pack_width<Pack>;
+  const Pack a = load<Pack>(u), b = load<Pack>(u + width), c = load<Pack>(u + 2 * width);
+  if constexpr (width == 4) {
+    x[0] = __builtin_shufflevector(__builtin_shufflevector(a, b, 0, 3, 6, 6), c, 0, 1, 2, 5);
+    x[1] = __builtin_shufflevector(__builtin_shufflevector(a, b, 1, 4, 7, 7), c, 0, 1, 2, 6);
+    x[2] = __builtin_shufflevector(__builtin_shufflevector(a, b, 2, 5, 5, 5), c, 0, 1, 4, 7);
+  } else {
+    const Pack x5 = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0);
+    const Pack y5 = __builtin_shufflevector(a, b, 1, 4, 7, 10, 13, 0, 0, 0);
+    const Pack z5 = __builtin_shufflevector(a, b, 2, 5, 8, 11, 14, 0, 0, 0);
+    x[0] = __builtin_shufflevector(x5, c, 0, 1, 2, 3, 4, 5, 10, 13);
+    x[1] = __builtin_shufflevector(y5, c, 0, 1, 2, 3, 4, 8, 11, 14);
+    x[2] = __builtin_shufflevector(z5, c, 0, 1, 2, 3, 4, 9, 12, 15);
+  }
+}
+
 template <class Pack>
 [[gnu::always_inline]] inline void gather_corner(const double* u, const std::int32_t* node,
-                                                 Pack (&x)[3]) {
+                                                 bool is_row, Pack (&x)[3]) {
   constexpr int width = pack_width<Pack>;
   using Quad = PackOf<double, 4>;
   if constexpr (width == 1) {
@@ -26,6 +46,8 @@ template <class Pack>
   } else if constexpr (width == 2) {
     const double *a = u + 3 * std::int64_t{node[0]}, *b = u + 3 * std::int64_t{node[1]};
     for (int i = 0; i < 3; ++i) x[i] = Pack{a[i], b[i]};
+  } else if (is_row) {
+    gather_row(u + 3 * std::int64_t{node[0]}, x);
   } else if constexpr (width == 4) {
     Pack row[4];
     for (int lane = 0; lane < 4; ++lane) row[lane] = load_node<Pack>(u, node[lane]);
@@ -104,9 +126,9 @@ struct Halves {
   using Single = PackOf<float, width>;
   Double low[3], high[3];
 
-  [[gnu::always_inline]] Halves(const double* u, const std::int32_t* node) {
-    gather_corner(u, node, low);
-    if constexpr (pack_width < Pack >> 1) gather_corner(u, node + width, high);
+  [[gnu::always_inline]] Halves(const double* u, const std::int32_t* node, bool is_row) {
+    gather_corner(u, node, is_row, low);
+    if constexpr (pack_width < Pack >> 1) gather_corner(u, node + width, is_row, high);
   }
 
   // Differences to `origin`, rounded.
@@ -125,13 +147,14 @@ struct Halves {
 // Displacements of all corners of a group; corner[corner][lane].
 template <class Pack, int n>
 [[gnu::always_inline]] inline void gather_corners(const double* u, const std::int32_t* corner,
-                                                  Pack (&x)[n][3]) {
+                                                  bool is_row, Pack (&x)[n][3]) {
   if constexpr (sizeof(RealOf<Pack>) == sizeof(double)) {
-    for (int a = 0; a < n; ++a) gather_corner(u, corner + a * block_lanes<Pack>, x[a]);
+    for (int a = 0; a < n; ++a) gather_corner(u, corner + a * block_lanes<Pack>, is_row, x[a]);
   } else {
-    const Halves<Pack> origin(u, corner);
+    const Halves<Pack> origin(u, corner, is_row);
     for (int i = 0; i < 3; ++i) x[0][i] = Pack{};
-    for (int a = 1; a < n; ++a) Halves<Pack>(u, corner + a * block_lanes<Pack>).minus(origin, x[a]);
+    for (int a = 1; a < n; ++a)
+      Halves<Pack>(u, corner + a * block_lanes<Pack>, is_row).minus(origin, x[a]);
   }
 }
 
@@ -184,23 +207,43 @@ template <class Pack>
     return __builtin_convertvector(load<PackOf<float, pack_width<Pack>>>(from), Pack);
 }
 
+// Numbers that are added to sums in one go.
+template <class Pack>
+inline constexpr int add_width = sizeof(Pack) < 2 * sizeof(double)
+                                     ? 1
+                                     : static_cast<int>(sizeof(Pack) / sizeof(double));
+
+// sum[0 … n) += from[0 … n)
+template <int width, int n, class Real>
+[[gnu::always_inline]] inline void add_numbers(const Real* from, double* sum) {
+  using Part = PackOf<double, width>;
+#pragma GCC unroll 8
+  for (int j = 0; j < n; j += width)
+    store(sum + j, Part(load<Part>(sum + j) + load_in_double<Part>(from + j)));
+}
+
 // Adds the forces of a group's corners to sum[4 * target], one element after the other: so a node's
 // sum has the order of its elements, whatever the pack.
 template <class Pack, int n>
 [[gnu::always_inline]] inline void add_corners(const Pack (&f)[n][3], const std::int32_t* target,
-                                               double* sum) {
-  constexpr int width = sizeof(Pack) < 16 ? 1 : (sizeof(Pack) < 32 ? 2 : 4);
-  using Part = PackOf<double, width>;
-  alignas(64) RealOf<Pack> row[n][pack_width<Pack>][4];
-  for (int a = 0; a < n; ++a) store_corner(&row[a][0][0], f[a]);
-#pragma GCC unroll 16
-  for (int lane = 0; lane < pack_width<Pack>; ++lane)
-#pragma GCC unroll 8
-    for (int a = 0; a < n; ++a) {
-      double* const to = sum + 4 * std::int64_t{target[a * block_lanes<Pack> + lane]};
-      for (int j = 0; j < 4; j += width)
-        store(to + j, Part(load<Part>(to + j) + load_in_double<Part>(row[a][lane] + j)));
+                                               std::uint32_t row, double* sum) {
+  constexpr int width = pack_width<Pack>;
+  alignas(64) RealOf<Pack> force[n][width][4];
+  for (int a = 0; a < n; ++a) store_corner(&force[a][0][0], f[a]);
+  if (row != no_row) {
+    for (int k = 0; k < n; ++k) {
+      const int a = corner_of_row(row, k);
+      add_numbers<add_width<Pack>, 4 * width>(
+          &force[a][0][0], sum + 4 * std::int64_t{target[a * block_lanes<Pack>]});
     }
+    return;
+  }
+#pragma GCC unroll 16
+  for (int lane = 0; lane < width; ++lane)
+#pragma GCC unroll 8
+    for (int a = 0; a < n; ++a)
+      add_numbers<(add_width<Pack> < 4 ? add_width<Pack> : 4), 4>(
+          force[a][lane], sum + 4 * std::int64_t{target[a * block_lanes<Pack> + lane]});
 }
 
 }  // namespace trocar

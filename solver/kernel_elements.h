@@ -30,7 +30,7 @@ struct ElementLoops {
                   int lane) __attribute__((always_inline)) {
           const std::int32_t* corner = corners(task, block, lane);
           Pack u[n][3];
-          gather_corners(task.u, corner, u);
+          gather_corners(task.u, corner, task.row[block] != no_row, u);
           Element::strain(value, u, stash);
           if constexpr (averages_volume_v<Element>)
             stash.put(tensor_values, mean_of_corners<Pack, n>(task.theta, task.n_fields, corner));
@@ -43,7 +43,7 @@ struct ElementLoops {
                   __attribute__((always_inline)) {
                     Pack f[n][3];
                     Element::force(value, stash, f);
-                    add_corners(f, target + block * n * lanes + lane, sum);
+                    add_corners(f, target + block * n * lanes + lane, task.row[block], sum);
                   });
   }
 
@@ -56,7 +56,7 @@ struct ElementLoops {
   static void volume_change(const BlockTask& task, double* to) {
     for_groups<Pack>(task, [&](const Group<Pack>& group, std::int64_t block, int lane) {
       Pack u[n][3];
-      gather_corners(task.u, corners(task, block, lane), u);
+      gather_corners(task.u, corners(task, block, lane), false, u);
       const Tensor<Pack> H = ElementTet4::strain(behind_material(task, group), u).H;
       const Pack j = trocar::volume_change(H, cofactor(H));
       store_in_double(to + block * lanes + lane, Pack(group.value(value_K_V) * j));

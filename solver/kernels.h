@@ -17,6 +17,7 @@ namespace trocar {
 struct BlockTask {
   const double* u = nullptr;             // (n_local * 3) [m]
   const std::int32_t* corner = nullptr;  // [block][corner][lane] local node
+  const std::uint32_t* row = nullptr;    // [block] of row_order.h
   const void* data = nullptr;            // [block][value][lane]: the material's, the element's
   std::int64_t n_blocks = 0;
   std::int64_t n_values = 0, n_material_values = 0;

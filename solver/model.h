@@ -49,6 +49,7 @@ struct ElementBlocks {
   std::vector<std::int32_t> corner;         // [block][corner][lane] local node
   // [block][corner][lane] where its force is added in Scratch::sum; empty: at its node
   std::vector<std::int32_t> target;
+  std::vector<std::uint32_t> row;  // (n_blocks) of row_order.h
   // [block][value][lane], see block_data.h; the one of the list's precision, the other is empty.
   std::vector<double> data;
   std::vector<float> data_single;

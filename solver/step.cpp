@@ -110,7 +110,7 @@ std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
                     bytes(scratch.volume_change) + bytes(scratch.sum) + bytes(scratch.force);
   for (const ElementBlocks& blocks : model.blocks)
     sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.target) +
-           bytes(blocks.data) + bytes(blocks.data_single);
+           bytes(blocks.row) + bytes(blocks.data) + bytes(blocks.data_single);
   return sum;
 }
 

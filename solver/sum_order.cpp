@@ -1,10 +1,13 @@
 #include "solver/sum_order.h"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 #include "base/check.h"
 #include "base/threads.h"
 #include "solver/block_ranges.h"
+#include "solver/row_order.h"
 
 namespace trocar {
 
@@ -96,6 +99,40 @@ void place_shared_corners(const NodeUse& use, std::int64_t n_blocks, Model& mode
               });
 }
 
+const std::vector<std::int32_t>& targets(const ElementBlocks& blocks) {
+  return blocks.target.empty() ? blocks.corner : blocks.target;
+}
+
+bool are_consecutive(const std::int32_t* number, int n) {
+  for (int lane = 1; lane < n; ++lane)
+    if (number[lane] != number[0] + lane) return false;
+  return true;
+}
+
+std::uint32_t row_of(const ElementBlocks& blocks, std::int64_t block) {
+  const std::int64_t n = corners_of_block(blocks), first = block * n;
+  std::vector<std::pair<std::int32_t, std::uint32_t>> start;
+  for (std::int64_t a = 0; a < n / blocks.lanes; ++a) {
+    const std::int64_t at = first + a * blocks.lanes;
+    if (!are_consecutive(&blocks.corner[at], blocks.lanes) ||
+        !are_consecutive(&targets(blocks)[at], blocks.lanes))
+      return no_row;
+    start.emplace_back(targets(blocks)[at], static_cast<std::uint32_t>(a));
+  }
+  std::sort(start.begin(), start.end(), std::greater<>());
+  std::uint32_t row = 0;
+  for (std::size_t k = 0; k < start.size(); ++k) row |= start[k].second << (4 * k);
+  return row;
+}
+
+void find_rows(Model& model) {
+  for (ElementBlocks& blocks : model.blocks) {
+    blocks.row.resize(static_cast<std::size_t>(blocks.n_blocks));
+    for (std::int64_t block = 0; block < blocks.n_blocks; ++block)
+      blocks.row[block] = row_of(blocks, block);
+  }
+}
+
 }  // namespace
 
 void order_sums(Model& model) {
@@ -105,6 +142,7 @@ void order_sums(Model& model) {
   const NodeUse use = use_of_nodes(model, n_blocks);
   order_own_nodes(use, n_blocks, model);
   place_shared_corners(use, n_blocks, model);
+  find_rows(model);
 }
 
 }  // namespace trocar

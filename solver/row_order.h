@@ -1,0 +1,19 @@
+// Blocks whose elements stand in a row of a regular numbering: at each corner, the nodes and places
+// of the lanes follow each other, so that whole registers are loaded and added in place of single
+// nodes. Corners are then added with the last node first: two corners meet the same node in
+// different lanes only, the one that starts further ahead in the earlier lane, so that every node
+// still gets its elements' forces in the order of the lanes.
+#pragma once
+
+#include <cstdint>
+
+namespace trocar {
+
+// Corners in the order of adding, four bits each, the first one lowest.
+inline constexpr std::uint32_t no_row = ~std::uint32_t{0};
+
+constexpr int corner_of_row(std::uint32_t row, int k) {
+  return static_cast<int>(row >> (4 * k) & 15U);
+}
+
+}  // namespace trocar
