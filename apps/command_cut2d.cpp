@@ -12,6 +12,7 @@
 #include "study/cut2d_json.h"
 #include "study/cut2d_path.h"
 #include "study/cut2d_picture.h"
+#include "study/cut2d_sweep_page.h"
 #include "study/cut2d_table.h"
 
 namespace trocar {
@@ -122,14 +123,34 @@ ExitCode print_table(const Cut2dCommand& command) {
   return ExitCode::done;
 }
 
+ExitCode sweep_parameters(const Cut2dCommand& command) {
+  std::vector<Cut2dParameter> parameters = cut2d_parameters();
+  for (Cut2dParameter& parameter : parameters) {
+    sample_parameter(parameter, command.n_cuts);
+    std::printf("%s\n", parameter_section(parameter).c_str());
+    if (!command.docs_folder.empty())
+      write_file(command.docs_folder + "/images/" + parameter_file(parameter),
+                 parameter_svg(parameter));
+  }
+  if (!command.docs_folder.empty())
+    write_file(command.docs_folder + "/cutting-parameters.md",
+               sweep_page(parameters, command.n_cuts));
+  return ExitCode::done;
+}
+
 void check_combination(const Cut2dCommand& command) {
   const bool has_mesh = command.configuration > 0 || !command.mesh_file.empty();
   if (command.configuration > 0 && !command.mesh_file.empty())
     throw InputError("cut2d: --config and --mesh exclude each other");
-  if (command.is_table && (has_mesh || !command.paths.empty() || !command.arcs.empty()))
-    throw InputError("cut2d: --table1 brings its own meshes and cuts");
-  if (!command.is_table && !has_mesh)
-    throw InputError("cut2d: name a mesh with --config or --mesh, or ask for --table1");
+  const bool has_own = command.is_table || command.is_sweep;
+  if (command.is_table && command.is_sweep)
+    throw InputError("cut2d: --table1 and --sweep exclude each other");
+  if (has_own && (has_mesh || !command.paths.empty() || !command.arcs.empty()))
+    throw InputError("cut2d: --table1 and --sweep bring their own meshes and cuts");
+  if (!has_own && !has_mesh)
+    throw InputError("cut2d: name a mesh with --config or --mesh, or ask for --table1 or --sweep");
+  if (!command.is_sweep && !command.docs_folder.empty())
+    throw InputError("cut2d: --docs belongs to --sweep");
   if (!command.is_table && !command.markdown_file.empty())
     throw InputError("cut2d: --markdown belongs to --table1");
 }
@@ -138,6 +159,7 @@ void check_combination(const Cut2dCommand& command) {
 
 ExitCode command_cut2d(const Cut2dCommand& command) {
   check_combination(command);
+  if (command.is_sweep) return sweep_parameters(command);
   return command.is_table ? print_table(command) : cut_one(command);
 }
 

@@ -14,8 +14,9 @@ struct Cut2dCommand {
   std::vector<std::string> paths, arcs;
   std::string mode = "robust";
   int repetitions = 1;
-  bool is_table = false, is_json = false;
-  std::string svg_folder, markdown_file;
+  bool is_table = false, is_sweep = false, is_json = false;
+  int n_cuts = 100;
+  std::string svg_folder, markdown_file, docs_folder;
 };
 
 // Throws InputError.

@@ -43,7 +43,8 @@ const char* const examples_cut2d =
     "  trocar cut2d --config 2 --mode or --svg out\n"
     "  trocar cut2d --config 4 --path '-1,24 40,30 55,10' --svg out\n"
     "  trocar cut2d --config 2 --path '-1,20 71,22' --path '30,-1 38,41'      two crossing cuts\n"
-    "  trocar cut2d --mesh plate.msh --scale '1 mm' --arc '10,10 30,25 50,10' --json\n";
+    "  trocar cut2d --mesh plate.msh --scale '1 mm' --arc '10,10 30,25 50,10' --json\n"
+    "  trocar cut2d --sweep --cuts 100 --docs docs\n";
 const char* const examples_mesh =
     "\nexamples:\n  trocar mesh liver.msh\n  trocar mesh liver.msh --scale '1 mm'\n";
 const char* const examples_doctor = "\nexamples:\n  trocar doctor\n  mpirun -np 4 trocar doctor\n";
@@ -140,6 +141,13 @@ void add_cut2d_figures(CLI::App& cut2d, Cut2dCommand& c) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   cut2d.add_flag("--table1", c.is_table, "All of Table 1, the printed figures beside ours");
+  cut2d.add_flag("--sweep", c.is_sweep,
+                 "Study the parameters of the combined system with random cuts");
+  cut2d.add_option("--cuts", c.n_cuts, "With --sweep: random cuts a mesh and point")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  cut2d.add_option("--docs", c.docs_folder,
+                   "With --sweep: folder for cutting-parameters.md and images/");
 }
 
 void add_cut2d(CLI::App& app, CommandLine& line) {

@@ -86,11 +86,12 @@ bool remesh_around(Attempt& attempt, const CutPlaneOptions& options) {
       movable_nodes(patch, attempt.chains, options.rings, options.is_robust);
   if (!displace_onto_cut(patch, attempt.chains, movable, is_cut)) return false;
   homogenise(patch, movable, options);
+  std::vector<std::uint8_t> is_awake(patch.node.size(), 1);
   for (int round = 0; round < 3 && options.is_robust; ++round) {
-    area_step(patch, movable, options.area_sweeps);
-    if (quality_flips(patch, movable, is_cut) == 0) break;
+    area_step(patch, movable, options.area_sweeps, is_awake);
+    if (quality_flips(patch, movable, is_cut, is_awake) == 0) break;
   }
-  area_step(patch, movable, options.area_sweeps);
+  area_step(patch, movable, options.area_sweeps, is_awake);
   return true;
 }
 
@@ -151,7 +152,7 @@ Attempt cut_what_is_possible(const PlanePatch& patch, std::vector<SubPath>& sub_
 }  // namespace
 
 CutPlaneOptions published_options() {
-  return {.is_robust = false, .most_steps = 150, .area_sweeps = 10};
+  return {.is_robust = false, .most_steps = 150, .area_sweeps = 10, .rings = 3};
 }
 
 PlaneCut cut_plane(const Mesh& mesh, std::span<const Vec3> path, std::int32_t continued_tip,

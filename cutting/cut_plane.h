@@ -24,9 +24,10 @@ struct CutPlaneOptions {
   int repulsion = 12;       // n of eq. 5 …
   int attraction = 6;       // … and m < n
   double threshold = 1e-4;  // displacement of a step that ends the homogenisation, in mean edges
-  int most_steps = 8;       // of the homogenisation
-  int area_sweeps = 4;      // of the area step over all nodes
-  int rings = 3;            // vicinity that is homogenised
+  int most_steps = 4;       // of the homogenisation
+  int area_sweeps = 2;      // of the area step over all nodes
+  int rings = 2;            // vicinity that is homogenised
+  bool operator==(const CutPlaneOptions&) const = default;
 };
 // As published: homogenised until the threshold, without flips for quality.
 CutPlaneOptions published_options();

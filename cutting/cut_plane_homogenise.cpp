@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trocar {
 
@@ -28,19 +29,23 @@ double mean_edge(const PlanePatch& patch, const std::vector<int>& around, int no
   return sum / static_cast<double>(around.size());
 }
 
-// Nodes two edges away and nearer. Neighbours by topology never see across an older cut.
-std::vector<int> second_ring(const std::vector<std::vector<int>>& around, int node) {
-  std::vector<int> result = around[node];
-  for (const int j : around[node]) result.insert(result.end(), around[j].begin(), around[j].end());
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  result.erase(std::find(result.begin(), result.end(), node));
-  return result;
+// Calls visit for the nodes two edges away and nearer, once each; `last` holds for whom a node was
+// visited last. Neighbours by topology never see across an older cut.
+template <typename Visit>
+void visit_two_rings(const std::vector<std::vector<int>>& around, int node, std::vector<int>& last,
+                     Visit visit) {
+  last[node] = node;
+  for (const int j : around[node]) {
+    if (std::exchange(last[j], node) != node) visit(j);
+    for (const int k : around[j])
+      if (std::exchange(last[k], node) != node) visit(k);
+  }
 }
 
 Network make_network(const PlanePatch& patch, std::span<const Movable> movable) {
   std::vector<std::vector<int>> around(patch.node.size());
   std::vector<double> mean(patch.node.size(), 0);
+  std::vector<int> last(patch.node.size(), -1);
   const auto visit = [&](int i) {
     if (!around[i].empty()) return;
     around[i] = neighbours(patch, i);
@@ -54,11 +59,11 @@ Network make_network(const PlanePatch& patch, std::span<const Movable> movable) 
       visit(j);
       network.springs.push_back({slot, j, (patch.X[j] - patch.X[i]).norm()});
     }
-    for (const int j : second_ring(around, i)) {
+    visit_two_rings(around, i, last, [&](int j) {
       visit(j);
       const double r0 = 0.5 * (mean[i] + mean[j]);
       network.particles.push_back({slot, j, r0 * r0});
-    }
+    });
   }
   return network;
 }

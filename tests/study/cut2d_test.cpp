@@ -80,8 +80,10 @@ TEST(Cut2dTable, has_all_rows_and_aligned_columns) {
   std::string line;
   std::getline(lines, line);
   const std::size_t bar = line.find('|');
-  while (std::getline(lines, line))
-    if (!line.empty()) EXPECT_EQ(line.find('|'), bar) << line;
+  while (std::getline(lines, line)) {
+    if (line.empty()) continue;
+    EXPECT_EQ(line.find('|'), bar) << line;
+  }
   EXPECT_EQ(n_found(rows_markdown(rows), "\n"), rows.size() + 2);
 }
 
