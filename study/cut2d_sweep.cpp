@@ -1,6 +1,7 @@
 #include "study/cut2d_sweep.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -20,7 +21,9 @@ constexpr double margin = 10 * mm, shortest = 12 * mm;  // room between ends and
 // Uniform in [a, b), with the same bits from every library.
 class Random {
  public:
-  double operator()(double a, double b) { return a + (b - a) * (generator_() / 4294967296.0); }
+  double operator()(double a, double b) {
+    return a + (b - a) * (static_cast<double>(generator_()) / 4294967296.0);
+  }
 
  private:
   std::mt19937 generator_{20010101};
@@ -133,9 +136,11 @@ Cut2dParameter numbers(const char* name, const char* meaning, Number CutPlaneOpt
 
 Cut2dParameter exponents() {
   Cut2dParameter parameter{"exponents", "n and m of the Lennard-Jones potential, eq. 5", {}};
-  for (const auto& [n, m] : {std::pair{4, 2}, {8, 4}, {12, 6}, {12, 10}, {18, 9}, {24, 12}})
+  constexpr std::array<std::array<int, 2>, 6> pairs = {
+      {{4, 2}, {8, 4}, {12, 6}, {12, 10}, {18, 9}, {24, 12}}};
+  for (const auto& [n, m] : pairs)
     parameter.values.push_back({std::to_string(n) + ", " + std::to_string(m),
-                                [=](CutPlaneOptions& o) {
+                                [n = n, m = m](CutPlaneOptions& o) {
                                   o.repulsion = n;
                                   o.attraction = m;
                                 },
