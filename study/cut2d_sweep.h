@@ -17,7 +17,7 @@ struct Cut2dSample {
   // and median of all cuts.
   double worst = 0, low = 0, median = 0;
   double area_sigma = 0;  // mean over the cuts of sigma of A / A before
-  double seconds = 0;     // median time of a cut
+  double seconds = 0;     // median processor time of a cut
 };
 Cut2dSample sample_cuts(const CutPlaneOptions& options, int n_cuts_a_mesh);
 
