@@ -152,7 +152,7 @@ Attempt cut_what_is_possible(const PlanePatch& patch, std::vector<SubPath>& sub_
 }  // namespace
 
 CutPlaneOptions published_options() {
-  return {.is_robust = false, .most_steps = 150, .area_sweeps = 10, .rings = 3};
+  return {.is_robust = false, .most_steps = 150, .area_sweeps = 10};
 }
 
 PlaneCut cut_plane(const Mesh& mesh, std::span<const Vec3> path, std::int32_t continued_tip,

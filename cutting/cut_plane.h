@@ -25,8 +25,8 @@ struct CutPlaneOptions {
   int attraction = 6;       // … and m < n
   double threshold = 1e-4;  // displacement of a step that ends the homogenisation, in mean edges
   int most_steps = 4;       // of the homogenisation
-  int area_sweeps = 2;      // of the area step over all nodes
-  int rings = 2;            // vicinity that is homogenised
+  int area_sweeps = 4;      // of the area step over all nodes
+  int rings = 3;            // vicinity that is homogenised
   bool operator==(const CutPlaneOptions&) const = default;
 };
 // As published: homogenised until the threshold, without flips for quality.
