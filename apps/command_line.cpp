@@ -37,6 +37,14 @@ const char* const examples_study =
     "  trocar study scene.toml --sizes 5,10,20 --target '1 mm' --budget 60\n"
     "  trocar study scene.toml --meshes coarse.msh,middle.msh,fine.msh --set time.duration='1 s'\n"
     "  trocar study --all --docs docs\n";
+const char* const examples_cut2d =
+    "\nexamples:\n"
+    "  trocar cut2d --table1\n"
+    "  trocar cut2d --config 2 --mode or --svg out\n"
+    "  trocar cut2d --config 4 --path '-1,24 40,30 55,10' --svg out\n"
+    "  trocar cut2d --config 2 --path '-1,20 71,22' --path '30,-1 38,41'      two crossing cuts\n"
+    "  trocar cut2d --mesh plate.msh --scale '1 mm' --arc '10,10 30,25 50,10' --json\n"
+    "  trocar cut2d --sweep --cuts 100 --docs docs\n";
 const char* const examples_mesh =
     "\nexamples:\n  trocar mesh liver.msh\n  trocar mesh liver.msh --scale '1 mm'\n";
 const char* const examples_doctor = "\nexamples:\n  trocar doctor\n  mpirun -np 4 trocar doctor\n";
@@ -125,6 +133,52 @@ void add_study(CLI::App& app, CommandLine& line) {
   study->callback([&] { line.command = Command::study; });
 }
 
+void add_cut2d_figures(CLI::App& cut2d, Cut2dCommand& c) {
+  cut2d.add_option("--svg", c.svg_folder, "Folder for pictures of the mesh before and after");
+  cut2d.add_flag("--json", c.is_json, "Print JSON in place of text");
+  cut2d.add_option("--markdown", c.markdown_file, "With --table1: write the table to this file");
+  cut2d.add_option("--repeat", c.repetitions, "Repetitions that times are taken over")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  cut2d.add_flag("--table1", c.is_table, "All of Table 1, the printed figures beside ours");
+  cut2d.add_flag("--sweep", c.is_sweep,
+                 "Study the parameters of the combined system with random cuts");
+  cut2d.add_option("--cuts", c.n_cuts, "With --sweep: random cuts a mesh and point")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  cut2d.add_option("--docs", c.docs_folder,
+                   "With --sweep: folder for cutting-parameters.md and images/");
+}
+
+void add_cut2d(CLI::App& app, CommandLine& line) {
+  CLI::App* cut2d = app.add_subcommand(
+      "cut2d",
+      "Cut a plane mesh by the algorithm of Serby, Harders and Szekely (2001); reproduce its Table "
+      "1");
+  Cut2dCommand& c = line.cut2d;
+  cut2d->add_option("--config", c.configuration, "Mesh (and cut) of the paper's configuration")
+      ->check(CLI::Range(1, 6));
+  cut2d->add_option("--mesh", c.mesh_file, "Own mesh of triangles (.msh, .vtk, .vtu)");
+  cut2d->add_option("--scale", c.mesh_scale, "Length of one unit of the file")
+      ->capture_default_str();
+  cut2d
+      ->add_option("--path", c.paths,
+                   "Cut through these points in mm: 'x,y x,y …'; several are cut one after another")
+      ->allow_extra_args(false);
+  cut2d
+      ->add_option("--arc", c.arcs,
+                   "Cut along the arc through three points in mm; after all --path")
+      ->allow_extra_args(false);
+  cut2d
+      ->add_option("--mode", c.mode,
+                   "robust (Trocar's), paper (as published), or (the paper's subdivision)")
+      ->check(CLI::IsMember({"robust", "paper", "or"}))
+      ->capture_default_str();
+  add_cut2d_figures(*cut2d, c);
+  cut2d->footer(examples_cut2d);
+  cut2d->callback([&] { line.command = Command::cut2d; });
+}
+
 void add_replay(CLI::App& app, CommandLine& line) {
   CLI::App* replay = app.add_subcommand(
       "replay", "Show a recording again: film, pictures, VTU for ParaView; nothing is simulated");
@@ -204,6 +258,7 @@ bool parse_command_line(int argc, char** argv, CommandLine& line, ExitCode& code
   add_run(app, line);
   add_check(app, line);
   add_study(app, line);
+  add_cut2d(app, line);
   add_replay(app, line);
   add_others(app, line);
   try {
@@ -230,6 +285,8 @@ ExitCode run_command(const CommandLine& line, Communicator& communicator) {
       return command_check(line.run, communicator);
     case Command::study:
       return command_study(line.study, communicator);
+    case Command::cut2d:
+      return communicator.is_root() ? command_cut2d(line.cut2d) : ExitCode::done;
     case Command::replay:
       return communicator.is_root() ? command_replay(line.replay) : ExitCode::done;
     case Command::mesh:

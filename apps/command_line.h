@@ -3,13 +3,14 @@
 
 #include <string>
 
+#include "apps/command_cut2d.h"
 #include "apps/command_study.h"
 #include "apps/commands.h"
 #include "base/error.h"
 
 namespace trocar {
 
-enum class Command { run, check, study, replay, mesh, doctor, help_scene, help_tissues };
+enum class Command { run, check, study, cut2d, replay, mesh, doctor, help_scene, help_tissues };
 
 struct CommandLine {
   Command command = Command::run;
@@ -17,6 +18,7 @@ struct CommandLine {
   RunOptions run;
   ReplayOptions replay;
   StudyOptions study;
+  Cut2dCommand cut2d;
   std::string mesh_file, mesh_scale = "1 m";
   bool is_markdown = false;
 };

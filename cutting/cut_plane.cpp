@@ -85,12 +85,13 @@ bool remesh_around(Attempt& attempt, const CutPlaneOptions& options) {
   const std::vector<Movable> movable =
       movable_nodes(patch, attempt.chains, options.rings, options.is_robust);
   if (!displace_onto_cut(patch, attempt.chains, movable, is_cut)) return false;
-  homogenise(patch, movable, {options.spring, options.particle, options.is_robust ? 8 : 150});
+  homogenise(patch, movable, options);
+  std::vector<std::uint8_t> is_awake(patch.node.size(), 1);
   for (int round = 0; round < 3 && options.is_robust; ++round) {
-    area_step(patch, movable, 4);
-    if (quality_flips(patch, movable, is_cut) == 0) break;
+    area_step(patch, movable, options.area_sweeps, is_awake);
+    if (quality_flips(patch, movable, is_cut, is_awake) == 0) break;
   }
-  area_step(patch, movable, options.is_robust ? 4 : 10);
+  area_step(patch, movable, options.area_sweeps, is_awake);
   return true;
 }
 
@@ -149,6 +150,10 @@ Attempt cut_what_is_possible(const PlanePatch& patch, std::vector<SubPath>& sub_
 }
 
 }  // namespace
+
+CutPlaneOptions published_options() {
+  return {.is_robust = false, .most_steps = 150, .area_sweeps = 10};
+}
 
 PlaneCut cut_plane(const Mesh& mesh, std::span<const Vec3> path, std::int32_t continued_tip,
                    std::span<const std::uint8_t> is_held, const CutPlaneOptions& options) {

@@ -14,13 +14,23 @@
 
 namespace trocar {
 
+// The parameters of the paper's combined system, which it left to future work to adjust;
+// docs/cutting-parameters.md shows what each of them does.
 struct CutPlaneOptions {
-  bool is_robust = true;  // quality flips, sliding along straight boundaries, tips kept clear of
-                          // the boundary; false: as published
-  double spring = 1;      // s_spring of eq. 6
-  double particle = 0.1;  // s_particle of eq. 6
-  int rings = 3;          // vicinity that is homogenised
+  bool is_robust = true;    // quality flips, sliding along straight boundaries, tips kept clear of
+                            // the boundary; false: as published
+  double spring = 1;        // s_spring of eq. 6
+  double particle = 0.1;    // s_particle of eq. 6
+  int repulsion = 12;       // n of eq. 5 …
+  int attraction = 6;       // … and m < n
+  double threshold = 1e-4;  // displacement of a step that ends the homogenisation, in mean edges
+  int most_steps = 4;       // of the homogenisation
+  int area_sweeps = 4;      // of the area step over all nodes
+  int rings = 3;            // vicinity that is homogenised
+  bool operator==(const CutPlaneOptions&) const = default;
 };
+// As published: homogenised until the threshold, without flips for quality.
+CutPlaneOptions published_options();
 
 // Cuts the plane mesh (tri3) along the polyline `path` (>= 2 points, reference configuration, z =
 // 0). Ends inside the body stay closed (crack tips); ends on or beyond the boundary open it. If

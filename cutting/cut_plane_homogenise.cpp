@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trocar {
 
@@ -9,7 +10,6 @@ namespace {
 
 constexpr double gain = 0.25;          // explicit Euler step of the overdamped eq. 6, m = c = k = 1
 constexpr double longest_step = 0.05;  // h
-constexpr double at_rest = 1e-4;       // h
 constexpr double cut_off_squared = 2.2 * 2.2;      // r0^2
 constexpr double largest_rho = 1 / (0.55 * 0.55);  // r is clamped at 0.55 r0
 constexpr double least_area = 0.1;                 // of the area before the cut
@@ -29,19 +29,23 @@ double mean_edge(const PlanePatch& patch, const std::vector<int>& around, int no
   return sum / static_cast<double>(around.size());
 }
 
-// Nodes two edges away and nearer. Neighbours by topology never see across an older cut.
-std::vector<int> second_ring(const std::vector<std::vector<int>>& around, int node) {
-  std::vector<int> result = around[node];
-  for (const int j : around[node]) result.insert(result.end(), around[j].begin(), around[j].end());
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  result.erase(std::find(result.begin(), result.end(), node));
-  return result;
+// Calls visit for the nodes two edges away and nearer, once each; `last` holds for whom a node was
+// visited last. Neighbours by topology never see across an older cut.
+template <typename Visit>
+void visit_two_rings(const std::vector<std::vector<int>>& around, int node, std::vector<int>& last,
+                     Visit visit) {
+  last[node] = node;
+  for (const int j : around[node]) {
+    if (std::exchange(last[j], node) != node) visit(j);
+    for (const int k : around[j])
+      if (std::exchange(last[k], node) != node) visit(k);
+  }
 }
 
 Network make_network(const PlanePatch& patch, std::span<const Movable> movable) {
   std::vector<std::vector<int>> around(patch.node.size());
   std::vector<double> mean(patch.node.size(), 0);
+  std::vector<int> last(patch.node.size(), -1);
   const auto visit = [&](int i) {
     if (!around[i].empty()) return;
     around[i] = neighbours(patch, i);
@@ -55,11 +59,11 @@ Network make_network(const PlanePatch& patch, std::span<const Movable> movable) 
       visit(j);
       network.springs.push_back({slot, j, (patch.X[j] - patch.X[i]).norm()});
     }
-    for (const int j : second_ring(around, i)) {
+    visit_two_rings(around, i, last, [&](int j) {
       visit(j);
       const double r0 = 0.5 * (mean[i] + mean[j]);
       network.particles.push_back({slot, j, r0 * r0});
-    }
+    });
   }
   return network;
 }
@@ -74,17 +78,27 @@ void add_springs(const PlanePatch& patch, std::span<const Movable> movable, cons
   }
 }
 
-// Eq. 5 with A = r0^8 / 36, B = r0^14 / 72, so that phi'(r0) = 0 and phi''(r0) = 1:
-// -phi'(r) / r = (rho^7 - rho^4) / 6 with rho = r0^2 / r^2.
+// rho^(k / 2) without libm's pow, whose bits differ between machines.
+double half_power(double rho, int k) {
+  double result = k % 2 == 0 ? 1 : std::sqrt(rho);
+  for (k /= 2; k > 0; k /= 2, rho *= rho)
+    if (k % 2 == 1) result *= rho;
+  return result;
+}
+
+// Eq. 5 with A = r0^(m + 2) / (m (n - m)), B = r0^(n + 2) / (n (n - m)), so that phi'(r0) = 0 and
+// phi''(r0) = 1: -phi'(r) / r = (rho^(n/2 + 1) - rho^(m/2 + 1)) / (n - m) with rho = r0^2 / r^2.
 void add_particles(const PlanePatch& patch, std::span<const Movable> movable,
-                   const Network& network, double scale, std::vector<Vec2>& force) {
+                   const Network& network, const CutPlaneOptions& options,
+                   std::vector<Vec2>& force) {
+  const int n = options.repulsion, m = options.attraction;
+  const double scale = options.particle / (n - m);
   for (const Pair& pair : network.particles) {
     const Vec2 d = patch.x[movable[pair.slot].node] - patch.x[pair.other];
     const double r2 = d.squaredNorm();
     if (r2 > cut_off_squared * pair.length) continue;
     const double rho = std::min(pair.length / r2, largest_rho);
-    const double rho2 = rho * rho, rho4 = rho2 * rho2;
-    force[pair.slot] += scale / 6 * rho4 * (rho * rho2 - 1) * d;
+    force[pair.slot] += scale * half_power(rho, m + 2) * (half_power(rho, n - m) - 1) * d;
   }
 }
 
@@ -137,14 +151,15 @@ double take_step(PlanePatch& patch, std::span<const Movable> movable,
 }  // namespace
 
 void homogenise(PlanePatch& patch, std::span<const Movable> movable,
-                const HomogeniseOptions& options) {
+                const CutPlaneOptions& options) {
+  if (options.most_steps < 1) return;
   const Network network = make_network(patch, movable);
   std::vector<Vec2> force;
-  for (int step = 0; step < options.max_steps; ++step) {
+  for (int step = 0; step < options.most_steps; ++step) {
     force.assign(movable.size(), Vec2::Zero());
     add_springs(patch, movable, network, options.spring, force);
-    if (options.particle > 0) add_particles(patch, movable, network, options.particle, force);
-    if (take_step(patch, movable, force) < at_rest * patch.h) return;
+    if (options.particle > 0) add_particles(patch, movable, network, options, force);
+    if (take_step(patch, movable, force) < options.threshold * patch.h) return;
   }
 }
 

@@ -3,21 +3,16 @@
 
 #include <span>
 
+#include "cutting/cut_plane.h"
 #include "cutting/cut_plane_smooth.h"
 
 namespace trocar {
 
-struct HomogeniseOptions {
-  double spring = 1;      // s_spring
-  double particle = 0.1;  // s_particle
-  int max_steps = 150;
-};
-
-// Moves the nodes until the largest displacement of a step is below 1e-4 h. Springs have the length
-// of the edge before the cut; particles attract and repel each other by Lennard-Jones (12, 6) whose
-// equilibrium is the mean length of the edges around both. A step that would invert an element is
-// taken back for its nodes.
+// Moves the nodes until the largest displacement of a step is below the threshold. Springs have the
+// length of the edge before the cut; particles attract and repel each other by Lennard-Jones
+// potentials whose equilibrium is the mean length of the edges around both. A step that would
+// invert an element is taken back for its nodes.
 void homogenise(PlanePatch& patch, std::span<const Movable> movable,
-                const HomogeniseOptions& options);
+                const CutPlaneOptions& options);
 
 }  // namespace trocar

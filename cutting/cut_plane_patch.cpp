@@ -35,13 +35,12 @@ int corner_of(const PlanePatch& patch, int e, int node) {
 
 std::vector<int> neighbours(const PlanePatch& patch, int node) {
   std::vector<int> result;
+  result.reserve(8);
   visit_star(patch, node, [&](int e, int a) {
-    result.push_back(patch.corner[e][(a + 1) % 3]);
-    result.push_back(patch.corner[e][(a + 2) % 3]);
+    for (const int j : {patch.corner[e][(a + 1) % 3], patch.corner[e][(a + 2) % 3]})
+      if (std::find(result.begin(), result.end(), j) == result.end()) result.push_back(j);
     return true;
   });
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
 

@@ -77,7 +77,7 @@ void visit_star(const PlanePatch& patch, int node, Visit visit) {
   }
 }
 
-// Nodes that share an edge with a node, ascending.
+// Nodes that share an edge with a node.
 std::vector<int> neighbours(const PlanePatch& patch, int node);
 
 // An element as seen from one of its facets.

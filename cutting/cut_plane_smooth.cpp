@@ -9,40 +9,42 @@ namespace trocar {
 
 namespace {
 
-constexpr double at_rest = 1e-2;  // h: a smaller step does not wake the neighbours
+constexpr double at_rest = 1e-2;    // h: a smaller step does not wake the neighbours
+constexpr double not_worth = 1e-3;  // h: a smaller step is not taken
 constexpr double shape_weight = 0.1 / 6.928203230275509;  // 1 / quality = S / (4 sqrt(3) A)
+constexpr double good_quality = 0.8;                      // elements as good are not flipped
 constexpr double least_area = 1e-3;                       // of the area before the cut
 constexpr int max_star = 24;  // nodes of more elements stay where they are
 
 using Mat2 = Eigen::Matrix2d;
 
-// Elements around a node by their opposite edges.
+// Elements around a node by their opposite edges, valid until the next flip.
 struct Star {
-  int n = 0;
-  std::array<Vec2, max_star> b, c;
-  std::array<double, max_star> A0;
+  int n = 0;  // 0: not yet found
+  std::array<int, max_star> b, c;
+  std::array<double, max_star> per_A0;
 };
 
-Star gather_star(const PlanePatch& patch, int node) {
+Star find_star(const PlanePatch& patch, int node) {
   Star star;
   visit_star(patch, node, [&](int e, int a) {
-    star.b[star.n] = patch.x[patch.corner[e][(a + 1) % 3]];
-    star.c[star.n] = patch.x[patch.corner[e][(a + 2) % 3]];
-    star.A0[star.n++] = patch.area[e];
+    star.b[star.n] = patch.corner[e][(a + 1) % 3];
+    star.c[star.n] = patch.corner[e][(a + 2) % 3];
+    star.per_A0[star.n++] = 1 / patch.area[e];
     return star.n < max_star;
   });
   return star;
 }
 
 // sum_e (A/A0 - 1)^2 + w S/A with S the sum of squared edges; infinite if an element is inverted.
-double energy(const Star& star, const Vec2& x) {
+double energy(const PlanePatch& patch, const Star& star, const Vec2& x) {
   double E = 0;
   for (int k = 0; k < star.n; ++k) {
-    const Vec2 b = star.b[k] - x, c = star.c[k] - x;
+    const Vec2 b = patch.x[star.b[k]] - x, c = patch.x[star.c[k]] - x;
     const double A = 0.5 * cross(b, c);
-    if (A <= least_area * star.A0[k]) return std::numeric_limits<double>::infinity();
+    if (A * star.per_A0[k] <= least_area) return std::numeric_limits<double>::infinity();
     const double S = b.squaredNorm() + c.squaredNorm() + (c - b).squaredNorm();
-    const double strain = A / star.A0[k] - 1;
+    const double strain = A * star.per_A0[k] - 1;
     E += strain * strain + shape_weight * S / A;
   }
   return E;
@@ -55,15 +57,15 @@ struct Expansion {
 };
 
 // dA/dx = gA is constant, dS/dx = gS, d2S/dx2 = 4 I.
-Expansion expand(const Star& star, const Vec2& x) {
+Expansion expand(const PlanePatch& patch, const Star& star, const Vec2& x) {
   Expansion result;
   for (int k = 0; k < star.n; ++k) {
-    const Vec2 b = star.b[k] - x, c = star.c[k] - x, bc = c - b;
+    const Vec2 b = patch.x[star.b[k]] - x, c = patch.x[star.c[k]] - x, bc = c - b;
     const Vec2 gA = 0.5 * Vec2(-bc.y(), bc.x()), gS = -2 * (b + c);
-    const double A = 0.5 * cross(b, c), per_A = 1 / A, per_A0 = 1 / star.A0[k];
+    const double A = 0.5 * cross(b, c), per_A = 1 / A, per_A0 = star.per_A0[k];
     const double S = b.squaredNorm() + c.squaredNorm() + bc.squaredNorm();
     const double strain = A * per_A0 - 1, shape = shape_weight * per_A;
-    if (A <= least_area * star.A0[k]) result.E = std::numeric_limits<double>::infinity();
+    if (A * per_A0 <= least_area) result.E = std::numeric_limits<double>::infinity();
     result.E += strain * strain + shape * S;
     result.g += (2 * strain * per_A0 - shape * S * per_A) * gA + shape * gS;
     const Mat2 gSgA = shape * per_A * gS * gA.transpose();
@@ -74,52 +76,62 @@ Expansion expand(const Star& star, const Vec2& x) {
 }
 
 // Moves one node downhill by a damped Newton step; returns the distance.
-double relax(PlanePatch& patch, const Movable& movable) {
+double relax(PlanePatch& patch, const Movable& movable, const Star& star) {
   const Vec2 x = patch.x[movable.node], side = movable.side;
-  const Star star = gather_star(patch, movable.node);
-  const Expansion at_x = expand(star, x);
+  const Expansion at_x = expand(patch, star, x);
   if (!std::isfinite(at_x.E) || star.n == max_star) return 0;
   const bool is_bound = side.squaredNorm() > 0;
   const Vec2 step = is_bound ? Vec2(-side.dot(at_x.g) / side.dot(at_x.H * side) * side)
                              : Vec2(-at_x.H.inverse() * at_x.g);
+  if (step.norm() < not_worth * patch.h) return 0;
   for (double fraction = 1; fraction > 0.05; fraction *= 0.4) {
     const Vec2 trial = x + fraction * step;
-    if (!(energy(star, trial) < at_x.E)) continue;
+    if (!(energy(patch, star, trial) < at_x.E)) continue;
     patch.x[movable.node] = trial;
     return (trial - x).norm();
   }
   return 0;
 }
 
-void wake_neighbours(const PlanePatch& patch, int node, std::vector<std::uint8_t>& is_awake) {
-  visit_star(patch, node, [&](int e, int a) {
-    is_awake[patch.corner[e][(a + 1) % 3]] = 1;
-    is_awake[patch.corner[e][(a + 2) % 3]] = 1;
-    return true;
-  });
-}
+// Qualities of elements, each computed when it is first asked for.
+class Qualities {
+ public:
+  explicit Qualities(const PlanePatch& patch) : patch_(patch), known_(patch.element.size(), none) {}
+  double of(int e) {
+    if (known_[e] == none) known_[e] = quality(patch_, e);
+    return known_[e];
+  }
+  void forget(int e) { known_[e] = none; }
 
-bool is_better_flipped(const PlanePatch& patch, PatchFacet facet) {
-  const PatchFacet other = opposite(patch, facet);
-  const double now = std::min(quality(patch, facet.element), quality(patch, other.element));
-  if (now >= 0.8) return false;
+ private:
+  static constexpr double none = -2;
+  const PlanePatch& patch_;
+  std::vector<double> known_;
+};
+
+// The lesser quality of the two triangles that a flip would make.
+double flipped_quality(const PlanePatch& patch, PatchFacet facet, PatchFacet other) {
   const std::array<int, 3>& e = patch.corner[facet.element];
   const Vec2 &w = patch.x[e[facet.facet]], &u = patch.x[e[(facet.facet + 1) % 3]],
              &v = patch.x[e[(facet.facet + 2) % 3]],
              &z = patch.x[patch.corner[other.element][other.facet]];
-  return std::min(quality(w, u, z), quality(z, v, w)) > 1.02 * std::max(now, 0.0) + 1e-3;
+  return std::min(quality(w, u, z), quality(z, v, w));
 }
 
-bool flip_if_better(PlanePatch& patch, PatchFacet facet,
+bool flip_if_better(PlanePatch& patch, PatchFacet facet, Qualities& qualities,
                     const std::vector<std::uint8_t>& is_cut_node) {
   if (!is_flippable(patch, facet)) return false;
+  const int g = patch.across[facet.element][facet.facet];
+  const double now = std::min(qualities.of(facet.element), qualities.of(g));
+  if (now >= good_quality || patch.region[facet.element] != patch.region[g]) return false;
   const PatchFacet other = opposite(patch, facet);
-  if (patch.region[facet.element] != patch.region[other.element]) return false;
   const int w = patch.corner[facet.element][facet.facet];
   const int z = patch.corner[other.element][other.facet];
   if (is_cut_node[w] != 0 && is_cut_node[z] != 0) return false;
-  if (!is_better_flipped(patch, facet)) return false;
+  if (flipped_quality(patch, facet, other) <= 1.02 * std::max(now, 0.0) + 1e-3) return false;
   flip(patch, facet);
+  qualities.forget(facet.element);
+  qualities.forget(g);
   return true;
 }
 
@@ -148,30 +160,40 @@ std::vector<Movable> movable_nodes(const PlanePatch& patch, std::span<const CutC
   return result;
 }
 
-void area_step(PlanePatch& patch, std::span<const Movable> movable, int n_sweeps) {
-  std::vector<std::uint8_t> is_awake(patch.node.size(), 1);
+void area_step(PlanePatch& patch, std::span<const Movable> movable, int n_sweeps,
+               std::vector<std::uint8_t>& is_awake) {
+  std::vector<Star> stars(movable.size());
   for (int sweep = 0; sweep < n_sweeps; ++sweep)
-    for (const Movable& m : movable) {
+    for (std::size_t slot = 0; slot < movable.size(); ++slot) {
+      const Movable& m = movable[slot];
       if (is_awake[m.node] == 0) continue;
+      Star& star = stars[slot];
+      if (star.n == 0) star = find_star(patch, m.node);
       is_awake[m.node] = 0;
-      if (relax(patch, m) < at_rest * patch.h) continue;
-      wake_neighbours(patch, m.node, is_awake);
+      if (relax(patch, m, star) < at_rest * patch.h) continue;
+      for (int k = 0; k < star.n; ++k) is_awake[star.b[k]] = is_awake[star.c[k]] = 1;
       is_awake[m.node] = 1;
     }
 }
 
 int quality_flips(PlanePatch& patch, std::span<const Movable> movable,
-                  const std::vector<std::uint8_t>& is_cut_node) {
+                  const std::vector<std::uint8_t>& is_cut_node,
+                  std::vector<std::uint8_t>& is_awake) {
   std::vector<std::uint8_t> is_near(patch.element.size(), 0);
   for (const Movable& m : movable)
     visit_star(patch, m.node, [&](int e, int) {
       is_near[e] = 1;
       return true;
     });
+  Qualities qualities(patch);
   int n_flips = 0;
   for (int e = 0; e < patch.n_elements(); ++e)
-    for (int f = 0; f < 3 && is_near[e] != 0; ++f)
-      if (flip_if_better(patch, {e, f}, is_cut_node)) ++n_flips;
+    for (int f = 0; f < 3 && is_near[e] != 0; ++f) {
+      if (!flip_if_better(patch, {e, f}, qualities, is_cut_node)) continue;
+      ++n_flips;
+      for (const int g : {e, patch.across[e][(f + 1) % 3]})  // the two elements of the flip
+        for (const int i : patch.corner[g]) is_awake[i] = 1;
+    }
   return n_flips;
 }
 

@@ -25,13 +25,17 @@ std::vector<Movable> movable_nodes(const PlanePatch& patch, std::span<const CutC
 // The paper's area step: node by node least sum of ((A - A0) / A0)^2 + 0.1 / quality over the
 // node's elements, A0 the element's area before the cut. Each term is convex in the node's position
 // as long as no element inverts, so Newton's method is used. At most `n_sweeps` over all nodes.
-// (A weight of 0.3 instead of 0.1 lowers the median stable step by 4 %.)
-void area_step(PlanePatch& patch, std::span<const Movable> movable, int n_sweeps);
+// (A weight of 0.3 instead of 0.1 lowers the median stable step by 4 %.) Nodes that have come to
+// rest sleep until a neighbour moves; `is_awake` (n_nodes) goes on from call to call.
+void area_step(PlanePatch& patch, std::span<const Movable> movable, int n_sweeps,
+               std::vector<std::uint8_t>& is_awake);
 
 // Exchanges diagonals around the movable nodes where the lesser quality of the two elements rises
-// by more than 2 % and was below 0.8. Never joins two cut nodes, never crosses regions.
+// by more than 2 % and was below 0.8. Never joins two cut nodes, never crosses regions. Wakes the
+// four nodes of a flip.
 int quality_flips(PlanePatch& patch, std::span<const Movable> movable,
-                  const std::vector<std::uint8_t>& is_cut_node);
+                  const std::vector<std::uint8_t>& is_cut_node,
+                  std::vector<std::uint8_t>& is_awake);
 
 // Least quality and least area / A0 of the elements around a node if it were at x.
 struct StarShape {

@@ -120,9 +120,10 @@ void cut_plane_piece(Simulation& s, CutStage& stage, const FrameSpan& span, bool
   const double h = mean_edge_length(s.mesh);
   if (path.size() < 2 || length < (is_last ? 0.5 * h : plane_advance * h)) return;
 
-  const CutPlaneOptions options{.is_robust = s.scene.cutting.mode == CutMode::robust,
-                                .spring = s.scene.cutting.spring,
-                                .particle = s.scene.cutting.particle};
+  CutPlaneOptions options =
+      s.scene.cutting.mode == CutMode::robust ? CutPlaneOptions{} : published_options();
+  options.spring = s.scene.cutting.spring;
+  options.particle = s.scene.cutting.particle;
   const PlaneCut cut =
       cut_plane(s.mesh, path, stage.plane_tip, held_nodes(s.holds, s.fixed), options);
   note_edit(s, cut.edit, cut.figures, global, stage.strokes.back());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "mesh/mesh.h"
 
@@ -30,6 +31,12 @@ Mesh make_rectangle(double width, double height, int nx, int ny);
 // … and rows that alternate between n and n - 1 nodes (equilateral triangles), `rows` rows, side
 // width / (n - 1).
 Mesh make_triangular_rectangle(double width, int n, int rows);
+
+// Graded rectangle [0, size]: rows of the given numbers of nodes from bottom to top, steps at the
+// right and at the top grade^2 times those at the left and at the bottom. N nodes of which B lie on
+// the outline make 2 N - B - 2 triangles (Euler).
+Mesh make_graded_rectangle(const Vec2& size, std::span<const int> n_row_nodes, double grade_x,
+                           double grade_y);
 
 // Moves interior nodes by up to `amount` of the local edge length (deterministic in `seed`); never
 // inverts.

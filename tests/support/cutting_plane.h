@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cutting/cut_plane.h"
+#include "cutting/cut_plane_paper.h"
 #include "mesh/facets.h"
 #include "mesh/generate.h"
 #include "mesh/quality.h"
@@ -19,33 +20,13 @@ namespace trocar {
 
 inline constexpr double mm = 1e-3;
 
-// The meshes of Serby et al. 2001, Table 1; 70 mm wide.
-inline Mesh paper_mesh(int configuration) {
-  switch (configuration) {
-    case 1:
-      return make_rectangle(70 * mm, 40 * mm, 10, 8);
-    case 2:
-      return make_rectangle(70 * mm, 40 * mm, 20, 16);
-    case 3:
-      return make_triangular_rectangle(70 * mm, 10, 8);
-    default:
-      return make_triangular_rectangle(70 * mm, 20, 16);
-  }
-}
-
-inline std::vector<Vec3> paper_cut(int configuration) {
-  if (configuration <= 2) return {{17.8 * mm, 35.2 * mm, 0}, {41.6 * mm, 18 * mm, 0}};
-  return {{14 * mm, 24.1 * mm, 0}, {52 * mm, 24.1 * mm, 0}};
-}
-
 inline std::vector<std::uint8_t> none_held(const Mesh& mesh) {
   return std::vector<std::uint8_t>(mesh.X.size(), 0);
 }
 
 inline PlaneCut cut(const Mesh& mesh, const std::vector<Vec3>& path, std::int32_t tip = -1,
                     bool is_robust = true) {
-  CutPlaneOptions options;
-  options.is_robust = is_robust;
+  const CutPlaneOptions options = is_robust ? CutPlaneOptions{} : published_options();
   return cut_plane(mesh, path, tip, none_held(mesh), options);
 }
 

@@ -1,0 +1,166 @@
+#include "apps/command_cut2d.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "base/log.h"
+#include "base/units.h"
+#include "cutting/cut_plane_paper.h"
+#include "mesh/mesh_file.h"
+#include "study/cut2d_json.h"
+#include "study/cut2d_path.h"
+#include "study/cut2d_picture.h"
+#include "study/cut2d_sweep_page.h"
+#include "study/cut2d_table.h"
+
+namespace trocar {
+
+namespace {
+
+void write_file(const std::string& file, const std::string& text) {
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  std::error_code ignored;  // the stream says what matters
+  if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
+  std::ofstream stream(file);
+  if (!(stream << text).flush())
+    throw MachineError(file + ": can't be written (disk full or no permission)");
+  log_info(file);
+}
+
+Cut2dMode mode_of(const std::string& name) {
+  return name == "paper" ? Cut2dMode::paper
+         : name == "or"  ? Cut2dMode::subdivision
+                         : Cut2dMode::robust;
+}
+
+Mesh mesh_of(const Cut2dCommand& command) {
+  if (command.configuration > 0) return paper_mesh(command.configuration);
+  double metres = 1;
+  try {
+    metres = parse_quantity(command.mesh_scale, dim::length);
+  } catch (const std::invalid_argument& trouble) {
+    throw InputError("--scale: " + std::string(trouble.what()));
+  }
+  Mesh mesh = read_mesh(command.mesh_file, metres);
+  if (mesh.dimension() != 2)
+    throw InputError(command.mesh_file +
+                     ": cut2d needs a mesh of triangles in a plane z = const, nothing else");
+  return mesh;
+}
+
+std::vector<Cut2dPath> paths_of(const Cut2dCommand& command) {
+  std::vector<Cut2dPath> paths;
+  for (const std::string& text : command.paths) paths.push_back(read_path(text));
+  for (const std::string& text : command.arcs) paths.push_back(read_arc(text));
+  if (!paths.empty()) return paths;
+  if (command.configuration == 0) throw InputError("cut2d: say where to cut with --path or --arc");
+  return {paper_cut(command.configuration)};
+}
+
+void draw_trial(const Cut2dCommand& command, const std::string& stem, const Cut2dTrial& trial) {
+  if (command.svg_folder.empty()) return;
+  const std::string file = command.svg_folder + "/" + stem;
+  write_file(file + "before.svg", mesh_svg(trial.before, trial.paths, "Before the cut"));
+  write_file(file + "after_" + command.mode + ".svg",
+             mesh_svg(trial.after, {}, "After the cut, mode " + command.mode));
+}
+
+void print_trial(const Cut2dTrial& trial) {
+  std::printf(
+      "%s\n%d edges opened, %d nodes and %d elements new, %d nodes moved, %d parts of the path "
+      "refused\n"
+      "least altitude after / before %.3f; cut nodes off the path by at most %.3g mm\n",
+      rows_text({{0, "I", "before", trial.statistics_before, 0, 0, ""},
+                 {0, "NR", "after", trial.statistics_after, trial.best_seconds,
+                  trial.median_seconds, ""}})
+          .c_str(),
+      trial.n_opened_edges, trial.n_new_nodes, trial.n_new_elements, trial.n_moved, trial.n_refused,
+      trial.altitude_ratio, 1e3 * trial.largest_deviation);
+}
+
+ExitCode cut_one(const Cut2dCommand& command) {
+  const Cut2dTrial trial = run_trial(mesh_of(command), paths_of(command),
+                                     options_of(mode_of(command.mode), command.repetitions));
+  draw_trial(command, "", trial);
+  if (command.is_json)
+    std::fputs(trial_json(trial, command.mode).c_str(), stdout);
+  else
+    print_trial(trial);
+  return ExitCode::done;
+}
+
+constexpr const char* below_table =
+    "\nOR: a node at every intersection. NR: nodes displaced; times of the paper on an SGI Octane, "
+    "195 MHz. # differs from the\nprinted digits. Where the paper cut is not known: the cuts here "
+    "reproduce all counts and, for 1 and 2, the rows OR. Its\nmeshes 5 and 6 are not known either: "
+    "ours are graded meshes with the same counts and mean areas.\n";
+
+// Pictures in the style of the paper's figures, one set a configuration.
+void draw_table(const Cut2dCommand& command) {
+  for (int c = 1; c <= n_paper_configurations; ++c)
+    for (const char* mode : {"or", "paper", "robust"}) {
+      Cut2dCommand one = command;
+      one.mode = mode;
+      draw_trial(one, "configuration_" + std::to_string(c) + "_",
+                 run_trial(paper_mesh(c), {paper_cut(c)}, options_of(mode_of(mode), 1)));
+    }
+}
+
+ExitCode print_table(const Cut2dCommand& command) {
+  const std::vector<Cut2dRow> rows = paper_rows(command.repetitions);
+  if (!command.svg_folder.empty()) draw_table(command);
+  if (!command.markdown_file.empty())
+    write_file(command.markdown_file,
+               "# Table 1 of Serby, Harders and Szekely (2001), printed and computed\n\n"
+               "Written by `trocar cut2d --table1 --markdown FILE`.\n\n" +
+                   rows_markdown(rows) + below_table);
+  if (command.is_json)
+    std::fputs(rows_json(rows).c_str(), stdout);
+  else
+    std::printf("%s%s", rows_text(rows).c_str(), below_table);
+  return ExitCode::done;
+}
+
+ExitCode sweep_parameters(const Cut2dCommand& command) {
+  std::vector<Cut2dParameter> parameters = cut2d_parameters();
+  for (Cut2dParameter& parameter : parameters) {
+    sample_parameter(parameter, command.n_cuts);
+    std::printf("%s\n", parameter_section(parameter).c_str());
+    if (!command.docs_folder.empty())
+      write_file(command.docs_folder + "/images/" + parameter_file(parameter),
+                 parameter_svg(parameter));
+  }
+  if (!command.docs_folder.empty())
+    write_file(command.docs_folder + "/cutting-parameters.md",
+               sweep_page(parameters, command.n_cuts));
+  return ExitCode::done;
+}
+
+void check_combination(const Cut2dCommand& command) {
+  const bool has_mesh = command.configuration > 0 || !command.mesh_file.empty();
+  if (command.configuration > 0 && !command.mesh_file.empty())
+    throw InputError("cut2d: --config and --mesh exclude each other");
+  const bool has_own = command.is_table || command.is_sweep;
+  if (command.is_table && command.is_sweep)
+    throw InputError("cut2d: --table1 and --sweep exclude each other");
+  if (has_own && (has_mesh || !command.paths.empty() || !command.arcs.empty()))
+    throw InputError("cut2d: --table1 and --sweep bring their own meshes and cuts");
+  if (!has_own && !has_mesh)
+    throw InputError("cut2d: name a mesh with --config or --mesh, or ask for --table1 or --sweep");
+  if (!command.is_sweep && !command.docs_folder.empty())
+    throw InputError("cut2d: --docs belongs to --sweep");
+  if (!command.is_table && !command.markdown_file.empty())
+    throw InputError("cut2d: --markdown belongs to --table1");
+}
+
+}  // namespace
+
+ExitCode command_cut2d(const Cut2dCommand& command) {
+  check_combination(command);
+  if (command.is_sweep) return sweep_parameters(command);
+  return command.is_table ? print_table(command) : cut_one(command);
+}
+
+}  // namespace trocar

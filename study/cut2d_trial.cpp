@@ -1,0 +1,90 @@
+#include "study/cut2d_trial.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "base/error.h"
+#include "cutting/cut_plane_subdivide.h"
+#include "mesh/quality.h"
+
+namespace trocar {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Time of the cuts alone: applying the edit to the mesh belongs to whoever asked for it.
+double displace(const Cut2dOptions& options, Cut2dTrial& trial) {
+  double seconds = 0;
+  trial.n_opened_edges = trial.n_moved = trial.n_refused = 0;
+  trial.after = trial.before;
+  for (const Cut2dPath& path : trial.paths) {
+    const std::vector<std::uint8_t> is_held(trial.after.X.size(), 0);
+    const Clock::time_point start = Clock::now();
+    const PlaneCut cut = cut_plane(trial.after, path, -1, is_held, options.plane);
+    seconds += seconds_since(start);
+    apply_edit(cut.edit, trial.after);
+    trial.n_opened_edges += cut.figures.n_opened_facets;
+    trial.n_moved += cut.figures.n_moved;
+    trial.n_refused += cut.figures.n_refused;
+    trial.largest_deviation = std::max(trial.largest_deviation, cut.figures.largest_deviation);
+  }
+  return seconds;
+}
+
+double subdivide(Cut2dTrial& trial) {
+  double seconds = 0;
+  trial.after = trial.before;
+  for (const Cut2dPath& path : trial.paths) {
+    if (path.size() != 2)
+      throw InputError("the subdivision cuts along straight lines: give --path two points");
+    const Clock::time_point start = Clock::now();
+    trial.after = subdivide_along(trial.after, path.front(), path.back());
+    seconds += seconds_since(start);
+  }
+  trial.n_opened_edges =
+      static_cast<int>(std::count_if(trial.after.cut_facets.begin(), trial.after.cut_facets.end(),
+                                     [](std::uint8_t mask) { return mask != 0; })) /
+      2;
+  return seconds;
+}
+
+double smallest_altitude(const Mesh& mesh) {
+  double least = std::numeric_limits<double>::max();
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    least = std::min(least, least_altitude(mesh, e, mesh.X));
+  return least;
+}
+
+}  // namespace
+
+Cut2dOptions options_of(Cut2dMode mode, int repetitions) {
+  return {mode, mode == Cut2dMode::paper ? published_options() : CutPlaneOptions{}, repetitions};
+}
+
+Cut2dTrial run_trial(const Mesh& mesh, const std::vector<Cut2dPath>& paths,
+                     const Cut2dOptions& options) {
+  Cut2dTrial trial;
+  trial.before = mesh;
+  trial.paths = paths;
+  std::vector<double> seconds;
+  for (int k = 0; k < std::max(1, options.repetitions); ++k)
+    seconds.push_back(options.mode == Cut2dMode::subdivision ? subdivide(trial)
+                                                             : displace(options, trial));
+  std::sort(seconds.begin(), seconds.end());
+  trial.best_seconds = seconds.front();
+  trial.median_seconds = seconds[seconds.size() / 2];
+  trial.statistics_before = plane_statistics(mesh);
+  trial.statistics_after = plane_statistics(trial.after);
+  trial.n_new_nodes = trial.after.n_nodes() - mesh.n_nodes();
+  trial.n_new_elements = trial.after.n_elements() - mesh.n_elements();
+  trial.altitude_ratio = smallest_altitude(trial.after) / smallest_altitude(mesh);
+  return trial;
+}
+
+}  // namespace trocar

@@ -1,0 +1,39 @@
+// One plane mesh cut in one way, measured: what `trocar cut2d` shows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cutting/cut_plane.h"
+#include "cutting/cut_plane_statistics.h"
+
+namespace trocar {
+
+// As published, as Trocar cuts by default, or by subdivision (the paper's "OR").
+enum class Cut2dMode { paper, robust, subdivision };
+
+using Cut2dPath = std::vector<Vec3>;  // (>= 2) [m]
+
+struct Cut2dTrial {
+  Mesh before, after;
+  std::vector<Cut2dPath> paths;
+  PlaneStatistics statistics_before, statistics_after;
+  int n_opened_edges = 0, n_new_nodes = 0, n_new_elements = 0, n_moved = 0, n_refused = 0;
+  double largest_deviation = 0;  // of a cut node from the path [m]
+  double altitude_ratio = 0;     // least altitude after / before: bounds the time step
+  double best_seconds = 0, median_seconds = 0;  // of all cuts, over the repetitions
+};
+
+struct Cut2dOptions {
+  Cut2dMode mode = Cut2dMode::robust;
+  CutPlaneOptions plane;  // of the other modes; set by options_of
+  int repetitions = 1;
+};
+Cut2dOptions options_of(Cut2dMode mode, int repetitions);
+
+// Cuts along the paths one after another. Throws InputError for a mesh of other elements than
+// triangles, and for subdivision along a path that is not straight.
+Cut2dTrial run_trial(const Mesh& mesh, const std::vector<Cut2dPath>& paths,
+                     const Cut2dOptions& options);
+
+}  // namespace trocar

@@ -1,0 +1,94 @@
+// `trocar cut2d` through the front door.
+#include <gtest/gtest.h>
+
+#include "mesh/generate.h"
+#include "mesh/mesh_file.h"
+#include "program.h"
+
+namespace trocar {
+namespace {
+
+nlohmann::json cut_json(std::vector<std::string> words, const std::string& folder) {
+  words.insert(words.begin(), "cut2d");
+  words.push_back("--json");
+  const Finished cut = run_trocar(words, folder);
+  EXPECT_EQ(cut.exit_code, 0) << cut.err;
+  return nlohmann::json::parse(cut.out, nullptr, false);
+}
+
+TEST(Cut2d, configuration_in_each_mode_has_the_papers_counts) {
+  const std::string folder = test_folder("cut2d");
+  for (const char* mode : {"robust", "paper"}) {
+    const auto json = cut_json({"--config", "2", "--mode", mode}, folder);
+    EXPECT_EQ(json["after"]["n_nodes"], 326) << mode;
+    EXPECT_EQ(json["after"]["n_elements"], 570) << mode;
+  }
+  const auto divided = cut_json({"--config", "2", "--mode", "or"}, folder);
+  EXPECT_EQ(divided["after"]["n_nodes"], 376);
+  EXPECT_EQ(divided["after"]["n_elements"], 626);
+}
+
+// A mesh file in mm must be cut like the same mesh in metres.
+TEST(Cut2d, mesh_file_is_cut_like_the_configuration_it_holds) {
+  const std::string folder = test_folder("cut2d-file");
+  write_mesh(make_rectangle(70, 40, 20, 16), folder + "/plate.msh");
+  const std::string path = "17.8,35.2 41.6,18";
+  const auto own = cut_json({"--mesh", folder + "/plate.msh", "--path", path}, folder);
+  const auto paper = cut_json({"--config", "2", "--path", path}, folder);
+  EXPECT_EQ(own["n_new_nodes"], paper["n_new_nodes"]);
+  EXPECT_EQ(own["n_opened_edges"], paper["n_opened_edges"]);
+  EXPECT_NEAR(own["after"]["area_mm2"]["min"].get<double>(),
+              paper["after"]["area_mm2"]["min"].get<double>(), 1e-9);
+}
+
+// A through-cut of n edges adds n + 1 nodes; an arc from side to side is one.
+TEST(Cut2d, curved_cut_from_side_to_side_opens_all_its_edges) {
+  const std::string folder = test_folder("cut2d-arc");
+  const auto json = cut_json({"--config", "2", "--arc", "-1,12 35,28 71,12"}, folder);
+  EXPECT_EQ(json["n_refused"], 0);
+  EXPECT_EQ(json["n_new_nodes"], json["n_opened_edges"].get<int>() + 1);
+  EXPECT_EQ(json["n_new_elements"], 0);
+}
+
+TEST(Cut2d, table_and_pictures_are_written) {
+  const std::string folder = test_folder("cut2d-table");
+  const Finished table = run_trocar(
+      {"cut2d", "--table1", "--markdown", folder + "/table1.md", "--svg", folder + "/svg"}, folder);
+  ASSERT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_NE(table.out.find("robust mode"), std::string::npos);
+  EXPECT_NE(read_text(folder + "/table1.md").find("| robust mode |"), std::string::npos);
+  for (const char* name : {"before", "after_or", "after_paper", "after_robust"})
+    EXPECT_NE(read_text(folder + "/svg/configuration_4_" + name + ".svg").find("</svg>"),
+              std::string::npos)
+        << name;
+}
+
+TEST(Cut2d, wrong_command_lines_are_explained_in_one_sentence) {
+  const std::string folder = test_folder("cut2d-wrong");
+  const std::vector<std::vector<std::string>> wrong = {
+      {},
+      {"--config", "7"},
+      {"--config", "1", "--mesh", "x.msh"},
+      {"--config", "1", "--path", "1,2"},
+      {"--config", "1", "--path", "1;2 3;4"},
+      {"--config", "1", "--mode", "best"},
+      {"--config", "1", "--mode", "or", "--path", "1,2 3,4 5,4"},
+      {"--mesh", folder + "/missing.msh", "--path", "1,2 3,4"},
+      {"--table1", "--config", "1"},
+      {"--config", "1", "--docs", folder}};
+  for (std::vector<std::string> words : wrong) {
+    words.insert(words.begin(), "cut2d");
+    const Finished cut = run_trocar(words, folder);
+    EXPECT_EQ(cut.exit_code, 2) << cut.err;
+    EXPECT_FALSE(cut.err.empty());
+  }
+}
+
+TEST(Cut2d, help_has_examples) {
+  const Finished help = run_trocar({"cut2d", "--help"}, test_folder("cut2d-help"));
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_NE(help.out.find("trocar cut2d --table1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace trocar

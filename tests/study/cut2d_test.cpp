@@ -1,0 +1,126 @@
+// What `trocar cut2d` reads, measures, prints and draws.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "cutting/cut_plane_paper.h"
+#include "study/cut2d_json.h"
+#include "study/cut2d_path.h"
+#include "study/cut2d_picture.h"
+
+namespace trocar {
+namespace {
+
+std::size_t n_found(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+TEST(Cut2dPath, points_are_read_in_millimetres) {
+  const Cut2dPath path = read_path(" 17.8,35.2  41.6,-18 41.6,-18");
+  ASSERT_EQ(path.size(), 2u);
+  EXPECT_EQ(path[0], Vec3(17.8 * 1e-3, 35.2 * 1e-3, 0));
+  EXPECT_EQ(path[1], Vec3(41.6 * 1e-3, -18 * 1e-3, 0));
+}
+
+TEST(Cut2dPath, what_is_no_path_is_an_input_error) {
+  for (const char* text : {"", "1,2", "1,2 3", "1,2 3,4,5", "1,2 3,nan", "1,2 x,4", "1,2 1,2"})
+    EXPECT_THROW(read_path(text), InputError) << text;
+  EXPECT_THROW(read_arc("1,2 3,4"), InputError);
+  EXPECT_THROW(read_arc("1,2 3,4 1,2"), InputError);
+}
+
+// Through (5, 0), (3, 4), (-3, 4): circle of radius 5 around the origin; and back.
+TEST(Cut2dPath, arc_keeps_its_distance_from_the_centre) {
+  for (const char* text : {"5,0 3,4 -3,4", "-3,4 3,4 5,0", "5,0 -3,4 3,-4"}) {
+    const Cut2dPath arc = read_arc(text);
+    EXPECT_EQ(arc.size(), 65u);
+    for (const Vec3& X : arc) EXPECT_NEAR(X.norm(), 5e-3, 1e-15) << text;
+    // 64 chords of an arc of at most 2 pi: none longer than 2 pi R / 32.
+    for (std::size_t k = 1; k < arc.size(); ++k)
+      EXPECT_LT((arc[k] - arc[k - 1]).norm(), 5e-3 * 6.2832 / 32) << text;
+  }
+}
+
+TEST(Cut2dTrial, several_paths_are_cut_one_after_another) {
+  const std::vector<Cut2dPath> paths = {read_path("30,-1 38,41"), read_path("-1,17 71,23")};
+  const Cut2dTrial trial = run_trial(paper_mesh(2), paths, options_of(Cut2dMode::robust, 1));
+  EXPECT_EQ(trial.n_refused, 0);
+  EXPECT_EQ(trial.n_new_elements, 0);
+  // The first cut of n edges adds n + 1 nodes, the second meets it: two chains of n1 and n2 edges
+  // add n1 + 1 and n2 + 1.
+  EXPECT_EQ(trial.n_new_nodes, trial.n_opened_edges + 3);
+}
+
+TEST(Cut2dTrial, repetitions_change_nothing_but_times) {
+  const std::vector<Cut2dPath> paths = {paper_cut(1)};
+  const Cut2dTrial once = run_trial(paper_mesh(1), paths, options_of(Cut2dMode::paper, 1));
+  const Cut2dTrial thrice = run_trial(paper_mesh(1), paths, options_of(Cut2dMode::paper, 3));
+  EXPECT_EQ(once.after.X, thrice.after.X);
+  EXPECT_EQ(once.n_opened_edges, thrice.n_opened_edges);
+  EXPECT_GT(thrice.best_seconds, 0);
+  EXPECT_LE(thrice.best_seconds, thrice.median_seconds);
+}
+
+TEST(Cut2dTrial, subdivision_along_a_bend_is_an_input_error) {
+  EXPECT_THROW(run_trial(paper_mesh(1), {read_path("10,10 20,20 30,10")},
+                         options_of(Cut2dMode::subdivision, 1)),
+               InputError);
+}
+
+// 14 printed rows, 6 of ours for I, 2 for OR, 2 x 6 for NR; 2 lines of heads, an empty line a mesh.
+TEST(Cut2dTable, has_all_rows_and_aligned_columns) {
+  const std::vector<Cut2dRow> rows = paper_rows(1);
+  EXPECT_EQ(rows.size(), 14u + 6 + 2 + 2 * 6);
+  const std::string text = rows_text(rows);
+  EXPECT_EQ(n_found(text, "\n"), rows.size() + 2 + n_paper_configurations);
+  std::istringstream lines(text);
+  std::string line;
+  std::getline(lines, line);
+  const std::size_t bar = line.find('|');
+  while (std::getline(lines, line)) {
+    if (line.empty()) continue;
+    EXPECT_EQ(line.find('|'), bar) << line;
+  }
+  EXPECT_EQ(n_found(rows_markdown(rows), "\n"), rows.size() + 2);
+}
+
+TEST(Cut2dTable, marks_digits_that_differ_from_the_printed_ones) {
+  PlaneStatistics printed;
+  printed.n_nodes = 80;
+  printed.area.min = 22.22;
+  PlaneStatistics ours = printed;
+  ours.area.min = 22.2249;  // prints as 22.22
+  Cut2dRow first{1, "I", "printed", printed, 0, 0, ""}, second{1, "I", "ours", ours, 0, 0, ""};
+  EXPECT_EQ(n_found(rows_text({first, second}), "80#"), 0u);
+  EXPECT_EQ(n_found(rows_text({first, second}), "22.22#"), 0u);
+  second.statistics.n_nodes = 81;
+  EXPECT_EQ(n_found(rows_text({first, second}), "81#"), 1u);
+}
+
+TEST(Cut2dJson, says_what_the_cut_did) {
+  const Cut2dTrial trial =
+      run_trial(paper_mesh(1), {paper_cut(1)}, options_of(Cut2dMode::robust, 1));
+  const auto json = nlohmann::json::parse(trial_json(trial, "robust"));
+  EXPECT_EQ(json["after"]["n_nodes"], 85);
+  EXPECT_EQ(json["n_new_nodes"], 5);
+  EXPECT_EQ(json["n_refused"], 0);
+  EXPECT_EQ(nlohmann::json::parse(rows_json(paper_rows(1))).size(), 34u);
+}
+
+// Euler: N - E + F = 1 with F = 126 triangles and 80 nodes gives 205 edges; the 6 edges of the cut
+// are two each once it is open. 6 edges join 7 nodes.
+TEST(Cut2dPicture, draws_each_edge_once_and_both_sides_of_the_cut) {
+  const Mesh mesh = paper_mesh(1);
+  EXPECT_EQ(n_found(mesh_svg(mesh, {paper_cut(1)}, "before"), "<line"), 205u);
+  EXPECT_EQ(n_found(mesh_svg(mesh, {paper_cut(1)}, "before"), "<polyline"), 1u);
+  const Cut2dTrial trial = run_trial(mesh, {paper_cut(1)}, options_of(Cut2dMode::robust, 1));
+  const std::string after = mesh_svg(trial.after, {}, "after");
+  EXPECT_EQ(n_found(after, "<line"), 205u + 6);
+  EXPECT_EQ(n_found(after, "<circle"), 7u);
+}
+
+}  // namespace
+}  // namespace trocar
