@@ -44,12 +44,10 @@ struct Ledger {
   double deviation_sum = 0;
 };
 
-// One advance, applied to mesh and positions as engine does it.
-inline MeshEdit advance(TetCutter& cutter, Body& body, const BladeSweep& sweep, bool is_last,
-                        Ledger& ledger) {
-  CutFigures figures;
-  MeshEdit edit = cutter.advance(body.mesh, body.x, body.is_held, sweep, is_last, figures);
-  if (edit.is_empty()) return edit;
+// An edit, applied to mesh and positions as engine does it.
+inline void apply(const MeshEdit& edit, const CutFigures& figures, Body& body, Ledger& ledger) {
+  ledger.total.n_refused += figures.n_refused;
+  if (edit.is_empty()) return;
   std::vector<double> field;
   for (const Vec3& p : body.x) field.insert(field.end(), {p.x(), p.y(), p.z()});
   apply_edit(edit, body.mesh, 3, field);
@@ -66,11 +64,17 @@ inline MeshEdit advance(TetCutter& cutter, Body& body, const BladeSweep& sweep, 
   total.n_opened_facets += figures.n_opened_facets;
   total.n_moved += figures.n_moved;
   total.n_duplicated += figures.n_duplicated;
-  total.n_refused += figures.n_refused;
   total.least_quality = std::min(total.least_quality, figures.least_quality);
   total.largest_deviation = std::max(total.largest_deviation, figures.largest_deviation);
   ledger.deviation_sum += figures.mean_deviation * figures.n_duplicated;
   total.mean_edge = figures.mean_edge;
+}
+
+inline MeshEdit advance(TetCutter& cutter, Body& body, const BladeSweep& sweep, bool is_last,
+                        Ledger& ledger) {
+  CutFigures figures;
+  MeshEdit edit = cutter.advance(body.mesh, body.x, body.is_held, sweep, is_last, figures);
+  apply(edit, figures, body, ledger);
   return edit;
 }
 
