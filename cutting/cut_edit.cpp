@@ -119,13 +119,6 @@ static void sort_unique(std::vector<std::int32_t>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-static bool is_crossed(const CutStroke& stroke, std::int32_t element) {
-  const auto at =
-      std::lower_bound(stroke.hit.begin(), stroke.hit.end(), element,
-                       [](const CutHit& hit, std::int32_t e) { return hit.element < e; });
-  return at != stroke.hit.end() && at->element == element;
-}
-
 // Sides are kept where something is open: there they can't be taken back. Elsewhere the next edit
 // knows more.
 static void remember_sides(const TetCut& cut, CutStroke& stroke) {
@@ -134,7 +127,7 @@ static void remember_sides(const TetCut& cut, CutStroke& stroke) {
   for (const auto& [e, f] : cut.opening.facet) has_opened[e] = 1;
   std::vector<OfElement<std::int8_t>> side;
   for (std::int32_t e = 0; e < patch.n_elements(); ++e) {
-    if (cut.labels.kind[e] == CutKind::front && !is_crossed(stroke, patch.element[e]))
+    if (cut.labels.kind[e] == CutKind::front && hits_of(stroke, patch.element[e]).empty())
       stroke.unfinished.push_back(patch.element[e]);
     if (cut.labels.side[e] == 0 || cut.labels.kind[e] == CutKind::front) continue;
     const auto& corner = patch.corner[e];

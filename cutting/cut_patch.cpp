@@ -1,4 +1,5 @@
-// Extraction of the patch around a cut: rings by node marks, facets by sorting.
+// Extraction of the patch around a cut: rings over the stars of nodes, facets by
+// sorting.
 #include "cutting/cut_patch.h"
 
 #include <algorithm>
@@ -44,28 +45,42 @@ double tet_altitude(std::span<const Vec3> X, const std::array<std::int32_t, 4>& 
   return six_volumes(X, corner) / std::sqrt(largest);
 }
 
-using Ring = std::uint8_t;
-static constexpr Ring far_away = 255;
-
-static Ring least_ring(std::span<const std::int32_t> corner, const std::vector<Ring>& ring) {
-  Ring least = far_away;
-  for (const std::int32_t i : corner) least = std::min(least, ring[i]);
-  return least;
+// Marks the nodes around the seeds with their rings; returns them, ascending.
+static std::vector<std::int32_t> mark_rings(const Mesh& mesh, std::span<const std::int32_t> seeds,
+                                            CutIndex& index) {
+  std::vector<std::int32_t> reached;
+  const auto reach = [&](std::int32_t e, int ring) {
+    for (const std::int32_t i : mesh.corners(e)) {
+      if (index.ring[i] != no_ring) continue;
+      index.ring[i] = static_cast<std::uint8_t>(ring);
+      reached.push_back(i);
+    }
+  };
+  for (const std::int32_t e : seeds) reach(e, 0);
+  std::size_t begin = 0;
+  for (int ring = 1; ring <= n_cut_rings; ++ring) {
+    const std::size_t end = reached.size();
+    for (; begin < end; ++begin)
+      for (const std::int32_t e : index.star(reached[begin])) reach(e, ring);
+  }
+  std::sort(reached.begin(), reached.end());
+  return reached;
 }
 
-// Ring of each node of the mesh. One pass over the elements a ring: cheaper than keeping adjacency
-// up to date over edits (0.1 ms for 100,000 tetrahedra).
-static std::vector<Ring> node_rings(const Mesh& mesh, std::span<const std::int32_t> seeds) {
-  std::vector<Ring> ring(mesh.X.size(), far_away);
-  for (const std::int32_t e : seeds)
-    for (const std::int32_t i : mesh.corners(e)) ring[i] = 0;
-  for (Ring next = 1; next <= n_cut_rings; ++next)
-    for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-      const std::span<const std::int32_t> corner = mesh.corners(e);
-      if (least_ring(corner, ring) != next - 1) continue;
-      for (const std::int32_t i : corner) ring[i] = std::min(ring[i], next);
+// Elements with a corner in a ring below n_cut_rings, ascending.
+static std::vector<std::int32_t> elements_of(const Mesh& mesh, const CutIndex& index,
+                                             std::span<const std::int32_t> reached) {
+  std::vector<std::int32_t> element;
+  const auto is_inner = [&](std::int32_t i) { return index.ring[i] < n_cut_rings; };
+  for (const std::int32_t i : reached) {
+    if (!is_inner(i)) continue;
+    for (const std::int32_t e : index.star(i)) {
+      const std::span<const std::int32_t> c = mesh.corners(e);
+      if (*std::find_if(c.begin(), c.end(), is_inner) == i) element.push_back(e);
     }
-  return ring;
+  }
+  std::sort(element.begin(), element.end());
+  return element;
 }
 
 static void set_stars(CutPatch& patch) {
@@ -105,45 +120,49 @@ static void set_neighbours(CutPatch& patch) {
 }
 
 // Nodes that the patch's tetrahedra use, in ascending order, and the elements in these numbers.
-static void number_nodes(CutPatch& patch, const Mesh& mesh, const std::vector<Ring>& ring) {
+static void number_nodes(CutPatch& patch, const Mesh& mesh, std::span<const std::int32_t> reached,
+                         CutIndex& index) {
   for (const std::int32_t e : patch.element)
-    for (const std::int32_t i : mesh.corners(e)) patch.node.push_back(i);
-  std::sort(patch.node.begin(), patch.node.end());
-  patch.node.erase(std::unique(patch.node.begin(), patch.node.end()), patch.node.end());
-  std::vector<std::int32_t> local(mesh.X.size(), -1);
-  for (std::int32_t i = 0; i < patch.n_nodes(); ++i) {
-    local[patch.node[i]] = i;
-    patch.node_ring.push_back(ring[patch.node[i]]);
+    for (const std::int32_t i : mesh.corners(e)) index.local[i] = 0;
+  for (const std::int32_t i : reached) {
+    if (index.local[i] < 0) continue;
+    index.local[i] = patch.n_nodes();
+    patch.node.push_back(i);
+    patch.node_ring.push_back(index.ring[i]);
   }
   for (const std::int32_t e : patch.element) {
     const std::span<const std::int32_t> c = mesh.corners(e);
-    patch.corner.push_back({local[c[0]], local[c[1]], local[c[2]], local[c[3]]});
+    patch.corner.push_back(
+        {index.local[c[0]], index.local[c[1]], index.local[c[2]], index.local[c[3]]});
   }
 }
 
-CutPatch make_patch(const Mesh& mesh, std::span<const Vec3> x,
+CutPatch make_patch(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
                     std::span<const std::uint8_t> is_held, std::span<const std::int32_t> seeds) {
-  const std::vector<Ring> ring = node_rings(mesh, seeds);
+  const std::vector<std::int32_t> reached = mark_rings(mesh, seeds, index);
   CutPatch patch;
   std::vector<std::int32_t> joined;
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    if (least_ring(mesh.corners(e), ring) >= n_cut_rings) continue;
+  for (const std::int32_t e : elements_of(mesh, index, reached)) {
     if (mesh.element_type[e] == ElementType::tet4)
       patch.element.push_back(e);
     else
       joined.insert(joined.end(), mesh.corners(e).begin(), mesh.corners(e).end());
   }
-  number_nodes(patch, mesh, ring);
+  number_nodes(patch, mesh, reached, index);
   set_stars(patch);
   set_neighbours(patch);
   patch.is_joined.assign(patch.node.size(), 0);
   for (const std::int32_t i : joined)
-    if (const std::int32_t at = patch.local_node(i); at >= 0) patch.is_joined[at] = 1;
+    if (index.local[i] >= 0) patch.is_joined[index.local[i]] = 1;
   for (std::int32_t i = 0; i < patch.n_nodes(); ++i) {
     patch.X.push_back(mesh.X[patch.node[i]]);
     patch.x.push_back(x[patch.node[i]]);
     const bool is_locked = is_held[patch.node[i]] != 0 || patch.is_joined[i] != 0;
     patch.is_locked.push_back(is_locked ? 1 : 0);
+  }
+  for (const std::int32_t i : reached) {
+    index.ring[i] = no_ring;
+    index.local[i] = -1;
   }
   return patch;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "cutting/cut_index.h"
 #include "mesh/mesh.h"
 
 namespace trocar {
@@ -43,8 +44,9 @@ struct CutPatch {
   std::int32_t local_element(std::int32_t global) const;
 };
 
-// Tetrahedra of `mesh` within n_cut_rings of the seeds (global elements, ascending).
-CutPatch make_patch(const Mesh& mesh, std::span<const Vec3> x,
+// Tetrahedra of `mesh` within n_cut_rings of the seeds (global elements, ascending). `index` is
+// that of the mesh.
+CutPatch make_patch(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
                     std::span<const std::uint8_t> is_held, std::span<const std::int32_t> seeds);
 
 // Local number of corner c of the facet opposite to corner f, outward by the right-hand rule.

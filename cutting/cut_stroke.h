@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -62,6 +63,9 @@ const T* find_element(const std::vector<OfElement<T>>& values, std::int32_t elem
 // Adds or overwrites entries; both ascending.
 template <class T>
 void merge_elements(std::vector<OfElement<T>>& values, const std::vector<OfElement<T>>& changes);
+
+// The crossings of an element's edges.
+std::span<const CutHit> hits_of(const CutStroke& stroke, std::int32_t element);
 
 }  // namespace trocar
 

@@ -37,14 +37,14 @@ static double surface_cost(const CutSurroundings& around, std::int32_t i) {
   return std::min(d2 / std::max(slope2, 1e-6), immovable_cost);
 }
 
-CutSurroundings survey(const Mesh& mesh, std::span<const Vec3> x,
+CutSurroundings survey(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
                        std::span<const std::uint8_t> is_held, const CutStroke& stroke,
                        bool is_last) {
   CutSurroundings around;
   around.h = stroke.mean_edge;
   const std::vector<std::int32_t> seed = seed_elements(stroke, is_last);
   if (seed.empty()) return around;
-  around.patch = make_patch(mesh, x, is_held, seed);
+  around.patch = make_patch(mesh, index, x, is_held, seed);
   around.points = surface_points(around.patch, stroke);
   for (std::int32_t i = 0; i < around.patch.n_nodes(); ++i) {
     NodeBoundary boundary;

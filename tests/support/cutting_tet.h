@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "cutting/cut_index.h"
 #include "cutting/cut_tet.h"
 #include "mesh/edit.h"
 #include "mesh/facets.h"
@@ -24,6 +25,12 @@ namespace trocar::cutting_test {
 using Deformation = std::function<Vec3(const Vec3&)>;
 inline Vec3 at_rest(const Vec3& X) {
   return X;
+}
+
+inline CutIndex index_of(const Mesh& mesh) {
+  CutIndex index;
+  update_index(mesh, index);
+  return index;
 }
 
 struct Body {
