@@ -1,5 +1,5 @@
 // Extraction of the patch around a cut: rings over the stars of nodes, facets by
-// sorting.
+// their lowest node.
 #include "cutting/cut_patch.h"
 
 #include <algorithm>
@@ -95,28 +95,35 @@ static void set_stars(CutPatch& patch) {
     for (const std::int32_t i : patch.corner[e]) patch.star_element[next[i]++] = e;
 }
 
+// Pairs the facets of equal nodes: each waits at its lowest node for the other one.
 static void set_neighbours(CutPatch& patch) {
-  struct Side {
-    std::array<std::int32_t, 3> node;
-    std::int32_t element, facet;
-    auto operator<=>(const Side&) const = default;
+  struct Waiting {
+    std::int32_t middle, high, element;
+    int facet;
   };
-  std::vector<Side> side;
-  side.reserve(patch.corner.size() * 4);
+  patch.across.assign(patch.corner.size(), {-1, -1, -1, -1});
+  // As many places at a node as its star may need: three facets an element.
+  std::vector<Waiting> waiting(patch.star_element.size() * 3);
+  std::vector<std::int32_t> n_waiting(patch.node.size(), 0);
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     for (int f = 0; f < 4; ++f) {
       std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);
       std::sort(node.begin(), node.end());
-      side.push_back({node, e, f});
+      Waiting* const begin = waiting.data() + 3 * patch.star_offset[node[0]];
+      Waiting* const end = begin + n_waiting[node[0]];
+      Waiting* const other = std::find_if(begin, end, [&](const Waiting& w) {
+        return w.middle == node[1] && w.high == node[2];
+      });
+      if (other == end) {
+        *end = {node[1], node[2], e, f};
+        ++n_waiting[node[0]];
+        continue;
+      }
+      patch.across[e][f] = other->element;
+      patch.across[other->element][other->facet] = e;
+      *other = *(end - 1);
+      --n_waiting[node[0]];
     }
-  std::sort(side.begin(), side.end());
-  patch.across.assign(patch.corner.size(), {-1, -1, -1, -1});
-  for (std::size_t k = 0; k + 1 < side.size(); ++k) {
-    const Side &a = side[k], &b = side[k + 1];
-    if (a.node != b.node) continue;
-    patch.across[a.element][a.facet] = b.element;
-    patch.across[b.element][b.facet] = a.element;
-  }
 }
 
 // Nodes that the patch's tetrahedra use, in ascending order, and the elements in these numbers.
