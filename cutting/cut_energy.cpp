@@ -1,7 +1,6 @@
 // f^2 = (h^2/6)^2 S^2 / V^4 with S = sum of |2 area|^2 and V = 6 volumes.
 #include "cutting/cut_energy.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "cutting/cut_patch.h"
@@ -18,10 +17,8 @@ TetShape tet_shape(std::span<const Vec3> X, const std::array<std::int32_t, 4>& c
   const Vec3& o = X[corner[0]];
   const Vec3 a = X[corner[1]] - o, b = X[corner[2]] - o, c = X[corner[3]] - o;
   const Vec3 n = a.cross(b), m = b.cross(c), k = c.cross(a);
-  const std::array<double, 4> square{n.squaredNorm(), m.squaredNorm(), k.squaredNorm(),
-                                     (n + m + k).squaredNorm()};
-  return {n.dot(c), square[0] + square[1] + square[2] + square[3],
-          *std::max_element(square.begin(), square.end())};
+  return {n.dot(c),
+          n.squaredNorm() + m.squaredNorm() + k.squaredNorm() + (n + m + k).squaredNorm()};
 }
 
 double stability_bound(const TetShape& shape, double h) {
@@ -46,7 +43,7 @@ void add_squared_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4
     dS += 2 * (d.squaredNorm() * u - d.dot(u) * d);
     ddS += 2 * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
   }
-  const auto [V, S, largest] = tet_shape(X, corner);
+  const auto [V, S] = tet_shape(X, corner);
   const Vec3 dV = -double_area(X, corner, a);
   const double c = h * h / 6 * S / (V * V), g = c * c;
   const Vec3 log_gradient = 2 / S * dS - 4 / V * dV;

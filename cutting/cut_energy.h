@@ -18,9 +18,9 @@ struct NodeEnergy {
   Mat3 hessian = Mat3::Zero();
 };
 
-// Six times the volume; sum and largest of the squared double areas of the facets.
+// Six times the volume, and the sum of the squared double areas of the facets.
 struct TetShape {
-  double V = 0, S = 0, largest = 0;
+  double V = 0, S = 0;
 };
 TetShape tet_shape(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner);
 double stability_bound(const TetShape& shape, double h);

@@ -64,10 +64,10 @@ static NodeEnergy node_energy(const Descent& d, std::int32_t i, const SurfaceTer
   return energy;
 }
 
-static double star_altitude(const Descent& d, std::int32_t i) {
+static double star_step(const Descent& d, std::int32_t i) {
   double least = std::numeric_limits<double>::infinity();
   for (const std::int32_t e : d.around.patch.star(i))
-    least = std::min(least, tet_altitude(d.X, d.around.patch.corner[e]));
+    least = std::min(least, step_bound(d.X, d.around.patch.corner[e]));
   return least;
 }
 
@@ -99,14 +99,14 @@ static bool try_position(Descent& d, std::int32_t i, const Vec3& to, const IsBet
   return false;
 }
 
-// Whether node i is valid and better where it stands: no altitude below `altitude`, energy below
+// Whether node i is valid and better where it stands: no step bound below `step`, energy below
 // `least`.
-static bool is_better(const Descent& d, std::int32_t i, const SurfaceTerm& term, double altitude,
+static bool is_better(const Descent& d, std::int32_t i, const SurfaceTerm& term, double step,
                       double least) {
   double value = term_value(d, term, d.X[i]);
   for (const std::int32_t e : d.around.patch.star(i)) {
     const TetShape shape = tet_shape(d.X, d.around.patch.corner[e]);
-    if (!(shape.V > 0) || shape.V * shape.V < altitude * altitude * shape.largest) return false;
+    if (!(shape.V > 0) || shape.V * shape.V < step * step * shape.S) return false;
     const double f = stability_bound(shape, d.around.h);
     value += f * f;
     if (!(value < least)) return false;
@@ -119,13 +119,12 @@ static double descend(Descent& d, std::int32_t i) {
   const SurfaceTerm term = surface_term(d, i);
   const NodeEnergy energy = node_energy(d, i, term);
   if (!std::isfinite(energy.value)) return 0;
-  const double altitude = std::min(d.limits.floor, star_altitude(d, i));
+  const double least_step = std::min(d.limits.floor, star_step(d, i));
   const Vec3 from = d.X[i];
   Vec3 step = newton_step(energy, d.around.boundary[i], d.around.h);
   for (int trial = 0; trial < 5; ++trial, step *= 0.5)
-    if (try_position(d, i, from + step, [&] {
-          return is_better(d, i, term, altitude, energy.value);
-        }))
+    if (try_position(d, i, from + step,
+                     [&] { return is_better(d, i, term, least_step, energy.value); }))
       return (d.X[i] - from).norm();
   return 0;
 }
@@ -145,13 +144,13 @@ static Vec3 foot_on_surface(const Descent& d, std::int32_t i) {
 
 static void snap(Descent& d, std::int32_t i) {
   if (d.around.points.of(i).empty()) return;
-  const double altitude = star_altitude(d, i);
-  if (!(altitude > 0)) return;
+  const double step = star_step(d, i);
+  if (!(step > 0)) return;
   const bool is_inner = d.around.boundary[i].freedom == NodeFreedom::free;
-  const double least = std::min(is_inner ? d.limits.inner_snap : d.limits.outer_snap, altitude);
+  const double least = std::min(is_inner ? d.limits.inner_snap : d.limits.outer_snap, step);
   const Vec3 from = d.X[i], to = foot_on_surface(d, i);
   for (const double part : {1.0, 0.5, 0.25})
-    if (try_position(d, i, from + part * (to - from), [&] { return star_altitude(d, i) >= least; }))
+    if (try_position(d, i, from + part * (to - from), [&] { return star_step(d, i) >= least; }))
       return;
 }
 

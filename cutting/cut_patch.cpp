@@ -35,14 +35,13 @@ double six_volumes(std::span<const Vec3> X, const std::array<std::int32_t, 4>& c
   return (X[corner[1]] - o).cross(X[corner[2]] - o).dot(X[corner[3]] - o);
 }
 
-double tet_altitude(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner) {
-  double largest = 0;  // (2 area)^2
+double step_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner) {
+  double sum = 0;  // of (2 area)^2
   for (const std::array<int, 3>& facet : tet_facets) {
     const Vec3& o = X[corner[facet[0]]];
-    const Vec3 normal = (X[corner[facet[1]]] - o).cross(X[corner[facet[2]]] - o);
-    largest = std::max(largest, normal.squaredNorm());
+    sum += (X[corner[facet[1]]] - o).cross(X[corner[facet[2]]] - o).squaredNorm();
   }
-  return six_volumes(X, corner) / std::sqrt(largest);
+  return six_volumes(X, corner) / std::sqrt(sum);
 }
 
 // Marks the nodes around the seeds with their rings; returns them, ascending.
@@ -111,9 +110,8 @@ static void set_neighbours(CutPatch& patch) {
       std::sort(node.begin(), node.end());
       Waiting* const begin = waiting.data() + 3 * patch.star_offset[node[0]];
       Waiting* const end = begin + n_waiting[node[0]];
-      Waiting* const other = std::find_if(begin, end, [&](const Waiting& w) {
-        return w.middle == node[1] && w.high == node[2];
-      });
+      Waiting* const other = std::find_if(
+          begin, end, [&](const Waiting& w) { return w.middle == node[1] && w.high == node[2]; });
       if (other == end) {
         *end = {node[1], node[2], e, f};
         ++n_waiting[node[0]];

@@ -58,7 +58,8 @@ int facet_towards(const CutPatch& patch, std::int32_t e, std::int32_t u);
 
 // Six times the volume of a tetrahedron. [m^3]
 double six_volumes(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner);
-// Least altitude, negative if inverted. [m]
-double tet_altitude(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner);
+// 6 V / sqrt(sum of squared double facet areas): in proportion to the element's bound of the stable
+// step; negative if inverted. [m]
+double step_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner);
 
 }  // namespace trocar

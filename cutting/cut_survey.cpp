@@ -11,7 +11,7 @@ static constexpr double immovable_cost = 30;
 // A node that can't move may lie this far from the surface (over h) without counting as off it.
 static constexpr double tolerated_distance = 0.1;
 
-// Parts of the least altitude before that elements keep when a node is put on the surface for the
+// Parts of the least step bound before that elements keep when a node is put on the surface for the
 // look only.
 static constexpr double inner_snap = 0.75, outer_snap = 0.5;
 
@@ -94,9 +94,9 @@ void set_roles(TetCut& cut, const CutStroke& stroke, bool is_last) {
 MoveLimits move_limits(const CutSurroundings& around, const CutStroke& stroke, double part) {
   double least = std::numeric_limits<double>::infinity();
   for (std::int32_t e = 0; e < around.patch.n_elements(); ++e) {
-    const double* before = find_element(stroke.altitude, around.patch.element[e]);
+    const double* before = find_element(stroke.step, around.patch.element[e]);
     least = std::min(
-        least, before != nullptr ? *before : tet_altitude(around.patch.X, around.patch.corner[e]));
+        least, before != nullptr ? *before : step_bound(around.patch.X, around.patch.corner[e]));
   }
   return {part * least, std::max(part, inner_snap) * least, std::max(part, outer_snap) * least};
 }

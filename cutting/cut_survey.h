@@ -31,7 +31,7 @@ CutSurroundings survey(const Mesh& mesh, CutIndex& index, std::span<const Vec3> 
 // is_last: the blade is still in there.
 void set_roles(TetCut& cut, const CutStroke& stroke, bool is_last);
 
-// The floor under altitudes: `part` of the least altitude that the elements around had before this
+// The floor under step bounds: `part` of the least one that the elements around had before this
 // stroke.
 MoveLimits move_limits(const CutSurroundings& around, const CutStroke& stroke, double part);
 

@@ -8,6 +8,7 @@
 #include "cutting/cut_edit.h"
 #include "cutting/cut_hits.h"
 #include "cutting/cut_index.h"
+#include "cutting/cut_mend.h"
 
 namespace trocar {
 
@@ -22,10 +23,10 @@ TetCutter::TetCutter(const CutTetOptions& options)
 TetCutter::~TetCutter() = default;
 TetCutter::TetCutter(TetCutter&&) noexcept = default;
 
-// Altitudes are kept: the floor under them must not sink from stroke to stroke.
+// Step bounds are kept: the floor under them must not sink from stroke to stroke.
 void TetCutter::start_stroke() {
   CutStroke next;
-  next.altitude = std::move(front_->stroke.altitude);
+  next.step = std::move(front_->stroke.step);
   front_->stroke = std::move(next);
 }
 
@@ -66,12 +67,13 @@ MeshEdit TetCutter::advance(const Mesh& mesh, std::span<const Vec3> x,
   cut.around = survey(mesh, index, x, is_held, stroke, is_last);
   if (cut.around.patch.n_elements() == 0) return {};
   cut.labels = label_elements(cut.around, stroke);
+  if (is_last) mend_labels(cut.around, stroke, cut.labels);
   std::vector<std::uint8_t> stays_whole(cut.around.patch.node.size(), 0);
   if (!is_last) stays_whole = unripe_nodes(cut.around, cut.labels);
   cut.opening = open_facets(cut.around, cut.labels, stays_whole);
   set_roles(cut, stroke, is_last);
   cut.X = move_nodes(cut.around, cut.role,
-                     move_limits(cut.around, stroke, front_->options.least_altitude));
+                     move_limits(cut.around, stroke, front_->options.least_step_ratio));
   cut.transfer = transfer_moves(cut.around.patch, cut.X);
 
   figures = make_figures(cut, is_last);

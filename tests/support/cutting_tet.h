@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cutting/cut_index.h"
+#include "cutting/cut_patch.h"
 #include "cutting/cut_tet.h"
 #include "mesh/edit.h"
 #include "mesh/facets.h"
@@ -70,6 +71,7 @@ inline void apply(const MeshEdit& edit, const CutFigures& figures, Body& body, L
   CutFigures& total = ledger.total;
   total.n_opened_facets += figures.n_opened_facets;
   total.n_moved += figures.n_moved;
+  total.n_beside += figures.n_beside;
   total.n_duplicated += figures.n_duplicated;
   total.least_quality = std::min(total.least_quality, figures.least_quality);
   total.largest_deviation = std::max(total.largest_deviation, figures.largest_deviation);
@@ -138,16 +140,19 @@ inline double volume(const Mesh& mesh) {
   return sum;
 }
 
+// In proportion to the least element bound of the stable step.
+inline double least_step_of(const Mesh& mesh) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    const auto c = mesh.corners(e);
+    least = std::min(least, step_bound(mesh.X, {c[0], c[1], c[2], c[3]}));
+  }
+  return least;
+}
+
 inline int n_pieces(const Mesh& mesh) {
   std::vector<std::int32_t> piece;
   return mesh_pieces(mesh, piece);
-}
-
-inline double least_altitude_of(const Mesh& mesh) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-    least = std::min(least, least_altitude(mesh, e, mesh.X));
-  return least;
 }
 
 inline double mean_edge_of(const Mesh& mesh) {
