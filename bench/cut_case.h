@@ -1,6 +1,7 @@
 // What bench_cut cuts: families of meshes, kinds of cuts, and the exact answer by subdivision.
 #pragma once
 
+#include <cstdio>
 #include <functional>
 #include <random>
 #include <string>
@@ -36,6 +37,12 @@ struct Kind {
 std::vector<Kind> kinds();
 
 double mean_edge(const Mesh& mesh);
+
+// Of this thread: others may use the machine.
+double processor_seconds();
+
+// Prints what the same incision costs in boxes of 5,000 to 1,000,000 tetrahedra of one size.
+void print_scaling(std::FILE* file);
 
 // The textbook's way, for comparison: every crossed edge gets a node where the surface meets it,
 // and elements are split there (all edges that `strokes` cross, whether the blade gets there or

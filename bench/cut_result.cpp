@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "base/timers.h"
-
 namespace trocar::cut_bench {
 
 // In proportion to the element's stable step.
@@ -99,10 +97,10 @@ static void run_stroke(const Stroke& stroke, TetCutter& cutter, Body& body,
     const BladeSweep sweep{stroke.blade(double(k) / stroke.n_steps),
                            stroke.blade(double(k + 1) / stroke.n_steps), stroke.normal};
     CutFigures figures;
-    const double start = monotonic_seconds();
+    const double start = processor_seconds();
     const MeshEdit edit =
         cutter.advance(body.mesh, body.x, body.is_held, sweep, k + 1 == stroke.n_steps, figures);
-    const double seconds = monotonic_seconds() - start;
+    const double seconds = processor_seconds() - start;
     result.seconds += seconds;
     result.longest_advance = std::max(result.longest_advance, seconds);
     cutting_test::apply(edit, figures, body, ledger);
