@@ -14,8 +14,8 @@ namespace trocar {
 // Adds the crossings of the band with the edges of tetrahedra in the present configuration x to
 // stroke.hit; an edge crossed back loses its crossing. The band begins where the last one ended in
 // the tissue, and a little behind. Every element that shares an edge gets the same decision. Sets
-// stroke.mean_edge near the band. `index` is that of the mesh; edges stretched to four times their
-// length are not seen.
+// stroke.mean_edge near the band. `index` is that of the mesh; edges stretched to three times
+// the longest one's length are not seen.
 void add_hits(const Mesh& mesh, const CutIndex& index, std::span<const Vec3> x,
               const BladeSweep& sweep, CutStroke& stroke);
 

@@ -13,7 +13,7 @@ static constexpr double tolerated_distance = 0.1;
 
 // Parts of the least step bound before that elements keep when a node is put on the surface for the
 // look only.
-static constexpr double inner_snap = 0.75, outer_snap = 0.5;
+static constexpr double inner_snap = 0.75, outer_snap = 0.6;
 
 static std::vector<std::int32_t> seed_elements(const CutStroke& stroke, bool is_last) {
   std::vector<std::int32_t> seed = stroke.fresh;
