@@ -146,8 +146,7 @@ static void snap(Descent& d, std::int32_t i) {
   if (d.around.points.of(i).empty()) return;
   const double step = star_step(d, i);
   if (!(step > 0)) return;
-  const bool is_inner = d.around.boundary[i].freedom == NodeFreedom::free;
-  const double least = std::min(is_inner ? d.limits.inner_snap : d.limits.outer_snap, step);
+  const double least = std::min(d.limits.snap, step);
   const Vec3 from = d.X[i], to = foot_on_surface(d, i);
   for (const double part : {1.0, 0.5, 0.25})
     if (try_position(d, i, from + part * (to - from), [&] { return star_step(d, i) >= least; }))

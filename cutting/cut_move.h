@@ -14,9 +14,7 @@ enum class NodeRole : std::uint8_t { stays, makes_room, on_surface };
 
 struct MoveLimits {
   double floor = 0;  // no element's step bound may sink below this, or sink further [m]
-  // Nor below these only to put a node on the surface that descent left beside it: inside, and at
-  // the lips of the wound. [m]
-  double inner_snap = 0, outer_snap = 0;
+  double snap = 0;   // nor below this only to put a node on the surface that descent left beside it
 };
 
 // Reference positions of all patch nodes after the move.

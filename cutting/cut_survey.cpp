@@ -11,9 +11,9 @@ static constexpr double immovable_cost = 30;
 // A node that can't move may lie this far from the surface (over h) without counting as off it.
 static constexpr double tolerated_distance = 0.1;
 
-// Parts of the least step bound before that elements keep when a node is put on the surface for the
-// look only.
-static constexpr double inner_snap = 0.75, outer_snap = 0.6;
+// Part of the least step bound before that elements keep when a node is put on the surface for the
+// look only. (0.5 at the lips left the step at 0.5 and the nodes no nearer to the blade.)
+static constexpr double least_snap = 0.75;
 
 static std::vector<std::int32_t> seed_elements(const CutStroke& stroke, bool is_last) {
   std::vector<std::int32_t> seed = stroke.fresh;
@@ -98,7 +98,7 @@ MoveLimits move_limits(const CutSurroundings& around, const CutStroke& stroke, d
     least = std::min(
         least, before != nullptr ? *before : step_bound(around.patch.X, around.patch.corner[e]));
   }
-  return {part * least, std::max(part, inner_snap) * least, std::max(part, outer_snap) * least};
+  return {part * least, std::max(part, least_snap) * least};
 }
 
 }  // namespace trocar
