@@ -13,7 +13,7 @@ static constexpr std::ptrdiff_t n_element_trials = 300'000;
 static bool may_change(const CutSurroundings& around, const CutStroke& stroke,
                        const CutLabels& labels, std::int32_t e) {
   if (labels.side[e] == 0 || labels.kind[e] == CutKind::front ||
-      find_element(stroke.side, around.patch.element[e]) != nullptr)
+      find_element(stroke.opened, around.patch.element[e]) != nullptr)
     return false;
   const auto& across = around.patch.across[e];
   return std::any_of(across.begin(), across.end(),
