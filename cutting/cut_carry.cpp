@@ -26,9 +26,22 @@ static Vec3 at(const Mesh& mesh, std::int32_t e, std::span<const Vec3> X,
   return point;
 }
 
+// Cheaper than barycentric coordinates, and rarely true.
+static bool box_holds(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x,
+                      const Vec3& point) {
+  Vec3 low = x[mesh.corners(e)[0]], high = low;
+  for (const std::int32_t i : mesh.corners(e).subspan(1)) {
+    low = low.cwiseMin(x[i]);
+    high = high.cwiseMax(x[i]);
+  }
+  const double margin = 1e-6 * (high - low).maxCoeff();  // far more than `tolerance` reaches
+  return ((point - low).array() >= -margin).all() && ((high - point).array() >= -margin).all();
+}
+
 static BladePoint locate(const Mesh& mesh, std::span<const Vec3> x,
                          std::span<const std::int32_t> near, const Vec3& point) {
   for (const std::int32_t e : near) {
+    if (!box_holds(mesh, e, x, point)) continue;
     const std::array<double, 4> b = barycentric(mesh, e, x, point);
     if (*std::min_element(b.begin(), b.end()) >= -tolerance)
       return {e, at(mesh, e, mesh.X, b), point};

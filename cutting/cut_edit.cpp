@@ -11,6 +11,9 @@ namespace trocar {
 // A node of an opened facet this near to the surface (over h) has no side.
 static constexpr double neutral_distance = 0.05;
 
+// A parted node this far from the surface (over h) lies beside it.
+static constexpr double beside_distance = 0.1;
+
 static std::vector<std::int32_t> moved_elements(const TetCut& cut) {
   const CutPatch& patch = cut.around.patch;
   std::vector<std::int32_t> element;
@@ -94,6 +97,15 @@ static double least_quality(const TetCut& cut) {
   return least;
 }
 
+static std::vector<CutRefusal> refusals(const TetCut& cut) {
+  std::vector<CutRefusal> list;
+  for (const auto& [e, f] : cut.opening.refused) {
+    const std::array<std::int32_t, 3> node = facet_nodes(cut.around.patch, e, f);
+    list.push_back({(cut.X[node[0]] + cut.X[node[1]] + cut.X[node[2]]) / 3, CutRefusal::pinched});
+  }
+  return list;
+}
+
 CutFigures make_figures(const TetCut& cut, bool is_last) {
   CutFigures figures;
   const CutPatch& patch = cut.around.patch;
@@ -103,11 +115,13 @@ CutFigures make_figures(const TetCut& cut, bool is_last) {
   figures.n_moved = static_cast<std::int32_t>(cut.transfer.size());
   const std::vector<std::int32_t>& parent = cut.opening.duplication.duplicate_parent;
   figures.n_duplicated = static_cast<std::int32_t>(parent.size());
-  figures.n_refused = is_last ? static_cast<std::int32_t>(cut.opening.refused.size()) : 0;
+  if (is_last) figures.refusals = refusals(cut);
+  figures.n_refused = static_cast<std::int32_t>(figures.refusals.size());
   figures.least_quality = least_quality(cut);
   for (const std::int32_t i : parent) {
     const double distance = surface_distance(cut.around, i, cut.X[i]);
     figures.largest_deviation = std::max(figures.largest_deviation, distance);
+    figures.n_beside += distance > beside_distance * cut.around.h ? 1 : 0;
     figures.mean_deviation += distance / static_cast<double>(parent.size());
   }
   figures.mean_edge = cut.around.h;
@@ -119,13 +133,6 @@ static void sort_unique(std::vector<std::int32_t>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-static bool is_crossed(const CutStroke& stroke, std::int32_t element) {
-  const auto at =
-      std::lower_bound(stroke.hit.begin(), stroke.hit.end(), element,
-                       [](const CutHit& hit, std::int32_t e) { return hit.element < e; });
-  return at != stroke.hit.end() && at->element == element;
-}
-
 // Sides are kept where something is open: there they can't be taken back. Elsewhere the next edit
 // knows more.
 static void remember_sides(const TetCut& cut, CutStroke& stroke) {
@@ -134,7 +141,7 @@ static void remember_sides(const TetCut& cut, CutStroke& stroke) {
   for (const auto& [e, f] : cut.opening.facet) has_opened[e] = 1;
   std::vector<OfElement<std::int8_t>> side;
   for (std::int32_t e = 0; e < patch.n_elements(); ++e) {
-    if (cut.labels.kind[e] == CutKind::front && !is_crossed(stroke, patch.element[e]))
+    if (cut.labels.kind[e] == CutKind::front && hits_of(stroke, patch.element[e]).empty())
       stroke.unfinished.push_back(patch.element[e]);
     if (cut.labels.side[e] == 0 || cut.labels.kind[e] == CutKind::front) continue;
     const auto& corner = patch.corner[e];
@@ -170,13 +177,13 @@ static void remember_nodes(const TetCut& cut, std::int32_t n_nodes, CutStroke& s
   sort_unique(stroke.parted_node);
 }
 
-static void remember_altitudes(const TetCut& cut, CutStroke& stroke) {
+static void remember_steps(const TetCut& cut, CutStroke& stroke) {
   const CutPatch& patch = cut.around.patch;
-  std::vector<OfElement<double>> altitude;
+  std::vector<OfElement<double>> step;
   for (const std::int32_t e : moved_elements(cut))
-    if (find_element(stroke.altitude, patch.element[e]) == nullptr)
-      altitude.push_back({patch.element[e], tet_altitude(patch.X, patch.corner[e])});
-  merge_elements(stroke.altitude, altitude);
+    if (find_element(stroke.step, patch.element[e]) == nullptr)
+      step.push_back({patch.element[e], step_bound(patch.X, patch.corner[e])});
+  merge_elements(stroke.step, step);
 }
 
 void remember(const TetCut& cut, std::int32_t n_nodes, CutStroke& stroke) {
@@ -191,7 +198,7 @@ void remember(const TetCut& cut, std::int32_t n_nodes, CutStroke& stroke) {
   remember_sides(cut, stroke);
   sort_unique(stroke.unfinished);
   remember_nodes(cut, n_nodes, stroke);
-  remember_altitudes(cut, stroke);
+  remember_steps(cut, stroke);
   std::vector<OfElement<std::uint8_t>> opened = opened_facets(cut);
   for (OfElement<std::uint8_t>& entry : opened)
     if (const std::uint8_t* before = find_element(stroke.opened, entry.element))

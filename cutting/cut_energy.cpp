@@ -13,17 +13,22 @@ static Vec3 double_area(std::span<const Vec3> X, const std::array<std::int32_t, 
   return (X[corner[c[1]]] - o).cross(X[corner[c[2]]] - o);
 }
 
-static double sum_of_squares(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner) {
-  double S = 0;
-  for (int f = 0; f < 4; ++f) S += double_area(X, corner, f).squaredNorm();
-  return S;
+TetShape tet_shape(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner) {
+  const Vec3& o = X[corner[0]];
+  const Vec3 a = X[corner[1]] - o, b = X[corner[2]] - o, c = X[corner[3]] - o;
+  const Vec3 n = a.cross(b), m = b.cross(c), k = c.cross(a);
+  return {n.dot(c),
+          n.squaredNorm() + m.squaredNorm() + k.squaredNorm() + (n + m + k).squaredNorm()};
+}
+
+double stability_bound(const TetShape& shape, double h) {
+  if (!(shape.V > 0)) return std::numeric_limits<double>::infinity();
+  return h * h / 6 * shape.S / (shape.V * shape.V);
 }
 
 double stability_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner,
                        double h) {
-  const double V = six_volumes(X, corner);
-  if (!(V > 0)) return std::numeric_limits<double>::infinity();
-  return h * h / 6 * sum_of_squares(X, corner) / (V * V);
+  return stability_bound(tet_shape(X, corner), h);
 }
 
 void add_squared_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner, int a,
@@ -38,7 +43,7 @@ void add_squared_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4
     dS += 2 * (d.squaredNorm() * u - d.dot(u) * d);
     ddS += 2 * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
   }
-  const double V = six_volumes(X, corner), S = sum_of_squares(X, corner);
+  const auto [V, S] = tet_shape(X, corner);
   const Vec3 dV = -double_area(X, corner, a);
   const double c = h * h / 6 * S / (V * V), g = c * c;
   const Vec3 log_gradient = 2 / S * dS - 4 / V * dV;

@@ -18,6 +18,12 @@ struct NodeEnergy {
   Mat3 hessian = Mat3::Zero();
 };
 
+// Six times the volume, and the sum of the squared double areas of the facets.
+struct TetShape {
+  double V = 0, S = 0;
+};
+TetShape tet_shape(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner);
+double stability_bound(const TetShape& shape, double h);
 // f of one tetrahedron; infinite if it has no volume.
 double stability_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner,
                        double h);

@@ -2,8 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
+
+#include "base/vec.h"
 
 namespace trocar {
+
+// A facet that stays joined though the blade went through.
+struct CutRefusal {
+  enum Reason : std::int32_t { pinched };  // the outer surface would be no 2-manifold
+  Vec3 X = Vec3::Zero();                   // its centre, reference configuration [m]
+  std::int32_t reason = pinched;
+};
 
 struct CutFigures {
   std::int32_t n_opened_facets = 0;
@@ -15,7 +25,10 @@ struct CutFigures {
   double largest_deviation =
       0;                      // of a cut node from the swept surface [m], reference configuration
   double mean_deviation = 0;  // [m]
-  double mean_edge = 0;       // mean edge length around the cut [m]
+  std::int32_t n_beside = 0;  // parted nodes that the floor under the stable step, a support or a
+                              // sharp edge keeps more than 0.1 mean edges from the swept surface
+  std::vector<CutRefusal> refusals;  // (n_refused)
+  double mean_edge = 0;              // mean edge length around the cut [m]
 };
 
 }  // namespace trocar

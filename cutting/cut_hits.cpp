@@ -32,6 +32,12 @@ struct Band {
   Vec3 low, high;
 };
 
+// Box along axes of its own (columns).
+struct BandBox {
+  Mat3 axes;
+  Vec3 low, high;
+};
+
 struct Crossing {
   bool is_a_plus = false;
   double s = 0;  // from a to b
@@ -79,22 +85,68 @@ static Band make_band(const BladeSweep& sweep, double back) {
   return band;
 }
 
-// Tetrahedra whose corners are not all on one outer side of the band's box.
-static std::vector<std::int32_t> near_elements(const Mesh& mesh, std::span<const Vec3> x,
-                                               const Vec3& low, const Vec3& high) {
-  std::vector<std::uint8_t> outside(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    unsigned code = 0;
-    for (int d = 0; d < 3; ++d)
-      code |= (x[i][d] < low[d] ? 1U << d : 0U) | (x[i][d] > high[d] ? 8U << d : 0U);
-    outside[i] = static_cast<std::uint8_t>(code);
+// Axes along and across the band: its box is as thin as the band is flat.
+static BandBox box_of(const Band& band) {
+  BandBox box;
+  Vec3 normal = Vec3::Zero();
+  for (const Band::Triangle& t : band.triangle) normal += t.normal;
+  const Vec3 n = normal.norm() > 0.1 ? normal.normalized() : Vec3::UnitZ();
+  Vec3 along = band.point.back() - band.point[1];  // the edge at the end
+  along -= n * n.dot(along);
+  const Vec3 u = along.norm() > 0 ? along.normalized() : n.unitOrthogonal();
+  box.axes << n, u, n.cross(u);
+  box.low = box.high = box.axes.transpose() * band.point[0];
+  for (const Vec3& p : band.point) {
+    const Vec3 q = box.axes.transpose() * p;
+    box.low = box.low.cwiseMin(q);
+    box.high = box.high.cwiseMax(q);
   }
+  const Vec3 margin = Vec3::Constant(1e-9 * (box.high - box.low).norm());
+  box.low -= margin;
+  box.high += margin;
+  return box;
+}
+
+// Bits of the sides of the box, widened by `margin`, beyond which p lies.
+static unsigned outside(const BandBox& box, const Vec3& p, double margin) {
+  const Vec3 q = box.axes.transpose() * p;
+  unsigned code = 0;
+  for (int d = 0; d < 3; ++d)
+    code |=
+        (q[d] < box.low[d] - margin ? 1U << d : 0U) | (q[d] > box.high[d] + margin ? 8U << d : 0U);
+  return code;
+}
+
+// Tetrahedra whose corners are not all beyond one side of the band's box, ascending. An edge that
+// crosses the band has an end within half its length of the box.
+static std::vector<std::int32_t> near_elements(const Mesh& mesh, const CutIndex& index,
+                                               std::span<const Vec3> x, const BandBox& box) {
+  const double margin = 1.5 * index.longest_edge;
+  // The same box along the axes of space rejects most nodes cheaply.
+  const Vec3 middle = box.axes * (0.5 * (box.low + box.high));
+  const Vec3 reach = box.axes.cwiseAbs() * (0.5 * (box.high - box.low) + Vec3::Constant(margin));
+  const Vec3 low = middle - reach, high = middle + reach;
+  const auto is_near = [&](std::int32_t i) {
+    const Vec3& p = x[i];
+    // Without branches: most nodes are far away, in no pattern.
+    const bool is_in_box = (p[0] >= low[0]) & (p[0] <= high[0]) & (p[1] >= low[1]) &
+                           (p[1] <= high[1]) & (p[2] >= low[2]) & (p[2] <= high[2]);
+    return is_in_box && outside(box, p, margin) == 0;
+  };
   std::vector<std::int32_t> element;
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    const std::span<const std::int32_t> c = mesh.corners(e);
-    if ((outside[c[0]] & outside[c[1]] & outside[c[2]] & outside[c[3 % c.size()]]) != 0) continue;
-    if (mesh.element_type[e] == ElementType::tet4) element.push_back(e);
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) {
+    if (!is_near(i)) continue;
+    for (const std::int32_t e : index.star(i)) {
+      const std::span<const std::int32_t> c = mesh.corners(e);
+      if (mesh.element_type[e] != ElementType::tet4 ||
+          *std::find_if(c.begin(), c.end(), is_near) != i)
+        continue;
+      unsigned common = ~0U;
+      for (const std::int32_t j : c) common &= outside(box, x[j], 0);
+      if (common == 0) element.push_back(e);
+    }
   }
+  std::sort(element.begin(), element.end());
   return element;
 }
 
@@ -187,20 +239,19 @@ static double mean_length(const Mesh& mesh, const std::vector<EdgeUse>& use) {
   return use.empty() ? 0 : sum / static_cast<double>(use.size());
 }
 
-// One edge of each tetrahedron is enough to know where the blade enters.
-static double rough_edge_length(const Mesh& mesh) {
-  double sum = 0;
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-    sum += (mesh.X[mesh.corners(e)[1]] - mesh.X[mesh.corners(e)[0]]).norm();
-  return sum / mesh.n_elements();
+static double mean_edge_at(const Mesh& mesh, const CutIndex& index, std::span<const Vec3> x,
+                           const BladeSweep& sweep) {
+  const Band band = make_band(sweep, 0);
+  if (band.triangle.empty()) return 0;
+  return mean_length(mesh, edge_uses(mesh, near_elements(mesh, index, x, box_of(band))));
 }
 
-void add_hits(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
-              CutStroke& stroke) {
-  if (stroke.mean_edge == 0) stroke.mean_edge = rough_edge_length(mesh);
+void add_hits(const Mesh& mesh, const CutIndex& index, std::span<const Vec3> x,
+              const BladeSweep& sweep, CutStroke& stroke) {
+  if (stroke.mean_edge == 0) stroke.mean_edge = mean_edge_at(mesh, index, x, sweep);
   const Band band = make_band(carry_edge(mesh, x, sweep, stroke), overlap * stroke.mean_edge);
   if (band.triangle.empty()) return;
-  const std::vector<std::int32_t> element = near_elements(mesh, x, band.low, band.high);
+  const std::vector<std::int32_t> element = near_elements(mesh, index, x, box_of(band));
   remember_edge(mesh, x, sweep, element, stroke);
   const std::vector<EdgeUse> use = edge_uses(mesh, element);
   std::vector<CutHit> found;

@@ -36,6 +36,15 @@ static int implied_side(const ElementSides& sides, int f) {
   return (plus > 0 ? 1 : 0) - (minus > 0 ? 1 : 0);
 }
 
+// Crossing points near corner c of an element: its own, or those of another corner.
+static std::span<const SurfacePoint> points_at(const CutSurroundings& around, std::int32_t e,
+                                               std::size_t c) {
+  const std::array<std::int32_t, 4>& corner = around.patch.corner[e];
+  std::span<const SurfacePoint> points = around.points.of(corner[c]);
+  for (std::size_t k = 0; k < 4 && points.empty(); ++k) points = around.points.of(corner[k]);
+  return points;
+}
+
 // Side of an uncut element by the distances of its corners. If the surface is about to pass through
 // it, it belongs to the front; if all its corners lie on the surface, the minimum cut decides.
 static void set_geometric_side(const CutSurroundings& around, const ElementSides& sides,
@@ -43,7 +52,7 @@ static void set_geometric_side(const CutSurroundings& around, const ElementSides
   double low = 0, high = 0;
   for (std::size_t c = 0; c < 4; ++c) {
     const std::int32_t i = around.patch.corner[e][c];
-    const std::span<const SurfacePoint> points = around.points.of(i);
+    const std::span<const SurfacePoint> points = points_at(around, e, c);
     if (sides.is_neutral[c] || points.empty()) continue;
     const double phi = fit_surface(points, around.patch.X[i], around.h).distance(around.patch.X[i]);
     low = std::min(low, phi);

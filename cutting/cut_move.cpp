@@ -15,7 +15,7 @@ static constexpr int max_sweeps = 10;
 // Weight of (distance / h)^2 against f^2, inside and where the lips of the wound show.
 static constexpr double inner_weight = 80, outer_weight = 300;
 static constexpr double longest_step = 0.3;      // of h
-static constexpr double smallest_motion = 2e-3;  // of h: sweeps end
+static constexpr double smallest_motion = 2e-3;  // of h: less counts as rest
 
 namespace {
 
@@ -64,20 +64,10 @@ static NodeEnergy node_energy(const Descent& d, std::int32_t i, const SurfaceTer
   return energy;
 }
 
-// Energy without derivatives; infinite if an element has no volume.
-static double energy_value(const Descent& d, std::int32_t i, const SurfaceTerm& term) {
-  double value = term_value(d, term, d.X[i]);
-  for (const std::int32_t e : d.around.patch.star(i)) {
-    const double f = stability_bound(d.X, d.around.patch.corner[e], d.around.h);
-    value += f * f;
-  }
-  return value;
-}
-
-static double star_altitude(const Descent& d, std::int32_t i) {
+static double star_step(const Descent& d, std::int32_t i) {
   double least = std::numeric_limits<double>::infinity();
   for (const std::int32_t e : d.around.patch.star(i))
-    least = std::min(least, tet_altitude(d.X, d.around.patch.corner[e]));
+    least = std::min(least, step_bound(d.X, d.around.patch.corner[e]));
   return least;
 }
 
@@ -109,18 +99,32 @@ static bool try_position(Descent& d, std::int32_t i, const Vec3& to, const IsBet
   return false;
 }
 
+// Whether node i is valid and better where it stands: no step bound below `step`, energy below
+// `least`.
+static bool is_better(const Descent& d, std::int32_t i, const SurfaceTerm& term, double step,
+                      double least) {
+  double value = term_value(d, term, d.X[i]);
+  for (const std::int32_t e : d.around.patch.star(i)) {
+    const TetShape shape = tet_shape(d.X, d.around.patch.corner[e]);
+    if (!(shape.V > 0) || shape.V * shape.V < step * step * shape.S) return false;
+    const double f = stability_bound(shape, d.around.h);
+    value += f * f;
+    if (!(value < least)) return false;
+  }
+  return true;
+}
+
 // Returns how far the node has gone.
 static double descend(Descent& d, std::int32_t i) {
   const SurfaceTerm term = surface_term(d, i);
   const NodeEnergy energy = node_energy(d, i, term);
   if (!std::isfinite(energy.value)) return 0;
-  const double altitude = std::min(d.limits.floor, star_altitude(d, i));
+  const double least_step = std::min(d.limits.floor, star_step(d, i));
   const Vec3 from = d.X[i];
   Vec3 step = newton_step(energy, d.around.boundary[i], d.around.h);
   for (int trial = 0; trial < 5; ++trial, step *= 0.5)
-    if (try_position(d, i, from + step, [&] {
-          return energy_value(d, i, term) < energy.value && star_altitude(d, i) >= altitude;
-        }))
+    if (try_position(d, i, from + step,
+                     [&] { return is_better(d, i, term, least_step, energy.value); }))
       return (d.X[i] - from).norm();
   return 0;
 }
@@ -140,13 +144,12 @@ static Vec3 foot_on_surface(const Descent& d, std::int32_t i) {
 
 static void snap(Descent& d, std::int32_t i) {
   if (d.around.points.of(i).empty()) return;
-  const double altitude = star_altitude(d, i);
-  if (!(altitude > 0)) return;
-  const bool is_inner = d.around.boundary[i].freedom == NodeFreedom::free;
-  const double least = std::min(is_inner ? d.limits.inner_snap : d.limits.outer_snap, altitude);
+  const double step = star_step(d, i);
+  if (!(step > 0)) return;
+  const double least = std::min(d.limits.snap, step);
   const Vec3 from = d.X[i], to = foot_on_surface(d, i);
   for (const double part : {1.0, 0.5, 0.25})
-    if (try_position(d, i, from + part * (to - from), [&] { return star_altitude(d, i) >= least; }))
+    if (try_position(d, i, from + part * (to - from), [&] { return star_step(d, i) >= least; }))
       return;
 }
 
@@ -157,10 +160,19 @@ std::vector<Vec3> move_nodes(const CutSurroundings& around, const std::vector<No
   for (std::int32_t i = 0; i < around.patch.n_nodes(); ++i)
     if (role[i] != NodeRole::stays && around.boundary[i].freedom != NodeFreedom::fixed)
       movable.push_back(i);
-  double motion = around.h;
-  for (int sweep = 0; sweep < max_sweeps && motion > smallest_motion * around.h; ++sweep) {
-    motion = 0;
-    for (const std::int32_t i : movable) motion = std::max(motion, descend(d, i));
+  // A node is looked at again while it or a neighbour moves.
+  std::vector<std::uint8_t> is_active(role.size(), 1);
+  bool is_moving = true;
+  for (int sweep = 0; sweep < max_sweeps && is_moving; ++sweep) {
+    is_moving = false;
+    for (const std::int32_t i : movable) {
+      if (is_active[i] == 0) continue;
+      is_active[i] = 0;
+      if (descend(d, i) <= smallest_motion * around.h) continue;
+      is_moving = true;
+      for (const std::int32_t e : around.patch.star(i))
+        for (const std::int32_t j : around.patch.corner[e]) is_active[j] = 1;
+    }
   }
   for (const std::int32_t i : movable)
     if (role[i] == NodeRole::on_surface) snap(d, i);

@@ -1,5 +1,5 @@
 // Pulls the nodes of the opened facets onto the swept surface and lets their neighbours make room,
-// by descent on the energy of cut_energy.h. No element loses its volume, or altitude below the
+// by descent on the energy of cut_energy.h. No element loses its volume, or stable step below the
 // floor.
 #pragma once
 
@@ -13,10 +13,8 @@ namespace trocar {
 enum class NodeRole : std::uint8_t { stays, makes_room, on_surface };
 
 struct MoveLimits {
-  double floor = 0;  // no altitude may sink below this, or sink further [m]
-  // Nor below these only to put a node on the surface that descent left beside it: inside, and at
-  // the lips of the wound. [m]
-  double inner_snap = 0, outer_snap = 0;
+  double floor = 0;  // no element's step bound may sink below this, or sink further [m]
+  double snap = 0;   // nor below this only to put a node on the surface that descent left beside it
 };
 
 // Reference positions of all patch nodes after the move.

@@ -223,6 +223,15 @@ std::vector<std::uint8_t> unripe_nodes(const CutSurroundings& around, const CutL
   return is_unripe;
 }
 
+std::vector<std::int32_t> pinched_nodes(const CutSurroundings& around, const CutLabels& labels) {
+  const PatchMesh mesh = make_patch_mesh(around.patch);
+  const std::vector<TetFacet> facet = facets_between_sides(around.patch, labels);
+  CutOpening opening;
+  split_nodes(around.patch, mesh, facet, opening);
+  return broken_nodes(around, facet, std::vector<std::uint8_t>(around.patch.node.size(), 0),
+                      opening);
+}
+
 CutOpening open_facets(const CutSurroundings& around, const CutLabels& labels,
                        const std::vector<std::uint8_t>& stays_whole) {
   const PatchMesh mesh = make_patch_mesh(around.patch);

@@ -27,6 +27,9 @@ struct CutOpening {
 CutOpening open_facets(const CutSurroundings& around, const CutLabels& labels,
                        const std::vector<std::uint8_t>& stays_whole);
 
+// Nodes whose link would be no disc if all facets between the sides were opened, ascending.
+std::vector<std::int32_t> pinched_nodes(const CutSurroundings& around, const CutLabels& labels);
+
 // Nodes of the front that stand beside the surface: a node can only be pulled onto it before it is
 // parted.
 std::vector<std::uint8_t> unripe_nodes(const CutSurroundings& around, const CutLabels& labels);

@@ -1,4 +1,5 @@
-// Extraction of the patch around a cut: rings by node marks, facets by sorting.
+// Extraction of the patch around a cut: rings over the stars of nodes, facets by
+// their lowest node.
 #include "cutting/cut_patch.h"
 
 #include <algorithm>
@@ -34,38 +35,51 @@ double six_volumes(std::span<const Vec3> X, const std::array<std::int32_t, 4>& c
   return (X[corner[1]] - o).cross(X[corner[2]] - o).dot(X[corner[3]] - o);
 }
 
-double tet_altitude(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner) {
-  double largest = 0;  // (2 area)^2
+double step_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner) {
+  double sum = 0;  // of (2 area)^2
   for (const std::array<int, 3>& facet : tet_facets) {
     const Vec3& o = X[corner[facet[0]]];
-    const Vec3 normal = (X[corner[facet[1]]] - o).cross(X[corner[facet[2]]] - o);
-    largest = std::max(largest, normal.squaredNorm());
+    sum += (X[corner[facet[1]]] - o).cross(X[corner[facet[2]]] - o).squaredNorm();
   }
-  return six_volumes(X, corner) / std::sqrt(largest);
+  return six_volumes(X, corner) / std::sqrt(sum);
 }
 
-using Ring = std::uint8_t;
-static constexpr Ring far_away = 255;
-
-static Ring least_ring(std::span<const std::int32_t> corner, const std::vector<Ring>& ring) {
-  Ring least = far_away;
-  for (const std::int32_t i : corner) least = std::min(least, ring[i]);
-  return least;
-}
-
-// Ring of each node of the mesh. One pass over the elements a ring: cheaper than keeping adjacency
-// up to date over edits (0.1 ms for 100,000 tetrahedra).
-static std::vector<Ring> node_rings(const Mesh& mesh, std::span<const std::int32_t> seeds) {
-  std::vector<Ring> ring(mesh.X.size(), far_away);
-  for (const std::int32_t e : seeds)
-    for (const std::int32_t i : mesh.corners(e)) ring[i] = 0;
-  for (Ring next = 1; next <= n_cut_rings; ++next)
-    for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-      const std::span<const std::int32_t> corner = mesh.corners(e);
-      if (least_ring(corner, ring) != next - 1) continue;
-      for (const std::int32_t i : corner) ring[i] = std::min(ring[i], next);
+// Marks the nodes around the seeds with their rings; returns them, ascending.
+static std::vector<std::int32_t> mark_rings(const Mesh& mesh, std::span<const std::int32_t> seeds,
+                                            CutIndex& index) {
+  std::vector<std::int32_t> reached;
+  const auto reach = [&](std::int32_t e, int ring) {
+    for (const std::int32_t i : mesh.corners(e)) {
+      if (index.ring[i] != no_ring) continue;
+      index.ring[i] = static_cast<std::uint8_t>(ring);
+      reached.push_back(i);
     }
-  return ring;
+  };
+  for (const std::int32_t e : seeds) reach(e, 0);
+  std::size_t begin = 0;
+  for (int ring = 1; ring <= n_cut_rings; ++ring) {
+    const std::size_t end = reached.size();
+    for (; begin < end; ++begin)
+      for (const std::int32_t e : index.star(reached[begin])) reach(e, ring);
+  }
+  std::sort(reached.begin(), reached.end());
+  return reached;
+}
+
+// Elements with a corner in a ring below n_cut_rings, ascending.
+static std::vector<std::int32_t> elements_of(const Mesh& mesh, const CutIndex& index,
+                                             std::span<const std::int32_t> reached) {
+  std::vector<std::int32_t> element;
+  const auto is_inner = [&](std::int32_t i) { return index.ring[i] < n_cut_rings; };
+  for (const std::int32_t i : reached) {
+    if (!is_inner(i)) continue;
+    for (const std::int32_t e : index.star(i)) {
+      const std::span<const std::int32_t> c = mesh.corners(e);
+      if (*std::find_if(c.begin(), c.end(), is_inner) == i) element.push_back(e);
+    }
+  }
+  std::sort(element.begin(), element.end());
+  return element;
 }
 
 static void set_stars(CutPatch& patch) {
@@ -80,70 +94,80 @@ static void set_stars(CutPatch& patch) {
     for (const std::int32_t i : patch.corner[e]) patch.star_element[next[i]++] = e;
 }
 
+// Pairs the facets of equal nodes: each waits at its lowest node for the other one.
 static void set_neighbours(CutPatch& patch) {
-  struct Side {
-    std::array<std::int32_t, 3> node;
-    std::int32_t element, facet;
-    auto operator<=>(const Side&) const = default;
+  struct Waiting {
+    std::int32_t middle, high, element;
+    int facet;
   };
-  std::vector<Side> side;
-  side.reserve(patch.corner.size() * 4);
+  patch.across.assign(patch.corner.size(), {-1, -1, -1, -1});
+  // As many places at a node as its star may need: three facets an element.
+  std::vector<Waiting> waiting(patch.star_element.size() * 3);
+  std::vector<std::int32_t> n_waiting(patch.node.size(), 0);
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     for (int f = 0; f < 4; ++f) {
       std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);
       std::sort(node.begin(), node.end());
-      side.push_back({node, e, f});
+      Waiting* const begin = waiting.data() + 3 * patch.star_offset[node[0]];
+      Waiting* const end = begin + n_waiting[node[0]];
+      Waiting* const other = std::find_if(
+          begin, end, [&](const Waiting& w) { return w.middle == node[1] && w.high == node[2]; });
+      if (other == end) {
+        *end = {node[1], node[2], e, f};
+        ++n_waiting[node[0]];
+        continue;
+      }
+      patch.across[e][f] = other->element;
+      patch.across[other->element][other->facet] = e;
+      *other = *(end - 1);
+      --n_waiting[node[0]];
     }
-  std::sort(side.begin(), side.end());
-  patch.across.assign(patch.corner.size(), {-1, -1, -1, -1});
-  for (std::size_t k = 0; k + 1 < side.size(); ++k) {
-    const Side &a = side[k], &b = side[k + 1];
-    if (a.node != b.node) continue;
-    patch.across[a.element][a.facet] = b.element;
-    patch.across[b.element][b.facet] = a.element;
-  }
 }
 
 // Nodes that the patch's tetrahedra use, in ascending order, and the elements in these numbers.
-static void number_nodes(CutPatch& patch, const Mesh& mesh, const std::vector<Ring>& ring) {
+static void number_nodes(CutPatch& patch, const Mesh& mesh, std::span<const std::int32_t> reached,
+                         CutIndex& index) {
   for (const std::int32_t e : patch.element)
-    for (const std::int32_t i : mesh.corners(e)) patch.node.push_back(i);
-  std::sort(patch.node.begin(), patch.node.end());
-  patch.node.erase(std::unique(patch.node.begin(), patch.node.end()), patch.node.end());
-  std::vector<std::int32_t> local(mesh.X.size(), -1);
-  for (std::int32_t i = 0; i < patch.n_nodes(); ++i) {
-    local[patch.node[i]] = i;
-    patch.node_ring.push_back(ring[patch.node[i]]);
+    for (const std::int32_t i : mesh.corners(e)) index.local[i] = 0;
+  for (const std::int32_t i : reached) {
+    if (index.local[i] < 0) continue;
+    index.local[i] = patch.n_nodes();
+    patch.node.push_back(i);
+    patch.node_ring.push_back(index.ring[i]);
   }
   for (const std::int32_t e : patch.element) {
     const std::span<const std::int32_t> c = mesh.corners(e);
-    patch.corner.push_back({local[c[0]], local[c[1]], local[c[2]], local[c[3]]});
+    patch.corner.push_back(
+        {index.local[c[0]], index.local[c[1]], index.local[c[2]], index.local[c[3]]});
   }
 }
 
-CutPatch make_patch(const Mesh& mesh, std::span<const Vec3> x,
+CutPatch make_patch(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
                     std::span<const std::uint8_t> is_held, std::span<const std::int32_t> seeds) {
-  const std::vector<Ring> ring = node_rings(mesh, seeds);
+  const std::vector<std::int32_t> reached = mark_rings(mesh, seeds, index);
   CutPatch patch;
   std::vector<std::int32_t> joined;
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    if (least_ring(mesh.corners(e), ring) >= n_cut_rings) continue;
+  for (const std::int32_t e : elements_of(mesh, index, reached)) {
     if (mesh.element_type[e] == ElementType::tet4)
       patch.element.push_back(e);
     else
       joined.insert(joined.end(), mesh.corners(e).begin(), mesh.corners(e).end());
   }
-  number_nodes(patch, mesh, ring);
+  number_nodes(patch, mesh, reached, index);
   set_stars(patch);
   set_neighbours(patch);
   patch.is_joined.assign(patch.node.size(), 0);
   for (const std::int32_t i : joined)
-    if (const std::int32_t at = patch.local_node(i); at >= 0) patch.is_joined[at] = 1;
+    if (index.local[i] >= 0) patch.is_joined[index.local[i]] = 1;
   for (std::int32_t i = 0; i < patch.n_nodes(); ++i) {
     patch.X.push_back(mesh.X[patch.node[i]]);
     patch.x.push_back(x[patch.node[i]]);
     const bool is_locked = is_held[patch.node[i]] != 0 || patch.is_joined[i] != 0;
     patch.is_locked.push_back(is_locked ? 1 : 0);
+  }
+  for (const std::int32_t i : reached) {
+    index.ring[i] = no_ring;
+    index.local[i] = -1;
   }
   return patch;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "cutting/cut_index.h"
 #include "mesh/mesh.h"
 
 namespace trocar {
@@ -43,8 +44,9 @@ struct CutPatch {
   std::int32_t local_element(std::int32_t global) const;
 };
 
-// Tetrahedra of `mesh` within n_cut_rings of the seeds (global elements, ascending).
-CutPatch make_patch(const Mesh& mesh, std::span<const Vec3> x,
+// Tetrahedra of `mesh` within n_cut_rings of the seeds (global elements, ascending). `index` is
+// that of the mesh.
+CutPatch make_patch(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
                     std::span<const std::uint8_t> is_held, std::span<const std::int32_t> seeds);
 
 // Local number of corner c of the facet opposite to corner f, outward by the right-hand rule.
@@ -56,7 +58,8 @@ int facet_towards(const CutPatch& patch, std::int32_t e, std::int32_t u);
 
 // Six times the volume of a tetrahedron. [m^3]
 double six_volumes(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner);
-// Least altitude, negative if inverted. [m]
-double tet_altitude(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner);
+// 6 V / sqrt(sum of squared double facet areas): in proportion to the element's bound of the stable
+// step; negative if inverted. [m]
+double step_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner);
 
 }  // namespace trocar

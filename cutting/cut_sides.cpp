@@ -87,8 +87,8 @@ static std::vector<bool> neutral_nodes(const CutSurroundings& around, const CutS
 std::vector<ElementSides> element_sides(const CutSurroundings& around, const CutStroke& stroke) {
   const CutPatch& patch = around.patch;
   std::vector<CrossedEdges> crossed(patch.element.size());
-  for (const CutHit& hit : stroke.hit)
-    if (const std::int32_t e = patch.local_element(hit.element); e >= 0)
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
+    for (const CutHit& hit : hits_of(stroke, patch.element[e]))
       crossed[e].first_side[static_cast<std::size_t>(hit.edge)] = hit.is_first_plus ? 1 : -1;
   const std::vector<bool> is_neutral = neutral_nodes(around, stroke, crossed);
   std::vector<ElementSides> sides;

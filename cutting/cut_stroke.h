@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -44,7 +45,8 @@ struct CutStroke {
   std::vector<CutHit> hit;                      // ascending (element, edge)
   std::vector<OfElement<std::int8_t>> side;     // +1 or -1: sides given at earlier advances
   std::vector<OfElement<std::uint8_t>> opened;  // bit f: facet f was opened by this stroke
-  std::vector<OfElement<double>> altitude;  // least altitude before the blade touched it first [m]
+  std::vector<OfElement<double>>
+      step;  // its bound (step_bound) before the blade touched it first [m]
   std::vector<std::int32_t>
       surface_node;  // nodes of opened facets that lie on the swept surface, ascending
   std::vector<std::int32_t>
@@ -62,6 +64,9 @@ const T* find_element(const std::vector<OfElement<T>>& values, std::int32_t elem
 // Adds or overwrites entries; both ascending.
 template <class T>
 void merge_elements(std::vector<OfElement<T>>& values, const std::vector<OfElement<T>>& changes);
+
+// The crossings of an element's edges.
+std::span<const CutHit> hits_of(const CutStroke& stroke, std::int32_t element);
 
 }  // namespace trocar
 

@@ -7,15 +7,6 @@
 
 namespace trocar {
 
-static std::span<const CutHit> hits_of(const CutStroke& stroke, std::int32_t element) {
-  const auto begin =
-      std::lower_bound(stroke.hit.begin(), stroke.hit.end(), element,
-                       [](const CutHit& hit, std::int32_t e) { return hit.element < e; });
-  auto end = begin;
-  while (end != stroke.hit.end() && end->element == element) ++end;
-  return {begin, end};
-}
-
 SurfacePoints surface_points(const CutPatch& patch, const CutStroke& stroke) {
   std::vector<std::span<const CutHit>> hits;
   hits.reserve(patch.element.size());

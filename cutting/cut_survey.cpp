@@ -11,9 +11,9 @@ static constexpr double immovable_cost = 30;
 // A node that can't move may lie this far from the surface (over h) without counting as off it.
 static constexpr double tolerated_distance = 0.1;
 
-// Parts of the least altitude before that elements keep when a node is put on the surface for the
-// look only.
-static constexpr double inner_snap = 0.75, outer_snap = 0.5;
+// Part of the least step bound before that elements keep when a node is put on the surface for the
+// look only. (0.5 at the lips left the step at 0.5 and the nodes no nearer to the blade.)
+static constexpr double least_snap = 0.75;
 
 static std::vector<std::int32_t> seed_elements(const CutStroke& stroke, bool is_last) {
   std::vector<std::int32_t> seed = stroke.fresh;
@@ -37,14 +37,14 @@ static double surface_cost(const CutSurroundings& around, std::int32_t i) {
   return std::min(d2 / std::max(slope2, 1e-6), immovable_cost);
 }
 
-CutSurroundings survey(const Mesh& mesh, std::span<const Vec3> x,
+CutSurroundings survey(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
                        std::span<const std::uint8_t> is_held, const CutStroke& stroke,
                        bool is_last) {
   CutSurroundings around;
   around.h = stroke.mean_edge;
   const std::vector<std::int32_t> seed = seed_elements(stroke, is_last);
   if (seed.empty()) return around;
-  around.patch = make_patch(mesh, x, is_held, seed);
+  around.patch = make_patch(mesh, index, x, is_held, seed);
   around.points = surface_points(around.patch, stroke);
   for (std::int32_t i = 0; i < around.patch.n_nodes(); ++i) {
     NodeBoundary boundary;
@@ -94,11 +94,11 @@ void set_roles(TetCut& cut, const CutStroke& stroke, bool is_last) {
 MoveLimits move_limits(const CutSurroundings& around, const CutStroke& stroke, double part) {
   double least = std::numeric_limits<double>::infinity();
   for (std::int32_t e = 0; e < around.patch.n_elements(); ++e) {
-    const double* before = find_element(stroke.altitude, around.patch.element[e]);
+    const double* before = find_element(stroke.step, around.patch.element[e]);
     least = std::min(
-        least, before != nullptr ? *before : tet_altitude(around.patch.X, around.patch.corner[e]));
+        least, before != nullptr ? *before : step_bound(around.patch.X, around.patch.corner[e]));
   }
-  return {part * least, std::max(part, inner_snap) * least, std::max(part, outer_snap) * least};
+  return {part * least, std::max(part, least_snap) * least};
 }
 
 }  // namespace trocar

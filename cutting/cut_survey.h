@@ -23,7 +23,7 @@ struct TetCut {
 
 // The surroundings of the elements that were crossed since the last edit; without elements if
 // nothing was. is_last takes in all that the stroke has not finished.
-CutSurroundings survey(const Mesh& mesh, std::span<const Vec3> x,
+CutSurroundings survey(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
                        std::span<const std::uint8_t> is_held, const CutStroke& stroke,
                        bool is_last);
 
@@ -31,7 +31,7 @@ CutSurroundings survey(const Mesh& mesh, std::span<const Vec3> x,
 // is_last: the blade is still in there.
 void set_roles(TetCut& cut, const CutStroke& stroke, bool is_last);
 
-// The floor under altitudes: `part` of the least altitude that the elements around had before this
+// The floor under step bounds: `part` of the least one that the elements around had before this
 // stroke.
 MoveLimits move_limits(const CutSurroundings& around, const CutStroke& stroke, double part);
 

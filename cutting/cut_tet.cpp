@@ -7,23 +7,26 @@
 #include "base/error.h"
 #include "cutting/cut_edit.h"
 #include "cutting/cut_hits.h"
+#include "cutting/cut_index.h"
+#include "cutting/cut_mend.h"
 
 namespace trocar {
 
 struct TetCutter::Front {
   CutTetOptions options;
   CutStroke stroke;
+  CutIndex index;
 };
 
 TetCutter::TetCutter(const CutTetOptions& options)
-    : front_(std::make_unique<Front>(Front{options, {}})) {}
+    : front_(std::make_unique<Front>(Front{options, {}, {}})) {}
 TetCutter::~TetCutter() = default;
 TetCutter::TetCutter(TetCutter&&) noexcept = default;
 
-// Altitudes are kept: the floor under them must not sink from stroke to stroke.
+// Step bounds are kept: the floor under them must not sink from stroke to stroke.
 void TetCutter::start_stroke() {
   CutStroke next;
-  next.altitude = std::move(front_->stroke.altitude);
+  next.step = std::move(front_->stroke.step);
   front_->stroke = std::move(next);
 }
 
@@ -40,6 +43,7 @@ static void check_arguments(const Mesh& mesh, std::span<const Vec3> x,
   CHECK_OP(is_held.size(), ==, mesh.X.size());
   CHECK_OP(sweep.before.size(), ==, sweep.after.size());
   CHECK_OP(sweep.before.size(), >=, 2U);
+  // Most meshes begin with one.
   if (std::find(mesh.element_type.begin(), mesh.element_type.end(), ElementType::tet4) ==
       mesh.element_type.end())
     throw InputError(
@@ -53,25 +57,30 @@ MeshEdit TetCutter::advance(const Mesh& mesh, std::span<const Vec3> x,
   check_arguments(mesh, x, is_held, sweep);
   figures = {};
   CutStroke& stroke = front_->stroke;
-  add_hits(mesh, x, sweep, stroke);
+  CutIndex& index = front_->index;
+  update_index(mesh, index);
+  add_hits(mesh, index, x, sweep, stroke);
   stroke.swept += sweep_length(sweep);
   if (!is_last && stroke.swept < front_->options.advance * stroke.mean_edge) return {};
 
   TetCut cut;
-  cut.around = survey(mesh, x, is_held, stroke, is_last);
+  cut.around = survey(mesh, index, x, is_held, stroke, is_last);
   if (cut.around.patch.n_elements() == 0) return {};
   cut.labels = label_elements(cut.around, stroke);
+  if (is_last) mend_labels(cut.around, stroke, cut.labels);
   std::vector<std::uint8_t> stays_whole(cut.around.patch.node.size(), 0);
   if (!is_last) stays_whole = unripe_nodes(cut.around, cut.labels);
   cut.opening = open_facets(cut.around, cut.labels, stays_whole);
   set_roles(cut, stroke, is_last);
   cut.X = move_nodes(cut.around, cut.role,
-                     move_limits(cut.around, stroke, front_->options.least_altitude));
+                     move_limits(cut.around, stroke, front_->options.least_step_ratio));
   cut.transfer = transfer_moves(cut.around.patch, cut.X);
 
   figures = make_figures(cut, is_last);
   remember(cut, mesh.n_nodes(), stroke);
-  return make_edit(mesh, cut);
+  MeshEdit edit = make_edit(mesh, cut);
+  edit_index(mesh, edit, index);
+  return edit;
 }
 
 }  // namespace trocar

@@ -19,8 +19,9 @@ namespace trocar {
 struct CutTetOptions {
   double advance =
       0.5;  // of the local mean edge length that the blade must sweep before the mesh is changed
-  double least_altitude =
-      0.35;  // floor on least altitude after / least altitude before, around the cut (stable step)
+  // Floor on the ratio least stable step after / before of the elements around (element bound).
+  // What would sink below it stops on its way to the blade: the cut lies beside it there.
+  double least_step_ratio = 0.35;
 };
 
 // One blade's cut from its entry into tissue to its exit.

@@ -118,9 +118,9 @@ void build_cuts(Simulation& s) {
                   "\" only touches");
       continue;
     }
-    s.cuts.push_back(CutStage{
-        .tool = static_cast<std::int32_t>(k),
-        .tet = TetCutter({.advance = cutting.advance, .least_altitude = cutting.least_altitude})});
+    s.cuts.push_back(CutStage{.tool = static_cast<std::int32_t>(k),
+                              .tet = TetCutter({.advance = cutting.advance,
+                                                .least_step_ratio = cutting.least_step_ratio})});
   }
 }
 

@@ -10,7 +10,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 2;
+constexpr std::uint32_t checkpoint_format = 3;
 
 static void visit(Saver& a, Mesh& mesh) {
   std::vector<std::byte> bytes = mesh_to_bytes(mesh);
@@ -45,15 +45,20 @@ static void visit(Archive& a, BladePoint& p) {
 }
 template <class Archive>
 static void visit(Archive& a, CutStroke& s) {
-  a(s.hit, s.side, s.opened, s.altitude, s.surface_node, s.parted_node, s.fresh, s.unfinished,
-    s.edge, s.mean_edge, s.swept);
+  a(s.hit, s.side, s.opened, s.step, s.surface_node, s.parted_node, s.fresh, s.unfinished, s.edge,
+    s.mean_edge, s.swept);
+}
+template <class Archive>
+static void visit(Archive& a, CutRefusal& r) {
+  a(r.X, r.reason);
 }
 template <class Archive>
 static void visit(Archive& a, CutRecord& r) {
   a(r.tool, r.start, r.end, r.n_edits, r.n_refused, r.n_moved, r.n_duplicated, r.n_opened_facets,
     r.n_elements_added, r.n_elements_dissolved, r.stable_step_ratio, r.scene_step_ratio,
     r.least_quality, r.mass_change, r.momentum_change, r.kinetic_energy_change, r.largest_deviation,
-    r.mean_deviation, r.mean_edge, r.blade_travel, r.deepest, r.milliseconds, r.worst_milliseconds);
+    r.mean_deviation, r.mean_edge, r.n_beside, r.refusals, r.blade_travel, r.deepest,
+    r.milliseconds, r.worst_milliseconds);
 }
 template <class Archive>
 static void visit(Archive& a, Location& l) {

@@ -65,6 +65,8 @@ void start_stroke(CutStage& stage, const Tool& tool, double time, std::int32_t d
 
 void add_figures(const CutFigures& figures, bool has_edit, CutRecord& record) {
   record.n_refused += figures.n_refused;
+  record.n_beside += figures.n_beside;
+  record.refusals.insert(record.refusals.end(), figures.refusals.begin(), figures.refusals.end());
   if (!has_edit) return;
   const auto n_old = static_cast<double>(record.n_moved),
              n_new = static_cast<double>(figures.n_moved);

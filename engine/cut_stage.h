@@ -16,8 +16,9 @@ struct Simulation;
 // One stroke of a blade, from entry to exit: the cut ledger of the summary.
 struct CutRecord {
   std::string tool;
-  double start = 0, end = 0;  // [s]
-  std::int64_t n_edits = 0, n_refused = 0;
+  double start = 0, end = 0;                              // [s]
+  std::int64_t n_edits = 0, n_refused = 0, n_beside = 0;  // n_beside: see CutFigures
+  std::vector<CutRefusal> refusals;
   std::int64_t n_moved = 0, n_duplicated = 0, n_opened_facets = 0;
   std::int64_t n_elements_added = 0, n_elements_dissolved = 0;
   double stable_step_ratio =

@@ -35,12 +35,22 @@ Json mesh_json(const Mesh& mesh, const SceneSolver& solver) {
           {"quality_min", m.quality_min}};
 }
 
+Json refusals_json(const CutRecord& c) {
+  Json list = Json::array();
+  for (const CutRefusal& r : c.refusals)
+    list.push_back({{"X_m", {r.X.x(), r.X.y(), r.X.z()}},
+                    {"reason", "the outer surface would no longer be a closed surface"}});
+  return list;
+}
+
 Json stroke_json(const CutRecord& c) {
   return {{"tool", c.tool},
           {"start_s", c.start},
           {"end_s", c.end},
           {"edits", c.n_edits},
           {"refused", c.n_refused},
+          {"refusals", refusals_json(c)},
+          {"nodes_beside_blade", c.n_beside},
           {"nodes_moved", c.n_moved},
           {"nodes_duplicated", c.n_duplicated},
           {"facets_opened", c.n_opened_facets},

@@ -12,7 +12,8 @@ namespace {
 CutPatch whole_box(const Mesh& mesh) {
   std::vector<std::int32_t> all(mesh.element_type.size());
   std::iota(all.begin(), all.end(), 0);
-  return make_patch(mesh, mesh.X, std::vector<std::uint8_t>(mesh.X.size(), 0), all);
+  CutIndex index = cutting_test::index_of(mesh);
+  return make_patch(mesh, index, mesh.X, std::vector<std::uint8_t>(mesh.X.size(), 0), all);
 }
 
 int outer_planes(const Vec3& X) {

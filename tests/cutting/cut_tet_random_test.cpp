@@ -51,7 +51,8 @@ class Figures {
     std::sort(ratio_.begin(), ratio_.end());
     const std::size_t n = ratio_.size();
     std::printf(
-        "%s: %d of %zu with the right number of pieces, %d facets refused; least altitude after / "
+        "%s: %d of %zu with the right number of pieces, %d facets refused; least step bound after "
+        "/ "
         "before: min %.3f, 5 %% %.3f, median %.3f; deviation over h: largest %.3f, mean %.4f\n",
         name_.c_str(), n_right_, n, n_refused_, ratio_[0], ratio_[n / 20], ratio_[n / 2],
         deviation_, deviation_sum_ / std::max(1, n_duplicated_));
@@ -74,26 +75,26 @@ Figures run(const std::string& name, int n_pieces_expected, const Stroke& stroke
   std::mt19937 random(7);
   for (int k = 0; k < n_cuts(); ++k) {
     Body body(mesh_of(k));
-    const double h = mean_edge_of(body.mesh), altitude = least_altitude_of(body.mesh);
+    const double h = mean_edge_of(body.mesh), step = least_step_of(body.mesh);
     const double mass_before = mass(body.mesh);
     const Ledger ledger = stroke(body, random_plane(random), h);
     EXPECT_EQ(fault(body), "") << name << " " << k;
     EXPECT_NEAR(mass(body.mesh) / mass_before, 1, 1e-12) << name << " " << k;
-    figures.add(least_altitude_of(body.mesh) / altitude, ledger, h,
+    figures.add(least_step_of(body.mesh) / step, ledger, h,
                 n_pieces(body.mesh) == n_pieces_expected);
   }
   figures.print();
   return figures;
 }
 
-constexpr double floor_of_altitude = CutTetOptions{}.least_altitude;
+constexpr double floor_of_step = CutTetOptions{}.least_step_ratio;
 
 TEST(RandomCuts, in_one_sweep_part_the_body) {
   const Figures f = run("one sweep", 2, [](Body& body, const Plane& p, double) {
     return cut(body, plane_blade(p.centre, p.normal, 1.5), p.normal, 1);
   });
   EXPECT_EQ(f.n_right(), n_cuts());
-  EXPECT_GE(f.least_ratio(), floor_of_altitude);
+  EXPECT_GE(f.least_ratio(), floor_of_step);
   EXPECT_LT(f.deviation(), 1);  // an edge
 }
 
@@ -102,7 +103,7 @@ TEST(RandomCuts, in_small_steps_part_the_body) {
     return cut(body, plane_blade(p.centre, p.normal, 1.5), p.normal, int(3 / (0.35 * h)));
   });
   EXPECT_GE(f.n_right(), n_cuts() - n_cuts() / 200);
-  EXPECT_GE(f.least_ratio(), floor_of_altitude);
+  EXPECT_GE(f.least_ratio(), floor_of_step);
   EXPECT_LT(f.deviation(), 1);
 }
 
@@ -114,7 +115,7 @@ TEST(RandomCuts, that_stop_inside_leave_one_piece) {
                int(1.2 / (0.35 * h)));
   });
   EXPECT_EQ(f.n_right(), n_cuts());
-  EXPECT_GE(f.least_ratio(), floor_of_altitude);
+  EXPECT_GE(f.least_ratio(), floor_of_step);
 }
 
 TEST(RandomCuts, that_cross_make_four_pieces) {
@@ -128,7 +129,7 @@ TEST(RandomCuts, that_cross_make_four_pieces) {
   });
   EXPECT_GE(f.n_right(),
             n_cuts() - n_cuts() / 25);  // slivers between old and new cut may stay joined
-  EXPECT_GE(f.least_ratio(), floor_of_altitude);
+  EXPECT_GE(f.least_ratio(), floor_of_step);
 }
 
 // A smooth map that moves by a tenth of an edge from frame to frame.
@@ -148,7 +149,7 @@ TEST(RandomCuts, of_a_body_that_is_deformed_and_moves_stay_sound) {
   });
   EXPECT_GE(f.n_right(),
             n_cuts() * 8 / 10);  // the others: strips that slipped past the blade's edge
-  EXPECT_GE(f.least_ratio(), floor_of_altitude);
+  EXPECT_GE(f.least_ratio(), floor_of_step);
 }
 
 }  // namespace

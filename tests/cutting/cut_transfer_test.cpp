@@ -16,7 +16,8 @@ struct Moved {
   explicit Moved(const std::vector<Vec3>* x = nullptr) {
     std::vector<std::int32_t> all(mesh.element_type.size());
     std::iota(all.begin(), all.end(), 0);
-    patch = make_patch(mesh, x != nullptr ? *x : mesh.X,
+    CutIndex index = cutting_test::index_of(mesh);
+    patch = make_patch(mesh, index, x != nullptr ? *x : mesh.X,
                        std::vector<std::uint8_t>(mesh.X.size(), 0), all);
   }
   // Interior nodes moved at random, up to `amount`.

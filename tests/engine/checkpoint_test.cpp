@@ -136,7 +136,7 @@ TEST(Checkpoint, needs_each_part_of_a_stroke_through_tetrahedra) {
                         {{"hit", [](CutMemory& m) { m.stroke.hit.clear(); }},
                          {"side", [](CutMemory& m) { m.stroke.side.clear(); }},
                          {"opened", [](CutMemory& m) { m.stroke.opened.clear(); }},
-                         {"altitude", [](CutMemory& m) { m.stroke.altitude.clear(); }},
+                         {"step", [](CutMemory& m) { m.stroke.step.clear(); }},
                          {"surface_node", [](CutMemory& m) { m.stroke.surface_node.clear(); }},
                          {"parted_node", [](CutMemory& m) { m.stroke.parted_node.clear(); }},
                          {"fresh", [](CutMemory& m) { m.stroke.fresh.clear(); }},

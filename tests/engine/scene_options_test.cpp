@@ -71,7 +71,7 @@ stiffness = 0.1
 friction = 0.3
 [cutting]
 advance = 0.7
-least_altitude = 0.4
+least_step_ratio = 0.4
 resistance = "20 N/m"
 mode = "paper"
 spring = 2
@@ -151,7 +151,7 @@ TEST(SceneOptions, every_key_reaches_its_member_in_si) {
 TEST(SceneOptions, every_key_of_the_operation_reaches_its_member_in_si) {
   const Scene s = load_scene_text(full_scene);
   EXPECT_EQ(s.cutting.advance, 0.7);
-  EXPECT_EQ(s.cutting.least_altitude, 0.4);
+  EXPECT_EQ(s.cutting.least_step_ratio, 0.4);
   EXPECT_EQ(s.cutting.resistance, 20);
   EXPECT_EQ(s.cutting.mode, CutMode::paper);
   EXPECT_EQ(s.cutting.spring, 2);

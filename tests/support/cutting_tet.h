@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "cutting/cut_index.h"
+#include "cutting/cut_patch.h"
 #include "cutting/cut_tet.h"
 #include "mesh/edit.h"
 #include "mesh/facets.h"
@@ -24,6 +26,12 @@ namespace trocar::cutting_test {
 using Deformation = std::function<Vec3(const Vec3&)>;
 inline Vec3 at_rest(const Vec3& X) {
   return X;
+}
+
+inline CutIndex index_of(const Mesh& mesh) {
+  CutIndex index;
+  update_index(mesh, index);
+  return index;
 }
 
 struct Body {
@@ -44,12 +52,10 @@ struct Ledger {
   double deviation_sum = 0;
 };
 
-// One advance, applied to mesh and positions as engine does it.
-inline MeshEdit advance(TetCutter& cutter, Body& body, const BladeSweep& sweep, bool is_last,
-                        Ledger& ledger) {
-  CutFigures figures;
-  MeshEdit edit = cutter.advance(body.mesh, body.x, body.is_held, sweep, is_last, figures);
-  if (edit.is_empty()) return edit;
+// An edit, applied to mesh and positions as engine does it.
+inline void apply(const MeshEdit& edit, const CutFigures& figures, Body& body, Ledger& ledger) {
+  ledger.total.n_refused += figures.n_refused;
+  if (edit.is_empty()) return;
   std::vector<double> field;
   for (const Vec3& p : body.x) field.insert(field.end(), {p.x(), p.y(), p.z()});
   apply_edit(edit, body.mesh, 3, field);
@@ -65,12 +71,19 @@ inline MeshEdit advance(TetCutter& cutter, Body& body, const BladeSweep& sweep, 
   CutFigures& total = ledger.total;
   total.n_opened_facets += figures.n_opened_facets;
   total.n_moved += figures.n_moved;
+  total.n_beside += figures.n_beside;
   total.n_duplicated += figures.n_duplicated;
-  total.n_refused += figures.n_refused;
   total.least_quality = std::min(total.least_quality, figures.least_quality);
   total.largest_deviation = std::max(total.largest_deviation, figures.largest_deviation);
   ledger.deviation_sum += figures.mean_deviation * figures.n_duplicated;
   total.mean_edge = figures.mean_edge;
+}
+
+inline MeshEdit advance(TetCutter& cutter, Body& body, const BladeSweep& sweep, bool is_last,
+                        Ledger& ledger) {
+  CutFigures figures;
+  MeshEdit edit = cutter.advance(body.mesh, body.x, body.is_held, sweep, is_last, figures);
+  apply(edit, figures, body, ledger);
   return edit;
 }
 
@@ -127,16 +140,19 @@ inline double volume(const Mesh& mesh) {
   return sum;
 }
 
+// In proportion to the least element bound of the stable step.
+inline double least_step_of(const Mesh& mesh) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    const auto c = mesh.corners(e);
+    least = std::min(least, step_bound(mesh.X, {c[0], c[1], c[2], c[3]}));
+  }
+  return least;
+}
+
 inline int n_pieces(const Mesh& mesh) {
   std::vector<std::int32_t> piece;
   return mesh_pieces(mesh, piece);
-}
-
-inline double least_altitude_of(const Mesh& mesh) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-    least = std::min(least, least_altitude(mesh, e, mesh.X));
-  return least;
 }
 
 inline double mean_edge_of(const Mesh& mesh) {

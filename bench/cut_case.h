@@ -1,0 +1,56 @@
+// What bench_cut cuts: families of meshes, kinds of cuts, and the exact answer by subdivision.
+#pragma once
+
+#include <cstdio>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "cutting_tet.h"
+
+namespace trocar::cut_bench {
+
+using cutting_test::Blade;
+using cutting_test::Body;
+
+struct Family {
+  std::string name;
+  std::function<Mesh(unsigned seed)> make;
+};
+std::vector<Family> families(const std::vector<std::string>& mesh_files);
+
+// One stroke of a blade and the surface that it sweeps: phi its signed distance, > 0 where `normal`
+// points.
+struct Stroke {
+  Blade blade;
+  Vec3 normal = Vec3::UnitZ();
+  int n_steps = 1;
+  std::function<double(const Vec3&)> phi;
+};
+
+struct Kind {
+  std::string name;
+  bool is_through = true;  // the strokes part the body
+  std::function<std::vector<Stroke>(const Mesh& mesh, std::mt19937_64& random)> strokes;
+};
+std::vector<Kind> kinds();
+
+double mean_edge(const Mesh& mesh);
+
+// Of this thread: others may use the machine.
+double processor_seconds();
+
+// Prints what the same incision costs in boxes of 5,000 to 1,000,000 tetrahedra of one size.
+void print_scaling(std::FILE* file);
+
+// The textbook's way, for comparison: every crossed edge gets a node where the surface meets it,
+// and elements are split there (all edges that `strokes` cross, whether the blade gets there or
+// not).
+struct Subdivision {
+  Mesh mesh;
+  std::vector<double> piece_volume;  // of the pieces that the surfaces part exactly
+};
+Subdivision subdivide(const Mesh& mesh, const std::vector<Stroke>& strokes);
+
+}  // namespace trocar::cut_bench

@@ -1,0 +1,131 @@
+// One random cut: made, measured, and made again by subdivision.
+#include "cut_result.h"
+
+#include <cmath>
+
+namespace trocar::cut_bench {
+
+// In proportion to the element's stable step.
+static double step_bound(const Mesh& mesh, std::int32_t e) {
+  const auto c = mesh.corners(e);
+  double sum = 0;
+  for (int f = 0; f < 4; ++f) {
+    const std::array<int, 4> k = facet_corners(ElementType::tet4, f);
+    const Vec3& o = mesh.X[c[k[0]]];
+    sum += 0.25 * (mesh.X[c[k[1]]] - o).cross(mesh.X[c[k[2]]] - o).squaredNorm();
+  }
+  return element_volume(mesh, e, mesh.X) / std::sqrt(sum);
+}
+
+// Degrees.
+static double least_dihedral(const Mesh& mesh, std::int32_t e) {
+  const auto c = mesh.corners(e);
+  std::array<Vec3, 4> normal;
+  for (int f = 0; f < 4; ++f) {
+    const std::array<int, 4> k = facet_corners(ElementType::tet4, f);
+    const Vec3& o = mesh.X[c[k[0]]];
+    normal[f] = (mesh.X[c[k[1]]] - o).cross(mesh.X[c[k[2]]] - o).normalized();
+  }
+  double largest = -1;  // cosine of the angle
+  for (int f = 0; f < 4; ++f)
+    for (int g = f + 1; g < 4; ++g) largest = std::max(largest, -normal[f].dot(normal[g]));
+  return std::acos(std::min(1.0, largest)) * 180 / 3.14159265358979323846;
+}
+
+static double least_step(const Mesh& mesh) {
+  double least = 1e300;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) least = std::min(least, step_bound(mesh, e));
+  return least;
+}
+
+static bool is_changed(const Mesh& before, const Mesh& after, std::int32_t e) {
+  const auto a = before.corners(e), b = after.corners(e);
+  for (std::size_t c = 0; c < a.size(); ++c)
+    if (a[c] != b[c] || before.X[a[c]] != after.X[b[c]]) return true;
+  return false;
+}
+
+static void measure_elements(const Mesh& before, const Mesh& after, Result& result) {
+  double step_before = 1e300, step_after = 1e300;
+  for (std::int32_t e = 0; e < after.n_elements(); ++e) {
+    if (!(element_volume(after, e, after.X) > 0)) ++result.n_inverted;
+    if (!is_changed(before, after, e)) continue;
+    step_before = std::min(step_before, step_bound(before, e));
+    step_after = std::min(step_after, step_bound(after, e));
+    result.least_dihedral = std::min(result.least_dihedral, least_dihedral(after, e));
+  }
+  if (step_before < 1e300) result.cut_ratio = step_after / step_before;
+  result.body_ratio = least_step(after) / least_step(before);
+  result.n_added = after.n_elements() - before.n_elements();
+  result.volume_error = std::abs(cutting_test::volume(after) / cutting_test::volume(before) - 1);
+  result.mass_error = std::abs(cutting_test::mass(after) / cutting_test::mass(before) - 1);
+}
+
+static void measure_deviation(const Mesh& mesh, const std::vector<Stroke>& strokes, double h,
+                              Result& result) {
+  std::vector<std::int32_t> node;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    for (int f = 0; f < 4; ++f)
+      if ((mesh.cut_facets[e] >> f & 1) != 0)
+        for (int k = 0; k < 3; ++k)
+          node.push_back(mesh.corners(e)[facet_corners(ElementType::tet4, f)[k]]);
+  std::sort(node.begin(), node.end());
+  node.erase(std::unique(node.begin(), node.end()), node.end());
+  for (const std::int32_t i : node) {
+    double least = 1e300;
+    for (const Stroke& stroke : strokes)
+      least = std::min(least, std::abs(stroke.phi(mesh.X[i])) / h);
+    result.deviation.push_back(least);
+  }
+}
+
+static void subdivide_instead(const Mesh& mesh, const Kind& kind,
+                              const std::vector<Stroke>& strokes, double h, Result& result) {
+  const Subdivision exact = subdivide(mesh, strokes);
+  result.split_elements = double(exact.mesh.n_elements()) / mesh.n_elements();
+  result.split_ratio = least_step(exact.mesh) / least_step(mesh);
+  std::vector<std::int32_t> piece;
+  result.n_exact = kind.is_through ? int(exact.piece_volume.size()) : mesh_pieces(mesh, piece);
+  if (!kind.is_through) return;
+  for (const double volume : exact.piece_volume) result.n_thin += volume < h * h * h ? 1 : 0;
+}
+
+static void run_stroke(const Stroke& stroke, TetCutter& cutter, Body& body,
+                       cutting_test::Ledger& ledger, Result& result) {
+  cutter.start_stroke();
+  for (int k = 0; k < stroke.n_steps; ++k) {
+    const BladeSweep sweep{stroke.blade(double(k) / stroke.n_steps),
+                           stroke.blade(double(k + 1) / stroke.n_steps), stroke.normal};
+    CutFigures figures;
+    const double start = processor_seconds();
+    const MeshEdit edit =
+        cutter.advance(body.mesh, body.x, body.is_held, sweep, k + 1 == stroke.n_steps, figures);
+    const double seconds = processor_seconds() - start;
+    result.seconds += seconds;
+    result.longest_advance = std::max(result.longest_advance, seconds);
+    cutting_test::apply(edit, figures, body, ledger);
+  }
+}
+
+Result make_cut(const Mesh& mesh, const Kind& kind, std::mt19937_64& random,
+                const CutTetOptions& options) {
+  const std::vector<Stroke> strokes = kind.strokes(mesh, random);
+  const double h = mean_edge(mesh);
+  Result result;
+  subdivide_instead(mesh, kind, strokes, h, result);
+  Body body(mesh);
+  TetCutter cutter{options};
+  cutting_test::Ledger ledger;
+  for (const Stroke& stroke : strokes) run_stroke(stroke, cutter, body, ledger, result);
+  result.n_edits = ledger.n_edits;
+  result.n_refused = ledger.total.n_refused;
+  result.n_opened = ledger.total.n_opened_facets;
+  result.n_duplicated = ledger.total.n_duplicated;
+  result.fault = cutting_test::fault(body);
+  result.n_pieces = cutting_test::n_pieces(body.mesh);
+  measure_elements(mesh, body.mesh, result);
+  measure_deviation(body.mesh, strokes, h, result);
+  return result;
+}
+
+}  // namespace trocar::cut_bench

@@ -1,0 +1,41 @@
+// What one cut of bench_cut gave, measured on the mesh alone, and tables of many.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "cut_case.h"
+
+namespace trocar::cut_bench {
+
+struct Result {
+  std::string fault;                                          // empty if the body is sound
+  int n_inverted = 0, n_pieces = 0, n_exact = 0, n_thin = 0;  // thin: exact pieces below h^3
+  int n_refused = 0, n_edits = 0, n_opened = 0, n_duplicated = 0;
+  int n_added = 0;  // elements; negative: dissolved
+  // Element bound of the stable step, V / sqrt(sum of squared facet areas), after over before: of
+  // the whole body, and of the elements that the cut changed.
+  double body_ratio = 1, cut_ratio = 1;
+  double least_dihedral = 180;              // degrees, of changed elements
+  std::vector<double> deviation;            // of nodes of the cut's facets from the blade, over h
+  double volume_error = 0, mass_error = 0;  // relative
+  double seconds = 0, longest_advance = 0;
+  double split_elements = 1, split_ratio = 1;  // the subdivision's, after over before
+  bool is_right() const {
+    return fault.empty() && n_inverted == 0 && n_pieces <= n_exact && n_pieces >= n_exact - n_thin;
+  }
+};
+
+Result make_cut(const Mesh& mesh, const Kind& kind, std::mt19937_64& random,
+                const CutTetOptions& options);
+
+struct Row {
+  std::string family, kind;
+  std::vector<Result> result;
+};
+void print_head(std::FILE* file);
+void print_row(const Row& row, std::FILE* file);
+void print_json(const std::vector<Row>& rows, std::FILE* file);
+
+}  // namespace trocar::cut_bench

@@ -1,0 +1,37 @@
+// Elements around each node, kept from edit to edit, so that a cut never looks at the whole mesh.
+// It only saves time: what is found with it is the same however old it is.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/edit.h"
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+struct CutIndex {
+  std::vector<std::int32_t> star_begin, star_size;  // (n_nodes) into star_element
+  std::vector<std::int32_t> star_element;           // ascending in each star
+  double longest_edge = 0;                          // when it was built, reference [m]
+  // Scratch of patches (n_nodes), the same value everywhere between two uses.
+  std::vector<std::uint8_t> ring;
+  std::vector<std::int32_t> local;
+  const std::int32_t* corner_node = nullptr;  // of the mesh that it belongs to
+  std::size_t n_elements = 0;
+
+  std::span<const std::int32_t> star(std::int32_t i) const {
+    return {star_element.data() + star_begin[i], static_cast<std::size_t>(star_size[i])};
+  }
+};
+
+inline constexpr std::uint8_t no_ring = 255;
+
+// Builds the index anew if it isn't that of `mesh`: another mesh, or one that somebody else has cut
+// (a cut adds nodes).
+void update_index(const Mesh& mesh, CutIndex& index);
+// What the index will be once `edit` is applied to `mesh`.
+void edit_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& index);
+
+}  // namespace trocar

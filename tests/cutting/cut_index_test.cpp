@@ -1,0 +1,59 @@
+#include "cutting/cut_index.h"
+
+#include <gtest/gtest.h>
+
+#include "cutting/cut_patch.h"
+#include "cutting_tet.h"
+
+namespace trocar {
+namespace {
+
+using namespace cutting_test;
+
+TEST(CutIndex, that_was_edited_is_the_index_of_the_edited_mesh) {
+  Body body(make_box({0, 0, 0}, {1, 1, 1}, {5, 5, 5}, BoxElements::tet4_five));
+  CutIndex index = index_of(body.mesh);
+  TetCutter cutter{CutTetOptions{}};
+  Ledger ledger;
+  const Vec3 normal = Vec3(1, 0.5, 0.2).normalized();
+  const Blade blade = plane_blade({0.5, 0.5, 0.5}, normal, 1);
+  for (int k = 0; k < 20; ++k) {
+    const BladeSweep sweep{blade(k / 20.0), blade((k + 1) / 20.0), normal};
+    const Mesh before = body.mesh;
+    edit_index(before, advance(cutter, body, sweep, k == 19, ledger), index);
+  }
+  ASSERT_GT(ledger.n_edits, 3);
+  const CutIndex fresh = index_of(body.mesh);
+  ASSERT_EQ(index.star_size, fresh.star_size);
+  for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)
+    EXPECT_TRUE(std::ranges::equal(index.star(i), fresh.star(i))) << i;
+}
+
+TEST(CutIndex, gives_a_patch_of_three_rings_around_its_seeds) {
+  const Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {9, 9, 9}, BoxElements::tet4_kuhn);
+  CutIndex index = index_of(mesh);
+  const std::vector<std::uint8_t> is_held(mesh.X.size(), 0);
+  const std::vector<std::int32_t> seeds{6 * (4 + 9 * (4 + 9 * 4))};  // in the middle cell
+  const CutPatch patch = make_patch(mesh, index, mesh.X, is_held, seeds);
+  // Brute force: rings by passes over all elements.
+  std::vector<int> ring(mesh.X.size(), 9);
+  for (const std::int32_t i : mesh.corners(seeds[0])) ring[i] = 0;
+  std::vector<std::int32_t> expected;
+  for (int next = 1; next <= n_cut_rings; ++next) {
+    expected.clear();
+    for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+      int least = 9;
+      for (const std::int32_t i : mesh.corners(e)) least = std::min(least, ring[i]);
+      if (least < next) expected.push_back(e);
+    }
+    for (const std::int32_t e : expected)
+      for (const std::int32_t i : mesh.corners(e)) ring[i] = std::min(ring[i], next);
+  }
+  EXPECT_EQ(patch.element, expected);
+  for (std::int32_t i = 0; i < patch.n_nodes(); ++i)
+    EXPECT_EQ(int(patch.node_ring[i]), ring[patch.node[i]]);
+  EXPECT_TRUE(std::ranges::all_of(index.ring, [](int r) { return r == no_ring; }));
+}
+
+}  // namespace
+}  // namespace trocar

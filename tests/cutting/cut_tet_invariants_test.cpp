@@ -1,0 +1,128 @@
+// What every cut keeps, whatever its surface.
+#include <gtest/gtest.h>
+
+#include "cutting_tet.h"
+
+namespace trocar {
+namespace {
+
+using namespace cutting_test;
+
+// Centred on the origin, so that a mirror image has the same bits but for signs.
+Mesh centred_block(double amount) {
+  Mesh mesh = make_box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, {8, 8, 8}, BoxElements::tet4_kuhn);
+  jitter(mesh, amount, 5);
+  return mesh;
+}
+
+Vec3 mirrored(const Vec3& X) {
+  return {-X.x(), X.y(), X.z()};
+}
+
+Mesh mirrored(Mesh mesh) {
+  for (Vec3& X : mesh.X) X = mirrored(X);
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)  // else all would be inverted
+    std::swap(mesh.corner_node[4 * e + 2], mesh.corner_node[4 * e + 3]);
+  return mesh;
+}
+
+const Vec3 tilted = Vec3(1, 0.5, 0.2).normalized();
+
+// Sum of the area vectors of the facets that cuts opened.
+Vec3 cut_area(const Mesh& mesh, double& area) {
+  const Surface surface = boundary_surface(mesh);
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t t = 0; t < surface.triangle.size(); ++t) {
+    if (surface.is_cut[t] == 0) continue;
+    const auto [a, b, c] = surface.triangle[t];
+    const Vec3 n = 0.5 * (mesh.X[b] - mesh.X[a]).cross(mesh.X[c] - mesh.X[a]);
+    sum += n;
+    area += n.norm();
+  }
+  return sum;
+}
+
+TEST(CutInvariants, a_through_cut_leaves_two_spheres) {
+  Body body(centred_block(0.2));
+  cut(body, plane_blade({0.02, 0.05, 0}, tilted, 1), tilted, 25);
+  EXPECT_EQ(n_pieces(body.mesh), 2);
+  EXPECT_EQ(boundary_euler(body.mesh), 4);  // 2 each
+  EXPECT_EQ(fault(body), "");
+}
+
+TEST(CutInvariants, a_cut_inside_the_body_is_a_closed_surface_of_its_own) {
+  Body body(centred_block(0));
+  const double r = 0.3;  // 2.4 cells: far from the outer surface
+  const Vec3 u = tilted.unitOrthogonal(), way = tilted.cross(u);
+  cut(body, straight_blade(-r * u - r * way, r * u - r * way, 2 * r * way), tilted, 12);
+  EXPECT_EQ(n_pieces(body.mesh), 1);
+  EXPECT_EQ(boundary_euler(body.mesh), 4);  // the outer surface and the wound
+  EXPECT_EQ(fault(body), "");
+}
+
+TEST(CutInvariants, both_faces_of_a_cut_have_the_same_area_and_opposite_normals) {
+  for (const bool is_through : {true, false}) {
+    Body body(centred_block(0.2));
+    const Vec3 u = tilted.unitOrthogonal(), way = tilted.cross(u);
+    const Blade blade = is_through ? plane_blade({0, 0, 0}, tilted, 1)
+                                   : straight_blade(-0.3 * u - way, 0.3 * u - way, way);
+    cut(body, blade, tilted, 25);
+    double area = 0;
+    const Vec3 sum = cut_area(body.mesh, area);
+    EXPECT_GT(area, 0.1);
+    EXPECT_LT(sum.norm(), 1e-13 * area);  // rounding: the two halves have the same nodes
+  }
+}
+
+TEST(CutInvariants, a_mirrored_body_is_cut_like_its_mirror_image) {
+  Body body(centred_block(0.2)), image(mirrored(centred_block(0.2)));
+  const Blade blade = plane_blade({0.02, 0.05, 0}, tilted, 1);
+  const auto image_blade = [&](double t) {
+    std::vector<Vec3> edge = blade(t);
+    for (Vec3& p : edge) p = mirrored(p);
+    return edge;
+  };
+  cut(body, blade, tilted, 25);
+  cut(image, image_blade, mirrored(tilted), 25);
+  ASSERT_EQ(image.mesh.n_nodes(), body.mesh.n_nodes());
+  // Sums over corners run in another order; descent carries the rounding on.
+  for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)
+    EXPECT_LT((image.mesh.X[i] - mirrored(body.mesh.X[i])).norm(), 1e-9) << i;
+}
+
+TEST(CutInvariants, a_moved_and_turned_body_is_cut_alike) {
+  // A quarter turn about z and a shift: exact but for the shift's rounding.
+  const auto moved = [](const Vec3& X) { return Vec3(2 - X.y(), 1 + X.x(), X.z() - 3); };
+  Body body(centred_block(0.2));
+  Mesh other = body.mesh;
+  for (Vec3& X : other.X) X = moved(X);
+  Body turned(std::move(other));
+  const Blade blade = plane_blade({0.02, 0.05, 0}, tilted, 1);
+  const auto turned_blade = [&](double t) {
+    std::vector<Vec3> edge = blade(t);
+    for (Vec3& p : edge) p = moved(p);
+    return edge;
+  };
+  cut(body, blade, tilted, 25);
+  cut(turned, turned_blade, moved(tilted) - moved(Vec3::Zero()), 25);
+  ASSERT_EQ(turned.mesh.n_nodes(), body.mesh.n_nodes());
+  for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)  // descent carries the rounding on
+    EXPECT_LT((turned.mesh.X[i] - moved(body.mesh.X[i])).norm(), 1e-9) << i;
+}
+
+TEST(CutInvariants, the_stable_step_keeps_its_floor_whatever_it_is) {
+  for (const double floor : {0.35, 0.8, 0.95}) {
+    Body body(centred_block(0));
+    const double before = least_step_of(body.mesh);
+    TetCutter cutter{CutTetOptions{.least_step_ratio = floor}};
+    const Ledger ledger = cut(body, plane_blade({0.02, 0.05, 0}, tilted, 1), tilted, 25, cutter);
+    EXPECT_GE(least_step_of(body.mesh), floor * before * (1 - 1e-12));
+    EXPECT_EQ(n_pieces(body.mesh), 2);
+    if (floor == 0.95) {
+      EXPECT_GT(ledger.total.n_beside, 0);  // what the floor costs is told
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trocar
