@@ -70,6 +70,7 @@ inline BlockTask block_task(const Model& model, const ElementBlocks& blocks,
   const std::int64_t at = first * kernels.n_values * blocks.lanes;
   const bool is_single = blocks.precision == Precision::in_single;
   const ElementKernels& element = kernels.element;
+  const bool averages = element.volume_change != nullptr;
   const int share = element.share > 0 ? kernels.n_material_values + element.share : 0;
   return {.u = state.u.data(),
           .corner = blocks.corner.data() + first * element.n_corners * blocks.lanes,
@@ -86,7 +87,7 @@ inline BlockTask block_task(const Model& model, const ElementBlocks& blocks,
           .share_stride = element.share_stride,
           .theta = state.theta.data() + blocks.field,
           .n_fields = model.averages.n_fields,
-          .element_share = model.options.element_share};
+          .element_share = averages ? model.averages.share[blocks.field] : 0};
 }
 
 // Calls body(kernels, task, block) for the blocks [first, first + n) of a list, some at a time,

@@ -54,10 +54,12 @@ void take_list(const Model& model, const Part& part, const State& state,
 void take_volumetric(const Model& model, const State& state, std::vector<double>& volumetric) {
   const std::vector<double>& stiffness = model.averages.stiffness;
   volumetric.clear();
+  const auto n_fields = static_cast<std::size_t>(model.averages.n_fields);
   for (std::size_t item = 0; item < stiffness.size(); ++item) {
     const double theta = state.theta[item];
     if (stiffness[item] > 0)
-      volumetric.push_back((1 - model.options.element_share) * stiffness[item] / 8 * theta * theta);
+      volumetric.push_back((1 - model.averages.share[item % n_fields]) * stiffness[item] / 8 *
+                           theta * theta);
   }
 }
 

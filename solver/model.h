@@ -25,9 +25,10 @@ struct SolverOptions {
   double thickness = 1e-3;      // of plane meshes [m]
   Vec3 gravity = Vec3::Zero();  // [m/s^2]
   Precision precision = Precision::in_double;
-  // Share s of an element's own volume change in its pressure, tet4_nodal_pressure. Free cubes show
-  // no low modes even without it, and 0.05 adds 1.8 % to the force of the indentation test.
-  double element_share = 0.02;
+  // Stiffness of an element's own volume change over mu, tet4_nodal_pressure: its share s in the
+  // pressure is this over K / mu, at most 1. A share that did not fall with mu / K would lock nearly
+  // incompressible tissue. Free cubes show no low modes even without it.
+  double own_volume_stiffness = 0.2;
   // How triangles, tetrahedra and hexahedra are computed.
   Formulation tri3 = Formulation::tri3_plane_strain;
   Formulation tet4 = Formulation::tet4;
@@ -69,6 +70,7 @@ struct VolumeAverages {
   std::vector<std::int64_t> offset;  // (n_owned * n_fields + 1) into lane
   std::vector<std::int64_t> lane;    // of Scratch::volume_change, ascending global element number
   std::vector<double> stiffness;     // (n_owned * n_fields) sum of K V [J]; 0: no such element
+  std::vector<double> share;         // (n_fields) s of element_tet4_nodal_pressure.h
 };
 
 // Where corner forces are added up: at their node in the order of the elements. Threads take runs

@@ -1,5 +1,6 @@
 #include "solver/volume_averages.h"
 
+#include <algorithm>
 #include <string>
 
 #include "base/check.h"
@@ -38,6 +39,16 @@ void check_materials(std::span<const Material> materials, std::span<const std::i
       throw InputError("region " + std::to_string(r) +
                        ": averaged nodal pressure needs a material with a volumetric energy of its "
                        "own, such as neo-hookean");
+}
+
+void set_shares(std::span<const Material> materials, std::span<const std::int32_t> field,
+                Model& model) {
+  model.averages.share.resize(static_cast<std::size_t>(model.averages.n_fields));
+  for (std::size_t r = 0; r < field.size(); ++r)
+    if (field[r] >= 0)
+      model.averages.share[field[r]] =
+          std::min(1.0, model.options.own_volume_stiffness * lame_mu(materials[r]) /
+                            bulk_modulus(materials[r]));
 }
 
 double stiffness_of(const ElementBlocks& blocks, int n_values, std::int64_t lane) {
@@ -96,6 +107,7 @@ void link_volume_averages(const Mesh& mesh, std::span<const Material> materials,
   if (model.options.tet4 != Formulation::tet4_nodal_pressure) return;
   const std::vector<std::int32_t> field = number_fields(mesh, model.averages);
   check_materials(materials, field, model);
+  set_shares(materials, field, model);
   for (ElementBlocks& blocks : model.blocks) {
     if (!averages_volume(blocks)) continue;
     blocks.field = field[blocks.region];

@@ -127,16 +127,17 @@ TEST(Golden, forces_and_energy_of_two_tetrahedra_with_averaged_nodal_pressure) {
                           {5.9372434482e-02, 5.1016017648e-02, -1.3900541831e-01},
                           {-5.8674409170e-02, -3.1077730224e-02, -6.3365751660e-02}};
   for (const Precision precision : precisions) {
-    Body body = golden_body(
-        two_tetrahedra(), with(Formulation::tet4_nodal_pressure, {.element_share = 0}), precision);
+    Body body =
+        golden_body(two_tetrahedra(),
+                    with(Formulation::tet4_nodal_pressure, {.own_volume_stiffness = 0}), precision);
     expect_golden(body, f, 1.619106166792e-04);
   }
 }
 
 TEST(Golden, a_whole_share_of_its_own_pressure_makes_the_tetrahedron_the_linear_one) {
-  Body averaged =
-      golden_body(two_tetrahedra(), with(Formulation::tet4_nodal_pressure, {.element_share = 1}),
-                  Precision::in_double);
+  Body averaged = golden_body(two_tetrahedra(),
+                              with(Formulation::tet4_nodal_pressure, {.own_volume_stiffness = 1e9}),
+                              Precision::in_double);
   Body linear = golden_body(two_tetrahedra(), {}, Precision::in_double);
   const std::vector<double> f = force(linear);
   force(averaged);

@@ -19,7 +19,7 @@ struct Variant {
   Formulation formulation;
   Precision precision = Precision::in_double;
   double hourglass = 0.1;
-  double element_share = SolverOptions{}.element_share;
+  double own_volume_stiffness = SolverOptions{}.own_volume_stiffness;
 };
 
 inline const Variant hex_one_point = {"hex8", BoxElements::hex8, Formulation::hex8_one_point};
@@ -35,7 +35,7 @@ inline const Variant tet_nodal_pressure = {"tet4-nodal-pressure", BoxElements::t
 inline SolverOptions solver_options(const Variant& variant) {
   SolverOptions options{.hourglass = variant.hourglass,
                         .precision = variant.precision,
-                        .element_share = variant.element_share};
+                        .own_volume_stiffness = variant.own_volume_stiffness};
   if (shape_of(variant.formulation) == ElementType::hex8)
     options.hex8 = variant.formulation;
   else

@@ -78,7 +78,7 @@ TEST(Locking, the_enhanced_hexahedron_bends_alike_near_incompressibility_and_the
 
 TEST(Locking, averaged_pressures_free_tetrahedra_from_most_of_what_plain_ones_suffer) {
   Variant without_share = tet_nodal_pressure;
-  without_share.element_share = 0;
+  without_share.own_volume_stiffness = 0;
   without_share.name = "tet4-nodal-pressure, no own share,";
   double kept[3];  // of the share of the exact deflection that is there at nu = .3
   int k = 0;
@@ -90,7 +90,7 @@ TEST(Locking, averaged_pressures_free_tetrahedra_from_most_of_what_plain_ones_su
     kept[k++] = hard.number / hard.reference / (soft.number / soft.reference);
   }
   EXPECT_LT(kept[0], .2);
-  // At nu = .499 the default share of .02 is a bulk modulus of 10 mu of the element's own.
-  EXPECT_GT(kept[1], 2 * kept[0]);
-  EXPECT_GT(kept[2], kept[1]);
+  EXPECT_GT(kept[1], .6);
+  EXPECT_NEAR(kept[2], kept[1],
+              .05);  // the element's own share, being of the order of mu, is no lock
 }

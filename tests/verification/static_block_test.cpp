@@ -124,10 +124,9 @@ TEST(V12SmoothIndentation, averaged_pressures_leave_a_quarter_of_the_tetrahedras
   // numerics V12: 7.8 % without a share of the element's own volume change, of which 3 % for where
   // the diagonals lie.
   Variant without_share = tet_nodal_pressure;
-  without_share.element_share = 0;
+  without_share.own_volume_stiffness = 0;
   const double error = locked_force(without_share, ", no share of the element's own volume");
   EXPECT_NEAR(error, .078, .03);
-  // The default share of .02 adds less than .05 does, 1.8 % (model.h).
   EXPECT_NEAR(locked_force(tet_nodal_pressure, ""), error, .018);
 }
 
