@@ -26,8 +26,8 @@ struct SolverOptions {
   Vec3 gravity = Vec3::Zero();  // [m/s^2]
   Precision precision = Precision::in_double;
   // Stiffness of an element's own volume change over mu, tet4_nodal_pressure: its share s in the
-  // pressure is this over K / mu, at most 1. A share that did not fall with mu / K would lock nearly
-  // incompressible tissue. Free cubes show no low modes even without it.
+  // pressure is this over K / mu, at most 1. A share that did not fall with mu / K would lock
+  // nearly incompressible tissue. Free cubes show no low modes even without it.
   double own_volume_stiffness = 0.2;
   // How triangles, tetrahedra and hexahedra are computed.
   Formulation tri3 = Formulation::tri3_plane_strain;
