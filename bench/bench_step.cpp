@@ -3,16 +3,13 @@
 // because others may use the machine. One thread is timed by its processor time, several by the
 // wall clock. JSON to stdout.
 // bench_step [threads] [cells along an edge of the hexahedral cube] [formulations]
-#include <time.h>
-
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "base/threads.h"
-#include "base/timers.h"
+#include "bench/machine.h"
 #include "mesh/generate.h"
 #include "solver/element_setup.h"
 #include "solver/simd.h"
@@ -21,58 +18,9 @@
 
 using namespace trocar;
 
-static double seconds() {
-  if (thread_count() > 1) return monotonic_seconds();
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
 struct Timing {
   double force = 0, integrate = 0, watch = 0, build = 0;  // [s], best of several
 };
-
-// Best of 7 runs of at least 20 ms: others may use the machine.
-template <class Body>
-static double best_seconds(const Body& body) {
-  double best = 1e300;
-  for (int run = 0; run < 7; ++run) {
-    int n = 0;
-    const double start = seconds();
-    double elapsed = 0;
-    while (elapsed < 0.02) {
-      body();
-      ++n;
-      elapsed = seconds() - start;
-    }
-    best = std::min(best, elapsed / n);
-  }
-  return best;
-}
-
-constexpr int n_chains = 8, n_rounds = 20000;
-
-// Eight independent chains of fused multiply-adds: two units with a latency of four cycles.
-[[gnu::target("avx512f"), gnu::noinline]] static double run_chains() {
-  using Pack = double __attribute__((vector_size(64)));
-  const Pack m = Pack{} + 1e-9;
-  Pack a = m, b = m, c = m, d = m, e = m, f = m, g = m, h = m;
-  for (int round = 0; round < n_rounds; ++round)
-    asm volatile(
-        "vfmadd213pd %8, %8, %0\n vfmadd213pd %8, %8, %1\n vfmadd213pd %8, %8, %2\n"
-        "vfmadd213pd %8, %8, %3\n vfmadd213pd %8, %8, %4\n vfmadd213pd %8, %8, %5\n"
-        "vfmadd213pd %8, %8, %6\n vfmadd213pd %8, %8, %7"
-        : "+v"(a), "+v"(b), "+v"(c), "+v"(d), "+v"(e), "+v"(f), "+v"(g), "+v"(h)
-        : "v"(m));
-  return (a + b + c + d + e + f + g + h)[0];
-}
-
-// 10^9 double-precision operations a second of this core, with AVX-512.
-static double peak_gflops() {
-  volatile double sink = 0;
-  const double best = best_seconds([&] { sink = run_chains(); });
-  return 1e-9 * n_chains * n_rounds * 8 * 2 / best;
-}
 
 static Timing measure(const Mesh& mesh, const SolverOptions& options) {
   const std::vector<Material> materials = {Material{}};

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "base/threads.h"
+#include "solver/flush_subnormals.h"
 #include "solver/kernels.h"
 #include "solver/model.h"
 #include "solver/simd.h"
@@ -96,6 +97,7 @@ template <class Body>
 void for_strained_blocks(const Model& model, const ElementBlocks& blocks, const State& state,
                          std::int64_t first, std::int64_t n, const Body& body) {
   StashBytes stash;
+  const FlushSubnormals flush(blocks.precision == Precision::in_single);
   const BlockKernels kernels = kernels_for(active_kernels(), blocks);
   for (std::int64_t at = first; at < first + n; at += stash_blocks) {
     const BlockTask task = block_task(model, blocks, kernels, state, at,

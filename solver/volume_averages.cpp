@@ -125,6 +125,7 @@ void average_volume_change(const Model& model, State& state, Scratch& scratch) {
     const BlockKernels kernels = kernels_for(active_kernels(), blocks);
     parallel_for(std::int64_t{blocks.n_blocks}, [&](std::int64_t begin, std::int64_t end) {
       StashBytes unused;
+      const FlushSubnormals flush(blocks.precision == Precision::in_single);
       kernels.element.volume_change(
           block_task(model, blocks, kernels, state, begin, end - begin, unused),
           scratch.volume_change.data() + blocks.first_lane + begin * blocks.lanes);

@@ -63,6 +63,18 @@ static void for_each_body(const Check& check) {
   });
 }
 
+// A strain of 1e-40 makes stresses that single precision holds only as subnormal numbers.
+TEST(SinglePrecision, takes_subnormal_numbers_as_zero_and_leaves_double_precision_alone) {
+  for (const Precision precision : {Precision::in_double, Precision::in_single}) {
+    Body body = make_body(irregular_elements()[1], {.solver = {.precision = precision}});
+    displace(body, [](const Vec3& X) { return Vec3(1e-40 * X.y(), 0, 0); });
+    EXPECT_EQ(largest(force(body)) == 0, precision == Precision::in_single);
+    volatile double small = 1e-300;
+    small = small * 1e-15;
+    EXPECT_GT(small, 0);
+  }
+}
+
 TEST(Simd, every_instruction_set_gives_the_scalar_forces_energies_and_watch_to_rounding) {
   for_each_body([](Body& body) {
     const double eps = rounding(body);

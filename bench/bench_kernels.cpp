@@ -1,0 +1,148 @@
+// Nanoseconds of one whole step (forces, sums, integration) per element, by element, material,
+// precision and instruction set, for bodies that a cache holds and for others; beside the
+// multiply-add peak and the memory bandwidth of the same core in the same run. JSON to stdout.
+// bench_kernels [elements, about (default 8000)] [material, or "all"] [threads]
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "bench/machine.h"
+#include "mesh/generate.h"
+#include "solver/element_setup.h"
+#include "solver/material_setup.h"
+#include "solver/simd.h"
+#include "solver/step.h"
+
+using namespace trocar;
+
+namespace {
+
+// Operations of a neo-Hookean element and its share of the nodes, additions and multiplications,
+// counted in the formulas:
+// hex8 one-point: modes 3 x 23, H 9 x 11, q 12 x 6 (element_hex8.h); stress 200
+//   (material_neo_hookean.h, two refinements of the root); g 12, P' 9 x 8, w 18 x 5 + 9, corners
+//   3 x 23, sums 8 x 3; a node 6 for its force and 19 for its motion.
+// tet4: differences 9, H 9 x 5; stress 200; f 9 x 5 + 6, sums 4 x 3; 25 / 5.5 for nodes.
+constexpr double flops_of_hex8 = 69 + 99 + 72 + 200 + 12 + 72 + 99 + 69 + 24 + 25;
+constexpr double flops_of_tet4 = 9 + 45 + 200 + 51 + 12 + 25 / 5.5;
+
+// In the order of MaterialModel.
+constexpr const char* model_names[n_material_models] = {
+    "linear", "st-venant-kirchhoff",    "neo-hookean",           "mooney-rivlin", "yeoh",
+    "ogden",  "transversely-isotropic", "holzapfel-gasser-ogden"};
+
+struct Case {
+  Formulation formulation;
+  MaterialModel model;
+  Precision precision;
+};
+
+// A cube whose nodes are moved by up to a tenth of a cell, so that no element is a parallelepiped.
+Mesh jittered_body(Formulation formulation, int n_elements) {
+  const ElementType shape = shape_of(formulation);
+  const int per_cell = shape == ElementType::tet4 ? 6 : (shape == ElementType::tri3 ? 2 : 1);
+  const bool is_plane = shape == ElementType::tri3;
+  const int n = std::max(
+      1,
+      static_cast<int>(std::lround(std::pow(n_elements / per_cell, is_plane ? 1. / 2 : 1. / 3))));
+  Mesh mesh =
+      is_plane ? make_rectangle(.1, .1, n, n)
+               : make_box(Vec3(0, 0, 0), Vec3(.1, .1, .1), {n, n, n},
+                          shape == ElementType::hex8 ? BoxElements::hex8 : BoxElements::tet4_kuhn);
+  std::uint64_t seed = 1;
+  for (Vec3& X : mesh.X)
+    for (int j = 0; j < (is_plane ? 2 : 3); ++j) {
+      seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+      X[j] += .1 / n * (static_cast<double>(seed >> 11) * 0x1p-53 - .5) * .2;
+    }
+  return mesh;
+}
+
+struct Timing {
+  double ns = 0, bytes = 0;  // per element
+};
+
+Timing measure(const Case& c, const Mesh& mesh) {
+  SolverOptions options{.precision = c.precision};
+  const ElementType shape = shape_of(c.formulation);
+  if (shape == ElementType::tri3) options.tri3 = c.formulation;
+  if (shape == ElementType::tet4) options.tet4 = c.formulation;
+  if (shape == ElementType::hex8) options.hex8 = c.formulation;
+  const std::vector<Material> materials = {Material{.model = c.model}};
+  const std::vector<FixedMask> fixed(mesh.X.size(), 0);
+  const std::vector<double> density = {materials[0].density};
+  const std::vector<double> mass = lumped_mass(mesh, density, 1e-3);
+  const Part part = make_part(mesh, std::vector<std::int32_t>(mesh.X.size(), 0), 0);
+  const Model model = build_model(mesh, part, materials, fixed, mass, options);
+  State state = make_state(model);
+  Scratch scratch = make_scratch(model);
+  for (std::size_t i = 0; i < mesh.X.size(); ++i) state.u[3 * i] = 0.05 * mesh.X[i].y();
+  const double seconds = best_seconds([&] {
+    average_volume_change(model, state, scratch);
+    compute_force(model, state, scratch);
+    integrate(model, scratch, {}, 1e-9, state);  // stays near the deformation it starts from
+  });
+  const double n = mesh.n_elements();
+  const double state_bytes =
+      static_cast<double>((state.u.size() + state.v.size()) * sizeof(double));
+  return {1e9 * seconds / n, (static_cast<double>(memory_bytes(model, scratch)) + state_bytes) / n};
+}
+
+void report(const Case& c, int n_elements, double gflops, bool& is_first) {
+  const Mesh mesh = jittered_body(c.formulation, n_elements);
+  const Timing t = measure(c, mesh);
+  std::printf(
+      "%s\n  {\"element\": \"%s\", \"material\": \"%s\", \"precision\": \"%s\", \"simd\": \"%s\", "
+      "\"elements\": %d, \"step_ns\": %.2f, \"bytes\": %.0f",
+      is_first ? "" : ",", name_of(c.formulation), model_names[static_cast<int>(c.model)],
+      name_of(c.precision), simd_name(), mesh.n_elements(), t.ns, t.bytes);
+  const double flops = c.formulation == Formulation::hex8_one_point ? flops_of_hex8
+                       : c.formulation == Formulation::tet4         ? flops_of_tet4
+                                                                    : 0;
+  if (flops > 0 && c.model == MaterialModel::neo_hookean && gflops > 0)
+    std::printf(", \"flops\": %.0f, \"share_of_peak\": %.3f", flops,
+                flops / t.ns / (gflops * (c.precision == Precision::in_single ? 2 : 1)));
+  std::printf("}");
+  std::fflush(stdout);
+  is_first = false;
+}
+
+void report_all(int n_elements, const std::string& material, double gflops) {
+  bool is_first = true;
+  for (int f = 0; f < n_formulations; ++f)
+    for (int m = 0; m < n_material_models; ++m)
+      for (const Precision precision : {Precision::in_double, Precision::in_single}) {
+        const Case c{static_cast<Formulation>(f), static_cast<MaterialModel>(m), precision};
+        if (material != "all" && material != model_names[static_cast<int>(c.model)]) continue;
+        const KernelsOfPrecision& kernels = active_kernels().of[static_cast<int>(precision)];
+        if (kernels.law[static_cast<int>(kernels.element[f].law)][m].stress == nullptr) continue;
+        if (c.formulation == Formulation::tri3_plane_stress &&
+            c.model == MaterialModel::holzapfel_gasser_ogden)
+          continue;
+        report(c, n_elements, gflops, is_first);
+      }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int n_elements = argc > 1 ? std::atoi(argv[1]) : 8000;
+  const std::string material = argc > 2 ? argv[2] : "neo-hookean";
+  set_thread_count(argc > 3 ? std::atoi(argv[3]) : 1);
+  if (n_elements < 1 || thread_count() < 1) {
+    std::fprintf(stderr, "bench_kernels [elements] [material, or all] [threads]\n");
+    return 2;
+  }
+  const double gflops = peak_gflops();
+  std::printf("{\"threads\": %d, \"peak_gflops\": %.1f, \"triad_gbytes\": %.1f, \"steps\": [",
+              thread_count(), gflops, triad_gbytes());
+  for (const Simd simd : {Simd::sse2, Simd::avx2, Simd::avx512})
+    if (is_supported(simd)) {
+      if (simd != Simd::sse2) std::printf(",");
+      select_simd(name_of(simd));
+      report_all(n_elements, material, gflops);
+    }
+  std::printf("\n]}\n");
+}

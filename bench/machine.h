@@ -1,0 +1,45 @@
+// What this core can do at the moment, measured beside whatever is compared with it: others may use
+// the machine.
+#pragma once
+
+#include <time.h>
+
+#include <algorithm>
+
+#include "base/threads.h"
+#include "base/timers.h"
+
+namespace trocar {
+
+// One thread is timed by its processor time, several by the wall clock. [s]
+inline double bench_seconds() {
+  if (thread_count() > 1) return monotonic_seconds();
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// Best of 7 runs of at least 20 ms.
+template <class Body>
+double best_seconds(const Body& body) {
+  double best = 1e300;
+  for (int run = 0; run < 7; ++run) {
+    int n = 0;
+    const double start = bench_seconds();
+    double elapsed = 0;
+    while (elapsed < 0.02) {
+      body();
+      ++n;
+      elapsed = bench_seconds() - start;
+    }
+    best = std::min(best, elapsed / n);
+  }
+  return best;
+}
+
+// 10^9 double-precision operations a second with AVX-512; 0 without.
+double peak_gflops();
+// a = b + c s over arrays that no cache holds, 24 bytes a number. [10^9 bytes/s]
+double triad_gbytes();
+
+}  // namespace trocar
