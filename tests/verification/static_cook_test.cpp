@@ -85,7 +85,8 @@ TEST(V10CooksMembrane, fully_integrated_hexahedra_lock_near_incompressibility) {
     if (!c.do_triangles_lock) {
       check_cook(c, 16, Formulation::hex8_full, .06);
     } else if (is_report() || c.material.model == MaterialModel::linear) {
-      EXPECT_LT(check_cook(c, 16, Formulation::hex8_full, .8), .8 * c.u_y);
+      // A sixth or more too stiff where one-point elements are within 3 %.
+      EXPECT_LT(check_cook(c, 16, Formulation::hex8_full, .8), .85 * c.u_y);
     }
   }
 }
