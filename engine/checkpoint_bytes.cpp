@@ -116,9 +116,9 @@ static void visit(Archive& a, RecordingMark& m) {
 template <class Archive>
 static void visit(Archive& a, Checkpoint& c) {
   a(c.version, c.simd, c.scene, c.body_crc, c.frame, c.digest, c.mesh, c.fixed, c.duplicate_parent,
-    c.duplicate_node, c.time, c.last_dt, c.step, c.step_scale, c.contact_step,
-    c.stable_step_before_cut, c.watch, c.holds, c.is_open, c.cuts, c.log, c.history, c.history_time,
-    c.fastest_mode, c.has_energies, c.energy, c.recordings);
+    c.duplicate_node, c.time, c.last_dt, c.step, c.step_scale, c.contact_step, c.stable_step_before_cut, c.watch,
+    c.holds, c.is_open, c.cuts, c.log, c.history, c.history_time, c.fastest_mode, c.has_energies,
+    c.energy, c.recordings);
 }
 
 static void put_blob(ByteWriter& writer, const Blob& blob) {
