@@ -92,7 +92,6 @@ Checkpoint take_checkpoint(Simulation& s) {
                .last_dt = s.state.last_dt,
                .step = s.state.step,
                .step_scale = s.step_scale,
-               .contact_step = s.contact_step,
                .stable_step_before_cut = s.stable_step_before_cut,
                .watch = s.watch,
                .holds = s.holds.holds,
@@ -129,7 +128,6 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   restore_history(s.model, s.part, c.history, same, s.state);
   for (std::size_t k = 0; k < s.cuts.size(); ++k) remember(c.cuts[k], s.cuts[k]);
   s.step_scale = c.step_scale;
-  s.contact_step = c.contact_step;
   s.stable_step_before_cut = c.stable_step_before_cut;
   s.watch = c.watch;
   s.log = c.log;
@@ -144,7 +142,6 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
 FrameStart start_of_frame(const Simulation& s) {
   return {.watch = s.watch,
           .step_scale = s.step_scale,
-          .contact_step = s.contact_step,
           .holds = s.holds.holds,
           .is_open = s.holds.is_open,
           .fastest_mode = s.fastest_mode,
@@ -157,7 +154,6 @@ Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start) {
   Checkpoint c = take_checkpoint(s);
   c.watch = start.watch;
   c.step_scale = start.step_scale;
-  c.contact_step = start.contact_step;
   c.holds = start.holds;
   c.is_open = start.is_open;
   c.log.events.resize(start.n_events);

@@ -44,7 +44,7 @@ struct Checkpoint {
   std::vector<double> u, v;                                    // (n_nodes * 3) [m], [m/s]
   double time = 0, last_dt = 0;
   std::int64_t step = 0;
-  double step_scale = 1, contact_step = 0, stable_step_before_cut = 0;
+  double step_scale = 1, stable_step_before_cut = 0;
   Watch watch;
   std::vector<Hold> holds;
   std::vector<std::uint8_t> is_open;  // (n_tools)
@@ -68,7 +68,7 @@ void restore_checkpoint(const Checkpoint& checkpoint, Simulation& s);
 // the frame's beginning.
 struct FrameStart {
   Watch watch;
-  double step_scale = 1, contact_step = 0;
+  double step_scale = 1;
   std::vector<Hold> holds;
   std::vector<std::uint8_t> is_open;
   std::vector<double> fastest_mode;

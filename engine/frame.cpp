@@ -15,23 +15,17 @@ namespace trocar {
 
 namespace {
 
-FrameSpan frame_times(const Simulation& s) {
-  return {.t0 = static_cast<double>(s.frame) / s.scene.time.frame_rate,
-          .t1 = static_cast<double>(s.frame + 1) / s.scene.time.frame_rate};
-}
-
-// Frames with contacts take smaller steps; the stiffness of contacts stays while they last.
-void plan_steps(Simulation& s, FrameSpan& span) {
-  const bool has_contacts = s.contact && !s.contact->contacts.empty();
-  const double refinement = has_contacts ? s.scene.contact.refinement : 1;
-  const double stable = s.scene.solver.step_factor * s.watch.stable_step / refinement;
-  if (!has_contacts) s.contact_step = 0;
-  if (has_contacts && s.contact_step == 0) s.contact_step = stable;
-  double dt = stable * s.step_scale;
-  if (has_contacts) dt = std::min(dt, s.contact_step);
+FrameSpan plan_frame(const Simulation& s) {
   const double length = 1 / s.scene.time.frame_rate;
+  FrameSpan span;
+  span.t0 = static_cast<double>(s.frame) / s.scene.time.frame_rate;
+  span.t1 = static_cast<double>(s.frame + 1) / s.scene.time.frame_rate;
+  const bool has_contacts = !s.log.rows.empty() && s.log.rows.back().n_contacts > 0;
+  const double dt = s.scene.solver.step_factor * s.step_scale * s.watch.stable_step /
+                    (has_contacts ? s.scene.contact.refinement : 1);
   span.n_substeps = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / dt)));
   span.dt = length / static_cast<double>(span.n_substeps);
+  return span;
 }
 
 void grasp(Simulation& s, const FrameSpan& span) {
@@ -46,8 +40,8 @@ void grasp(Simulation& s, const FrameSpan& span) {
 
 void detect(Simulation& s, const FrameSpan& span) {
   const PhaseScope scope(s.timers, phase_detect);
-  const double reach = s.contact_reach + largest_speed(s) * (span.t1 - span.t0);
-  detect_contacts(*s.contact, s.tools, s.holds, s.view, span, reach);
+  detect_contacts(*s.contact, s.tools, s.holds, s.view, span, s.contact_reach);
+  prepare_frame_contacts(*s.contact, s.part, s.mass, span.dt);
 }
 
 void substep(Simulation& s, const FrameSpan& span, double t) {
@@ -84,12 +78,8 @@ FrameSpan step_safely(Simulation& s) {
   const State good = s.state;
   const Watch good_watch = s.watch;  // that of a failed frame holds no step to go on with
   for (int tries = 0;; ++tries) {
-    FrameSpan span = frame_times(s);
+    const FrameSpan span = plan_frame(s);
     if (s.contact) detect(s, span);
-    plan_steps(s, span);
-    if (s.contact)
-      prepare_frame_contacts(*s.contact, s.part, s.mass,
-                             s.contact_step > 0 ? s.contact_step : span.dt);
     if (s.energy) begin_frame_work(s);
     for (std::int64_t k = 0; k < span.n_substeps; ++k)
       substep(s, span, span.t0 + static_cast<double>(k) * span.dt);
@@ -110,7 +100,7 @@ FrameSpan step_safely(Simulation& s) {
 
 void run_frame(Simulation& s, Outputs& outputs) {
   const double start = monotonic_seconds();
-  grasp(s, frame_times(s));
+  grasp(s, plan_frame(s));
   const FrameSpan span = step_safely(s);
   if (s.energy) close_frame_work(s);
   FrameRow row = report_forces(s, span);

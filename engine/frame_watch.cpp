@@ -64,15 +64,6 @@ void average_volume(Simulation& s) {
   s.exchange_theta->exchange(s.state.theta, *s.communicator);
 }
 
-double largest_speed(const Simulation& s) {
-  double most = 0;
-  for (std::int64_t i = 0; i < s.part.n_owned; ++i) {
-    const double* v = s.state.v.data() + 3 * i;
-    most = std::max(most, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  }
-  return std::sqrt(s.communicator->all_max(most));
-}
-
 void watch_state(Simulation& s) {
   average_volume(s);
   const PhaseScope scope(s.timers, phase_watch);

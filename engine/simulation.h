@@ -92,15 +92,11 @@ struct Simulation {
   std::int64_t frame = 0;        // frames done
   std::int64_t first_frame = 0;  // where this process began: 0, or the checkpoint it resumed from
   std::uint32_t body_crc = 0;    // of the mesh at time zero and the user's tool surfaces
-  double contact_reach = 0;  // how far resting tissue may come towards a tool within a frame [m]
-  double start_seconds = 0;  // monotonic clock at time zero of the scene
+  double contact_reach = 0;      // how far tissue may come towards a tool within a frame [m]
+  double start_seconds = 0;      // monotonic clock at time zero of the scene
   std::unique_ptr<EnergyLedger> energy;  // only with a metrics output
   double step_scale = 1;                 // halved by each roll-back
-  // Step that the stiffness of contacts goes by: the first one of an uninterrupted row of frames
-  // with contacts, since a stiffness that grew under a contact would add to the energy it holds; 0
-  // without contacts. [s]
-  double contact_step = 0;
-  Watch watch;           // of the last frame, over all ranks
+  Watch watch;                           // of the last frame, over all ranks
   double rest_step = 0;  // least element bound of the undeformed mesh, over all ranks [s]
   // Only with stable_step = "frequency": the mode (n_owned * 3) found last, where the next search
   // starts, and the mean edge [m].
