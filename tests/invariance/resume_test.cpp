@@ -173,13 +173,18 @@ pid_t start(std::vector<std::string> words, const std::string& folder) {
   return child;
 }
 
+// A minute at most.
+void wait_for(const std::string& file) {
+  for (int k = 0; k < 6000 && !std::filesystem::exists(file); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+}
+
 // Runs until there is a checkpoint and some time more, sends the signal; the exit code, -1 if the
 // signal killed it. In real time, so that the end is a second away.
 int run_until_signal(std::vector<std::string> words, const std::string& folder, int signal,
                      int milliseconds) {
   const pid_t child = start(words, folder);
-  for (int k = 0; k < 6000 && !std::filesystem::exists(folder + "/out/checkpoint.bin"); ++k)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  wait_for(folder + "/out/checkpoint.bin");
   std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
   kill(child, signal);
   int status = 0;
@@ -239,9 +244,10 @@ TEST(Signals, a_second_one_ends_a_run_at_once) {
   const std::string folder = test_folder("second-signal");
   const pid_t child = start(
       {TROCAR_PROGRAM, "run", config("block_hex.toml"), "-q", "-o", folder + "/out", "--set",
-       "output=[]", "--set", "time.frame_rate='1 Hz'", "--set", "tissue.shape.cells=[40, 40, 40]"},
+       "output=[]", "--set", "time.frame_rate='1 Hz'", "--set", "tissue.shape.cells=[50, 50, 50]"},
       folder);
-  std::this_thread::sleep_for(std::chrono::seconds(4));
+  wait_for(folder + "/out/scene.toml");  // its first frame takes seconds from then on
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
   int status = 0;
   kill(child, SIGTERM);
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
