@@ -41,7 +41,8 @@ void grasp(Simulation& s, const FrameSpan& span) {
 void detect(Simulation& s, const FrameSpan& span) {
   const PhaseScope scope(s.timers, phase_detect);
   detect_contacts(*s.contact, s.tools, s.holds, s.view, span, s.contact_reach);
-  prepare_frame_contacts(*s.contact, s.part, s.mass, span.dt);
+  // A stiffness that grew with each roll-back would throw out what made the trouble even faster.
+  prepare_frame_contacts(*s.contact, s.part, s.mass, span.dt / s.step_scale);
 }
 
 void substep(Simulation& s, const FrameSpan& span, double t) {
