@@ -8,13 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "base/threads.h"
 #include "bench/machine.h"
-#include "mesh/generate.h"
-#include "solver/element_setup.h"
-#include "solver/simd.h"
-#include "solver/step.h"
-#include "solver/watch.h"
+#include "solver_body.h"
 
 using namespace trocar;
 
@@ -23,24 +18,19 @@ struct Timing {
 };
 
 static Timing measure(const Mesh& mesh, const SolverOptions& options) {
-  const std::vector<Material> materials = {Material{}};
+  Body body = make_body(mesh, {.solver = options});
+  displace(body, [](const Vec3& X) { return Vec3(0.05 * X.y(), 0, 0); });
   const std::vector<FixedMask> fixed(mesh.X.size(), 0);
-  const std::vector<double> density = {materials[0].density};
-  const std::vector<double> mass = lumped_mass(mesh, density, 1e-3);
-  const Part part = make_part(mesh, std::vector<std::int32_t>(mesh.X.size(), 0), 0);
-  const Model model = build_model(mesh, part, materials, fixed, mass, options);
-  State state = make_state(model);
-  Scratch scratch = make_scratch(model);
-  for (std::size_t i = 0; i < mesh.X.size(); ++i) state.u[3 * i] = 0.05 * mesh.X[i].y();
   const double dt = 1e-9;  // stays near the deformation it starts from
   Timing timing;
-  timing.build = best_seconds([&] { build_model(mesh, part, materials, fixed, mass, options); });
+  timing.build = best_seconds(
+      [&] { build_model(mesh, body.part, body.materials, fixed, body.mass, options); });
   timing.force = best_seconds([&] {
-    average_volume_change(model, state, scratch);
-    compute_force(model, state, scratch);
+    average_volume_change(body.model, body.state, body.scratch);
+    compute_force(body.model, body.state, body.scratch);
   });
-  timing.integrate = best_seconds([&] { integrate(model, scratch, {}, dt, state); });
-  timing.watch = best_seconds([&] { watch(model, part, state); });
+  timing.integrate = best_seconds([&] { integrate(body.model, body.scratch, {}, dt, body.state); });
+  timing.watch = best_seconds([&] { watch(body.model, body.part, body.state); });
   return timing;
 }
 
@@ -72,11 +62,8 @@ static void report_formulations(const Mesh& tet, const Mesh& hex, int n, bool& i
   for (const Precision precision : {Precision::in_double, Precision::in_single})
     for (int k = 0; k < n_formulations; ++k) {
       const auto f = static_cast<Formulation>(k);
-      SolverOptions options{.precision = precision};
+      const SolverOptions options = with(f, {.precision = precision});
       const ElementType shape = shape_of(f);
-      if (shape == ElementType::tri3) options.tri3 = f;
-      if (shape == ElementType::tet4) options.tet4 = f;
-      if (shape == ElementType::hex8) options.hex8 = f;
       report(name_of(f),
              shape == ElementType::tri3 ? plane : (shape == ElementType::tet4 ? tet : hex), options,
              is_first);

@@ -15,27 +15,12 @@ namespace trocar {
 namespace {
 
 CutMemory memory_of(const CutStage& stage) {
-  return {.stroke = stage.tet.stroke(),
-          .plane_path = stage.plane_path,
-          .plane_tip = stage.plane_tip,
-          .is_in_stroke = stage.is_in_stroke,
-          .n_idle_frames = stage.n_idle_frames,
-          .strokes = stage.strokes,
-          .engaged = stage.engaged,
-          .engaged_length = stage.engaged_length,
-          .resistance = stage.resistance};
+  return {stage, stage.tet.stroke()};
 }
 
 void remember(const CutMemory& memory, CutStage& stage) {
+  static_cast<CutProgress&>(stage) = memory;
   stage.tet.set_stroke(memory.stroke);
-  stage.plane_path = memory.plane_path;
-  stage.plane_tip = memory.plane_tip;
-  stage.is_in_stroke = memory.is_in_stroke;
-  stage.n_idle_frames = memory.n_idle_frames;
-  stage.strokes = memory.strokes;
-  stage.engaged = memory.engaged;
-  stage.engaged_length = memory.engaged_length;
-  stage.resistance = memory.resistance;
 }
 
 void check_fit(const Checkpoint& c, const Simulation& s) {

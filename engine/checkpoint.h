@@ -12,16 +12,8 @@
 namespace trocar {
 
 // Of a CutStage, what it keeps from frame to frame.
-struct CutMemory {
+struct CutMemory : CutProgress {
   CutStroke stroke;
-  std::vector<Vec3> plane_path;
-  std::int32_t plane_tip = -1;
-  bool is_in_stroke = false;
-  std::int32_t n_idle_frames = 0;
-  std::vector<CutRecord> strokes;
-  std::vector<Location> engaged;
-  double engaged_length = 0;
-  Vec3 resistance = Vec3::Zero();
 };
 
 // How far a recording has come.

@@ -34,9 +34,8 @@ struct CutRecord {
   double milliseconds = 0, worst_milliseconds = 0;
 };
 
-struct CutStage {
-  std::int32_t tool = 0;
-  TetCutter tet;
+// What a blade keeps from frame to frame beside its stroke.
+struct CutProgress {
   std::vector<Vec3> plane_path;  // swept by the tip since the last edit, reference positions [m]
   std::int32_t plane_tip = -1;
   bool is_in_stroke = false;
@@ -46,6 +45,11 @@ struct CutStage {
   std::vector<Location> engaged;
   double engaged_length = 0;       // [m]
   Vec3 resistance = Vec3::Zero();  // of the tissue on the blade [N]
+};
+
+struct CutStage : CutProgress {
+  std::int32_t tool = 0;
+  TetCutter tet;
 };
 
 // Cuts along all blades' motion in the frame and applies the edits. Collective.

@@ -23,7 +23,6 @@ double* history_at(const ElementBlocks& blocks, std::int64_t block, State& state
 
 void add_list(const Model& model, const ElementBlocks& blocks, std::int64_t first, std::int64_t n,
               State& state, Scratch& scratch) {
-  const std::vector<std::int32_t>& target = blocks.target.empty() ? blocks.corner : blocks.target;
   for_strained_blocks(
       model, blocks, state, first, n,
       [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
@@ -33,7 +32,7 @@ void add_list(const Model& model, const ElementBlocks& blocks, std::int64_t firs
           kernels.law.viscous_stress(task, scratch.viscous[&blocks - model.blocks.data()],
                                      history_at(blocks, block, state));
         const std::int64_t corner = block * kernels.element.n_corners * blocks.lanes;
-        kernels.element.force(task, target.data() + corner, scratch.sum.data());
+        kernels.element.force(task, targets(blocks).data() + corner, scratch.sum.data());
       });
 }
 

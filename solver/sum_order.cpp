@@ -99,10 +99,6 @@ void place_shared_corners(const NodeUse& use, std::int64_t n_blocks, Model& mode
               });
 }
 
-const std::vector<std::int32_t>& targets(const ElementBlocks& blocks) {
-  return blocks.target.empty() ? blocks.corner : blocks.target;
-}
-
 bool are_consecutive(const std::int32_t* number, int n) {
   for (int lane = 1; lane < n; ++lane)
     if (number[lane] != number[0] + lane) return false;

@@ -9,6 +9,11 @@ namespace trocar {
 // there are threads now.
 void order_sums(Model& model);
 
+// Where the corner forces of a list are added.
+inline const std::vector<std::int32_t>& targets(const ElementBlocks& blocks) {
+  return blocks.target.empty() ? blocks.corner : blocks.target;
+}
+
 // First block of a run.
 inline std::int64_t first_block_of_run(std::int64_t run, std::int64_t n_runs,
                                        std::int64_t n_blocks) {
