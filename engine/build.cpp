@@ -11,6 +11,7 @@
 #include "engine/equilibrium.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
+#include "engine/instrument_check.h"
 #include "engine/mesh_measures.h"
 #include "engine/tissue.h"
 #include "mesh/mesh_file.h"
@@ -18,6 +19,9 @@
 namespace trocar {
 
 namespace {
+
+// Depth from which on an instrument is not laid on the body but lies in it, in reaches of contact.
+constexpr double buried = 0.4;
 
 std::vector<double> region_densities(const std::vector<Material>& materials) {
   std::vector<double> density;
@@ -134,9 +138,10 @@ void build_instruments(const LoadedScene& loaded, Simulation& s) {
   if (s.tools.empty()) return;
   std::vector<ToolShape> shapes;
   for (const Tool& tool : s.tools) shapes.push_back(tool.shape);
-  s.contact = std::make_unique<ContactStage>(ContactStage{
-      .detector = ContactDetector(shapes),
-      .options = {.stiffness = s.scene.contact.stiffness, .friction = s.scene.contact.friction}});
+  s.contact = std::make_unique<ContactStage>(
+      ContactStage{.detector = ContactDetector(shapes),
+                   .options = {.friction = s.scene.contact.friction,
+                               .release_speed = s.scene.contact.release_speed}});
   s.contact->motion.resize(s.tools.size());
   s.contact_reach = 0.5 * edge;
   build_cuts(s);
@@ -214,6 +219,9 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   refresh_surface(s);
   watch_state(s);
   check_slow_element(s);
+  if (s.contact && s.scene.start.state == StartState::undeformed)
+    check_instruments_outside(loaded, buried * s.contact_reach,
+                              "the body at time 0: let it begin outside", s);
   s.log.least_stable_step = s.log.largest_stable_step = s.watch.stable_step;
   if (std::any_of(s.scene.outputs.begin(), s.scene.outputs.end(),
                   [](const SceneOutput& output) { return output.kind == OutputKind::metrics; }))

@@ -64,6 +64,13 @@ void average_volume(Simulation& s) {
   s.exchange_theta->exchange(s.state.theta, *s.communicator);
 }
 
+double largest_speed(const Simulation& s) {
+  double most = 0;
+  for (std::int64_t i = 0; i < s.part.n_owned; ++i)
+    most = std::max(most, Vec3::Map(&s.state.v[3 * i]).squaredNorm());
+  return std::sqrt(s.communicator->all_max(most));
+}
+
 void watch_state(Simulation& s) {
   average_volume(s);
   const PhaseScope scope(s.timers, phase_watch);

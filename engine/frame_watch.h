@@ -19,6 +19,8 @@ void average_volume(Simulation& s);
 
 // Sets s.watch to that of all ranks. Collective.
 void watch_state(Simulation& s);
+// Of all nodes of all ranks. Collective. [m/s]
+double largest_speed(const Simulation& s);
 // A sentence with element or node and cause, "" if all is well. The same on every rank.
 std::string find_trouble(const Simulation& s);
 // Notes that the frame is done again with the stable step of its end, which its own exceeded;

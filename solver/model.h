@@ -162,6 +162,7 @@ struct Scratch {
   // Of held nodes in clusters, and room for sums of clusters; used by integrate.
   std::vector<GivenAcceleration> given;
   std::vector<double> cluster_sums;
+  std::vector<double> uncoupled;     // force, while predict couples clusters
   std::vector<ViscousStep> viscous;  // (block lists) of the step that is being computed
 };
 Scratch make_scratch(const Model& model);
