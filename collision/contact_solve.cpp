@@ -11,6 +11,7 @@ namespace {
 constexpr std::int64_t hull_steps = 8;    // from look to look
 constexpr double hull_closing_speed = 2;  // that a look reckons with until the next one [m/s]
 constexpr int most_rounds = 30;
+constexpr double furthest = 4;        // that a contact moves a node, in what it lacks
 constexpr double good_enough = 1e-3;  // change in a round / deepest point at the start
 
 std::size_t index(std::int32_t i) {
@@ -25,7 +26,9 @@ struct Constraint {
   Vec3 normal, slip;     // n; slip of the step without contact [m]
   double lack = 0;       // [m]
   double felt_mass = 0;  // 1 / sum w^2 / m [kg]
-  double push = 0;       // impulse times dt, along n [kg m]
+  // Impulse times dt, along n, and its bound: a triangle with two held corners would move the third
+  // one a thousand times as far as it lacks. [kg m]
+  double push = 0, most_push = 0;
   Vec3 drag = Vec3::Zero();
 };
 
@@ -42,17 +45,19 @@ const ToolMotion& tool_of(const ContactStep& step, const ContactSet::Item& item)
 void set_approach(const ContactSet& set, const ContactStep& step, double release_speed, double gap,
                   const Vec3& arm, const ToolMotion& tool, Constraint& c) {
   Vec3 relative = -step.dt * (tool.velocity + tool.angular_velocity.cross(arm));
-  double inverse = 0;
+  double inverse = 0, lightest = 0;
   for (std::size_t a = 0; a < 3; ++a) {
     const std::size_t i = index(c.place[a]);
     relative += c.weight[a] * (set.x_end[i] - set.x_start[i]);
     inverse += c.weight[a] * c.weight[a] * set.inverse_mass[i];
+    lightest = std::max(lightest, c.weight[a] * set.inverse_mass[i]);
   }
   const double closing = c.normal.dot(relative), before = gap - closing;
   const double least = before < 0 ? std::min(0.0, before + release_speed * step.dt) : 0.0;
   c.lack = least - gap;
   c.slip = relative - closing * c.normal;
   c.felt_mass = inverse > 0 ? 1 / inverse : 0;
+  c.most_push = inverse > 0 ? furthest * c.lack / lightest : 0;
 }
 
 void add_triangle(const ContactStep& step, const ContactOptions& options, const ContactSet& set,
@@ -126,7 +131,8 @@ void apply(const Constraint& c, const Vec3& impulse, const ContactSet& set, std:
 // Returns by how much the contact point went.
 double project(double friction, const ContactSet& set, std::span<Vec3> move, Constraint& c) {
   const Vec3 before = extra(c, move);
-  const double push = std::max(0.0, c.push + c.felt_mass * (c.lack - c.normal.dot(before)));
+  const double push =
+      std::clamp(c.push + c.felt_mass * (c.lack - c.normal.dot(before)), 0.0, c.most_push);
   apply(c, (push - c.push) * c.normal, set, move);
   c.push = push;
   const Vec3 now = extra(c, move), along = now - c.normal.dot(now) * c.normal;
