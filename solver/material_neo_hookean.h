@@ -4,7 +4,7 @@
 
 #include "solver/deformation.h"
 #include "solver/material_model.h"
-#include "solver/tangent_bound.h"
+#include "solver/tangent_bound_below_floor.h"
 
 namespace trocar {
 
@@ -17,7 +17,7 @@ struct MaterialNeoHookean : Decoupled<MaterialNeoHookean> {
   [[gnu::always_inline]] static Tensor<Pack> stress_at(const Deformation<Pack>& d,
                                                        const Pack& pressure,
                                                        const BlockValues<Pack>& value) {
-    return stress_of(d, Pack(value(value_mu_V) * (1.0 + d.iso.q)), d.twice_E, pressure);
+    return stress_of_I1bar(d, Pack(value(value_mu_V) * (1.0 + d.iso.q)), pressure);
   }
 
   template <class Pack>
@@ -36,6 +36,9 @@ struct MaterialNeoHookean : Decoupled<MaterialNeoHookean> {
     Pack result;
     bound_tangent(d, x, terms_of_I1bar(x, Pack(0.5 * mu), zero_of(mu)), value(value_K_V), mu,
                   result);
+    const FloorBound<Pack> b = floor_bound(d, x);
+    replace_below_floor(d, b, Pack(0.5 * mu * variation_of_I1bar(b).curvature),
+                        {value(value_K_V), mu}, result);
     return result;
   }
 };

@@ -30,7 +30,8 @@ struct ContactBench {
   double dt = 1e-4;
   std::vector<ToolMotion> tools = std::vector<ToolMotion>(1);
   Part part;
-  ContactDetector detector{std::vector<ToolShape>(3, {{{.points = {Vec3(0, 0, 1e3)}}}})};  // far off
+  ContactDetector detector{
+      std::vector<ToolShape>(3, {{{.points = {Vec3(0, 0, 1e3)}}}})};  // far off
   ContactSet set;
 
   ContactBench(std::vector<Vec3> X_, std::vector<double> mass_)
