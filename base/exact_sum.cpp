@@ -1,8 +1,7 @@
 #include "base/exact_sum.h"
 
 #include <cmath>
-
-#include "base/check.h"
+#include <limits>
 
 namespace trocar {
 
@@ -25,7 +24,10 @@ void ExactSum::add(double value) {
     bit = 0;
   }
   const auto limb = static_cast<std::size_t>(bit / 32);
-  CHECK_OP(limb + 2, <, limbs_.size());
+  if (limb + 2 >= n_limbs) {
+    ++limbs_[n_limbs];
+    return;
+  }
   const int shift = bit % 32;
   const std::uint64_t low = mantissa << shift;
   const std::uint64_t high = shift == 0 ? 0 : mantissa >> (64 - shift);
@@ -35,12 +37,13 @@ void ExactSum::add(double value) {
 }
 
 double ExactSum::value() const {
+  if (limbs_[n_limbs] != 0) return std::numeric_limits<double>::infinity();
   // Carry upward; each word is a signed number of at most 63 bits.
-  std::array<std::int64_t, 10> digit{};
+  std::array<std::int64_t, n_limbs> digit{};
   std::int64_t carry = 0;
-  for (std::size_t k = 0; k < limbs_.size(); ++k) {
+  for (std::size_t k = 0; k < n_limbs; ++k) {
     const std::int64_t sum = static_cast<std::int64_t>(limbs_[k]) + carry;
-    const bool is_top = k + 1 == limbs_.size();
+    const bool is_top = k + 1 == n_limbs;
     digit[k] = is_top ? sum : static_cast<std::int64_t>(static_cast<std::uint64_t>(sum) & low_half);
     carry = sum >> 32;
   }

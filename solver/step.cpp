@@ -110,6 +110,10 @@ std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
   for (const ElementBlocks& blocks : model.blocks)
     sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.target) +
            bytes(blocks.row) + bytes(blocks.data) + bytes(blocks.data_single);
+  const MassClusters& clusters = model.clusters;
+  sum += bytes(clusters.offset) + bytes(clusters.node) + bytes(clusters.added) +
+         bytes(clusters.total) + bytes(clusters.of_node) + bytes(scratch.given) +
+         bytes(scratch.cluster_sums);
   return sum;
 }
 
