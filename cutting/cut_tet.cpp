@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/check.h"
+#include "base/error.h"
 #include "cutting/cut_edit.h"
 #include "cutting/cut_hex.h"
 #include "cutting/cut_hits.h"
@@ -47,7 +48,8 @@ static void check_arguments(const Mesh& mesh, std::span<const Vec3> x,
   CHECK_OP(is_held.size(), ==, mesh.X.size());
   CHECK_OP(sweep.before.size(), ==, sweep.after.size());
   CHECK_OP(sweep.before.size(), >=, 2U);
-  CHECK_OP(mesh.dimension(), ==, 3);
+  if (mesh.dimension() == 2)
+    throw InputError("a blade's band cuts tetrahedra and hexahedra, and this mesh is plane");
 }
 
 // The floor under step bounds of tetrahedra. Those of a cube have 1 / sqrt(2) of its bound, and the

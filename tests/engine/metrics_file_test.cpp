@@ -142,7 +142,7 @@ TEST(MetricsFile, keeps_its_columns_whatever_an_instrument_is_called) {
   }
   const std::vector<std::string> text = lines(read_text(file));
   EXPECT_EQ(fields(text[0]).size(), fields(text[1]).size());
-  EXPECT_EQ(fields(text[0])[23], "left, \"old\" probe_x_m");
+  EXPECT_EQ(fields(text[0])[24], "left, \"old\" probe_x_m");
 }
 
 TEST(MetricsFile, says_which_file_can_not_be_written) {
