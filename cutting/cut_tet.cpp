@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "cutting/cut_chips.h"
 #include "cutting/cut_edit.h"
 #include "cutting/cut_hex.h"
 #include "cutting/cut_hits.h"
@@ -77,6 +78,8 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, std::span<const Vec3> x,
   std::vector<std::uint8_t> stays_whole(cut.around.patch.node.size(), 0);
   if (!is_last) stays_whole = unripe_nodes(cut.around, cut.labels);
   cut.opening = open_facets(cut.around, cut.labels, stays_whole);
+  if (attach_chips(cut.around, cut.opening, cut.labels))
+    cut.opening = open_facets(cut.around, cut.labels, stays_whole);
   set_roles(cut, stroke, is_last);
   cut.X =
       move_nodes(cut.around, cut.role, move_limits(cut.around, stroke, least_ratio(options, tets)));
