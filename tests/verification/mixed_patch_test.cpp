@@ -85,7 +85,8 @@ TEST(MixedPatch, a_plane_interface_inside_is_in_equilibrium) {
   EXPECT_LT(greatest_interior_force(body), 1e-13);
 }
 
-TEST(MixedPatch, scattered_cells_are_off_the_linear_field_by_a_few_percent_of_the_strain) {
+TEST(MixedPatch,
+     scattered_cells_are_off_the_linear_field_by_less_than_a_sixth_of_strain_times_edge) {
   Body body = mixed_patch(is_scattered);
   settle(body, {.tolerance = 1e-8});
   double most = 0, sum = 0;
