@@ -7,6 +7,7 @@
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "cutting/cut_hex.h"
 #include "engine/bytes.h"
 #include "engine/equilibrium.h"
 #include "engine/frame_report.h"
@@ -14,6 +15,7 @@
 #include "engine/instrument_check.h"
 #include "engine/mesh_measures.h"
 #include "engine/tissue.h"
+#include "mesh/connected_nodes.h"
 #include "mesh/mesh_file.h"
 
 namespace trocar {
@@ -105,27 +107,25 @@ std::uint32_t crc_of_body(const Simulation& s) {
   return crc;
 }
 
-bool can_be_cut(const Mesh& mesh) {
-  const auto is_type = [&](ElementType type) {
-    return std::all_of(mesh.element_type.begin(), mesh.element_type.end(),
-                       [=](ElementType t) { return t == type; });
-  };
-  return is_type(ElementType::tet4) || is_type(ElementType::tri3);
+// Where no blade gets through.
+void warn_of_whole_hexahedra(const Simulation& s) {
+  if (s.mesh.dimension() == 2) return;
+  const std::size_t n = whole_hexahedra(s.mesh).size();
+  if (n > 0)
+    log_warning(std::to_string(n) +
+                " hexahedra can't be cut: they are bent too much to be split into tetrahedra, or "
+                "tetrahedra on their facets have the other diagonal");
 }
 
 void build_cuts(Simulation& s) {
   const SceneCutting& cutting = s.scene.cutting;
   for (std::size_t k = 0; k < s.tools.size(); ++k) {
     if (s.tools[k].kind != InstrumentKind::scalpel) continue;
-    if (!can_be_cut(s.mesh)) {
-      log_warning("the body has hexahedra, which this version does not cut: \"" + s.tools[k].name +
-                  "\" only touches");
-      continue;
-    }
     s.cuts.push_back(CutStage{.tool = static_cast<std::int32_t>(k),
                               .tet = TetCutter({.advance = cutting.advance,
                                                 .least_step_ratio = cutting.least_step_ratio})});
   }
+  if (!s.cuts.empty()) warn_of_whole_hexahedra(s);
 }
 
 void build_instruments(const LoadedScene& loaded, Simulation& s) {
@@ -194,6 +194,7 @@ void rebuild_topology(Simulation& s) {
   s.scratch = make_scratch(s.model);
   if (s.energy) s.scratch.damping_work.assign(static_cast<std::size_t>(s.model.n_owned), 0.0);
   s.surface = boundary_surface(s.mesh);
+  s.n_pieces = count_pieces(s.mesh);
   s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part, rank);
   localise_holds(s.holds, s.part);
   s.fastest_mode.clear();

@@ -125,6 +125,28 @@ TEST(BlockHex, is_pressed_and_comes_back) {
   expect_closed_energy_balance(ran.summary, 2e-3);
 }
 
+TEST(BlockHexCut, converts_what_the_blade_crosses_and_opens) {
+  const Ran ran = run_scene_file("block_hex_cut.toml", "[{kind='metrics', file='metrics.csv'}]");
+  ASSERT_FALSE(ran.summary.is_discarded());
+  ASSERT_EQ(ran.summary["cuts"].size(), 1U);
+  const auto& cut = ran.summary["cuts"][0];
+  const int n_converted = cut["hexahedra_converted"];
+  EXPECT_GT(n_converted, 0);
+  EXPECT_EQ(cut["elements_added"], 5 * n_converted);
+  EXPECT_EQ(ran.summary["mesh"]["elements"]["hex8"], 16 * 12 * 8 - n_converted);
+  EXPECT_EQ(ran.summary["mesh"]["elements"]["tet4"], 6 * n_converted);
+  EXPECT_EQ(cut["refused"], 0);
+  EXPECT_EQ(cut["pieces"], 1);
+  EXPECT_EQ(ran.metrics.at("pieces").back(), 1);
+  EXPECT_LE(cut["mass_change"], 1e-12);
+  EXPECT_LE(cut["momentum_change"], 1e-12);
+  EXPECT_GE(cut["stable_step_ratio"], 0.35);  // least_step_ratio
+  EXPECT_GT(ran.summary["least_det_F"]["value"], 0.0);
+  const Column& wound = ran.metrics.at("wound_width_m");
+  EXPECT_GT(wound.back(), at_time(ran.metrics, wound, 1.2) + 2e-3);  // pulled open
+  expect_closed_energy_balance(ran.summary, 2e-3);
+}
+
 TEST(PlaneCut, opens_and_its_recording_can_be_replayed) {
   const Ran ran = run_scene_file(
       "plane_cut.toml",
