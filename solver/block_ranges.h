@@ -10,6 +10,7 @@
 #include "solver/flush_subnormals.h"
 #include "solver/kernels.h"
 #include "solver/model.h"
+#include "solver/row_order.h"
 #include "solver/simd.h"
 #include "solver/stash.h"
 
@@ -75,7 +76,7 @@ inline BlockTask block_task(const Model& model, const ElementBlocks& blocks,
   const int share = element.share > 0 ? kernels.n_material_values + element.share : 0;
   return {.u = state.u.data(),
           .corner = blocks.corner.data() + first * element.n_corners * blocks.lanes,
-          .row = blocks.row.data() + first,
+          .row = blocks.row.data() + first * blocks.lanes / row_lanes,
           .data = is_single ? static_cast<const void*>(blocks.data_single.data() + at)
                             : static_cast<const void*>(blocks.data.data() + at),
           .n_blocks = n,

@@ -1,11 +1,12 @@
 // What the loops over blocks ask of an element: strains of its points and what it keeps to the
 // stash (stash.h), forces out of it. For elements with one stress point: Element has strain(value,
-// u) with the mean gradient H and hourglass displacements q, forces(value, strain, V P, f) and
-// hourglass_energy(value, strain).
+// u) with the mean gradient H and, of hexahedra, hourglass displacements q and gradients b;
+// forces(value, strain, V P, f) and hourglass_energy(value, strain).
 #pragma once
 
 #include "solver/block_data.h"
 #include "solver/formulation.h"
+#include "solver/hourglass.h"
 #include "solver/stash.h"
 #include "solver/tensor.h"
 
@@ -29,8 +30,11 @@ struct OnePoint {
                                             const Stash<Pack>& stash) {
     const Strain<Pack> strain = Element::strain(value, u);
     stash.put_tensor(0, strain.H);
-    if constexpr (n_kept > 0)
-      for (int k = 0; k < n_kept; ++k) stash.put(tensor_values + k, strain.q[k / 3][k % 3]);
+    if constexpr (n_kept > 0) {
+      for (int k = 0; k < n_q; ++k) stash.put(tensor_values + k, strain.q[k / 3][k % 3]);
+      for (int k = n_q; k < n_kept; ++k)
+        stash.put(tensor_values + k, strain.b[(k - n_q) / 3][k % 3]);
+    }
   }
 
   // f: corner forces. [N]
@@ -50,11 +54,15 @@ struct OnePoint {
   }
 
  private:
+  static constexpr int n_q = 3 * n_hourglass_modes;  // ahead of b
   template <class Pack>
   [[gnu::always_inline]] static Strain<Pack> kept(const Stash<Pack>& stash) {
     Strain<Pack> strain;
-    if constexpr (n_kept > 0)
-      for (int k = 0; k < n_kept; ++k) strain.q[k / 3][k % 3] = stash.get(tensor_values + k);
+    if constexpr (n_kept > 0) {
+      for (int k = 0; k < n_q; ++k) strain.q[k / 3][k % 3] = stash.get(tensor_values + k);
+      for (int k = n_q; k < n_kept; ++k)
+        strain.b[(k - n_q) / 3][k % 3] = stash.get(tensor_values + k);
+    }
     return strain;
   }
 };

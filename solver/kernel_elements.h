@@ -1,7 +1,8 @@
 // The elements' loops over blocks, written once for any pack and element.
 #pragma once
 
-#include "solver/corner_access.h"
+#include "solver/corner_gather.h"
+#include "solver/corner_scatter.h"
 #include "solver/kernel_groups.h"
 
 namespace trocar {
@@ -30,7 +31,7 @@ struct ElementLoops {
                   int lane) __attribute__((always_inline)) {
           const std::int32_t* corner = corners(task, block, lane);
           Pack u[n][3];
-          gather_corners(task.u, corner, task.row[block] != no_row, u);
+          gather_corners(task.u, corner, rows(task, block, lane), u);
           Element::strain(value, u, stash);
           if constexpr (averages_volume_v<Element>)
             stash.put(tensor_values, mean_of_corners<Pack, n>(task.theta, task.n_fields, corner));
@@ -43,7 +44,7 @@ struct ElementLoops {
                   __attribute__((always_inline)) {
                     Pack f[n][3];
                     Element::force(value, stash, f);
-                    add_corners(f, target + block * n * lanes + lane, task.row[block], sum);
+                    add_corners(f, target + block * n * lanes + lane, rows(task, block, lane), sum);
                   });
   }
 
@@ -56,7 +57,7 @@ struct ElementLoops {
   static void volume_change(const BlockTask& task, double* to) {
     for_groups<Pack>(task, [&](const Group<Pack>& group, std::int64_t block, int lane) {
       Pack u[n][3];
-      gather_corners(task.u, corners(task, block, lane), false, u);
+      gather_corners(task.u, corners(task, block, lane), rows(task, block, lane), u);
       const Tensor<Pack> H = ElementTet4::strain(behind_material(task, group), u).H;
       const Pack j = trocar::volume_change(H, cofactor(H));
       store_in_double(to + block * lanes + lane, Pack(group.value(value_K_V) * j));
@@ -71,6 +72,10 @@ struct ElementLoops {
   [[gnu::always_inline]] static const std::int32_t* corners(const BlockTask& task,
                                                             std::int64_t block, int lane) {
     return task.corner + block * n * lanes + lane;
+  }
+  [[gnu::always_inline]] static const std::uint32_t* rows(const BlockTask& task, std::int64_t block,
+                                                          int lane) {
+    return task.row + (block * lanes + lane) / row_lanes;
   }
   // Calls body(the element's constants, stash, block, lane) for every group.
   template <class Body>
