@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "solver/block_data.h"
+#include "solver/in_double.h"
 #include "solver/row_order.h"
 
 namespace trocar {
@@ -122,15 +122,13 @@ template <class Pack, int n>
 [[gnu::always_inline]] inline void gather_singles(const double* u, const std::int32_t* corner,
                                                   const std::uint32_t* row, Pack (&x)[n][3]) {
   constexpr int width = pack_width<Pack> / 2;
-  using Single = PackOf<float, width>;
   PackOf<double, width> low[n][3], high[n][3];
   gather_doubles<block_lanes<Pack>>(u, corner, row[0], low);
   gather_doubles<block_lanes<Pack>>(u, corner + width, row[width / row_lanes], high);
 #pragma GCC unroll 8
   for (int a = 0; a < n; ++a)
     for (int i = 0; i < 3; ++i)
-      x[a][i] = join<Pack>(__builtin_convertvector(low[a][i] - low[0][i], Single),
-                           __builtin_convertvector(high[a][i] - high[0][i], Single),
+      x[a][i] = join<Pack>(in_single(low[a][i] - low[0][i]), in_single(high[a][i] - high[0][i]),
                            std::make_index_sequence<pack_width<Pack>>{});
 }
 
