@@ -116,6 +116,26 @@ TEST(BuildModel, rows_of_a_regular_numbering_have_the_same_bits_as_single_nodes)
   }
 }
 
+// Behind the last node's displacement nothing may be read.
+TEST(BuildModel, lanes_outside_rows_that_meet_the_last_node_say_so) {
+  for (const Precision precision : {Precision::in_double, Precision::in_single}) {
+    const Body body =
+        make_body(make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {3, 3, 3}, BoxElements::hex8),
+                  {.solver = {.precision = precision}});
+    const ElementBlocks& blocks = body.model.blocks[0];
+    for (std::size_t k = 0; k < blocks.row.size(); ++k) {
+      bool meets_last = false;
+      for (int a = 0; a < 8; ++a)
+        for (std::size_t l = k * row_lanes; l < (k + 1) * row_lanes; ++l) {
+          const std::size_t n = static_cast<std::size_t>(blocks.lanes), block = l / n;
+          const std::size_t at = (block * 8 + static_cast<std::size_t>(a)) * n + l % n;
+          meets_last = meets_last || blocks.corner[at] == body.model.n_local - 1;
+        }
+      EXPECT_EQ(blocks.row[k] == no_row_at_end, meets_last);
+    }
+  }
+}
+
 TEST(BuildModel, the_elements_of_a_mixed_body_add_up_to_the_forces_of_each_alone) {
   Body body = two_material_body();
   shake(body.state.u, 1e-3, 4);
