@@ -78,15 +78,16 @@ double next_velocity(const Model& model, const Coefficients& c, const Scratch& s
 
 void integrate_nodes(const Model& model, const Coefficients& c, double dt, const Scratch& scratch,
                      State& state) {
+  const NodeMotion task{.keep = c.keep,
+                        .gain = c.gain,
+                        .dt = dt,
+                        .inertia = model.inertia.data(),
+                        .fixed = model.fixed.data(),
+                        .force = scratch.force.data(),
+                        .v = state.v.data(),
+                        .u = state.u.data()};
   parallel_for_nodes(model.n_owned, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) {
-      const double gain = c.gain / model.inertia[i];
-      for (int j = 0; j < 3; ++j) {
-        const std::int64_t k = 3 * i + j;
-        state.v[k] = is_fixed(model, i, j) ? 0 : c.keep * state.v[k] + gain * scratch.force[k];
-        state.u[k] += dt * state.v[k];
-      }
-    }
+    active_kernels().nodes.motion(task, begin, end);
   });
 }
 

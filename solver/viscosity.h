@@ -8,7 +8,7 @@
 #pragma once
 
 #include "solver/block_data.h"
-#include "solver/corner_access.h"
+#include "solver/in_double.h"
 #include "solver/isochoric.h"
 #include "solver/material_model.h"
 #include "solver/viscous_step.h"
@@ -30,6 +30,15 @@ struct ViscousLaw {
     const Tensor<Pack> volumetric = Material::volumetric_stress(H, value);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) P(i, j) += volumetric(i, j);
+    return P;
+  }
+
+  [[gnu::always_inline]] Tensor<Pack> stress_at_pressure(const Tensor<Pack>& H,
+                                                         const Pack& pressure) const {
+    const VolumeChange<Pack> change = volume_and_area_change(H);
+    Tensor<Pack> P = isochoric_stress(H);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) P(i, j) += pressure * change.cof_F(i, j);
     return P;
   }
 

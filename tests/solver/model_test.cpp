@@ -102,7 +102,7 @@ TEST(BuildModel, rows_of_a_regular_numbering_have_the_same_bits_as_single_nodes)
     Body single = make_body(backwards, {.solver = {.precision = precision}});
     const auto n_rows = [](const Body& body) {
       const std::vector<std::uint32_t>& row = body.model.blocks[0].row;
-      return std::ssize(row) - std::count(row.begin(), row.end(), no_row);
+      return std::count_if(row.begin(), row.end(), is_row);
     };
     EXPECT_EQ(n_rows(rows), std::ssize(rows.model.blocks[0].row));
     EXPECT_EQ(n_rows(single), 0);
@@ -113,6 +113,26 @@ TEST(BuildModel, rows_of_a_regular_numbering_have_the_same_bits_as_single_nodes)
     const std::vector<double> f = force(rows), g = force(single);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < 3; ++j) EXPECT_EQ(f[3 * i + j], g[3 * (n - 1 - i) + j]);
+  }
+}
+
+// Behind the last node's displacement nothing may be read.
+TEST(BuildModel, lanes_outside_rows_that_meet_the_last_node_say_so) {
+  for (const Precision precision : {Precision::in_double, Precision::in_single}) {
+    const Body body =
+        make_body(make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {3, 3, 3}, BoxElements::hex8),
+                  {.solver = {.precision = precision}});
+    const ElementBlocks& blocks = body.model.blocks[0];
+    for (std::size_t k = 0; k < blocks.row.size(); ++k) {
+      bool meets_last = false;
+      for (int a = 0; a < 8; ++a)
+        for (std::size_t l = k * row_lanes; l < (k + 1) * row_lanes; ++l) {
+          const std::size_t n = static_cast<std::size_t>(blocks.lanes), block = l / n;
+          const std::size_t at = (block * 8 + static_cast<std::size_t>(a)) * n + l % n;
+          meets_last = meets_last || blocks.corner[at] == body.model.n_local - 1;
+        }
+      EXPECT_EQ(blocks.row[k] == no_row_at_end, meets_last);
+    }
   }
 }
 
