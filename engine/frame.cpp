@@ -45,12 +45,19 @@ void detect(Simulation& s, const FrameSpan& span) {
   prepare_frame_contacts(*s.contact, s.part, s.mass, span.dt / s.step_scale);
 }
 
-void substep(Simulation& s, const FrameSpan& span, double t) {
-  average_volume(s);
+// What it waits for neighbours counts as exchange.
+void update_force(Simulation& s) {
+  const double waited = s.neighbours.waited;
   {
     const PhaseScope scope(s.timers, phase_force);
-    compute_force(s.model, s.state, s.scratch);
+    find_force(s.model, s.neighbours, s.state, s.scratch);
   }
+  s.timers.add(phase_exchange, s.neighbours.waited - waited);
+  s.timers.add(phase_force, waited - s.neighbours.waited);
+}
+
+void substep(Simulation& s, const FrameSpan& span, double t) {
+  update_force(s);
   if (s.contact) {
     const PhaseScope scope(s.timers, phase_contact);
     ContactStage& contact = *s.contact;
@@ -68,9 +75,10 @@ void substep(Simulation& s, const FrameSpan& span, double t) {
     add_hold_reactions(s.holds);
   }
   const PhaseScope scope(s.timers, phase_exchange);
-  s.exchange_u->exchange(s.state.u, *s.communicator);
-  s.exchange_v->exchange(s.state.v, *s.communicator);
-  if (s.energy) add_work(s);
+  start_exchange(s.neighbours, s.state);
+  if (!s.energy) return;
+  finish_exchange(s.neighbours, s.state);
+  add_work(s);
 }
 
 // All substeps of the frame; on trouble back to its beginning with half the step, at most
