@@ -79,16 +79,19 @@ Communicator::Communicator(Communicator&&) noexcept = default;
 Communicator& Communicator::operator=(Communicator&&) noexcept = default;
 
 void Communicator::barrier() const {
+  ++traffic_.n_collectives;
   if (handle_) MPI_Barrier(handle_->group);
 }
 
 double Communicator::all_min(double value) const {
+  ++traffic_.n_collectives;
   std::uint64_t least = value != value ? 0 : ordered_bits(value);
   if (handle_) MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_UINT64_T, MPI_MIN, handle_->group);
   return least == 0 ? std::numeric_limits<double>::quiet_NaN() : from_ordered_bits(least);
 }
 
 double Communicator::all_max(double value) const {
+  ++traffic_.n_collectives;
   constexpr std::uint64_t nan_key = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t greatest = value != value ? nan_key : ordered_bits(value);
   if (handle_) MPI_Allreduce(MPI_IN_PLACE, &greatest, 1, MPI_UINT64_T, MPI_MAX, handle_->group);
@@ -102,12 +105,14 @@ std::uint64_t Communicator::all_sum(std::uint64_t value) const {
 }
 
 void Communicator::all_sum(std::span<std::uint64_t> values) const {
+  ++traffic_.n_collectives;
   if (!handle_) return;
   MPI_Allreduce(MPI_IN_PLACE, values.data(), count_of(values.size()), MPI_UINT64_T, MPI_SUM,
                 handle_->group);
 }
 
 void Communicator::broadcast(std::vector<std::byte>& bytes, int root) const {
+  ++traffic_.n_collectives;
   CHECK(root >= 0 && root < size_);
   if (!handle_) return;
   std::uint64_t n_bytes = bytes.size();
@@ -117,6 +122,7 @@ void Communicator::broadcast(std::vector<std::byte>& bytes, int root) const {
 }
 
 std::vector<double> Communicator::all_gather(std::span<const double> values) const {
+  ++traffic_.n_collectives;
   if (!handle_) return {values.begin(), values.end()};
   const int n_own = count_of(values.size());
   const std::vector<int> counts = all_counts(handle_->group, size_, n_own);
@@ -128,6 +134,7 @@ std::vector<double> Communicator::all_gather(std::span<const double> values) con
 }
 
 std::vector<double> Communicator::gather(std::span<const double> values) const {
+  ++traffic_.n_collectives;
   if (!handle_) return {values.begin(), values.end()};
   const int n_own = count_of(values.size());
   const std::vector<int> counts = all_counts(handle_->group, size_, n_own);
@@ -139,6 +146,7 @@ std::vector<double> Communicator::gather(std::span<const double> values) const {
 }
 
 std::vector<std::string> Communicator::all_gather(const std::string& text) const {
+  ++traffic_.n_collectives;
   if (!handle_) return {text};
   const int n_own = count_of(text.size());
   const std::vector<int> counts = all_counts(handle_->group, size_, n_own);
@@ -154,6 +162,7 @@ std::vector<std::string> Communicator::all_gather(const std::string& text) const
 }
 
 std::string Communicator::first_text(const std::string& text) const {
+  ++traffic_.n_collectives;
   if (!handle_) return text;
   int first = text.empty() ? size_ : rank_;
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, handle_->group);
@@ -174,6 +183,9 @@ static void exchange_with_self(std::span<const ExchangeMessage> messages) {
 }
 
 void Communicator::start_exchange(std::span<const ExchangeMessage> messages) {
+  ++traffic_.n_exchanges;
+  traffic_.n_messages += messages.size();
+  for (const ExchangeMessage& message : messages) traffic_.n_bytes += message.send.size_bytes();
   if (!handle_) return exchange_with_self(messages);
   std::vector<MPI_Request>& requests = handle_->requests;
   CHECK(requests.empty());  // the exchange before this one is finished

@@ -18,6 +18,11 @@ struct ExchangeMessage {
   std::span<double> receive;
 };
 
+// What this rank has taken part in.
+struct Traffic {
+  std::uint64_t n_collectives = 0, n_exchanges = 0, n_messages = 0, n_bytes = 0;  // sent
+};
+
 // A group of ranks. The default one is this process alone and needs no MPI.
 class Communicator {
  public:
@@ -29,6 +34,7 @@ class Communicator {
   int rank() const { return rank_; }
   int size() const { return size_; }
   bool is_root() const { return rank_ == 0; }
+  const Traffic& traffic() const { return traffic_; }
 
   // Collective: every rank calls these with the same kind of argument.
   // A NaN on any rank makes the minimum and the maximum NaN; -0 counts as less than +0.
@@ -59,6 +65,7 @@ class Communicator {
   std::unique_ptr<Handle> handle_;
   int rank_ = 0;
   int size_ = 1;
+  mutable Traffic traffic_;
 };
 
 // MPI from main's first line to its last. Works without mpirun (one rank). With several ranks no

@@ -1,90 +1,102 @@
-// Nanoseconds of one whole step per element, neo-Hookean: tet4 and hex8 in double by instruction
-// set, or every formulation and precision; and the multiply-add peak of this core in the same run,
-// because others may use the machine. One thread is timed by its processor time, several by the
-// wall clock. JSON to stdout.
-// bench_step [threads] [cells along an edge of the hexahedral cube] [formulations]
+// Nanoseconds of one whole step per element on ranks x threads, by the wall clock of the slowest
+// rank: forces, motion, exchange with the neighbours. Beside it what travels, how long a rank waits
+// for it, how much of the elements is computed twice, and the multiply-add peak and the memory
+// bandwidth of a core. JSON to stdout.
+// [mpirun -np RANKS] bench_step [elements, about (default 100000)] [threads of a rank]
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <string>
-#include <vector>
 
+#include "base/communicator.h"
 #include "bench/machine.h"
 #include "solver_body.h"
 
 using namespace trocar;
 
+namespace {
+
 struct Timing {
-  double force = 0, integrate = 0, watch = 0, build = 0;  // [s], best of several
+  double step = 0, waited = 0;  // of a step [s]
 };
 
-static Timing measure(const Mesh& mesh, const SolverOptions& options) {
-  Body body = make_body(mesh, {.solver = options});
-  displace(body, [](const Vec3& X) { return Vec3(0.05 * X.y(), 0, 0); });
-  const std::vector<FixedMask> fixed(mesh.X.size(), 0);
-  const double dt = 1e-9;  // stays near the deformation it starts from
-  Timing timing;
-  timing.build = best_seconds(
-      [&] { build_model(mesh, body.part, body.materials, fixed, body.mass, options); });
-  timing.force = best_seconds([&] {
-    average_volume_change(body.model, body.state, body.scratch);
-    compute_force(body.model, body.state, body.scratch);
-  });
-  timing.integrate = best_seconds([&] { integrate(body.model, body.scratch, {}, dt, body.state); });
-  timing.watch = best_seconds([&] { watch(body.model, body.part, body.state); });
-  return timing;
+Mesh make_cube(Formulation formulation, int n_elements) {
+  const bool is_hex = shape_of(formulation) == ElementType::hex8;
+  const int n =
+      std::max(1, static_cast<int>(std::lround(std::cbrt(n_elements / (is_hex ? 1 : 6)))));
+  return make_box(Vec3(0, 0, 0), Vec3(.1, .1, .1), {n, n, n},
+                  is_hex ? BoxElements::hex8 : BoxElements::tet4_kuhn);
 }
 
-static void report(const char* name, const Mesh& mesh, const SolverOptions& options,
-                   bool& is_first) {
-  const Timing t = measure(mesh, options);
-  const double ns = 1e9 / mesh.n_elements();
-  std::printf(
-      "%s\n  {\"element\": \"%s\", \"precision\": \"%s\", \"simd\": \"%s\", \"threads\": %d, "
-      "\"elements\": %d, \"nodes\": %d, \"step_ns\": %.2f, \"force_ns\": %.2f, "
-      "\"integrate_ns\": %.2f, \"watch_ns\": %.2f, \"build_ns\": %.1f}",
-      is_first ? "" : ",", name, name_of(options.precision), simd_name(), thread_count(),
-      mesh.n_elements(), mesh.n_nodes(), (t.force + t.integrate) * ns, t.force * ns,
-      t.integrate * ns, t.watch * ns, t.build * ns);
-  is_first = false;
-}
-
-static void report_instruction_sets(const char* name, const Mesh& mesh, bool& is_first) {
-  for (int i = 0; i < n_simd; ++i) {
-    if (!is_supported(static_cast<Simd>(i))) continue;
-    select_simd(name_of(static_cast<Simd>(i)));
-    report(name, mesh, {}, is_first);
+void run_steps(Body& body, Neighbours& neighbours, int n) {
+  for (int k = 0; k < n; ++k) {
+    start_exchange(neighbours, body.state);
+    find_force(body.model, neighbours, body.state, body.scratch);
+    integrate(body.model, body.scratch, {}, 1e-9, body.state);
   }
 }
 
-// With the widest instruction set.
-static void report_formulations(const Mesh& tet, const Mesh& hex, int n, bool& is_first) {
-  const Mesh plane = make_rectangle(.1, .1, 4 * n, 4 * n);
-  for (const Precision precision : {Precision::in_double, Precision::in_single})
-    for (int k = 0; k < n_formulations; ++k) {
-      const auto f = static_cast<Formulation>(k);
-      const SolverOptions options = with(f, {.precision = precision});
-      const ElementType shape = shape_of(f);
-      report(name_of(f),
-             shape == ElementType::tri3 ? plane : (shape == ElementType::tet4 ? tet : hex), options,
-             is_first);
-    }
+// Best of many short rounds: others may use the machine, but not all the time.
+Timing measure(Body& body, Neighbours& neighbours, const Communicator& ranks) {
+  Timing best{.step = 1e300};
+  int n = 1;
+  for (int round = 0; round < 60; ++round) {
+    ranks.barrier();
+    const double start = monotonic_seconds(), waited = neighbours.waited;
+    run_steps(body, neighbours, n);
+    const double elapsed = ranks.all_max(monotonic_seconds() - start);
+    const double wait = ranks.all_max(neighbours.waited - waited);
+    if (elapsed / n < best.step) best = {elapsed / n, wait / n};
+    n = static_cast<int>(std::ceil(.02 / best.step));
+  }
+  return best;
 }
+
+void report(Formulation formulation, Precision precision, int n_elements, Communicator& ranks,
+            bool is_first) {
+  const Mesh mesh = make_cube(formulation, n_elements);
+  const std::vector<std::int32_t> owner = partition_nodes(mesh, ranks);
+  Body body =
+      make_body(mesh, {.solver = with(formulation, {.precision = precision})}, owner, ranks.rank());
+  const Halo halo = make_halo(mesh, owner, body.part, ranks.rank());
+  Neighbours neighbours = make_neighbours(halo, body.model, false, ranks);
+  displace(body, [](const Vec3& X) { return Vec3(0.05 * X.y(), 0, 0); });
+  const Timing t = measure(body, neighbours, ranks);
+  const Traffic before = ranks.traffic();
+  run_steps(body, neighbours, 1);
+  const Traffic after = ranks.traffic();
+  const std::uint64_t computed = ranks.all_sum(body.part.element_global.size());
+  const std::uint64_t bytes = ranks.all_sum(after.n_bytes - before.n_bytes);
+  if (!ranks.is_root()) return;
+  std::printf(
+      "%s\n  {\"element\": \"%s\", \"precision\": \"%s\", \"elements\": %d, \"nodes\": %d, "
+      "\"step_us\": %.2f, \"step_ns_per_element\": %.3f, \"waited_us\": %.2f, "
+      "\"bytes_per_step\": %llu, \"computed_twice\": %.4f}",
+      is_first ? "" : ",", name_of(formulation), name_of(precision), mesh.n_elements(),
+      mesh.n_nodes(), 1e6 * t.step, 1e9 * t.step / mesh.n_elements(), 1e6 * t.waited,
+      static_cast<unsigned long long>(bytes),
+      static_cast<double>(computed) / mesh.n_elements() - 1);
+  std::fflush(stdout);
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
-  set_thread_count(argc > 1 ? std::atoi(argv[1]) : 1);
-  const int n = argc > 2 ? std::atoi(argv[2]) : 37;
-  const int n_tet = std::max(1, n * 20 / 37);  // about as many tetrahedra as hexahedra
-  const Vec3 low(0, 0, 0), high(.1, .1, .1);
-  const Mesh tet = make_box(low, high, {n_tet, n_tet, n_tet}, BoxElements::tet4_kuhn);
-  const Mesh hex = make_box(low, high, {n, n, n}, BoxElements::hex8);
-  bool is_first = true;
-  if (is_supported(Simd::avx512)) std::printf("{\"peak_gflops\": %.1f,\n", peak_gflops());
-  std::printf("%s\"steps\": [", is_supported(Simd::avx512) ? "" : "{");
-  if (argc > 3 && std::string(argv[3]) == "formulations") {
-    report_formulations(tet, hex, n, is_first);
-  } else {
-    report_instruction_sets("tet4", tet, is_first);
-    report_instruction_sets("hex8", hex, is_first);
+  MpiSession session(&argc, &argv);
+  Communicator& ranks = session.world();
+  const int n_elements = argc > 1 ? std::atoi(argv[1]) : 100000;
+  const int n_threads = argc > 2 ? std::atoi(argv[2]) : 1;
+  if (n_elements < 1 || n_threads < 1) {
+    if (ranks.is_root()) std::fprintf(stderr, "bench_step [elements] [threads of a rank]\n");
+    return 2;
   }
-  std::printf("\n]}\n");
+  set_thread_count(n_threads);
+  if (ranks.is_root())
+    std::printf(
+        "{\"ranks\": %d, \"threads\": %d, \"simd\": \"%s\", \"peak_gflops\": %.1f, "
+        "\"triad_gbytes\": %.1f, \"steps\": [",
+        ranks.size(), n_threads, simd_name(), peak_gflops(), triad_gbytes());
+  report(Formulation::hex8_one_point, Precision::in_double, n_elements, ranks, true);
+  report(Formulation::hex8_one_point, Precision::in_single, n_elements, ranks, false);
+  report(Formulation::tet4, Precision::in_double, n_elements, ranks, false);
+  if (ranks.is_root()) std::printf("\n]}\n");
 }

@@ -181,13 +181,10 @@ void rebuild_topology(Simulation& s) {
   s.mass = lumped_mass(s.mesh, region_densities(s.materials), s.scene.tissue.thickness);
   s.part = make_part(s.mesh, s.node_owner, rank);
   s.halo = make_halo(s.mesh, s.node_owner, s.part, rank);
-  s.exchange_u.emplace(s.halo, 3);
-  s.exchange_v.emplace(s.halo, 3);
   s.model = build_model(s.mesh, s.part, s.materials, s.fixed, s.mass, solver_options(s.scene));
   if (scaling) scale_mass(*scaling, s.part, s.model);
   if (scaling) report_mass_scaling(*scaling, s);
-  s.exchange_theta.reset();
-  if (s.model.averages.n_fields > 0) s.exchange_theta.emplace(s.halo, s.model.averages.n_fields);
+  s.neighbours = make_neighbours(s.halo, s.model, s.contact != nullptr, *s.communicator);
   double rest_step = std::numeric_limits<double>::max();
   for (const double step : s.model.element_step) rest_step = std::min(rest_step, step);
   s.rest_step = s.communicator->all_min(rest_step);

@@ -46,9 +46,7 @@ Relaxation relax_body(Simulation& s) {
                {.prescribed = s.holds.prescribed,
                 .max_iterations = s.scene.start.max_iterations,
                 .tolerance = s.scene.start.tolerance,
-                .communicator = s.communicator,
-                .exchange_u = &*s.exchange_u,
-                .exchange_theta = s.exchange_theta ? &*s.exchange_theta : nullptr},
+                .neighbours = &s.neighbours},
                s.state, s.scratch);
 }
 

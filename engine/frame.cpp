@@ -65,12 +65,19 @@ void resolve_contacts(Simulation& s, const FrameSpan& span, std::int64_t k) {
   add_contact_force(contact, s.scratch.force);
 }
 
-void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
-  average_volume(s);
+// What it waits for neighbours counts as exchange.
+void update_force(Simulation& s) {
+  const double waited = s.neighbours.waited;
   {
     const PhaseScope scope(s.timers, phase_force);
-    compute_force(s.model, s.state, s.scratch);
+    find_force(s.model, s.neighbours, s.state, s.scratch);
   }
+  s.timers.add(phase_exchange, s.neighbours.waited - waited);
+  s.timers.add(phase_force, waited - s.neighbours.waited);
+}
+
+void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
+  update_force(s);
   aim_holds(s.holds, s.tools, s.mesh.X, span.t0 + static_cast<double>(k + 1) * span.dt);
   if (s.contact) {
     const PhaseScope scope(s.timers, phase_contact);
@@ -84,9 +91,10 @@ void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
     add_hold_reactions(s.holds);
   }
   const PhaseScope scope(s.timers, phase_exchange);
-  s.exchange_u->exchange(s.state.u, *s.communicator);
-  s.exchange_v->exchange(s.state.v, *s.communicator);
-  if (s.energy) add_work(s);
+  start_exchange(s.neighbours, s.state);
+  if (!s.energy) return;
+  finish_exchange(s.neighbours, s.state);
+  add_work(s);
 }
 
 // All substeps of the frame; on trouble back to its beginning with half the step, at most

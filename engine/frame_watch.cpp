@@ -25,12 +25,8 @@ void least_of_all(const Communicator& communicator, double& value, std::int32_t&
 // Forces of displacements for the search, halos and all.
 void force_of(Simulation& s, State& probe, std::vector<double>& u, std::vector<double>& force) {
   probe.u.swap(u);
-  s.exchange_u->exchange(probe.u, *s.communicator);
-  if (s.exchange_theta) {
-    average_volume_change(s.model, probe, s.scratch);
-    s.exchange_theta->exchange(probe.theta, *s.communicator);
-  }
-  compute_force(s.model, probe, s.scratch);
+  start_exchange(s.neighbours, probe);
+  find_force(s.model, s.neighbours, probe, s.scratch);
   force.swap(s.scratch.force);
   s.scratch.force.resize(force.size());
   probe.u.swap(u);
@@ -54,16 +50,6 @@ void use_frequency(Simulation& s) {
 
 }  // namespace
 
-void average_volume(Simulation& s) {
-  if (!s.exchange_theta) return;
-  {
-    const PhaseScope scope(s.timers, phase_force);
-    average_volume_change(s.model, s.state, s.scratch);
-  }
-  const PhaseScope scope(s.timers, phase_exchange);
-  s.exchange_theta->exchange(s.state.theta, *s.communicator);
-}
-
 double largest_speed(const Simulation& s) {
   double most = 0;
   for (std::int64_t i = 0; i < s.part.n_owned; ++i)
@@ -72,8 +58,8 @@ double largest_speed(const Simulation& s) {
 }
 
 void watch_state(Simulation& s) {
-  average_volume(s);
   const PhaseScope scope(s.timers, phase_watch);
+  update_volume_change(s.model, s.neighbours, s.state, s.scratch);
   Watch w = watch(s.model, s.part, s.state);
   const Communicator& communicator = *s.communicator;
   const double bad = communicator.all_min(w.is_finite ? 1e18 : static_cast<double>(w.bad_node));

@@ -13,11 +13,8 @@ inline constexpr int most_roll_backs = 4;
 // supports ran 11 minutes for one frame. Sound runs stay above 1/10.
 inline constexpr double crushed_step = 0.01;
 
-// Volume changes averaged at nodes of the present displacement, halo included; does nothing in a
-// model without them. Collective.
-void average_volume(Simulation& s);
-
-// Sets s.watch to that of all ranks. Collective.
+// Sets s.watch to that of all ranks, and volume changes averaged at nodes to those of the present
+// displacement; ends the last step's exchange. Collective.
 void watch_state(Simulation& s);
 // Of all nodes of all ranks. Collective. [m/s]
 double largest_speed(const Simulation& s);

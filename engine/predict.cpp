@@ -5,7 +5,7 @@
 
 #include "base/threads.h"
 #include "base/timers.h"
-#include "engine/frame_watch.h"
+#include "engine/simulation.h"
 #include "mesh/quality.h"
 #include "solver/step.h"
 
@@ -22,15 +22,14 @@ double measure_step(Simulation& s, double dt) {
   double elapsed = 0;
   while (elapsed < 0.25) {
     for (int k = 0; k < 20; ++k, ++n) {
-      average_volume(s);
-      compute_force(s.model, s.state, s.scratch);
+      find_force(s.model, s.neighbours, s.state, s.scratch);
       integrate(s.model, s.scratch, {}, dt, s.state);
-      s.exchange_u->exchange(s.state.u, *s.communicator);
-      s.exchange_v->exchange(s.state.v, *s.communicator);
+      start_exchange(s.neighbours, s.state);
     }
     elapsed = s.communicator->all_max(monotonic_seconds() -
                                       start);  // all ranks make the same number of rounds
   }
+  finish_exchange(s.neighbours, s.state);
   s.state = kept;
   return elapsed / n;
 }

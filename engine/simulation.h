@@ -21,6 +21,7 @@
 #include "mesh/facets.h"
 #include "mesh/partition.h"
 #include "solver/model.h"
+#include "solver/neighbours.h"
 #include "solver/watch.h"
 
 namespace trocar {
@@ -78,8 +79,7 @@ struct Simulation {
   // This rank's share.
   Part part;
   Halo halo;
-  std::optional<HaloExchange> exchange_u, exchange_v;
-  std::optional<HaloExchange> exchange_theta;  // only with averaged nodal pressure
+  Neighbours neighbours;
   Model model;
   State state;
   Scratch scratch;

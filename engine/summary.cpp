@@ -18,6 +18,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json traffic_json(const Traffic& t) {
+  return {{"collectives", t.n_collectives},
+          {"exchanges", t.n_exchanges},
+          {"messages", t.n_messages},
+          {"bytes", t.n_bytes}};
+}
+
 Json mesh_json(const Mesh& mesh, const SceneSolver& solver) {
   const MeshStatistics m = mesh_statistics(mesh);
   const Formulation of_type[n_element_types] = {solver.triangle, solver.tetrahedron,
@@ -177,6 +184,7 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   if (s.first_frame > 0) j["resumed_at_s"] = resumed_at;
   j["ranks"] = s.communicator->size();
   j["threads"] = thread_count();
+  j["traffic_of_rank_0"] = traffic_json(s.communicator->traffic());
   j["precision"] = name_of(s.scene.solver.precision);
   j["simd"] = simd_name();
   j["mesh"] = mesh_json(s.mesh, s.scene.solver);

@@ -93,27 +93,39 @@ HaloExchange::HaloExchange(const Halo& halo, int width) : halo_(&halo), width_(w
   messages_.resize(halo.neighbours.size());
 }
 
-void HaloExchange::exchange(std::span<double> field, Communicator& communicator) {
+void HaloExchange::start(std::span<const NodalField> fields, Communicator& communicator) {
   const auto width = static_cast<std::size_t>(width_);
-  const auto values = [&](std::int32_t local) { return field.data() + width * local; };
   double *send = send_.data(), *receive = receive_.data();
   for (std::size_t k = 0; k < messages_.size(); ++k) {
     const Halo::Neighbour& neighbour = halo_->neighbours[k];
     const std::size_t n_send = neighbour.send.size() * width;
     const std::size_t n_receive = neighbour.receive.size() * width;
     messages_[k] = {neighbour.rank, {send, n_send}, {receive, n_receive}};
-    for (const std::int32_t i : neighbour.send) send = std::copy_n(values(i), width, send);
+    for (const std::int32_t i : neighbour.send)
+      for (const NodalField& field : fields)
+        send =
+            std::copy_n(field.values.data() + std::ptrdiff_t{field.width} * i, field.width, send);
     receive += n_receive;
   }
+  CHECK_OP(send - send_.data(), ==, std::ssize(send_));  // the fields have `width` numbers
   communicator.start_exchange(messages_);
-  communicator.finish_exchange();
+}
 
+void HaloExchange::finish(std::span<const NodalField> fields, Communicator& communicator) {
+  communicator.finish_exchange();
   const double* received = receive_.data();
   for (const Halo::Neighbour& neighbour : halo_->neighbours)
-    for (const std::int32_t i : neighbour.receive) {
-      std::copy_n(received, width, values(i));
-      received += width;
-    }
+    for (const std::int32_t i : neighbour.receive)
+      for (const NodalField& field : fields) {
+        std::copy_n(received, field.width, field.values.data() + std::ptrdiff_t{field.width} * i);
+        received += field.width;
+      }
+}
+
+void HaloExchange::exchange(std::span<double> field, Communicator& communicator) {
+  const NodalField fields[] = {{field, width_}};
+  start(fields, communicator);
+  finish(fields, communicator);
 }
 
 std::vector<double> all_gather_field(const Part& part, std::int32_t n_nodes, int width,

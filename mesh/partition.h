@@ -44,11 +44,23 @@ struct Halo {
 Halo make_halo(const Mesh& mesh, std::span<const std::int32_t> node_owner, const Part& part,
                int rank);
 
-// Keeps the buffers of the exchange of fields of `width` doubles a node.
+// `width` doubles of each local node.
+struct NodalField {
+  std::span<double> values;  // (n_local * width)
+  int width = 0;
+};
+
+// Keeps the buffers of the exchange of fields of `width` doubles a node in all.
 class HaloExchange {
  public:
   HaloExchange(const Halo& halo, int width);
-  // Packs `field` (n_local * width), sends, receives, unpacks. Collective among neighbours.
+  int width() const { return width_; }
+  // Packs the fields' owned nodes and sends them all in one message a neighbour; they may change
+  // meanwhile. Collective among neighbours.
+  void start(std::span<const NodalField> fields, Communicator& communicator);
+  // Waits and unpacks into the halo nodes of the same fields.
+  void finish(std::span<const NodalField> fields, Communicator& communicator);
+  // Both.
   void exchange(std::span<double> field, Communicator& communicator);
 
  private:

@@ -58,15 +58,26 @@ void check_formulations(const SolverOptions& options) {
   CHECK(shape_of(options.hex8) == ElementType::hex8);
 }
 
+bool reads_halo(const Source& source, std::int32_t e) {
+  const std::span<const std::int32_t> node = source.mesh.corners(e);
+  return std::any_of(node.begin(), node.end(), [&](std::int32_t i) {
+    return source.part.node_local[i] >= source.part.n_owned;
+  });
+}
+
 // Lists are in the order of their keys.
-int list_key(Formulation formulation, int region) {
-  return region * n_formulations + static_cast<int>(formulation);
+std::size_t list_key(const Source& source, std::int32_t e) {
+  const std::size_t region = static_cast<std::size_t>(source.mesh.element_region[e]);
+  const std::size_t block = reads_halo(source, e) ? source.materials.size() : 0;
+  return (block + region) * n_formulations + static_cast<std::size_t>(formulation_of(source, e));
 }
 
 ElementBlocks empty_blocks(const Source& source, int key, std::int32_t n_elements) {
   ElementBlocks blocks;
-  blocks.region = key / n_formulations;
+  const int n_regions = static_cast<int>(source.materials.size());
   blocks.formulation = static_cast<Formulation>(key % n_formulations);
+  blocks.region = key / n_formulations % n_regions;
+  blocks.reads_halo = key / n_formulations >= n_regions;
   const Material& material = source.materials[static_cast<std::size_t>(blocks.region)];
   blocks.material = material.model;
   blocks.stiffening_at_rest = stiffening_at_rest(material);
@@ -101,11 +112,9 @@ ElementBlocks empty_blocks(const Source& source, int key, std::int32_t n_element
 // lanes, ascending.
 void make_lists(const Source& source, Model& model) {
   const auto key_of = [&](std::int32_t k) {
-    const std::int32_t e = source.part.element_global[k];
-    return static_cast<std::size_t>(
-        list_key(formulation_of(source, e), source.mesh.element_region[e]));
+    return list_key(source, source.part.element_global[k]);
   };
-  const std::size_t n_keys = n_formulations * source.materials.size();
+  const std::size_t n_keys = 2 * n_formulations * source.materials.size();
   std::vector<std::int32_t> count(n_keys), next(n_keys), list_of_key(n_keys);
   for (std::int32_t k = 0; k < source.n_elements(); ++k) ++count[key_of(k)];
   for (std::size_t key = 0; key < n_keys; ++key) {

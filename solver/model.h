@@ -36,12 +36,14 @@ struct SolverOptions {
   Formulation hex8 = Formulation::hex8_one_point;
 };
 
-// All elements of one formulation and region on this rank, ascending global number, padded to whole
-// blocks with the corners of the last one and constants of zero (which make no force).
+// All elements of one formulation and region on this rank that read halo nodes, or that don't,
+// ascending global number, padded to whole blocks with the corners of the last one and constants of
+// zero (which make no force).
 struct ElementBlocks {
   Formulation formulation = Formulation::tet4;
   Precision precision = Precision::in_double;
   std::int32_t region = 0;  // index of its material
+  bool reads_halo = false;
   MaterialModel material = MaterialModel::neo_hookean;
   double stiffening_at_rest = 1;  // in element_step already (material_setup.h)
   std::int32_t n_elements = 0;
@@ -77,10 +79,12 @@ struct VolumeAverages {
 // Where corner forces are added up: at their node in the order of the elements. Threads take runs
 // of blocks (counted through all lists); corners at a node that several runs meet get a place each
 // behind the nodes, and are added up afterwards, in the same order. So the bits don't depend on the
-// number of runs.
+// number of runs, nor on which elements wait for the halo.
 struct SumOrder {
-  std::int32_t n_runs = 1;
-  std::int64_t n_places = 0;  // of Scratch::sum, nodes first
+  std::int32_t n_runs = 0;              // those of blocks that read no halo nodes first
+  std::int32_t n_inside_runs = 0;       // that many
+  std::vector<std::int64_t> run_block;  // (n_runs + 1) first block of each run
+  std::int64_t n_places = 0;            // of Scratch::sum, nodes first
   // Owned nodes that one run alone meets, run by run, ascending by the last block that touches
   // them: they are finished while they are in the cache.
   std::vector<std::int32_t> node, last_block;
@@ -105,8 +109,9 @@ struct Model {
   std::vector<double> mass;     // (n_owned) what gravity acts on [kg]
   std::vector<double> inertia;  // (n_owned) mass, and d where it is scaled [kg]
   MassClusters clusters;
-  std::vector<FixedMask> fixed;       // (n_owned)
-  std::vector<ElementBlocks> blocks;  // one a (formulation, region)
+  std::vector<FixedMask> fixed;  // (n_owned)
+  // One a (reads_halo, region, formulation), in this order.
+  std::vector<ElementBlocks> blocks;
   SumOrder sums;
   // (n local elements) stable step of the undeformed element (numerics 1.5) [s]
   std::vector<double> element_step;

@@ -155,14 +155,11 @@ std::vector<Vec3> held_positions(const RelaxTask& task, const State& state) {
   return start;
 }
 
-// Forces of the present displacements, on every rank.
-void find_forces(const Model& model, const RelaxTask& task, Communicator& communicator,
-                 State& state, Scratch& scratch) {
-  if (task.exchange_u != nullptr) task.exchange_u->exchange(state.u, communicator);
-  average_volume_change(model, state, scratch);
-  if (task.exchange_theta != nullptr) task.exchange_theta->exchange(state.theta, communicator);
+void find_relaxed_force(const Model& model, Neighbours& neighbours, State& state,
+                        Scratch& scratch) {
+  start_exchange(neighbours, state);
   state.history_time = -std::numeric_limits<double>::infinity();  // all overstress has gone
-  compute_force(model, state, scratch);
+  find_force(model, neighbours, state, scratch);
 }
 
 }  // namespace
@@ -202,21 +199,22 @@ void relax_step(const Model& model, const Scratch& scratch, Communicator& commun
 Relaxation relax(const Model& model, const RelaxTask& task, State& state, Scratch& scratch) {
   CHECK(task.load.empty() || task.load.size() == scratch.force.size());
   Communicator alone;
-  Communicator& communicator = task.communicator != nullptr ? *task.communicator : alone;
+  Neighbours none{.communicator = &alone};
+  Neighbours& neighbours = task.neighbours != nullptr ? *task.neighbours : none;
   Relaxer r = make_relaxer(model, task.prescribed);
   const std::vector<Vec3> start = held_positions(task, state);
   std::fill(state.v.begin(), state.v.end(), 0.0);
   while (r.result.iterations < task.max_iterations) {
     const double share = ramp(task, r.result.iterations);
     place_held(model, task, start, share, state);
-    find_forces(model, task, communicator, state, scratch);
+    find_relaxed_force(model, neighbours, state, scratch);
     add_load(model, task, share, scratch);
     const bool is_look = r.result.iterations % look_interval == 0;
-    relax_step(model, scratch, communicator, r, state);
+    relax_step(model, scratch, *neighbours.communicator, r, state);
     r.result.is_converged = is_look && share == 1 && r.result.residual <= task.tolerance;
     if (r.result.is_converged || !r.result.is_finite) break;
   }
-  find_forces(model, task, communicator, state, scratch);
+  find_relaxed_force(model, neighbours, state, scratch);
   add_load(model, task, 1, scratch);
   std::fill(state.v.begin(), state.v.end(), 0.0);
   state.last_dt = 0;

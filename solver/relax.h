@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "mesh/partition.h"
 #include "solver/model.h"
+#include "solver/neighbours.h"
 #include "solver/step.h"
 
 namespace trocar {
@@ -23,10 +23,7 @@ struct RelaxTask {
   // Largest residual, relative to the forces of supports and holders (see Relaxation). Elements in
   // single precision leave some 1e-6 of it: ask for no less than 3e-5 there.
   double tolerance = 1e-6;
-  // Of other ranks; null where there are none.
-  Communicator* communicator = nullptr;
-  HaloExchange* exchange_u = nullptr;
-  HaloExchange* exchange_theta = nullptr;  // of State::theta, if elements average their volume
+  Neighbours* neighbours = nullptr;  // null: alone
 };
 
 struct Relaxation {

@@ -48,12 +48,10 @@ NodeForces node_forces(const Model& model, Scratch& scratch) {
 // The blocks of one run, and the nodes that only they meet.
 void compute_run(const Model& model, std::int64_t run, State& state, Scratch& scratch) {
   const SumOrder& sums = model.sums;
-  const std::int64_t n_blocks = count_blocks(model);
-  const std::int64_t end = first_block_of_run(run + 1, sums.n_runs, n_blocks);
+  const std::int64_t end = sums.run_block[run + 1];
   const NodeForces nodes = node_forces(model, scratch);
   std::int32_t k = sums.run_first[run];
-  for (std::int64_t block = first_block_of_run(run, sums.n_runs, n_blocks); block < end;
-       block += stride_blocks) {
+  for (std::int64_t block = sums.run_block[run]; block < end; block += stride_blocks) {
     const std::int64_t next = std::min(end, block + stride_blocks);
     for_block_range(model, block, next,
                     [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
@@ -78,13 +76,16 @@ void finish_shared_nodes(const Model& model, Scratch& scratch) {
 
 // Nodes of other ranks have sums that nobody takes.
 void clear_halo(const Model& model, Scratch& scratch) {
-  std::fill(scratch.sum.begin() + 4 * std::ptrdiff_t{model.n_owned},
-            scratch.sum.begin() + 4 * std::ptrdiff_t{model.n_local}, 0.0);
+  const SumOrder& sums = model.sums;
+  const auto at = [&](std::int64_t place) { return scratch.sum.begin() + 4 * place; };
+  std::fill(at(model.n_owned), at(model.n_local), 0.0);
+  std::fill(at(sums.shared_end.empty() ? model.n_local : sums.shared_end.back()), at(sums.n_places),
+            0.0);
 }
 
 }  // namespace
 
-void compute_force(const Model& model, State& state, Scratch& scratch) {
+void compute_inside_force(const Model& model, State& state, Scratch& scratch) {
   CHECK_OP(std::ssize(state.u), ==, 3 * std::int64_t{model.n_local});
   CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
   CHECK_OP(std::ssize(scratch.force), ==, 3 * std::int64_t{model.n_owned});
@@ -93,10 +94,22 @@ void compute_force(const Model& model, State& state, Scratch& scratch) {
   for (std::size_t k = 0; k < model.blocks.size(); ++k)
     if (!model.blocks[k].prony.empty())
       scratch.viscous[k] = viscous_step(model.blocks[k].prony, state.time - state.history_time);
-  parallel_for_chunks(model.sums.n_runs, [&](int run) { compute_run(model, run, state, scratch); });
+  parallel_for_chunks(model.sums.n_inside_runs,
+                      [&](int run) { compute_run(model, run, state, scratch); });
+}
+
+void compute_border_force(const Model& model, State& state, Scratch& scratch) {
+  const std::int32_t first = model.sums.n_inside_runs;
+  parallel_for_chunks(model.sums.n_runs - first,
+                      [&](int run) { compute_run(model, first + run, state, scratch); });
   finish_shared_nodes(model, scratch);
   clear_halo(model, scratch);
   state.history_time = state.time;
+}
+
+void compute_force(const Model& model, State& state, Scratch& scratch) {
+  compute_inside_force(model, state, scratch);
+  compute_border_force(model, state, scratch);
 }
 
 std::size_t memory_bytes(const Model& model, const Scratch& scratch) {

@@ -14,12 +14,18 @@ namespace trocar {
 // The caller exchanges theta (model.averages.n_fields a node) afterwards. Does nothing without
 // fields.
 void average_volume_change(const Model& model, State& state, Scratch& scratch);
+// The same in two halves, the first of which reads no halo nodes.
+void find_inside_volume_change(const Model& model, const State& state, Scratch& scratch);
+void average_with_border(const Model& model, State& state, Scratch& scratch);
 
 // scratch.force = mass * gravity - internal force(u), for owned nodes; each node sums its corners
 // list by list (region, then formulation), ascending by global element number. Brings the history
 // of viscoelastic elements to state.time: a second call at the same time and displacement changes
 // nothing.
 void compute_force(const Model& model, State& state, Scratch& scratch);
+// The same in two halves, the first of which reads no halo nodes.
+void compute_inside_force(const Model& model, State& state, Scratch& scratch);
+void compute_border_force(const Model& model, State& state, Scratch& scratch);
 
 // A node whose motion is given: an instrument holds it.
 struct PrescribedNode {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "base/check.h"
@@ -19,45 +21,42 @@ std::int64_t corners_of_block(const ElementBlocks& blocks) {
   return std::ssize(blocks.corner) / blocks.n_blocks;
 }
 
-// Calls body(run, block counted through all lists, list, place in its corners) for all corners, in
-// the order in which one thread would meet them: element after element.
-template <class List, class Body>
-void for_corners(std::vector<List>& lists, std::int64_t n_blocks, std::int64_t n_runs,
-                 const Body& body) {
-  std::int64_t block = 0, run = 0;
-  for (List& blocks : lists) {
-    const std::int64_t n = corners_of_block(blocks);
-    for (std::int64_t first = 0; first < std::ssize(blocks.corner); first += n, ++block) {
-      while (block >= first_block_of_run(run + 1, n_runs, n_blocks)) ++run;
-      for (std::int64_t lane = 0; lane < blocks.lanes; ++lane)
-        for (std::int64_t k = lane; k < n; k += blocks.lanes)
-          body(static_cast<std::int32_t>(run), static_cast<std::int32_t>(block), blocks, first + k);
-    }
-  }
+// Calls body(corner) for the corners of a lane: their places in the list's arrays.
+template <class Body>
+void for_corners_of_lane(const ElementBlocks& blocks, std::int64_t lane, const Body& body) {
+  const std::int64_t n = corners_of_block(blocks), first = lane / blocks.lanes * n;
+  for (std::int64_t k = lane % blocks.lanes; k < n; k += blocks.lanes) body(first + k);
 }
 
 struct NodeUse {
   std::vector<std::int32_t> run, last_block, n_corners;  // (n_local)
 };
 
-NodeUse use_of_nodes(Model& model, std::int64_t n_blocks) {
+// Blocks are counted through all lists.
+NodeUse use_of_nodes(const Model& model) {
   const auto n = static_cast<std::size_t>(model.n_local);
   NodeUse use{std::vector<std::int32_t>(n, no_run), std::vector<std::int32_t>(n),
               std::vector<std::int32_t>(n)};
-  for_corners(
-      model.blocks, n_blocks, model.sums.n_runs,
-      [&](std::int32_t run, std::int32_t block, const ElementBlocks& blocks, std::int64_t at) {
-        const std::int32_t i = blocks.corner[at];
+  std::int32_t block = 0, run = 0;
+  for (const ElementBlocks& blocks : model.blocks) {
+    const std::int64_t n_corners = corners_of_block(blocks);
+    for (std::int64_t first = 0; first < std::ssize(blocks.corner); first += n_corners, ++block) {
+      while (block >= model.sums.run_block[run + 1]) ++run;
+      for (std::int64_t k = first; k < first + n_corners; ++k) {
+        const std::int32_t i = blocks.corner[k];
         use.run[i] = use.run[i] == no_run || use.run[i] == run ? run : several_runs;
         use.last_block[i] = block;
         ++use.n_corners[i];
-      });
+      }
+    }
+  }
   return use;
 }
 
 // Own nodes of each run by a counting sort over their last blocks, which ascend from run to run.
-void order_own_nodes(const NodeUse& use, std::int64_t n_blocks, Model& model) {
+void order_own_nodes(const NodeUse& use, Model& model) {
   SumOrder& sums = model.sums;
+  const std::int64_t n_blocks = sums.run_block.back();
   std::vector<std::int32_t> next(static_cast<std::size_t>(n_blocks) + 1, 0);
   const auto is_own = [&](std::int32_t i) { return use.run[i] >= 0; };
   for (std::int32_t i = 0; i < model.n_owned; ++i)
@@ -65,7 +64,7 @@ void order_own_nodes(const NodeUse& use, std::int64_t n_blocks, Model& model) {
   for (std::int64_t block = 0; block < n_blocks; ++block) next[block + 1] += next[block];
   sums.run_first.resize(static_cast<std::size_t>(sums.n_runs) + 1);
   for (std::int32_t run = 0; run <= sums.n_runs; ++run)
-    sums.run_first[run] = next[first_block_of_run(run, sums.n_runs, n_blocks)];
+    sums.run_first[run] = next[sums.run_block[run]];
   sums.node.resize(static_cast<std::size_t>(next.back()));
   sums.last_block.resize(sums.node.size());
   for (std::int32_t i = 0; i < model.n_owned; ++i) {
@@ -77,7 +76,7 @@ void order_own_nodes(const NodeUse& use, std::int64_t n_blocks, Model& model) {
 }
 
 // A place for each corner at a shared node; those of owned nodes are added up later.
-void place_shared_corners(const NodeUse& use, std::int64_t n_blocks, Model& model) {
+void place_shared_corners(const NodeUse& use, Model& model) {
   SumOrder& sums = model.sums;
   std::vector<std::int32_t> next(static_cast<std::size_t>(model.n_local), 0);
   std::int32_t place = model.n_local;
@@ -92,11 +91,13 @@ void place_shared_corners(const NodeUse& use, std::int64_t n_blocks, Model& mode
   sums.n_places = place;
   if (place == model.n_local) return;
   for (ElementBlocks& blocks : model.blocks) blocks.target = blocks.corner;
-  for_corners(model.blocks, n_blocks, sums.n_runs,
-              [&](std::int32_t, std::int32_t, ElementBlocks& blocks, std::int64_t at) {
-                const std::int32_t i = blocks.corner[at];
-                if (use.run[i] == several_runs) blocks.target[at] = next[i]++;
-              });
+  for_lanes_in_order(model.blocks, [&](std::size_t list, std::int64_t lane) {
+    ElementBlocks& blocks = model.blocks[list];
+    for_corners_of_lane(blocks, lane, [&](std::int64_t at) {
+      const std::int32_t i = blocks.corner[at];
+      if (use.run[i] == several_runs) blocks.target[at] = next[i]++;
+    });
+  });
 }
 
 bool are_consecutive(const std::int32_t* number) {
@@ -141,15 +142,41 @@ void find_rows(Model& model) {
   }
 }
 
+// As many as there are threads now.
+void add_runs(std::int64_t n_blocks, SumOrder& sums) {
+  if (n_blocks == 0) return;
+  const std::int64_t first = sums.run_block.back(), n_runs = chunk_count(n_blocks);
+  for (std::int64_t run = 1; run <= n_runs; ++run)
+    sums.run_block.push_back(first + run * n_blocks / n_runs);
+  sums.n_runs += static_cast<std::int32_t>(n_runs);
+}
+
 }  // namespace
 
+std::vector<std::size_t> lists_in_order(const std::vector<ElementBlocks>& lists) {
+  std::vector<std::size_t> order(lists.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t k) {
+    return std::tuple(lists[k].region, lists[k].formulation, lists[k].reads_halo);
+  };
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  return order;
+}
+
 void order_sums(Model& model) {
-  const std::int64_t n_blocks = count_blocks(model);
-  CHECK_OP(n_blocks, >, 0);
-  model.sums.n_runs = chunk_count(n_blocks);
-  const NodeUse use = use_of_nodes(model, n_blocks);
-  order_own_nodes(use, n_blocks, model);
-  place_shared_corners(use, n_blocks, model);
+  std::int64_t n_inside = 0;
+  for (const ElementBlocks& blocks : model.blocks)
+    if (!blocks.reads_halo) n_inside += blocks.n_blocks;
+  SumOrder& sums = model.sums;
+  sums.run_block = {0};
+  add_runs(n_inside, sums);
+  sums.n_inside_runs = sums.n_runs;
+  add_runs(count_blocks(model) - n_inside, sums);
+  CHECK_OP(sums.n_runs, >, 0);
+  const NodeUse use = use_of_nodes(model);
+  order_own_nodes(use, model);
+  place_shared_corners(use, model);
   find_rows(model);
 }
 

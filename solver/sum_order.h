@@ -1,12 +1,16 @@
 // The order in which a step adds up the corner forces of nodes.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "solver/model.h"
 
 namespace trocar {
 
-// Fills model.sums and the lists' targets; the model has its blocks and nodes. As many runs as
-// there are threads now.
+// Fills model.sums and the lists' targets; the model has its blocks and nodes. As many runs inside
+// and at the border as there are threads now.
 void order_sums(Model& model);
 
 // Where the corner forces of a list are added.
@@ -14,10 +18,33 @@ inline const std::vector<std::int32_t>& targets(const ElementBlocks& blocks) {
   return blocks.target.empty() ? blocks.corner : blocks.target;
 }
 
-// First block of a run.
-inline std::int64_t first_block_of_run(std::int64_t run, std::int64_t n_runs,
-                                       std::int64_t n_blocks) {
-  return run * n_blocks / n_runs;
+// Lists of the same region and formulation are one behind the other, in the order of the sums; the
+// one that reads halo nodes second.
+std::vector<std::size_t> lists_in_order(const std::vector<ElementBlocks>& lists);
+
+inline bool are_one_kind(const ElementBlocks& a, const ElementBlocks& b) {
+  return a.region == b.region && a.formulation == b.formulation;
+}
+
+// Calls body(list, lane) in the order of the sums: region, formulation, global element number,
+// padding after the element that it repeats. However the elements are spread over ranks and lists,
+// a node meets its own in this order.
+template <class Body>
+void for_lanes_in_order(const std::vector<ElementBlocks>& lists, const Body& body) {
+  const std::vector<std::size_t> order = lists_in_order(lists);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::size_t a = order[k];
+    const bool is_pair = k + 1 < order.size() && are_one_kind(lists[a], lists[order[k + 1]]);
+    const std::size_t b = is_pair ? order[++k] : a;
+    const auto& first = lists[a].element_local;
+    const auto& second = lists[b].element_local;
+    const std::size_t n = first.size(), m = is_pair ? second.size() : 0;
+    for (std::size_t i = 0, j = 0; i < n || j < m;)
+      if (j == m || (i < n && first[i] < second[j]))
+        body(a, static_cast<std::int64_t>(i++));
+      else
+        body(b, static_cast<std::int64_t>(j++));
+  }
 }
 
 }  // namespace trocar

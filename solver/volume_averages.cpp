@@ -9,6 +9,7 @@
 #include "solver/element_setup.h"
 #include "solver/simd.h"
 #include "solver/step.h"
+#include "solver/sum_order.h"
 
 namespace trocar {
 
@@ -58,13 +59,15 @@ double stiffness_of(const ElementBlocks& blocks, int n_values, std::int64_t lane
                                                   : blocks.data[at];
 }
 
-// Calls body(item, lane, K V) for each owned corner of a list, ascending global element number; an
-// item is a node's number in a field.
+// Calls body(item, lane, K V) for each owned corner of all lists, ascending global element number;
+// an item is a node's number in a field.
 template <class Body>
-void for_owned_corners(const Model& model, const ElementBlocks& blocks, const Body& body) {
-  const BlockKernels kernels = kernels_for(active_kernels(), blocks);
-  const std::int64_t n_corners = kernels.element.n_corners;
-  for (std::int64_t lane = 0; lane < blocks.n_elements; ++lane)
+void for_owned_corners(const Model& model, const Body& body) {
+  for_lanes_in_order(model.blocks, [&](std::size_t list, std::int64_t lane) {
+    const ElementBlocks& blocks = model.blocks[list];
+    if (!averages_volume(blocks) || lane >= blocks.n_elements) return;
+    const BlockKernels kernels = kernels_for(active_kernels(), blocks);
+    const std::int64_t n_corners = kernels.element.n_corners;
     for (std::int64_t a = 0; a < n_corners; ++a) {
       const std::int64_t row = lane / blocks.lanes * n_corners + a;
       const std::int64_t node = blocks.corner[row * blocks.lanes + lane % blocks.lanes];
@@ -72,12 +75,22 @@ void for_owned_corners(const Model& model, const ElementBlocks& blocks, const Bo
         body(node * model.averages.n_fields + blocks.field, blocks.first_lane + lane,
              stiffness_of(blocks, kernels.n_values, lane));
     }
+  });
 }
 
-template <class Body>
-void for_averaging_lists(const Model& model, const Body& body) {
-  for (const ElementBlocks& blocks : model.blocks)
-    if (averages_volume(blocks)) body(blocks);
+// K V (J - 1) of the elements that read halo nodes, or of those that don't.
+void find_volume_change(const Model& model, const State& state, bool reads_halo, Scratch& scratch) {
+  for (const ElementBlocks& blocks : model.blocks) {
+    if (!averages_volume(blocks) || blocks.reads_halo != reads_halo) continue;
+    const BlockKernels kernels = kernels_for(active_kernels(), blocks);
+    parallel_for(std::int64_t{blocks.n_blocks}, [&](std::int64_t begin, std::int64_t end) {
+      StashBytes unused;
+      const FlushSubnormals flush(blocks.precision == Precision::in_single);
+      kernels.element.volume_change(
+          block_task(model, blocks, kernels, state, begin, end - begin, unused),
+          scratch.volume_change.data() + blocks.first_lane + begin * blocks.lanes);
+    });
+  }
 }
 
 void link_lanes(Model& model) {
@@ -85,19 +98,15 @@ void link_lanes(Model& model) {
   const std::int64_t n = std::int64_t{model.n_owned} * averages.n_fields;
   averages.stiffness.assign(static_cast<std::size_t>(n), 0);
   averages.offset.assign(static_cast<std::size_t>(n) + 1, 0);
-  for_averaging_lists(model, [&](const ElementBlocks& blocks) {
-    for_owned_corners(model, blocks, [&](std::int64_t item, std::int64_t, double K_V) {
-      ++averages.offset[item + 1];
-      averages.stiffness[item] += K_V;
-    });
+  for_owned_corners(model, [&](std::int64_t item, std::int64_t, double K_V) {
+    ++averages.offset[item + 1];
+    averages.stiffness[item] += K_V;
   });
   for (std::int64_t item = 0; item < n; ++item) averages.offset[item + 1] += averages.offset[item];
   averages.lane.resize(static_cast<std::size_t>(averages.offset.back()));
   std::vector<std::int64_t> next(averages.offset.begin(), averages.offset.end() - 1);
-  for_averaging_lists(model, [&](const ElementBlocks& blocks) {
-    for_owned_corners(model, blocks, [&](std::int64_t item, std::int64_t lane, double) {
-      averages.lane[next[item]++] = lane;
-    });
+  for_owned_corners(model, [&](std::int64_t item, std::int64_t lane, double) {
+    averages.lane[next[item]++] = lane;
   });
 }
 
@@ -117,20 +126,15 @@ void link_volume_averages(const Mesh& mesh, std::span<const Material> materials,
   link_lanes(model);
 }
 
-void average_volume_change(const Model& model, State& state, Scratch& scratch) {
+void find_inside_volume_change(const Model& model, const State& state, Scratch& scratch) {
+  if (model.averages.n_fields > 0) find_volume_change(model, state, false, scratch);
+}
+
+void average_with_border(const Model& model, State& state, Scratch& scratch) {
   const VolumeAverages& averages = model.averages;
   if (averages.n_fields == 0) return;
   CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * averages.n_fields);
-  for_averaging_lists(model, [&](const ElementBlocks& blocks) {
-    const BlockKernels kernels = kernels_for(active_kernels(), blocks);
-    parallel_for(std::int64_t{blocks.n_blocks}, [&](std::int64_t begin, std::int64_t end) {
-      StashBytes unused;
-      const FlushSubnormals flush(blocks.precision == Precision::in_single);
-      kernels.element.volume_change(
-          block_task(model, blocks, kernels, state, begin, end - begin, unused),
-          scratch.volume_change.data() + blocks.first_lane + begin * blocks.lanes);
-    });
-  });
+  find_volume_change(model, state, true, scratch);
   const std::int64_t n = std::int64_t{model.n_owned} * averages.n_fields;
   parallel_for_nodes(n, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t item = begin; item < end; ++item) {
@@ -140,6 +144,11 @@ void average_volume_change(const Model& model, State& state, Scratch& scratch) {
       state.theta[item] = averages.stiffness[item] > 0 ? sum / averages.stiffness[item] : 0;
     }
   });
+}
+
+void average_volume_change(const Model& model, State& state, Scratch& scratch) {
+  find_inside_volume_change(model, state, scratch);
+  average_with_border(model, state, scratch);
 }
 
 }  // namespace trocar

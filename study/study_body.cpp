@@ -20,12 +20,12 @@ HighestFrequency search(StudyBody& body) {
   const bool is_single = body.model.options.precision == Precision::in_single;
   options.amplitude = (is_single ? 1e-2 : 1e-6) * body.h;
   const Communicator alone;
+  Neighbours none;
   return find_highest_frequency(
       body.model, body.part, body.state,
       [&](std::vector<double>& u, std::vector<double>& force) {
         probe.u.swap(u);
-        average_volume_change(body.model, probe, scratch);
-        compute_force(body.model, probe, scratch);
+        find_force(body.model, none, probe, scratch);
         force = scratch.force;
         probe.u.swap(u);
       },
@@ -34,9 +34,9 @@ HighestFrequency search(StudyBody& body) {
 
 void run_steps(StudyBody& body, std::int64_t n, double dt,
                const std::function<void(double dt)>& after_step) {
+  Neighbours none;
   for (std::int64_t k = 0; k < n; ++k) {
-    average_volume_change(body.model, body.state, body.scratch);
-    compute_force(body.model, body.state, body.scratch);
+    find_force(body.model, none, body.state, body.scratch);
     integrate(body.model, body.scratch, {}, dt, body.state);
     after_step(dt);
   }

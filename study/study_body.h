@@ -8,6 +8,7 @@
 #include "mesh/mesh.h"
 #include "mesh/partition.h"
 #include "solver/model.h"
+#include "solver/neighbours.h"
 #include "solver/step.h"
 
 namespace trocar {

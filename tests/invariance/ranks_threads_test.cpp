@@ -73,6 +73,29 @@ TEST(StateDigest, with_scaled_masses_is_the_same_on_any_ranks_and_threads_while_
   expect_one_digest("plane_cut.toml", {"time.duration='2 s'", "solver.mass_scaling_step='0.5 ms'"});
 }
 
+// Steps a second of the same frames are doubled: messages follow, what all ranks say together does
+// not. The start and the end need some messages of their own.
+TEST(Traffic, collectives_go_by_frames_and_messages_by_steps) {
+  nlohmann::json traffic[2], steps[2];
+  for (const int k : {0, 1}) {
+    const std::string folder = test_folder("traffic");
+    const Finished run =
+        run_trocar_on(2,
+                      {"run", config("block_hex.toml"), "-o", folder, "-q", "--threads", "1",
+                       "--set", "output=[]", "--set", "instrument=[]", "--set",
+                       "time.duration='0.2 s'", "--set", "solver.stable_step='element-bound'",
+                       "--set", k == 0 ? "solver.step_factor=0.8" : "solver.step_factor=0.4"},
+                      folder);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    traffic[k] = read_summary(folder)["traffic_of_rank_0"];
+    steps[k] = read_summary(folder)["steps"];
+  }
+  const auto n = [](const nlohmann::json& value) { return value.get<std::int64_t>(); };
+  EXPECT_GT(n(steps[1]), n(steps[0]) * 3 / 2);
+  EXPECT_EQ(traffic[1]["collectives"], traffic[0]["collectives"]);
+  EXPECT_EQ(n(traffic[1]["messages"]) - n(traffic[0]["messages"]), n(steps[1]) - n(steps[0]));
+}
+
 TEST(StateDigest, changes_when_an_input_changes_in_its_sixteenth_digit) {
   const std::vector<std::string> short_run = {"output=[]", "time.duration='0.2 s'"};
   std::vector<std::string> other = short_run;

@@ -13,6 +13,7 @@
 #include "mesh/partition.h"
 #include "solver/element_setup.h"
 #include "solver/model.h"
+#include "solver/neighbours.h"
 #include "solver/simd.h"
 #include "solver/step.h"
 #include "solver/watch.h"
@@ -96,8 +97,8 @@ inline void shake(std::vector<double>& values, double amount, std::uint64_t seed
 
 // External minus internal force of the present displacement.
 inline const std::vector<double>& force(Body& body) {
-  average_volume_change(body.model, body.state, body.scratch);
-  compute_force(body.model, body.state, body.scratch);
+  Neighbours none;
+  find_force(body.model, none, body.state, body.scratch);
   return body.scratch.force;
 }
 
@@ -123,8 +124,8 @@ inline double stored_energy(Body& body) {
 }
 
 inline void step(Body& body, double dt) {
-  average_volume_change(body.model, body.state, body.scratch);
-  compute_force(body.model, body.state, body.scratch);
+  Neighbours none;
+  find_force(body.model, none, body.state, body.scratch);
   integrate(body.model, body.scratch, {}, dt, body.state);
 }
 

@@ -1,0 +1,77 @@
+// What a frame costs beyond its steps where the scene has nothing but tissue: the time of run_frame
+// against that of as many bare steps and of the forces that the search for the stable step asks
+// for, in turn, on the same body. JSON to stdout.
+// bench_frame [cells along an edge (default 20)] [threads]
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "base/log.h"
+#include "bench/machine.h"
+#include "engine/build.h"
+#include "engine/frame.h"
+#include "solver/step.h"
+
+using namespace trocar;
+
+namespace {
+
+LoadedScene empty_scene(int n, const std::string& stable_step) {
+  const std::string cells = std::to_string(n) + "," + std::to_string(n) + "," + std::to_string(n);
+  return load_scene(
+      TROCAR_SOURCE "/configs/block_hex.toml",
+      {"instrument=[]", "output=[]", "checkpoint.every=0", "tissue.shape.cells=[" + cells + "]",
+       "solver.stable_step='" + stable_step + "'"});
+}
+
+template <class Body>
+double seconds_of(const Body& body) {
+  const double start = bench_seconds();
+  body();
+  return bench_seconds() - start;
+}
+
+void run_steps(Simulation& s, std::int64_t n, double dt) {
+  for (std::int64_t k = 0; k < n; ++k) {
+    find_force(s.model, s.neighbours, s.state, s.scratch);
+    integrate(s.model, s.scratch, {}, dt, s.state);
+    start_exchange(s.neighbours, s.state);
+  }
+  finish_exchange(s.neighbours, s.state);
+}
+
+void report(int n, const std::string& stable_step, bool is_first) {
+  Communicator alone;
+  const LoadedScene loaded = empty_scene(n, stable_step);
+  const auto s = build(loaded, alone);
+  Outputs outputs;
+  double frame = 1e300, steps = 1e300;
+  std::int64_t n_steps = 0;
+  for (int round = 0; round < 15; ++round) {
+    frame = std::min(frame, seconds_of([&] { run_frame(*s, outputs); }));
+    n_steps = s->log.rows.back().n_substeps;
+    const double dt = s->log.rows.back().dt;
+    const State kept = s->state;
+    steps = std::min(steps, seconds_of([&] { run_steps(*s, n_steps, dt); }));
+    s->state = kept;
+  }
+  std::printf(
+      "%s\n  {\"stable_step\": \"%s\", \"elements\": %d, \"steps\": %lld, \"frame_ms\": %.4f, "
+      "\"steps_ms\": %.4f, \"frame_over_steps\": %.4f}",
+      is_first ? "" : ",", stable_step.c_str(), s->mesh.n_elements(),
+      static_cast<long long>(n_steps), 1e3 * frame, 1e3 * steps, frame / steps);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  start_log(0, true);
+  const int n = argc > 1 ? std::atoi(argv[1]) : 20;
+  set_thread_count(argc > 2 ? std::atoi(argv[2]) : 1);
+  std::printf("{\"threads\": %d, \"peak_gflops\": %.1f, \"triad_gbytes\": %.1f, \"frames\": [",
+              thread_count(), peak_gflops(), triad_gbytes());
+  report(n, "element-bound", true);
+  report(n, "frequency", false);
+  std::printf("\n]}\n");
+}

@@ -1,0 +1,161 @@
+// Latency and bandwidth of an exchange between two ranks, nanoseconds of an element's step while
+// both ranks compute, and what follows from these for ranks that this machine does not have
+// (scaling_model.h). JSON to stdout.
+// mpirun -np 2 bench_latency [latency in us] [bandwidth in 10^9 bytes/s]: of another network
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "base/communicator.h"
+#include "bench/machine.h"
+#include "bench/scaling_model.h"
+#include "solver/frequency.h"
+#include "solver_body.h"
+
+using namespace trocar;
+
+namespace {
+
+const Material tissue{.young_modulus = 3000, .poisson_ratio = .45, .density = 1000};
+
+// Of the slowest rank, best of some rounds; clock() [s].
+template <class Body>
+double best_of_ranks(const Communicator& ranks, int n, double (*clock)(), const Body& body) {
+  double best = 1e300;
+  for (int round = 0; round < 25; ++round) {
+    ranks.barrier();
+    const double start = clock();
+    for (int k = 0; k < n; ++k) body();
+    best = std::min(best, ranks.all_max(clock() - start) / n);
+  }
+  return best;
+}
+
+// Both ranks send so many bytes to each other.
+double exchange_seconds(Communicator& ranks, std::size_t n_bytes) {
+  std::vector<double> send(n_bytes / sizeof(double), 1.0), receive(send.size());
+  const ExchangeMessage messages[] = {{1 - ranks.rank(), send, receive}};
+  return best_of_ranks(ranks, n_bytes > 100000 ? 20 : 1000, monotonic_seconds, [&] {
+    ranks.start_exchange(messages);
+    ranks.finish_exchange();
+  });
+}
+
+// Prints the times by size; the line through the smallest and the largest gives the parameters.
+void measure_network(Communicator& ranks, ScalingParameters& m) {
+  constexpr std::size_t smallest = 8, largest = std::size_t{8} << 18;
+  double first = 0, last = 0;
+  if (ranks.is_root()) std::printf("{\"exchanges\": [");
+  for (std::size_t n_bytes = smallest; n_bytes <= largest; n_bytes *= 8) {
+    last = exchange_seconds(ranks, n_bytes);
+    if (n_bytes == smallest) first = last;
+    if (ranks.is_root())
+      std::printf("%s{\"bytes\": %zu, \"us\": %.3f}", n_bytes == smallest ? "" : ", ", n_bytes,
+                  1e6 * last);
+  }
+  m.latency = first;
+  m.bandwidth = static_cast<double>(largest - smallest) / (last - first);
+}
+
+// Of processor time, while the other rank does the same.
+double seconds_of_step(const Communicator& ranks, int n, int n_rounds) {
+  Body body = make_body(make_box(Vec3(0, 0, 0), Vec3(.1, .1, .1), {n, n, n}, BoxElements::hex8),
+                        {.materials = {tissue}});
+  displace(body, [](const Vec3& X) { return Vec3(0.05 * X.y(), 0, 0); });
+  return best_of_ranks(ranks, n_rounds, bench_seconds, [&] { step(body, 1e-9); });
+}
+
+// Stable step of a cube of elements over their edge, as the watch finds it, and the collectives
+// that this takes in a frame; some more are for forces, contact and outputs.
+void measure_frame(ScalingParameters& m) {
+  constexpr int n = 12;
+  Body body =
+      make_body(make_box(Vec3(0, 0, 0), Vec3(m.side, m.side, m.side), {n, n, n}, BoxElements::hex8),
+                {.materials = {tissue}});
+  State probe = body.state;
+  Neighbours none;
+  std::vector<double> mode;
+  const Communicator alone;
+  FrequencyOptions options;
+  options.amplitude = 1e-6 * m.side / n;
+  int n_forces = 0;
+  const auto force_of = [&](std::vector<double>& u, std::vector<double>& f) {
+    ++n_forces;
+    probe.u.swap(u);
+    find_force(body.model, none, probe, body.scratch);
+    f = body.scratch.force;
+    probe.u.swap(u);
+  };
+  HighestFrequency found;
+  std::uint64_t before = 0;
+  for (int frame = 0; frame < 2; ++frame) {  // the second starts from the first one's mode
+    before = alone.traffic().n_collectives;
+    n_forces = 0;
+    found =
+        find_highest_frequency(body.model, body.part, body.state, force_of, options, alone, mode);
+  }
+  m.collectives = static_cast<double>(alone.traffic().n_collectives - before) + 15;
+  m.searches = n_forces + 2;  // and the watch, which looks at all elements
+  m.step_per_edge = .85 * 2 / (frequency_margin * found.omega) / (m.side / n);
+}
+
+void print_parameters(const ScalingParameters& m) {
+  std::printf(
+      "],\n\"parameters\": {\"latency_us\": %.3f, \"gbytes_per_second\": %.2f, "
+      "\"element_step_ns\": %.2f, \"step_overhead_us\": %.2f, \"collectives_per_frame\": %.0f, "
+      "\"searches_per_frame\": %.0f, "
+      "\"stable_step_per_edge_s_per_m\": %.4f, \"body_m\": %.2f, \"bytes_per_node\": %.0f},\n",
+      1e6 * m.latency, 1e-9 * m.bandwidth, 1e9 * m.element_step, 1e6 * m.step_overhead,
+      m.collectives, m.searches, m.step_per_edge, m.side, m.bytes_per_node);
+}
+
+void print_predictions(const ScalingParameters& m) {
+  const char* comma = "";
+  std::printf("\"predictions\": [");
+  for (const int ranks : {1, 4, 64, 1024})
+    for (const double elements : {1e5, 1e6, 1e8})
+      for (const double rate : {30., 60.}) {
+        const ScalingPoint p{elements, ranks};
+        std::printf(
+            "%s\n  {\"ranks\": %d, \"elements\": %.0f, \"rate\": %.0f, \"steps\": %.0f, "
+            "\"step_us\": %.2f, \"efficiency\": %.3f, \"real_time_factor\": %.4f}",
+            comma, ranks, elements, rate, steps_of_frame(p, m, rate), 1e6 * step_seconds(p, m),
+            step_seconds({elements, 1}, m) / (ranks * step_seconds(p, m)),
+            real_time_factor(p, m, rate));
+        comma = ",";
+      }
+  std::printf("],\n\"limits\": [");
+  comma = "";
+  for (const int ranks : {1, 4, 64, 1024})
+    for (const double rate : {30., 60.}) {
+      std::printf("%s{\"ranks\": %d, \"rate\": %.0f, \"elements\": %.0f}", comma, ranks, rate,
+                  most_elements(ranks, m, rate));
+      comma = ", ";
+    }
+  std::printf("]}\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  MpiSession session(&argc, &argv);
+  Communicator& ranks = session.world();
+  if (ranks.size() != 2) {
+    std::fprintf(stderr, "mpirun -np 2 bench_latency [latency in us] [10^9 bytes/s]\n");
+    return 2;
+  }
+  set_thread_count(1);
+  ScalingParameters m;
+  measure_network(ranks, m);
+  if (argc > 2) {
+    m.latency = 1e-6 * std::atof(argv[1]);
+    m.bandwidth = 1e9 * std::atof(argv[2]);
+  }
+  const double small = seconds_of_step(ranks, 4, 500), large = seconds_of_step(ranks, 40, 4);
+  m.element_step = (large - small) / (40 * 40 * 40 - 4 * 4 * 4);
+  m.step_overhead = std::max(0.0, small - 4 * 4 * 4 * m.element_step);
+  measure_frame(m);
+  if (!ranks.is_root()) return 0;
+  print_parameters(m);
+  print_predictions(m);
+}

@@ -1,0 +1,39 @@
+// How a step talks to the ranks around it. What border nodes do travels while the elements that
+// read no halo nodes are computed: one message a neighbour and step (two with averaged volume
+// changes), no collective, no allocation.
+#pragma once
+
+#include <optional>
+
+#include "base/communicator.h"
+#include "mesh/partition.h"
+#include "solver/model.h"
+
+namespace trocar {
+
+// The default one is alone.
+struct Neighbours {
+  Communicator* communicator = nullptr;  // null: alone
+  std::optional<HaloExchange> motion, theta;
+  bool with_velocity = false;  // of halo nodes, which only contact and blades read
+  enum class UnderWay { none, motion, theta } under_way = UnderWay::none;
+  double waited = 0;  // for messages, since it was made [s]
+};
+// Keeps pointers to both.
+Neighbours make_neighbours(const Halo& halo, const Model& model, bool with_velocity,
+                           Communicator& communicator);
+
+// Sends displacements, and velocities if asked for; until finish_exchange halo nodes hold old ones.
+// Collective among neighbours, as are all of these.
+void start_exchange(Neighbours& neighbours, State& state);
+// Waits for what is under way, if anything.
+void finish_exchange(Neighbours& neighbours, State& state);
+// state.theta of all local nodes, after an exchange that may be under way: before watch and
+// energy_terms.
+void update_volume_change(const Model& model, Neighbours& neighbours, State& state,
+                          Scratch& scratch);
+// The one way to scratch.force = mass * gravity - internal force(u): ends an exchange that is under
+// way, averages volume changes and exchanges these, inside first. See compute_force.
+void find_force(const Model& model, Neighbours& neighbours, State& state, Scratch& scratch);
+
+}  // namespace trocar

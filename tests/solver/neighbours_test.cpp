@@ -1,0 +1,150 @@
+// A step in two halves, the first of which knows nothing of halo nodes. MPI's own part is tested
+// through mpirun in tests/invariance.
+#include "solver/neighbours.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <limits>
+#include <new>
+
+#include "solver_ranks.h"
+
+using namespace trocar;
+
+// Every allocation of this program by new.
+static std::int64_t n_allocations = 0;
+[[gnu::noinline]] void* operator new(std::size_t n) {
+  ++n_allocations;
+  if (void* p = std::malloc(n)) return p;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept {
+  std::free(p);
+}
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+
+static Body first_of_two(const Mesh& mesh, const SolverOptions& solver) {
+  Body body = make_body(mesh, options_for(mesh, solver), partition_nodes(mesh, 2), 0);
+  EXPECT_GT(body.model.n_local, body.model.n_owned);
+  shake(body.state.u, 1e-4, 7);
+  return body;
+}
+
+static std::vector<double> without_halo(const Body& body, std::vector<double> field, int width) {
+  std::fill(field.begin() + width * std::int64_t{body.model.n_owned}, field.end(),
+            std::numeric_limits<double>::quiet_NaN());
+  return field;
+}
+
+TEST(Neighbours, the_inside_half_of_a_force_reads_no_halo_node) {
+  for (const Precision precision : precisions)
+    for (const Formulation tet4 : {Formulation::tet4, Formulation::tet4_nodal_pressure}) {
+      Body body = first_of_two(mixed_mesh(), {.precision = precision, .tet4 = tet4});
+      average_volume_change(body.model, body.state, body.scratch);
+      shake(body.state.theta, 1e-3, 8);
+      compute_force(body.model, body.state, body.scratch);
+      const std::vector<double> expected = body.scratch.force;
+      const State whole = body.state;
+      body.state.u = without_halo(body, whole.u, 3);
+      body.state.theta = without_halo(body, whole.theta, body.model.averages.n_fields);
+      compute_inside_force(body.model, body.state, body.scratch);
+      body.state = whole;
+      compute_border_force(body.model, body.state, body.scratch);
+      EXPECT_EQ(body.scratch.force, expected);
+    }
+}
+
+TEST(Neighbours, the_inside_half_of_volume_changes_reads_no_halo_node) {
+  for (const Precision precision : precisions) {
+    Body body = first_of_two(mixed_mesh(),
+                             {.precision = precision, .tet4 = Formulation::tet4_nodal_pressure});
+    const std::vector<double> u = body.state.u;
+    average_volume_change(body.model, body.state, body.scratch);
+    const std::vector<double> expected = body.state.theta;
+    body.state.u = without_halo(body, u, 3);
+    find_inside_volume_change(body.model, body.state, body.scratch);
+    body.state.u = u;
+    average_with_border(body.model, body.state, body.scratch);
+    EXPECT_EQ(body.state.theta, expected);
+  }
+}
+
+// The left half of a block whose neighbour is itself: the halo plane gets what the plane of border
+// nodes, which has as many, holds.
+struct Mirrored {
+  Body body;
+  Halo halo;
+};
+static Mirrored make_mirrored(Formulation tet4) {
+  const Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(.1, .1, .1), {8, 5, 5}, BoxElements::tet4_kuhn);
+  std::vector<std::int32_t> owner;
+  for (const Vec3& X : mesh.X) owner.push_back(X.x() < .06 ? 0 : 1);
+  Mirrored m{.body = make_body(mesh, {.solver = {.tet4 = tet4}}, owner, 0)};
+  m.halo = make_halo(mesh, owner, m.body.part, 0);
+  EXPECT_EQ(m.halo.neighbours.size(), 1U);
+  m.halo.neighbours[0].rank = 0;
+  EXPECT_EQ(m.halo.neighbours[0].send.size(), m.halo.neighbours[0].receive.size());
+  return m;
+}
+
+TEST(Neighbours, halo_nodes_get_displacements_and_velocities_of_the_border_in_one_message) {
+  Mirrored m = make_mirrored(Formulation::tet4);
+  Communicator alone;
+  Neighbours neighbours = make_neighbours(m.halo, m.body.model, true, alone);
+  shake(m.body.state.u, 1e-3, 1);
+  shake(m.body.state.v, 1e-3, 2);
+  State& state = m.body.state;
+  start_exchange(neighbours, state);
+  finish_exchange(neighbours, state);
+  const Halo::Neighbour& border = m.halo.neighbours[0];
+  for (std::size_t k = 0; k < border.send.size(); ++k)
+    for (int j = 0; j < 3; ++j) {
+      EXPECT_EQ(state.u[3 * border.receive[k] + j], state.u[3 * border.send[k] + j]);
+      EXPECT_EQ(state.v[3 * border.receive[k] + j], state.v[3 * border.send[k] + j]);
+    }
+  EXPECT_EQ(alone.traffic().n_messages, 1U);
+  EXPECT_EQ(alone.traffic().n_bytes, 6 * sizeof(double) * border.send.size());
+}
+
+TEST(Neighbours, a_step_allocates_nothing_and_makes_no_collective) {
+  for (const Formulation tet4 : {Formulation::tet4, Formulation::tet4_nodal_pressure}) {
+    Mirrored m = make_mirrored(tet4);
+    Body& body = m.body;
+    Communicator alone;
+    Neighbours neighbours = make_neighbours(m.halo, body.model, true, alone);
+    shake(body.state.u, 1e-4, 1);
+    const auto run_step = [&] {
+      start_exchange(neighbours, body.state);
+      find_force(body.model, neighbours, body.state, body.scratch);
+      integrate(body.model, body.scratch, {}, 1e-5, body.state);
+    };
+    run_step();
+    const std::int64_t before = n_allocations;
+    for (int k = 0; k < 5; ++k) run_step();
+    EXPECT_EQ(n_allocations, before);
+    EXPECT_EQ(alone.traffic().n_collectives, 0U);
+    const bool averages = body.model.averages.n_fields > 0;
+    EXPECT_EQ(alone.traffic().n_exchanges, averages ? 12U : 6U);
+  }
+}
+
+TEST(Neighbours, a_force_is_the_same_whether_the_exchange_is_under_way_or_finished) {
+  for (const Formulation tet4 : {Formulation::tet4, Formulation::tet4_nodal_pressure}) {
+    Mirrored m = make_mirrored(tet4);
+    Body& body = m.body;
+    Communicator alone;
+    Neighbours neighbours = make_neighbours(m.halo, body.model, false, alone);
+    shake(body.state.u, 1e-4, 1);
+    start_exchange(neighbours, body.state);
+    find_force(body.model, neighbours, body.state, body.scratch);
+    const std::vector<double> expected = body.scratch.force;
+    start_exchange(neighbours, body.state);
+    update_volume_change(body.model, neighbours, body.state, body.scratch);
+    compute_force(body.model, body.state, body.scratch);
+    EXPECT_EQ(body.scratch.force, expected);
+    EXPECT_GT(largest(expected), 0);
+  }
+}
