@@ -12,6 +12,7 @@
 #include "solver/formulation.h"
 #include "solver/hex8_modes.h"
 #include "solver/hourglass.h"
+#include "solver/in_double.h"
 #include "solver/stash.h"
 #include "solver/tensor.h"
 
@@ -32,25 +33,31 @@ struct OnePointHex8 {
   static constexpr int kept_q = 0, kept_b = 3 * n_hourglass_modes;
 
   // Keeps b_m = dV/dX_m / V of V = ([X_0 X_1 X_2] + ([X_4 X_3 X_2] + [X_5 X_1 X_3] + [X_0 X_5 X_4])
-  // / 3) / 64, the exact volume (hex8_reference.h).
+  // / 3) / 64, the exact volume (hex8_reference.h). In double and rounded once: in single the
+  // differences of products would leave a moment that turns a free body by 1e-5 in 1e5 steps.
   template <class Pack>
   [[gnu::always_inline]] static void prepare(const BlockValues<Pack>& value,
                                              const Stash<Pack>& kept) {
-    const Pack inverse = value(value_inverse), third = real<Pack>(1.0 / 3) * inverse;
-    Pack X[6][3], d[6][3];  // d_m = X_m / (64 V), a third of it where m > 2
+    using Wide = InDouble<Pack>;
+    Wide inverse;
+    widen(Pack(value(value_inverse)), inverse);
+    const Wide third = (1.0 / 3) * inverse;
+    Wide X[6][3], d[6][3];  // d_m = X_m / (64 V), a third of it where m > 2
     for (int m = 0; m < 6; ++m)
       for (int i = 0; i < 3; ++i) {
-        X[m][i] = value(value_X + 3 * m + i);
+        widen(Pack(value(value_X + 3 * m + i)), X[m][i]);
         d[m][i] = X[m][i] * (m < 3 ? inverse : third);
       }
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
       for (int m = 0; m < 3; ++m) {
         const int n = (m + 1) % 3, o = (m + 2) % 3, b = kept_b + 3 * m + i;
-        kept.put(b, Pack((X[n][j] * d[o][k] - X[n][k] * d[o][j]) +
-                         (X[3 + o][j] * d[3 + n][k] - X[3 + o][k] * d[3 + n][j])));
-        kept.put(b + 9, Pack((X[o][j] * d[3 + n][k] - X[o][k] * d[3 + n][j]) +
-                             (X[n][k] * d[3 + o][j] - X[n][j] * d[3 + o][k])));
+        const Wide low = (X[n][j] * d[o][k] - X[n][k] * d[o][j]) +
+                         (X[3 + o][j] * d[3 + n][k] - X[3 + o][k] * d[3 + n][j]);
+        const Wide high = (X[o][j] * d[3 + n][k] - X[o][k] * d[3 + n][j]) +
+                          (X[n][k] * d[3 + o][j] - X[n][j] * d[3 + o][k]);
+        kept.put(b, rounded_to<Pack>(low));
+        kept.put(b + 9, rounded_to<Pack>(high));
       }
     }
   }
