@@ -72,8 +72,10 @@ void restore_history(const Model& model, const Part& part, std::span<const doubl
     if (at == copies.size()) return;
     const int n = static_cast<int>(copies[at + 1]);
     CHECK_OP(n % width, ==, 0);
+    const double n_parent_points = n / width;  // for each point of this element
     for (int k = 0; k < n; ++k) {
-      const double value = scale[element] * copies[at + 2 + static_cast<std::size_t>(k)];
+      const double value =
+          scale[element] * copies[at + 2 + static_cast<std::size_t>(k)] / n_parent_points;
       double& number = state.history[first + k % width * lanes];
       number = k < width ? value : number + value;
     }

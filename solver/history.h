@@ -22,8 +22,8 @@ std::int64_t place_history(std::vector<ElementBlocks>& lists);
 std::vector<double> copy_history(const Model& model, const Part& part, const State& state);
 // What copies of all ranks, one behind the other, say of this rank's elements. Element e gets the
 // numbers of the one that it was or was a part of, parent[e], multiplied by scale[e]: its volume
-// over the parent's, since stresses are stored times the volume. An element of one point whose
-// parent had more gets their sum.
+// over the parent's, since stresses are stored times the volume of the whole element. One of a
+// single point whose parent had several gets their mean.
 void restore_history(const Model& model, const Part& part, std::span<const double> copies,
                      std::span<const std::int32_t> parent, std::span<const double> scale,
                      State& state);

@@ -184,7 +184,7 @@ TEST(ApplyCut, keeps_mass_and_both_momenta_where_hexahedra_are_converted) {
   EXPECT_LT((after.angular - before.angular).norm(), 1e-13 * before.mass * 2 * 0.03);
 }
 
-// Viscous numbers of each element over its volume, summed over its points.
+// Viscous numbers of each element over its volume, the mean of its points.
 std::vector<std::vector<double>> history_per_volume(const Simulation& s) {
   const std::size_t width = history_of_point(1);
   std::vector<std::vector<double>> value;
@@ -194,7 +194,8 @@ std::vector<std::vector<double>> history_per_volume(const Simulation& s) {
     const auto e = static_cast<std::int32_t>(copy[at]);
     value.emplace_back(width, 0.0);
     for (std::size_t k = 0; k < std::size_t(copy[at + 1]); ++k)
-      value.back()[k % width] += copy[at + 2 + k] / element_volume(s.mesh, e, s.mesh.X);
+      value.back()[k % width] +=
+          copy[at + 2 + k] / element_volume(s.mesh, e, s.mesh.X) / (copy[at + 1] / double(width));
   }
   return value;
 }
