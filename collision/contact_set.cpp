@@ -45,9 +45,10 @@ ContactSet prepare_contacts(std::span<const Contact> contacts,
                             std::span<const double> mass, std::span<const std::uint8_t> is_held) {
   ContactSet set{.node = nodes_of(contacts)};
   for (const std::int32_t i : set.node) {
-    const bool is_owned = node_owner[index(i)] == rank;
-    if (is_owned) set.owned.push_back(static_cast<std::int32_t>(set.local.size()));
-    set.local.push_back(is_owned ? part.node_local[index(i)] : -1);
+    if (node_owner[index(i)] == rank) {
+      set.owned.push_back(static_cast<std::int32_t>(set.inverse_mass.size()));
+      set.local.push_back(part.node_local[index(i)]);
+    }
     set.inverse_mass.push_back(is_held[index(i)] != 0 ? 0 : 1 / mass[index(i)]);
   }
   if (set.owned.empty()) return {};

@@ -22,9 +22,9 @@ struct ContactSet {
   };
   std::vector<Item> items;  // in the detector's order; empty on ranks without a node of theirs
   // Nodes of the items, ascending by global number.
-  std::vector<std::int32_t> node, local;  // global and local numbers; local is -1 where not owned
-  std::vector<double> inverse_mass;       // 0: nothing moves it [1/kg]
-  std::vector<std::int32_t> owned;        // places of owned ones
+  std::vector<std::int32_t> node;          // global numbers
+  std::vector<double> inverse_mass;        // 0: nothing moves it [1/kg]
+  std::vector<std::int32_t> owned, local;  // of owned ones: places here, and local numbers
   std::vector<Vec3> x_start, x_end;  // positions around the step, without contact at its end [m]
   std::vector<Vec3> force;           // of the last step [N]
   Halo halo;                         // among the ranks that hold nodes, in places

@@ -106,9 +106,8 @@ void take(const Touch& found, Contact& contact) {
 // From a touch in the plane of the mesh to the tool's frame.
 void take_plane(const Touch& found, const Pose& pose, Contact& contact) {
   take(found, contact);
-  const Quat back = pose.rotation.conjugate();
-  contact.point = back * (contact.point - pose.translation);
-  contact.normal = back * contact.normal;
+  contact.point = pose.apply_inverse(contact.point);
+  contact.normal = pose.rotation.conjugate() * contact.normal;
 }
 
 Contact make_contact(const PosedPiece& piece, const std::array<std::int32_t, 3>& node,
@@ -243,9 +242,8 @@ bool ContactDetector::update(const std::array<Vec3, 3>& x, const Pose& pose, dou
                              Contact& contact) const {
   const PieceCore& core = state_->core_of(contact);
   if (state_->plane.node.empty()) {
-    const Quat back = pose.rotation.conjugate();
-    Triangle local;
-    for (std::size_t a = 0; a < 3; ++a) local[a] = back * (x[a] - pose.translation);
+    const Triangle local = {pose.apply_inverse(x[0]), pose.apply_inverse(x[1]),
+                            pose.apply_inverse(x[2])};
     const std::optional<Touch> found = touch(core, local, margin);
     if (!found) return false;
     take(*found, contact);
@@ -261,8 +259,7 @@ std::optional<NodeTouch> ContactDetector::touch_node(const Contact& contact, con
                                                      const Pose& pose) const {
   if (!state_->plane.node.empty()) return std::nullopt;
   const PieceCore& core = state_->core_of(contact);
-  const Vec3 local = pose.rotation.conjugate() * (x - pose.translation);
-  const SignedDistance found = signed_distance(core, local);
+  const SignedDistance found = signed_distance(core, pose.apply_inverse(x));
   if (!(found.gap < 0) || !is_flat_enough(core, found.normal, found.gap)) return std::nullopt;
   return NodeTouch{.normal = pose.rotation * found.normal, .gap = found.gap};
 }

@@ -193,13 +193,8 @@ SignedDistance signed_distance(const PieceCore& core, const Vec3& x) {
     farthest.gap -= core.radius;
     return farthest;
   }
-  Vec3 nearest = core.points[0];
-  if (core.points.size() == 2) {
-    const Vec3 along = core.points[1] - core.points[0];
-    const double t = (x - nearest).dot(along) / along.squaredNorm();
-    nearest += std::clamp(t, 0.0, 1.0) * along;
-  }
-  const Vec3 out = x - nearest;
+  const Vec3 out =
+      x - closest_points_segments({x, x}, {core.points.front(), core.points.back()}).second;
   const double distance = out.norm();
   return {.normal = distance > 0 ? Vec3(out / distance) : Vec3::Zero(),
           .gap = distance - core.radius};

@@ -34,14 +34,13 @@ void detect_contacts(ContactStage& stage, std::span<const Tool> tools, const Hol
 }
 
 void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds) {
+  stage.set = {};
+  if (stage.contacts.empty()) return;
   std::vector<std::uint8_t> is_held(body.mass.size(), 0);
   for (std::size_t i = 0; i < is_held.size(); ++i) is_held[i] = (body.fixed[i] & 7) == 7;
   for (const Hold& hold : holds.holds) is_held[static_cast<std::size_t>(hold.node)] = 1;
   stage.set =
       prepare_contacts(stage.contacts, body.node_owner, body.part, body.rank, body.mass, is_held);
-  stage.owned.clear();
-  for (const std::int32_t place : stage.set.owned)
-    stage.owned.push_back(stage.set.local[static_cast<std::size_t>(place)]);
   stage.u_next.resize(3 * body.part.node_global.size());
   stage.exchange.emplace(stage.set.halo, 6);
   stage.positions.resize(6 * stage.set.node.size());
@@ -49,8 +48,8 @@ void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const 
 
 void share_positions(ContactStage& stage, std::span<const Vec3> X, std::span<const double> u,
                      Communicator& communicator) {
-  for (std::size_t k = 0; k < stage.owned.size(); ++k) {
-    const auto from = 3 * static_cast<std::size_t>(stage.owned[k]);
+  for (std::size_t k = 0; k < stage.set.local.size(); ++k) {
+    const auto from = 3 * static_cast<std::size_t>(stage.set.local[k]);
     const auto to = 6 * static_cast<std::size_t>(stage.set.owned[k]);
     std::copy_n(u.begin() + static_cast<std::ptrdiff_t>(from), 3, &stage.positions[to]);
     std::copy_n(&stage.u_next[from], 3, &stage.positions[to + 3]);
@@ -64,8 +63,8 @@ void share_positions(ContactStage& stage, std::span<const Vec3> X, std::span<con
 }
 
 void add_contact_force(const ContactStage& stage, std::span<double> force) {
-  for (std::size_t k = 0; k < stage.owned.size(); ++k)
-    Vec3::Map(&force[3 * static_cast<std::size_t>(stage.owned[k])]) +=
+  for (std::size_t k = 0; k < stage.set.local.size(); ++k)
+    Vec3::Map(&force[3 * static_cast<std::size_t>(stage.set.local[k])]) +=
         stage.set.force[static_cast<std::size_t>(stage.set.owned[k])];
 }
 

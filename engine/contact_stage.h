@@ -19,10 +19,9 @@ namespace trocar {
 struct ContactStage {
   ContactDetector detector;
   ContactOptions options;
-  std::vector<Contact> contacts;    // of this frame, on every rank
-  ContactSet set;                   // those that this rank works on
-  std::vector<std::int32_t> owned;  // its nodes there, local numbers
-  std::vector<double> u_next;       // (n_local * 3) of these, without contact [m]
+  std::vector<Contact> contacts;  // of this frame, on every rank
+  ContactSet set;                 // those that this rank works on
+  std::vector<double> u_next;     // (n_local * 3) of its owned nodes, without contact [m]
   std::optional<HaloExchange> exchange;
   std::vector<double> positions;   // (set.node.size() * 6) that travel
   std::vector<ToolMotion> motion;  // (n_tools) at the end of the substep

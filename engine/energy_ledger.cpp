@@ -86,7 +86,7 @@ EnergyState mechanical_energy(Simulation& s) {
 
 void begin_frame_work(Simulation& s) {
   EnergyLedger& ledger = *s.energy;
-  ledger.contact_work.assign(s.contact ? s.contact->owned.size() : 0, 0.0);
+  ledger.contact_work.assign(s.contact ? s.contact->set.local.size() : 0, 0.0);
   ledger.hold_work.assign(s.holds.owned.size(), 0.0);
   ledger.blade_work.clear();
   for_engaged_places(s, [&](const CutStage&, const Vec3&) { ledger.blade_work.push_back(0); });
@@ -98,7 +98,7 @@ void note_velocities(Simulation& s, double dt) {
   ledger.dt_mid = (s.state.last_dt + dt) / 2;
   ledger.contact_velocity.clear();
   if (s.contact)
-    for (const std::int32_t node : s.contact->owned)
+    for (const std::int32_t node : s.contact->set.local)
       ledger.contact_velocity.push_back(velocity_of(s.state, node));
   ledger.hold_velocity.clear();
   for (const PrescribedNode& node : s.holds.prescribed)
@@ -113,7 +113,7 @@ void add_work(Simulation& s) {
   const double half_dt = ledger.dt_mid / 2;
   for (std::size_t k = 0; k < ledger.contact_work.size(); ++k) {
     const ContactStage& contact = *s.contact;
-    const Vec3 v = ledger.contact_velocity[k] + velocity_of(s.state, contact.owned[k]);
+    const Vec3 v = ledger.contact_velocity[k] + velocity_of(s.state, contact.set.local[k]);
     const auto place = static_cast<std::size_t>(contact.set.owned[k]);
     ledger.contact_work[k] += half_dt * contact.set.force[place].dot(v);
   }

@@ -54,7 +54,8 @@ void resolve_contacts(Simulation& s, const FrameSpan& span, std::int64_t k) {
   ContactStage& contact = *s.contact;
   if (contact.set.items.empty()) return;
   move_tools(s.tools, span.t0 + static_cast<double>(k + 1) * span.dt, span.dt, contact.motion);
-  predict(s.model, s.scratch, s.holds.prescribed, contact.owned, span.dt, s.state, contact.u_next);
+  predict(s.model, s.scratch, s.holds.prescribed, contact.set.local, span.dt, s.state,
+          contact.u_next);
   share_positions(contact, s.mesh.X, s.state.u, *s.communicator);
   const ContactStep step = {.tools = contact.motion,
                             .number = k,

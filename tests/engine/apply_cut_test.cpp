@@ -6,11 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/log.h"
-#include "base/threads.h"
-#include "engine/build.h"
-#include "engine/frame.h"
 #include "engine_scene.h"
+#include "engine_started.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/quality.h"
 #include "solver/history.h"
@@ -18,22 +15,6 @@
 
 namespace trocar {
 namespace {
-
-struct Started {
-  LoadedScene loaded;
-  Communicator alone;
-  std::unique_ptr<Simulation> s;
-};
-
-std::unique_ptr<Started> built(const std::string& text) {
-  start_log(0, true);
-  set_thread_count(1);
-  const TestFolder folder;
-  auto started = std::make_unique<Started>();
-  started->loaded = load_scene(write_text(folder.file("s.toml"), text), {});
-  started->s = build(started->loaded, started->alone);
-  return started;
-}
 
 // 20 x 20 x 30 mm in cells of 5 mm.
 std::string block_text(const std::string& elements, const std::string& more) {

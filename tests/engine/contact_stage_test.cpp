@@ -216,7 +216,7 @@ TEST(PrepareFrameContacts, starts_each_frame_without_reactions_and_moves_nothing
   for (std::size_t a = 0; a < 3; ++a)
     EXPECT_EQ(set.inverse_mass[static_cast<std::size_t>(set.items[0].place[a])], expected[a]);
   for (const ContactSet::Item& item : set.items) EXPECT_EQ(item.reaction_sum, Vec3(Vec3::Zero()));
-  EXPECT_EQ(c.stage.owned.size(), set.node.size());
+  EXPECT_EQ(c.stage.set.local.size(), set.node.size());
 }
 
 TEST(SharePositions, puts_the_displacements_of_both_ends_of_the_step_on_the_nodes) {
