@@ -7,8 +7,9 @@
 
 namespace trocar {
 
-// A point this far outside (barycentric) still counts as inside: rounding at facets.
-static constexpr double tolerance = 1e-9;
+// A point outside goes with the element beside it up to this far (barycentric, heights):
+// tissue that runs from the blade and comes back must not pass it uncut.
+static constexpr double reach = 3.0;
 
 static std::array<double, 4> barycentric(const Mesh& mesh, std::int32_t e, std::span<const Vec3> X,
                                          const Vec3& point) {
@@ -26,33 +27,45 @@ static Vec3 at(const Mesh& mesh, std::int32_t e, std::span<const Vec3> X,
   return point;
 }
 
-// Cheaper than barycentric coordinates, and rarely true.
-static bool box_holds(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x,
-                      const Vec3& point) {
+// Cheaper than barycentric coordinates, and rarely true. `margin` [m].
+static bool box_holds(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x, const Vec3& point,
+                      double margin) {
   Vec3 low = x[mesh.corners(e)[0]], high = low;
   for (const std::int32_t i : mesh.corners(e).subspan(1)) {
     low = low.cwiseMin(x[i]);
     high = high.cwiseMax(x[i]);
   }
-  const double margin = 1e-6 * (high - low).maxCoeff();  // far more than `tolerance` reaches
   return ((point - low).array() >= -margin).all() && ((high - point).array() >= -margin).all();
 }
 
+// `last`: element that the point went with before, -1 for none.
 static BladePoint locate(const Mesh& mesh, std::span<const Vec3> x,
-                         std::span<const std::int32_t> near, const Vec3& point) {
-  for (const std::int32_t e : near) {
-    if (!box_holds(mesh, e, x, point)) continue;
+                         std::span<const std::int32_t> near, std::int32_t last, const Vec3& point,
+                         double margin) {
+  BladePoint best{-1, Vec3::Zero(), point};
+  double most = -reach;
+  const auto try_element = [&](std::int32_t e) {
     const std::array<double, 4> b = barycentric(mesh, e, x, point);
-    if (*std::min_element(b.begin(), b.end()) >= -tolerance)
-      return {e, at(mesh, e, mesh.X, b), point};
+    const double least = *std::min_element(b.begin(), b.end());
+    if (least <= most) return;
+    most = least;
+    best = {e, at(mesh, e, mesh.X, b), point};
+  };
+  for (const std::int32_t e : near) {
+    if (box_holds(mesh, e, x, point, margin)) try_element(e);
+    if (most >= 0) return best;
   }
-  return {-1, Vec3::Zero(), point};
+  if (last >= 0) try_element(last);
+  return best;
 }
 
 void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
                    std::span<const std::int32_t> near, CutStroke& stroke) {
+  const std::vector<BladePoint> last = std::move(stroke.edge);
   stroke.edge.clear();
-  for (const Vec3& point : sweep.after) stroke.edge.push_back(locate(mesh, x, near, point));
+  for (std::size_t k = 0; k < sweep.after.size(); ++k)
+    stroke.edge.push_back(locate(mesh, x, near, k < last.size() ? last[k].element : -1,
+                                 sweep.after[k], stroke.mean_edge));
 }
 
 BladeSweep carry_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,

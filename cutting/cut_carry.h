@@ -12,8 +12,8 @@
 
 namespace trocar {
 
-// The sweep with `before` carried along with the tissue since the last frame. Points outside the
-// body follow the nearest one inside.
+// The sweep with `before` carried along with the tissue since the last frame. Points far
+// outside follow the nearest other one.
 BladeSweep carry_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
                       const CutStroke& stroke);
 

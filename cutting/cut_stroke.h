@@ -37,7 +37,7 @@ struct OfElement {
 
 // A point of the blade's edge at the end of a frame.
 struct BladePoint {
-  std::int32_t element = -1;  // that held it; -1: outside the body
+  std::int32_t element = -1;  // that held it, or beside it; -1: far outside the body
   Vec3 X = Vec3::Zero();      // reference position [m]
   Vec3 x = Vec3::Zero();      // position at that time [m]
 };

@@ -120,7 +120,7 @@ void warn_of_whole_hexahedra(const Simulation& s) {
 void build_cuts(Simulation& s) {
   const SceneCutting& cutting = s.scene.cutting;
   for (std::size_t k = 0; k < s.tools.size(); ++k) {
-    if (s.tools[k].kind != InstrumentKind::scalpel) continue;
+    if (s.tools[k].edge.empty()) continue;
     s.cuts.push_back(CutStage{.tool = static_cast<std::int32_t>(k),
                               .tet = TetCutter({.advance = cutting.advance,
                                                 .least_step_ratio = cutting.least_step_ratio})});
@@ -130,9 +130,14 @@ void build_cuts(Simulation& s) {
 
 void build_instruments(const LoadedScene& loaded, Simulation& s) {
   const double edge = mean_edge_length(s.mesh);
-  for (std::size_t k = 0; k < s.scene.instruments.size(); ++k)
+  for (std::size_t k = 0; k < s.scene.instruments.size(); ++k) {
+    const SceneInstrument& instrument = s.scene.instruments[k];
+    if (s.mesh.dimension() == 2 && instrument.kind == InstrumentKind::scissors)
+      loaded.where.fail("instrument[" + std::to_string(k) + "].kind",
+                        "scissors cut volumes only: a scalpel cuts this plane body");
     s.tools.push_back(
-        make_tool(s.scene.instruments[k], load_tool_mesh(loaded, k, *s.communicator), 0.5 * edge));
+        make_tool(instrument, load_tool_mesh(loaded, k, *s.communicator), 0.5 * edge));
+  }
   s.holds.is_open.assign(s.tools.size(), 1);
   s.holds.poses.resize(s.tools.size());
   if (s.tools.empty()) return;

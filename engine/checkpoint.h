@@ -40,7 +40,7 @@ struct Checkpoint {
   Watch watch;
   std::vector<Hold> holds;
   std::vector<std::uint8_t> is_open;  // (n_tools)
-  std::vector<CutMemory> cuts;        // one a scalpel
+  std::vector<CutMemory> cuts;        // one an instrument that cuts
   FrameLog log;                       // without new_edits, which outputs have taken
   std::vector<double> history;        // of viscoelastic elements, see solver/history.h
   double history_time = 0;

@@ -29,13 +29,6 @@ struct Box {
   }
 };
 
-std::vector<Vec3> edge_at(const Tool& tool, double time) {
-  const Pose pose = tool.path.at(time);
-  std::vector<Vec3> edge;
-  for (const Vec3& point : tool.edge) edge.push_back(pose.apply(point));
-  return edge;
-}
-
 Box surface_box(const Simulation& s) {
   Box box;
   for (const std::int32_t node : s.view.node) box.add(s.view.x[static_cast<std::size_t>(node)]);
@@ -103,8 +96,8 @@ void cut_volume(Simulation& s, CutStage& stage, const FrameSpan& span, bool is_l
                 GlobalState& global) {
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
   const Pose pose = tool.path.at(0.5 * (span.t0 + span.t1));
-  const BladeSweep sweep{.before = edge_at(tool, span.t0),
-                         .after = edge_at(tool, span.t1),
+  const BladeSweep sweep{.before = cutting_edge(tool, span.t0),
+                         .after = cutting_edge(tool, span.t1),
                          .normal = pose.rotation * Vec3::UnitY()};
   CutFigures figures;
   const auto is_held = held_nodes(s.holds, s.fixed);
@@ -148,43 +141,37 @@ void end_stroke(const Simulation& s, CutStage& stage, double time) {
   stage.strokes.back().scene_step_ratio = s.watch.stable_step / s.stable_step_before_cut;
 }
 
-// The tissue holds back the blade against its motion, in proportion to the edge inside.
-void set_resistance(const Simulation& s, const FrameSpan& span, CutStage& stage) {
-  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
-  const Vec3 motion = tool.path.at(span.t1).translation - tool.path.at(span.t0).translation;
-  const double distance = std::sqrt(motion.dot(motion));
-  stage.resistance = Vec3::Zero();
-  if (distance > 1e-9)
-    stage.resistance = -s.scene.cutting.resistance * stage.engaged_length / distance * motion;
+Vec3 middle(const std::vector<Vec3>& points) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& point : points) sum += point;
+  return sum / static_cast<double>(points.size());
 }
 
-// True if this is the blade's last frame in the tissue.
-bool leaves_tissue(CutStage& stage, bool is_near) {
+// True if this is the edge's last frame in the tissue.
+bool leaves_tissue(const Tool& tool, const FrameSpan& span, bool is_near, CutStage& stage) {
   stage.n_idle_frames = stage.engaged.empty() ? stage.n_idle_frames + 1 : 0;
-  return !is_near || stage.n_idle_frames >= idle_frames_to_leave;
+  return !is_near || stage.n_idle_frames >= idle_frames_to_leave ||
+         !is_cutting(tool, span.t1, span.t1 + (span.t1 - span.t0));
 }
 
-void add_to_record(const Simulation& s, const FrameSpan& span, CutStage& stage,
-                   double milliseconds) {
-  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+void add_to_record(double travel, double milliseconds, CutStage& stage) {
   CutRecord& record = stage.strokes.back();
   record.milliseconds += milliseconds;
   record.worst_milliseconds = std::max(record.worst_milliseconds, milliseconds);
   if (stage.engaged.empty()) return;
-  record.blade_travel += tool.path.travel(span.t0, span.t1, 0);
+  record.blade_travel += travel;
   record.deepest = std::max(record.deepest, stage.engaged_length);
 }
 
 void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, CutStage& stage,
                      std::optional<GlobalState>& global) {
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
-  const std::vector<Vec3> edge = edge_at(tool, span.t1);
+  const std::vector<Vec3> before = cutting_edge(tool, span.t0), edge = cutting_edge(tool, span.t1);
   Box blade;
   for (const Vec3& point : edge) blade.add(point);
-  for (const Vec3& point : edge_at(tool, span.t0)) blade.add(point);
-  const bool is_near = blade.meets(tissue);
+  for (const Vec3& point : before) blade.add(point);
+  const bool is_near = blade.meets(tissue) && is_cutting(tool, span.t0, span.t1);
   stage.engaged.clear();
-  stage.resistance = Vec3::Zero();
   if (!is_near && !stage.is_in_stroke) return;
 
   const double start = monotonic_seconds();
@@ -196,14 +183,13 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
     start_stroke(stage, tool, span.t1, s.mesh.dimension());
   }
   stage.strokes.back().end = span.t1;
-  const bool is_last = leaves_tissue(stage, is_near);
+  const bool is_last = leaves_tissue(tool, span, is_near, stage);
   if (s.mesh.dimension() == 2)
     cut_plane_piece(s, stage, span, is_last, *global);
   else
     cut_volume(s, stage, span, is_last, *global);
   locate_edge(s, *global, edge, stage);
-  set_resistance(s, span, stage);
-  add_to_record(s, span, stage, 1e3 * (monotonic_seconds() - start));
+  add_to_record((middle(edge) - middle(before)).norm(), 1e3 * (monotonic_seconds() - start), stage);
   if (is_last) end_stroke(s, stage, span.t1);
 }
 
@@ -216,19 +202,18 @@ void cut_along_blades(Simulation& s, const FrameSpan& span) {
   for (CutStage& stage : s.cuts) cut_along_blade(s, span, tissue, stage, global);
 }
 
-void add_cut_resistance(const Simulation& s, std::span<double> force) {
-  for (const CutStage& stage : s.cuts)
-    for (const Location& location : stage.engaged) {
-      const auto corner = s.mesh.corners(location.element);
-      const Vec3 drag = -stage.resistance / static_cast<double>(stage.engaged.size());
-      for (std::size_t a = 0; a < corner.size(); ++a) {
-        const std::int32_t local = s.part.node_local[static_cast<std::size_t>(corner[a])];
-        if (local < 0 || local >= s.part.n_owned) continue;
-        for (std::size_t i = 0; i < 3; ++i)
-          force[static_cast<std::size_t>(local) * 3 + i] +=
-              location.weight[a] * drag[static_cast<Eigen::Index>(i)];
-      }
-    }
+void prepare_drag(Simulation& s, const FrameSpan& span) {
+  s.drag.node.clear();
+  for (const CutStage& stage : s.cuts) {
+    const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+    if (stage.engaged.empty() || !is_cutting(tool, span.t0, span.t1)) continue;
+    const Vec3 way = middle(cutting_edge(tool, span.t1)) - middle(cutting_edge(tool, span.t0));
+    add_engaged_edge({.tool = stage.tool,
+                      .place = stage.engaged,
+                      .length = stage.engaged_length,
+                      .velocity = way / (span.t1 - span.t0)},
+                     s.mesh, s.part, s.scene.cutting.resistance, s.drag);
+  }
 }
 
 }  // namespace trocar

@@ -1,4 +1,5 @@
-// A scalpel's cut between two frames: from the blade's motion to an edited simulation.
+// The cut of a scalpel or of scissors between two frames: from the motion of the edge to an edited
+// simulation.
 #pragma once
 
 #include <memory>
@@ -32,7 +33,7 @@ struct CutRecord {
   double kinetic_energy_change = 0;  // summed [J]
   double largest_deviation = 0, mean_deviation = 0, mean_edge = 0;  // [m]
   double blade_travel = 0,
-         deepest = 0;  // of the tip inside the tissue; depth of the edge inside [m]
+         deepest = 0;  // of the edge's middle with some of it inside; depth of the edge inside [m]
   double milliseconds = 0, worst_milliseconds = 0;
 };
 
@@ -45,8 +46,7 @@ struct CutProgress {
   std::vector<CutRecord> strokes;
   // Edge points inside the tissue this frame, where the blade's resistance acts.
   std::vector<Location> engaged;
-  double engaged_length = 0;       // [m]
-  Vec3 resistance = Vec3::Zero();  // of the tissue on the blade [N]
+  double engaged_length = 0;  // [m]
 };
 
 struct CutStage : CutProgress {
@@ -57,7 +57,7 @@ struct CutStage : CutProgress {
 // Cuts along all blades' motion in the frame and applies the edits. Collective.
 void cut_along_blades(Simulation& s, const FrameSpan& span);
 
-// Adds the drag of engaged blades to the force of owned nodes, equal in every substep of a frame.
-void add_cut_resistance(const Simulation& s, std::span<double> force);
+// Takes down which nodes engaged edges drag along in the frame.
+void prepare_drag(Simulation& s, const FrameSpan& span);
 
 }  // namespace trocar

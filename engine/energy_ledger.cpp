@@ -26,24 +26,6 @@ Vec3 velocity_of(const State& state, std::int32_t local) {
   return {v[0], v[1], v[2]};
 }
 
-// Calls body(stage, velocity) for every place where a blade is held back; the rank that owns the
-// element's first node counts it.
-template <class Body>
-void for_engaged_places(const Simulation& s, const Body& body) {
-  for (const CutStage& stage : s.cuts)
-    for (const Location& location : stage.engaged) {
-      const auto corner = s.mesh.corners(location.element);
-      const auto local = [&](std::size_t a) {
-        return s.part.node_local[static_cast<std::size_t>(corner[a])];
-      };
-      if (local(0) < 0 || local(0) >= s.part.n_owned) continue;
-      Vec3 v = Vec3::Zero();
-      for (std::size_t a = 0; a < corner.size(); ++a)
-        v += location.weight[a] * velocity_of(s.state, local(a));
-      body(stage, v);
-    }
-}
-
 // 1/2 m v- · v- + dt/2 v- · f and -m g · u of each owned node.
 void take_nodes(const Simulation& s, std::vector<double>& kinetic, std::vector<double>& gravity) {
   const double half_dt = s.state.last_dt / 2;
@@ -88,8 +70,7 @@ void begin_frame_work(Simulation& s) {
   EnergyLedger& ledger = *s.energy;
   ledger.contact_work.assign(s.contact ? s.contact->set.local.size() : 0, 0.0);
   ledger.hold_work.assign(s.holds.owned.size(), 0.0);
-  ledger.blade_work.clear();
-  for_engaged_places(s, [&](const CutStage&, const Vec3&) { ledger.blade_work.push_back(0); });
+  ledger.blade_work.assign(s.drag.node.size(), 0.0);
   std::fill(s.scratch.damping_work.begin(), s.scratch.damping_work.end(), 0.0);
 }
 
@@ -104,8 +85,8 @@ void note_velocities(Simulation& s, double dt) {
   for (const PrescribedNode& node : s.holds.prescribed)
     ledger.hold_velocity.push_back(velocity_of(s.state, node.node));
   ledger.blade_velocity.clear();
-  for_engaged_places(s,
-                     [&](const CutStage&, const Vec3& v) { ledger.blade_velocity.push_back(v); });
+  for (const BladeDrag::Node& node : s.drag.node)
+    ledger.blade_velocity.push_back(velocity_of(s.state, node.local));
 }
 
 void add_work(Simulation& s) {
@@ -122,12 +103,11 @@ void add_work(Simulation& s) {
     ledger.hold_work[k] +=
         half_dt * node.reaction.dot(ledger.hold_velocity[k] + velocity_of(s.state, node.node));
   }
-  std::size_t k = 0;
-  for_engaged_places(s, [&](const CutStage& stage, const Vec3& v) {
-    const Vec3 drag = -stage.resistance / static_cast<double>(stage.engaged.size());
-    ledger.blade_work[k] += half_dt * drag.dot(ledger.blade_velocity[k] + v);
-    ++k;
-  });
+  for (std::size_t k = 0; k < ledger.blade_work.size(); ++k) {
+    const BladeDrag::Node& node = s.drag.node[k];
+    const Vec3 v = ledger.blade_velocity[k] + velocity_of(s.state, node.local);
+    ledger.blade_work[k] += half_dt * node.force * node.direction.dot(v);
+  }
 }
 
 void close_frame_work(Simulation& s) {

@@ -30,6 +30,7 @@ void grasp(Simulation& s, const FrameSpan& span) {
   const double before = static_cast<double>(s.frame - 1) / s.scene.time.frame_rate;
   if (!will_act(s.tools, before, span.t0)) return;
   const int n_taken = act_graspers(s.holds, s.tools, before, span.t0, gather_state(s).x, s.fixed);
+  if (n_taken < 0) return;
   localise_holds(s.holds, s.part);
   note_event(s, span.t0,
              n_taken > 0 ? "grasper closes on " + std::to_string(n_taken) + " nodes"
@@ -82,7 +83,7 @@ void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
   aim_holds(s.holds, s.tools, s.mesh.X, span.t0 + static_cast<double>(k + 1) * span.dt);
   if (s.contact) {
     const PhaseScope scope(s.timers, phase_contact);
-    add_cut_resistance(s, s.scratch.force);
+    add_drag(s.model, s.state, span.dt, s.drag, s.scratch.force);
     resolve_contacts(s, span, k);
   }
   {
@@ -106,6 +107,7 @@ FrameSpan step_safely(Simulation& s) {
   for (int tries = 0;; ++tries) {
     const FrameSpan span = plan_frame(s);
     if (s.contact) detect(s, span);
+    if (!s.cuts.empty()) prepare_drag(s, span);
     if (s.energy) begin_frame_work(s);
     for (std::int64_t k = 0; k < span.n_substeps; ++k) substep(s, span, k);
     watch_state(s);

@@ -19,6 +19,7 @@ void sum_forces(Simulation& s, const FrameSpan& span, FrameRow& row) {
   std::vector<std::array<ExactSum, 3>> sums(s.tools.size());
   if (s.contact) sum_contact_reactions(*s.contact, span.n_substeps, sums);
   sum_hold_reactions(s.holds, span.n_substeps, sums);
+  sum_drag_reactions(s.drag, span.n_substeps, sums);
   row.tools.resize(s.tools.size());
   for (std::size_t k = 0; k < s.tools.size(); ++k) {
     row.tools[k].position = s.tools[k].path.at(span.t1).translation;
@@ -27,8 +28,6 @@ void sum_forces(Simulation& s, const FrameSpan& span, FrameRow& row) {
       row.tools[k].force[static_cast<Eigen::Index>(i)] = sums[k][i].value();
     }
   }
-  for (const CutStage& stage : s.cuts)
-    row.tools[static_cast<std::size_t>(stage.tool)].force += stage.resistance;
 }
 
 // Partner nodes lay on each other when they were cut apart: their distance is how far the wound

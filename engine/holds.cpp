@@ -54,8 +54,9 @@ int act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1
     for (const InstrumentKey& key : tools[k].keys) {
       if (!acts_within(key, t0, t1)) continue;
       const auto number = static_cast<std::int32_t>(k);
-      n_taken = std::max(n_taken, 0);
       holds.is_open[k] = key.action == GraspAction::open;
+      if (tools[k].kind != InstrumentKind::grasper) continue;
+      n_taken = std::max(n_taken, 0);
       release(holds, number);
       if (key.action == GraspAction::close)
         n_taken += grasp(holds, tools[k], number, tools[k].path.at(t1), x, fixed);

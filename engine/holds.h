@@ -36,9 +36,9 @@ struct Holds {
 // 1 for each node (n_nodes) that is held by anything or supported in x or y.
 std::vector<std::uint8_t> held_nodes(const Holds& holds, std::span<const std::uint8_t> fixed);
 
-// Closes and opens graspers whose key time lies in (t0, t1]; x (n_nodes) all present positions.
-// Nodes within the grip radius of the tip that nothing else holds are taken. Returns the number of
-// nodes taken, -1 if no grasper acted.
+// Closes and opens graspers and scissors whose key time lies in (t0, t1]; x (n_nodes) all present
+// positions. Nodes within the grip radius of the tip that nothing else holds are taken. Returns the
+// number of nodes taken, -1 if no grasper acted.
 int act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,
                  std::span<const Vec3> x, std::span<const std::uint8_t> fixed);
 bool will_act(std::span<const Tool> tools, double t0, double t1);

@@ -17,7 +17,7 @@ namespace trocar {
 enum class Pace { fast, real_time };
 enum class ShapeKind { box, ball, cylinder, rectangle, triangular_rectangle };
 enum class ElementKind { hex8, tet4_kuhn, tet4_five };
-enum class InstrumentKind { probe, grasper, scalpel };
+enum class InstrumentKind { probe, grasper, scalpel, scissors };
 enum class GraspAction { none, close, open };
 enum class OutputKind { video, frames, recording, metrics, contact_sheet };
 enum class CutMode { robust, paper };

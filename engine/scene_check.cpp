@@ -58,7 +58,7 @@ void check_key(const InstrumentKey& key, const std::string& name, const SourceMa
 }
 
 void check_instruments(Scene& scene, const SourceMap& where) {
-  const char* kinds[] = {"probe", "grasper", "scalpel"};
+  const char* kinds[] = {"probe", "grasper", "scalpel", "scissors"};
   std::set<std::string> names;
   for (std::size_t k = 0; k < scene.instruments.size(); ++k) {
     SceneInstrument& instrument = scene.instruments[k];
@@ -71,9 +71,11 @@ void check_instruments(Scene& scene, const SourceMap& where) {
       check_key(instrument.path[j], path + "." + item("path", j), where);
       if (j > 0 && !(instrument.path[j - 1].time < instrument.path[j].time))
         where.fail(path + "." + item("path", j), "the times of a path must ascend");
-      if (instrument.path[j].action != GraspAction::none &&
-          instrument.kind != InstrumentKind::grasper)
-        where.fail(path + "." + item("path", j) + ".action", "only a grasper opens and closes");
+      const bool has_jaws =
+          instrument.kind == InstrumentKind::grasper || instrument.kind == InstrumentKind::scissors;
+      if (instrument.path[j].action != GraspAction::none && !has_jaws)
+        where.fail(path + "." + item("path", j) + ".action",
+                   "only graspers and scissors open and close");
     }
   }
 }

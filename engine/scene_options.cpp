@@ -139,8 +139,9 @@ Options<SceneCutting> cutting_options() {
            "Edge lengths that the blade sweeps before the mesh is changed.");
   c.number("least_step_ratio", &SceneCutting::least_step_ratio, dim::none, {.low = 0.05, .high = 1},
            "Floor on stable step after / before a cut, of the elements around it.");
-  c.number("resistance", &SceneCutting::resistance, {.kilogram = 1, .second = -2}, not_negative,
-           "Force of the tissue against the blade per length of its edge inside, \"20 N/m\".");
+  c.number(
+      "resistance", &SceneCutting::resistance, {.kilogram = 1, .second = -2}, not_negative,
+      "Largest force of the tissue against the blade per length of its edge inside, \"20 N/m\".");
   c.choice("mode", &SceneCutting::mode, {{"robust", CutMode::robust}, {"paper", CutMode::paper}},
            "Plane cuts: robust (flips, sliding) or as published by Serby, Harders and Szekely.");
   c.number("spring", &SceneCutting::spring, dim::none, not_negative,
@@ -204,18 +205,19 @@ Options<SceneInstrument> instrument_options() {
   key.choice(
       "action", &InstrumentKey::action,
       {{"none", GraspAction::none}, {"close", GraspAction::close}, {"open", GraspAction::open}},
-      "Of a grasper, at this time.");
-  Options<SceneInstrument> i("A probe, grasper or scalpel on a path.");
+      "Of a grasper or scissors: they move for 0.2 s and have closed or opened at this time.");
+  Options<SceneInstrument> i("A probe, grasper, scalpel or scissors on a path.");
   i.choice("kind", &SceneInstrument::kind,
            {{"probe", InstrumentKind::probe},
             {"grasper", InstrumentKind::grasper},
-            {"scalpel", InstrumentKind::scalpel}},
-           "Kind.", Need::required);
+            {"scalpel", InstrumentKind::scalpel},
+            {"scissors", InstrumentKind::scissors}},
+           "Kind. Scissors cut what is between their blades when they close.", Need::required);
   i.text("name", &SceneInstrument::name, "Name in the metrics; the kind if absent.");
   i.number("radius", &SceneInstrument::radius, dim::length, positive, "Of the tip and shaft.");
   i.number("length", &SceneInstrument::length, dim::length, positive, "Of the shaft.");
   i.number("blade_length", &SceneInstrument::blade_length, dim::length, positive,
-           "Of a scalpel's straight edge, from the tip up.");
+           "Of a scalpel's straight edge, from the tip up; of scissors, from tip to pivot.");
   i.number("grip_radius", &SceneInstrument::grip_radius, dim::length, positive,
            "A closing grasper holds the nodes within.");
   i.text("mesh", &SceneInstrument::mesh,

@@ -10,6 +10,7 @@
 #include "base/communicator.h"
 #include "base/timers.h"
 #include "engine/added_mass.h"
+#include "engine/blade_drag.h"
 #include "engine/contact_stage.h"
 #include "engine/cut_stage.h"
 #include "engine/energy_ledger.h"
@@ -87,7 +88,8 @@ struct Simulation {
   std::vector<Tool> tools;
   Holds holds;                            // grasped nodes and moving supports
   std::unique_ptr<ContactStage> contact;  // only with instruments
-  std::vector<CutStage> cuts;             // one a scalpel
+  std::vector<CutStage> cuts;             // one an instrument that cuts
+  BladeDrag drag;                         // of this frame
   SurfaceView view;                       // positions of surface nodes, replicated, once a frame
 
   std::int64_t frame = 0;        // frames done

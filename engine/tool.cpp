@@ -9,6 +9,8 @@ namespace {
 
 constexpr int round_faces = 24;
 constexpr double jaw_angle = 0.30;  // of each open jaw [rad]
+constexpr double jaw_slope = jaw_angle + jaw_angle * jaw_angle * jaw_angle / 3;  // its tangent
+constexpr double first_crossing = 0.15;  // of scissors' blades from the pivot, over their length
 
 ConvexPiece shaft_piece(double from, double to, double radius) {
   return {.points = {Vec3(0, 0, from), Vec3(0, 0, to)}, .radius = radius};
@@ -50,14 +52,24 @@ void make_scalpel(Tool& tool, const SceneInstrument& s, double edge_spacing) {
   for (int k = 0; k <= n; ++k) tool.edge.emplace_back(0, 0, length * k / n);
 }
 
+void add_hinge_and_shaft(Tool& tool, const SceneInstrument& s) {
+  const double jaw = tool.hinge_height;
+  add_part(tool, make_capsule_surface(Vec3(0, -0.9 * s.radius, jaw), Vec3(0, 0.9 * s.radius, jaw),
+                                      0.7 * s.radius, round_faces));
+  add_part(tool, make_cone_surface(Vec3(0, 0, jaw), Vec3(0, 0, jaw + 2 * s.radius), 0.6 * s.radius,
+                                   s.radius, round_faces));
+  add_part(tool, make_cone_surface(Vec3(0, 0, jaw + 2 * s.radius), Vec3(0, 0, s.length), s.radius,
+                                   s.radius, round_faces));
+}
+
 void make_grasper(Tool& tool, const SceneInstrument& s) {
   const double jaw = 0.022, thick = 0.55 * s.radius;
   tool.hinge_height = jaw;
   tool.grip_radius = s.grip_radius;
-  // Open jaws for contact: capsules from the hinge to the two tips. tan and cos of the small angle
-  // by their rational forms.
-  const double slope = jaw_angle + jaw_angle * jaw_angle * jaw_angle / 3;
-  ConvexPiece upper{.points = {Vec3(0, 0, jaw), Vec3(slope * jaw, 0, 0)}, .radius = 0.4 * s.radius};
+  tool.closed_share = 0.15;
+  // Open jaws for contact: capsules from the hinge to the two tips.
+  ConvexPiece upper{.points = {Vec3(0, 0, jaw), Vec3(jaw_slope * jaw, 0, 0)},
+                    .radius = 0.4 * s.radius};
   ConvexPiece lower = upper;
   lower.points[1].x() *= -1;
   tool.shape.pieces = {shaft_piece(jaw + s.radius, s.length, s.radius), upper, lower};
@@ -72,12 +84,33 @@ void make_grasper(Tool& tool, const SceneInstrument& s) {
     }
     add_part(tool, plate, side);
   }
-  add_part(tool, make_capsule_surface(Vec3(0, -0.9 * s.radius, jaw), Vec3(0, 0.9 * s.radius, jaw),
-                                      0.7 * s.radius, round_faces));
-  add_part(tool, make_cone_surface(Vec3(0, 0, jaw), Vec3(0, 0, jaw + 2 * s.radius), 0.6 * s.radius,
-                                   s.radius, round_faces));
-  add_part(tool, make_cone_surface(Vec3(0, 0, jaw + 2 * s.radius), Vec3(0, 0, s.length), s.radius,
-                                   s.radius, round_faces));
+  add_hinge_and_shaft(tool, s);
+}
+
+// Open for contact, which its flat sides have; closed for the picture, side by side.
+void make_scissors(Tool& tool, const SceneInstrument& s, double edge_spacing) {
+  const double length = s.blade_length, width = 0.14 * length, half = 0.05e-3, shown = 0.8e-3;
+  tool.hinge_height = length;
+  tool.closed_share = 0;
+  tool.shape.pieces = {shaft_piece(length + s.radius, s.length, s.radius)};
+  for (const int side : {1, -1}) {
+    const Vec3 hinge(0, 0, length), back(side * width, 0, 0);
+    const Vec3 tip(side * jaw_slope * length, 0, 0);
+    ConvexPiece blade{.least_flatness = 0.9, .deepest = 0.3e-3};
+    for (const Vec3& corner :
+         {hinge, tip, Vec3(hinge + back), Vec3(tip + 0.3 * (hinge - tip) + back)})
+      for (const double y : {-half, half}) blade.points.push_back(corner + Vec3(0, y, 0));
+    tool.shape.pieces.push_back(blade);
+    const Vec3 beside(0, side * shown / 2, 0);
+    std::vector<Vec3> outline = {beside, beside + back + 0.3 * hinge, beside + back + hinge,
+                                 beside + hinge};
+    if (side < 0) std::reverse(outline.begin(), outline.end());
+    add_part(tool, make_plate_surface(outline, -Vec3::UnitY(), shown), side);
+  }
+  add_hinge_and_shaft(tool, s);
+  const double reach = jaw_slope * length;
+  const int n = std::max(2, static_cast<int>(std::ceil(2 * reach / edge_spacing)));
+  for (int k = 0; k <= n; ++k) tool.edge.emplace_back(reach * (2.0 * k / n - 1), 0, 0);
 }
 
 // The user's surface replaces the working piece: its hull touches, its triangles show.
@@ -95,6 +128,7 @@ Tool make_tool(const SceneInstrument& s, const TriangleMesh& mesh, double edge_s
   if (s.kind == InstrumentKind::probe) make_probe(tool, s);
   if (s.kind == InstrumentKind::scalpel) make_scalpel(tool, s, edge_spacing);
   if (s.kind == InstrumentKind::grasper) make_grasper(tool, s);
+  if (s.kind == InstrumentKind::scissors) make_scissors(tool, s, edge_spacing);
   if (!mesh.X.empty()) use_mesh(tool, mesh);
   return tool;
 }
@@ -113,12 +147,31 @@ double jaw_opening(const Tool& tool, double time) {
 Pose part_pose(const Tool& tool, const ToolPart& part, double time) {
   Pose pose = tool.path.at(time);
   if (part.jaw == 0) return pose;
-  const double angle = -part.jaw * jaw_angle * (0.15 + 0.85 * jaw_opening(tool, time));
+  const double angle = -part.jaw * jaw_angle *
+                       (tool.closed_share + (1 - tool.closed_share) * jaw_opening(tool, time));
   const Quat turn(Eigen::AngleAxisd(angle, Vec3::UnitY()));
   const Vec3 hinge(0, 0, tool.hinge_height);
   pose.translation = pose.apply(hinge - turn * hinge);
   pose.rotation = pose.rotation * turn;
   return pose;
+}
+
+bool is_cutting(const Tool& tool, double t0, double t1) {
+  return tool.kind == InstrumentKind::scalpel ||
+         (tool.kind == InstrumentKind::scissors && jaw_opening(tool, t1) < jaw_opening(tool, t0));
+}
+
+std::vector<Vec3> cutting_edge(const Tool& tool, double time) {
+  const Pose pose = tool.path.at(time);
+  std::vector<Vec3> edge;
+  if (tool.kind == InstrumentKind::scissors) {
+    const double way = first_crossing + (1 - first_crossing) * (1 - jaw_opening(tool, time));
+    const Vec3 hinge(0, 0, tool.hinge_height);
+    for (const Vec3& point : tool.edge) edge.push_back(pose.apply(hinge + way * (point - hinge)));
+  } else {
+    for (const Vec3& point : tool.edge) edge.push_back(pose.apply(point));
+  }
+  return edge;
 }
 
 }  // namespace trocar

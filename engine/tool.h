@@ -25,10 +25,12 @@ struct Tool {
   ToolShape shape;
   std::vector<ToolPart> parts;
   TriangleMesh own_mesh;  // the user's surface, empty where the shape is built in
-  std::vector<Vec3>
-      edge;  // scalpel: the straight cutting edge, from the tip up, in the tool's frame [m]
-  double grip_radius = 0;   // grasper [m]
-  double hinge_height = 0;  // grasper: jaws turn about the y axis here [m]
+  // Scalpel: the straight cutting edge, from the tip up, in the tool's frame [m]. Scissors: the
+  // line from blade to blade through the tips when open; cutting_edge() takes it towards the pivot.
+  std::vector<Vec3> edge;
+  double grip_radius = 0;     // grasper [m]
+  double hinge_height = 0;    // jaws turn about the y axis here [m]
+  double closed_share = 0.1;  // of the angle of open jaws that is left when they are closed
 };
 
 // Shape index of the first piece that closes with the jaws (grasper) / of the blade (scalpel);
@@ -36,12 +38,19 @@ struct Tool {
 inline constexpr int first_working_piece = 1;
 
 // mesh: a surface of the user's for the tip, empty for the built-in one. edge_spacing: distance of
-// the points of a scalpel's edge [m].
+// the points of a cutting edge [m].
 Tool make_tool(const SceneInstrument& instrument, const TriangleMesh& mesh, double edge_spacing);
 
 // How far the jaws are open at a time, 1 open … 0 closed, moving for 0.2 s around the keys.
 double jaw_opening(const Tool& tool, double time);
 // Pose of a part: the tool's, with a jaw's turn.
 Pose part_pose(const Tool& tool, const ToolPart& part, double time);
+
+// True for a scalpel, and for scissors while they close between the two times.
+bool is_cutting(const Tool& tool, double t0, double t1);
+// Present positions of the edge at which the tool cuts; the same count of points at any time. [m]
+// Scissors: across the open wedge in the plane of the blades, where these cross as they close: the
+// crossing goes from near the pivot to the tips.
+std::vector<Vec3> cutting_edge(const Tool& tool, double time);
 
 }  // namespace trocar

@@ -146,8 +146,7 @@ TEST(Checkpoint, needs_each_part_of_a_stroke_through_tetrahedra) {
                          {"swept", [](CutMemory& m) { m.stroke.swept = 0; }},
                          {"is_in_stroke", [](CutMemory& m) { m.is_in_stroke = false; }},
                          {"n_idle_frames", [](CutMemory& m) { m.n_idle_frames = 0; }},
-                         {"engaged", [](CutMemory& m) { m.engaged.clear(); }},
-                         {"resistance", [](CutMemory& m) { m.resistance.setZero(); }}});
+                         {"engaged", [](CutMemory& m) { m.engaged.clear(); }}});
 }
 
 TEST(Checkpoint, needs_each_part_of_a_plane_cut) {

@@ -104,10 +104,11 @@ TEST(SceneCheck, gives_instruments_the_name_of_their_kind_and_refuses_two_of_one
                "two instruments are called \"probe\"");
 }
 
-TEST(SceneCheck, lets_only_graspers_act) {
+TEST(SceneCheck, lets_only_graspers_and_scissors_act) {
   const std::string keys = "{ time = 0, position = [0, 0, 1], action = \"close\" }";
-  expect_error(instrument_text("probe", keys), "only a grasper opens and closes");
+  expect_error(instrument_text("probe", keys), "only graspers and scissors open and close");
   EXPECT_EQ(scene_error(scene_text(instrument_text("grasper", keys))), "");
+  EXPECT_EQ(scene_error(scene_text(instrument_text("scissors", keys))), "");
 }
 
 TEST(SceneCheck, needs_a_camera_that_looks_somewhere) {

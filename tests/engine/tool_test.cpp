@@ -20,8 +20,8 @@ double lowest(const ConvexPiece& piece, int axis) {
 }
 
 TEST(Tool, of_every_kind_has_a_shaft_a_working_piece_and_a_picture) {
-  for (const InstrumentKind kind :
-       {InstrumentKind::probe, InstrumentKind::grasper, InstrumentKind::scalpel}) {
+  for (const InstrumentKind kind : {InstrumentKind::probe, InstrumentKind::grasper,
+                                    InstrumentKind::scalpel, InstrumentKind::scissors}) {
     const Tool tool = make_tool(instrument(kind), {}, 1e-3);
     ASSERT_GT(tool.shape.pieces.size(), static_cast<std::size_t>(first_working_piece));
     EXPECT_FALSE(tool.parts.empty());
@@ -84,12 +84,52 @@ TEST(Tool, a_surface_of_the_users_own_replaces_the_working_piece_and_the_picture
   EXPECT_EQ(tool.own_mesh.X, own.X);
 }
 
-Tool grasper_with(const std::vector<std::pair<double, GraspAction>>& actions) {
-  SceneInstrument grasper = instrument(InstrumentKind::grasper);
-  grasper.path.clear();
+Tool tool_with(InstrumentKind kind, const std::vector<std::pair<double, GraspAction>>& actions) {
+  SceneInstrument result = instrument(kind);
+  result.path.clear();
   for (const auto& [time, action] : actions)
-    grasper.path.push_back({.time = time, .action = action});
-  return make_tool(grasper, {}, 1e-3);
+    result.path.push_back({.time = time, .action = action});
+  return make_tool(result, {}, 1e-3);
+}
+
+Tool grasper_with(const std::vector<std::pair<double, GraspAction>>& actions) {
+  return tool_with(InstrumentKind::grasper, actions);
+}
+
+Tool moving_scissors() {
+  return tool_with(InstrumentKind::scissors,
+                   {{0, GraspAction::none}, {1, GraspAction::close}, {2, GraspAction::open}});
+}
+
+TEST(Scissors, cut_only_while_they_close) {
+  const Tool tool = moving_scissors();
+  EXPECT_FALSE(is_cutting(tool, 0.5, 0.6));
+  EXPECT_TRUE(is_cutting(tool, 0.79, 0.81));
+  EXPECT_TRUE(is_cutting(tool, 0.99, 1.01));
+  EXPECT_FALSE(is_cutting(tool, 1.0, 1.1));
+  EXPECT_FALSE(is_cutting(tool, 1.85, 1.95));
+}
+
+// The path holds the tip at the origin, z up the shaft: the pivot is 20 mm above it.
+TEST(Scissors, cut_across_their_open_wedge_from_the_pivot_to_the_tips) {
+  const Tool tool = moving_scissors();
+  const double length = 0.02, opening = std::tan(0.3);
+  double last = length;
+  for (const double time : {0.8, 0.85, 0.9, 0.95, 1.0}) {
+    const std::vector<Vec3> edge = cutting_edge(tool, time);
+    ASSERT_EQ(edge.size(), tool.edge.size());
+    const double below = length - edge[0].z();
+    for (const Vec3& point : edge) {
+      EXPECT_NEAR(point.z(), edge[0].z(), 1e-15);
+      EXPECT_EQ(point.y(), 0);
+    }
+    // The tangent of 0.3 by two terms of its series, the third being 0.3^5 2 / 15.
+    EXPECT_NEAR(edge.front().x(), -opening * below, 4e-4 * below);
+    EXPECT_NEAR(edge.back().x(), opening * below, 4e-4 * below);
+    EXPECT_LT(edge[0].z(), last);
+    last = edge[0].z();
+  }
+  EXPECT_NEAR(last, 0, 1e-15);
 }
 
 TEST(JawOpening, is_full_until_the_jaws_start_to_close_and_none_when_they_meet_at_the_key) {

@@ -1,0 +1,64 @@
+#include "engine/blade_drag.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trocar {
+
+namespace {
+
+BladeDrag::Node& node_of(BladeDrag& drag, std::int32_t tool, std::int32_t local) {
+  const auto place = std::lower_bound(
+      drag.node.begin(), drag.node.end(), std::pair(tool, local),
+      [](const BladeDrag::Node& n, const auto& key) { return std::pair(n.tool, n.local) < key; });
+  if (place != drag.node.end() && place->tool == tool && place->local == local) return *place;
+  return *drag.node.insert(place, {.local = local, .tool = tool});
+}
+
+}  // namespace
+
+void add_engaged_edge(const EngagedEdge& edge, const Mesh& mesh, const Part& part,
+                      double resistance, BladeDrag& drag) {
+  const double speed = edge.velocity.norm();
+  if (edge.place.empty() || resistance == 0 || !(speed > 0)) return;
+  const double most = resistance * edge.length / static_cast<double>(edge.place.size());
+  for (const Location& location : edge.place) {
+    const auto corner = mesh.corners(location.element);
+    for (std::size_t a = 0; a < corner.size(); ++a) {
+      const std::int32_t local = part.node_local[static_cast<std::size_t>(corner[a])];
+      if (local < 0 || local >= part.n_owned) continue;
+      BladeDrag::Node& node = node_of(drag, edge.tool, local);
+      node.most += location.weight[a] * most;
+      node.speed = speed;
+      node.direction = edge.velocity / speed;
+    }
+  }
+}
+
+void add_drag(const Model& model, const State& state, double dt, BladeDrag& drag,
+              std::span<double> force) {
+  if (drag.node.empty()) return;
+  const double gain = step_response(model, state, dt) / dt;  // of velocity to force over mass
+  for (BladeDrag::Node& node : drag.node) {
+    const auto k = 3 * static_cast<std::size_t>(node.local);
+    const Vec3 v(state.v[k], state.v[k + 1], state.v[k + 2]);
+    const Vec3 f(force[k], force[k + 1], force[k + 2]);
+    const double mass = model.mass[static_cast<std::size_t>(node.local)];
+    const double to_blade = mass / gain * (node.speed - v.dot(node.direction));
+    node.force = std::clamp(to_blade - f.dot(node.direction), 0.0, node.most);
+    node.force_sum += node.force;
+    for (std::size_t i = 0; i < 3; ++i)
+      force[k + i] += node.force * node.direction[static_cast<Eigen::Index>(i)];
+  }
+}
+
+void sum_drag_reactions(const BladeDrag& drag, std::int64_t n_substeps,
+                        std::span<std::array<ExactSum, 3>> force) {
+  for (const BladeDrag::Node& node : drag.node) {
+    const Vec3 mean = -node.force_sum / static_cast<double>(n_substeps) * node.direction;
+    for (std::size_t i = 0; i < 3; ++i)
+      force[static_cast<std::size_t>(node.tool)][i].add(mean[static_cast<Eigen::Index>(i)]);
+  }
+}
+
+}  // namespace trocar

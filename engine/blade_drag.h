@@ -1,0 +1,56 @@
+// The resistance of tissue to blades, like dry friction at the nodes around the edge: at most
+// [cutting] resistance for each length of edge inside, and never so much that tissue would get
+// ahead of the blade. Without that bound the few nodes at which a blade enters would be thrown
+// forward.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/exact_sum.h"
+#include "base/vec.h"
+#include "engine/locate.h"
+#include "engine/tool_path.h"
+#include "mesh/mesh.h"
+#include "mesh/partition.h"
+#include "solver/step.h"
+
+namespace trocar {
+
+// Where an edge is inside tissue: places, each for the same length of edge [m].
+struct EngagedEdge {
+  std::int32_t tool = 0;
+  std::span<const Location> place;
+  double length = 0;
+  Vec3 velocity = Vec3::Zero();  // of the edge's middle [m/s]
+};
+
+struct BladeDrag {
+  struct Node {
+    std::int32_t local = 0;  // owned
+    std::int32_t tool = 0;
+    double most = 0;                // [N]
+    double speed = 0;               // of the blade along `direction` [m/s]
+    Vec3 direction = Vec3::Zero();  // of the blade's motion
+    double force = 0;               // of the last step [N]
+    double force_sum = 0;           // over the steps of this frame [N]
+  };
+  std::vector<Node> node;  // of this rank, ascending (tool, local)
+};
+
+// Adds the owned nodes around an edge. resistance [N/m].
+void add_engaged_edge(const EngagedEdge& edge, const Mesh& mesh, const Part& part,
+                      double resistance, BladeDrag& drag);
+
+// Adds to the force of owned nodes what holds in this step.
+void add_drag(const Model& model, const State& state, double dt, BladeDrag& drag,
+              std::span<double> force);
+
+// Mean force of the tissue on each tool over n substeps; adds to force (n_tools), exact in any
+// order.
+void sum_drag_reactions(const BladeDrag& drag, std::int64_t n_substeps,
+                        std::span<std::array<ExactSum, 3>> force);
+
+}  // namespace trocar

@@ -1,0 +1,71 @@
+#include "cutting/cut_carry.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "mesh/generate.h"
+
+namespace trocar {
+namespace {
+
+// A box of 8 x 4 x 4 mm in cells of 1 mm whose tissue moves affinely between two frames, and a
+// blade's edge along z at (x, 2 mm).
+struct Case {
+  Mesh mesh = make_box(Vec3::Zero(), Vec3(8e-3, 4e-3, 4e-3), {8, 4, 4}, BoxElements::tet4_kuhn);
+  std::vector<std::int32_t> all = std::vector<std::int32_t>(mesh.element_type.size());
+  CutStroke stroke;
+  Mat3 A = Mat3::Identity();
+  Vec3 shift{-0.7e-3, 0.1e-3, 0.2e-3};
+
+  Case() {
+    std::iota(all.begin(), all.end(), 0);
+    stroke.mean_edge = 1.2e-3;
+    A << 1.05, 0.02, 0, -0.01, 0.97, 0.03, 0, 0.01, 1.01;
+  }
+  Vec3 moved(const Vec3& X) const { return A * X + shift; }
+  BladeSweep at(double x, std::vector<double> z) const {
+    BladeSweep sweep;
+    for (const double height : z) sweep.after.emplace_back(x, 2e-3, height);
+    sweep.before = sweep.after;
+    return sweep;
+  }
+  // Where points of the edge at `x` are after the tissue has moved.
+  std::vector<Vec3> carried(double x, const std::vector<double>& z,
+                            const std::vector<std::int32_t>& near) {
+    remember_edge(mesh, mesh.X, at(x, z), near, stroke);
+    std::vector<Vec3> now;
+    for (const Vec3& X : mesh.X) now.push_back(moved(X));
+    return carry_edge(mesh, now, at(x, z), stroke).before;
+  }
+};
+
+TEST(CarryEdge, takes_points_inside_and_beside_the_body_along_with_the_tissue) {
+  for (const double x : {3.3e-3, -0.4e-3}) {  // half an edge before the face x = 0
+    Case c;
+    const std::vector<double> z = {0.5e-3, 1.7e-3, 4.4e-3};
+    const std::vector<Vec3> before = c.carried(x, z, c.all);
+    for (std::size_t k = 0; k < z.size(); ++k)
+      EXPECT_LT((before[k] - c.moved({x, 2e-3, z[k]})).norm(), 1e-15) << x << " " << k;
+  }
+}
+
+TEST(CarryEdge, lets_points_far_from_the_body_follow_the_nearest_other_one) {
+  Case c;
+  const std::vector<double> z = {2e-3, 12e-3, 30e-3};
+  const std::vector<Vec3> before = c.carried(3.3e-3, z, c.all);
+  const Vec3 X(3.3e-3, 2e-3, 2e-3), way = c.moved(X) - X;
+  for (std::size_t k = 0; k < z.size(); ++k)
+    EXPECT_LT((before[k] - Vec3(3.3e-3, 2e-3, z[k]) - way).norm(), 1e-15);
+}
+
+// As when the tissue has run from the blade and the band meets no element.
+TEST(CarryEdge, keeps_the_element_of_the_last_frame_while_the_band_meets_none) {
+  Case c;
+  remember_edge(c.mesh, c.mesh.X, c.at(0.2e-3, {1e-3, 2e-3}), c.all, c.stroke);
+  const std::vector<Vec3> before = c.carried(-0.5e-3, {1e-3, 2e-3}, {});
+  EXPECT_LT((before[0] - c.moved({-0.5e-3, 2e-3, 1e-3})).norm(), 1e-15);
+}
+
+}  // namespace
+}  // namespace trocar

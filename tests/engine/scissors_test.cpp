@@ -1,0 +1,85 @@
+// What scissors divide when they close.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "engine_scene.h"
+#include "engine_started.h"
+#include "mesh/connected_nodes.h"
+
+namespace trocar {
+namespace {
+
+// A body 40 mm long in y, 5 mm high and `width` wide, held at both ends. Scissors of 20 mm come
+// from above, their pivot at z = 17 mm, and close at 0.4 s in the plane y = 1 mm.
+std::string snip_text(double width, const std::string& action) {
+  const std::string half = std::to_string(width / 2);
+  const std::string pose = "direction = [0, 0, -1], forward = [1, 0, 0]";
+  return "[time]\nduration = \"1 s\"\nframe_rate = 100\n[tissue.shape]\nkind = \"box\"\n"
+         "low = [-" +
+         half + ", -0.02, 0]\nhigh = [" + half + ", 0.02, 0.005]\ncells = [" +
+         std::to_string(static_cast<int>(width / 1.25e-3)) +
+         ", 32, 4]\nelements = \"tet4-kuhn\"\n"
+         "[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\ndensity = 1000\n"
+         "[[support]]\nregion = \"y-\"\n[[support]]\nregion = \"y+\"\n[checkpoint]\nevery = 0\n"
+         "[[instrument]]\nkind = \"scissors\"\nblade_length = 0.02\npath = [\n"
+         "{ time = 0, position = [0, 0.001, 0.03], " +
+         pose +
+         " },\n"
+         "{ time = 0.15, position = [0, 0.001, -0.003], " +
+         pose +
+         " },\n"
+         "{ time = 0.4, position = [0, 0.001, -0.003], " +
+         pose + ", action = \"" + action + "\" },\n{ time = 0.6, position = [0, 0.001, -0.003], " +
+         pose + ", action = \"open\" } ]\n";
+}
+
+std::unique_ptr<Started> run_to(double time, const std::string& text) {
+  auto started = built(text);
+  while (static_cast<double>(started->s->frame) < 100 * time)
+    run_frame(*started->s, started->outputs);
+  return started;
+}
+
+TEST(Scissors, divide_a_strip_that_lies_between_their_blades) {
+  const auto started = run_to(0.45, snip_text(0.005, "close"));
+  const Simulation& s = *started->s;
+  EXPECT_EQ(s.n_pieces, 2);
+  ASSERT_EQ(s.cuts.at(0).strokes.size(), 1U);
+  const CutRecord& record = s.cuts[0].strokes[0];
+  EXPECT_FALSE(s.cuts[0].is_in_stroke);
+  EXPECT_GE(record.start, 0.2);  // they begin to close
+  EXPECT_LE(record.end, 0.41);
+  EXPECT_EQ(record.n_elements_added, 0);
+  // The plane y = 1 mm leaves 21 / 40 of the mass on one side, to half an element of 1.25 mm.
+  const std::vector<std::int32_t> piece = connected_nodes(s.mesh);
+  double low = 0, all = 0;
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    all += s.mass[i];
+    if (piece[i] == piece[0]) low += s.mass[i];
+  }
+  EXPECT_NEAR(all, 1000 * 0.005 * 0.04 * 0.005, 1e-12);
+  EXPECT_NEAR(low / all, 21.0 / 40, 0.5 * 1.25 / 40);
+}
+
+TEST(Scissors, cut_a_slit_into_a_plate_that_is_wider_than_they_open) {
+  const auto started = run_to(0.45, snip_text(0.03, "close"));
+  const Simulation& s = *started->s;
+  EXPECT_EQ(s.n_pieces, 1);
+  ASSERT_EQ(s.cuts.at(0).strokes.size(), 1U);
+  EXPECT_GT(s.cuts[0].strokes[0].n_opened_facets, 0);
+  // The blades are at most 17 mm * tan(0.3) from the middle; an element may be taken in whole.
+  for (std::size_t i =
+           s.mesh.X.size() - static_cast<std::size_t>(s.cuts[0].strokes[0].n_duplicated);
+       i < s.mesh.X.size(); ++i)
+    EXPECT_LT(std::abs(s.mesh.X[i].x()), 0.0053 + 1.25e-3);
+}
+
+TEST(Scissors, that_only_open_cut_nothing) {
+  const auto started = run_to(0.65, snip_text(0.005, "none"));
+  EXPECT_EQ(started->s->n_pieces, 1);
+  EXPECT_TRUE(started->s->cuts.at(0).strokes.empty());
+}
+
+}  // namespace
+}  // namespace trocar
