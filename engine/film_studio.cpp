@@ -120,6 +120,7 @@ SceneView FilmStudio::Thread::view_of(const FilmFrame& frame, const FilmOrder& o
                           .X = frame.X,
                           .triangle = frame.surface.triangle,
                           .is_cut = frame.surface.is_cut,
+                          .is_quad_half = frame.surface.is_quad_half,
                           .look = {.colour = look.colour,
                                    .cut_colour = look.cut_colour,
                                    .wetness = look.wetness,

@@ -94,10 +94,11 @@ std::vector<std::array<std::int32_t, 2>> mesh_edges(const Mesh& mesh) {
 }
 
 static void add_triangle(Surface& surface, const std::array<std::int32_t, 3>& triangle,
-                         std::int32_t e, bool is_cut) {
+                         std::int32_t e, bool is_cut, bool is_quad_half = false) {
   surface.triangle.push_back(triangle);
   surface.element.push_back(e);
   surface.is_cut.push_back(is_cut ? 1 : 0);
+  surface.is_quad_half.push_back(is_quad_half ? 1 : 0);
 }
 
 static void add_facet(Surface& surface, const Mesh& mesh, std::int32_t e, int f) {
@@ -116,8 +117,8 @@ static void add_facet(Surface& surface, const Mesh& mesh, std::int32_t e, int f)
                                    return mesh.uncut_node(i) < mesh.uncut_node(j);
                                  }),
                 node.end());
-  add_triangle(surface, {node[0], node[1], node[2]}, e, is_cut);
-  if (n == 4) add_triangle(surface, {node[0], node[2], node[3]}, e, is_cut);
+  add_triangle(surface, {node[0], node[1], node[2]}, e, is_cut, n == 4);
+  if (n == 4) add_triangle(surface, {node[0], node[2], node[3]}, e, is_cut, true);
 }
 
 // Facets of one element only, as bits by element.

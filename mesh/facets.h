@@ -47,7 +47,10 @@ struct Surface {
   std::vector<std::array<std::int32_t, 3>> triangle;  // node numbers, outward
   std::vector<std::int32_t> element;                  // (n_triangles) behind each triangle
   std::vector<std::uint8_t> is_cut;  // (n_triangles) opened by a cut: the inside of the tissue
-  std::vector<std::int32_t> node;    // nodes on the surface, ascending
+  // (n_triangles) one of the two of a quad, which come one after the other with the diagonal from
+  // node 0 of both.
+  std::vector<std::uint8_t> is_quad_half;
+  std::vector<std::int32_t> node;  // nodes on the surface, ascending
 };
 Surface boundary_surface(const Mesh& mesh);
 

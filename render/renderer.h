@@ -37,6 +37,7 @@ struct TissueView {
   std::span<const Vec3> X;  // (n_nodes) reference, anchors the texture
   std::span<const std::array<std::int32_t, 3>> triangle;  // outward
   std::span<const std::uint8_t> is_cut;                   // (n_triangles)
+  std::span<const std::uint8_t> is_quad_half;             // (n_triangles) or empty, see mark_edges
   TissueLook look;
   bool is_two_sided = false;  // plane meshes
   bool has_edges = false;     // draws the element edges

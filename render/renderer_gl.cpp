@@ -69,8 +69,7 @@ int checked_side(int side, int width, int height) {
 SurfaceMesh tissue_mesh(const TissueView& tissue) {
   const SurfaceMesh mesh = make_surface_mesh(
       {.x = tissue.x, .X = tissue.X, .triangle = tissue.triangle, .is_cut = tissue.is_cut});
-  if (tissue.has_edges)
-    return mark_edges(mesh, !tissue.is_two_sided && consists_of_quads(tissue.triangle));
+  if (tissue.has_edges) return mark_edges(mesh, tissue.is_quad_half);
   if (mesh.index.size() > 3 * most_refined_triangles || tissue.is_two_sided) return mesh;
   return refine_surface_mesh(mesh);
 }

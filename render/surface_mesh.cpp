@@ -155,16 +155,12 @@ SurfaceMesh make_surface_mesh(const SurfaceShape& shape) {
   return mesh;
 }
 
-bool consists_of_quads(std::span<const std::array<std::int32_t, 3>> triangle) {
-  if (triangle.empty() || triangle.size() % 2 != 0) return false;
-  for (std::size_t t = 0; t < triangle.size(); t += 2) {
-    const auto &a = triangle[t], &b = triangle[t + 1];
-    if (a[0] != b[0] || a[2] != b[1]) return false;
-  }
-  return true;
-}
-
-SurfaceMesh mark_edges(const SurfaceMesh& mesh, bool has_quads) {
+SurfaceMesh mark_edges(const SurfaceMesh& mesh, std::span<const std::uint8_t> is_quad_half) {
+  const std::size_t n = mesh.index.size() / 3;
+  std::vector<int> diagonal(n, -1);  // the corner across, -1: none
+  if (is_quad_half.size() == n)      // no triangle was dropped
+    for (std::size_t t = 0; t < n; ++t)
+      if (is_quad_half[t] != 0) diagonal[t] = t > 0 && diagonal[t - 1] == 1 ? 2 : 1;
   SurfaceMesh marked;
   marked.vertex.reserve(mesh.index.size());
   for (std::size_t k = 0; k < mesh.index.size(); ++k) {
@@ -172,8 +168,7 @@ SurfaceMesh mark_edges(const SurfaceMesh& mesh, bool has_quads) {
     const std::size_t c = k % 3;
     vertex.edge = {0, 0, 0, full};
     vertex.edge[c] = full;
-    // The diagonal is opposite to corner 1 of the first triangle and corner 2 of the second.
-    if (has_quads) vertex.edge[k / 3 % 2 == 0 ? 1 : 2] = full;
+    if (diagonal[k / 3] >= 0) vertex.edge[static_cast<std::size_t>(diagonal[k / 3])] = full;
     marked.vertex.push_back(vertex);
     marked.point.push_back(mesh.point[mesh.index[k]]);
     marked.index.push_back(static_cast<std::uint32_t>(k));

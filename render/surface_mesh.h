@@ -42,10 +42,9 @@ SurfaceMesh make_surface_mesh(const SurfaceShape& shape);
 // et al. 2001, Curved PN triangles, the middle of an edge). Leaves no gap at split vertices.
 SurfaceMesh refine_surface_mesh(const SurfaceMesh& mesh);
 
-// Every triangle with three vertices of its own whose `edge` says how far the edges are. Surfaces
-// of hexahedra come as pairs of triangles (2k, 2k + 1); then the diagonal is no edge.
-SurfaceMesh mark_edges(const SurfaceMesh& mesh, bool has_quads);
-// True if every pair of triangles (2k, 2k + 1) is a quad split at the first node of both.
-bool consists_of_quads(std::span<const std::array<std::int32_t, 3>> triangle);
+// Every triangle with three vertices of its own whose `edge` says how far the edges are.
+// is_quad_half (n_triangles, or empty): 1 for both triangles of a quad, one after the other, whose
+// diagonal from corner 0 is no edge: it lies across corner 1 of the first and 2 of the second.
+SurfaceMesh mark_edges(const SurfaceMesh& mesh, std::span<const std::uint8_t> is_quad_half);
 
 }  // namespace trocar

@@ -153,15 +153,35 @@ TEST(SurfaceEdges, hexahedra_show_quads_and_tetrahedra_triangles) {
       boundary_surface(make_box(Vec3::Zero(), Vec3::Ones(), {3, 3, 3}, BoxElements::hex8));
   const Surface tets =
       boundary_surface(make_box(Vec3::Zero(), Vec3::Ones(), {3, 3, 3}, BoxElements::tet4_kuhn));
-  EXPECT_TRUE(consists_of_quads(hexes.triangle));
-  EXPECT_FALSE(consists_of_quads(tets.triangle));
+  for (const std::uint8_t is_half : tets.is_quad_half) EXPECT_EQ(is_half, 0);
+  ASSERT_EQ(hexes.is_quad_half.size(), hexes.triangle.size());
+  for (std::size_t t = 0; t < hexes.triangle.size(); t += 2) {
+    EXPECT_TRUE(hexes.is_quad_half[t] && hexes.is_quad_half[t + 1]);
+    EXPECT_EQ(hexes.triangle[t][0], hexes.triangle[t + 1][0]);
+    EXPECT_EQ(hexes.triangle[t][2], hexes.triangle[t + 1][1]);
+  }
+}
+
+TEST(SurfaceEdges, a_quad_among_triangles_hides_its_own_diagonal_alone) {
+  const Sheet sheet = make_sheet(1, 2);
+  const SurfaceMesh mesh =
+      make_surface_mesh({.x = sheet.x, .X = sheet.x, .triangle = sheet.triangle});
+  const std::vector<std::uint8_t> middle = {0, 0, 1, 1, 0, 0, 0, 0};
+  const SurfaceMesh marked = mark_edges(mesh, middle);
+  ASSERT_EQ(marked.vertex.size(), 24u);
+  for (int k = 0; k < 24; ++k)
+    for (int c = 0; c < 3; ++c) {
+      const bool is_diagonal = (k / 3 == 2 && c == 1) || (k / 3 == 3 && c == 2);
+      EXPECT_EQ(marked.vertex[k].edge[c], is_diagonal || c == k % 3 ? 255 : 0) << k;
+    }
 }
 
 TEST(SurfaceEdges, each_triangle_has_its_own_vertices_and_the_diagonal_is_hidden) {
   const Sheet sheet = make_sheet(1, 1);
   const SurfaceMesh mesh =
       make_surface_mesh({.x = sheet.x, .X = sheet.x, .triangle = sheet.triangle});
-  const SurfaceMesh plain = mark_edges(mesh, false), quad = mark_edges(mesh, true);
+  const std::vector<std::uint8_t> both = {1, 1};
+  const SurfaceMesh plain = mark_edges(mesh, {}), quad = mark_edges(mesh, both);
   EXPECT_EQ(plain.vertex.size(), 6u);
   // Distance from edge c is 0 at the two corners other than c; a hidden edge is far from
   // everywhere.
