@@ -59,6 +59,20 @@ static BladePoint locate(const Mesh& mesh, std::span<const Vec3> x,
   return best;
 }
 
+// Whether an element holds some of the points that divide the pieces of a polyline into four.
+static bool holds_some(const Mesh& mesh, std::span<const Vec3> x, std::int32_t e,
+                       std::span<const Vec3> line) {
+  constexpr int parts = 4;
+  for (std::size_t k = 0; k + 1 < line.size(); ++k)
+    for (int j = 0; j <= parts; ++j) {
+      const Vec3 point = line[k] + (line[k + 1] - line[k]) * (1.0 * j / parts);
+      if (!box_holds(mesh, e, x, point, 0)) continue;
+      const std::array<double, 4> b = barycentric(mesh, e, x, point);
+      if (*std::min_element(b.begin(), b.end()) >= 0) return true;
+    }
+  return false;
+}
+
 void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
                    std::span<const std::int32_t> near, CutStroke& stroke) {
   const std::vector<BladePoint> last = std::move(stroke.edge);
@@ -66,6 +80,9 @@ void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& 
   for (std::size_t k = 0; k < sweep.after.size(); ++k)
     stroke.edge.push_back(locate(mesh, x, near, k < last.size() ? last[k].element : -1,
                                  sweep.after[k], stroke.mean_edge));
+  stroke.at_edge.clear();
+  for (const std::int32_t e : near)
+    if (holds_some(mesh, x, e, sweep.after)) stroke.at_edge.push_back(e);
 }
 
 BladeSweep carry_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,

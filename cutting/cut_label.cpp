@@ -135,7 +135,8 @@ CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke)
   cut_graph(around, labels);
   labels.is_front_node.assign(around.patch.node.size(), 0);
   for (std::int32_t e = 0; e < around.patch.n_elements(); ++e)
-    if (labels.kind[e] == CutKind::front)
+    if (labels.kind[e] == CutKind::front ||
+        std::binary_search(stroke.at_edge.begin(), stroke.at_edge.end(), around.patch.element[e]))
       for (const std::int32_t i : around.patch.corner[e]) labels.is_front_node[i] = 1;
   return labels;
 }

@@ -18,7 +18,8 @@ struct CutLabels {
   std::vector<CutKind> kind;      // (n_elements)
   std::vector<std::int8_t> side;  // (n_elements) +1, -1; 0: takes no part
   std::vector<std::uint8_t>
-      is_front_node;  // (n_nodes) of an element of the front: the blade is still in there
+      is_front_node;  // (n_nodes) of an element of the front: the blade is still in there, and a
+                      // node that moves could take an edge past it uncrossed
 };
 
 CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke);

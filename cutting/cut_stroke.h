@@ -55,6 +55,7 @@ struct CutStroke {
   std::vector<std::int32_t> fresh;  // elements crossed since the last edit, ascending
   std::vector<std::int32_t> unfinished;  // elements to look at again at the next edit, ascending
   std::vector<BladePoint> edge;          // where the blade's edge is in the tissue
+  std::vector<std::int32_t> at_edge;     // elements that hold it, ascending
   double mean_edge = 0;                  // around the last hits [m]; 0: not known yet
   double swept = 0;                      // since the last edit [m]
 };

@@ -46,7 +46,7 @@ static void visit(Archive& a, BladePoint& p) {
 template <class Archive>
 static void visit(Archive& a, CutStroke& s) {
   a(s.hit, s.side, s.opened, s.step, s.surface_node, s.parted_node, s.fresh, s.unfinished, s.edge,
-    s.mean_edge, s.swept);
+    s.at_edge, s.mean_edge, s.swept);
 }
 template <class Archive>
 static void visit(Archive& a, CutRefusal& r) {
