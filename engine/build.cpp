@@ -184,6 +184,7 @@ void rebuild_topology(Simulation& s) {
   for (const double step : s.model.element_step) rest_step = std::min(rest_step, step);
   s.rest_step = s.communicator->all_min(rest_step);
   s.scratch = make_scratch(s.model);
+  begin_sleep(s);
   if (s.energy) s.scratch.damping_work.assign(static_cast<std::size_t>(s.model.n_owned), 0.0);
   s.surface = boundary_surface(s.mesh);
   s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part, rank);

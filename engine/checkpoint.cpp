@@ -32,7 +32,8 @@ void check_fit(const Checkpoint& c, const Simulation& s) {
   const std::size_t n = c.mesh.X.size();
   if (c.u.size() != 3 * n || c.v.size() != 3 * n || c.fixed.size() != n ||
       (!c.fastest_mode.empty() && c.fastest_mode.size() != 3 * n) ||
-      c.cuts.size() != s.cuts.size() || c.is_open.size() != s.tools.size())
+      c.sleep.size() != (s.sleep ? 7 * n : 0) || c.cuts.size() != s.cuts.size() ||
+      c.is_open.size() != s.tools.size())
     throw InputError("the checkpoint does not fit the scene; start without --resume");
 }
 
@@ -89,6 +90,7 @@ Checkpoint take_checkpoint(Simulation& s) {
   // A rank may own no node; a search may not have run.
   if (s.communicator->all_max(s.fastest_mode.empty() ? 0 : 1) > 0)
     c.fastest_mode = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.fastest_mode, *s.communicator);
+  if (s.sleep) c.sleep = gather_sleep(s);
   for (const CutStage& stage : s.cuts) c.cuts.push_back(memory_of(stage));
   return c;
 }
@@ -111,6 +113,7 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   scatter_state(s, {.u = c.u, .v = c.v});
   const std::vector<double> same(s.mesh.element_type.size(), 1.0);
   restore_history(s.model, s.part, c.history, same, s.state);
+  if (s.sleep) restore_sleep(c.sleep, s);
   for (std::size_t k = 0; k < s.cuts.size(); ++k) remember(c.cuts[k], s.cuts[k]);
   s.step_scale = c.step_scale;
   s.stable_step_before_cut = c.stable_step_before_cut;
@@ -130,12 +133,14 @@ FrameStart start_of_frame(const Simulation& s) {
           .holds = s.holds.holds,
           .is_open = s.holds.is_open,
           .fastest_mode = s.fastest_mode,
+          .sleep = s.sleep,
           .n_events = s.log.events.size(),
           .n_roll_backs = s.log.n_roll_backs};
 }
 
 Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start) {
   s.fastest_mode = start.fastest_mode;
+  s.sleep = start.sleep;
   Checkpoint c = take_checkpoint(s);
   c.watch = start.watch;
   c.step_scale = start.step_scale;

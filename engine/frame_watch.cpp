@@ -35,6 +35,7 @@ void force_of(Simulation& s, State& probe, std::vector<double>& u, std::vector<d
 // A search that ends leaves the step at 2 / omega less a margin; if it doesn't, the element bound
 // stays.
 void use_frequency(Simulation& s) {
+  if (s.sleep) show_awake(s);  // the step must do when they wake
   State probe = s.state;
   FrequencyOptions options;
   // Small beside an element, large beside the rounding of the elements' numbers.
@@ -46,6 +47,7 @@ void use_frequency(Simulation& s) {
       options, *s.communicator, s.fastest_mode);
   if (found.is_converged)
     s.watch.stable_step = std::max(s.watch.stable_step, 2 / (frequency_margin * found.omega));
+  if (s.sleep) show_asleep(s);
 }
 
 }  // namespace

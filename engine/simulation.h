@@ -16,6 +16,7 @@
 #include "engine/frame_log.h"
 #include "engine/holds.h"
 #include "engine/scene.h"
+#include "engine/sleep.h"
 #include "engine/surface_view.h"
 #include "engine/tool.h"
 #include "mesh/facets.h"
@@ -95,6 +96,7 @@ struct Simulation {
   double contact_reach = 0;      // how far tissue may come towards a tool within a frame [m]
   double start_seconds = 0;      // monotonic clock at time zero of the scene
   std::unique_ptr<EnergyLedger> energy;  // only with a metrics output
+  std::optional<Sleep> sleep;            // only if the scene asks for it
   double step_scale = 1;                 // halved by each roll-back
   Watch watch;                           // of the last frame, over all ranks
   double rest_step = 0;  // least element bound of the undeformed mesh, over all ranks [s]

@@ -20,6 +20,10 @@ std::string digest_of(const std::string& scene, const std::vector<std::string>& 
   EXPECT_EQ(summary["threads"], threads);
   std::string digest = summary["state_digest"];
   for (const auto& cut : summary["cuts"]) digest += " cut " + cut["nodes_duplicated"].dump();
+  if (summary.contains("share_asleep_mean")) {
+    EXPECT_GT(summary["share_asleep_mean"], 0.05);
+    digest += " asleep " + summary["share_asleep_mean"].dump();
+  }
   return digest;
 }
 
@@ -67,6 +71,14 @@ TEST(StateDigest, of_a_start_in_equilibrium_is_the_same_on_any_ranks_and_threads
 
 TEST(StateDigest, with_scaled_masses_is_the_same_on_any_ranks_and_threads_while_it_is_cut) {
   expect_one_digest("plane_cut.toml", {"time.duration='2 s'", "solver.mass_scaling_step='0.5 ms'"});
+}
+
+// At rest at first, then pressed and pulled.
+TEST(StateDigest, with_sleep_is_the_same_on_any_ranks_and_threads) {
+  for (const std::string precision : {"double", "single"})
+    expect_one_digest("block_hex.toml",
+                      {"tissue.shape.cells=[8,8,8]", "start.state='equilibrium'",
+                       "solver.sleep='0.2 mm'", "solver.precision='" + precision + "'"});
 }
 
 // Steps a second of the same frames are doubled: messages follow, what all ranks say together does
