@@ -225,6 +225,9 @@ void Communicator::finish_exchange() {
 }
 
 MpiSession::MpiSession(int* argc, char*** argv) {
+  // hwloc, which Open MPI asks about the machine, looks for X displays by name: five seconds each
+  // where no name service answers.
+  setenv("HWLOC_COMPONENTS", "-gl", 0);
   int provided = MPI_THREAD_SINGLE;
   MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
   CHECK_OP(provided, >=, static_cast<int>(MPI_THREAD_FUNNELED));

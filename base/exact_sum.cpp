@@ -1,8 +1,8 @@
 #include "base/exact_sum.h"
 
+#include <bit>
 #include <cmath>
-
-#include "base/check.h"
+#include <limits>
 
 namespace trocar {
 
@@ -14,18 +14,21 @@ constexpr std::uint64_t low_half = 0xffffffffu;
 }  // namespace
 
 void ExactSum::add(double value) {
-  if (value == 0 || !std::isfinite(value)) return;
-  int exponent = 0;
-  const double fraction = std::frexp(std::abs(value), &exponent);  // value = fraction * 2^exponent
-  auto mantissa = static_cast<std::uint64_t>(std::ldexp(fraction, 53));
-  int bit = exponent - 53 - lowest_bit;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const auto exponent = static_cast<int>(bits >> 52 & 0x7ff);
+  if (exponent == 0 || exponent == 0x7ff) return;  // too small to count; not finite
+  std::uint64_t mantissa = (bits & 0xfffffffffffff) | 0x10000000000000;
+  int bit = exponent - 1075 - lowest_bit;  // |value| = mantissa * 2^(exponent - 1075)
   if (bit < 0) {
     if (bit <= -64) return;
     mantissa >>= -bit;
     bit = 0;
   }
   const auto limb = static_cast<std::size_t>(bit / 32);
-  CHECK_OP(limb + 2, <, limbs_.size());
+  if (limb + 2 >= n_limbs) {
+    ++limbs_[n_limbs];
+    return;
+  }
   const int shift = bit % 32;
   const std::uint64_t low = mantissa << shift;
   const std::uint64_t high = shift == 0 ? 0 : mantissa >> (64 - shift);
@@ -35,12 +38,13 @@ void ExactSum::add(double value) {
 }
 
 double ExactSum::value() const {
+  if (limbs_[n_limbs] != 0) return std::numeric_limits<double>::infinity();
   // Carry upward; each word is a signed number of at most 63 bits.
-  std::array<std::int64_t, 10> digit{};
+  std::array<std::int64_t, n_limbs> digit{};
   std::int64_t carry = 0;
-  for (std::size_t k = 0; k < limbs_.size(); ++k) {
+  for (std::size_t k = 0; k < n_limbs; ++k) {
     const std::int64_t sum = static_cast<std::int64_t>(limbs_[k]) + carry;
-    const bool is_top = k + 1 == limbs_.size();
+    const bool is_top = k + 1 == n_limbs;
     digit[k] = is_top ? sum : static_cast<std::int64_t>(static_cast<std::uint64_t>(sum) & low_half);
     carry = sum >> 32;
   }

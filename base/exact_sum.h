@@ -1,6 +1,6 @@
 // A sum of doubles that does not depend on their order or on how they are spread over ranks:
 // fixed-point accumulation in 320 bits, exact for magnitudes from 2^-159 to 2^126 (smaller parts
-// are cut off, each at the same place).
+// are cut off, each at the same place; with a larger one the sum is infinite).
 #pragma once
 
 #include <array>
@@ -21,7 +21,9 @@ class ExactSum {
  private:
   // 32 bits a limb in 64-bit words, least significant first, two's complement per addend: 2^31
   // addends fit without overflow.
-  std::array<std::uint64_t, 10> limbs_{};
+  // The last word counts addends that were too large.
+  static constexpr std::size_t n_limbs = 10;
+  std::array<std::uint64_t, n_limbs + 1> limbs_{};
 };
 
 }  // namespace trocar

@@ -1,8 +1,8 @@
-// Random cuts of tetrahedral meshes by displaced nodes, beside subdivision of the same cuts: what
+// Random cuts of meshes by displaced nodes, beside subdivision of the same cuts: what
 // comes out right, what the stable step and the shapes of the elements become, and what it costs.
 // bench_cut [--count N] [--seed S] [--family NAME] [--kind NAME] [--mesh FILE]... [--json FILE]
-// [--markdown FILE]; bench_cut scaling: the same incision in boxes of 5,000 to 1,000,000
-// tetrahedra.
+// [--markdown FILE]; bench_cut --cuts N [--seed S] [--minutes M]: N cuts of bent bodies, the
+// invariants alone; bench_cut scaling: the same incision in boxes of 5,000 to 1,000,000 tetrahedra.
 #include <cstdlib>
 #include <cstring>
 
@@ -14,8 +14,9 @@ using namespace trocar::cut_bench;
 namespace {
 
 struct Arguments {
-  int count = 20;
+  int count = 20, cuts = 0;
   unsigned seed = 1;
+  double minutes = 1e9;
   std::string family, kind, json, markdown;
   std::vector<std::string> mesh;
 };
@@ -25,6 +26,8 @@ Arguments read_arguments(int argc, char** argv) {
   for (int k = 1; k + 1 < argc; k += 2) {
     const std::string name = argv[k], value = argv[k + 1];
     if (name == "--count") a.count = std::atoi(value.c_str());
+    if (name == "--cuts") a.cuts = std::atoi(value.c_str());
+    if (name == "--minutes") a.minutes = std::atof(value.c_str());
     if (name == "--seed") a.seed = unsigned(std::atoi(value.c_str()));
     if (name == "--family") a.family = value;
     if (name == "--kind") a.kind = value;
@@ -59,6 +62,7 @@ int main(int argc, char** argv) {
     return 0;
   }
   const Arguments a = read_arguments(argc, argv);
+  if (a.cuts > 0) return print_long_run({a.seed, a.cuts, a.minutes}, stdout) ? 0 : 1;
   std::FILE* table = a.markdown.empty() ? stdout : std::fopen(a.markdown.c_str(), "w");
   print_head(table);
   std::vector<Row> rows;

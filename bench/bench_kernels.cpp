@@ -1,7 +1,8 @@
 // Nanoseconds of one whole step (forces, sums, integration) per element, by element, material,
 // precision and instruction set, for bodies that a cache holds and for others; beside the
-// multiply-add peak and the memory bandwidth of the same core in the same run. JSON to stdout.
-// bench_kernels [elements, about (default 8000)] [material, or "all"] [threads]
+// multiply-add peak and the memory bandwidth of the same core in the same run, and beside what
+// these allow (roofline: Williams, Waterman and Patterson 2009). JSON to stdout. bench_kernels
+// [elements, about (default 8000)] [material, or "all"] [threads]
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -17,12 +18,16 @@ namespace {
 
 // Operations of a neo-Hookean element and its share of the nodes, additions and multiplications,
 // counted in the formulas:
-// hex8 one-point: modes 3 x 23, H 9 x 11, q 12 x 6 (element_hex8.h); stress 200
-//   (material_neo_hookean.h, two refinements of the root); g 12, P' 9 x 8, w 18 x 5 + 9, corners
-//   3 x 23, sums 8 x 3; a node 6 for its force and 19 for its motion.
-// tet4: differences 9, H 9 x 5; stress 200; f 9 x 5 + 6, sums 4 x 3; 25 / 5.5 for nodes.
-constexpr double flops_of_hex8 = 69 + 99 + 72 + 200 + 12 + 72 + 99 + 69 + 24 + 25;
-constexpr double flops_of_tet4 = 9 + 45 + 200 + 51 + 12 + 25 / 5.5;
+// stress (material_neo_hookean.h): cofactor 27, J - 1 11, tr 2E 19, root 37 (isochoric.h), factors
+//   11, P 9 x 4 + 3.
+// hex8 one-point: b 19 + 18 x 7, modes 3 x 23, H 9 x 11, q 12 x 6 (element_hex8.h); stress; g 12,
+//   P' 9 x 8, w 18 x 5 + 9, corners 3 x 23, sums 8 x 3; a node 6 for its force, 16 for its motion.
+// tet4: differences 9, H 9 x 5; stress; f 9 x 5 + 6, sums 4 x 3; a node for 5.5 of them.
+constexpr double flops_of_stress = 27 + 11 + 19 + 37 + 11 + 39;
+constexpr double flops_of_node = 6 + 16;
+constexpr double flops_of_hex8 =
+    145 + 69 + 99 + 72 + flops_of_stress + 12 + 72 + 99 + 69 + 24 + flops_of_node;
+constexpr double flops_of_tet4 = 9 + 45 + flops_of_stress + 51 + 12 + flops_of_node / 5.5;
 
 // In the order of MaterialModel.
 constexpr const char* model_names[n_material_models] = {
@@ -57,8 +62,25 @@ Mesh jittered_body(Formulation formulation, int n_elements) {
 }
 
 struct Timing {
-  double ns = 0, bytes = 0;  // per element
+  double ns = 0, bytes = 0, moved = 0;  // per element
 };
+
+// Bytes that one step must move if no cache holds the body: what is constant once, what changes
+// once in and once out.
+double moved_bytes(const Body& body) {
+  const auto bytes = [](const auto& values) {
+    return static_cast<double>(values.size() * sizeof(values[0]));
+  };
+  const Model& model = body.model;
+  double sum = bytes(model.mass) + bytes(model.inertia) + bytes(model.fixed) +
+               bytes(model.sums.node) + bytes(model.sums.last_block) +
+               2 * (bytes(body.state.u) + bytes(body.state.v) + bytes(body.scratch.sum) +
+                    bytes(body.scratch.force));
+  for (const ElementBlocks& blocks : model.blocks)
+    sum += bytes(blocks.corner) + bytes(blocks.target) + bytes(blocks.row) + bytes(blocks.data) +
+           bytes(blocks.data_single);
+  return sum;
+}
 
 Timing measure(const Case& c, const Mesh& mesh) {
   Body body = make_body(mesh, {.materials = {Material{.model = c.model}},
@@ -70,10 +92,33 @@ Timing measure(const Case& c, const Mesh& mesh) {
   const double state_bytes =
       static_cast<double>((body.state.u.size() + body.state.v.size()) * sizeof(double));
   return {1e9 * seconds / n,
-          (static_cast<double>(memory_bytes(body.model, body.scratch)) + state_bytes) / n};
+          (static_cast<double>(memory_bytes(body.model, body.scratch)) + state_bytes) / n,
+          moved_bytes(body) / n};
 }
 
-void report(const Case& c, int n_elements, double gflops, bool& is_first) {
+// What the core can do, in double. [10^9 1/s]
+struct Machine {
+  double gflops = 0, gbytes = 0;
+};
+
+double flops_of(const Case& c) {
+  if (c.model != MaterialModel::neo_hookean) return 0;
+  if (c.formulation == Formulation::hex8_one_point) return flops_of_hex8;
+  return c.formulation == Formulation::tet4 ? flops_of_tet4 : 0;
+}
+
+void report_roofline(const Case& c, const Timing& t, const Machine& machine) {
+  const double flops = flops_of(c);
+  if (flops == 0 || machine.gflops == 0) return;
+  const double peak = machine.gflops * (c.precision == Precision::in_single ? 2 : 1);
+  const double roof_ns = std::max(flops / peak, t.moved / machine.gbytes);
+  std::printf(
+      ", \"flops\": %.0f, \"moved_bytes\": %.0f, \"roofline_ns\": %.2f, \"share_of_roofline\": "
+      "%.3f, \"share_of_peak\": %.3f",
+      flops, t.moved, roof_ns, roof_ns / t.ns, flops / t.ns / peak);
+}
+
+void report(const Case& c, int n_elements, const Machine& machine, bool& is_first) {
   const Mesh mesh = jittered_body(c.formulation, n_elements);
   const Timing t = measure(c, mesh);
   std::printf(
@@ -81,18 +126,13 @@ void report(const Case& c, int n_elements, double gflops, bool& is_first) {
       "\"elements\": %d, \"step_ns\": %.2f, \"bytes\": %.0f",
       is_first ? "" : ",", name_of(c.formulation), model_names[static_cast<int>(c.model)],
       name_of(c.precision), simd_name(), mesh.n_elements(), t.ns, t.bytes);
-  const double flops = c.formulation == Formulation::hex8_one_point ? flops_of_hex8
-                       : c.formulation == Formulation::tet4         ? flops_of_tet4
-                                                                    : 0;
-  if (flops > 0 && c.model == MaterialModel::neo_hookean && gflops > 0)
-    std::printf(", \"flops\": %.0f, \"share_of_peak\": %.3f", flops,
-                flops / t.ns / (gflops * (c.precision == Precision::in_single ? 2 : 1)));
+  report_roofline(c, t, machine);
   std::printf("}");
   std::fflush(stdout);
   is_first = false;
 }
 
-void report_all(int n_elements, const std::string& material, double gflops) {
+void report_all(int n_elements, const std::string& material, const Machine& machine) {
   bool is_first = true;
   for (int f = 0; f < n_formulations; ++f)
     for (int m = 0; m < n_material_models; ++m)
@@ -100,7 +140,7 @@ void report_all(int n_elements, const std::string& material, double gflops) {
         const Case c{static_cast<Formulation>(f), static_cast<MaterialModel>(m), precision};
         if (material != "all" && material != model_names[static_cast<int>(c.model)]) continue;
         if (!is_possible(c.formulation, c.model)) continue;
-        report(c, n_elements, gflops, is_first);
+        report(c, n_elements, machine, is_first);
       }
 }
 
@@ -114,14 +154,14 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "bench_kernels [elements] [material, or all] [threads]\n");
     return 2;
   }
-  const double gflops = peak_gflops();
+  const Machine machine{peak_gflops(), triad_gbytes()};
   std::printf("{\"threads\": %d, \"peak_gflops\": %.1f, \"triad_gbytes\": %.1f, \"steps\": [",
-              thread_count(), gflops, triad_gbytes());
+              thread_count(), machine.gflops, machine.gbytes);
   for (const Simd simd : {Simd::sse2, Simd::avx2, Simd::avx512})
     if (is_supported(simd)) {
       if (simd != Simd::sse2) std::printf(",");
       select_simd(name_of(simd));
-      report_all(n_elements, material, gflops);
+      report_all(n_elements, material, machine);
     }
   std::printf("\n]}\n");
 }

@@ -18,6 +18,9 @@ struct Family {
   std::string name;
   std::function<Mesh(unsigned seed)> make;
 };
+// Of `n_cells` cells a direction.
+std::vector<Family> generated_families(int n_cells);
+// Those of 8 cells, and meshes from files.
 std::vector<Family> families(const std::vector<std::string>& mesh_files);
 
 // One stroke of a blade and the surface that it sweeps: phi its signed distance, > 0 where `normal`
@@ -43,6 +46,16 @@ double processor_seconds();
 
 // Prints what the same incision costs in boxes of 5,000 to 1,000,000 tetrahedra of one size.
 void print_scaling(std::FILE* file);
+
+// Random cuts of bent bodies, the generated families and all kinds in turn: prints how many left an
+// element inverted, in the reference or in the present configuration, or the body unsound, and the
+// seed of each such cut. Ends after `minutes`. False if there was one.
+struct LongRun {
+  unsigned seed = 1;
+  int n_cuts = 100000;
+  double minutes = 1e9;
+};
+bool print_long_run(const LongRun& run, std::FILE* file);
 
 // The textbook's way, for comparison: every crossed edge gets a node where the surface meets it,
 // and elements are split there (all edges that `strokes` cross, whether the blade gets there or

@@ -1,4 +1,4 @@
-// The meshes that bench_cut cuts; all about 3,000 tetrahedra but the organ.
+// The meshes that bench_cut cuts; all about 3,000 tetrahedra (512 hexahedra) but the organ.
 #include <time.h>
 
 #include <filesystem>
@@ -18,8 +18,8 @@ double processor_seconds() {
   return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
-static Mesh cube(BoxElements elements, double amount, unsigned seed) {
-  Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, elements);
+static Mesh cube(BoxElements elements, int n, double amount, unsigned seed) {
+  Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {n, n, n}, elements);
   if (amount > 0) jitter(mesh, amount, seed);
   return mesh;
 }
@@ -29,17 +29,25 @@ static Family from_file(const std::string& file) {
           [mesh = read_mesh(file, 1)](unsigned) { return mesh; }};
 }
 
+std::vector<Family> generated_families(int n) {
+  const auto cubes = [n](BoxElements elements, double amount) {
+    return [=](unsigned seed) { return cube(elements, n, amount, seed); };
+  };
+  return {{"kuhn", cubes(BoxElements::tet4_kuhn, 0)},
+          {"five", cubes(BoxElements::tet4_five, 0)},
+          {"jittered", cubes(BoxElements::tet4_kuhn, 0.2)},
+          {"ball",
+           [n](unsigned) {
+             return make_ball({0.5, 0.5, 0.5}, 0.5, n, BoxElements::tet4_kuhn);
+           }},
+          {"hex", cubes(BoxElements::hex8, 0)},
+          {"hex_jittered", cubes(BoxElements::hex8, 0.1)}};
+}
+
 std::vector<Family> families(const std::vector<std::string>& mesh_files) {
-  std::vector<Family> all = {
-      {"kuhn", [](unsigned) { return cube(BoxElements::tet4_kuhn, 0, 0); }},
-      {"five", [](unsigned) { return cube(BoxElements::tet4_five, 0, 0); }},
-      {"jittered", [](unsigned seed) { return cube(BoxElements::tet4_kuhn, 0.2, seed); }},
-      {"ball",
-       [](unsigned) {
-         return make_ball({0.5, 0.5, 0.5}, 0.5, 8, BoxElements::tet4_kuhn);
-       }},
-      from_file(TROCAR_SOURCE "/bench/meshes/box_delaunay.msh"),
-      from_file(TROCAR_SOURCE "/configs/meshes/liver.msh")};
+  std::vector<Family> all = generated_families(8);
+  all.push_back(from_file(TROCAR_SOURCE "/bench/meshes/box_delaunay.msh"));
+  all.push_back(from_file(TROCAR_SOURCE "/configs/meshes/liver.msh"));
   for (const std::string& file : mesh_files) all.push_back(from_file(file));
   return all;
 }

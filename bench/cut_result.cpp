@@ -3,18 +3,18 @@
 
 #include <cmath>
 
+#include "cutting/cut_hex.h"
+#include "cutting/cut_hex_shape.h"
+
 namespace trocar::cut_bench {
 
 // In proportion to the element's stable step.
 static double step_bound(const Mesh& mesh, std::int32_t e) {
   const auto c = mesh.corners(e);
-  double sum = 0;
-  for (int f = 0; f < 4; ++f) {
-    const std::array<int, 4> k = facet_corners(ElementType::tet4, f);
-    const Vec3& o = mesh.X[c[k[0]]];
-    sum += 0.25 * (mesh.X[c[k[1]]] - o).cross(mesh.X[c[k[2]]] - o).squaredNorm();
-  }
-  return element_volume(mesh, e, mesh.X) / std::sqrt(sum);
+  if (c.size() == 4) return trocar::step_bound(mesh.X, {c[0], c[1], c[2], c[3]});
+  std::array<Vec3, 8> X;
+  for (std::size_t a = 0; a < 8; ++a) X[a] = mesh.X[c[a]];
+  return hex_step_bound(X);
 }
 
 // Degrees.
@@ -38,22 +38,35 @@ static double least_step(const Mesh& mesh) {
   return least;
 }
 
-static bool is_changed(const Mesh& before, const Mesh& after, std::int32_t e) {
-  const auto a = before.corners(e), b = after.corners(e);
+// Element `e` of `after` against the one that it was or was a part of.
+static bool is_changed(const Mesh& before, std::int32_t origin, const Mesh& after, std::int32_t e) {
+  if (before.element_type[origin] != after.element_type[e]) return true;
+  const auto a = before.corners(origin), b = after.corners(e);
   for (std::size_t c = 0; c < a.size(); ++c)
     if (a[c] != b[c] || before.X[a[c]] != after.X[b[c]]) return true;
   return false;
 }
 
-static void measure_elements(const Mesh& before, const Mesh& after, Result& result) {
+static int n_hexahedra(const Mesh& mesh) {
+  return int(std::count(mesh.element_type.begin(), mesh.element_type.end(), ElementType::hex8));
+}
+
+static void measure_elements(const Mesh& before, const CutBody& cut, Result& result) {
+  const Mesh& after = cut.body.mesh;
   double step_before = 1e300, step_after = 1e300;
   for (std::int32_t e = 0; e < after.n_elements(); ++e) {
     if (!(element_volume(after, e, after.X) > 0)) ++result.n_inverted;
-    if (!is_changed(before, after, e)) continue;
-    step_before = std::min(step_before, step_bound(before, e));
+    const std::int32_t origin = cut.origin[std::size_t(e)];
+    if (!is_changed(before, origin, after, e)) continue;
+    step_before = std::min(step_before, step_bound(before, origin));
     step_after = std::min(step_after, step_bound(after, e));
-    result.least_dihedral = std::min(result.least_dihedral, least_dihedral(after, e));
+    if (after.element_type[e] == ElementType::tet4)
+      result.least_dihedral = std::min(result.least_dihedral, least_dihedral(after, e));
+    else
+      ++result.n_reshaped;
   }
+  result.n_hexahedra = n_hexahedra(before);
+  result.n_converted = result.n_hexahedra - n_hexahedra(after);
   if (step_before < 1e300) result.cut_ratio = step_after / step_before;
   result.body_ratio = least_step(after) / least_step(before);
   result.n_added = after.n_elements() - before.n_elements();
@@ -65,10 +78,10 @@ static void measure_deviation(const Mesh& mesh, const std::vector<Stroke>& strok
                               Result& result) {
   std::vector<std::int32_t> node;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-    for (int f = 0; f < 4; ++f)
+    for (int f = 0; f < n_facets(mesh.element_type[e]); ++f)
       if ((mesh.cut_facets[e] >> f & 1) != 0)
-        for (int k = 0; k < 3; ++k)
-          node.push_back(mesh.corners(e)[facet_corners(ElementType::tet4, f)[k]]);
+        for (const int c : facet_corners(mesh.element_type[e], f))
+          if (c >= 0) node.push_back(mesh.corners(e)[c]);
   std::sort(node.begin(), node.end());
   node.erase(std::unique(node.begin(), node.end()), node.end());
   for (const std::int32_t i : node) {
@@ -81,7 +94,9 @@ static void measure_deviation(const Mesh& mesh, const std::vector<Stroke>& strok
 
 static void subdivide_instead(const Mesh& mesh, const Kind& kind,
                               const std::vector<Stroke>& strokes, double h, Result& result) {
-  const Subdivision exact = subdivide(mesh, strokes);
+  HexTets tets;
+  update_hex_tets(mesh, tets);
+  const Subdivision exact = subdivide(tets.mesh, strokes);
   result.split_elements = double(exact.mesh.n_elements()) / mesh.n_elements();
   result.split_ratio = least_step(exact.mesh) / least_step(mesh);
   std::vector<std::int32_t> piece;
@@ -90,8 +105,16 @@ static void subdivide_instead(const Mesh& mesh, const Kind& kind,
   for (const double volume : exact.piece_volume) result.n_thin += volume < h * h * h ? 1 : 0;
 }
 
-static void run_stroke(const Stroke& stroke, TetCutter& cutter, Body& body,
-                       cutting_test::Ledger& ledger, Result& result) {
+static void apply(const MeshEdit& edit, const CutFigures& figures, CutBody& cut) {
+  const std::vector<std::int32_t> parent = element_parents(cut.body.mesh, edit);
+  cutting_test::apply(edit, figures, cut.body, cut.ledger);
+  std::vector<std::int32_t> origin;
+  for (const std::int32_t e : parent) origin.push_back(cut.origin[std::size_t(e)]);
+  cut.origin = std::move(origin);
+}
+
+void run_stroke(const Stroke& stroke, TetCutter& cutter, CutBody& cut, Result& result) {
+  Body& body = cut.body;
   cutter.start_stroke();
   for (int k = 0; k < stroke.n_steps; ++k) {
     const BladeSweep sweep{stroke.blade(double(k) / stroke.n_steps),
@@ -103,7 +126,7 @@ static void run_stroke(const Stroke& stroke, TetCutter& cutter, Body& body,
     const double seconds = processor_seconds() - start;
     result.seconds += seconds;
     result.longest_advance = std::max(result.longest_advance, seconds);
-    cutting_test::apply(edit, figures, body, ledger);
+    apply(edit, figures, cut);
   }
 }
 
@@ -113,17 +136,18 @@ Result make_cut(const Mesh& mesh, const Kind& kind, std::mt19937_64& random,
   const double h = mean_edge(mesh);
   Result result;
   subdivide_instead(mesh, kind, strokes, h, result);
-  Body body(mesh);
+  CutBody cut(mesh);
   TetCutter cutter{options};
-  cutting_test::Ledger ledger;
-  for (const Stroke& stroke : strokes) run_stroke(stroke, cutter, body, ledger, result);
+  for (const Stroke& stroke : strokes) run_stroke(stroke, cutter, cut, result);
+  const Body& body = cut.body;
+  const cutting_test::Ledger& ledger = cut.ledger;
   result.n_edits = ledger.n_edits;
   result.n_refused = ledger.total.n_refused;
   result.n_opened = ledger.total.n_opened_facets;
   result.n_duplicated = ledger.total.n_duplicated;
   result.fault = cutting_test::fault(body);
   result.n_pieces = cutting_test::n_pieces(body.mesh);
-  measure_elements(mesh, body.mesh, result);
+  measure_elements(mesh, cut, result);
   measure_deviation(body.mesh, strokes, h, result);
   return result;
 }

@@ -13,7 +13,8 @@ struct Result {
   std::string fault;                                          // empty if the body is sound
   int n_inverted = 0, n_pieces = 0, n_exact = 0, n_thin = 0;  // thin: exact pieces below h^3
   int n_refused = 0, n_edits = 0, n_opened = 0, n_duplicated = 0;
-  int n_added = 0;  // elements; negative: dissolved
+  int n_added = 0;                                       // elements; negative: dissolved
+  int n_hexahedra = 0, n_converted = 0, n_reshaped = 0;  // before; reshaped: stay hexahedra
   // Element bound of the stable step, V / sqrt(sum of squared facet areas), after over before: of
   // the whole body, and of the elements that the cut changed.
   double body_ratio = 1, cut_ratio = 1;
@@ -26,6 +27,18 @@ struct Result {
     return fault.empty() && n_inverted == 0 && n_pieces <= n_exact && n_pieces >= n_exact - n_thin;
   }
 };
+
+// A body under the knife.
+struct CutBody {
+  Body body;
+  cutting_test::Ledger ledger;
+  std::vector<std::int32_t> origin;  // (n_elements) of the uncut body
+  explicit CutBody(const Mesh& mesh) : body(mesh), origin(mesh.element_type.size()) {
+    std::iota(origin.begin(), origin.end(), 0);
+  }
+};
+// Adds the times to `result`.
+void run_stroke(const Stroke& stroke, TetCutter& cutter, CutBody& cut, Result& result);
 
 Result make_cut(const Mesh& mesh, const Kind& kind, std::mt19937_64& random,
                 const CutTetOptions& options);

@@ -71,6 +71,14 @@ std::string elements(const Row& row) {
                 total(row, [](const Result& r) { return std::max(0, -r.n_added); }));
 }
 
+std::string hexahedra(const Row& row) {
+  const auto mean = [&](auto value) { return total(row, value) / double(row.result.size()); };
+  if (mean([](const Result& r) { return r.n_hexahedra; }) == 0) return "-";
+  return format("%.0f: %.0f, %.0f", mean([](const Result& r) { return r.n_hexahedra; }),
+                mean([](const Result& r) { return r.n_reshaped; }),
+                mean([](const Result& r) { return r.n_converted; }));
+}
+
 std::string deviation(const Row& row) {
   const std::vector<double> v = deviations(row);
   return format("%.3f, %.2f", at(v, 0.95), at(v, 1));
@@ -97,6 +105,7 @@ constexpr Column columns[] = {
     {"inverted, unsound", faults},
     {"refused facets in cuts", refusals},
     {"elements added, dissolved", elements},
+    {"hexahedra: reshaped, converted", hexahedra},
     {"body's step min/p5/median",
      [](const Row& row) {
        return low_values(row, "%.2f/%.2f/%.2f", [](const Result& r) { return r.body_ratio; });
@@ -146,13 +155,15 @@ void print_json(const std::vector<Row>& rows, std::FILE* file) {
           "%s\n{\"mesh\": \"%s\", \"cut\": \"%s\", \"right\": %s, \"fault\": \"%s\", "
           "\"inverted\": %d, \"pieces\": %d, \"pieces_exact\": %d, \"pieces_thin\": %d, "
           "\"refused\": %d, \"edits\": %d, \"opened\": %d, \"duplicated\": %d, "
-          "\"added\": %d, \"body_step_ratio\": %.6g, \"cut_step_ratio\": %.6g, "
+          "\"added\": %d, \"hexahedra\": %d, \"reshaped\": %d, \"converted\": %d, "
+          "\"body_step_ratio\": %.6g, \"cut_step_ratio\": %.6g, "
           "\"dihedral\": %.6g, \"deviation_max\": %.6g, \"volume_error\": %.3g, "
           "\"mass_error\": %.3g, \"seconds\": %.6g, \"longest_advance\": %.6g, "
           "\"subdivision_elements\": %.6g, \"subdivision_step_ratio\": %.6g}",
           comma, row.family.c_str(), row.kind.c_str(), r.is_right() ? "true" : "false",
           r.fault.c_str(), r.n_inverted, r.n_pieces, r.n_exact, r.n_thin, r.n_refused, r.n_edits,
-          r.n_opened, r.n_duplicated, r.n_added, r.body_ratio, r.cut_ratio, r.least_dihedral,
+          r.n_opened, r.n_duplicated, r.n_added, r.n_hexahedra, r.n_reshaped, r.n_converted,
+          r.body_ratio, r.cut_ratio, r.least_dihedral,
           r.deviation.empty() ? 0.0 : *std::max_element(r.deviation.begin(), r.deviation.end()),
           r.volume_error, r.mass_error, r.seconds, r.longest_advance, r.split_elements,
           r.split_ratio);

@@ -15,6 +15,11 @@ namespace trocar {
 
 namespace {
 
+// Not with the edge of a blade.
+bool is_flat_enough(const PieceCore& core, const Vec3& local_normal, double gap) {
+  return std::abs(local_normal.y()) >= core.least_flatness && gap >= -core.deepest;
+}
+
 // A piece in its pose, and everything that is the same for all its candidates.
 struct PosedPiece {
   const PieceCore& core;
@@ -91,14 +96,25 @@ std::vector<Box> search_boxes(const PosedPiece& piece) {
   return boxes;
 }
 
+void take(const Touch& found, Contact& contact) {
+  contact.weight = found.tissue.weight;
+  contact.point = found.tissue.point - found.gap * found.normal;
+  contact.normal = found.normal;
+  contact.gap = found.gap;
+}
+
+// From a touch in the plane of the mesh to the tool's frame.
+void take_plane(const Touch& found, const Pose& pose, Contact& contact) {
+  take(found, contact);
+  contact.point = pose.apply_inverse(contact.point);
+  contact.normal = pose.rotation.conjugate() * contact.normal;
+}
+
 Contact make_contact(const PosedPiece& piece, const std::array<std::int32_t, 3>& node,
                      const Touch& touch) {
   Contact contact = piece.label;
   contact.node = node;
-  contact.weight = touch.tissue.weight;
-  contact.point = touch.tissue.point - touch.gap * touch.normal;
-  contact.normal = touch.normal;
-  contact.gap = touch.gap;
+  take(touch, contact);
   return contact;
 }
 
@@ -115,6 +131,9 @@ struct ContactDetector::State {
   void touch_surface(const PosedPiece& piece, std::vector<Contact>& contacts);
   void touch_plane(const PosedPiece& piece, std::span<const Vec3> x,
                    std::vector<Contact>& contacts) const;
+  const PieceCore& core_of(const Contact& contact) const {
+    return tools[static_cast<std::size_t>(contact.tool)][static_cast<std::size_t>(contact.piece)];
+  }
 };
 
 void ContactDetector::State::find_candidates(const PosedPiece& piece) {
@@ -160,11 +179,11 @@ void ContactDetector::State::touch_plane(const PosedPiece& piece, std::span<cons
       const Vec3 d = edge[1] - edge[0];
       if (plane_way_out(plane, x, found->core).dot(Vec3(d.y(), -d.x(), 0)) <= 0) continue;
     }
-    contacts.push_back(make_contact(piece, {a, b, b}, *found));
+    contacts.push_back(piece.label);
     Contact& contact = contacts.back();
+    contact.node = {a, b, b};
     contact.triangle = plane.triangle[k];
-    contact.point = piece.to_tool(contact.point);
-    contact.normal = piece.rotation.transpose() * contact.normal;
+    take_plane(*found, piece.pose, contact);
   }
 }
 
@@ -180,6 +199,7 @@ ContactDetector::ContactDetector(std::vector<ToolShape> tools) : state_(std::mak
 
 ContactDetector::~ContactDetector() = default;
 ContactDetector::ContactDetector(ContactDetector&&) noexcept = default;
+ContactDetector& ContactDetector::operator=(ContactDetector&&) noexcept = default;
 
 void ContactDetector::set_surface(const Surface& surface) {
   state_->triangle = surface.triangle;
@@ -216,6 +236,36 @@ void ContactDetector::detect(std::span<const Vec3> x, std::span<const Pose> pose
       }
     }
   }
+}
+
+bool ContactDetector::update(const std::array<Vec3, 3>& x, const Pose& pose, double margin,
+                             Contact& contact) const {
+  const PieceCore& core = state_->core_of(contact);
+  if (state_->plane.node.empty()) {
+    const Triangle local = {pose.apply_inverse(x[0]), pose.apply_inverse(x[1]),
+                            pose.apply_inverse(x[2])};
+    const std::optional<Touch> found = touch(core, local, margin);
+    if (!found) return false;
+    take(*found, contact);
+  } else {
+    const std::optional<Touch> found = touch_edge(plane_section(core, pose), {x[0], x[1]}, margin);
+    if (!found) return false;
+    take_plane(*found, pose, contact);
+  }
+  return is_flat_enough(core, contact.normal, contact.gap);
+}
+
+std::optional<NodeTouch> ContactDetector::touch_node(const Contact& contact, const Vec3& x,
+                                                     const Pose& pose) const {
+  if (!state_->plane.node.empty()) return std::nullopt;
+  const PieceCore& core = state_->core_of(contact);
+  const SignedDistance found = signed_distance(core, pose.apply_inverse(x));
+  if (!(found.gap < 0) || !is_flat_enough(core, found.normal, found.gap)) return std::nullopt;
+  return NodeTouch{.normal = pose.rotation * found.normal, .gap = found.gap};
+}
+
+bool ContactDetector::is_hull(const Contact& contact) const {
+  return state_->core_of(contact).hull.has_value();
 }
 
 }  // namespace trocar

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,12 +30,19 @@ struct Contact {
   double gap = 0;                      // at detection; negative: penetration [m]
 };
 
+// A node inside a piece. normal: out of the piece, in the world's frame; gap < 0 [m].
+struct NodeTouch {
+  Vec3 normal = Vec3::Zero();
+  double gap = 0;
+};
+
 class ContactDetector {
  public:
   // Throws InputError for a piece without points, with a negative radius or a value not finite.
   explicit ContactDetector(std::vector<ToolShape> tools);
   ~ContactDetector();
   ContactDetector(ContactDetector&&) noexcept;
+  ContactDetector& operator=(ContactDetector&&) noexcept;
 
   // New topology. Call after each cut, then detect, which builds the tree. A surface with boundary
   // edges is that of a plane mesh (tri3 in z = 0): then tools touch its boundary edges with the
@@ -51,6 +59,18 @@ class ContactDetector {
   // lobe does not touch. A core deeper than depth_limit has lost the surface and touches nothing.
   void detect(std::span<const Vec3> x, std::span<const Pose> pose, std::span<const double> margin,
               std::vector<Contact>& contacts);
+
+  // A contact found by detect, a little later: weights, point, normal and gap anew, for corners x
+  // and the pose of its tool. False where the gap is `margin` or more, or only the edge of a blade
+  // touches. A core that was in front of the triangle may have passed it since.
+  bool update(const std::array<Vec3, 3>& x, const Pose& pose, double margin,
+              Contact& contact) const;
+  // Where x lies in the contact's piece. Of a hull: the nearest of its faces. Nothing on plane
+  // meshes.
+  std::optional<NodeTouch> touch_node(const Contact& contact, const Vec3& x,
+                                      const Pose& pose) const;
+  // A hull: Bullet needs 2 us where closed forms need some tens of ns.
+  bool is_hull(const Contact& contact) const;
 
  private:
   struct State;

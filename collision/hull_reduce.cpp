@@ -1,6 +1,7 @@
 #include "collision/hull_reduce.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace trocar {
@@ -57,6 +58,41 @@ std::vector<Vec3> reduce_hull(const std::vector<Vec3>& points) {
   std::vector<bool> is_taken = extremes(candidates, 1);
   take_farthest(candidates, max_hull_points, is_taken);
   return take(candidates, is_taken);
+}
+
+namespace {
+
+// Adds the plane if all points lie behind it and no face has its normal yet.
+void offer_face(const std::vector<Vec3>& points, const Vec3& normal, double offset,
+                double tolerance, HullFaces& faces) {
+  for (const Vec3& p : points)
+    if (normal.dot(p) > offset + tolerance) return;
+  for (std::size_t k = 0; k < faces.normal.size(); ++k)
+    if (faces.normal[k].dot(normal) > 1 - 1e-12 &&
+        std::abs(faces.offset[k] - offset) <= 2 * tolerance)
+      return;
+  faces.normal.push_back(normal);
+  faces.offset.push_back(offset);
+}
+
+}  // namespace
+
+HullFaces hull_faces(const std::vector<Vec3>& points) {
+  HullFaces faces;
+  double size = 0;
+  for (const Vec3& p : points) size = std::max(size, (p - points[0]).norm());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t j = i + 1; j < points.size(); ++j)
+      for (std::size_t k = j + 1; k < points.size(); ++k) {
+        const Vec3 across = (points[j] - points[i]).cross(points[k] - points[i]);
+        const double area = across.norm();
+        if (area <= 1e-9 * size * size) continue;
+        for (const double side : {1.0, -1.0}) {
+          const Vec3 normal = side / area * across;
+          offer_face(points, normal, normal.dot(points[i]), 1e-9 * size, faces);
+        }
+      }
+  return faces;
 }
 
 }  // namespace trocar

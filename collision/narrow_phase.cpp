@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include "collision/hull_reduce.h"
+#include <limits>
 
 namespace trocar {
 
@@ -144,22 +143,27 @@ std::optional<Touch> touch_from_behind(const PieceCore& core, const Facet& facet
 }  // namespace
 
 PieceCore make_core(const ConvexPiece& piece) {
-  PieceCore core{.points = reduce_hull(piece.points), .radius = piece.radius};
-  if (core.points.size() < 3) return core;
+  PieceCore core{.points = reduce_hull(piece.points),
+                 .radius = piece.radius,
+                 .least_flatness = piece.least_flatness,
+                 .deepest = piece.deepest};
   core.low = core.high = core.points[0];
   for (const Vec3& p : core.points) {
     core.low = core.low.cwiseMin(p);
     core.high = core.high.cwiseMax(p);
   }
+  if (core.points.size() < 3) return core;
   core.thickness = (core.high - core.low).minCoeff();
   core.hull.emplace(core.points);
+  core.faces = hull_faces(core.points);
   return core;
 }
 
 namespace {
 
-// Without asking Bullet (2 us a pair): the hull's box is farther than `reach` from the triangle's,
-// and the hull's centre is in front of it, or so far beside that nothing lies straight below.
+// Without asking Bullet (2 us a pair): the piece's box is farther than `reach` from the triangle's,
+// and the piece is in front of it (a hull: its centre), or so far beside that nothing lies straight
+// below.
 bool is_out_of_reach(const PieceCore& core, const Facet& facet, double reach) {
   Vec3 low = facet.x[0], high = low;
   for (const Vec3& x : facet.x) {
@@ -167,7 +171,10 @@ bool is_out_of_reach(const PieceCore& core, const Facet& facet, double reach) {
     high = high.cwiseMax(x);
   }
   const Vec3 apart = (low - core.high).cwiseMax(core.low - high);
-  if (apart.cwiseMax(0.0).norm() <= reach) return false;
+  if (apart.cwiseMax(0.0).squaredNorm() <= reach * reach) return false;
+  if (!core.hull)
+    return std::all_of(core.points.begin(), core.points.end(),
+                       [&](const Vec3& p) { return facet.n.dot(p - facet.x[0]) >= 0; });
   const Vec3 to_triangle = facet.x[0] - 0.5 * (core.low + core.high);
   const double height = facet.n.dot(to_triangle);
   const double beside = (to_triangle - height * facet.n).norm();
@@ -175,6 +182,23 @@ bool is_out_of_reach(const PieceCore& core, const Facet& facet, double reach) {
 }
 
 }  // namespace
+
+SignedDistance signed_distance(const PieceCore& core, const Vec3& x) {
+  if (core.hull) {
+    SignedDistance farthest{.gap = -std::numeric_limits<double>::infinity()};
+    for (std::size_t k = 0; k < core.faces.normal.size(); ++k) {
+      const double height = core.faces.normal[k].dot(x) - core.faces.offset[k];
+      if (height > farthest.gap) farthest = {.normal = core.faces.normal[k], .gap = height};
+    }
+    farthest.gap -= core.radius;
+    return farthest;
+  }
+  const Vec3 out =
+      x - closest_points_segments({x, x}, {core.points.front(), core.points.back()}).second;
+  const double distance = out.norm();
+  return {.normal = distance > 0 ? Vec3(out / distance) : Vec3::Zero(),
+          .gap = distance - core.radius};
+}
 
 bool is_lost(const Touch& touch, double limit) {
   return touch.depth > 0 && (touch.tissue.point - touch.core).norm() > limit;
@@ -204,7 +228,7 @@ std::optional<Touch> touch(const PieceCore& core, const Triangle& triangle, doub
   const std::optional<Vec3> n = unit_normal(triangle);
   if (!n) return std::nullopt;
   const Facet facet{.x = triangle, .n = *n, .edge = longest_edge(triangle)};
-  if (core.hull && is_out_of_reach(core, facet, core.radius + margin)) return std::nullopt;
+  if (is_out_of_reach(core, facet, core.radius + margin)) return std::nullopt;
   const CorePair pair = closest(core, facet);
   const Vec3 to_tissue = pair.tissue.point - pair.core;
   std::optional<Touch> result;

@@ -6,20 +6,31 @@
 
 #include "collision/closest_point.h"
 #include "collision/hull_bullet.h"
+#include "collision/hull_reduce.h"
 #include "collision/tool_shape.h"
 
 namespace trocar {
 
 // A piece is its core (a point, a segment, a hull) thickened by the radius.
 struct PieceCore {
-  std::vector<Vec3> points;       // a hull has at most 64
-  double radius = 0;              // [m]
-  std::optional<HullShape> hull;  // of three and more points
-  // Bounding box of a hull and its shortest side; zero for points and segments. [m]
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();
-  double thickness = 0;
+  std::vector<Vec3> points;                      // a hull has at most 64
+  double radius = 0;                             // [m]
+  std::optional<HullShape> hull;                 // of three and more points
+  HullFaces faces;                               // of a hull
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // bounding box of the points [m]
+  double thickness = 0;       // shortest side of a hull's box, zero for points and segments [m]
+  double least_flatness = 0;  // see ConvexPiece
+  double deepest = std::numeric_limits<double>::infinity();
 };
 PieceCore make_core(const ConvexPiece& piece);
+
+// Of a point in the tool's frame: from the thickened piece. Outside of a hull without thickness it
+// is that of the farthest face plane, less than the distance; inside it is exact.
+struct SignedDistance {
+  Vec3 normal = Vec3::Zero();
+  double gap = 0;
+};
+SignedDistance signed_distance(const PieceCore& core, const Vec3& x);
 
 // How far behind a triangle the core may be (is_lost).
 inline double depth_limit(const PieceCore& core, double margin) {
@@ -43,8 +54,8 @@ struct Touch {
 // Core intersects it: a hull takes EPA's direction if that is within 60 degrees of -n, where n is
 // the triangle's outward normal; else the direction is -n and the point is the deepest of the core
 // straight below the triangle. Core behind it: that, too, or if nothing lies straight below,
-// touch_of_points. A hull whose box is beyond the margin and whose centre is in front of the
-// triangle does not touch it.
+// touch_of_points. A piece whose box is beyond the margin and which is in front of the triangle (a
+// hull: its centre) does not touch it.
 std::optional<Touch> touch(const PieceCore& core, const Triangle& triangle, double margin);
 
 // A core behind the triangle and farther than this from it has lost the surface.

@@ -1,6 +1,7 @@
 // The shape of an instrument for contact: convex pieces in the instrument's frame.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "base/vec.h"
@@ -13,6 +14,10 @@ namespace trocar {
 struct ConvexPiece {
   std::vector<Vec3> points;
   double radius = 0;
+  // Of a blade, which touches with its flat sides (its edge and tip cut): least |y| of a contact's
+  // normal, and the depth from which on tissue is not cut yet and passes through. [-], [m]
+  double least_flatness = 0;
+  double deepest = std::numeric_limits<double>::infinity();
 };
 
 struct ToolShape {

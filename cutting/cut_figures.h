@@ -27,8 +27,10 @@ struct CutFigures {
   double mean_deviation = 0;  // [m]
   std::int32_t n_beside = 0;  // parted nodes that the floor under the stable step, a support or a
                               // sharp edge keeps more than 0.1 mean edges from the swept surface
-  std::vector<CutRefusal> refusals;  // (n_refused)
-  double mean_edge = 0;              // mean edge length around the cut [m]
+  std::int32_t n_converted = 0;       // hexahedra that became six tetrahedra each
+  std::int32_t n_kept_hexahedra = 0;  // that were reshaped or opened at a facet and stay hexahedra
+  std::vector<CutRefusal> refusals;   // (n_refused)
+  double mean_edge = 0;               // mean edge length around the cut [m]
 };
 
 }  // namespace trocar

@@ -1,4 +1,5 @@
-// Greedy: the change of one side that leaves the fewest pinched nodes, again and again.
+// Greedy: the change of one side, or of two neighbours' sides, that leaves the
+// fewest pinched nodes, again and again.
 #include "cutting/cut_mend.h"
 
 #include <algorithm>
@@ -10,49 +11,81 @@ namespace trocar {
 // Each trial opens the whole patch: as many as cost some milliseconds.
 static constexpr std::ptrdiff_t n_element_trials = 300'000;
 
-static bool may_change(const CutSurroundings& around, const CutStroke& stroke,
-                       const CutLabels& labels, std::int32_t e) {
+namespace {
+
+struct Mending {
+  const CutSurroundings& around;
+  const CutStroke& stroke;
+  CutLabels& labels;
+  std::vector<std::int32_t> pinched;
+  std::ptrdiff_t n_trials = 0;
+};
+
+struct Change {
+  std::vector<std::int32_t> element;  // empty: nothing helps
+  std::vector<std::int32_t> pinched;  // afterwards
+};
+
+}  // namespace
+
+static void turn(CutLabels& labels, std::span<const std::int32_t> element) {
+  for (const std::int32_t e : element) labels.side[e] = static_cast<std::int8_t>(-labels.side[e]);
+}
+
+static bool may_change(const Mending& m, std::int32_t e) {
+  const CutLabels& labels = m.labels;
   if (labels.side[e] == 0 || labels.kind[e] == CutKind::front ||
-      find_element(stroke.opened, around.patch.element[e]) != nullptr)
+      find_element(m.stroke.opened, m.around.patch.element[e]) != nullptr)
     return false;
-  const auto& across = around.patch.across[e];
+  const auto& across = m.around.patch.across[e];
   return std::any_of(across.begin(), across.end(),
                      [&](std::int32_t u) { return u >= 0 && labels.side[u] == -labels.side[e]; });
 }
 
-// The element at a pinched node whose change helps most; -1 if none helps. `pinched` is set to what
-// is left.
-static std::int32_t best_change(const CutSurroundings& around, const CutStroke& stroke,
-                                CutLabels& labels, std::vector<std::int32_t>& pinched,
-                                std::ptrdiff_t& n_trials) {
-  std::int32_t best = -1;
-  std::vector<std::int32_t> best_pinched = pinched;
-  for (const std::int32_t e : around.patch.star(pinched.front())) {
-    if (n_trials <= 0 || !may_change(around, stroke, labels, e)) continue;
-    --n_trials;
-    labels.side[e] = static_cast<std::int8_t>(-labels.side[e]);
-    std::vector<std::int32_t> left = pinched_nodes(around, labels);
-    labels.side[e] = static_cast<std::int8_t>(-labels.side[e]);
-    if (left.size() >= best_pinched.size()) continue;
-    best = e;
-    best_pinched = std::move(left);
+static void try_change(Mending& m, const std::vector<std::int32_t>& element, Change& best) {
+  if (m.n_trials <= 0) return;
+  --m.n_trials;
+  turn(m.labels, element);
+  std::vector<std::int32_t> left = pinched_nodes(m.around, m.labels);
+  turn(m.labels, element);
+  if (left.size() < best.pinched.size()) best = {element, std::move(left)};
+}
+
+// Together with a neighbour that lies on the same side.
+static void try_pairs(Mending& m, std::int32_t e, Change& best) {
+  for (const std::int32_t u : m.around.patch.across[e]) {
+    if (u < 0 || m.labels.side[u] != m.labels.side[e]) continue;
+    turn(m.labels, {&e, 1});
+    const bool is_allowed = may_change(m, u);
+    turn(m.labels, {&e, 1});
+    if (is_allowed) try_change(m, {e, u}, best);
   }
-  pinched = std::move(best_pinched);
+}
+
+// The change at the first pinched node that helps most.
+static Change best_change(Mending& m) {
+  Change best{{}, m.pinched};
+  const std::span<const std::int32_t> star = m.around.patch.star(m.pinched.front());
+  for (const std::int32_t e : star)
+    if (may_change(m, e)) try_change(m, {e}, best);
+  if (!best.element.empty()) return best;
+  for (const std::int32_t e : star)
+    if (may_change(m, e)) try_pairs(m, e, best);
   return best;
 }
 
 void mend_labels(const CutSurroundings& around, const CutStroke& stroke, CutLabels& labels) {
-  std::ptrdiff_t n_trials = 20 + n_element_trials / std::max(1, around.patch.n_elements());
-  std::vector<std::int32_t> pinched = pinched_nodes(around, labels);
+  Mending m{around, stroke, labels, pinched_nodes(around, labels),
+            20 + n_element_trials / std::max(1, around.patch.n_elements())};
   std::vector<std::int32_t> hopeless;  // ascending
-  while (!pinched.empty() && n_trials > 0) {
-    const std::int32_t node = pinched.front();
-    const std::int32_t e = best_change(around, stroke, labels, pinched, n_trials);
-    if (e >= 0)
-      labels.side[e] = static_cast<std::int8_t>(-labels.side[e]);
-    else
+  while (!m.pinched.empty() && m.n_trials > 0) {
+    const std::int32_t node = m.pinched.front();
+    Change change = best_change(m);
+    if (change.element.empty())
       hopeless.insert(std::lower_bound(hopeless.begin(), hopeless.end(), node), node);
-    std::erase_if(pinched, [&](std::int32_t i) {
+    turn(labels, change.element);
+    m.pinched = std::move(change.pinched);
+    std::erase_if(m.pinched, [&](std::int32_t i) {
       return std::binary_search(hopeless.begin(), hopeless.end(), i);
     });
   }

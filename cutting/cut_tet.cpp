@@ -5,7 +5,9 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "cutting/cut_chips.h"
 #include "cutting/cut_edit.h"
+#include "cutting/cut_hex.h"
 #include "cutting/cut_hits.h"
 #include "cutting/cut_index.h"
 #include "cutting/cut_mend.h"
@@ -16,10 +18,14 @@ struct TetCutter::Front {
   CutTetOptions options;
   CutStroke stroke;
   CutIndex index;
+  HexTets tets;  // only of a body with hexahedra
+
+  MeshEdit advance(const Mesh& mesh, std::span<const Vec3> x, std::span<const std::uint8_t> is_held,
+                   const BladeSweep& sweep, bool is_last, CutFigures& figures);
 };
 
 TetCutter::TetCutter(const CutTetOptions& options)
-    : front_(std::make_unique<Front>(Front{options, {}, {}})) {}
+    : front_(std::make_unique<Front>(Front{options, {}, {}, {}})) {}
 TetCutter::~TetCutter() = default;
 TetCutter::TetCutter(TetCutter&&) noexcept = default;
 
@@ -43,25 +49,26 @@ static void check_arguments(const Mesh& mesh, std::span<const Vec3> x,
   CHECK_OP(is_held.size(), ==, mesh.X.size());
   CHECK_OP(sweep.before.size(), ==, sweep.after.size());
   CHECK_OP(sweep.before.size(), >=, 2U);
-  // Most meshes begin with one.
-  if (std::find(mesh.element_type.begin(), mesh.element_type.end(), ElementType::tet4) ==
-      mesh.element_type.end())
-    throw InputError(
-        "a blade can only cut tetrahedra, and this mesh has none; use tet4 elements (shapes: "
-        "\"tet4-kuhn\" or \"tet4-five\"), or remove the scalpel");
+  if (mesh.dimension() == 2)
+    throw InputError("a blade's band cuts tetrahedra and hexahedra, and this mesh is plane");
 }
 
-MeshEdit TetCutter::advance(const Mesh& mesh, std::span<const Vec3> x,
-                            std::span<const std::uint8_t> is_held, const BladeSweep& sweep,
-                            bool is_last, CutFigures& figures) {
-  check_arguments(mesh, x, is_held, sweep);
-  figures = {};
-  CutStroke& stroke = front_->stroke;
-  CutIndex& index = front_->index;
+// The floor under step bounds of tetrahedra. Those of a cube have 1 / sqrt(2) of its bound, and the
+// promise is about the body that there was: theirs keep so much more.
+static double least_ratio(const CutTetOptions& options, const HexTets& tets) {
+  constexpr double cube_over_tet = 1.4143;
+  const double ratio = options.least_step_ratio;
+  return tets.mesh.X.empty() ? ratio : std::min(0.95, cube_over_tet * ratio);
+}
+
+// Cuts the tetrahedra of `mesh`.
+MeshEdit TetCutter::Front::advance(const Mesh& mesh, std::span<const Vec3> x,
+                                   std::span<const std::uint8_t> is_held, const BladeSweep& sweep,
+                                   bool is_last, CutFigures& figures) {
   update_index(mesh, index);
   add_hits(mesh, index, x, sweep, stroke);
   stroke.swept += sweep_length(sweep);
-  if (!is_last && stroke.swept < front_->options.advance * stroke.mean_edge) return {};
+  if (!is_last && stroke.swept < options.advance * stroke.mean_edge) return {};
 
   TetCut cut;
   cut.around = survey(mesh, index, x, is_held, stroke, is_last);
@@ -71,9 +78,11 @@ MeshEdit TetCutter::advance(const Mesh& mesh, std::span<const Vec3> x,
   std::vector<std::uint8_t> stays_whole(cut.around.patch.node.size(), 0);
   if (!is_last) stays_whole = unripe_nodes(cut.around, cut.labels);
   cut.opening = open_facets(cut.around, cut.labels, stays_whole);
+  if (attach_chips(cut.around, cut.opening, cut.labels))
+    cut.opening = open_facets(cut.around, cut.labels, stays_whole);
   set_roles(cut, stroke, is_last);
-  cut.X = move_nodes(cut.around, cut.role,
-                     move_limits(cut.around, stroke, front_->options.least_step_ratio));
+  cut.X =
+      move_nodes(cut.around, cut.role, move_limits(cut.around, stroke, least_ratio(options, tets)));
   cut.transfer = transfer_moves(cut.around.patch, cut.X);
 
   figures = make_figures(cut, is_last);
@@ -81,6 +90,22 @@ MeshEdit TetCutter::advance(const Mesh& mesh, std::span<const Vec3> x,
   MeshEdit edit = make_edit(mesh, cut);
   edit_index(mesh, edit, index);
   return edit;
+}
+
+MeshEdit TetCutter::advance(const Mesh& mesh, std::span<const Vec3> x,
+                            std::span<const std::uint8_t> is_held, const BladeSweep& sweep,
+                            bool is_last, CutFigures& figures) {
+  check_arguments(mesh, x, is_held, sweep);
+  figures = {};
+  Front& f = *front_;
+  if (!has_hexahedra(mesh)) {
+    f.tets = {};
+    return f.advance(mesh, x, is_held, sweep, is_last, figures);
+  }
+  update_hex_tets(mesh, f.tets);
+  const MeshEdit edit = f.advance(f.tets.mesh, x, is_held, sweep, is_last, figures);
+  if (edit.is_empty()) return edit;
+  return edit_of_body(mesh, x, f.index, edit, f.tets, figures);
 }
 
 }  // namespace trocar

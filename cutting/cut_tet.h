@@ -1,5 +1,5 @@
 // Progressive cutting of tetrahedra by displacing existing nodes onto the swept surface (Serby,
-// Harders and Szekely 2001, taken to 3D).
+// Harders and Szekely 2001, taken to 3D). Hexahedra: cut_hex.h.
 #pragma once
 
 #include <cstdint>

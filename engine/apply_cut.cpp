@@ -94,13 +94,34 @@ double total(std::span<const double> values) {
   return sum.value();
 }
 
-// Volumes of the elements after the edit over those before it; 1 where it left them.
-std::vector<double> volume_ratios(const Mesh& after, std::span<const std::int32_t> elements,
-                                  std::span<const double> before) {
+// Elements that an edit touches, before and after it: a hexahedron may have become tetrahedra.
+struct EditedElements {
+  std::vector<std::int32_t> before, after;  // ascending
+  std::vector<std::int32_t> parent;         // (n_elements after)
+  std::vector<double> volume;               // of `before`, before the edit [m^3]
+};
+
+EditedElements find_edited(const Mesh& mesh, const MeshEdit& edit) {
+  EditedElements edited{.before = edited_elements(mesh, edit),
+                        .parent = element_parents(mesh, edit)};
+  for (std::size_t e = 0; e < edited.parent.size(); ++e)
+    if (std::binary_search(edited.before.begin(), edited.before.end(), edited.parent[e]))
+      edited.after.push_back(static_cast<std::int32_t>(e));
+  for (const std::int32_t e : edited.before)
+    edited.volume.push_back(element_volume(mesh, e, mesh.X));
+  return edited;
+}
+
+// Volumes of the elements after the edit over those of the elements that they were or were parts
+// of; 1 where the edit left them.
+std::vector<double> volume_ratios(const Mesh& after, const EditedElements& edited) {
   std::vector<double> ratio(after.element_type.size(), 1.0);
-  for (std::size_t k = 0; k < elements.size(); ++k)
-    ratio[static_cast<std::size_t>(elements[k])] =
-        element_volume(after, elements[k], after.X) / before[k];
+  for (const std::int32_t e : edited.after) {
+    const auto k = static_cast<std::size_t>(e);
+    const auto at = std::lower_bound(edited.before.begin(), edited.before.end(), edited.parent[k]);
+    ratio[k] = element_volume(after, e, after.X) /
+               edited.volume[static_cast<std::size_t>(at - edited.before.begin())];
+  }
   return ratio;
 }
 
@@ -142,10 +163,10 @@ void scatter_state(Simulation& s, const GlobalState& global) {
 }
 
 void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutRecord& record) {
-  const std::vector<std::int32_t> elements = edited_elements(s.mesh, edit);
+  const EditedElements edited = find_edited(s.mesh, edit);
   const std::int32_t n_before = s.mesh.n_nodes();
-  const std::vector<std::int32_t> nodes_before = nodes_of(s.mesh, elements);
-  const double step_before = least_element_step(s, elements);
+  const std::vector<std::int32_t> nodes_before = nodes_of(s.mesh, edited.before);
+  const double step_before = least_element_step(s, edited.before);
   const double mass_before = total(s.mass);
   const double energy_before = s.energy ? mechanical_energy(s).sum() : 0;
   Motion before = motion_of(nodes_before, s.mass, global, Vec3::Zero());
@@ -153,9 +174,6 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
 
   const std::vector<double> history =
       s.communicator->all_gather(copy_history(s.model, s.part, s.state));
-  std::vector<double> volume_before;
-  for (const std::int32_t e : elements)
-    volume_before.push_back(element_volume(s.mesh, e, s.mesh.X));
 
   apply_edit(edit, s.mesh, 3, global.u);
   apply_edit(edit, s.mesh, 3, global.v);
@@ -165,17 +183,16 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   apply_edit_to_owners(edit.duplicate_parent, s.node_owner);
   apply_edit_to_holds(edit, n_before, s.holds);
   rebuild_topology(s);
-  restore_momentum(nodes_of(s.mesh, elements), s.mass, before, global, record);
+  restore_momentum(nodes_of(s.mesh, edited.after), s.mass, before, global, record);
   scatter_state(s, global);
-  restore_history(s.model, s.part, history, volume_ratios(s.mesh, elements, volume_before),
-                  s.state);
+  restore_history(s.model, s.part, history, edited.parent, volume_ratios(s.mesh, edited), s.state);
   watch_state(s);
   if (s.energy) s.energy->memory.works.cut += mechanical_energy(s).sum() - energy_before;
 
-  for (const std::int32_t e : elements)
+  for (const std::int32_t e : edited.after)
     record.least_quality = std::min(record.least_quality, element_quality(s.mesh, e, s.mesh.X));
   record.stable_step_ratio =
-      std::min(record.stable_step_ratio, least_element_step(s, elements) / step_before);
+      std::min(record.stable_step_ratio, least_element_step(s, edited.after) / step_before);
   record.mass_change =
       std::max(record.mass_change, std::abs(total(s.mass) - mass_before) / mass_before);
   s.log.new_edits.push_back({.frame = s.frame, .edit = edit});

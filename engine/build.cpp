@@ -7,17 +7,23 @@
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "cutting/cut_hex.h"
 #include "engine/bytes.h"
 #include "engine/equilibrium.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
+#include "engine/instrument_check.h"
 #include "engine/mesh_measures.h"
 #include "engine/tissue.h"
+#include "mesh/connected_nodes.h"
 #include "mesh/mesh_file.h"
 
 namespace trocar {
 
 namespace {
+
+// Depth from which on an instrument is not laid on the body but lies in it, in reaches of contact.
+constexpr double buried = 0.4;
 
 std::vector<double> region_densities(const std::vector<Material>& materials) {
   std::vector<double> density;
@@ -101,27 +107,25 @@ std::uint32_t crc_of_body(const Simulation& s) {
   return crc;
 }
 
-bool can_be_cut(const Mesh& mesh) {
-  const auto is_type = [&](ElementType type) {
-    return std::all_of(mesh.element_type.begin(), mesh.element_type.end(),
-                       [=](ElementType t) { return t == type; });
-  };
-  return is_type(ElementType::tet4) || is_type(ElementType::tri3);
+// Where no blade gets through.
+void warn_of_whole_hexahedra(const Simulation& s) {
+  if (s.mesh.dimension() == 2) return;
+  const std::size_t n = whole_hexahedra(s.mesh).size();
+  if (n > 0)
+    log_warning(std::to_string(n) +
+                " hexahedra can't be cut: they are bent too much to be split into tetrahedra, or "
+                "tetrahedra on their facets have the other diagonal");
 }
 
 void build_cuts(Simulation& s) {
   const SceneCutting& cutting = s.scene.cutting;
   for (std::size_t k = 0; k < s.tools.size(); ++k) {
     if (s.tools[k].kind != InstrumentKind::scalpel) continue;
-    if (!can_be_cut(s.mesh)) {
-      log_warning("the body has hexahedra, which this version does not cut: \"" + s.tools[k].name +
-                  "\" only touches");
-      continue;
-    }
     s.cuts.push_back(CutStage{.tool = static_cast<std::int32_t>(k),
                               .tet = TetCutter({.advance = cutting.advance,
                                                 .least_step_ratio = cutting.least_step_ratio})});
   }
+  if (!s.cuts.empty()) warn_of_whole_hexahedra(s);
 }
 
 void build_instruments(const LoadedScene& loaded, Simulation& s) {
@@ -134,9 +138,10 @@ void build_instruments(const LoadedScene& loaded, Simulation& s) {
   if (s.tools.empty()) return;
   std::vector<ToolShape> shapes;
   for (const Tool& tool : s.tools) shapes.push_back(tool.shape);
-  s.contact = std::make_unique<ContactStage>(ContactStage{
-      .detector = ContactDetector(shapes),
-      .options = {.stiffness = s.scene.contact.stiffness, .friction = s.scene.contact.friction}});
+  s.contact = std::make_unique<ContactStage>(
+      ContactStage{.detector = ContactDetector(shapes),
+                   .options = {.friction = s.scene.contact.friction,
+                               .release_speed = s.scene.contact.release_speed}});
   s.contact->motion.resize(s.tools.size());
   s.contact_reach = 0.5 * edge;
   build_cuts(s);
@@ -187,6 +192,7 @@ void rebuild_topology(Simulation& s) {
   begin_sleep(s);
   if (s.energy) s.scratch.damping_work.assign(static_cast<std::size_t>(s.model.n_owned), 0.0);
   s.surface = boundary_surface(s.mesh);
+  s.n_pieces = count_pieces(s.mesh);
   s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part, rank);
   localise_holds(s.holds, s.part);
   s.fastest_mode.clear();
@@ -212,6 +218,9 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   refresh_surface(s);
   watch_state(s);
   check_slow_element(s);
+  if (s.contact && s.scene.start.state == StartState::undeformed)
+    check_instruments_outside(loaded, buried * s.contact_reach,
+                              "the body at time 0: let it begin outside", s);
   s.log.least_stable_step = s.log.largest_stable_step = s.watch.stable_step;
   if (std::any_of(s.scene.outputs.begin(), s.scene.outputs.end(),
                   [](const SceneOutput& output) { return output.kind == OutputKind::metrics; }))

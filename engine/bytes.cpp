@@ -1,5 +1,7 @@
 #include "engine/bytes.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 
 namespace trocar {
@@ -65,6 +67,15 @@ void check_arrays(const Mesh& mesh) {
     throw InputError("stored mesh has corners that belong to no element");
 }
 
+void check_copies(const Mesh& mesh) {
+  const auto n_uncut =
+      static_cast<std::int64_t>(mesh.X.size()) - static_cast<std::int64_t>(mesh.copied_node.size());
+  const bool is_sound =
+      n_uncut >= 0 && std::all_of(mesh.copied_node.begin(), mesh.copied_node.end(),
+                                  [=](std::int32_t i) { return i >= 0 && i < n_uncut; });
+  if (!is_sound) throw InputError("stored mesh has copies of nodes that it has not");
+}
+
 }  // namespace
 
 std::vector<std::byte> mesh_to_bytes(const Mesh& mesh) {
@@ -84,6 +95,7 @@ std::vector<std::byte> mesh_to_bytes(const Mesh& mesh) {
     writer.put_text(set.name);
     writer.put_vector(set.node);
   }
+  writer.put_vector(mesh.copied_node);
   return writer.take();
 }
 
@@ -106,11 +118,14 @@ Mesh mesh_from_bytes(std::span<const std::byte> bytes) {
     set.name = reader.get_text();
     set.node = reader.get_vector<std::int32_t>();
   }
+  mesh.copied_node = reader.get_vector<std::int32_t>();
+  check_copies(mesh);
   return mesh;
 }
 
 std::vector<std::byte> edit_to_bytes(const MeshEdit& edit) {
   ByteWriter writer;
+  writer.put_vector(edit.splits);
   writer.put(static_cast<std::uint64_t>(edit.moves.size()));
   for (const NodeMove& move : edit.moves) {
     writer.put(move.node);
@@ -137,6 +152,7 @@ std::vector<std::byte> edit_to_bytes(const MeshEdit& edit) {
 MeshEdit edit_from_bytes(std::span<const std::byte> bytes) {
   ByteReader reader(bytes);
   MeshEdit edit;
+  edit.splits = reader.get_vector<HexSplit>();
   edit.moves.resize(reader.get_count(8 + (3 + max_corners) * sizeof(double)));
   for (NodeMove& move : edit.moves) {
     move.node = reader.get<std::int32_t>();

@@ -1,5 +1,7 @@
 #include "engine/checkpoint.h"
 
+#include <numeric>
+
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/log.h"
@@ -112,7 +114,9 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   s.state.history_time = c.history_time;
   scatter_state(s, {.u = c.u, .v = c.v});
   const std::vector<double> same(s.mesh.element_type.size(), 1.0);
-  restore_history(s.model, s.part, c.history, same, s.state);
+  std::vector<std::int32_t> itself(same.size());
+  std::iota(itself.begin(), itself.end(), 0);
+  restore_history(s.model, s.part, c.history, itself, same, s.state);
   if (s.sleep) restore_sleep(c.sleep, s);
   for (std::size_t k = 0; k < s.cuts.size(); ++k) remember(c.cuts[k], s.cuts[k]);
   s.step_scale = c.step_scale;

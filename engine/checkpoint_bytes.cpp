@@ -10,7 +10,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 4;
+constexpr std::uint32_t checkpoint_format = 5;
 
 static void visit(Saver& a, Mesh& mesh) {
   std::vector<std::byte> bytes = mesh_to_bytes(mesh);
@@ -55,10 +55,10 @@ static void visit(Archive& a, CutRefusal& r) {
 template <class Archive>
 static void visit(Archive& a, CutRecord& r) {
   a(r.tool, r.start, r.end, r.n_edits, r.n_refused, r.n_moved, r.n_duplicated, r.n_opened_facets,
-    r.n_elements_added, r.n_elements_dissolved, r.stable_step_ratio, r.scene_step_ratio,
-    r.least_quality, r.mass_change, r.momentum_change, r.kinetic_energy_change, r.largest_deviation,
-    r.mean_deviation, r.mean_edge, r.n_beside, r.refusals, r.blade_travel, r.deepest,
-    r.milliseconds, r.worst_milliseconds);
+    r.n_pieces, r.n_elements_added, r.n_elements_dissolved, r.n_converted, r.n_kept_hexahedra,
+    r.stable_step_ratio, r.scene_step_ratio, r.least_quality, r.mass_change, r.momentum_change,
+    r.kinetic_energy_change, r.largest_deviation, r.mean_deviation, r.mean_edge, r.n_beside,
+    r.refusals, r.blade_travel, r.deepest, r.milliseconds, r.worst_milliseconds);
 }
 template <class Archive>
 static void visit(Archive& a, Location& l) {
@@ -97,7 +97,7 @@ template <class Archive>
 static void visit(Archive& a, FrameRow& r) {
   a(r.frame, r.step, r.n_substeps, r.time, r.dt, r.stable_step, r.least_J, r.asleep, r.energy,
     r.works, r.energy_error, r.wound_width, r.wound_width_mean, r.n_contacts, r.n_held, r.n_edits,
-    r.tools, r.seconds);
+    r.n_pieces, r.tools, r.seconds);
 }
 template <class Archive>
 static void visit(Archive& a, FrameLog& l) {

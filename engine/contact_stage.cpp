@@ -7,17 +7,6 @@ namespace trocar {
 
 namespace {
 
-constexpr double blade_side =
-    0.9;  // least |cosine| between a contact's normal and the blade's flat side
-constexpr double blade_depth = 0.3e-3;  // tissue deeper in the blade than this is not cut yet [m]
-
-// A blade touches with its flat sides; its edge and tip cut, and tissue that they have not reached
-// passes through it.
-bool is_blade_edge(const Tool& tool, const Contact& contact) {
-  return tool.kind == InstrumentKind::scalpel && contact.piece >= first_working_piece &&
-         (std::abs(contact.normal.y()) < blade_side || contact.gap < -blade_depth);
-}
-
 bool is_inside_jaws(const Contact& contact, const Holds& holds) {
   const bool is_closed = !holds.is_open[static_cast<std::size_t>(contact.tool)];
   if (!is_closed) return false;
@@ -40,17 +29,43 @@ void detect_contacts(ContactStage& stage, std::span<const Tool> tools, const Hol
     margins.push_back(tool.path.travel(span.t0, span.t1, 0.02) + reach_extra);
   }
   stage.detector.detect(view.x, poses, margins, stage.contacts);
-  std::erase_if(stage.contacts, [&](const Contact& contact) {
-    return is_blade_edge(tools[static_cast<std::size_t>(contact.tool)], contact) ||
-           is_inside_jaws(contact, holds);
-  });
+  std::erase_if(stage.contacts,
+                [&](const Contact& contact) { return is_inside_jaws(contact, holds); });
 }
 
-void prepare_frame_contacts(ContactStage& stage, const Part& part, std::span<const double> mass,
-                            double dt) {
-  stage.set = prepare_contacts(stage.contacts, part, mass, dt, stage.options);
-  stage.reaction.assign(stage.set.items.size(), Vec3::Zero());
-  stage.reaction_sum.assign(stage.set.items.size(), Vec3::Zero());
+void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds) {
+  stage.set = {};
+  if (stage.contacts.empty()) return;
+  std::vector<std::uint8_t> is_held(body.mass.size(), 0);
+  for (std::size_t i = 0; i < is_held.size(); ++i) is_held[i] = (body.fixed[i] & 7) == 7;
+  for (const Hold& hold : holds.holds) is_held[static_cast<std::size_t>(hold.node)] = 1;
+  stage.set =
+      prepare_contacts(stage.contacts, body.node_owner, body.part, body.rank, body.mass, is_held);
+  stage.u_next.resize(3 * body.part.node_global.size());
+  stage.exchange.emplace(stage.set.halo, 6);
+  stage.positions.resize(6 * stage.set.node.size());
+}
+
+void share_positions(ContactStage& stage, std::span<const Vec3> X, std::span<const double> u,
+                     Communicator& communicator) {
+  for (std::size_t k = 0; k < stage.set.local.size(); ++k) {
+    const auto from = 3 * static_cast<std::size_t>(stage.set.local[k]);
+    const auto to = 6 * static_cast<std::size_t>(stage.set.owned[k]);
+    std::copy_n(u.begin() + static_cast<std::ptrdiff_t>(from), 3, &stage.positions[to]);
+    std::copy_n(&stage.u_next[from], 3, &stage.positions[to + 3]);
+  }
+  stage.exchange->exchange(stage.positions, communicator);
+  for (std::size_t k = 0; k < stage.set.node.size(); ++k) {
+    const Vec3& x = X[static_cast<std::size_t>(stage.set.node[k])];
+    stage.set.x_start[k] = x + Vec3::Map(&stage.positions[6 * k]);
+    stage.set.x_end[k] = x + Vec3::Map(&stage.positions[6 * k + 3]);
+  }
+}
+
+void add_contact_force(const ContactStage& stage, std::span<double> force) {
+  for (std::size_t k = 0; k < stage.set.local.size(); ++k)
+    Vec3::Map(&force[3 * static_cast<std::size_t>(stage.set.local[k])]) +=
+        stage.set.force[static_cast<std::size_t>(stage.set.owned[k])];
 }
 
 void move_tools(std::span<const Tool> tools, double t, double dt, std::span<ToolMotion> motion) {
@@ -63,17 +78,13 @@ void move_tools(std::span<const Tool> tools, double t, double dt, std::span<Tool
   }
 }
 
-void add_contact_reactions(ContactStage& stage) {
-  for (std::size_t k = 0; k < stage.reaction.size(); ++k)
-    stage.reaction_sum[k] += stage.reaction[k];
-}
-
 void sum_contact_reactions(ContactStage& stage, std::int64_t n_substeps,
                            std::span<std::array<ExactSum, 3>> force) {
-  for (std::size_t k = 0; k < stage.set.items.size(); ++k) {
-    const Vec3 mean = stage.reaction_sum[k] / static_cast<double>(n_substeps);
-    const auto tool = static_cast<std::size_t>(stage.set.items[k].contact.tool);
-    for (std::size_t i = 0; i < 3; ++i) force[tool][i].add(mean[static_cast<Eigen::Index>(i)]);
+  if (!stage.set.is_counted_here) return;
+  for (const ContactSet::Item& item : stage.set.items) {
+    const Vec3 mean = item.reaction_sum / static_cast<double>(n_substeps);
+    for (std::size_t i = 0; i < 3; ++i)
+      force[static_cast<std::size_t>(item.contact.tool)][i].add(mean[static_cast<Eigen::Index>(i)]);
   }
 }
 

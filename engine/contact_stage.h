@@ -1,12 +1,14 @@
-// Contact within a frame: detected once at its beginning, evaluated in every substep.
+// Contact within a frame: the pairs of tool and tissue that may meet are found once at its
+// beginning, and looked at anew in every substep.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/exact_sum.h"
-#include "collision/contact_force.h"
+#include "collision/contact_solve.h"
 #include "collision/detector.h"
 #include "engine/holds.h"
 #include "engine/surface_view.h"
@@ -17,11 +19,12 @@ namespace trocar {
 struct ContactStage {
   ContactDetector detector;
   ContactOptions options;
-  std::vector<Contact> contacts;   // of this frame, on every rank
-  ContactSet set;                  // those that this rank evaluates
-  std::vector<Vec3> reaction;      // (set.items.size()) of the last substep [N]
-  std::vector<Vec3> reaction_sum;  // over the substeps of this frame
-  std::vector<ToolMotion> motion;  // (n_tools) at the present substep
+  std::vector<Contact> contacts;  // of this frame, on every rank
+  ContactSet set;                 // those that this rank works on
+  std::vector<double> u_next;     // (n_local * 3) of its owned nodes, without contact [m]
+  std::optional<HaloExchange> exchange;
+  std::vector<double> positions;   // (set.node.size() * 6) that travel
+  std::vector<ToolMotion> motion;  // (n_tools) at the end of the substep
 };
 
 struct FrameSpan {
@@ -34,12 +37,26 @@ struct FrameSpan {
 // frame [m].
 void detect_contacts(ContactStage& stage, std::span<const Tool> tools, const Holds& holds,
                      const SurfaceView& view, const FrameSpan& span, double reach_extra);
-void prepare_frame_contacts(ContactStage& stage, const Part& part, std::span<const double> mass,
-                            double dt);
+// Of a rank's part of the mesh; global fields (n_nodes).
+struct ContactBody {
+  const Part& part;
+  int rank = 0;
+  std::span<const std::int32_t> node_owner;
+  std::span<const double> mass;         // [kg]
+  std::span<const std::uint8_t> fixed;  // supported components
+};
+// What graspers and supports hold doesn't yield to contact.
+void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds);
+// Positions of the set's nodes from u and u_next (n_local * 3), on all ranks that work on them.
+// Collective among these. X (n_nodes).
+void share_positions(ContactStage& stage, std::span<const Vec3> X, std::span<const double> u,
+                     Communicator& communicator);
+
+// Of the last step, to the nodes of this rank: force (n_owned * 3).
+void add_contact_force(const ContactStage& stage, std::span<double> force);
 
 // Poses and velocities of all tools at time t (velocity over the substep before).
 void move_tools(std::span<const Tool> tools, double t, double dt, std::span<ToolMotion> motion);
-void add_contact_reactions(ContactStage& stage);
 // Mean over the frame, added to force (n_tools), exact in any order.
 void sum_contact_reactions(ContactStage& stage, std::int64_t n_substeps,
                            std::span<std::array<ExactSum, 3>> force);

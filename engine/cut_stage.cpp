@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/apply_cut.h"
+#include "engine/frame_report.h"
 #include "engine/mesh_measures.h"
 #include "engine/simulation.h"
 
@@ -77,6 +78,8 @@ void add_figures(const CutFigures& figures, bool has_edit, CutRecord& record) {
   record.n_moved += figures.n_moved;
   record.n_duplicated += figures.n_duplicated;
   record.n_opened_facets += figures.n_opened_facets;
+  record.n_converted += figures.n_converted;
+  record.n_kept_hexahedra += figures.n_kept_hexahedra;
   record.largest_deviation = std::max(record.largest_deviation, figures.largest_deviation);
   record.mean_edge = figures.mean_edge;
 }
@@ -85,8 +88,12 @@ void note_edit(Simulation& s, const MeshEdit& edit, const CutFigures& figures, G
                CutRecord& record) {
   add_figures(figures, !edit.is_empty(), record);
   if (edit.is_empty()) return;
-  const std::int32_t n_before = s.mesh.n_elements();
+  const std::int32_t n_before = s.mesh.n_elements(), n_pieces_before = s.n_pieces;
   apply_cut(s, edit, global, record);
+  record.n_pieces = s.n_pieces;
+  if (s.n_pieces > n_pieces_before)
+    note_event(s, record.end,
+               record.tool + " frees a piece: the body is in " + std::to_string(s.n_pieces));
   const std::int64_t difference = s.mesh.n_elements() - n_before;
   record.n_elements_added += std::max<std::int64_t>(difference, 0);
   record.n_elements_dissolved += std::max<std::int64_t>(-difference, 0);
@@ -161,7 +168,6 @@ void add_to_record(const Simulation& s, const FrameSpan& span, CutStage& stage,
                    double milliseconds) {
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
   CutRecord& record = stage.strokes.back();
-  record.end = span.t1;
   record.milliseconds += milliseconds;
   record.worst_milliseconds = std::max(record.worst_milliseconds, milliseconds);
   if (stage.engaged.empty()) return;
@@ -189,6 +195,7 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
     s.stable_step_before_cut = s.watch.stable_step;
     start_stroke(stage, tool, span.t1, s.mesh.dimension());
   }
+  stage.strokes.back().end = span.t1;
   const bool is_last = leaves_tissue(stage, is_near);
   if (s.mesh.dimension() == 2)
     cut_plane_piece(s, stage, span, is_last, *global);

@@ -20,7 +20,9 @@ struct CutRecord {
   std::int64_t n_edits = 0, n_refused = 0, n_beside = 0;  // n_beside: see CutFigures
   std::vector<CutRefusal> refusals;
   std::int64_t n_moved = 0, n_duplicated = 0, n_opened_facets = 0;
+  std::int64_t n_pieces = 1;  // of the whole body after the stroke
   std::int64_t n_elements_added = 0, n_elements_dissolved = 0;
+  std::int64_t n_converted = 0, n_kept_hexahedra = 0;  // see CutFigures; kept ones once an edit
   double stable_step_ratio =
       1;  // least stable step after / before, of the elements around, worst edit
   double scene_step_ratio = 1;  // of the whole body, after / before the stroke

@@ -26,13 +26,6 @@ Vec3 velocity_of(const State& state, std::int32_t local) {
   return {v[0], v[1], v[2]};
 }
 
-Vec3 contact_velocity(const State& state, const ContactSet::Item& item) {
-  Vec3 v = Vec3::Zero();
-  for (std::size_t a = 0; a < 3; ++a)
-    v += item.contact.weight[a] * velocity_of(state, item.local[a]);
-  return v;
-}
-
 // Calls body(stage, velocity) for every place where a blade is held back; the rank that owns the
 // element's first node counts it.
 template <class Body>
@@ -93,9 +86,10 @@ EnergyState mechanical_energy(Simulation& s) {
 
 void begin_frame_work(Simulation& s) {
   EnergyLedger& ledger = *s.energy;
-  ledger.contact_work.assign(s.contact ? s.contact->set.items.size() : 0, 0.0);
+  ledger.contact_work.assign(s.contact ? s.contact->set.local.size() : 0, 0.0);
   ledger.hold_work.assign(s.holds.owned.size(), 0.0);
-  ledger.blade_work = {};
+  ledger.blade_work.clear();
+  for_engaged_places(s, [&](const CutStage&, const Vec3&) { ledger.blade_work.push_back(0); });
   std::fill(s.scratch.damping_work.begin(), s.scratch.damping_work.end(), 0.0);
 }
 
@@ -104,8 +98,8 @@ void note_velocities(Simulation& s, double dt) {
   ledger.dt_mid = (s.state.last_dt + dt) / 2;
   ledger.contact_velocity.clear();
   if (s.contact)
-    for (const ContactSet::Item& item : s.contact->set.items)
-      ledger.contact_velocity.push_back(contact_velocity(s.state, item));
+    for (const std::int32_t node : s.contact->set.local)
+      ledger.contact_velocity.push_back(velocity_of(s.state, node));
   ledger.hold_velocity.clear();
   for (const PrescribedNode& node : s.holds.prescribed)
     ledger.hold_velocity.push_back(velocity_of(s.state, node.node));
@@ -118,8 +112,10 @@ void add_work(Simulation& s) {
   EnergyLedger& ledger = *s.energy;
   const double half_dt = ledger.dt_mid / 2;
   for (std::size_t k = 0; k < ledger.contact_work.size(); ++k) {
-    const Vec3 v = ledger.contact_velocity[k] + contact_velocity(s.state, s.contact->set.items[k]);
-    ledger.contact_work[k] -= half_dt * s.contact->reaction[k].dot(v);
+    const ContactStage& contact = *s.contact;
+    const Vec3 v = ledger.contact_velocity[k] + velocity_of(s.state, contact.set.local[k]);
+    const auto place = static_cast<std::size_t>(contact.set.owned[k]);
+    ledger.contact_work[k] += half_dt * contact.set.force[place].dot(v);
   }
   for (std::size_t k = 0; k < ledger.hold_work.size(); ++k) {
     const PrescribedNode& node = s.holds.prescribed[k];
@@ -129,7 +125,8 @@ void add_work(Simulation& s) {
   std::size_t k = 0;
   for_engaged_places(s, [&](const CutStage& stage, const Vec3& v) {
     const Vec3 drag = -stage.resistance / static_cast<double>(stage.engaged.size());
-    ledger.blade_work.add(half_dt * drag.dot(ledger.blade_velocity[k++] + v));
+    ledger.blade_work[k] += half_dt * drag.dot(ledger.blade_velocity[k] + v);
+    ++k;
   });
 }
 
@@ -137,8 +134,7 @@ void close_frame_work(Simulation& s) {
   EnergyLedger& ledger = *s.energy;
   ledger.memory.works.contact += sum_over_ranks(ledger.contact_work, *s.communicator);
   ledger.memory.works.holds += sum_over_ranks(ledger.hold_work, *s.communicator);
-  ledger.blade_work.all_sum(*s.communicator);
-  ledger.memory.works.blade += ledger.blade_work.value();
+  ledger.memory.works.blade += sum_over_ranks(ledger.blade_work, *s.communicator);
   ledger.memory.works.damping -= sum_over_ranks(s.scratch.damping_work, *s.communicator);
 }
 

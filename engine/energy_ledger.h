@@ -29,10 +29,10 @@ struct EnergyMemory {
 struct EnergyLedger {
   EnergyMemory memory;
   // Of this frame on this rank: velocities [m/s] before the step of where forces act, and their
-  // work [J], in the order of the contact set and of the holds.
+  // work [J], in the order of the contact set's nodes, of the holds and of the places where blades
+  // are held back.
   std::vector<Vec3> contact_velocity, hold_velocity, blade_velocity;
-  std::vector<double> contact_work, hold_work;
-  ExactSum blade_work;
+  std::vector<double> contact_work, hold_work, blade_work;
   double dt_mid = 0;  // between the two velocities of the step [s]
 };
 

@@ -7,6 +7,7 @@
 #include "base/timers.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
+#include "engine/instrument_check.h"
 #include "mesh/connected_nodes.h"
 #include "solver/relax.h"
 
@@ -30,20 +31,6 @@ std::vector<std::int32_t> pieces_of(const Mesh& mesh) {
   std::vector<std::int32_t> all(mesh.element_type.size());
   std::iota(all.begin(), all.end(), 0);
   return connected_nodes(mesh, all);
-}
-
-// Where the deepest of the contacts of time zero is, if any reaches into the body.
-void check_instruments(const LoadedScene& loaded, Simulation& s) {
-  detect_contacts(*s.contact, s.tools, s.holds, s.view, FrameSpan{}, 0);
-  const Contact* deepest = nullptr;
-  for (const Contact& contact : s.contact->contacts)
-    if (contact.gap < 0 && (deepest == nullptr || contact.gap < deepest->gap)) deepest = &contact;
-  if (deepest == nullptr) return;
-  const auto tool = static_cast<std::size_t>(deepest->tool);
-  loaded.where.fail("instrument[" + std::to_string(tool) + "].path[0].position",
-                    "\"" + s.tools[tool].name + "\" reaches " + number_text(-deepest->gap) +
-                        " m into the body in equilibrium, which is found without instruments: let "
-                        "it begin outside, or start with state = \"undeformed\"");
 }
 
 [[noreturn]] void give_up(Simulation& s, const std::string& cause) {
@@ -99,7 +86,11 @@ void start_in_equilibrium(const LoadedScene& loaded, Simulation& s) {
                               .residual = found.residual,
                               .seconds = monotonic_seconds() - start};
   refresh_surface(s);
-  if (s.contact) check_instruments(loaded, s);
+  if (s.contact)
+    check_instruments_outside(loaded, 0,
+                              "the body in equilibrium, which is found without instruments: let it "
+                              "begin outside, or start with state = \"undeformed\"",
+                              s);
   s.log.least_J = s.watch.least_J;
   s.log.least_J_element = s.watch.least_J_element;
   s.log.least_stable_step = s.log.largest_stable_step = s.watch.stable_step;

@@ -20,9 +20,7 @@ FrameSpan plan_frame(const Simulation& s) {
   FrameSpan span;
   span.t0 = static_cast<double>(s.frame) / s.scene.time.frame_rate;
   span.t1 = static_cast<double>(s.frame + 1) / s.scene.time.frame_rate;
-  const bool has_contacts = !s.log.rows.empty() && s.log.rows.back().n_contacts > 0;
-  const double dt = s.scene.solver.step_factor * s.step_scale * s.watch.stable_step /
-                    (has_contacts ? s.scene.contact.refinement : 1);
+  const double dt = s.scene.solver.step_factor * s.step_scale * s.watch.stable_step;
   span.n_substeps = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / dt)));
   span.dt = length / static_cast<double>(span.n_substeps);
   return span;
@@ -40,9 +38,32 @@ void grasp(Simulation& s, const FrameSpan& span) {
 
 void detect(Simulation& s, const FrameSpan& span) {
   const PhaseScope scope(s.timers, phase_detect);
-  detect_contacts(*s.contact, s.tools, s.holds, s.view, span, s.contact_reach);
-  // A stiffness that grew with each roll-back would throw out what made the trouble even faster.
-  prepare_frame_contacts(*s.contact, s.part, s.mass, span.dt / s.step_scale);
+  const double reach = s.contact_reach + largest_speed(s) * (span.t1 - span.t0);
+  detect_contacts(*s.contact, s.tools, s.holds, s.view, span, reach);
+  prepare_frame_contacts(*s.contact,
+                         {.part = s.part,
+                          .rank = s.communicator->rank(),
+                          .node_owner = s.node_owner,
+                          .mass = s.mass,
+                          .fixed = s.fixed},
+                         s.holds);
+}
+
+// Pushes tissue out of the instruments that it would be in at the end of the step.
+void resolve_contacts(Simulation& s, const FrameSpan& span, std::int64_t k) {
+  ContactStage& contact = *s.contact;
+  if (contact.set.items.empty()) return;
+  move_tools(s.tools, span.t0 + static_cast<double>(k + 1) * span.dt, span.dt, contact.motion);
+  predict(s.model, s.scratch, s.holds.prescribed, contact.set.local, span.dt, s.state,
+          contact.u_next);
+  share_positions(contact, s.mesh.X, s.state.u, *s.communicator);
+  const ContactStep step = {.tools = contact.motion,
+                            .number = k,
+                            .dt = span.dt,
+                            .response = step_response(s.model, s.state, span.dt)};
+  look_again(contact.detector, step, contact.set);
+  solve_contacts(contact.detector, step, contact.options, contact.set);
+  add_contact_force(contact, s.scratch.force);
 }
 
 // What it waits for neighbours counts as exchange.
@@ -56,21 +77,17 @@ void update_force(Simulation& s) {
   s.timers.add(phase_force, waited - s.neighbours.waited);
 }
 
-void substep(Simulation& s, const FrameSpan& span, double t) {
+void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
   update_force(s);
+  aim_holds(s.holds, s.tools, s.mesh.X, span.t0 + static_cast<double>(k + 1) * span.dt);
   if (s.contact) {
     const PhaseScope scope(s.timers, phase_contact);
-    ContactStage& contact = *s.contact;
-    move_tools(s.tools, t, span.dt, contact.motion);
-    add_contact_force(contact.set, s.part, s.mesh.X, s.state.u, s.state.v, contact.motion,
-                      contact.options, s.scratch.force, contact.reaction);
-    add_contact_reactions(contact);
     add_cut_resistance(s, s.scratch.force);
+    resolve_contacts(s, span, k);
   }
   {
     const PhaseScope scope(s.timers, phase_integrate);
     if (s.energy) note_velocities(s, span.dt);
-    aim_holds(s.holds, s.tools, s.mesh.X, t + span.dt);
     integrate(s.model, s.scratch, s.holds.prescribed, span.dt, s.state);
     add_hold_reactions(s.holds);
   }
@@ -86,15 +103,8 @@ FrameSpan run_substeps(Simulation& s) {
   if (s.contact) detect(s, span);
   if (s.sleep) wake_touched(s);
   if (s.energy) begin_frame_work(s);
-  for (std::int64_t k = 0; k < span.n_substeps; ++k)
-    substep(s, span, span.t0 + static_cast<double>(k) * span.dt);
+  for (std::int64_t k = 0; k < span.n_substeps; ++k) substep(s, span, k);
   return span;
-}
-
-void take_back(Simulation& s, const State& good) {
-  finish_exchange(s.neighbours, s.state);
-  s.state = good;
-  for (Vec3& sum : s.holds.reaction_sum) sum = Vec3::Zero();
 }
 
 // All substeps of the frame, twice if they disturb what slept; on trouble back to its beginning
@@ -106,7 +116,9 @@ FrameSpan step_safely(Simulation& s) {
   for (int tries = 0;; ++tries) {
     FrameSpan span = run_substeps(s);
     if (s.sleep && wake_disturbed(s)) {
-      take_back(s, good);
+      finish_exchange(s.neighbours, s.state);
+      s.state = good;
+      forget_hold_reactions(s.holds);
       span = run_substeps(s);
     }
     watch_state(s);

@@ -42,7 +42,7 @@ struct FrameRow {
   EnergyWorks works;
   double energy_error = 0;
   double wound_width = 0, wound_width_mean = 0;  // [m] distance of partner nodes, largest and mean
-  std::int64_t n_contacts = 0, n_held = 0, n_edits = 0;
+  std::int64_t n_contacts = 0, n_held = 0, n_edits = 0, n_pieces = 1;
   std::vector<ToolRow> tools;
   double seconds = 0;  // wall time of the frame without waiting
 };

@@ -81,6 +81,7 @@ void report_state(Simulation& s, FrameRow& row) {
   if (!s.duplicate_node.empty()) report_wound(s, row);
   for (const CutStage& stage : s.cuts)
     for (const CutRecord& stroke : stage.strokes) row.n_edits += stroke.n_edits;
+  row.n_pieces = s.n_pieces;
   keep_extremes(s);
 }
 

@@ -52,6 +52,13 @@ void use_frequency(Simulation& s) {
 
 }  // namespace
 
+double largest_speed(const Simulation& s) {
+  double most = 0;
+  for (std::int64_t i = 0; i < s.part.n_owned; ++i)
+    most = std::max(most, Vec3::Map(&s.state.v[3 * i]).squaredNorm());
+  return std::sqrt(s.communicator->all_max(most));
+}
+
 void watch_state(Simulation& s) {
   const PhaseScope scope(s.timers, phase_watch);
   update_volume_change(s.model, s.neighbours, s.state, s.scratch);
@@ -96,7 +103,7 @@ std::string go_back(Simulation& s, const std::string& trouble, int tries) {
                           std::to_string(tries) +
                           " roll-backs with smaller steps did not help: slower instruments, a "
                           "finer mesh or a lower poisson_ratio may");
-  for (Vec3& sum : s.holds.reaction_sum) sum = Vec3::Zero();
+  forget_hold_reactions(s.holds);
   return "rolled back: " + trouble;
 }
 

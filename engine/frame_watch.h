@@ -16,6 +16,8 @@ inline constexpr double crushed_step = 0.01;
 // Sets s.watch to that of all ranks, and volume changes averaged at nodes to those of the present
 // displacement; ends the last step's exchange. Collective.
 void watch_state(Simulation& s);
+// Of all nodes of all ranks. Collective. [m/s]
+double largest_speed(const Simulation& s);
 // A sentence with element or node and cause, "" if all is well. The same on every rank.
 std::string find_trouble(const Simulation& s);
 // Notes that the frame is done again with the stable step of its end, which its own exceeded;

@@ -2,9 +2,18 @@
 
 #include <algorithm>
 
+#include "mesh/hex_split.h"
+
 namespace trocar {
 
 namespace {
+
+// Weights of an element's corners and the least of them that tells whether the element holds the
+// point.
+struct Weights {
+  std::array<double, max_corners> weight{};
+  double least = -1e300;
+};
 
 // Barycentric weights of a tetrahedron or (in the plane z = 0) a triangle.
 std::array<double, 4> barycentric(std::span<const std::int32_t> corner, std::span<const Vec3> x,
@@ -22,8 +31,35 @@ std::array<double, 4> barycentric(std::span<const std::int32_t> corner, std::spa
   return weight;
 }
 
-double least_weight(const std::array<double, 4>& weight, std::size_t n) {
-  return *std::min_element(weight.begin(), weight.begin() + static_cast<std::ptrdiff_t>(n));
+Weights simplex_weights(std::span<const std::int32_t> corner, std::span<const Vec3> x,
+                        const Vec3& p) {
+  const std::array<double, 4> weight = barycentric(corner, x, p);
+  Weights w;
+  std::copy(weight.begin(), weight.end(), w.weight.begin());
+  w.least = *std::min_element(weight.begin(),
+                              weight.begin() + static_cast<std::ptrdiff_t>(corner.size()));
+  return w;
+}
+
+// Of the tetrahedron of the hexahedron whose least weight is largest.
+Weights hexahedron_weights(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x,
+                           const Vec3& p) {
+  Weights best;
+  for (const std::array<int, 4>& tet : hex_tets(mesh, e)) {
+    std::array<std::int32_t, 4> node{};
+    for (std::size_t a = 0; a < 4; ++a) node[a] = mesh.corners(e)[static_cast<std::size_t>(tet[a])];
+    const Weights w = simplex_weights(node, x, p);
+    if (w.least <= best.least) continue;
+    best = {.least = w.least};
+    for (std::size_t a = 0; a < 4; ++a) best.weight[static_cast<std::size_t>(tet[a])] = w.weight[a];
+  }
+  return best;
+}
+
+Weights weights_of(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x, const Vec3& p) {
+  if (mesh.element_type[static_cast<std::size_t>(e)] == ElementType::hex8)
+    return hexahedron_weights(mesh, e, x, p);
+  return simplex_weights(mesh.corners(e), x, p);
 }
 
 bool box_holds(std::span<const std::int32_t> corner, std::span<const Vec3> x, const Vec3& p) {
@@ -39,10 +75,9 @@ bool box_holds(std::span<const std::int32_t> corner, std::span<const Vec3> x, co
 
 Location locate_point(const Mesh& mesh, std::span<const Vec3> x, const Vec3& point) {
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    const auto corner = mesh.corners(e);
-    if (!box_holds(corner, x, point)) continue;
-    const std::array<double, 4> weight = barycentric(corner, x, point);
-    if (least_weight(weight, corner.size()) >= -1e-12) return {.element = e, .weight = weight};
+    if (!box_holds(mesh.corners(e), x, point)) continue;
+    const Weights w = weights_of(mesh, e, x, point);
+    if (w.least >= -1e-12) return {.element = e, .weight = w.weight};
   }
   return {};
 }
@@ -52,12 +87,10 @@ Location locate_nearest(const Mesh& mesh, std::span<const Vec3> x, const Vec3& p
   if (nearest.element >= 0) return nearest;
   double best = -1e300;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    const auto corner = mesh.corners(e);
-    const std::array<double, 4> weight = barycentric(corner, x, point);
-    const double least = least_weight(weight, corner.size());
-    if (least > best) {
-      best = least;
-      nearest = {.element = e, .weight = weight};
+    const Weights w = weights_of(mesh, e, x, point);
+    if (w.least > best) {
+      best = w.least;
+      nearest = {.element = e, .weight = w.weight};
     }
   }
   return nearest;

@@ -1,4 +1,4 @@
-// Which element of a simplex mesh holds a point.
+// Which element holds a point. Of a hexahedron, the tetrahedron of hex_split.h that holds it.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 namespace trocar {
 
 struct Location {
-  std::int32_t element = -1;       // -1: outside all elements
-  std::array<double, 4> weight{};  // barycentric
+  std::int32_t element = -1;                 // -1: outside all elements
+  std::array<double, max_corners> weight{};  // barycentric
 };
 
 // In positions x; the lowest element number wins on a border. O(n_elements) box tests.

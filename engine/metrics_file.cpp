@@ -22,7 +22,8 @@ MetricsFile::MetricsFile(const std::string& file, std::span<const Tool> tools)
     : file_(file), stream_(file) {
   stream_ << "time_s,frame,step,substeps,dt_s,stable_step_s,least_J,kinetic_J,strain_J,hourglass_J,"
              "gravity_J,contact_work_J,hold_work_J,blade_work_J,damping_work_J,cut_energy_J,"
-             "energy_error_J,contacts,held_nodes,cut_edits,wound_width_m,wound_width_mean_m,frame_"
+             "energy_error_J,contacts,held_nodes,cut_edits,pieces,wound_width_m,wound_width_mean_m,"
+             "frame_"
              "seconds";
   for (const Tool& tool : tools)
     for (const char* column : {"_x_m", "_y_m", "_z_m", "_force_x_N", "_force_y_N", "_force_z_N"})
@@ -38,7 +39,8 @@ void MetricsFile::add(const FrameRow& row) {
         row.energy.hourglass, row.energy.gravity, row.works.contact, row.works.holds,
         row.works.blade, row.works.damping, row.works.cut, row.energy_error})
     stream_ << ',' << number_text(value);
-  stream_ << ',' << row.n_contacts << ',' << row.n_held << ',' << row.n_edits;
+  stream_ << ',' << row.n_contacts << ',' << row.n_held << ',' << row.n_edits << ','
+          << row.n_pieces;
   for (const double value : {row.wound_width, row.wound_width_mean, row.seconds})
     stream_ << ',' << number_text(value);
   for (const ToolRow& tool : row.tools)

@@ -44,23 +44,50 @@ TriangleMesh surface_from_bytes(const std::vector<std::byte>& bytes, const std::
   return surface;
 }
 
+bool is_hexahedron(const HexSplit& split, const Mesh& mesh) {
+  return is_within(split.element, mesh.n_elements()) &&
+         mesh.element_type[static_cast<std::size_t>(split.element)] == ElementType::hex8;
+}
+
+bool splits_fit(const MeshEdit& edit, const Mesh& mesh) {
+  std::int32_t last = -1;
+  return std::all_of(edit.splits.begin(), edit.splits.end(), [&](const HexSplit& split) {
+    const bool is_next = split.element > last && is_hexahedron(split, mesh);
+    if (!is_next) return false;
+    last = split.element;
+    const auto own = mesh.corners(split.element);
+    return std::all_of(split.corner.begin(), split.corner.end(), [&](const auto& tet) {
+      return std::all_of(tet.begin(), tet.end(), [&](std::int32_t i) {
+        return std::find(own.begin(), own.end(), i) != own.end();
+      });
+    });
+  });
+}
+
 bool fits(const MeshEdit& edit, const Mesh& mesh) {
+  if (!splits_fit(edit, mesh)) return false;
+  const std::vector<std::int32_t> parent = element_parents(mesh, edit);
   const std::int64_t n_nodes = mesh.n_nodes(), n_elements = mesh.n_elements();
+  const auto n_after = static_cast<std::int64_t>(parent.size());
   std::int64_t n_all = n_nodes;
-  const auto has_element = [&](const auto& change) {
-    return is_within(change.element, n_elements);
+  const auto has_element = [&](const auto& change) { return is_within(change.element, n_after); };
+  const auto has_corner = [&](const CornerChange& change) {
+    const std::int32_t e = parent[static_cast<std::size_t>(change.element)];
+    const bool is_split = std::any_of(edit.splits.begin(), edit.splits.end(),
+                                      [=](const HexSplit& split) { return split.element == e; });
+    const std::int64_t n_corners = is_split ? 4 : static_cast<std::int64_t>(mesh.corners(e).size());
+    return is_within(change.corner, n_corners);
   };
   return std::all_of(edit.moves.begin(), edit.moves.end(),
                      [&](const NodeMove& move) {
                        return is_within(move.node, n_nodes) && is_within(move.host, n_elements);
                      }) &&
          std::all_of(edit.duplicate_parent.begin(), edit.duplicate_parent.end(),
-                     [&](std::int32_t parent) { return is_within(parent, n_all++); }) &&
+                     [&](std::int32_t node) { return is_within(node, n_all++); }) &&
          std::all_of(edit.corners.begin(), edit.corners.end(),
                      [&](const CornerChange& change) {
                        return has_element(change) && is_within(change.node, n_all) &&
-                              is_within(change.corner, static_cast<std::int64_t>(
-                                                           mesh.corners(change.element).size()));
+                              has_corner(change);
                      }) &&
          std::all_of(edit.cut_facets.begin(), edit.cut_facets.end(), has_element) &&
          std::all_of(edit.density.begin(), edit.density.end(), has_element);

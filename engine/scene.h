@@ -82,9 +82,8 @@ struct SceneSolver {
 };
 
 struct SceneContact {
-  double stiffness = 0.6;
-  double refinement = 3;
   double friction = 0.2;
+  double release_speed = 0.02;  // [m/s]
 };
 
 struct SceneCutting {

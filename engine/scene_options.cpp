@@ -129,12 +129,11 @@ Options<SceneSolver> solver_options() {
 
 Options<SceneContact> contact_options() {
   Options<SceneContact> c("Contact between instruments and tissue.");
-  c.number("stiffness", &SceneContact::stiffness, dim::none,
-           {.low = 0, .high = 1, .is_low_open = true},
-           "Penalty stiffness of a node in units of m/dt^2.");
-  c.number("refinement", &SceneContact::refinement, dim::none, {.low = 1, .high = 100},
-           "Steps of a frame with contact / steps without: less penetration, more work.");
   c.number("friction", &SceneContact::friction, dim::none, not_negative, "Coulomb's coefficient.");
+  c.number(
+      "release_speed", &SceneContact::release_speed, dim::velocity, not_negative,
+      "Speed at which tissue leaves an instrument that appears inside of it, as jaws that open "
+      "do.");
   return c;
 }
 

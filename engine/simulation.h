@@ -74,7 +74,8 @@ struct Simulation {
   std::vector<std::int32_t> node_owner;  // (n_nodes)
   Surface surface;
   std::vector<std::int32_t> duplicate_parent,
-      duplicate_node;  // pairs of partner nodes, over all cuts
+      duplicate_node;         // pairs of partner nodes, over all cuts
+  std::int32_t n_pieces = 1;  // that the body has fallen into
 
   // This rank's share.
   Part part;
@@ -87,7 +88,7 @@ struct Simulation {
   std::vector<Tool> tools;
   Holds holds;                            // grasped nodes and moving supports
   std::unique_ptr<ContactStage> contact;  // only with instruments
-  std::vector<CutStage> cuts;             // one a scalpel, only on bodies that can be cut
+  std::vector<CutStage> cuts;             // one a scalpel
   SurfaceView view;                       // positions of surface nodes, replicated, once a frame
 
   std::int64_t frame = 0;        // frames done

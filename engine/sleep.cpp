@@ -79,11 +79,22 @@ std::vector<std::uint8_t> spread(const Model& model, const std::vector<Mark>& ma
   return reached;
 }
 
+// The nodes of a cluster of scaled masses push each other, so they sleep all or none.
+void keep_clusters_together(const MassClusters& clusters, std::vector<double>& sleeps) {
+  for (std::size_t c = 0; c < clusters.total.size(); ++c) {
+    const std::span nodes(clusters.node.begin() + clusters.offset[c],
+                          clusters.node.begin() + clusters.offset[c + 1]);
+    if (std::any_of(nodes.begin(), nodes.end(), [&](std::int32_t i) { return sleeps[i] == 0; }))
+      for (const std::int32_t i : nodes) sleeps[i] = 0;
+  }
+}
+
 // (n_local) Quiet nodes whose neighbours are all quiet.
 std::vector<std::uint8_t> find_sleepers(Simulation& s) {
   const std::vector<std::uint8_t> is_disturbed = spread(s.model, find_quiet(s), 0.0);
   std::vector<double> sleeps(is_disturbed.size());
   for (std::size_t i = 0; i < sleeps.size(); ++i) sleeps[i] = is_disturbed[i] == 0 ? 1 : 0;
+  keep_clusters_together(s.model.clusters, sleeps);
   HaloExchange(s.halo, 1).exchange(sleeps, *s.communicator);
   return {sleeps.begin(), sleeps.end()};
 }

@@ -26,4 +26,17 @@ std::vector<std::int32_t> connected_nodes(const Mesh& mesh,
   return above;
 }
 
+std::vector<std::int32_t> connected_nodes(const Mesh& mesh) {
+  std::vector<std::int32_t> all(mesh.element_type.size());
+  std::iota(all.begin(), all.end(), 0);
+  return connected_nodes(mesh, all);
+}
+
+std::int32_t count_pieces(const Mesh& mesh) {
+  const std::vector<std::int32_t> piece = connected_nodes(mesh);
+  std::int32_t n = 0;
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) n += piece[i] == i ? 1 : 0;
+  return n;
+}
+
 }  // namespace trocar

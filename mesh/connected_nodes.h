@@ -12,5 +12,11 @@ namespace trocar {
 // (n_nodes) The lowest node that the node is connected with through the listed elements; the node
 // itself where none of them touches it.
 std::vector<std::int32_t> connected_nodes(const Mesh& mesh, std::span<const std::int32_t> elements);
+// The same through all elements: the piece of each node.
+std::vector<std::int32_t> connected_nodes(const Mesh& mesh);
+
+// Pieces that hang together through nodes. Where no two pieces touch in a node or an edge alone, as
+// after every cut, these are the pieces of mesh_pieces (quality.h).
+std::int32_t count_pieces(const Mesh& mesh);
 
 }  // namespace trocar

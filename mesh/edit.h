@@ -35,18 +35,33 @@ struct DensityChange {
   double factor = 1;  // the whole new value of Mesh::density_factor
 };
 
+// Hexahedron `element` becomes six tetrahedra on its own nodes. They inherit all that it had and
+// take its place: elements behind it move up by five.
+struct HexSplit {
+  std::int32_t element = 0;                             // its number before the edit
+  std::array<std::array<std::int32_t, 4>, 6> corner{};  // nodes
+};
+
 // Applied in the order of its members. The k-th duplicate becomes node n_nodes + k and copies its
-// parent (after moving).
+// parent (after moving). Corners, cut_facets and density name elements by their numbers after the
+// splits, hosts by those before.
 struct MeshEdit {
+  std::vector<HexSplit> splits;                // ascending element
   std::vector<NodeMove> moves;                 // ascending node
   std::vector<std::int32_t> duplicate_parent;  // (n_duplicates)
   std::vector<CornerChange> corners;           // ascending (element, corner)
   std::vector<CutFacets> cut_facets;           // ascending element
   std::vector<DensityChange> density;          // ascending element
-  bool is_empty() const { return moves.empty() && duplicate_parent.empty() && corners.empty(); }
+  bool is_empty() const {
+    return splits.empty() && moves.empty() && duplicate_parent.empty() && corners.empty();
+  }
 };
 
-// Elements that the edit touches in any way (moved corner, changed corner, density), ascending.
+// (n_elements after the edit) The element that each is, or is a part of, before it.
+std::vector<std::int32_t> element_parents(const Mesh& mesh, const MeshEdit& edit);
+
+// Elements that the edit touches in any way (split, moved corner, changed corner, density), by
+// their numbers before it, ascending.
 std::vector<std::int32_t> edited_elements(const Mesh& mesh, const MeshEdit& edit);
 
 void apply_edit(MeshEdit const& edit, Mesh& mesh);

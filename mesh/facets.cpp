@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "mesh/facet_sort.h"
+#include "mesh/hex_split.h"
 
 namespace trocar {
 
@@ -51,6 +52,14 @@ FacetNeighbours facet_neighbours(const Mesh& mesh) {
     result.neighbour[result.offset[b.element] + b.facet] = a.element;
     ++k;
   }
+  for (const SplitQuad& quad : split_quads(mesh, side)) {
+    const auto& [s, t] = quad.triangle;
+    result.neighbour[result.offset[quad.hex] + quad.facet] = s.element;
+    result.neighbour[result.offset[s.element] + s.facet] = quad.hex;
+    result.neighbour[result.offset[t.element] + t.facet] = quad.hex;
+    result.second.push_back({quad.hex, t.element});
+  }
+  std::sort(result.second.begin(), result.second.end());
   return result;
 }
 
@@ -99,8 +108,14 @@ static void add_facet(Surface& surface, const Mesh& mesh, std::int32_t e, int f)
   for (std::size_t a = 0; a < n; ++a) node[a] = mesh.corners(e)[corner[a]];
   const bool is_cut = (mesh.cut_facets[e] >> f & 1) != 0;
   // Both elements of a quad split it at its lowest node, so the surface does not depend on the
-  // side.
-  if (n == 4) std::rotate(node.begin(), std::min_element(node.begin(), node.end()), node.end());
+  // side; nor does it once a cut has parted them.
+  if (n == 4)
+    std::rotate(node.begin(),
+                std::min_element(node.begin(), node.end(),
+                                 [&](std::int32_t i, std::int32_t j) {
+                                   return mesh.uncut_node(i) < mesh.uncut_node(j);
+                                 }),
+                node.end());
   add_triangle(surface, {node[0], node[1], node[2]}, e, is_cut);
   if (n == 4) add_triangle(surface, {node[0], node[2], node[3]}, e, is_cut);
 }
@@ -114,6 +129,13 @@ static std::vector<std::uint8_t> boundary_facets(const Mesh& mesh) {
     if (end - begin > 1) continue;
     std::uint8_t& bits = is_boundary[side[begin].element];
     bits = static_cast<std::uint8_t>(bits | 1U << side[begin].facet);
+  }
+  const auto clear = [&](std::int32_t e, std::int32_t f) {
+    is_boundary[e] = static_cast<std::uint8_t>(is_boundary[e] & ~(1U << f));
+  };
+  for (const SplitQuad& quad : split_quads(mesh, side)) {
+    clear(quad.hex, quad.facet);
+    for (const FacetSide& triangle : quad.triangle) clear(triangle.element, triangle.facet);
   }
   return is_boundary;
 }

@@ -19,6 +19,9 @@ int n_facets(ElementType type);
 struct FacetNeighbours {
   std::vector<std::int32_t> offset;     // (n_elements + 1)
   std::vector<std::int32_t> neighbour;  // (offset.back()) element across, or -1 on the boundary
+  // A hexahedron's quad may have two tetrahedra across it (hex_split.h): the second of them, as
+  // (hexahedron, tetrahedron), ascending.
+  std::vector<std::array<std::int32_t, 2>> second;
   std::int32_t of(std::int32_t e, int f) const { return neighbour[offset[e] + f]; }
 };
 // Throws InputError if more than two elements share a facet.

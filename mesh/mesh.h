@@ -37,6 +37,9 @@ struct Mesh {
   // (n_elements) direction of the fibres, unit vectors in the reference; or empty: the material's.
   std::vector<Vec3> fibre;
   std::vector<NodeSet> node_sets;
+  // (n_copies) The last nodes are copies that cuts made: the node of the uncut mesh that each is
+  // of.
+  std::vector<std::int32_t> copied_node;
 
   std::int32_t n_nodes() const { return static_cast<std::int32_t>(X.size()); }
   std::int32_t n_elements() const { return static_cast<std::int32_t>(element_type.size()); }
@@ -46,6 +49,11 @@ struct Mesh {
   }
   // 2 if all elements are triangles (plane problem, z = 0), else 3.
   int dimension() const;
+  // The node of the uncut mesh that node i is or copies.
+  std::int32_t uncut_node(std::int32_t i) const {
+    const std::int32_t first_copy = n_nodes() - static_cast<std::int32_t>(copied_node.size());
+    return i < first_copy ? i : copied_node[static_cast<std::size_t>(i - first_copy)];
+  }
 };
 
 int n_corners(ElementType type);

@@ -130,12 +130,16 @@ std::int32_t mesh_pieces(const Mesh& mesh, std::vector<std::int32_t>& element_pi
     while (!open.empty()) {
       const std::int32_t e = open.back();
       open.pop_back();
-      for (int f = 0; f < n_facets(mesh.element_type[e]); ++f) {
-        const std::int32_t next = across.of(e, f);
-        if (next < 0 || element_piece[next] >= 0) continue;
+      const auto reach = [&](std::int32_t next) {
+        if (next < 0 || element_piece[next] >= 0) return;
         element_piece[next] = n_pieces;
         open.push_back(next);
-      }
+      };
+      for (int f = 0; f < n_facets(mesh.element_type[e]); ++f) reach(across.of(e, f));
+      for (auto at = std::lower_bound(across.second.begin(), across.second.end(),
+                                      std::array<std::int32_t, 2>{e, -1});
+           at != across.second.end() && (*at)[0] == e; ++at)
+        reach((*at)[1]);
     }
     ++n_pieces;
   }

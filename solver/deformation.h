@@ -29,16 +29,40 @@ template <class Pack>
   return d;
 }
 
-// P = cof F [ shear/J dev A + pressure I ] = F^-T [ shear dev A + J pressure I ]
+// P = cof F [ shear inverse dev A + pressure I ] = F^-T [ shear dev A + J pressure I ], above the
+// floor of isochoric.h all there is.
 template <class Pack>
 [[gnu::always_inline]] inline Tensor<Pack> stress_of(const Deformation<Pack>& d, const Pack& shear,
                                                      const SymmetricTensor<Pack>& A,
                                                      const Pack& pressure) {
-  const Pack mean = trace(A) * real<Pack>(1.0 / 3), scale = shear * d.iso.inverse_J;
+  const Pack mean = trace(A) * real<Pack>(1.0 / 3), scale = shear * d.iso.inverse;
   SymmetricTensor<Pack> S;
   for (int i = 0; i < 3; ++i) S.v[i] = scale * (A.v[i] - mean) + pressure;
   for (int i = 3; i < 6; ++i) S.v[i] = scale * A.v[i];
   return product(d.change.cof_F, S);
+}
+
+// With y for 1/J an energy W(y^(2/3), C) has P = F S + d ln(1+q)/dJ W_ln cof F, S = 2 dW/dC: what
+// stress_of gives with C S for shear A, and extended F S.
+// F S = shear F: of an energy in I1bar.
+template <class Pack>
+[[gnu::always_inline]] inline Tensor<Pack> stress_of_I1bar(const Deformation<Pack>& d,
+                                                           const Pack& shear,
+                                                           const Pack& pressure) {
+  Tensor<Pack> P = stress_of(d, shear, d.twice_E, pressure);
+  const Pack scale = shear * d.iso.extended;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) P(i, j) += scale * (i == j ? Pack(1.0 + d.H(i, j)) : d.H(i, j));
+  return P;
+}
+// Any other S.
+template <class Pack>
+[[gnu::always_inline]] inline void add_extended_stress(const Deformation<Pack>& d,
+                                                       const SymmetricTensor<Pack>& S,
+                                                       Tensor<Pack>& P) {
+  const Tensor<Pack> HS = product(d.H, S);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) P(i, j) += d.iso.extended * (S.v[symmetric_index[i][j]] + HS(i, j));
 }
 
 // Material has stress_at(d, pressure, value): isochoric stress plus pressure cof F, and

@@ -82,10 +82,10 @@ ElementConstants one_point_constants(const ElementInput& input, const OnePointSh
   ElementConstants c{.volume = shape.volume};
   for (std::size_t j = 0; j < 3; ++j) {
     const auto i = static_cast<Eigen::Index>(j);
-    for (std::size_t m = 0; m < 6; ++m) c.value[ElementHex8::value_b + 3 * m + j] = shape.b[m][i];
-    for (std::size_t p = 0; p < 4; ++p)
-      c.value[ElementHex8::value_X + 3 * p + j] = shape.X[3 + p][i];
+    for (std::size_t m = 0; m < shape.X.size(); ++m)
+      c.value[ElementHex8::value_X + 3 * m + j] = shape.X[m][i];
   }
+  c.value[ElementHex8::value_inverse] = 1 / (64 * shape.volume);
   std::copy(stiffness.begin(), stiffness.end(), c.value.begin() + ElementHex8::value_k);
   c.omega2 = combined_bound(shape.bound, k, c.volume, hourglass_norms(shape.b, shape.X), input);
   return c;

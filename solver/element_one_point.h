@@ -1,7 +1,8 @@
 // What the loops over blocks ask of an element: strains of its points and what it keeps to the
 // stash (stash.h), forces out of it. For elements with one stress point: Element has strain(value,
-// u) with the mean gradient H and hourglass displacements q, forces(value, strain, V P, f) and
-// hourglass_energy(value, strain).
+// u, kept) that returns the mean gradient H and keeps what else it needs, forces(value, kept, V P,
+// f), and where something is kept, prepare(value, kept), before u is known, and
+// hourglass_energy(value, kept).
 #pragma once
 
 #include "solver/block_data.h"
@@ -21,16 +22,20 @@ struct OnePoint {
   static constexpr int n_kept = Element::n_kept;
 
   template <class Pack>
-  using Strain = typename Element::template Strain<Pack>;
+  [[gnu::always_inline]] static void prepare(const BlockValues<Pack>& value,
+                                             const Stash<Pack>& stash) {
+    if constexpr (n_kept > 0) {
+      Element::prepare(value, kept(stash));
+      // Read again where it is used: kept in registers, it would push out the displacements.
+      asm volatile("" ::: "memory");
+    }
+  }
 
   template <class Pack>
   [[gnu::always_inline]] static void strain(const BlockValues<Pack>& value,
                                             const Pack (&u)[n_corners][3],
                                             const Stash<Pack>& stash) {
-    const Strain<Pack> strain = Element::strain(value, u);
-    stash.put_tensor(0, strain.H);
-    if constexpr (n_kept > 0)
-      for (int k = 0; k < n_kept; ++k) stash.put(tensor_values + k, strain.q[k / 3][k % 3]);
+    stash.put_tensor(0, Element::strain(value, u, kept(stash)));
   }
 
   // f: corner forces. [N]
@@ -51,11 +56,8 @@ struct OnePoint {
 
  private:
   template <class Pack>
-  [[gnu::always_inline]] static Strain<Pack> kept(const Stash<Pack>& stash) {
-    Strain<Pack> strain;
-    if constexpr (n_kept > 0)
-      for (int k = 0; k < n_kept; ++k) strain.q[k / 3][k % 3] = stash.get(tensor_values + k);
-    return strain;
+  [[gnu::always_inline]] static Stash<Pack> kept(const Stash<Pack>& stash) {
+    return {stash.at + tensor_values * block_lanes<Pack>};
   }
 };
 

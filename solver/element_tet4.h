@@ -4,6 +4,7 @@
 
 #include "solver/block_data.h"
 #include "solver/formulation.h"
+#include "solver/stash.h"
 #include "solver/tensor.h"
 
 namespace trocar {
@@ -17,25 +18,21 @@ struct ElementTet4 {
   static constexpr int n_kept = 0;
 
   template <class Pack>
-  struct Strain {
+  [[gnu::always_inline]] static Tensor<Pack> strain(const BlockValues<Pack>& value,
+                                                    const Pack (&u)[4][3],
+                                                    const Stash<Pack>& = {}) {
     Tensor<Pack> H;
-  };
-
-  template <class Pack>
-  [[gnu::always_inline]] static Strain<Pack> strain(const BlockValues<Pack>& value,
-                                                    const Pack (&u)[4][3]) {
-    Strain<Pack> s;
     for (int i = 0; i < 3; ++i) {
       const Pack d1 = u[1][i] - u[0][i], d2 = u[2][i] - u[0][i], d3 = u[3][i] - u[0][i];
       for (int j = 0; j < 3; ++j)
-        s.H(i, j) =
+        H(i, j) =
             d1 * value(value_B + j) + d2 * value(value_B + 3 + j) + d3 * value(value_B + 6 + j);
     }
-    return s;
+    return H;
   }
 
   template <class Pack>
-  [[gnu::always_inline]] static void forces(const BlockValues<Pack>& value, const Strain<Pack>&,
+  [[gnu::always_inline]] static void forces(const BlockValues<Pack>& value, const Stash<Pack>&,
                                             const Tensor<Pack>& VP, Pack (&f)[4][3]) {
     for (int i = 0; i < 3; ++i) {
       for (int a = 1; a < 4; ++a) {

@@ -4,6 +4,7 @@
 
 #include "solver/block_data.h"
 #include "solver/formulation.h"
+#include "solver/stash.h"
 #include "solver/tensor.h"
 
 namespace trocar {
@@ -17,25 +18,21 @@ struct ElementTri3 {
   static constexpr int n_kept = 0;
 
   template <class Pack>
-  struct Strain {
+  [[gnu::always_inline]] static Tensor<Pack> strain(const BlockValues<Pack>& value,
+                                                    const Pack (&u)[3][3],
+                                                    const Stash<Pack>& = {}) {
     Tensor<Pack> H;
-  };
-
-  template <class Pack>
-  [[gnu::always_inline]] static Strain<Pack> strain(const BlockValues<Pack>& value,
-                                                    const Pack (&u)[3][3]) {
-    Strain<Pack> s;
     const Pack zero = zero_of(u[0][0]);
-    for (int i = 0; i < 3; ++i) s.H(i, 2) = s.H(2, i) = zero;
+    for (int i = 0; i < 3; ++i) H(i, 2) = H(2, i) = zero;
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j)
-        s.H(i, j) =
+        H(i, j) =
             (u[1][i] - u[0][i]) * value(value_B + j) + (u[2][i] - u[0][i]) * value(value_B + 2 + j);
-    return s;
+    return H;
   }
 
   template <class Pack>
-  [[gnu::always_inline]] static void forces(const BlockValues<Pack>& value, const Strain<Pack>&,
+  [[gnu::always_inline]] static void forces(const BlockValues<Pack>& value, const Stash<Pack>&,
                                             const Tensor<Pack>& VP, Pack (&f)[3][3]) {
     for (int i = 0; i < 2; ++i) {
       for (int a = 1; a < 3; ++a)

@@ -30,12 +30,12 @@ template <class Pack>
   return fibre;
 }
 
-// dI4bar/dF = 2 J^(-2/3) (a (x) a0 - I4/3 F^-T). With the tension c = 2 J^(-2/3) dW/dI4bar, the
-// second term is a pressure and the first is added here.
+// dI4bar/dF = 2 J^(-2/3) (a (x) a0 - I4/3 F^-T), F^-T = inverse cof F. With the tension c = 2
+// J^(-2/3) dW/dI4bar, the second term is a pressure and the first is added here.
 template <class Pack>
 [[gnu::always_inline]] inline Pack fibre_pressure(const Deformation<Pack>& d,
                                                   const Fibre<Pack>& fibre, const Pack& c) {
-  return -c * fibre.I4 * d.iso.inverse_J * real<Pack>(1.0 / 3);
+  return -c * fibre.I4 * d.iso.inverse * real<Pack>(1.0 / 3);
 }
 template <class Pack>
 [[gnu::always_inline]] inline void add_fibre_stress(const Fibre<Pack>& fibre, const Pack& c,

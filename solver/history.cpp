@@ -59,17 +59,26 @@ std::vector<double> copy_history(const Model& model, const Part& part, const Sta
 }
 
 void restore_history(const Model& model, const Part& part, std::span<const double> copies,
-                     std::span<const double> scale, State& state) {
-  std::vector<std::size_t> place(scale.size(), copies.size());
+                     std::span<const std::int32_t> parent, std::span<const double> scale,
+                     State& state) {
+  CHECK_OP(parent.size(), ==, scale.size());
+  const std::int32_t last = parent.empty() ? -1 : parent.back();  // parents ascend
+  std::vector<std::size_t> place(static_cast<std::size_t>(last) + 1, copies.size());
   for (std::size_t at = 0; at < copies.size(); at += 2 + static_cast<std::size_t>(copies[at + 1]))
     place[static_cast<std::size_t>(copies[at])] = at;
   for_histories(model, part, [&](std::int32_t e, std::int64_t first, int width, int lanes) {
-    const std::size_t at = place[static_cast<std::size_t>(e)];
+    const auto element = static_cast<std::size_t>(e);
+    const std::size_t at = place[static_cast<std::size_t>(parent[element])];
     if (at == copies.size()) return;
-    CHECK_OP(static_cast<int>(copies[at + 1]), ==, width);
-    for (int k = 0; k < width; ++k)
-      state.history[first + k * lanes] =
-          scale[static_cast<std::size_t>(e)] * copies[at + 2 + static_cast<std::size_t>(k)];
+    const int n = static_cast<int>(copies[at + 1]);
+    CHECK_OP(n % width, ==, 0);
+    const double n_parent_points = n / width;  // for each point of this element
+    for (int k = 0; k < n; ++k) {
+      const double value =
+          scale[element] * copies[at + 2 + static_cast<std::size_t>(k)] / n_parent_points;
+      double& number = state.history[first + k % width * lanes];
+      number = k < width ? value : number + value;
+    }
   });
 }
 

@@ -68,17 +68,26 @@ void add_reaction(const Model& model, const Coefficients& c, double dt, const St
   }
 }
 
+// The velocity after the step of a component k = 3 i + j.
+double next_velocity(const Model& model, const Coefficients& c, const Scratch& scratch,
+                     const State& state, std::int64_t i, int j) {
+  const std::int64_t k = 3 * i + j;
+  return is_fixed(model, i, j) ? 0
+                               : c.keep * state.v[k] + c.gain / model.inertia[i] * scratch.force[k];
+}
+
 void integrate_nodes(const Model& model, const Coefficients& c, double dt, const Scratch& scratch,
                      State& state) {
+  const NodeMotion task{.keep = c.keep,
+                        .gain = c.gain,
+                        .dt = dt,
+                        .inertia = model.inertia.data(),
+                        .fixed = model.fixed.data(),
+                        .force = scratch.force.data(),
+                        .v = state.v.data(),
+                        .u = state.u.data()};
   parallel_for_nodes(model.n_owned, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) {
-      const double gain = c.gain / model.inertia[i];
-      for (int j = 0; j < 3; ++j) {
-        const std::int64_t k = 3 * i + j;
-        state.v[k] = is_fixed(model, i, j) ? 0 : c.keep * state.v[k] + gain * scratch.force[k];
-        state.u[k] += dt * state.v[k];
-      }
-    }
+    active_kernels().nodes.motion(task, begin, end);
   });
 }
 
@@ -86,12 +95,9 @@ void integrate_nodes(const Model& model, const Coefficients& c, double dt, const
 Vec3 middle_velocity(const Model& model, const Coefficients& c, const State& state,
                      const Scratch& scratch, std::int64_t i) {
   Vec3 v = Vec3::Zero();
-  for (int j = 0; j < 3; ++j) {
-    const std::int64_t k = 3 * i + j;
-    if (is_fixed(model, i, j)) continue;
-    const double v_next = c.keep * state.v[k] + c.gain / model.inertia[i] * scratch.force[k];
-    v[j] = (state.v[k] + v_next) / 2;
-  }
+  for (int j = 0; j < 3; ++j)
+    if (!is_fixed(model, i, j))
+      v[j] = (state.v[3 * i + j] + next_velocity(model, c, scratch, state, i, j)) / 2;
   return v;
 }
 
@@ -113,6 +119,27 @@ void add_damping_work(const Model& model, const Coefficients& c, const State& st
 }
 
 }  // namespace
+
+void predict(const Model& model, Scratch& scratch, std::span<const PrescribedNode> prescribed,
+             std::span<const std::int32_t> nodes, double dt, const State& state,
+             std::span<double> u_next) {
+  const Coefficients c = coefficients(model.options.mass_damping, state.last_dt, dt);
+  const bool has_clusters = !model.clusters.node.empty();
+  if (has_clusters) scratch.uncoupled = scratch.force;
+  couple_clusters(model, c, dt, state, prescribed, scratch);
+  for (const std::int32_t i : nodes)
+    for (int j = 0; j < 3; ++j)
+      u_next[3 * std::int64_t{i} + j] =
+          state.u[3 * std::int64_t{i} + j] + dt * next_velocity(model, c, scratch, state, i, j);
+  for (const PrescribedNode& node : prescribed)
+    for (int j = 0; j < 3; ++j)
+      if (!is_fixed(model, node.node, j)) u_next[3 * std::int64_t{node.node} + j] = node.u_next[j];
+  if (has_clusters) scratch.force.swap(scratch.uncoupled);
+}
+
+double step_response(const Model& model, const State& state, double dt) {
+  return dt * coefficients(model.options.mass_damping, state.last_dt, dt).gain;
+}
 
 void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> prescribed,
                double dt, State& state) {

@@ -1,16 +1,22 @@
 // q = J^(-2/3) - 1 and 1/J from j = J - 1: without libm, without cancellation at small j, the same
 // instructions for any J: relatively exact but for 4e-26 in double and 4e-11 in
-// single precision, beside rounding. With |J| in place of J, so that an
-// inverted element stays finite; J = 0 gives huge or infinite values, which the watch finds.
+// single precision, beside rounding. Below a floor J0, 1/J goes on as its Taylor polynomial y of
+// second order: the isochoric energy stays finite and twice differentiable through J = 0 and
+// rises all the way, so that an inverted element is pushed back.
 #pragma once
 
 #include "solver/pack.h"
 
 namespace trocar {
 
+inline constexpr double volume_floor = 0.2;  // J0
+
+// y = (1 + s + s^2) / J0, s = 1 - J/J0, below the floor and 1/J above it.
 template <class Pack>
 struct Isochoric {
-  Pack q, inverse_J;
+  Pack q;         // y^(2/3) - 1
+  Pack inverse;   // -y'/y = -3/2 d ln(1+q)/dJ; 1/J above the floor
+  Pack extended;  // 1 - J inverse = 3 s^2 / (1 + s + s^2), 0 above the floor
 };
 
 // r ~ a^(-1/3), a > 0, within 3.5 %: the exponent and mantissa bits of a, divided by -3 by shifts
@@ -32,10 +38,12 @@ template <class Pack>
 template <class Pack>
 [[gnu::always_inline]] inline Isochoric<Pack> isochoric(const Pack& j) {
   constexpr auto third = real<Pack>(1.0 / 3), two_ninths = real<Pack>(2.0 / 9);
-  const Pack J = 1.0 + j;
-  const auto is_inverted = J < 0.0;
-  const Pack a = absolute(J);
-  const Pack a_less_1 = is_inverted ? -2.0 - j : j;
+  constexpr auto by_floor = real<Pack>(1 / volume_floor);
+  const Pack J = 1.0 + j, s = 1.0 - J * by_floor;
+  const auto is_below = s > 0.0;
+  const Pack below = real<Pack>(volume_floor) / (1.0 + s * (1.0 + s));  // 1/y
+  const Pack a = is_below ? below : J;
+  const Pack a_less_1 = is_below ? below - 1.0 : j;
   Pack r = guess_inverse_cube_root(a);
   // |t| < 0.11, 6e-4, 1.1e-10
   for (int k = 0; k < (sizeof(RealOf<Pack>) == 8 ? 2 : 1); ++k) {
@@ -48,8 +56,9 @@ template <class Pack>
   const Pack correction = r * excess * (third - excess * two_ninths);
   rho -= correction;
   r -= correction;
-  const Pack cube = r * r * r;
-  return {rho * (2.0 + rho), is_inverted ? -cube : cube};
+  const Pack share = below * by_floor, slope = (1.0 + 2.0 * s) * share * by_floor;
+  return {rho * (2.0 + rho), is_below ? slope : Pack(r * r * r),
+          is_below ? Pack(3.0 * s * s * share) : zero_of(J)};
 }
 
 }  // namespace trocar

@@ -1,7 +1,8 @@
 // The elements' loops over blocks, written once for any pack and element.
 #pragma once
 
-#include "solver/corner_access.h"
+#include "solver/corner_gather.h"
+#include "solver/corner_scatter.h"
 #include "solver/kernel_groups.h"
 
 namespace trocar {
@@ -30,7 +31,9 @@ struct ElementLoops {
                   int lane) __attribute__((always_inline)) {
           const std::int32_t* corner = corners(task, block, lane);
           Pack u[n][3];
-          gather_corners(task.u, corner, task.row[block] != no_row, u);
+          if constexpr (requires { Element::prepare(value, stash); })
+            Element::prepare(value, stash);
+          gather_corners(task.u, corner, rows(task, block, lane), u);
           Element::strain(value, u, stash);
           if constexpr (averages_volume_v<Element>)
             stash.put(tensor_values, mean_of_corners<Pack, n>(task.theta, task.n_fields, corner));
@@ -41,9 +44,10 @@ struct ElementLoops {
     for_elements(
         task, [&](const auto& value, const auto& stash, std::int64_t block, int lane)
                   __attribute__((always_inline)) {
+                    if (lane == 0) fetch(task, block + task.n_blocks);
                     Pack f[n][3];
                     Element::force(value, stash, f);
-                    add_corners(f, target + block * n * lanes + lane, task.row[block], sum);
+                    add_corners(f, target + block * n * lanes + lane, rows(task, block, lane), sum);
                   });
   }
 
@@ -56,8 +60,8 @@ struct ElementLoops {
   static void volume_change(const BlockTask& task, double* to) {
     for_groups<Pack>(task, [&](const Group<Pack>& group, std::int64_t block, int lane) {
       Pack u[n][3];
-      gather_corners(task.u, corners(task, block, lane), false, u);
-      const Tensor<Pack> H = ElementTet4::strain(behind_material(task, group), u).H;
+      gather_corners(task.u, corners(task, block, lane), rows(task, block, lane), u);
+      const Tensor<Pack> H = ElementTet4::strain(behind_material(task, group), u);
       const Pack j = trocar::volume_change(H, cofactor(H));
       store_in_double(to + block * lanes + lane, Pack(group.value(value_K_V) * j));
     });
@@ -71,6 +75,17 @@ struct ElementLoops {
   [[gnu::always_inline]] static const std::int32_t* corners(const BlockTask& task,
                                                             std::int64_t block, int lane) {
     return task.corner + block * n * lanes + lane;
+  }
+  [[gnu::always_inline]] static const std::uint32_t* rows(const BlockTask& task, std::int64_t block,
+                                                          int lane) {
+    return task.row + (block * lanes + lane) / row_lanes;
+  }
+  // Asks for the constants of a block that the next task will read; behind the last one nothing
+  // happens.
+  [[gnu::always_inline]] static void fetch(const BlockTask& task, std::int64_t block) {
+    constexpr int line = 64;
+    const char* const at = static_cast<const char*>(task.data) + block * task.n_values * line;
+    for (std::int64_t k = 0; k < task.n_values; ++k) __builtin_prefetch(at + k * line, 0, 2);
   }
   // Calls body(the element's constants, stash, block, lane) for every group.
   template <class Body>

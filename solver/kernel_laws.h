@@ -1,7 +1,7 @@
 // The materials' loops over blocks, written once for any pack, material and kind of law.
 #pragma once
 
-#include "solver/corner_access.h"
+#include "solver/in_double.h"
 #include "solver/kernel_groups.h"
 #include "solver/law_averaged_pressure.h"
 #include "solver/law_plane_stress.h"

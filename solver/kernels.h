@@ -17,7 +17,7 @@ namespace trocar {
 struct BlockTask {
   const double* u = nullptr;             // (n_local * 3) [m]
   const std::int32_t* corner = nullptr;  // [block][corner][lane] local node
-  const std::uint32_t* row = nullptr;    // [block] of row_order.h
+  const std::uint32_t* row = nullptr;    // [eight lanes] of row_order.h
   const void* data = nullptr;            // [block][value][lane]: the material's, the element's
   std::int64_t n_blocks = 0;
   std::int64_t n_values = 0, n_material_values = 0;
@@ -72,7 +72,31 @@ struct KernelsOfPrecision {
   LawKernels law[n_law_kinds][n_material_models];
 };
 
+// force[3 i + j] = mass[i] gravity[j] - sum[4 i + j], and zero in place of the sum.
+struct NodeForces {
+  const double* mass;  // [kg]
+  double gravity[4];   // and a zero [m/s^2]
+  double* sum;         // [N]
+  double* force;       // [N]
+};
+
+// v = keep v + gain force / inertia, zero where a bit of fixed is set; u = u + dt v.
+struct NodeMotion {
+  double keep, gain, dt;
+  const double* inertia;      // [kg]
+  const std::uint8_t* fixed;  // FixedMask
+  const double* force;        // [N]
+  double *v, *u;              // [m/s], [m]
+};
+
+// The nodes' part of a step.
+struct NodeKernels {
+  void (*force)(const NodeForces& task, const std::int32_t* node, std::int64_t n);
+  void (*motion)(const NodeMotion& task, std::int64_t begin, std::int64_t end);
+};
+
 struct Kernels {
+  NodeKernels nodes;
   KernelsOfPrecision of[n_precisions];  // in the order of Precision
   int n_material_values[n_material_models];
 };

@@ -15,12 +15,8 @@ struct LawAveragedPressure {
   [[gnu::always_inline]] Tensor<Pack> full_strain(const Tensor<Pack>& H) const { return H; }
 
   [[gnu::always_inline]] Tensor<Pack> stress(const Tensor<Pack>& H) const {
-    const VolumeChange<Pack> change = volume_and_area_change(H);
-    const Pack pressure = law.value(value_K_V) * mixed(change.j);
-    Tensor<Pack> P = law.isochoric_stress(H);
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) P(i, j) += pressure * change.cof_F(i, j);
-    return P;
+    const Pack j = volume_change(H, cofactor(H));
+    return law.stress_at_pressure(H, Pack(law.value(value_K_V) * mixed(j)));
   }
 
   // Without the energy at nodes.

@@ -7,6 +7,7 @@
 #include "solver/elementary.h"
 #include "solver/fibre.h"
 #include "solver/material_model.h"
+#include "solver/tangent_bound_below_floor.h"
 
 namespace trocar {
 
@@ -34,7 +35,7 @@ struct MaterialHolzapfelGasserOgden : Decoupled<MaterialHolzapfelGasserOgden> {
       shear += 2.0 * kappa * dW;
       total += fibre_pressure(d, fibre[k], c[k]);
     }
-    Tensor<Pack> P = stress_of(d, Pack(shear * power), d.twice_E, total);
+    Tensor<Pack> P = stress_of_I1bar(d, Pack(shear * power), total);
     for (int k = 0; k < n_families; ++k) add_fibre_stress(fibre[k], c[k], P);
     return P;
   }
@@ -105,14 +106,22 @@ struct MaterialHolzapfelGasserOgden : Decoupled<MaterialHolzapfelGasserOgden> {
       const Pack g = x.s[i] - third * x.inverse[i];
       g2 += g * g;
     }
+    const FloorBound<Pack> b = floor_bound(d, x);
+    const Variation<Pack> I1 = variation_of_I1bar(b);
+    Pack below = 0.5 * mu * I1.curvature;
     for (int k = 0; k < n_families; ++k) {
       const Fibre<Pack> fibre = family(d, value, k);
       const Pack slope = square_root(fibre_slope2(x, fibre));
       const Pack share = 1.0 - 3.0 * kappa, dE = kappa * square_root(g2) + share * slope;
       add_fibre_terms(x, fibre, Pack(2.0 * power * share * r[k].dW), slope, terms);
       terms.square += 4.0 * power * power * r[k].ddW * dE * dE;
+      const Variation<Pack> I4 = variation_of_I4bar(b, fibre.I4);
+      const Pack dE_below = kappa * I1.slope + share * I4.slope;
+      below +=
+          r[k].dW * (kappa * I1.curvature + share * I4.curvature) + r[k].ddW * dE_below * dE_below;
     }
     bound_tangent(d, x, terms, value(value_K_V), mu, result);
+    replace_below_floor(d, b, below, {value(value_K_V), mu}, result);
   }
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solver/block_data.h"
+#include "solver/deformation.h"
 #include "solver/tensor.h"
 
 namespace trocar {
@@ -17,12 +18,14 @@ struct Law {
   [[gnu::always_inline]] Tensor<Pack> stress(const Tensor<Pack>& H) const {
     return Material::stress(H, value);
   }
+  // At a pressure (times the volume) that others determine, if Material::is_decoupled.
+  [[gnu::always_inline]] Tensor<Pack> stress_at_pressure(const Tensor<Pack>& H,
+                                                         const Pack& pressure) const {
+    return Material::stress_at(deformation_of(H), pressure, value);
+  }
   // Strain energy times the element's volume. [J]
   [[gnu::noinline]] Pack energy(const Tensor<Pack>& H) const { return Material::energy(H, value); }
-  // Their parts that don't depend on J, if Material::is_decoupled.
-  [[gnu::always_inline]] Tensor<Pack> isochoric_stress(const Tensor<Pack>& H) const {
-    return Material::isochoric_stress(H, value);
-  }
+  // Its part that doesn't depend on J, if Material::is_decoupled.
   [[gnu::noinline]] Pack isochoric_energy(const Tensor<Pack>& H) const {
     return Material::isochoric_energy(H, value);
   }

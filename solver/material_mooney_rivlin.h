@@ -4,7 +4,7 @@
 
 #include "solver/deformation.h"
 #include "solver/material_model.h"
-#include "solver/tangent_bound.h"
+#include "solver/tangent_bound_below_floor.h"
 
 namespace trocar {
 
@@ -22,9 +22,14 @@ struct MaterialMooneyRivlin : Decoupled<MaterialMooneyRivlin> {
     const Pack c01 = value(value_c01_V), power = 1.0 + d.iso.q;
     const Pack first = 2.0 * (value(value_c10_V) + c01 * (d.I1bar_3 + 1.0 - 2.0 * d.iso.q));
     const Pack second = 2.0 * c01 * power;
-    SymmetricTensor<Pack> A = square(d.twice_E);
-    for (int i = 0; i < 6; ++i) A.v[i] = first * d.twice_E.v[i] - second * A.v[i];
-    return stress_of(d, power, A, pressure);
+    SymmetricTensor<Pack> A = square(d.twice_E), S;
+    for (int i = 0; i < 6; ++i) {
+      A.v[i] = first * d.twice_E.v[i] - second * A.v[i];
+      S.v[i] = power * ((i < 3 ? first + second : zero_of(first)) - second * d.twice_E.v[i]);
+    }
+    Tensor<Pack> P = stress_of(d, power, A, pressure);
+    add_extended_stress(d, S, P);
+    return P;
   }
 
   // I2bar - 3 = 3 q4 + (1+q4) (2 tr 2E + ((tr 2E)^2 - tr (2E)^2)/2), 1 + q4 = (1+q)^2
@@ -52,6 +57,10 @@ struct MaterialMooneyRivlin : Decoupled<MaterialMooneyRivlin> {
     terms.M += larger(zero, Pack(4.0 * c01 / x.least_square));
     Pack result;
     bound_tangent(d, x, terms, value(value_K_V), value(value_mu_V), result);
+    const FloorBound<Pack> b = floor_bound(d, x);
+    const Pack isochoric = absolute(c10) * variation_of_I1bar(b).curvature +
+                           absolute(c01) * variation_of_I2bar(b).curvature;
+    replace_below_floor(d, b, isochoric, {value(value_K_V), value(value_mu_V)}, result);
     return result;
   }
 };

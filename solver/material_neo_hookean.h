@@ -4,7 +4,7 @@
 
 #include "solver/deformation.h"
 #include "solver/material_model.h"
-#include "solver/tangent_bound.h"
+#include "solver/tangent_bound_below_floor.h"
 
 namespace trocar {
 
@@ -12,12 +12,29 @@ struct MaterialNeoHookean : Decoupled<MaterialNeoHookean> {
   static constexpr MaterialModel model = MaterialModel::neo_hookean;
   static constexpr int n_values = 2;
 
-  // P = F^-T [ mu (1+q) dev 2E + J pressure I ]
+  // With a = mu (1+q) and F^-T = cof F / J,
+  //   P = F^-T [ a dev 2E + J pressure I ] = a F + c cof F = m I + a H + c (cof F - I),
+  //   c = m - a,  m = pressure + a (j - tr 2E / 3) / J.
   template <class Pack>
   [[gnu::always_inline]] static Tensor<Pack> stress_at(const Deformation<Pack>& d,
                                                        const Pack& pressure,
                                                        const BlockValues<Pack>& value) {
-    return stress_of(d, Pack(value(value_mu_V) * (1.0 + d.iso.q)), d.twice_E, pressure);
+    const Tensor<Pack>& H = d.H;
+    const Tensor<Pack> cof_H = cofactor(H);
+    Pack square = H(0, 0) * H(0, 0);
+    for (int k = 1; k < 9; ++k) square += H(k / 3, k % 3) * H(k / 3, k % 3);
+    const Pack tr_2E = 2.0 * trace(H) + square;
+    const Pack a = value(value_mu_V) * (1.0 + d.iso.q);
+    const Pack m = pressure + a * (d.iso.inverse * (d.change.j - real<Pack>(1.0 / 3) * tr_2E) +
+                                   d.iso.extended);
+    const Pack c = m - a, diagonal = m + c * trace(H);
+    Tensor<Pack> P;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        P(i, j) = a * H(i, j) + c * (cof_H(i, j) - H(j, i));
+        if (i == j) P(i, j) += diagonal;
+      }
+    return P;
   }
 
   template <class Pack>
@@ -36,6 +53,9 @@ struct MaterialNeoHookean : Decoupled<MaterialNeoHookean> {
     Pack result;
     bound_tangent(d, x, terms_of_I1bar(x, Pack(0.5 * mu), zero_of(mu)), value(value_K_V), mu,
                   result);
+    const FloorBound<Pack> b = floor_bound(d, x);
+    replace_below_floor(d, b, Pack(0.5 * mu * variation_of_I1bar(b).curvature),
+                        {value(value_K_V), mu}, result);
     return result;
   }
 };

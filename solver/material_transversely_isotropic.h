@@ -4,6 +4,7 @@
 
 #include "solver/fibre.h"
 #include "solver/material_model.h"
+#include "solver/tangent_bound_below_floor.h"
 
 namespace trocar {
 
@@ -18,8 +19,8 @@ struct MaterialTransverselyIsotropic : Decoupled<MaterialTransverselyIsotropic> 
                                                        const BlockValues<Pack>& value) {
     const Fibre<Pack> fibre = fibre_of(d, value, value_a0);
     const Pack power = 1.0 + d.iso.q, c = tension(d, fibre, value);
-    Tensor<Pack> P = stress_of(d, Pack(value(value_mu_V) * power), d.twice_E,
-                               Pack(pressure + fibre_pressure(d, fibre, c)));
+    Tensor<Pack> P = stress_of_I1bar(d, Pack(value(value_mu_V) * power),
+                                     Pack(pressure + fibre_pressure(d, fibre, c)));
     add_fibre_stress(fibre, c, P);
     return P;
   }
@@ -46,6 +47,12 @@ struct MaterialTransverselyIsotropic : Decoupled<MaterialTransverselyIsotropic> 
     terms.square += 4.0 * value(value_eta_V) * power * power * slope2;
     Pack result;
     bound_tangent(d, x, terms, value(value_K_V), mu, result);
+    const FloorBound<Pack> b = floor_bound(d, x);
+    const Variation<Pack> I4 = variation_of_I4bar(b, fibre.I4);
+    const Pack isochoric =
+        0.5 * mu * variation_of_I1bar(b).curvature +
+        value(value_eta_V) * (absolute(fibre.I4bar_1) * I4.curvature + I4.slope * I4.slope);
+    replace_below_floor(d, b, isochoric, {value(value_K_V), mu}, result);
     return result;
   }
 

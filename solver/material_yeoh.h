@@ -3,7 +3,7 @@
 
 #include "solver/deformation.h"
 #include "solver/material_model.h"
-#include "solver/tangent_bound.h"
+#include "solver/tangent_bound_below_floor.h"
 
 namespace trocar {
 
@@ -17,7 +17,7 @@ struct MaterialYeoh : Decoupled<MaterialYeoh> {
   [[gnu::always_inline]] static Tensor<Pack> stress_at(const Deformation<Pack>& d,
                                                        const Pack& pressure,
                                                        const BlockValues<Pack>& value) {
-    return stress_of(d, Pack(2.0 * slope(d, value) * (1.0 + d.iso.q)), d.twice_E, pressure);
+    return stress_of_I1bar(d, Pack(2.0 * slope(d, value) * (1.0 + d.iso.q)), pressure);
   }
 
   template <class Pack>
@@ -37,6 +37,11 @@ struct MaterialYeoh : Decoupled<MaterialYeoh> {
     Pack result;
     bound_tangent(d, x, terms_of_I1bar(x, slope(d, value), ddW), value(value_K_V),
                   value(value_mu_V), result);
+    const FloorBound<Pack> b = floor_bound(d, x);
+    const Variation<Pack> I1 = variation_of_I1bar(b);
+    const Pack isochoric =
+        absolute(slope(d, value)) * I1.curvature + absolute(ddW) * I1.slope * I1.slope;
+    replace_below_floor(d, b, isochoric, {value(value_K_V), value(value_mu_V)}, result);
     return result;
   }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/aligned_vector.h"
 #include "mesh/mesh.h"
 #include "mesh/partition.h"
 #include "solver/block_data.h"
@@ -52,10 +53,10 @@ struct ElementBlocks {
   std::vector<std::int32_t> corner;         // [block][corner][lane] local node
   // [block][corner][lane] where its force is added in Scratch::sum; empty: at its node
   std::vector<std::int32_t> target;
-  std::vector<std::uint32_t> row;  // (n_blocks) of row_order.h
+  std::vector<std::uint32_t> row;  // (n_blocks * lanes / row_lanes) of row_order.h
   // [block][value][lane], see block_data.h; the one of the list's precision, the other is empty.
-  std::vector<double> data;
-  std::vector<float> data_single;
+  AlignedVector<double> data;
+  AlignedVector<float> data_single;
   std::vector<PronyBranch> prony;  // of the material; empty: no viscosity
   std::int64_t first_history = 0;  // history of these blocks starts here in State::history
   // Elements that average volume changes: their field of VolumeAverages, and where the lanes of
@@ -158,7 +159,7 @@ State make_state(const Model& model);
 
 // Neither saved nor shown. Allocated once a model.
 struct Scratch {
-  std::vector<double> sum;            // (n_places * 4) corner forces of each place of SumOrder;
+  AlignedVector<double> sum;          // (n_places * 4) corner forces of each place of SumOrder;
                                       // all zero between steps [N]
   std::vector<double> volume_change;  // K V (J - 1) of lanes, see VolumeAverages [J]
   std::vector<double> force;          // (n_owned * 3) external - internal force [N]
@@ -167,6 +168,7 @@ struct Scratch {
   // Of held nodes in clusters, and room for sums of clusters; used by integrate.
   std::vector<GivenAcceleration> given;
   std::vector<double> cluster_sums;
+  std::vector<double> uncoupled;     // force, while predict couples clusters
   std::vector<ViscousStep> viscous;  // (block lists) of the step that is being computed
   // Empty, or (blocks through all lists) 1: all its nodes have zero velocity and nobody asks for
   // their forces, so that it is left out.

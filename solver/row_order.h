@@ -1,16 +1,24 @@
-// Blocks whose elements stand in a row of a regular numbering: at each corner, the nodes and places
-// of the lanes follow each other, so that whole registers are loaded and added in place of single
-// nodes. Corners are then added with the last node first: two corners meet the same node in
-// different lanes only, the one that starts further ahead in the earlier lane, so that every node
-// still gets its elements' forces in the order of the lanes.
+// How kernels may reach the nodes of eight lanes. Elements that stand in a row of a regular
+// numbering: at each corner, the nodes and places of the lanes follow each other, so that whole
+// registers are loaded and added in place of single nodes. Corners are then added with the last
+// node first: two corners meet the same node in different lanes only, the one that starts further
+// ahead in the earlier lane, so that every node still gets its elements' forces in the order of the
+// lanes.
 #pragma once
 
 #include <cstdint>
 
 namespace trocar {
 
-// Corners in the order of adding, four bits each, the first one lowest.
-inline constexpr std::uint32_t no_row = ~std::uint32_t{0};
+inline constexpr int row_lanes = 8;
+
+// Of a row, corners in the order of adding, four bits each, the first one lowest. Of others:
+// nodes stand anywhere; and the last node, behind which nothing may be read, is among them.
+inline constexpr std::uint32_t no_row = ~std::uint32_t{0}, no_row_at_end = no_row - 1;
+
+constexpr bool is_row(std::uint32_t row) {
+  return row < no_row_at_end;
+}
 
 constexpr int corner_of_row(std::uint32_t row, int k) {
   return static_cast<int>(row >> (4 * k) & 15U);

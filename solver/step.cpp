@@ -4,6 +4,7 @@
 #include "solver/step.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/check.h"
 #include "solver/block_ranges.h"
@@ -36,17 +37,12 @@ void add_list(const Model& model, const ElementBlocks& blocks, std::int64_t firs
       });
 }
 
-// Takes the sum of a place and leaves zero there.
-Vec3 take_sum(Scratch& scratch, std::int64_t place) {
-  double* const at = scratch.sum.data() + 4 * place;
-  const Vec3 sum(at[0], at[1], at[2]);
-  std::fill(at, at + 4, 0.0);
-  return sum;
-}
-
-void set_force(const Model& model, std::int64_t i, const Vec3& internal, Scratch& scratch) {
-  for (int j = 0; j < 3; ++j)
-    scratch.force[3 * i + j] = model.mass[i] * model.options.gravity[j] - internal[j];
+NodeForces node_forces(const Model& model, Scratch& scratch) {
+  const Vec3& g = model.options.gravity;
+  return {.mass = model.mass.data(),
+          .gravity = {g.x(), g.y(), g.z(), 0},
+          .sum = scratch.sum.data(),
+          .force = scratch.force.data()};
 }
 
 // Calls body(begin, end) for the runs of blocks within [begin, end) that don't sleep.
@@ -66,6 +62,7 @@ void for_awake_blocks(const Scratch& scratch, std::int64_t begin, std::int64_t e
 void compute_run(const Model& model, std::int64_t run, State& state, Scratch& scratch) {
   const SumOrder& sums = model.sums;
   const std::int64_t end = sums.run_block[run + 1];
+  const NodeForces nodes = node_forces(model, scratch);
   std::int32_t k = sums.run_first[run];
   for (std::int64_t block = sums.run_block[run]; block < end; block += stride_blocks) {
     const std::int64_t next = std::min(end, block + stride_blocks);
@@ -75,21 +72,21 @@ void compute_run(const Model& model, std::int64_t run, State& state, Scratch& sc
                         add_list(model, blocks, first, n, state, scratch);
                       });
     });
-    for (; k < sums.run_first[run + 1] && sums.last_block[k] < next; ++k)
-      set_force(model, sums.node[k], take_sum(scratch, sums.node[k]), scratch);
+    const std::int32_t first = k;
+    while (k < sums.run_first[run + 1] && sums.last_block[k] < next) ++k;
+    active_kernels().nodes.force(nodes, sums.node.data() + first, k - first);
   }
 }
 
 void finish_shared_nodes(const Model& model, Scratch& scratch) {
-  const SumOrder& sums = model.sums;
-  parallel_for_nodes(std::ssize(sums.shared_node), [&](std::int64_t begin, std::int64_t end) {
-    std::int64_t place = begin == 0 ? model.n_local : sums.shared_end[begin - 1];
-    for (std::int64_t k = begin; k < end; ++k) {
-      Vec3 sum = Vec3::Zero();
-      for (; place < sums.shared_end[k]; ++place) sum += take_sum(scratch, place);
-      set_force(model, sums.shared_node[k], sum, scratch);
-    }
-  });
+  const std::vector<std::int32_t>& node = model.sums.shared_node;
+  double* const sum = scratch.sum.data();
+  std::int64_t place = model.n_local;
+  for (std::size_t k = 0; k < node.size(); ++k)
+    for (; place < model.sums.shared_end[k]; ++place)
+      for (int j = 0; j < 3; ++j)
+        sum[4 * std::int64_t{node[k]} + j] += std::exchange(sum[4 * place + j], 0.0);
+  active_kernels().nodes.force(node_forces(model, scratch), node.data(), std::ssize(node));
 }
 
 // Nodes of other ranks have sums that nobody takes.
@@ -141,6 +138,10 @@ std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
   for (const ElementBlocks& blocks : model.blocks)
     sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.target) +
            bytes(blocks.row) + bytes(blocks.data) + bytes(blocks.data_single);
+  const MassClusters& clusters = model.clusters;
+  sum += bytes(clusters.offset) + bytes(clusters.node) + bytes(clusters.added) +
+         bytes(clusters.total) + bytes(clusters.of_node) + bytes(scratch.given) +
+         bytes(scratch.cluster_sums);
   return sum;
 }
 

@@ -44,6 +44,14 @@ struct PrescribedNode {
 void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> prescribed,
                double dt, State& state);
 
+// u_next (n_local * 3) of `nodes` (local, owned) and of prescribed ones: where integrate would take
+// them under scratch.force as it is.
+void predict(const Model& model, Scratch& scratch, std::span<const PrescribedNode> prescribed,
+             std::span<const std::int32_t> nodes, double dt, const State& state,
+             std::span<double> u_next);
+// Displacement that one newton more gives 1 kg in the step [s^2].
+double step_response(const Model& model, const State& state, double dt);
+
 // Name of the instruction set that the kernels use: "sse2", "avx2", "avx512"; "scalar" for tests.
 const char* simd_name();
 // Picks it: "auto" or one of the names. Throws InputError if the machine lacks it. Call before the

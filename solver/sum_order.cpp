@@ -100,20 +100,32 @@ void place_shared_corners(const NodeUse& use, Model& model) {
   });
 }
 
-bool are_consecutive(const std::int32_t* number, int n) {
-  for (int lane = 1; lane < n; ++lane)
+bool are_consecutive(const std::int32_t* number) {
+  for (int lane = 1; lane < row_lanes; ++lane)
     if (number[lane] != number[0] + lane) return false;
   return true;
 }
 
-std::uint32_t row_of(const ElementBlocks& blocks, std::int64_t block) {
-  const std::int64_t n = corners_of_block(blocks), first = block * n;
+bool has_node(const std::int32_t* corner, int n_corners, int lanes, std::int32_t node) {
+  for (int a = 0; a < n_corners; ++a)
+    if (std::find(corner + a * lanes, corner + a * lanes + row_lanes, node) !=
+        corner + a * lanes + row_lanes)
+      return true;
+  return false;
+}
+
+// Of the lanes from `lane` on.
+std::uint32_t row_of(const Model& model, const ElementBlocks& blocks, std::int64_t lane) {
+  const std::int64_t block = lane / blocks.lanes, n = corners_of_block(blocks);
+  const std::int64_t first = block * n + lane % blocks.lanes;
+  const auto n_corners = static_cast<int>(n / blocks.lanes);
   std::vector<std::pair<std::int32_t, std::uint32_t>> start;
-  for (std::int64_t a = 0; a < n / blocks.lanes; ++a) {
+  for (int a = 0; a < n_corners; ++a) {
     const std::int64_t at = first + a * blocks.lanes;
-    if (!are_consecutive(&blocks.corner[at], blocks.lanes) ||
-        !are_consecutive(&targets(blocks)[at], blocks.lanes))
-      return no_row;
+    if (!are_consecutive(&blocks.corner[at]) || !are_consecutive(&targets(blocks)[at]))
+      return has_node(&blocks.corner[first], n_corners, blocks.lanes, model.n_local - 1)
+                 ? no_row_at_end
+                 : no_row;
     start.emplace_back(targets(blocks)[at], static_cast<std::uint32_t>(a));
   }
   std::sort(start.begin(), start.end(), std::greater<>());
@@ -124,9 +136,9 @@ std::uint32_t row_of(const ElementBlocks& blocks, std::int64_t block) {
 
 void find_rows(Model& model) {
   for (ElementBlocks& blocks : model.blocks) {
-    blocks.row.resize(static_cast<std::size_t>(blocks.n_blocks));
-    for (std::int64_t block = 0; block < blocks.n_blocks; ++block)
-      blocks.row[block] = row_of(blocks, block);
+    blocks.row.resize(blocks.element_local.size() / row_lanes);
+    for (std::size_t k = 0; k < blocks.row.size(); ++k)
+      blocks.row[k] = row_of(model, blocks, static_cast<std::int64_t>(k) * row_lanes);
   }
 }
 

@@ -8,7 +8,8 @@
 #pragma once
 
 #include "solver/block_data.h"
-#include "solver/corner_access.h"
+#include "solver/in_double.h"
+#include "solver/isochoric.h"
 #include "solver/material_model.h"
 #include "solver/viscous_step.h"
 
@@ -32,6 +33,15 @@ struct ViscousLaw {
     return P;
   }
 
+  [[gnu::always_inline]] Tensor<Pack> stress_at_pressure(const Tensor<Pack>& H,
+                                                         const Pack& pressure) const {
+    const VolumeChange<Pack> change = volume_and_area_change(H);
+    Tensor<Pack> P = isochoric_stress(H);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) P(i, j) += pressure * change.cof_F(i, j);
+    return P;
+  }
+
   [[gnu::always_inline]] Tensor<Pack> isochoric_stress(const Tensor<Pack>& H) const {
     Tensor<Pack> P = Material::isochoric_stress(H, value);
     add_viscous_stress(H, P);
@@ -46,7 +56,9 @@ struct ViscousLaw {
   // P += F (sum h - sum g S_iso), S_iso = F^-1 P = (cof F)^T P / J.
   [[gnu::noinline]] void add_viscous_stress(const Tensor<Pack>& H, Tensor<Pack>& P) const {
     const VolumeChange<Pack> change = volume_and_area_change(H);
-    const Pack inverse_J = 1.0 / (1.0 + change.j);
+    // Below the floor of isochoric.h its factor for 1/J keeps the history finite through J = 0.
+    const Isochoric<Pack> iso = isochoric(change.j);
+    const Pack inverse_J = iso.extended > 0.0 ? iso.inverse : 1.0 / (1.0 + change.j);
     SymmetricTensor<Pack> S;
     for (int i = 0; i < 3; ++i)
       for (int j = i; j < 3; ++j) {

@@ -18,8 +18,8 @@ struct Watch {
   // Least det F (hex8: of the mean F); -infinity where it is not finite.
   double least_J = 0;
   std::int32_t least_J_element = -1;
-  bool is_finite = true;       // all owned u and v
-  std::int32_t bad_node = -1;  // global number of the first non-finite one
+  bool is_finite = true;       // all owned u and v, and below 1e9 (m, m/s)
+  std::int32_t bad_node = -1;  // global number of the first that is not
 };
 // Of state.theta and state.u, see average_volume_change. Ties go to the lower global element
 // number.

@@ -46,5 +46,10 @@ TEST(ExactSum, agrees_with_long_double_summation_to_its_rounding) {
   EXPECT_NEAR(exact_sum(values), static_cast<double>(sum), 1e-13);
 }
 
+TEST(ExactSum, with_an_addend_that_is_too_large_is_infinite) {
+  EXPECT_TRUE(std::isinf(exact_sum({1.0, 0x1p200, -0x1p200})));
+  EXPECT_EQ(exact_sum({1.0, 0x1p120, -0x1p120}), 1.0);
+}
+
 }  // namespace
 }  // namespace trocar

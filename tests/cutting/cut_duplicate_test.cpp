@@ -42,7 +42,8 @@ Duplication duplicate(const Mesh& mesh, IsOpened is_opened) {
 }
 
 Mesh apply(const Duplication& duplication, Mesh mesh) {
-  const MeshEdit edit{{}, duplication.duplicate_parent, duplication.corners, {}, {}};
+  const MeshEdit edit{.duplicate_parent = duplication.duplicate_parent,
+                      .corners = duplication.corners};
   apply_edit(edit, mesh);
   return mesh;
 }

@@ -200,8 +200,8 @@ TEST(TetCutter, gives_the_same_bits_again) {
   }
 }
 
-TEST(TetCutter, refuses_a_mesh_without_tetrahedra) {
-  Body body(make_box({0, 0, 0}, {1, 1, 1}, {2, 2, 2}, BoxElements::hex8));
+TEST(TetCutter, refuses_a_plane_mesh) {
+  Body body(make_rectangle(1, 1, 3, 3));
   Ledger ledger;
   TetCutter cutter{CutTetOptions{}};
   const BladeSweep sweep{{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {1, 1, 0}}, Vec3::UnitZ()};

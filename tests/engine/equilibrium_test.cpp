@@ -7,11 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/log.h"
-#include "base/threads.h"
-#include "engine/build.h"
-#include "engine/frame.h"
 #include "engine_scene.h"
+#include "engine_started.h"
 
 namespace trocar {
 namespace {
@@ -37,23 +34,6 @@ const std::string plane_text =
     "high = [0.04, 0.02, 0]\ncells = [9, 5, 1]\n[tissue.material]\n" +
     soft + "[[support]]\nregion = \"x-\"\n[checkpoint]\nevery = 0\n" +
     "[solver]\ngravity = [0, -9.81, 0]\n";
-
-struct Started {
-  LoadedScene loaded;
-  Communicator alone;
-  std::unique_ptr<Simulation> s;
-};
-
-std::unique_ptr<Started> built(const std::string& text,
-                               const std::vector<std::string>& overrides = {}) {
-  start_log(0, true);
-  set_thread_count(1);
-  const TestFolder folder;
-  auto started = std::make_unique<Started>();
-  started->loaded = load_scene(write_text(folder.file("s.toml"), text), overrides);
-  started->s = build(started->loaded, started->alone);
-  return started;
-}
 
 std::unique_ptr<Started> started(const std::string& text,
                                  const std::vector<std::string>& overrides = {}) {

@@ -56,6 +56,7 @@ FrameRow example_row() {
                .n_contacts = 6,
                .n_held = 7,
                .n_edits = 8,
+               .n_pieces = 28,
                .seconds = 9};
   row.tools.resize(2);
   row.tools[0] = {.position = Vec3(10, 11, 12), .force = Vec3(13, 14, 15)};
@@ -102,6 +103,7 @@ TEST(MetricsFile, has_each_value_of_a_row_under_its_column) {
                                                                 {"contacts", 6},
                                                                 {"held_nodes", 7},
                                                                 {"cut_edits", 8},
+                                                                {"pieces", 28},
                                                                 {"frame_seconds", 9},
                                                                 {"probe_x_m", 10},
                                                                 {"probe_y_m", 11},
@@ -140,7 +142,7 @@ TEST(MetricsFile, keeps_its_columns_whatever_an_instrument_is_called) {
   }
   const std::vector<std::string> text = lines(read_text(file));
   EXPECT_EQ(fields(text[0]).size(), fields(text[1]).size());
-  EXPECT_EQ(fields(text[0])[23], "left, \"old\" probe_x_m");
+  EXPECT_EQ(fields(text[0])[24], "left, \"old\" probe_x_m");
 }
 
 TEST(MetricsFile, says_which_file_can_not_be_written) {

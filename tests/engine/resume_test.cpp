@@ -128,12 +128,18 @@ TEST(Resume, begins_a_recording_that_was_not_asked_for_before_with_the_present_m
   EXPECT_EQ(reader.read(24).u.size(), 3 * reader.mesh_at(24).X.size());
 }
 
-TEST(Resume, keeps_the_edits_of_frames_that_a_sparse_recording_has_yet_to_take) {
-  const std::string output = "output=[{kind='recording',file='r.trocar',every='0.2 s'}]";
+// Stops at .5 s, while the grasper holds and the blade cuts, goes on to .8 s and is what it is
+// without the stop.
+void expect_the_same_after_a_stop(const std::vector<std::string>& settings) {
+  const auto until = [&](const char* duration) {
+    std::vector<std::string> all = settings;
+    all.push_back(std::string("time.duration=") + duration);
+    return all;
+  };
   const TestFolder whole, parts;
-  run_block(whole, {"time.duration=0.8", output});
-  run_block(parts, {"time.duration=0.5", output});  // frame 15, between 12 and 18
-  run_block(parts, {"time.duration=0.8", output}, true);
+  run_block(whole, until("0.8"));
+  run_block(parts, until("0.5"));
+  run_block(parts, until("0.8"), true);
   RecordingReader a(whole.file("out/r.trocar")), b(parts.file("out/r.trocar"));
   EXPECT_TRUE(b.damage().empty());
   ASSERT_EQ(a.frames(), b.frames());
@@ -142,6 +148,23 @@ TEST(Resume, keeps_the_edits_of_frames_that_a_sparse_recording_has_yet_to_take) 
     EXPECT_EQ(a.mesh_at(frame).X, b.mesh_at(frame).X);
     EXPECT_EQ(a.mesh_at(frame).corner_node, b.mesh_at(frame).corner_node);
   }
+}
+
+TEST(Resume, keeps_the_edits_of_frames_that_a_sparse_recording_has_yet_to_take) {
+  // Frame 15 lies between 12 and 18.
+  expect_the_same_after_a_stop({"output=[{kind='recording',file='r.trocar',every='0.2 s'}]"});
+}
+
+TEST(Resume, goes_on_with_the_scaled_masses_and_what_a_grasper_holds_of_them) {
+  const std::string scaled = "solver.mass_scaling_step='1.5 ms'";
+  expect_the_same_after_a_stop({"output=[{kind='recording',file='r.trocar'}]", scaled});
+  // The run that was compared has elements in clusters.
+  const TestFolder folder;
+  run_block(folder, {"time.duration=0.1", scaled});
+  const std::string summary = read_text(folder.file("out/summary.json"));
+  const std::size_t at = summary.find("\"clusters\": ");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_GT(std::atoi(summary.c_str() + at + 12), 0);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ tetrahedron = "nodal-pressure"
 triangle = "plane-stress"
 precision = "single"
 [contact]
-stiffness = 0.1
+release_speed = "0.3 m/s"
 friction = 0.3
 [cutting]
 advance = 0.7
@@ -144,7 +144,7 @@ TEST(SceneOptions, every_key_reaches_its_member_in_si) {
   EXPECT_EQ(s.solver.tetrahedron, Formulation::tet4_nodal_pressure);
   EXPECT_EQ(s.solver.triangle, Formulation::tri3_plane_stress);
   EXPECT_EQ(s.solver.precision, Precision::in_single);
-  EXPECT_EQ(s.contact.stiffness, 0.1);
+  EXPECT_EQ(s.contact.release_speed, 0.3);
   EXPECT_EQ(s.contact.friction, 0.3);
 }
 
@@ -215,7 +215,7 @@ TEST(SceneOptions, unknown_keys_and_impossible_values_are_refused) {
   EXPECT_NE(scene_error(scene_text("[tissue.material]\npoisson_ratio = 0.5\n")), "");
   EXPECT_NE(scene_error(scene_text("[tissue.material]\nyoung_modulus = \"3 kg\"\n")), "");
   EXPECT_NE(scene_error(scene_text("[solver]\nstep_factor = 0\n")), "");
-  EXPECT_NE(scene_error(scene_text("[contact]\nstiffness = 1.1\n")), "");
+  EXPECT_NE(scene_error(scene_text("[contact]\nrelease_speed = -1\n")), "");
   EXPECT_NE(scene_error(scene_text("cells = [0, 1, 1]\n")), "");
 }
 

@@ -48,6 +48,10 @@ TEST(StateDigest, of_the_hexahedral_block_is_the_same_on_any_ranks_and_threads) 
   expect_one_digest("block_hex.toml", {"time.duration='1.7 s'"});
 }
 
+TEST(StateDigest, of_the_hexahedral_block_is_the_same_on_any_ranks_and_threads_while_it_is_cut) {
+  expect_one_digest("block_hex_cut.toml", {"time.duration='0.8 s'"});
+}
+
 TEST(StateDigest, of_the_plane_cut_is_the_same_on_any_ranks_and_threads) {
   expect_one_digest("plane_cut.toml", {});
 }

@@ -115,6 +115,7 @@ TEST(Resume, in_the_middle_of_a_plane_cut_gives_the_same_bits_on_other_ranks) {
 
 TEST(Resume, of_the_grasped_hexahedral_block_gives_the_same_bits_on_other_ranks) {
   expect_resumes("hexahedra", config("block_hex.toml"), "1.6 s", "1.8 s");
+  expect_resumes("cut-hexahedra", config("block_hex_cut.toml"), "0.5 s", "0.8 s");
 }
 
 TEST(Resume, of_a_run_that_began_in_equilibrium_gives_the_same_bits_on_other_ranks) {

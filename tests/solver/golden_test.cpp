@@ -68,16 +68,24 @@ TEST(Golden, volume_gradients_and_hourglass_stiffness_of_the_one_point_hexahedro
                               {0.98104162, -1.04815864, -0.85639573, -0.85058473}};
   const int xi[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                         {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+  std::array<double, ElementHex8::n_values * block_lanes<double>> value{};
+  for (std::size_t k = 0; k < ElementHex8::n_values; ++k)
+    value[k * block_lanes<double>] = c.value[k];
+  std::array<double, ElementHex8::n_kept * block_lanes<double>> kept{};
+  ElementHex8::prepare(BlockValues<double>{value.data()}, Stash<double>{kept.data()});
+  const auto b = [&](int m, int j) {
+    return kept[static_cast<std::size_t>((ElementHex8::kept_b + 3 * m + j) * block_lanes<double>)];
+  };
   for (int a = 0; a < 8; ++a) {
     const double x = xi[a][0], y = xi[a][1], z = xi[a][2];
     const double S[7] = {x, y, z, y * z, z * x, x * y, x * y * z};
     Vec3 sum = Vec3::Zero();
     for (int m = 0; m < 6; ++m)
-      for (int j = 0; j < 3; ++j) sum[j] += S[m] * c.value[ElementHex8::value_b + 3 * m + j];
+      for (int j = 0; j < 3; ++j) sum[j] += S[m] * b(m, j);
     for (int j = 0; j < 3; ++j) EXPECT_NEAR(sum[j], B[a][j], 1e-8);  // printed digits
     for (int p = 0; p < 4; ++p) {
       double g = S[3 + p];
-      for (int j = 0; j < 3; ++j) g -= sum[j] * c.value[ElementHex8::value_X + 3 * p + j];
+      for (int j = 0; j < 3; ++j) g -= sum[j] * c.value[ElementHex8::value_X + 3 * (3 + p) + j];
       EXPECT_NEAR(g, gamma[a][p], 6e-9);  // printed digits
     }
   }

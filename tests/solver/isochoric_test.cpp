@@ -25,21 +25,31 @@ static double condition(double J) {
 TEST(Isochoric, q_is_relatively_exact_from_tiny_to_huge_volume_changes) {
   for (double magnitude = 1e-12; magnitude < 1e3; magnitude *= 1.37)
     for (const double j : {magnitude, -magnitude}) {
-      if (j <= -1) continue;
+      if (1 + j < volume_floor) continue;
       const double q = std::expm1(-2.0 / 3 * std::log1p(j));
       const double tolerance = rounding * condition(1 + j) * std::abs(q);
       EXPECT_NEAR(isochoric(j).q, q, tolerance + absolute_error) << "j = " << j;
     }
 }
 
-TEST(Isochoric, inverse_J_is_one_over_J_with_its_sign) {
-  for (const double J : {1e-3, 0.2, 0.9, 1.0, 1.1, 7.99, 8.01, 1e3, -1e-3, -0.5, -2.0, -40.0})
-    EXPECT_NEAR(isochoric(J - 1).inverse_J * J, 1, rounding * condition(J)) << J;
+TEST(Isochoric, inverse_is_one_over_J_above_the_floor) {
+  for (const double J : {0.2001, 0.9, 1.0, 1.1, 7.99, 8.01, 1e3}) {
+    EXPECT_NEAR(isochoric(J - 1).inverse * J, 1, rounding * condition(J)) << J;
+    EXPECT_EQ(isochoric(J - 1).extended, 0) << J;
+  }
 }
 
-TEST(Isochoric, an_inverted_element_gets_the_power_of_the_absolute_value) {
-  for (const double J : {-0.01, -0.072, -1.0, -3.0})
-    EXPECT_NEAR((1 + isochoric(J - 1).q) * std::pow(-J, 2.0 / 3), 1, 100 * rounding);
+TEST(Isochoric, below_the_floor_one_over_J_goes_on_as_its_taylor_polynomial) {
+  constexpr double J0 = volume_floor;
+  for (const double J : {.19, .1, 1e-9, 0., -1e-9, -.072, -1., -30.}) {
+    // 1/J, -1/J^2, 2/J^3 at J0
+    const double y = 1 / J0 - (J - J0) / (J0 * J0) + (J - J0) * (J - J0) / (J0 * J0 * J0);
+    const double dy = -1 / (J0 * J0) + 2 * (J - J0) / (J0 * J0 * J0);
+    const Isochoric<double> iso = isochoric(J - 1);
+    EXPECT_NEAR((1 + iso.q) / std::pow(y, 2. / 3), 1, 3 * rounding) << J;
+    EXPECT_NEAR(iso.inverse * y / -dy, 1, 3 * rounding) << J;
+    EXPECT_NEAR(iso.extended, 1 + J * dy / y, 10 * rounding) << J;  // of numbers of order 1
+  }
 }
 
 TEST(Isochoric, vanishes_without_volume_change) {

@@ -234,6 +234,38 @@ TEST(MassScaling, is_inverted_in_closed_form_with_fixed_and_given_nodes) {
     }
 }
 
+TEST(MassScaling, a_held_node_of_a_cluster_goes_where_it_is_led_and_its_holder_bears_the_rest) {
+  const double alpha = 3;
+  Body body = scaled(make_body(block_with_slivers(BoxElements::tet4_kuhn),
+                               {.solver = {.mass_damping = alpha, .gravity = Vec3(1, -2, -9)}}));
+  const Model& model = body.model;
+  shake(body.state.v, .1, 11);
+  const double dt = .5 * least_element_step(body);
+  step(body, dt);  // velocities lie between the steps from now on
+  std::vector<PrescribedNode> held;
+  for (const std::int32_t node : {model.clusters.node[1], model.clusters.node.back()})
+    held.push_back(
+        {.node = node, .u_next = Vec3::Map(&body.state.u[3 * node]) + Vec3(1, 2, 3) * 1e-5});
+  std::vector<double> expected = force(body), v = body.state.v, Ma, Mv;
+  integrate(model, body.scratch, held, dt, body.state);
+  for (const PrescribedNode& node : held)
+    for (int j = 0; j < 3; ++j) {
+      EXPECT_NEAR(body.state.u[3 * node.node + j], node.u_next[j], 1e-17);  // rounding of 1e-5
+      expected[3 * node.node + j] += node.reaction[j];
+    }
+  // M (v+ - v) / dt + alpha M (v+ + v) / 2 = f + R at all nodes.
+  std::vector<double> a(v.size()), mean(v.size());
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    a[k] = (body.state.v[k] - v[k]) / dt;
+    mean[k] = alpha * (body.state.v[k] + v[k]) / 2;
+  }
+  multiply_by_mass(model, a, Ma);
+  multiply_by_mass(model, mean, Mv);
+  const double most = largest(expected);
+  for (std::size_t k = 0; k < v.size(); ++k)
+    EXPECT_NEAR(Ma[k] + Mv[k], expected[k], 1e-11 * most) << k;  // v / dt over a: 1e3 roundings
+}
+
 TEST(MassScaling, gives_each_cluster_one_owner_and_a_rank_the_same_bits) {
   const Mesh mesh = block_with_slivers(BoxElements::tet4_kuhn);
   const Body whole = scaled(make_body(mesh));

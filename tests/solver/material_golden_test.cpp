@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "solver/corner_access.h"
+#include "solver/in_double.h"
 #include "solver/material_list.h"
 #include "solver/material_setup.h"
 #include "solver_body.h"

@@ -3,54 +3,9 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "solver/material_list.h"
-#include "solver/material_setup.h"
-#include "solver_body.h"
+#include "solver_material.h"
 
 using namespace trocar;
-
-static Tensor<double> tensor(const Mat3& A) {
-  Tensor<double> T;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) T(i, j) = A(i, j);
-  return T;
-}
-
-static Mat3 matrix(const Tensor<double>& T) {
-  Mat3 A;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) A(i, j) = T(i, j);
-  return A;
-}
-
-// The constants of the table: mu = 1000 Pa, K = 49000 Pa.
-constexpr double mu = 1000, K = 49000, lambda = K - 2 * mu / 3;
-
-// The table's material in the first lane of a block, volume 1.
-template <class M>
-struct BlockOfOne {
-  std::array<double, static_cast<std::size_t>(M::n_values) * block_lanes<double>> number{};
-  BlockOfOne() {
-    std::array<double, M::n_values> value{};
-    fill_material(material_of(M::model, mu, K), 1, Vec3(1, 0, 0), value);
-    for (std::size_t k = 0; k < value.size(); ++k) number[k * block_lanes<double>] = value[k];
-  }
-  BlockValues<double> values() const { return {number.data()}; }
-};
-
-template <class M>
-static Mat3 stress(const Mat3& F) {
-  return matrix(M::stress(tensor(F - Mat3::Identity()), BlockOfOne<M>().values()));
-}
-template <class M>
-static double energy(const Mat3& F) {
-  return M::energy(tensor(F - Mat3::Identity()), BlockOfOne<M>().values());
-}
-
-template <class... Ms, class Body>
-static void for_each_material(TypeList<Ms...>, const Body& body) {
-  (body.template operator()<Ms>(), ...);
-}
 
 static Mat3 random_gradient(Noise& noise, double amount) {
   Mat3 F = Mat3::Identity();
@@ -162,11 +117,6 @@ TEST(NeoHookean, keeps_its_digits_at_tiny_strain) {
   EXPECT_NEAR(P(0, 1) / (2 * mu * 1e-10), 1, 1e-14);  // F - I of a stored F would have 6 digits
 }
 
-TEST(NeoHookean, an_inverted_element_has_finite_stress) {
-  for (const double s : {-0.01, -0.3, -1.0})
-    EXPECT_TRUE(stress<MaterialNeoHookean>(Vec3(s, 1.1, 0.9).asDiagonal()).allFinite());
-}
-
 TEST(StVenantKirchhoff, has_the_closed_form_of_uniaxial_strain) {
   for (const double l : {0.7, 1.3}) {
     const Mat3 P = stress<MaterialStVenantKirchhoff>(Vec3(l, 1, 1).asDiagonal());
@@ -222,7 +172,6 @@ TEST(Material, stiffening_bounds_the_tangent_of_any_deformation) {
     int n = 0;
     for (int k = 0; k < 3000; ++k) {
       const Mat3 F = random_gradient(noise, k % 3 == 0 ? 0.7 : 0.3);
-      if (F.determinant() < 0.05) continue;
       const Mat3 root = random_gradient(noise, 0.8);
       const Mat3 G = root * root.transpose();
       const double at_rest =

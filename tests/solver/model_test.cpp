@@ -102,7 +102,7 @@ TEST(BuildModel, rows_of_a_regular_numbering_have_the_same_bits_as_single_nodes)
     Body single = make_body(backwards, {.solver = {.precision = precision}});
     const auto n_rows = [](const Body& body) {
       const std::vector<std::uint32_t>& row = body.model.blocks[0].row;
-      return std::ssize(row) - std::count(row.begin(), row.end(), no_row);
+      return std::count_if(row.begin(), row.end(), is_row);
     };
     EXPECT_EQ(n_rows(rows), std::ssize(rows.model.blocks[0].row));
     EXPECT_EQ(n_rows(single), 0);
@@ -113,6 +113,26 @@ TEST(BuildModel, rows_of_a_regular_numbering_have_the_same_bits_as_single_nodes)
     const std::vector<double> f = force(rows), g = force(single);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < 3; ++j) EXPECT_EQ(f[3 * i + j], g[3 * (n - 1 - i) + j]);
+  }
+}
+
+// Behind the last node's displacement nothing may be read.
+TEST(BuildModel, lanes_outside_rows_that_meet_the_last_node_say_so) {
+  for (const Precision precision : {Precision::in_double, Precision::in_single}) {
+    const Body body =
+        make_body(make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {3, 3, 3}, BoxElements::hex8),
+                  {.solver = {.precision = precision}});
+    const ElementBlocks& blocks = body.model.blocks[0];
+    for (std::size_t k = 0; k < blocks.row.size(); ++k) {
+      bool meets_last = false;
+      for (int a = 0; a < 8; ++a)
+        for (std::size_t l = k * row_lanes; l < (k + 1) * row_lanes; ++l) {
+          const std::size_t n = static_cast<std::size_t>(blocks.lanes), block = l / n;
+          const std::size_t at = (block * 8 + static_cast<std::size_t>(a)) * n + l % n;
+          meets_last = meets_last || blocks.corner[at] == body.model.n_local - 1;
+        }
+      EXPECT_EQ(blocks.row[k] == no_row_at_end, meets_last);
+    }
   }
 }
 
@@ -177,10 +197,23 @@ TEST(MemoryBytes, counts_what_a_tetrahedron_needs) {
       make_body(make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {8, 8, 8}, BoxElements::tet4_kuhn));
   // 3072 tetrahedra in full blocks: 11 constants and a step of 8 bytes, 4 corners and a place of 4,
   // and 4 for a block of 8; 729 nodes: mass, inertia, 3 forces and 4 sums of 8, order and last
-  // block of 4, a mark of 1.
+  // block of 4, a mark of 1; 4 for where the first of no clusters would begin.
   const std::size_t n_bytes = 8 * (11 + 1) + 4 * 5, n_node_bytes = 8 * 9 + 4 * 2 + 1;
-  const std::size_t expected = 3072 * n_bytes + 3072 / 8 * 4 + 729 * n_node_bytes;
+  const std::size_t expected = 3072 * n_bytes + 3072 / 8 * 4 + 729 * n_node_bytes + 4;
   EXPECT_EQ(memory_bytes(body.model, body.scratch), expected);
+}
+
+TEST(MemoryBytes, counts_the_clusters_of_scaled_mass) {
+  Body body = make_body(make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {4, 4, 4}, BoxElements::tet4_kuhn));
+  const std::size_t before = memory_bytes(body.model, body.scratch);
+  MassClusters& clusters = body.model.clusters;
+  clusters.offset = {0, 3, 7};
+  clusters.offset.shrink_to_fit();
+  clusters.node = {0, 1, 2, 5, 6, 7, 8};
+  clusters.added.assign(7, 1.0);
+  clusters.total.assign(2, 1.0);
+  clusters.of_node.assign(125, -1);
+  EXPECT_EQ(memory_bytes(body.model, body.scratch), before + (3 - 1 + 7 + 125) * 4 + (7 + 2) * 8);
 }
 
 TEST(BuildModel, refuses_averaged_pressure_with_a_material_that_has_no_volumetric_energy) {

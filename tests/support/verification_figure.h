@@ -33,6 +33,13 @@ inline double error_of(const Figure& figure) {
   return figure.reference == 0 ? difference : difference / std::abs(figure.reference);
 }
 
+// How far a number may be from its reference, from itself and that of a mesh half as fine: the grid
+// convergence index of Roache (J. Fluids Eng. 116, 1994) with his factor 3 for two meshes. The
+// error falls by 2^order in theory, so that `fine` would be off by (coarse - fine) / (2^order - 1).
+inline double two_mesh_tolerance(double coarse, double fine, double reference, double order = 2) {
+  return 3 * std::abs((coarse - fine) / reference) / (std::exp2(order) - 1);
+}
+
 inline void record(const Figure& figure) {
   const char* path = std::getenv("TROCAR_VERIFICATION_RECORD");
   std::FILE* file = path == nullptr ? nullptr : std::fopen(path, "a");

@@ -60,24 +60,34 @@ TEST(V19BendingColumn, first_peak_converges_to_that_of_the_fine_mesh) {
   if (is_report()) check_peak(tet_nodal_pressure, .03, .03);
 }
 
-TEST(V20TwistingColumn, the_corner_follows_the_fine_mesh) {
-  const int n = 16;
+static std::vector<Vec3> twisted_corner(int n, const std::vector<double>& times) {
   Body body = column(hex_one_point, n, .5);
   set_velocity(body, [](const Vec3& X) {
     return Vec3(105 * std::sin(std::numbers::pi * X.y() / 12) * Vec3(X.z(), 0, -X.x()));
   });
-  const std::vector<std::pair<double, Vec3>> corner = {{.025, {-.5316, -.112, -1.229}},
-                                                       {.05, {-1.1264, -.0762, -.1707}},
-                                                       {.1, {-.2945, .0293, .1688}}};
-  for (const auto& [t, expected] : corner) {
+  std::vector<Vec3> u;
+  for (const double t : times) {
     advance(body, t, .9);
-    const Vec3 u = displacement_at(body, {.5, 6, .5});
-    // The reference itself is known to .003, and numerics V20 has the spread from n = 16 to n = 32;
-    // the corner has moved by about 1 m and is .054 m off at n = 8, .020 m here.
-    check_figure(
-        {"V20 Twisting column",
-         "distance of the corner to the reference at t = " + std::to_string(t).substr(0, 5) +
-             " [m]",
-         mesh_name(hex_one_point, {n, 6 * n, n}), (u - expected).norm(), 0, .025, "hex8, n = 32"});
+    u.push_back(displacement_at(body, {.5, 6, .5}));
+  }
+  return u;
+}
+
+TEST(V20TwistingColumn, the_corner_follows_the_fine_mesh) {
+  const int n = 16;
+  const std::vector<double> time = {.025, .05, .1};
+  const std::vector<Vec3> corner = {
+      {-.5316, -.112, -1.229}, {-1.1264, -.0762, -.1707}, {-.2945, .0293, .1688}};
+  const std::vector<Vec3> coarse = twisted_corner(n / 2, time), fine = twisted_corner(n, time);
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    const double error = (fine[k] - corner[k]).norm();
+    // numerics V20 knows each component to .003; there one-point hexahedra with 16 cells keep it,
+    // which these miss in the last row (docs/verification.md). |coarse - fine| is Roache's index.
+    check_figure({"V20 Twisting column",
+                  "distance of the corner to the reference at t = " +
+                      std::to_string(time[k]).substr(0, 5) + " [m]",
+                  mesh_name(hex_one_point, {n, 6 * n, n}), error, 0,
+                  (coarse[k] - fine[k]).norm() + .003 * std::sqrt(3), "hex8, n = 32",
+                  order_between((coarse[k] - corner[k]).norm(), error)});
   }
 }

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "base/communicator.h"
-#include "collision/contact_force.h"
+#include "collision/contact_solve.h"
 #include "collision/detector.h"
 #include "mesh/facets.h"
 #include "verification_figure.h"
@@ -54,9 +54,7 @@ struct Indentation {
   ContactDetector detector;
   std::vector<ToolMotion> tool = std::vector<ToolMotion>(1);
   std::vector<double> mass;
-  ContactOptions options{.friction = 0, .release_speed = 1e9};
   ContactSet set;
-  std::vector<Vec3> reaction;
 
   void detect(const Body& body) {
     std::vector<Vec3> x = body.mesh.X;
@@ -68,24 +66,43 @@ struct Indentation {
       return std::any_of(c.node.begin(), c.node.end(),
                          [&](std::int32_t i) { return body.mesh.X[i].z() < -1e-9; });
     });
-    set = prepare_contacts(contacts, body.part, mass, 1, options);
-    reaction.resize(set.items.size());
+    std::vector<std::uint8_t> is_held(mass.size());
+    for (std::size_t i = 0; i < is_held.size(); ++i) is_held[i] = body.model.fixed[i] == 7;
+    set = prepare_contacts(contacts, std::vector<std::int32_t>(mass.size(), 0), body.part, 0, mass,
+                           is_held);
+  }
+  // Before relax_step, whose prediction it makes.
+  void add_force(const Relaxer& relaxer, std::int64_t number, Body& body) {
+    const double c = relaxer.damping, dt = relaxer.step;
+    if (dt == 0) return;
+    const double keep = (2 - c * dt) / (2 + c * dt), gain = 2 * dt / (2 + c * dt);
+    for (std::size_t k = 0; k < set.node.size(); ++k) {
+      const auto i = static_cast<std::size_t>(set.node[k]);
+      set.x_start[k] = set.x_end[k] = body.mesh.X[i] + Vec3::Map(&body.state.u[3 * i]);
+      for (std::size_t j = 0; j < 3; ++j)
+        if (relaxer.is_free[3 * i + j] != 0)
+          set.x_end[k][static_cast<Eigen::Index>(j)] +=
+              dt *
+              (keep * body.state.v[3 * i + j] + gain * body.scratch.force[3 * i + j] / mass[i]);
+    }
+    const ContactStep step = {.tools = tool, .number = number, .dt = dt, .response = dt * gain};
+    look_again(detector, step, set);
+    solve_contacts(detector, step, {.friction = 0, .release_speed = 1e9}, set);
+    for (std::size_t k = 0; k < set.node.size(); ++k)
+      Vec3::Map(&body.scratch.force[3 * static_cast<std::size_t>(set.node[k])]) += set.force[k];
   }
   double force() const {
     double sum = 0;
-    for (const Vec3& r : reaction) sum += r.z();
+    for (const Vec3& f : set.force) sum -= f.z();
     return 4 * sum;
   }
 };
 
-// Relaxes while the tool comes down to `depth`. Relaxation may choose its masses: heavy ones make
-// the contact, whose stiffness is kappa m / dt^2, a hundred times stiffer than elements.
+// Relaxes while the tool comes down to `depth`.
 static double indent(Body& body, ToolShape shape) {
   constexpr int ramp = 1000;
   Communicator alone;
   Relaxer relaxer = make_relaxer(body.model, {});
-  for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)
-    if (body.mesh.X[i].z() > -1e-9 && body.mesh.X[i].norm() < .01) relaxer.mass[i] *= 100;
   Indentation contact{.detector = ContactDetector({std::move(shape)}), .mass = relaxer.mass};
   contact.detector.set_surface(boundary_surface(body.mesh));
   while (relaxer.result.iterations < 100000) {
@@ -93,8 +110,7 @@ static double indent(Body& body, ToolShape shape) {
     contact.tool[0].pose.translation.z() = -depth * std::min(1.0, double(k) / ramp);
     if (k % 50 == 0) contact.detect(body);
     force(body);
-    add_contact_force(contact.set, body.part, body.mesh.X, body.state.u, body.state.v, contact.tool,
-                      contact.options, body.scratch.force, contact.reaction);
+    contact.add_force(relaxer, k, body);
     relax_step(body.model, body.scratch, alone, relaxer, body.state);
     if (k > ramp && k % 20 == 0 && relaxer.result.residual < 1e-4) break;
   }

@@ -83,10 +83,10 @@ TEST(V10CooksMembrane, hexahedra_bend_as_the_mixed_solver_says_whatever_the_pois
 TEST(V10CooksMembrane, fully_integrated_hexahedra_lock_near_incompressibility) {
   for (const CookCase& c : cook_cases()) {
     if (!c.do_triangles_lock) {
-      check_cook(c, 16, Formulation::hex8_full, .06);
+      check_cook(c, 16, Formulation::hex8_full, .03);
     } else if (is_report() || c.material.model == MaterialModel::linear) {
-      // A sixth or more too stiff where one-point elements are within 3 %.
-      EXPECT_LT(check_cook(c, 16, Formulation::hex8_full, .8), .85 * c.u_y);
+      // Too stiff by more than the 3 % within which the others are; by how much is no promise.
+      EXPECT_LT(check_cook(c, 16, Formulation::hex8_full, 1), (1 - .03) * c.u_y);
     }
   }
 }

@@ -1,0 +1,70 @@
+#include "collision/contact_set.h"
+
+#include <algorithm>
+
+#include "base/check.h"
+
+namespace trocar {
+
+namespace {
+
+std::size_t index(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+// Each rank with nodes tells all others of them: they are few.
+Halo all_to_all(const ContactSet& set, std::span<const std::int32_t> node_owner, int rank) {
+  std::vector<int> ranks;
+  for (const std::int32_t i : set.node) ranks.push_back(node_owner[index(i)]);
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  Halo halo;
+  for (const int other : ranks) {
+    if (other == rank) continue;
+    halo.neighbours.push_back({.rank = other, .send = set.owned});
+    for (std::size_t place = 0; place < set.node.size(); ++place)
+      if (node_owner[index(set.node[place])] == other)
+        halo.neighbours.back().receive.push_back(static_cast<std::int32_t>(place));
+  }
+  return halo;
+}
+
+std::vector<std::int32_t> nodes_of(std::span<const Contact> contacts) {
+  std::vector<std::int32_t> node;
+  for (const Contact& contact : contacts)
+    node.insert(node.end(), contact.node.begin(), contact.node.end());
+  std::sort(node.begin(), node.end());
+  node.erase(std::unique(node.begin(), node.end()), node.end());
+  return node;
+}
+
+}  // namespace
+
+ContactSet prepare_contacts(std::span<const Contact> contacts,
+                            std::span<const std::int32_t> node_owner, const Part& part, int rank,
+                            std::span<const double> mass, std::span<const std::uint8_t> is_held) {
+  ContactSet set{.node = nodes_of(contacts)};
+  for (const std::int32_t i : set.node) {
+    if (node_owner[index(i)] == rank) {
+      set.owned.push_back(static_cast<std::int32_t>(set.inverse_mass.size()));
+      set.local.push_back(part.node_local[index(i)]);
+    }
+    set.inverse_mass.push_back(is_held[index(i)] != 0 ? 0 : 1 / mass[index(i)]);
+  }
+  if (set.owned.empty()) return {};
+  for (const Contact& contact : contacts) {
+    ContactSet::Item& item = set.items.emplace_back();
+    item.contact = contact;
+    for (std::size_t a = 0; a < 3; ++a)
+      item.place[a] = static_cast<std::int32_t>(
+          std::lower_bound(set.node.begin(), set.node.end(), contact.node[a]) - set.node.begin());
+  }
+  set.x_start.resize(set.node.size());
+  set.x_end.resize(set.node.size());
+  set.force.assign(set.node.size(), Vec3::Zero());
+  set.halo = all_to_all(set, node_owner, rank);
+  set.is_counted_here = set.halo.neighbours.empty() || rank < set.halo.neighbours[0].rank;
+  return set;
+}
+
+}  // namespace trocar

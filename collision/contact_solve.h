@@ -1,0 +1,48 @@
+// Contact as a condition on positions (forward increment Lagrange multipliers: Carpenter, Taylor,
+// Katona 1991): the impulses with which tissue is not inside an instrument at the end of the step,
+// and Coulomb friction. No stiffness has to be chosen, and the stable step is that without contact.
+// An impact is inelastic: it takes the normal kinetic energy of the nodes that it stops.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "collision/contact_set.h"
+
+namespace trocar {
+
+struct ContactOptions {
+  double friction = 0.2;  // Coulomb's mu
+  // Tissue that a tool appears inside of (jaws that open, a fresh cut) leaves it with this speed
+  // and not with depth / dt. [m/s]
+  double release_speed = 0.02;
+};
+
+struct ToolMotion {
+  Pose pose;
+  Vec3 velocity = Vec3::Zero();          // of the frame's origin [m/s]
+  Vec3 angular_velocity = Vec3::Zero();  // [rad/s]
+};
+
+struct ContactStep {
+  std::span<const ToolMotion> tools;  // at the end of the step, with their twists over it
+  std::int64_t number = 0;            // within the frame
+  double dt = 0;                      // [s]
+  double response = 0;                // displacement in the step of 1 kg under 1 N [s^2]
+};
+
+// Looks at the triangles anew where they are at the end of the step: weights, points, normals.
+// Hulls, which cost fifty times as much, only in every eighth step: between two looks their points
+// and normals move with the tool.
+void look_again(const ContactDetector& detector, const ContactStep& step, ContactSet& set);
+
+// set.force and the items' reaction_sum. Two kinds of contact points x: the nearest point of each
+// triangle, and each node (in the piece that it is deepest in, if its triangle sees that from
+// outside). With the gap g = n·(x - y) at the end of the step and g0 at its beginning, y of the
+// tool: g >= min(0, g0 + release_speed dt) where g0 < 0, g >= 0 elsewhere. Slip of x along the
+// surface is stopped with at most mu times the normal impulse. Solved by projections, contact after
+// contact (Gauss-Seidel), at most 30 times round.
+void solve_contacts(const ContactDetector& detector, const ContactStep& step,
+                    const ContactOptions& options, ContactSet& set);
+
+}  // namespace trocar

@@ -1,0 +1,42 @@
+// Hexahedra in a cut. The cut sees each one as the six tetrahedra of mesh/hex_split.h, and cuts a
+// body of tetrahedra only; what it decided goes back to the body: a hexahedron that no facet has
+// been opened through and that is a sound element in its new shape stays one, the others become
+// their tetrahedra. So a cut near the faces of a grid displaces, one across them converts.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+#include "cutting/cut_figures.h"
+#include "cutting/cut_index.h"
+#include "mesh/edit.h"
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+// The body with its hexahedra as tetrahedra. Nodes are those of the body; elements are in the
+// order of the body's, six for a hexahedron, so that numbers stay when one is converted.
+struct HexTets {
+  Mesh mesh;
+  std::vector<std::int32_t> first;   // (n_elements of the body + 1) of its elements in `mesh`
+  std::vector<std::int32_t> source;  // (n_elements) element of the body
+};
+
+bool has_hexahedra(const Mesh& mesh);
+
+// Hexahedra that can't be seen as tetrahedra: one would be inverted, or tetrahedra that lie on a
+// facet of theirs have the other diagonal. They stay whole, with all their nodes; ascending.
+std::vector<std::int32_t> whole_hexahedra(const Mesh& mesh);
+
+// Brings `tets` up to date with the body; built anew where somebody else has changed the body.
+void update_hex_tets(const Mesh& body, HexTets& tets);
+
+// `edit` of tets.mesh as one of the body, whose present positions are x; `index` is that of
+// tets.mesh after the edit. Mass is kept region by region. Takes the edit over into `tets`, but not
+// into `index`.
+MeshEdit edit_of_body(const Mesh& body, std::span<const Vec3> x, const CutIndex& index,
+                      const MeshEdit& edit, HexTets& tets, CutFigures& figures);
+
+}  // namespace trocar

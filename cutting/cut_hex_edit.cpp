@@ -1,0 +1,274 @@
+// An edit of the tetrahedra as one of the body: which hexahedra stay, and the numbers of the rest.
+#include <algorithm>
+#include <limits>
+
+#include "cutting/cut_hex.h"
+#include "cutting/cut_hex_shape.h"
+#include "cutting/cut_patch.h"
+#include "mesh/hex_split.h"
+
+namespace trocar {
+
+// A hexahedron whose Jacobian falls below this part of the centre's is converted: in the reference,
+// and in the present configuration, where the load bends it too.
+static constexpr double least_reference_ratio = 0.2, least_present_ratio = 0.02;
+
+namespace {
+
+// What an edit of the tetrahedra means for the body, and the numbers after it.
+struct Translation {
+  const Mesh& body;
+  std::span<const Vec3> x;
+  const MeshEdit& edit;  // of tets.mesh
+  const HexTets& tets;
+  std::vector<std::int32_t> split;  // hexahedra, ascending
+
+  bool is_split(std::int32_t e) const { return std::binary_search(split.begin(), split.end(), e); }
+  // Of element s of tets.mesh in the body after the edit.
+  std::int32_t number_after(std::int32_t s) const {
+    const std::int32_t e = tets.source[s];
+    const auto n_before = std::lower_bound(split.begin(), split.end(), e) - split.begin();
+    return e + (n_hex_tets - 1) * static_cast<std::int32_t>(n_before) +
+           (is_split(e) ? s - tets.first[e] : 0);
+  }
+  bool is_hexahedron(std::int32_t e) const {  // that has tetrahedra
+    return tets.first[e + 1] - tets.first[e] == n_hex_tets;
+  }
+};
+
+// A hexahedron that stays one.
+struct KeptHex {
+  std::array<std::int32_t, 8> node{};
+  std::uint8_t cut_facets = 0;
+};
+
+}  // namespace
+
+static std::int32_t node_after(const Translation& t, std::int32_t s, std::int32_t c) {
+  const auto at = std::lower_bound(
+      t.edit.corners.begin(), t.edit.corners.end(), std::pair{s, c},
+      [](const CornerChange& change, const std::pair<std::int32_t, std::int32_t>& k) {
+        return std::pair{change.element, change.corner} < k;
+      });
+  const bool is_changed = at != t.edit.corners.end() && at->element == s && at->corner == c;
+  return is_changed ? at->node : t.tets.mesh.corners(s)[static_cast<std::size_t>(c)];
+}
+
+static std::uint8_t cut_facets_after(const Translation& t, std::int32_t s) {
+  const auto at = std::lower_bound(
+      t.edit.cut_facets.begin(), t.edit.cut_facets.end(), s,
+      [](const CutFacets& change, std::int32_t element) { return change.element < element; });
+  return at != t.edit.cut_facets.end() && at->element == s ? at->mask : t.tets.mesh.cut_facets[s];
+}
+
+// Reference and present position of a node after the edit; a copy lies where its parent does.
+static std::array<Vec3, 2> position_after(const Translation& t, std::int32_t i) {
+  const std::int32_t n = t.body.n_nodes();
+  while (i >= n) i = t.edit.duplicate_parent[static_cast<std::size_t>(i - n)];
+  const auto at =
+      std::lower_bound(t.edit.moves.begin(), t.edit.moves.end(), i,
+                       [](const NodeMove& move, std::int32_t node) { return move.node < node; });
+  if (at == t.edit.moves.end() || at->node != i) return {t.body.X[i], t.x[i]};
+  Vec3 x = Vec3::Zero();
+  const std::span<const std::int32_t> host = t.tets.mesh.corners(at->host);
+  for (std::size_t a = 0; a < host.size(); ++a) x += at->weight[a] * t.x[host[a]];
+  return {at->X, x};
+}
+
+// The hexahedron's corners after the edit; false if its tetrahedra don't agree about one of them.
+static bool join_corners(const Translation& t, std::int32_t e, KeptHex& hex) {
+  const std::span<const std::int32_t> corner = t.body.corners(e);
+  hex.node.fill(-1);
+  for (std::int32_t s = t.tets.first[e]; s < t.tets.first[e + 1]; ++s)
+    for (std::int32_t c = 0; c < 4; ++c) {
+      const std::int32_t old = t.tets.mesh.corners(s)[static_cast<std::size_t>(c)];
+      const auto a = std::find(corner.begin(), corner.end(), old) - corner.begin();
+      std::int32_t& node = hex.node[static_cast<std::size_t>(a)];
+      const std::int32_t next = node_after(t, s, c);
+      if (node >= 0 && node != next) return false;
+      node = next;
+    }
+  return true;
+}
+
+// Its opened facets; false if one of them is open in one of its two triangles only.
+static bool join_facets(const Translation& t, std::int32_t e, KeptHex& hex) {
+  std::array<int, 6> n_open{};
+  for (std::int32_t s = t.tets.first[e]; s < t.tets.first[e + 1]; ++s) {
+    const auto c = t.tets.mesh.corners(s);
+    const std::uint8_t mask = cut_facets_after(t, s);
+    for (int f = 0; f < 4 && mask != 0; ++f) {
+      if ((mask >> f & 1) == 0) continue;
+      const int g = hex_facet_of(t.body, e, {c[0], c[1], c[2], c[3]}, f);
+      if (g < 0) return false;
+      ++n_open[static_cast<std::size_t>(g)];
+    }
+  }
+  unsigned bits = 0;
+  for (std::size_t g = 0; g < 6; ++g) bits |= n_open[g] == 2 ? 1U << g : 0U;
+  hex.cut_facets = static_cast<std::uint8_t>(bits);
+  return std::find(n_open.begin(), n_open.end(), 1) == n_open.end();
+}
+
+// Valid in both configurations, and no nearer to instability than its tetrahedra would be.
+static bool is_sound(const Translation& t, std::int32_t e, const KeptHex& hex) {
+  std::array<Vec3, 8> X, x;
+  for (std::size_t a = 0; a < 8; ++a) {
+    const auto [reference, present] = position_after(t, hex.node[a]);
+    X[a] = reference;
+    x[a] = present;
+  }
+  if (least_gauss_ratio(X) < least_reference_ratio || least_gauss_ratio(x) < least_present_ratio)
+    return false;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int32_t s = t.tets.first[e]; s < t.tets.first[e + 1]; ++s) {
+    std::array<Vec3, 4> corner;
+    for (std::size_t a = 0; a < 4; ++a) corner[a] = position_after(t, t.tets.mesh.corners(s)[a])[0];
+    least = std::min(least, step_bound(corner, {0, 1, 2, 3}));
+  }
+  return hex_step_bound(X) >= least;
+}
+
+static bool stays_hexahedron(const Translation& t, std::int32_t e, KeptHex& hex) {
+  return join_corners(t, e, hex) && join_facets(t, e, hex) && is_sound(t, e, hex);
+}
+
+static void sort_unique(std::vector<std::int32_t>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+// Elements of the body around moved nodes and at parted ones, whose stars the index has split up.
+static std::vector<std::int32_t> moved_elements(const Translation& t, const CutIndex& index) {
+  std::vector<std::int32_t> element;
+  for (const CornerChange& change : t.edit.corners)
+    element.push_back(t.tets.source[change.element]);
+  for (const NodeMove& move : t.edit.moves)
+    for (const std::int32_t s : index.star(move.node)) element.push_back(t.tets.source[s]);
+  sort_unique(element);
+  return element;
+}
+
+static std::vector<std::int32_t> touched_hexahedra(const Translation& t, const CutIndex& index) {
+  std::vector<std::int32_t> element = moved_elements(t, index);
+  for (const CutFacets& change : t.edit.cut_facets)
+    element.push_back(t.tets.source[change.element]);
+  sort_unique(element);
+  std::erase_if(element, [&](std::int32_t e) { return !t.is_hexahedron(e); });
+  return element;
+}
+
+static HexSplit split_of(const Translation& t, std::int32_t e) {
+  HexSplit split{.element = e};
+  for (std::size_t k = 0; k < n_hex_tets; ++k) {
+    const auto c = t.tets.mesh.corners(t.tets.first[e] + static_cast<std::int32_t>(k));
+    std::copy(c.begin(), c.end(), split.corner[k].begin());
+  }
+  return split;
+}
+
+// The host is the body's element; weights go to the corners that its tetrahedron has of it.
+static NodeMove move_in_body(const Translation& t, const NodeMove& move) {
+  NodeMove result{move.node, move.X, t.tets.source[move.host], {}};
+  const std::span<const std::int32_t> tet = t.tets.mesh.corners(move.host),
+                                      host = t.body.corners(result.host);
+  for (std::size_t a = 0; a < tet.size(); ++a) {
+    const auto at = std::find(host.begin(), host.end(), tet[a]) - host.begin();
+    result.weight[static_cast<std::size_t>(at)] = move.weight[a];
+  }
+  return result;
+}
+
+static void keep_hexahedron(const Translation& t, std::int32_t e, const KeptHex& hex,
+                            MeshEdit& edit) {
+  const std::int32_t number = t.number_after(t.tets.first[e]);
+  for (std::int32_t a = 0; a < 8; ++a)
+    if (const std::int32_t node = hex.node[static_cast<std::size_t>(a)];
+        node != t.body.corners(e)[static_cast<std::size_t>(a)])
+      edit.corners.push_back({number, a, node});
+  if (hex.cut_facets != t.body.cut_facets[e]) edit.cut_facets.push_back({number, hex.cut_facets});
+}
+
+static void take_over_tetrahedra(const Translation& t, MeshEdit& edit) {
+  const auto is_tet = [&](std::int32_t s) {
+    return !t.is_hexahedron(t.tets.source[s]) || t.is_split(t.tets.source[s]);
+  };
+  for (const CornerChange& change : t.edit.corners)
+    if (is_tet(change.element))
+      edit.corners.push_back({t.number_after(change.element), change.corner, change.node});
+  for (const CutFacets& change : t.edit.cut_facets)
+    if (is_tet(change.element))
+      edit.cut_facets.push_back({t.number_after(change.element), change.mask});
+  std::sort(edit.corners.begin(), edit.corners.end(), [](const auto& a, const auto& b) {
+    return std::pair{a.element, a.corner} < std::pair{b.element, b.corner};
+  });
+  std::sort(edit.cut_facets.begin(), edit.cut_facets.end(),
+            [](const auto& a, const auto& b) { return a.element < b.element; });
+}
+
+// Scales the density of the elements that changed shape or kind, region by region.
+static std::vector<DensityChange> density_changes(const Translation& t, const CutIndex& index,
+                                                  const MeshEdit& edit) {
+  std::vector<std::int32_t> changed = moved_elements(t, index);
+  changed.insert(changed.end(), t.split.begin(), t.split.end());
+  sort_unique(changed);
+  Mesh after = t.body;
+  apply_edit(edit, after);
+  std::vector<double> mass_before(t.body.region_name.size(), 0), mass_after = mass_before;
+  std::vector<std::int32_t> child;
+  for (const std::int32_t e : changed) {
+    mass_before[t.body.element_region[e]] +=
+        t.body.density_factor[e] * element_volume(t.body, e, t.body.X);
+    const std::int32_t n = t.is_split(e) ? n_hex_tets : 1;
+    for (std::int32_t k = 0; k < n; ++k) {
+      child.push_back(t.number_after(t.tets.first[e]) + k);
+      mass_after[t.body.element_region[e]] +=
+          after.density_factor[child.back()] * element_volume(after, child.back(), after.X);
+    }
+  }
+  std::vector<DensityChange> change;
+  for (const std::int32_t e : child) {
+    const std::int32_t region = after.element_region[e];
+    if (mass_before[region] != mass_after[region])
+      change.push_back({e, after.density_factor[e] * (mass_before[region] / mass_after[region])});
+  }
+  return change;
+}
+
+static void set_sources(const Translation& t, HexTets& tets) {
+  std::vector<std::int32_t> source, first;
+  for (std::int32_t s = 0; s < tets.mesh.n_elements(); ++s) {
+    source.push_back(t.number_after(s));
+    if (s == 0 || source[s] != source[s - 1]) first.push_back(s);
+  }
+  first.push_back(tets.mesh.n_elements());
+  tets.source = std::move(source);
+  tets.first = std::move(first);
+}
+
+MeshEdit edit_of_body(const Mesh& body, std::span<const Vec3> x, const CutIndex& index,
+                      const MeshEdit& edit, HexTets& tets, CutFigures& figures) {
+  Translation t{body, x, edit, tets, {}};
+  std::vector<std::pair<std::int32_t, KeptHex>> kept;
+  for (const std::int32_t e : touched_hexahedra(t, index)) {
+    KeptHex hex;
+    if (stays_hexahedron(t, e, hex))
+      kept.emplace_back(e, hex);
+    else
+      t.split.push_back(e);
+  }
+  MeshEdit result;
+  for (const std::int32_t e : t.split) result.splits.push_back(split_of(t, e));
+  for (const NodeMove& move : edit.moves) result.moves.push_back(move_in_body(t, move));
+  result.duplicate_parent = edit.duplicate_parent;
+  for (const auto& [e, hex] : kept) keep_hexahedron(t, e, hex, result);
+  take_over_tetrahedra(t, result);
+  result.density = density_changes(t, index, result);
+  figures.n_converted = static_cast<std::int32_t>(t.split.size());
+  figures.n_kept_hexahedra = static_cast<std::int32_t>(kept.size());
+  if (!t.split.empty()) set_sources(t, tets);
+  apply_edit(edit, tets.mesh);
+  return result;
+}
+
+}  // namespace trocar

@@ -1,0 +1,88 @@
+// The lowest corner is joined to the two triangles of each facet that doesn't touch it.
+#include "mesh/hex_split.h"
+
+#include <algorithm>
+
+#include "mesh/facets.h"
+
+namespace trocar {
+
+std::array<std::array<int, 4>, n_hex_tets> hex_tets(const Mesh& mesh, std::int32_t e) {
+  const std::span<const std::int32_t> node = mesh.corners(e);
+  const auto is_lower = [&](int a, int b) {
+    return mesh.uncut_node(node[static_cast<std::size_t>(a)]) <
+           mesh.uncut_node(node[static_cast<std::size_t>(b)]);
+  };
+  int apex = 0;
+  for (int a = 1; a < 8; ++a)
+    if (is_lower(a, apex)) apex = a;
+  std::array<std::array<int, 4>, n_hex_tets> tets{};
+  std::size_t n = 0;
+  for (int f = 0; f < 6; ++f) {
+    std::array<int, 4> quad = facet_corners(ElementType::hex8, f);
+    if (std::find(quad.begin(), quad.end(), apex) != quad.end()) continue;
+    std::rotate(quad.begin(), std::min_element(quad.begin(), quad.end(), is_lower), quad.end());
+    tets[n++] = {apex, quad[0], quad[1], quad[2]};
+    tets[n++] = {apex, quad[0], quad[2], quad[3]};
+  }
+  return tets;
+}
+
+int hex_facet_of(const Mesh& mesh, std::int32_t e, const std::array<std::int32_t, 4>& tet, int f) {
+  const std::span<const std::int32_t> node = mesh.corners(e);
+  const auto is_on = [&](std::int32_t i, int g) {
+    const std::array<int, 4> quad = facet_corners(ElementType::hex8, g);
+    return std::any_of(quad.begin(), quad.end(),
+                       [&](int a) { return node[static_cast<std::size_t>(a)] == i; });
+  };
+  for (int g = 0; g < 6; ++g) {
+    int n = 0;
+    for (int c = 0; c < 4; ++c) n += c != f && is_on(tet[static_cast<std::size_t>(c)], g) ? 1 : 0;
+    if (n == 3) return g;
+  }
+  return -1;
+}
+
+// Sides of facets that no other element has, quads and triangles apart.
+static void collect_single_sides(std::span<const FacetSide> side, std::vector<FacetSide>& quad,
+                                 std::vector<FacetSide>& triangle) {
+  for (std::size_t begin = 0, end = 0; begin < side.size(); begin = end) {
+    while (end < side.size() && side[end].node == side[begin].node) ++end;
+    if (end - begin == 1) (side[begin].node[0] < 0 ? triangle : quad).push_back(side[begin]);
+  }
+}
+
+static const FacetSide* find_triangle(const std::vector<FacetSide>& triangle, std::int32_t a,
+                                      std::int32_t b, std::int32_t c) {
+  std::array<std::int32_t, 4> node{-1, a, b, c};
+  std::sort(node.begin(), node.end());
+  const auto at =
+      std::lower_bound(triangle.begin(), triangle.end(), node,
+                       [](const FacetSide& s, const auto& wanted) { return s.node < wanted; });
+  return at != triangle.end() && at->node == node ? &*at : nullptr;
+}
+
+std::vector<SplitQuad> split_quads(const Mesh& mesh, std::span<const FacetSide> side) {
+  const auto has_type = [&](ElementType type) {
+    return std::find(mesh.element_type.begin(), mesh.element_type.end(), type) !=
+           mesh.element_type.end();
+  };
+  if (!has_type(ElementType::hex8) || !has_type(ElementType::tet4)) return {};
+  std::vector<FacetSide> quad, triangle;
+  collect_single_sides(side, quad, triangle);
+  std::vector<SplitQuad> found;
+  for (const FacetSide& q : quad) {
+    std::array<std::int32_t, 4> n{};
+    for (std::size_t a = 0; a < 4; ++a)
+      n[a] = mesh.corners(q.element)[facet_corners(ElementType::hex8, q.facet)[a]];
+    for (int turn = 0; turn < 2; ++turn) {
+      const FacetSide *s = find_triangle(triangle, n[0], n[1], n[2]),
+                      *t = find_triangle(triangle, n[0], n[2], n[3]);
+      if (s != nullptr && t != nullptr) found.push_back({q.element, q.facet, {*s, *t}});
+      std::rotate(n.begin(), n.begin() + 1, n.end());
+    }
+  }
+  return found;
+}
+
+}  // namespace trocar

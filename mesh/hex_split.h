@@ -1,0 +1,36 @@
+// Hexahedra as six tetrahedra on the same nodes, so that neighbours agree without asking each
+// other; and the quads where a hexahedron and tetrahedra meet.
+//
+// Such a quad is conforming in its nodes; inside it, the bilinear field of the hexahedron and the
+// piecewise linear one of the triangles differ unless the field is linear.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/facet_sort.h"
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+inline constexpr int n_hex_tets = 6;
+
+// Local corners of the six tetrahedra of hexahedron e: each facet has its diagonal at the node of
+// the lowest number (Dompierre et al. 1999, "How to subdivide pyramids, prisms and hexahedra into
+// tetrahedra"), where a copy counts as the node that it was copied from: cuts don't turn diagonals.
+std::array<std::array<int, 4>, n_hex_tets> hex_tets(const Mesh& mesh, std::int32_t e);
+
+// The facet of hexahedron e that facet f of a tetrahedron on its nodes lies on, -1 if inside.
+int hex_facet_of(const Mesh& mesh, std::int32_t e, const std::array<std::int32_t, 4>& tet, int f);
+
+// A quad that two triangles on the same four nodes cover from the other side.
+struct SplitQuad {
+  std::int32_t hex = 0, facet = 0;
+  std::array<FacetSide, 2> triangle;
+};
+// All of them, ascending by (lowest node, …). `side`: sorted_facet_sides(mesh).
+std::vector<SplitQuad> split_quads(const Mesh& mesh, std::span<const FacetSide> side);
+
+}  // namespace trocar

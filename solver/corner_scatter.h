@@ -1,0 +1,168 @@
+// From lanes in registers to sums in memory: corner forces are added element after element, so that
+// a node's sum has the order of its elements, whatever the pack.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+
+#include "solver/in_double.h"
+#include "solver/row_order.h"
+
+namespace trocar {
+
+// Rows [x y z z] of the lanes l and l + 1 of eight, from [x y] of four lanes.
+template <int l, class Pack>
+[[gnu::always_inline]] inline Pack two_rows(const Pack& xy, const Pack& z) {
+  constexpr int at = 2 * (l % 4);
+  return __builtin_shufflevector(xy, z, at, at + 1, 8 + l, 8 + l, at + 2, at + 3, 9 + l, 9 + l);
+}
+
+// To [lane][x y z and anything].
+template <class Pack>
+[[gnu::always_inline]] inline void store_doubles(double* to, const Pack (&f)[3]) {
+  constexpr int width = pack_width<Pack>;
+  const Pack zero = Pack{} + 0.0;
+  if constexpr (width == 1) {
+    for (int i = 0; i < 3; ++i) to[i] = f[i];
+    to[3] = zero;
+  } else if constexpr (width == 2) {
+    store(to, __builtin_shufflevector(f[0], f[1], 0, 2));
+    store(to + 2, __builtin_shufflevector(f[2], zero, 0, 2));
+    store(to + 4, __builtin_shufflevector(f[0], f[1], 1, 3));
+    store(to + 6, __builtin_shufflevector(f[2], zero, 1, 3));
+  } else if constexpr (width == 4) {
+    // xy0: x0 y0 x2 y2, xy1: x1 y1 x3 y3, z likewise with zeros; then halves are swapped.
+    const Pack xy0 = __builtin_shufflevector(f[0], f[1], 0, 4, 2, 6);
+    const Pack xy1 = __builtin_shufflevector(f[0], f[1], 1, 5, 3, 7);
+    const Pack z0 = __builtin_shufflevector(f[2], zero, 0, 4, 2, 6);
+    const Pack z1 = __builtin_shufflevector(f[2], zero, 1, 5, 3, 7);
+    store(to, __builtin_shufflevector(xy0, z0, 0, 1, 4, 5));
+    store(to + 4, __builtin_shufflevector(xy1, z1, 0, 1, 4, 5));
+    store(to + 8, __builtin_shufflevector(xy0, z0, 2, 3, 6, 7));
+    store(to + 12, __builtin_shufflevector(xy1, z1, 2, 3, 6, 7));
+  } else {
+    const Pack xy0 = __builtin_shufflevector(f[0], f[1], 0, 8, 1, 9, 2, 10, 3, 11);
+    const Pack xy4 = __builtin_shufflevector(f[0], f[1], 4, 12, 5, 13, 6, 14, 7, 15);
+    store(to, two_rows<0>(xy0, f[2]));
+    store(to + 8, two_rows<2>(xy0, f[2]));
+    store(to + 16, two_rows<4>(xy4, f[2]));
+    store(to + 24, two_rows<6>(xy4, f[2]));
+  }
+}
+
+// Lanes 4 r / width … of [lane][x y z 0], as many as fit into the r-th register.
+template <int r, class Pack, std::size_t... k>
+[[gnu::always_inline]] inline Pack rows_of_four(const Pack (&f)[3], std::index_sequence<k...>) {
+  constexpr std::size_t width = sizeof...(k), first = r * width / 4;
+  const Pack xy = __builtin_shufflevector(f[0], f[1], (first + k / 4 + (k % 2) * width)...);
+  const Pack z0 = __builtin_shufflevector(f[2], Pack{}, (first + k / 4 + (k % 2) * width)...);
+  return __builtin_shufflevector(xy, z0, (k % 4 < 2 ? k : width + k - 2)...);
+}
+
+template <class Pack, int... r>
+[[gnu::always_inline]] inline void store_singles(float* to, const Pack (&f)[3],
+                                                 std::integer_sequence<int, r...>) {
+  constexpr int width = pack_width<Pack>;
+  (store(to + r * width, rows_of_four<r>(f, std::make_index_sequence<width>{})), ...);
+}
+
+// To [lane][x y z and anything].
+template <class Pack>
+[[gnu::always_inline]] inline void store_corner(RealOf<Pack>* to, const Pack (&f)[3]) {
+  if constexpr (sizeof(RealOf<Pack>) == sizeof(double)) {
+    store_doubles(to, f);
+  } else if constexpr (pack_width<Pack> == 1) {
+    for (int i = 0; i < 3; ++i) to[i] = f[i][0];
+    to[3] = 0;
+  } else {
+    store_singles(to, f, std::make_integer_sequence<int, 4>{});
+  }
+}
+
+// Numbers that are added to sums in one go.
+template <class Pack>
+inline constexpr int add_width = sizeof(Pack) < 2 * sizeof(double)
+                                     ? 1
+                                     : static_cast<int>(sizeof(Pack) / sizeof(double));
+
+// sum[0 … n) += from[0 … n)
+template <int width, int n, class Real>
+[[gnu::always_inline]] inline void add_numbers(const Real* from, double* sum) {
+  using Part = PackOf<double, width>;
+#pragma GCC unroll 8
+  for (int j = 0; j < n; j += width)
+    store(sum + j, Part(load<Part>(sum + j) + load_in_double<Part>(from + j)));
+}
+
+// add_numbers of n numbers to sum + 4 and then to sum, by whole registers. What is added first
+// stays in registers: read back from memory, shifted by a node, it would have to leave the store
+// buffer first (7.5 instead of 4.2 ns a hexahedron).
+template <int n, class Real>
+[[gnu::always_inline]] inline void add_neighbours(const Real* first, const Real* second,
+                                                  double* sum) {
+  using Part = PackOf<double, 8>;
+  using Quad = PackOf<double, 4>;
+  const Quad low = load<Quad>(sum);
+  Part before = __builtin_shufflevector(low, low, 0, 1, 2, 3, 0, 1, 2, 3);
+#pragma GCC unroll 8
+  for (int j = 0; j < n; j += 8) {
+    const Part added = load<Part>(sum + 4 + j) + load_in_double<Part>(first + j);
+    const Part shifted = __builtin_shufflevector(before, added, 4, 5, 6, 7, 8, 9, 10, 11);
+    store(sum + j, Part(shifted + load_in_double<Part>(second + j)));
+    before = added;
+  }
+  store(sum + n, __builtin_shufflevector(before, before, 4, 5, 6, 7));
+}
+
+// Corner after corner of a row of at most eight lanes from `lane` on; force[corner][lane][x y z 0].
+template <class Pack, int n>
+[[gnu::always_inline]] inline void add_row(const RealOf<Pack> (&force)[n][pack_width<Pack>][4],
+                                           int lane, const std::int32_t* target, std::uint32_t row,
+                                           double* sum) {
+  constexpr int numbers = 4 * (pack_width < Pack >> row_lanes ? row_lanes : pack_width<Pack>);
+  for (int k = 0; k < n; ++k) {
+    const int a = corner_of_row(row, k);
+    double* const at = sum + 4 * std::int64_t{target[a * block_lanes<Pack>]};
+    if constexpr (add_width<Pack> == 8) {
+      const int b = k + 1 < n ? corner_of_row(row, k + 1) : a;
+      if (target[a * block_lanes<Pack>] - target[b * block_lanes<Pack>] == 1) {
+        add_neighbours<numbers>(&force[a][lane][0], &force[b][lane][0], at - 4);
+        ++k;
+        continue;
+      }
+    }
+    add_numbers<add_width<Pack>, numbers>(&force[a][lane][0], at);
+  }
+}
+
+// Element after element of at most eight lanes.
+template <class Pack, int n>
+[[gnu::always_inline]] inline void add_lanes(const RealOf<Pack> (&force)[n][pack_width<Pack>][4],
+                                             int first, const std::int32_t* target, double* sum) {
+  constexpr int width = pack_width < Pack >> row_lanes ? row_lanes : pack_width<Pack>;
+#pragma GCC unroll 8
+  for (int lane = 0; lane < width; ++lane)
+#pragma GCC unroll 8
+    for (int a = 0; a < n; ++a)
+      add_numbers<(add_width<Pack> < 4 ? add_width<Pack> : 4), 4>(
+          force[a][first + lane], sum + 4 * std::int64_t{target[a * block_lanes<Pack> + lane]});
+}
+
+// Adds the forces of a group's corners to sum[4 * target].
+template <class Pack, int n>
+[[gnu::always_inline]] inline void add_corners(const Pack (&f)[n][3], const std::int32_t* target,
+                                               const std::uint32_t* row, double* sum) {
+  constexpr int width = pack_width<Pack>;
+  alignas(64) RealOf<Pack> force[n][width][4];
+#pragma GCC unroll 8
+  for (int a = 0; a < n; ++a) store_corner(&force[a][0][0], f[a]);
+  for (int first = 0; first < width; first += row_lanes) {
+    const std::uint32_t group_row = row[first / row_lanes];
+    if (is_row(group_row))
+      add_row<Pack>(force, first, target + first, group_row, sum);
+    else
+      add_lanes<Pack>(force, first, target + first, sum);
+  }
+}
+
+}  // namespace trocar

@@ -1,0 +1,117 @@
+// The nodes' loops of a step, written once for any pack: forces out of sums, motion out of forces.
+// All of a node's operations are the same wherever it stands in a loop, so that its bits don't
+// depend on who its neighbours are.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+
+#include "solver/kernels.h"
+#include "solver/pack.h"
+
+namespace trocar {
+
+template <class Pack>
+struct NodeLoops {
+  static constexpr int width = pack_width<Pack>;
+
+  static void force(const NodeForces& task, const std::int32_t* node, std::int64_t n) {
+    for (std::int64_t k = 0; k < n; ++k) {
+      const std::int64_t i = node[k];
+      force_of_node(task, task.mass[i], task.sum + 4 * i, task.force + 3 * i);
+    }
+  }
+
+  static void motion(const NodeMotion& task, std::int64_t begin, std::int64_t end) {
+    std::int64_t i = begin;
+    for (; i + width <= end; i += width) move(task, from(task, i));
+    if (i < end) move_last(task, i, static_cast<int>(end - i));
+  }
+
+ private:
+  struct Nodes {
+    const double* inertia;
+    const std::uint8_t* fixed;
+    const double* force;
+    double *v, *u;
+  };
+
+  static Nodes from(const NodeMotion& task, std::int64_t i) {
+    return {task.inertia + i, task.fixed + i, task.force + 3 * i, task.v + 3 * i, task.u + 3 * i};
+  }
+
+  [[gnu::always_inline]] static void force_of_node(const NodeForces& task, double mass, double* sum,
+                                                   double* force) {
+    if constexpr (width >= 4) {
+      using Quad = PackOf<double, 4>;
+      const Quad f = mass * load<Quad>(task.gravity) - load<Quad>(sum);
+      _mm256_maskstore_pd(force, __builtin_bit_cast(__m256i, Quad{0, 0, 0, 1} == Quad{}), f);
+      store(sum, Quad{});
+    } else {
+      for (int j = 0; j < 3; ++j) force[j] = mass * task.gravity[j] - sum[j];
+      for (int j = 0; j < 4; ++j) sum[j] = 0;
+    }
+  }
+
+  // Of `width` nodes, the factor of each component in the r-th register of three.
+  template <int r, std::size_t... k>
+  [[gnu::always_inline]] static Pack of_components(const Pack& x, std::index_sequence<k...>) {
+    if constexpr (width == 1)
+      return x;
+    else
+      return __builtin_shufflevector(x, x, (r * sizeof...(k) + k) / 3 ...);
+  }
+
+  template <int r>
+  [[gnu::always_inline]] static void accelerate(const NodeMotion& task, const Nodes& nodes,
+                                                const Pack& gain) {
+    const Pack g = of_components<r>(gain, std::make_index_sequence<width>{});
+    const Pack v = load<Pack>(nodes.v + r * width), f = load<Pack>(nodes.force + r * width);
+    store(nodes.v + r * width, Pack(task.keep * v + g * f));
+  }
+
+  [[gnu::always_inline]] static void hold(const Nodes& nodes) {
+    for (int k = 0; k < 3 * width; ++k)
+      if ((nodes.fixed[k / 3] >> k % 3 & 1) != 0) nodes.v[k] = 0;
+  }
+
+  [[gnu::always_inline]] static void move(const NodeMotion& task, const Nodes& nodes) {
+    const Pack gain = task.gain / load<Pack>(nodes.inertia);
+    accelerate<0>(task, nodes, gain);
+    accelerate<1>(task, nodes, gain);
+    accelerate<2>(task, nodes, gain);
+    std::uint8_t any = 0;
+    for (int l = 0; l < width; ++l) any = static_cast<std::uint8_t>(any | nodes.fixed[l]);
+    if (any != 0) hold(nodes);
+    for (int k = 0; k < 3 * width; k += width)
+      store(nodes.u + k, Pack(load<Pack>(nodes.u + k) + task.dt * load<Pack>(nodes.v + k)));
+  }
+
+  // std::copy would be a function that other instruction sets have, too.
+  template <class T>
+  static void copy(const T* from, int n, T* to) {
+    for (int k = 0; k < n; ++k) to[k] = from[k];
+  }
+
+  // Fewer than a register's: in copies, by the same instructions.
+  static void move_last(const NodeMotion& task, std::int64_t i, int n) {
+    double inertia[width], force[3 * width] = {}, v[3 * width] = {}, u[3 * width] = {};
+    std::uint8_t fixed[width] = {};
+    const Nodes nodes = from(task, i);
+    for (int l = 0; l < width; ++l) inertia[l] = l < n ? nodes.inertia[l] : 1;
+    copy(nodes.fixed, n, fixed);
+    copy(nodes.force, 3 * n, force);
+    copy(nodes.v, 3 * n, v);
+    copy(nodes.u, 3 * n, u);
+    move(task, {inertia, fixed, force, v, u});
+    copy(v, 3 * n, nodes.v);
+    copy(u, 3 * n, nodes.u);
+  }
+};
+
+template <class Pack>
+NodeKernels node_kernels() {
+  return {NodeLoops<Pack>::force, NodeLoops<Pack>::motion};
+}
+
+}  // namespace trocar

@@ -1,0 +1,219 @@
+// Cuts of hexahedra: which ones stay, what becomes of the others, and what no cut may change.
+#include "cutting/cut_hex.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "cutting/cut_hex_shape.h"
+#include "cutting_tet.h"
+
+namespace trocar {
+namespace {
+
+using namespace cutting_test;
+
+Mesh hex_block(double amount, int n = 6) {
+  Mesh mesh = make_box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, {n, n, n}, BoxElements::hex8);
+  if (amount > 0) jitter(mesh, amount, 3);
+  return mesh;
+}
+
+int n_of(const Mesh& mesh, ElementType type) {
+  return int(std::count(mesh.element_type.begin(), mesh.element_type.end(), type));
+}
+
+double bound_of(const Mesh& mesh, std::int32_t e) {
+  const auto c = mesh.corners(e);
+  if (c.size() == 4) return step_bound(mesh.X, {c[0], c[1], c[2], c[3]});
+  std::array<Vec3, 8> X;
+  for (std::size_t a = 0; a < 8; ++a) X[a] = mesh.X[c[a]];
+  return hex_step_bound(X);
+}
+
+double least_bound(const Mesh& mesh) {
+  double least = 1e300;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) least = std::min(least, bound_of(mesh, e));
+  return least;
+}
+
+bool has_same_bits(const MeshEdit& a, const MeshEdit& b) {
+  const auto same_move = [](const NodeMove& p, const NodeMove& q) {
+    return p.node == q.node && p.X == q.X && p.host == q.host && p.weight == q.weight;
+  };
+  const auto same_corner = [](const CornerChange& p, const CornerChange& q) {
+    return p.element == q.element && p.corner == q.corner && p.node == q.node;
+  };
+  const auto same_density = [](const DensityChange& p, const DensityChange& q) {
+    return p.element == q.element && p.factor == q.factor;
+  };
+  const auto same_facets = [](const CutFacets& p, const CutFacets& q) {
+    return p.element == q.element && p.mask == q.mask;
+  };
+  const auto same_split = [](const HexSplit& p, const HexSplit& q) {
+    return p.element == q.element && p.corner == q.corner;
+  };
+  const auto equal = [](const auto& p, const auto& q, const auto& same) {
+    return std::equal(p.begin(), p.end(), q.begin(), q.end(), same);
+  };
+  return equal(a.splits, b.splits, same_split) && equal(a.moves, b.moves, same_move) &&
+         a.duplicate_parent == b.duplicate_parent && equal(a.corners, b.corners, same_corner) &&
+         equal(a.cut_facets, b.cut_facets, same_facets) &&
+         equal(a.density, b.density, same_density);
+}
+
+// Far from all layers of the grid: nodes alone can't follow.
+const Vec3 tilted = Vec3(1, 0.9, 0.7).normalized();
+
+TEST(CutHex, a_cut_beside_a_layer_of_facets_displaces_nodes_and_converts_nothing) {
+  Body body(hex_block(0));
+  const Vec3 normal(0, 0, 1);  // a tenth of an edge beside the facets at z = 0
+  const Ledger ledger = cut(body, plane_blade({0, 0, 0.1 / 6}, normal, 1), normal, 25);
+  EXPECT_EQ(n_of(body.mesh, ElementType::hex8), 216);
+  EXPECT_EQ(body.mesh.n_elements(), 216);
+  EXPECT_EQ(n_pieces(body.mesh), 2);
+  EXPECT_EQ(boundary_euler(body.mesh), 4);  // two spheres
+  EXPECT_EQ(fault(body), "");
+  EXPECT_EQ(ledger.total.n_duplicated, 49);  // 7 x 7 nodes of that layer
+  for (std::int32_t i = 343; i < body.mesh.n_nodes(); ++i)
+    EXPECT_NEAR(body.mesh.X[i].z(), 0.1 / 6, 1e-12);  // rounding of coordinates near 1
+}
+
+TEST(CutHex, a_cut_across_the_grid_converts_what_it_passes_through_and_no_more) {
+  Body body(hex_block(0));
+  cut(body, plane_blade({0.02, 0.05, 0}, tilted, 1), tilted, 25);
+  const int n_hex = n_of(body.mesh, ElementType::hex8);
+  const int n_tet = n_of(body.mesh, ElementType::tet4);
+  EXPECT_EQ(n_hex + n_tet / 6, 216);
+  EXPECT_GT(n_tet, 0);
+  // Opened facets have their nodes within an edge of the plane, and a cell is one diagonal long.
+  for (std::int32_t e = 0; e < body.mesh.n_elements(); ++e) {
+    if (body.mesh.element_type[e] != ElementType::tet4) continue;
+    Vec3 centre = Vec3::Zero();
+    for (const std::int32_t i : body.mesh.corners(e)) centre += 0.25 * body.mesh.X[i];
+    EXPECT_LT(std::abs(tilted.dot(centre - Vec3(0.02, 0.05, 0))), 2 * std::sqrt(3.0) / 6);
+  }
+  EXPECT_EQ(n_pieces(body.mesh), 2);
+  EXPECT_EQ(boundary_euler(body.mesh), 4);
+  EXPECT_EQ(fault(body), "");
+}
+
+TEST(CutHex, random_cuts_keep_the_body_sound_its_mass_and_the_floor_under_the_step) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> u(-1, 1);
+  for (int k = 0; k < 30; ++k) {
+    Body body(hex_block(k % 2 == 0 ? 0 : 0.1));
+    const double mass_before = mass(body.mesh), step = least_bound(body.mesh);
+    Vec3 normal;
+    do normal = {u(random), u(random), u(random)};
+    while (normal.norm() > 1 || normal.norm() < 0.1);
+    normal.normalize();
+    const Vec3 centre = 0.2 * Vec3(u(random), u(random), u(random));
+    cut(body, plane_blade(centre, normal, 1), normal, 25);
+    EXPECT_EQ(n_pieces(body.mesh), 2) << k;
+    EXPECT_EQ(fault(body), "") << k;
+    EXPECT_NEAR(mass(body.mesh), mass_before, 1e-13) << k;  // 1300 terms of rounding
+    // Tetrahedra keep 0.495 of theirs; that of a jittered cell is not exactly sqrt(2) of it.
+    EXPECT_GE(least_bound(body.mesh), 0.3 * step) << k;
+  }
+}
+
+TEST(CutHex, positions_in_an_affine_field_stay_affine) {
+  Mat3 A;
+  A << 1.1, 0.2, 0, -0.1, 0.9, 0.1, 0, 0.05, 1.2;
+  const auto map = [&](const Vec3& X) { return Vec3(A * X + Vec3(1, 2, 3)); };
+  Body body(hex_block(0.1));
+  body.deform(map);
+  const Vec3 normal = (A.inverse().transpose() * tilted).normalized();
+  cut(body, plane_blade(map({0.02, 0.05, 0}), normal, 2), normal, 40);
+  EXPECT_GT(n_of(body.mesh, ElementType::tet4), 0);
+  for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)  // edits carry rounding on
+    EXPECT_LT((body.x[i] - map(body.mesh.X[i])).norm(), 1e-13);
+}
+
+TEST(CutHex, another_cutter_with_the_stroke_goes_on_to_the_same_bits) {
+  Body body(hex_block(0.1));
+  const Blade blade = plane_blade({0.02, 0.05, 0}, tilted, 1);
+  TetCutter cutter{CutTetOptions{}};
+  Ledger ledger;
+  int n_edits = 0;
+  for (int k = 0; k < 25; ++k) {
+    const BladeSweep sweep{blade(k / 25.0), blade((k + 1) / 25.0), tilted};
+    TetCutter other{CutTetOptions{}};
+    other.set_stroke(cutter.stroke());
+    CutFigures figures;
+    const MeshEdit again = other.advance(body.mesh, body.x, body.is_held, sweep, k == 24, figures);
+    const MeshEdit edit = advance(cutter, body, sweep, k == 24, ledger);
+    EXPECT_TRUE(has_same_bits(edit, again)) << k;
+    n_edits += edit.splits.empty() ? 0 : 1;
+  }
+  EXPECT_GT(n_edits, 3);
+}
+
+TEST(CutHex, cuts_that_cross_leave_quarters) {
+  Body body(hex_block(0));
+  const Vec3 other = tilted.unitOrthogonal();
+  cut(body, plane_blade({0.02, 0.05, 0}, tilted, 1), tilted, 25);
+  cut(body, plane_blade({0.02, 0.05, 0}, other, 1), other, 25);
+  EXPECT_EQ(n_pieces(body.mesh), 4);
+  EXPECT_EQ(fault(body), "");
+}
+
+TEST(CutHex, held_nodes_stay_where_they_are) {
+  Body body(hex_block(0));
+  for (std::size_t i = 0; i < body.mesh.X.size(); ++i)
+    body.is_held[i] = body.mesh.X[i].z() < -0.49 ? 1 : 0;
+  const std::vector<Vec3> X = body.mesh.X;
+  const std::vector<std::uint8_t> held = body.is_held;
+  cut(body, plane_blade({0.02, 0.05, 0}, tilted, 1), tilted, 25);
+  for (std::size_t i = 0; i < X.size(); ++i)
+    EXPECT_TRUE(held[i] == 0 || body.mesh.X[i] == X[i]) << i;
+  EXPECT_EQ(fault(body), "");
+}
+
+TEST(CutHex, the_bound_of_a_cube_is_root_two_times_that_of_its_tetrahedra) {
+  // |dV/dx_a|^2 = 3/16 at each corner of the unit cube: 1 / sqrt(2 * 8 * 3/16) = 1/sqrt(3). Kuhn's
+  // tetrahedron: 6 V = 1, (2 area)^2 = 1, 1, 2, 2: 1/sqrt(6).
+  const Mesh cube = make_box(Vec3::Zero(), Vec3::Ones(), {1, 1, 1}, BoxElements::hex8);
+  const Mesh tets = make_box(Vec3::Zero(), Vec3::Ones(), {1, 1, 1}, BoxElements::tet4_kuhn);
+  EXPECT_NEAR(bound_of(cube, 0), 1 / std::sqrt(3.0), 1e-15);
+  EXPECT_NEAR(bound_of(tets, 0), 1 / std::sqrt(6.0), 1e-15);
+}
+
+TEST(CutHex, the_least_jacobian_of_a_tapered_cell_is_that_of_its_narrow_end) {
+  // Width 1 - t (z + 1)/2 in x: J = (1/8) (1 - t (1 + zeta)/2), least at zeta = 1/sqrt(3).
+  const double t = 0.8, g = 1 / std::numbers::sqrt3;
+  std::array<Vec3, 8> X{Vec3(0, 0, 0), Vec3(1, 0, 0),     Vec3(1, 1, 0),     Vec3(0, 1, 0),
+                        Vec3(0, 0, 1), Vec3(1 - t, 0, 1), Vec3(1 - t, 1, 1), Vec3(0, 1, 1)};
+  EXPECT_NEAR(least_gauss_ratio(X), (1 - t * (1 + g) / 2) / (1 - t / 2), 1e-14);
+}
+
+TEST(CutHex, a_hexahedron_beside_tetrahedra_with_the_other_diagonal_stays_whole) {
+  // Five tetrahedra in the unit cube: on x = 1 their diagonal is that through the lowest node,
+  // (1, 0, 0); on x = 0 it joins (0, 1, 0) and (0, 0, 1), while (0, 0, 0) has the lowest number.
+  for (const bool is_right : {true, false}) {
+    Mesh mesh = make_box(Vec3::Zero(), Vec3::Ones(), {1, 1, 1}, BoxElements::tet4_five);
+    mesh.node_sets.clear();
+    const double x = is_right ? 2 : -1;
+    std::vector<std::int32_t> near, far;
+    for (const Vec3& X : {Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(0, 1, 1), Vec3(0, 0, 1)}) {
+      const Vec3 wanted = X + Vec3(is_right ? 1 : 0, 0, 0);
+      near.push_back(
+          std::int32_t(std::find(mesh.X.begin(), mesh.X.end(), wanted) - mesh.X.begin()));
+      far.push_back(mesh.n_nodes());
+      mesh.X.push_back(X + Vec3(x, 0, 0));
+    }
+    const auto &left = is_right ? near : far, &right = is_right ? far : near;
+    add_element(mesh, ElementType::hex8,
+                std::vector<std::int32_t>{left[0], right[0], right[1], left[1], left[3], right[3],
+                                          right[2], left[2]});
+    ASSERT_EQ(validate(mesh), std::vector<std::string>{});
+    ASSERT_EQ(n_pieces(mesh), 1);
+    const std::vector<std::int32_t> expected =
+        is_right ? std::vector<std::int32_t>{} : std::vector<std::int32_t>{5};
+    EXPECT_EQ(whole_hexahedra(mesh), expected);
+  }
+}
+
+}  // namespace
+}  // namespace trocar

@@ -1,0 +1,209 @@
+// What a cut of a simulated body keeps, and what becomes of a piece that it frees.
+#include "engine/apply_cut.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine_scene.h"
+#include "engine_started.h"
+#include "mesh/connected_nodes.h"
+#include "mesh/quality.h"
+#include "solver/history.h"
+#include "solver/viscous_step.h"
+
+namespace trocar {
+namespace {
+
+// 20 x 20 x 30 mm in cells of 5 mm.
+std::string block_text(const std::string& elements, const std::string& more) {
+  return "[time]\nduration = \"1 s\"\nframe_rate = 100\n[tissue.shape]\nkind = \"box\"\n"
+         "low = [-0.01, -0.01, 0]\nhigh = [0.01, 0.01, 0.03]\ncells = [4, 4, 6]\nelements = \"" +
+         elements + "\"\n[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\n" +
+         "density = 1000\n" + more;
+}
+
+// A blade through the middle, 18 degrees off the level and more than the block wide, in 0.1 s.
+const std::string level_blade =
+    "[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.05\npath = [\n"
+    "{ time = 0.02, position = [-0.03, 0.025, 0.006], direction = [0, 1, 0], "
+    "forward = [1, 0, 0.3] },\n"
+    "{ time = 0.12, position = [0.03, 0.025, 0.024], direction = [0, 1, 0], "
+    "forward = [1, 0, 0.3] } ]\n";
+
+const std::string hanging =
+    "[solver]\ngravity = [0, 0, -9.81]\n[[support]]\nregion = \"z+\"\nfix = \"xyz\"\n"
+    "[checkpoint]\nevery = 0\n";
+
+// Centre of mass of the nodes that hang together with node `root`.
+Vec3 centre_of(const Simulation& s, const std::vector<std::int32_t>& piece, std::int32_t root) {
+  Vec3 sum = Vec3::Zero();
+  double mass = 0;
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    if (piece[i] != root) continue;
+    const Vec3 u(s.state.u[3 * i], s.state.u[3 * i + 1], s.state.u[3 * i + 2]);
+    sum += s.mass[i] * (s.mesh.X[i] + u);
+    mass += s.mass[i];
+  }
+  return sum / mass;
+}
+
+TEST(FreedPiece, falls_like_a_body_of_its_own_and_is_counted) {
+  for (const char* elements : {"tet4-kuhn", "hex8"}) {
+    const auto started = built(block_text(elements, hanging + level_blade));
+    Simulation& s = *started->s;
+    Outputs outputs;
+    while (s.frame < 14) run_frame(s, outputs);
+    ASSERT_EQ(s.n_pieces, 2) << elements;
+    ASSERT_EQ(s.cuts[0].strokes.size(), 1U);
+    EXPECT_EQ(s.cuts[0].strokes[0].n_pieces, 2);
+    EXPECT_EQ(s.log.rows.front().n_pieces, 1);
+    EXPECT_EQ(s.log.rows.back().n_pieces, 2);
+    EXPECT_EQ(std::count_if(s.log.events.begin(), s.log.events.end(),
+                            [](const std::string& e) { return e.find("piece") != e.npos; }),
+              1);
+    // Node 0 is at the lower side. No force but its weight: z(t) = z0 + v t - g t^2 / 2, where two
+    // frames give z0 and v.
+    const std::vector<std::int32_t> piece = connected_nodes(s.mesh);
+    std::vector<Vec3> centre;
+    for (int k = 0; k <= 5; ++k) {
+      centre.push_back(centre_of(s, piece, piece[0]));
+      run_frame(s, outputs);
+    }
+    const double T = 0.01;  // of a frame
+    for (int k = 2; k <= 5; ++k) {
+      const Vec3 expected = centre[0] + k * (centre[1] - centre[0]) -
+                            0.5 * 9.81 * T * T * k * (k - 1) * Vec3::UnitZ();
+      // Central differences are exact for constant acceleration and a constant step; the step
+      // changes a little from frame to frame: v is off by g times half the change, below 1e-6 s.
+      EXPECT_LT((centre[std::size_t(k)] - expected).norm(), 1e-5 * T * k) << elements << k;
+    }
+    // And it is clear of the other one: 0.1 s after it came free 5 cm below.
+    while (s.frame < 25) run_frame(s, outputs);
+    EXPECT_LT(centre_of(s, piece, piece[0]).z(), centre[0].z() - 0.02);
+  }
+}
+
+TEST(FreedPiece, can_be_grasped) {
+  const std::string grasper =
+      "[[instrument]]\nkind = \"grasper\"\ngrip_radius = 0.008\npath = [\n"
+      "{ time = 0, position = [0, 0, -0.003], direction = [0, 0, 1], forward = [0, 1, 0] },\n"
+      "{ time = 0.05, position = [0, 0, -0.003], direction = [0, 0, 1], forward = [0, 1, 0], "
+      "action = \"close\" } ]\n";
+  const auto started = built(block_text("hex8", hanging + level_blade + grasper));
+  Simulation& s = *started->s;
+  Outputs outputs;
+  while (s.frame < 40) run_frame(s, outputs);
+  ASSERT_EQ(s.n_pieces, 2);
+  ASSERT_FALSE(s.holds.holds.empty());
+  const std::vector<std::int32_t> piece = connected_nodes(s.mesh);
+  for (const Hold& hold : s.holds.holds)
+    EXPECT_EQ(piece[static_cast<std::size_t>(hold.node)], piece[0]);
+  // Free, it would be 0.5 g (0.28 s)^2 = 38 cm lower.
+  EXPECT_GT(centre_of(s, piece, piece[0]).z(), -0.01);
+}
+
+struct Motion {
+  double mass = 0;
+  Vec3 momentum = Vec3::Zero(), angular = Vec3::Zero();
+};
+
+Motion motion_of(const Simulation& s) {
+  Motion m;
+  for (std::size_t i = 0; i < s.mass.size(); ++i) {
+    const Vec3 u(s.state.u[3 * i], s.state.u[3 * i + 1], s.state.u[3 * i + 2]);
+    const Vec3 v(s.state.v[3 * i], s.state.v[3 * i + 1], s.state.v[3 * i + 2]);
+    m.mass += s.mass[i];
+    m.momentum += s.mass[i] * v;
+    m.angular += s.mass[i] * (s.mesh.X[i] + u).cross(v);
+  }
+  return m;
+}
+
+// Velocities that no rigid motion has.
+void set_in_motion(Simulation& s) {
+  for (std::size_t i = 0; i < s.mass.size(); ++i) {
+    const Vec3& X = s.mesh.X[i];
+    const Vec3 v = Vec3(1, 2, -1) + Vec3(300 * X.y() * X.x(), -40 * X.z(), 500 * X.x() * X.x());
+    for (std::size_t k = 0; k < 3; ++k) s.state.v[3 * i + k] = v[static_cast<Eigen::Index>(k)];
+  }
+}
+
+// One cut by a blade that sweeps the whole block at once; returns its record.
+CutRecord cut_at_once(Simulation& s) {
+  BladeSweep sweep;
+  sweep.normal = Vec3(-0.3, 0, 1).normalized();
+  for (int k = 0; k <= 10; ++k) {
+    const double y = -0.02 + 0.004 * k;
+    sweep.before.emplace_back(-0.03, y, 0.006);
+    sweep.after.emplace_back(0.03, y, 0.024);
+  }
+  TetCutter cutter{CutTetOptions{}};
+  GlobalState global = gather_state(s);
+  CutFigures figures;
+  const MeshEdit edit =
+      cutter.advance(s.mesh, global.x, held_nodes(s.holds, s.fixed), sweep, true, figures);
+  CutRecord record;
+  apply_cut(s, edit, global, record);
+  record.n_converted = figures.n_converted;
+  return record;
+}
+
+TEST(ApplyCut, keeps_mass_and_both_momenta_where_hexahedra_are_converted) {
+  const auto started = built(block_text("hex8", ""));
+  Simulation& s = *started->s;
+  set_in_motion(s);
+  const Motion before = motion_of(s);
+  const CutRecord record = cut_at_once(s);
+  const Motion after = motion_of(s);
+  EXPECT_GT(record.n_converted, 0);
+  EXPECT_EQ(s.n_pieces, 2);
+  // Rounding of some hundred terms; velocities are of 2 m/s, positions of 0.03 m.
+  EXPECT_NEAR(after.mass, before.mass, 1e-14 * before.mass);
+  EXPECT_LT((after.momentum - before.momentum).norm(), 1e-13 * before.mass * 2);
+  EXPECT_LT((after.angular - before.angular).norm(), 1e-13 * before.mass * 2 * 0.03);
+}
+
+// Viscous numbers of each element over its volume, the mean of its points.
+std::vector<std::vector<double>> history_per_volume(const Simulation& s) {
+  const std::size_t width = history_of_point(1);
+  std::vector<std::vector<double>> value;
+  const std::vector<double> copy =
+      copy_history(s.model, s.part, s.state);  // element, count, numbers
+  for (std::size_t at = 0; at < copy.size(); at += 2 + std::size_t(copy[at + 1])) {
+    const auto e = static_cast<std::int32_t>(copy[at]);
+    value.emplace_back(width, 0.0);
+    for (std::size_t k = 0; k < std::size_t(copy[at + 1]); ++k)
+      value.back()[k % width] +=
+          copy[at + 2 + k] / element_volume(s.mesh, e, s.mesh.X) / (copy[at + 1] / double(width));
+  }
+  return value;
+}
+
+TEST(ApplyCut, keeps_the_viscous_stress_of_converted_hexahedra) {
+  for (const char* hexahedron : {"one-point", "full"}) {
+    const auto started = built(
+        block_text("hex8", "prony = [ { share = 0.4, time = 0.5 } ]\n[solver]\nhexahedron = \"" +
+                               std::string(hexahedron) + "\"\n"));
+    Simulation& s = *started->s;
+    for (std::size_t i = 0; i < s.mass.size(); ++i) {  // one stretch everywhere
+      s.state.u[3 * i] = 0.1 * s.mesh.X[i].x();
+      s.state.u[3 * i + 2] = 0.05 * s.mesh.X[i].x();
+    }
+    compute_force(s.model, s.state, s.scratch);
+    const auto before = history_per_volume(s);
+    double largest = 0;
+    for (const double value : before[0]) largest = std::max(largest, std::abs(value));
+    ASSERT_GT(largest, 1);  // [Pa]
+    EXPECT_GT(cut_at_once(s).n_converted, 0);
+    const auto after = history_per_volume(s);
+    EXPECT_GT(after.size(), before.size());
+    for (const auto& element : after)
+      for (std::size_t k = 0; k < element.size(); ++k)
+        EXPECT_NEAR(element[k], before[0][k], 1e-12 * largest) << hexahedron;  // rounding
+  }
+}
+
+}  // namespace
+}  // namespace trocar

@@ -1,0 +1,99 @@
+// The nodes' loops of a step for every instruction set that this machine has.
+#include <gtest/gtest.h>
+
+#include "solver_body.h"
+
+using namespace trocar;
+
+namespace {
+
+constexpr int n_nodes = 37;  // no multiple of any register
+
+struct Nodes {
+  std::vector<double> inertia, force, v, u;
+  std::vector<std::uint8_t> fixed;
+};
+
+Nodes random_nodes() {
+  Nodes nodes;
+  Noise noise(7);
+  for (int i = 0; i < n_nodes; ++i) {
+    nodes.inertia.push_back(2 + noise());
+    nodes.fixed.push_back(static_cast<std::uint8_t>(i % 5 == 0 ? i % 8 : 0));
+    for (int j = 0; j < 3; ++j) {
+      nodes.force.push_back(noise());
+      nodes.v.push_back(noise());
+      nodes.u.push_back(noise());
+    }
+  }
+  return nodes;
+}
+
+NodeMotion motion_of(Nodes& nodes) {
+  return {.keep = .99,
+          .gain = .013,
+          .dt = .0071,
+          .inertia = nodes.inertia.data(),
+          .fixed = nodes.fixed.data(),
+          .force = nodes.force.data(),
+          .v = nodes.v.data(),
+          .u = nodes.u.data()};
+}
+
+template <class Check>
+void for_each_simd(const Check& check) {
+  for (int i = 0; i < n_simd; ++i) {
+    const auto simd = static_cast<Simd>(i);
+    if (!is_supported(simd)) continue;
+    SCOPED_TRACE(name_of(simd));
+    check(kernels_of(simd).nodes);
+  }
+}
+
+}  // namespace
+
+// v+ = keep v + gain f / m, held components at rest, u+ = u + dt v+; numbers of order 1, of which
+// three operations are off by a few units in the last place.
+TEST(NodeKernels, free_nodes_accelerate_and_held_ones_stay) {
+  for_each_simd([](const NodeKernels& kernels) {
+    const Nodes before = random_nodes();
+    Nodes after = before;
+    kernels.motion(motion_of(after), 0, n_nodes);
+    for (std::size_t k = 0; k < 3 * n_nodes; ++k) {
+      const bool is_held = (before.fixed[k / 3] >> k % 3 & 1) != 0;
+      const double v =
+          is_held ? 0 : .99 * before.v[k] + .013 * before.force[k] / before.inertia[k / 3];
+      EXPECT_NEAR(after.v[k], v, 4e-16);
+      EXPECT_NEAR(after.u[k], before.u[k] + .0071 * v, 4e-16);
+    }
+  });
+}
+
+// Threads and ranks part the nodes anywhere.
+TEST(NodeKernels, a_node_moves_by_the_same_bits_whatever_part_it_is_in) {
+  for_each_simd([](const NodeKernels& kernels) {
+    Nodes whole = random_nodes(), parts = whole;
+    kernels.motion(motion_of(whole), 0, n_nodes);
+    for (const auto& [begin, end] : {std::pair{0, 5}, {5, 18}, {18, 19}, {19, n_nodes}})
+      kernels.motion(motion_of(parts), begin, end);
+    EXPECT_EQ(whole.v, parts.v);
+    EXPECT_EQ(whole.u, parts.u);
+  });
+}
+
+TEST(NodeKernels, a_force_is_the_weight_less_the_sum_which_becomes_zero) {
+  for_each_simd([](const NodeKernels& kernels) {
+    const std::vector<double> mass = {1, 2, 3, 4};
+    std::vector<double> sum, force(12, -1.0);
+    for (int k = 0; k < 16; ++k) sum.push_back(k % 4 == 3 ? 77 : k);
+    const std::vector<std::int32_t> node = {3, 1};
+    kernels.force(
+        {.mass = mass.data(), .gravity = {.5, 0, -8, 0}, .sum = sum.data(), .force = force.data()},
+        node.data(), 2);
+    // 4 (0.5, 0, -8) - (12, 13, 14) and 2 (0.5, 0, -8) - (4, 5, 6): exact.
+    EXPECT_EQ(force, (std::vector<double>{-1, -1, -1, -3, -5, -22, -1, -1, -1, -10, -13, -46}));
+    for (const int k : {4, 5, 6, 12, 13, 14}) EXPECT_EQ(sum[static_cast<std::size_t>(k)], 0);
+    EXPECT_EQ(sum[0], 0);
+    EXPECT_EQ(sum[9], 9);
+  });
+}
