@@ -62,6 +62,13 @@ struct Equilibrium {
   double seconds = 0;
 };
 
+// Where the elements were last looked at (frame_watch.h).
+struct ElementLook {
+  bool is_done = false;
+  std::vector<double> u;  // (n_owned * 3) [m]
+  double reach = 0;       // of a node that strains its elements by less than unseen_strain [m]
+};
+
 struct Simulation {
   Communicator* communicator = nullptr;  // owned by main
   Scene scene;
@@ -100,6 +107,7 @@ struct Simulation {
   std::optional<Sleep> sleep;            // only if the scene asks for it
   double step_scale = 1;                 // halved by each roll-back
   Watch watch;                           // of the last frame, over all ranks
+  ElementLook look;
   double rest_step = 0;  // least element bound of the undeformed mesh, over all ranks [s]
   // Only with stable_step = "frequency": the mode (n_owned * 3) found last, where the next search
   // starts, and the mean edge [m].

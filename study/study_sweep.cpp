@@ -17,7 +17,7 @@ namespace {
 struct Curve {
   Method method;
   Precision precision;
-  double step_factor;
+  double step_factor, sleep;
 };
 
 std::vector<Method> wanted_methods(const Problem& problem, const SweepOptions& options) {
@@ -42,7 +42,9 @@ std::vector<Curve> curves_of(const Problem& problem, const SweepOptions& options
   std::vector<Curve> curves;
   for (const Method& method : wanted_methods(problem, options))
     for (const Precision precision : precisions)
-      for (const double factor : factors) curves.push_back({method, precision, factor});
+      for (const double factor : factors)
+        for (const double sleep : problem.sleeps)
+          curves.push_back({method, precision, factor, sleep});
   return curves;
 }
 
@@ -66,9 +68,10 @@ Run run_case(const Problem& problem, const Curve& curve, int n, int repeats) {
           .precision = precision_name(curve.precision),
           .size = problem.size_label ? problem.size_label(n) : "n = " + std::to_string(n),
           .step_factor = problem.is_static() ? 0 : curve.step_factor,
+          .sleep = curve.sleep,
           .n = n};
-  run.outcome =
-      solve_repeatedly(problem, {curve.method, curve.precision, curve.step_factor, n}, repeats);
+  run.outcome = solve_repeatedly(
+      problem, {curve.method, curve.precision, curve.step_factor, n, curve.sleep}, repeats);
   return run;
 }
 
@@ -183,6 +186,7 @@ bool is_sound(const Run& run) {
 std::string method_text(const Run& run) {
   std::string text = run.method + " " + run.precision;
   if (run.step_factor > 0) text += ", step factor " + significant(run.step_factor, 3);
+  if (run.sleep > 0) text += ", sleep " + length_text(run.sleep);
   return text;
 }
 

@@ -7,13 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/log.h"
-#include "base/threads.h"
-#include "engine/build.h"
 #include "engine/checkpoint.h"
 #include "engine/equilibrium.h"
-#include "engine/frame.h"
 #include "engine_scene.h"
+#include "engine_started.h"
 
 namespace trocar {
 namespace {
@@ -52,20 +49,9 @@ path = [
 )";
 constexpr double bound = 0.1e-3;
 
-struct Running {
-  LoadedScene loaded;
-  Communicator alone;
-  std::unique_ptr<Simulation> s;
-  Outputs outputs;
-};
-
-std::unique_ptr<Running> started(const std::vector<std::string>& overrides) {
-  start_log(0, true);
-  set_thread_count(1);
-  const TestFolder folder;
-  auto run = std::make_unique<Running>();
-  run->loaded = load_scene(write_text(folder.file("s.toml"), bar_text), overrides);
-  run->s = build(run->loaded, run->alone);
+std::unique_ptr<Started> started(const std::vector<std::string>& overrides,
+                                 const std::string& text = bar_text) {
+  auto run = built(text, overrides);
   start_in_equilibrium(run->loaded, *run->s);
   return run;
 }
@@ -154,15 +140,85 @@ TEST(Sleep, goes_on_after_a_restart_with_the_same_bits) {
     const auto first = started(with_sleep);
     while (first->s->frame < frame) run_frame(*first->s, first->outputs);
     const std::vector<std::byte> bytes = checkpoint_to_bytes(take_checkpoint(*first->s));
-    Running second;
-    second.loaded = first->loaded;
-    second.s = build(second.loaded, second.alone);
-    restore_checkpoint(checkpoint_from_bytes(bytes, "c"), *second.s);
-    EXPECT_EQ(second.s->sleep->share, first->s->sleep->share);
-    while (second.s->frame < 67) run_frame(*second.s, second.outputs);
-    EXPECT_EQ(second.s->state.u, whole->s->state.u) << frame;
-    EXPECT_EQ(second.s->sleep->is_asleep, whole->s->sleep->is_asleep) << frame;
+    const auto second = built(bar_text, with_sleep);
+    restore_checkpoint(checkpoint_from_bytes(bytes, "c"), *second->s);
+    EXPECT_EQ(second->s->sleep->share, first->s->sleep->share);
+    while (second->s->frame < 67) run_frame(*second->s, second->outputs);
+    EXPECT_EQ(second->s->state.u, whole->s->state.u) << frame;
+    EXPECT_EQ(second->s->sleep->is_asleep, whole->s->sleep->is_asleep) << frame;
   }
+}
+
+// What sleep changed in a scene, and how much of the body slept before and woke after `moment`.
+struct Compared {
+  double most = 0, moved = 0;
+  double share_before = 0, least_share_after = 1;
+};
+
+Compared compare(const std::string& text, std::int64_t moment, std::int64_t n_frames) {
+  const auto awake = started({}, text), sleepy = started(with_sleep, text);
+  Compared compared;
+  const auto start = awake->s->state.u;
+  while (awake->s->frame < n_frames) {
+    run_frame(*awake->s, awake->outputs);
+    run_frame(*sleepy->s, sleepy->outputs);
+    // After a cut the two bodies may have been cut apart elsewhere.
+    if (awake->s->state.u.size() == start.size() && sleepy->s->state.u.size() == start.size())
+      compared.most = std::max(compared.most, largest_difference(*awake->s, *sleepy->s));
+    const double share = sleepy->s->sleep->share;
+    if (awake->s->frame == moment) compared.share_before = share;
+    if (awake->s->frame > moment)
+      compared.least_share_after = std::min(compared.least_share_after, share);
+  }
+  for (std::size_t k = 0; k < start.size(); ++k)
+    compared.moved = std::max(compared.moved, std::abs(awake->s->state.u[k] - start[k]));
+  return compared;
+}
+
+// Without the probe, and with something else.
+std::string bar_with(const std::string& more) {
+  return bar_text.substr(0, bar_text.find("[[instrument]]")) + more;
+}
+
+TEST(Sleep, ends_when_a_support_moves) {
+  const Compared compared = compare(bar_with(R"([[support]]
+region = "x-"
+path = [
+  { time = "1.0 s", displacement = [0, 0, 0] },
+  { time = "1.3 s", displacement = ["-3 mm", 0, 0] },
+]
+)"),
+                                    29, 60);
+  EXPECT_GT(compared.share_before, 0.8);  // all but the support and what hangs on it
+  EXPECT_EQ(compared.least_share_after, 0);
+  EXPECT_LT(compared.most, bound);
+  EXPECT_GT(compared.moved, 20 * bound);
+}
+
+TEST(Sleep, ends_before_a_blade_cuts_hexahedra) {
+  const std::string text = bar_with(R"([[instrument]]
+kind = "scalpel"
+blade_length = "20 mm"
+path = [
+  { time = "0.8 s", position = ["-40 mm", "1 mm", "40 mm"] },
+  { time = "1.2 s", position = ["-40 mm", "1 mm", "11 mm"] },
+  { time = "1.5 s", position = ["-15 mm", "1 mm", "11 mm"] },
+]
+)");
+  const auto run = started(with_sleep, text);
+  Simulation& s = *run->s;
+  const std::int32_t n_nodes = s.mesh.n_nodes();
+  while (s.frame < 24) run_frame(s, run->outputs);
+  EXPECT_EQ(s.sleep->share, 1);
+  while (s.frame < 48) {
+    const bool cuts = !s.cuts[0].engaged.empty();
+    run_frame(s, run->outputs);
+    if (cuts) {
+      EXPECT_EQ(s.sleep->share, 0) << s.frame;
+    }
+  }
+  EXPECT_GT(s.mesh.n_nodes(), n_nodes);
+  EXPECT_EQ(s.sleep->quiet.size(), static_cast<std::size_t>(s.mesh.n_nodes()));
 }
 
 TEST(Sleep, is_refused_for_viscoelastic_tissue) {

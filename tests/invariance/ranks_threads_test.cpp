@@ -85,6 +85,25 @@ TEST(StateDigest, with_sleep_is_the_same_on_any_ranks_and_threads) {
                        "solver.sleep='0.2 mm'", "solver.precision='" + precision + "'"});
 }
 
+// Asleep until the blade comes; hexahedra become tetrahedra.
+TEST(StateDigest, with_sleep_is_the_same_on_any_ranks_and_threads_while_hexahedra_are_cut) {
+  expect_one_digest("block_hex_cut.toml",
+                    {"time.duration='1.3 s'", "start.state='equilibrium'", "solver.sleep='0.2 mm'",
+                     "instrument=[{kind='scalpel', blade_length='30 mm', path=["
+                     "{time='0.7 s', position=['-35 mm','-9 mm','60 mm'], direction=[0,0.2,-1], "
+                     "forward=[0.94,0.34,0]},"
+                     "{time='0.9 s', position=['-24 mm','-5 mm','22 mm'], direction=[0,0.2,-1], "
+                     "forward=[0.94,0.34,0]},"
+                     "{time='1.3 s', position=['8 mm','6.6 mm','22 mm'], direction=[0,0.2,-1], "
+                     "forward=[0.94,0.34,0]}]}]"});
+}
+
+// The nodes of a cluster of scaled masses lie on several ranks.
+TEST(StateDigest, with_sleep_and_scaled_masses_is_the_same_on_any_ranks_and_threads) {
+  expect_one_digest("plane_cut.toml", {"time.duration='3 s'", "solver.mass_scaling_step='0.5 ms'",
+                                       "solver.sleep='0.5 mm'"});
+}
+
 // Steps a second of the same frames are doubled: messages follow, what all ranks say together does
 // not. The start and the end need some messages of their own.
 TEST(Traffic, collectives_go_by_frames_and_messages_by_steps) {
