@@ -25,8 +25,8 @@ region = "z-"
 kind = "probe"
 radius = "6 mm"
 path = [
-  { time = 0, position = [0, 0, "28 mm"] },
-  { time = "0.5 s", position = [0, 0, "20 mm"] },
+  { time = 0, position = [0, 0, "21 mm"] },
+  { time = "0.5 s", position = [0, 0, "14 mm"] },
 ]
 )";
 
