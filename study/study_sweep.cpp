@@ -133,14 +133,32 @@ void rate_scene(Study& study) {
       run.error = largest_difference(run.outcome.samples, finest->outcome.samples) / problem.length;
 }
 
+// What sleep alone changed, run by run: meshes differ by more than that.
+void note_sleep(Study& study) {
+  for (const Run& run : study.runs)
+    for (const Run& awake : study.runs) {
+      const bool is_twin = run.sleep > 0 && awake.sleep == 0 && awake.method == run.method &&
+                           awake.precision == run.precision && awake.n == run.n &&
+                           awake.step_factor == run.step_factor;
+      if (is_twin && is_sound(run) && is_sound(awake))
+        study.notes.push_back(
+            method_text(run) + ", " + run.size + ": at most " +
+            length_text(largest_difference(run.outcome.samples, awake.outcome.samples)) +
+            " from the same run without sleep, " + significant(cost_of(study, run), 3) +
+            " s a simulated second instead of " + significant(cost_of(study, awake), 3) + " s");
+    }
+}
+
 }  // namespace
 
 void rate(Study& study) {
   const Problem& problem = study.problem;
-  if (problem.is_scene())
+  if (problem.is_scene()) {
     rate_scene(study);
-  else
+    note_sleep(study);
+  } else {
     for (Run& run : study.runs) run.error = std::abs(run.outcome.value / problem.reference - 1);
+  }
   for (Run& run : study.runs) {
     if (!is_sound(run)) run.error = std::numeric_limits<double>::infinity();
     run.is_at_reference = run.error < problem.reference_error;

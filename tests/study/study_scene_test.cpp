@@ -7,6 +7,7 @@
 #include "mesh/mesh_file.h"
 #include "mesh_temporary_folder.h"
 #include "study/study_sweep.h"
+#include "study/study_text.h"
 
 namespace trocar {
 namespace {
@@ -63,6 +64,10 @@ TEST(StudyScene, measures_the_error_that_sleep_brings_on_one_mesh) {
   EXPECT_GT(most, 0);  // it slept
   EXPECT_LT(most, 0.2e-3);
   EXPECT_NE(method_text(study.runs[1]).find("sleep 0.2 mm"), std::string::npos);
+  ASSERT_EQ(study.notes.size(), 2u);  // the first: one size alone has no reference
+  EXPECT_NE(study.notes[1].find("at most " + length_text(most) + " from the same run without"),
+            std::string::npos)
+      << study.notes[1];
 }
 
 TEST(StudyScene, tetrahedra_and_hexahedra_of_one_scene_come_to_the_same_place) {
