@@ -119,6 +119,12 @@ void add_study(CLI::App& app, CommandLine& line) {
   study->add_option("--step-factor", s.sweep.step_factors, "Time step / stable step: 0.5,0.9")
       ->delimiter(',')
       ->check(CLI::Range(1e-3, 1.0));
+  study
+      ->add_option(
+          "--sleep", s.sleeps,
+          "solver.sleep of a scene: 0,'0.1 mm'; notes say how far runs are from the same ones "
+          "without sleep")
+      ->delimiter(',');
   study->add_option("--target", s.target, "Error that the advice is for: '1 mm', '1 %'");
   study
       ->add_option("--budget", s.sweep.budget,

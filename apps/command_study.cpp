@@ -47,6 +47,7 @@ Problem find_problem(const StudyOptions& options, Communicator& communicator) {
     return problem_of_scene({.scene_file = options.subject,
                              .overrides = options.overrides,
                              .meshes = options.meshes,
+                             .sleeps = options.sleeps,
                              .sizes = options.sweep.sizes},
                             communicator);
   const std::string nearest = nearest_name(options.subject, known);
@@ -56,9 +57,10 @@ Problem find_problem(const StudyOptions& options, Communicator& communicator) {
 }
 
 void check_sizes(const StudyOptions& options, const Problem& problem) {
-  const bool has_subject_options = !options.meshes.empty() || !options.overrides.empty();
+  const bool has_subject_options =
+      !options.meshes.empty() || !options.sleeps.empty() || !options.overrides.empty();
   if (has_subject_options && !problem.is_scene())
-    throw InputError("--meshes and --set belong to scenes, not to " + problem.name);
+    throw InputError("--meshes, --sleep and --set belong to scenes, not to " + problem.name);
   if (problem.name != "bending-column") return;
   for (const int n : options.sweep.sizes)
     if (n % 2 != 0)

@@ -16,7 +16,7 @@ struct StudyOptions {
   std::string folder = "study";
   std::string target;  // "1 mm", "1 %"; empty: the median error
   SweepOptions sweep;
-  std::vector<std::string> meshes, overrides;  // of a scene
+  std::vector<std::string> meshes, sleeps, overrides;  // of a scene
   bool list = false, all = false;
   std::string docs;  // folder for accuracy.md of --all
 };

@@ -1,5 +1,6 @@
 #include "base/exact_sum.h"
 
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -13,11 +14,11 @@ constexpr std::uint64_t low_half = 0xffffffffu;
 }  // namespace
 
 void ExactSum::add(double value) {
-  if (value == 0 || !std::isfinite(value)) return;
-  int exponent = 0;
-  const double fraction = std::frexp(std::abs(value), &exponent);  // value = fraction * 2^exponent
-  auto mantissa = static_cast<std::uint64_t>(std::ldexp(fraction, 53));
-  int bit = exponent - 53 - lowest_bit;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const auto exponent = static_cast<int>(bits >> 52 & 0x7ff);
+  if (exponent == 0 || exponent == 0x7ff) return;  // too small to count; not finite
+  std::uint64_t mantissa = (bits & 0xfffffffffffff) | 0x10000000000000;
+  int bit = exponent - 1075 - lowest_bit;  // |value| = mantissa * 2^(exponent - 1075)
   if (bit < 0) {
     if (bit <= -64) return;
     mantissa >>= -bit;

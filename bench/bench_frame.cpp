@@ -1,6 +1,6 @@
-// What a frame costs beyond its steps where the scene has nothing but tissue: the time of run_frame
-// against that of as many bare steps and of the forces that the search for the stable step asks
-// for, in turn, on the same body. JSON to stdout.
+// What a frame costs beyond its steps where the scene has nothing but tissue, swinging in its
+// weight and at rest: the time of run_frame against that of as many bare steps, in turn, on the
+// same body. JSON to stdout.
 // bench_frame [cells along an edge (default 20)] [threads]
 #include <algorithm>
 #include <cstdio>
@@ -10,6 +10,7 @@
 #include "base/log.h"
 #include "bench/machine.h"
 #include "engine/build.h"
+#include "engine/equilibrium.h"
 #include "engine/frame.h"
 #include "solver/step.h"
 
@@ -41,10 +42,11 @@ void run_steps(Simulation& s, std::int64_t n, double dt) {
   finish_exchange(s.neighbours, s.state);
 }
 
-void report(int n, const std::string& stable_step, bool is_first) {
+void report(int n, const std::string& stable_step, bool is_at_rest) {
   Communicator alone;
   const LoadedScene loaded = empty_scene(n, stable_step);
   const auto s = build(loaded, alone);
+  if (is_at_rest) start_in_equilibrium(loaded, *s);
   Outputs outputs;
   double frame = 1e300, steps = 1e300;
   std::int64_t n_steps = 0;
@@ -57,10 +59,12 @@ void report(int n, const std::string& stable_step, bool is_first) {
     s->state = kept;
   }
   std::printf(
-      "%s\n  {\"stable_step\": \"%s\", \"elements\": %d, \"steps\": %lld, \"frame_ms\": %.4f, "
+      "%s\n  {\"stable_step\": \"%s\", \"state\": \"%s\", \"elements\": %d, \"steps\": %lld, "
+      "\"frame_ms\": %.4f, "
       "\"steps_ms\": %.4f, \"frame_over_steps\": %.4f}",
-      is_first ? "" : ",", stable_step.c_str(), s->mesh.n_elements(),
-      static_cast<long long>(n_steps), 1e3 * frame, 1e3 * steps, frame / steps);
+      is_at_rest || stable_step != "element-bound" ? "," : "", stable_step.c_str(),
+      is_at_rest ? "at rest" : "swinging", s->mesh.n_elements(), static_cast<long long>(n_steps),
+      1e3 * frame, 1e3 * steps, frame / steps);
 }
 
 }  // namespace
@@ -71,7 +75,8 @@ int main(int argc, char** argv) {
   set_thread_count(argc > 2 ? std::atoi(argv[2]) : 1);
   std::printf("{\"threads\": %d, \"peak_gflops\": %.1f, \"triad_gbytes\": %.1f, \"frames\": [",
               thread_count(), peak_gflops(), triad_gbytes());
-  report(n, "element-bound", true);
-  report(n, "frequency", false);
+  for (const bool is_at_rest : {false, true})
+    for (const char* stable_step : {"element-bound", "frequency"})
+      report(n, stable_step, is_at_rest);
   std::printf("\n]}\n");
 }

@@ -62,6 +62,9 @@ ContactSet prepare_contacts(std::span<const Contact> contacts,
   set.x_start.resize(set.node.size());
   set.x_end.resize(set.node.size());
   set.force.assign(set.node.size(), Vec3::Zero());
+  set.constraints.reserve(set.items.size() + set.node.size());
+  set.deepest.resize(set.node.size());
+  set.move.resize(set.node.size());
   set.halo = all_to_all(set, node_owner, rank);
   set.is_counted_here = set.halo.neighbours.empty() || rank < set.halo.neighbours[0].rank;
   return set;

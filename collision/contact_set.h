@@ -13,6 +13,26 @@
 
 namespace trocar {
 
+// n·(extra displacement of x) >= lack.
+struct ContactConstraint {
+  std::int32_t item = 0;
+  std::array<std::int32_t, 3> place{};
+  std::array<double, 3> weight{};
+  Vec3 normal, slip;     // n; slip of the step without contact [m]
+  double lack = 0;       // [m]
+  double felt_mass = 0;  // 1 / sum w^2 / m [kg]
+  // Impulse times dt, along n, and its bound: a triangle with two held corners would move the third
+  // one a thousand times as far as it lacks. [kg m]
+  double push = 0, most_push = 0;
+  Vec3 drag = Vec3::Zero();
+};
+
+// Which item says most of a node, and what.
+struct DeepestPiece {
+  std::int32_t item = -1;
+  NodeTouch touch;
+};
+
 struct ContactSet {
   struct Item {
     Contact contact;
@@ -29,6 +49,10 @@ struct ContactSet {
   std::vector<Vec3> force;           // of the last step [N]
   Halo halo;                         // among the ranks that hold nodes, in places
   bool is_counted_here = false;      // this rank reports the reactions
+  // Of the step that is being solved; steps allocate nothing.
+  std::vector<ContactConstraint> constraints;  // with room for one an item and one a node
+  std::vector<DeepestPiece> deepest;           // (node.size())
+  std::vector<Vec3> move;                      // (node.size()) [m]
 };
 
 // contacts: all of them, on every rank. node_owner, mass [kg], is_held (nothing moves the node):

@@ -18,20 +18,6 @@ std::size_t index(std::int32_t i) {
   return static_cast<std::size_t>(i);
 }
 
-// n·(extra displacement of x) >= lack.
-struct Constraint {
-  std::int32_t item = 0;
-  std::array<std::int32_t, 3> place{};
-  std::array<double, 3> weight{};
-  Vec3 normal, slip;     // n; slip of the step without contact [m]
-  double lack = 0;       // [m]
-  double felt_mass = 0;  // 1 / sum w^2 / m [kg]
-  // Impulse times dt, along n, and its bound: a triangle with two held corners would move the third
-  // one a thousand times as far as it lacks. [kg m]
-  double push = 0, most_push = 0;
-  Vec3 drag = Vec3::Zero();
-};
-
 std::array<Vec3, 3> corners_of(const ContactSet& set, const ContactSet::Item& item) {
   return {set.x_end[index(item.place[0])], set.x_end[index(item.place[1])],
           set.x_end[index(item.place[2])]};
@@ -43,7 +29,7 @@ const ToolMotion& tool_of(const ContactStep& step, const ContactSet::Item& item)
 
 // arm: from the tool's origin to its point y.
 void set_approach(const ContactSet& set, const ContactStep& step, double release_speed, double gap,
-                  const Vec3& arm, const ToolMotion& tool, Constraint& c) {
+                  const Vec3& arm, const ToolMotion& tool, ContactConstraint& c) {
   Vec3 relative = -step.dt * (tool.velocity + tool.angular_velocity.cross(arm));
   double inverse = 0, lightest = 0;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -60,88 +46,79 @@ void set_approach(const ContactSet& set, const ContactStep& step, double release
   c.most_push = inverse > 0 ? furthest * c.lack / lightest : 0;
 }
 
-void add_triangle(const ContactStep& step, const ContactOptions& options, const ContactSet& set,
-                  std::int32_t k, std::vector<Constraint>& constraints) {
+void add_triangle(const ContactStep& step, const ContactOptions& options, std::int32_t k,
+                  ContactSet& set) {
   const ContactSet::Item& item = set.items[index(k)];
   const ToolMotion& tool = tool_of(step, item);
-  Constraint c{.item = k,
-               .place = item.place,
-               .weight = item.contact.weight,
-               .normal = tool.pose.rotation * item.contact.normal};
+  ContactConstraint c{.item = k,
+                      .place = item.place,
+                      .weight = item.contact.weight,
+                      .normal = tool.pose.rotation * item.contact.normal};
   const Vec3 arm = tool.pose.rotation * item.contact.point;
   Vec3 x = Vec3::Zero();
   for (std::size_t a = 0; a < 3; ++a) x += c.weight[a] * set.x_end[index(c.place[a])];
   const double gap = c.normal.dot(x - (arm + tool.pose.translation));
   set_approach(set, step, options.release_speed, gap, arm, tool, c);
-  if (c.lack > 0 && c.felt_mass > 0) constraints.push_back(c);
+  if (c.lack > 0 && c.felt_mass > 0) set.constraints.push_back(c);
 }
 
-// Which item says most of a node, and what.
-struct DeepestPiece {
-  std::int32_t item = -1;
-  NodeTouch touch;
-};
-
-std::vector<DeepestPiece> deepest_pieces(const ContactDetector& detector, const ContactStep& step,
-                                         const ContactSet& set) {
-  std::vector<DeepestPiece> deepest(set.node.size());
+void find_deepest(const ContactDetector& detector, const ContactStep& step, ContactSet& set) {
+  std::fill(set.deepest.begin(), set.deepest.end(), DeepestPiece{});
   for (std::size_t k = 0; k < set.items.size(); ++k) {
     const ContactSet::Item& item = set.items[k];
     const std::array<Vec3, 3> x = corners_of(set, item);
     const Vec3 facet = (x[1] - x[0]).cross(x[2] - x[0]);
     for (std::size_t a = 0; a < 3; ++a) {
       const auto found = detector.touch_node(item.contact, x[a], tool_of(step, item).pose);
-      DeepestPiece& of_node = deepest[index(item.place[a])];
+      DeepestPiece& of_node = set.deepest[index(item.place[a])];
       if (found && found->gap < of_node.touch.gap && found->normal.dot(facet) < 0)
         of_node = {.item = static_cast<std::int32_t>(k), .touch = *found};
     }
   }
-  return deepest;
 }
 
 void add_nodes(const ContactDetector& detector, const ContactStep& step,
-               const ContactOptions& options, const ContactSet& set,
-               std::vector<Constraint>& constraints) {
-  const std::vector<DeepestPiece> deepest = deepest_pieces(detector, step, set);
-  for (std::size_t i = 0; i < deepest.size(); ++i) {
-    if (deepest[i].item < 0) continue;
-    const ToolMotion& tool = tool_of(step, set.items[index(deepest[i].item)]);
-    const NodeTouch& touch = deepest[i].touch;
+               const ContactOptions& options, ContactSet& set) {
+  find_deepest(detector, step, set);
+  for (std::size_t i = 0; i < set.deepest.size(); ++i) {
+    if (set.deepest[i].item < 0) continue;
+    const ToolMotion& tool = tool_of(step, set.items[index(set.deepest[i].item)]);
+    const NodeTouch& touch = set.deepest[i].touch;
     const auto place = static_cast<std::int32_t>(i);
-    Constraint c{.item = deepest[i].item,
-                 .place = {place, place, place},
-                 .weight = {1, 0, 0},
-                 .normal = touch.normal};
+    ContactConstraint c{.item = set.deepest[i].item,
+                        .place = {place, place, place},
+                        .weight = {1, 0, 0},
+                        .normal = touch.normal};
     const Vec3 arm = set.x_end[i] - touch.gap * touch.normal - tool.pose.translation;
     set_approach(set, step, options.release_speed, touch.gap, arm, tool, c);
-    if (c.lack > 0 && c.felt_mass > 0) constraints.push_back(c);
+    if (c.lack > 0 && c.felt_mass > 0) set.constraints.push_back(c);
   }
 }
 
-Vec3 extra(const Constraint& c, std::span<const Vec3> move) {
+Vec3 extra(const ContactConstraint& c, std::span<const Vec3> move) {
   return c.weight[0] * move[index(c.place[0])] + c.weight[1] * move[index(c.place[1])] +
          c.weight[2] * move[index(c.place[2])];
 }
 
-void apply(const Constraint& c, const Vec3& impulse, const ContactSet& set, std::span<Vec3> move) {
+void apply(const ContactConstraint& c, const Vec3& impulse, ContactSet& set) {
   for (std::size_t a = 0; a < 3; ++a)
-    move[index(c.place[a])] += c.weight[a] * set.inverse_mass[index(c.place[a])] * impulse;
+    set.move[index(c.place[a])] += c.weight[a] * set.inverse_mass[index(c.place[a])] * impulse;
 }
 
 // Returns by how much the contact point went.
-double project(double friction, const ContactSet& set, std::span<Vec3> move, Constraint& c) {
-  const Vec3 before = extra(c, move);
+double project(double friction, ContactConstraint& c, ContactSet& set) {
+  const Vec3 before = extra(c, set.move);
   const double push =
       std::clamp(c.push + c.felt_mass * (c.lack - c.normal.dot(before)), 0.0, c.most_push);
-  apply(c, (push - c.push) * c.normal, set, move);
+  apply(c, (push - c.push) * c.normal, set);
   c.push = push;
-  const Vec3 now = extra(c, move), along = now - c.normal.dot(now) * c.normal;
+  const Vec3 now = extra(c, set.move), along = now - c.normal.dot(now) * c.normal;
   Vec3 drag = c.drag - c.felt_mass * (c.slip + along);
   const double size = drag.norm(), most = friction * push;
   if (size > most) drag *= most / size;
-  apply(c, drag - c.drag, set, move);
+  apply(c, drag - c.drag, set);
   c.drag = drag;
-  return (extra(c, move) - before).norm();
+  return (extra(c, set.move) - before).norm();
 }
 
 }  // namespace
@@ -158,22 +135,22 @@ void look_again(const ContactDetector& detector, const ContactStep& step, Contac
 
 void solve_contacts(const ContactDetector& detector, const ContactStep& step,
                     const ContactOptions& options, ContactSet& set) {
-  std::vector<Constraint> constraints;
-  add_nodes(detector, step, options, set, constraints);
+  std::vector<ContactConstraint>& constraints = set.constraints;
+  constraints.clear();
+  add_nodes(detector, step, options, set);
   for (std::size_t k = 0; k < set.items.size(); ++k)
-    if (set.items[k].is_near)
-      add_triangle(step, options, set, static_cast<std::int32_t>(k), constraints);
+    if (set.items[k].is_near) add_triangle(step, options, static_cast<std::int32_t>(k), set);
   double deepest = 0;
-  for (const Constraint& c : constraints) deepest = std::max(deepest, c.lack);
-  std::vector<Vec3> move(set.node.size(), Vec3::Zero());
+  for (const ContactConstraint& c : constraints) deepest = std::max(deepest, c.lack);
+  std::fill(set.move.begin(), set.move.end(), Vec3::Zero());
   double change = deepest;
   for (int round = 0; round < most_rounds && change > good_enough * deepest; ++round) {
     change = 0;
-    for (Constraint& c : constraints)
-      change = std::max(change, project(options.friction, set, move, c));
+    for (ContactConstraint& c : constraints)
+      change = std::max(change, project(options.friction, c, set));
   }
   std::fill(set.force.begin(), set.force.end(), Vec3::Zero());
-  for (const Constraint& c : constraints) {
+  for (const ContactConstraint& c : constraints) {
     const Vec3 force = (c.push * c.normal + c.drag) / step.response;
     Vec3& reaction = set.items[index(c.item)].reaction_sum;
     for (std::size_t a = 0; a < 3; ++a) {

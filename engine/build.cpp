@@ -17,6 +17,7 @@
 #include "engine/tissue.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/mesh_file.h"
+#include "mesh/quality.h"
 
 namespace trocar {
 
@@ -166,6 +167,15 @@ void check_slow_element(const Simulation& s) {
   log_warning(sentence);
 }
 
+// A component r of displacements strains tetrahedra by at most 4 sqrt(3) r / h, hexahedra at their
+// centre by 6 r / h, with the least altitude h. Collective.
+ElementLook nothing_looked_at(const Simulation& s) {
+  double h = std::numeric_limits<double>::max();
+  for (const std::int32_t e : s.part.element_global)
+    h = std::min(h, least_altitude(s.mesh, e, s.mesh.X));
+  return {.reach = unseen_strain / 7 * s.communicator->all_min(h)};
+}
+
 }  // namespace
 
 SolverOptions solver_options(const Scene& scene) {
@@ -194,12 +204,14 @@ void rebuild_topology(Simulation& s) {
   for (const double step : s.model.element_step) rest_step = std::min(rest_step, step);
   s.rest_step = s.communicator->all_min(rest_step);
   s.scratch = make_scratch(s.model);
+  begin_sleep(s);
   if (s.energy) s.scratch.damping_work.assign(static_cast<std::size_t>(s.model.n_owned), 0.0);
   s.surface = boundary_surface(s.mesh);
   s.n_pieces = count_pieces(s.mesh);
   s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part, rank);
   localise_holds(s.holds, s.part);
   s.fastest_mode.clear();
+  s.look = nothing_looked_at(s);
   if (s.scene.solver.stable_step == StableStep::frequency) s.edge_length = mean_edge_length(s.mesh);
   if (s.contact) s.contact->detector.set_surface(s.surface);
 }

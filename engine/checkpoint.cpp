@@ -34,7 +34,9 @@ void check_fit(const Checkpoint& c, const Simulation& s) {
   const std::size_t n = c.mesh.X.size();
   if (c.u.size() != 3 * n || c.v.size() != 3 * n || c.fixed.size() != n ||
       (!c.fastest_mode.empty() && c.fastest_mode.size() != 3 * n) ||
-      c.cuts.size() != s.cuts.size() || c.is_open.size() != s.tools.size())
+      (!c.looked_at.empty() && c.looked_at.size() != 3 * n) ||
+      c.sleep.size() != (s.sleep ? 7 * n : 0) || c.cuts.size() != s.cuts.size() ||
+      c.is_open.size() != s.tools.size())
     throw InputError("the checkpoint does not fit the scene; start without --resume");
 }
 
@@ -46,13 +48,22 @@ void check_machine(const Checkpoint& c) {
                 ": the result may differ in its last digits from that of an uninterrupted run");
 }
 
-// The mode from which the next search for the highest frequency starts, and the energy ledger; one
-// that the checkpoint lacks starts here.
+// (n_owned * 3) of a field (n_nodes * 3), or empty.
+std::vector<double> of_owned(std::span<const double> field, const Part& part) {
+  std::vector<double> mine;
+  for (std::int32_t i = 0; i < part.n_owned && !field.empty(); ++i) {
+    const auto at = field.subspan(3 * static_cast<std::size_t>(part.node_global[i]), 3);
+    mine.insert(mine.end(), at.begin(), at.end());
+  }
+  return mine;
+}
+
+// What the next watch starts from, and the energy ledger; one that the checkpoint lacks starts
+// here.
 void restore_searches(const Checkpoint& c, Simulation& s) {
-  for (std::int32_t i = 0; i < s.part.n_owned && !c.fastest_mode.empty(); ++i)
-    for (std::size_t k = 0; k < 3; ++k)
-      s.fastest_mode.push_back(
-          c.fastest_mode[3 * static_cast<std::size_t>(s.part.node_global[i]) + k]);
+  s.fastest_mode = of_owned(c.fastest_mode, s.part);
+  s.look.u = of_owned(c.looked_at, s.part);
+  s.look.is_done = !c.looked_at.empty();
   if (s.energy && c.has_energies)
     s.energy->memory = c.energy;
   else if (s.energy)
@@ -91,6 +102,9 @@ Checkpoint take_checkpoint(Simulation& s) {
   // A rank may own no node; a search may not have run.
   if (s.communicator->all_max(s.fastest_mode.empty() ? 0 : 1) > 0)
     c.fastest_mode = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.fastest_mode, *s.communicator);
+  if (s.look.is_done)
+    c.looked_at = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.look.u, *s.communicator);
+  if (s.sleep) c.sleep = gather_sleep(s);
   for (const CutStage& stage : s.cuts) c.cuts.push_back(memory_of(stage));
   return c;
 }
@@ -115,6 +129,7 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   std::vector<std::int32_t> itself(same.size());
   std::iota(itself.begin(), itself.end(), 0);
   restore_history(s.model, s.part, c.history, itself, same, s.state);
+  if (s.sleep) restore_sleep(c.sleep, s);
   for (std::size_t k = 0; k < s.cuts.size(); ++k) remember(c.cuts[k], s.cuts[k]);
   s.step_scale = c.step_scale;
   s.stable_step_before_cut = c.stable_step_before_cut;
@@ -134,12 +149,16 @@ FrameStart start_of_frame(const Simulation& s) {
           .holds = s.holds.holds,
           .is_open = s.holds.is_open,
           .fastest_mode = s.fastest_mode,
+          .look = s.look,
+          .sleep = s.sleep,
           .n_events = s.log.events.size(),
           .n_roll_backs = s.log.n_roll_backs};
 }
 
 Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start) {
   s.fastest_mode = start.fastest_mode;
+  s.look = start.look;
+  s.sleep = start.sleep;
   Checkpoint c = take_checkpoint(s);
   c.watch = start.watch;
   c.step_scale = start.step_scale;

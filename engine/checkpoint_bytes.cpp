@@ -95,8 +95,8 @@ static void visit(Archive& a, EnergyMemory& m) {
 }
 template <class Archive>
 static void visit(Archive& a, FrameRow& r) {
-  a(r.frame, r.step, r.n_substeps, r.time, r.dt, r.stable_step, r.least_J, r.energy, r.works,
-    r.energy_error, r.wound_width, r.wound_width_mean, r.n_contacts, r.n_held, r.n_edits,
+  a(r.frame, r.step, r.n_substeps, r.time, r.dt, r.stable_step, r.least_J, r.asleep, r.energy,
+    r.works, r.energy_error, r.wound_width, r.wound_width_mean, r.n_contacts, r.n_held, r.n_edits,
     r.n_pieces, r.tools, r.seconds);
 }
 template <class Archive>
@@ -117,8 +117,8 @@ template <class Archive>
 static void visit(Archive& a, Checkpoint& c) {
   a(c.version, c.simd, c.scene, c.body_crc, c.frame, c.digest, c.mesh, c.fixed, c.duplicate_parent,
     c.duplicate_node, c.time, c.last_dt, c.step, c.step_scale, c.stable_step_before_cut, c.watch,
-    c.holds, c.is_open, c.cuts, c.log, c.history, c.history_time, c.fastest_mode, c.has_energies,
-    c.energy, c.recordings);
+    c.holds, c.is_open, c.cuts, c.log, c.history, c.history_time, c.fastest_mode, c.looked_at,
+    c.sleep, c.has_energies, c.energy, c.recordings);
 }
 
 static void put_blob(ByteWriter& writer, const Blob& blob) {

@@ -99,17 +99,30 @@ void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
   add_work(s);
 }
 
-// All substeps of the frame; on trouble back to its beginning with half the step, at most
-// `most_roll_backs` times, and likewise with a smaller one if the tissue stiffened beyond it.
+FrameSpan run_substeps(Simulation& s) {
+  const FrameSpan span = plan_frame(s);
+  if (s.contact) detect(s, span);
+  if (!s.cuts.empty()) prepare_drag(s, span);
+  if (s.sleep) wake_touched(s);
+  if (s.energy) begin_frame_work(s);
+  for (std::int64_t k = 0; k < span.n_substeps; ++k) substep(s, span, k);
+  return span;
+}
+
+// All substeps of the frame, twice if they disturb what slept; on trouble back to its beginning
+// with half the step, at most `most_roll_backs` times, and likewise with a smaller one if the
+// tissue stiffened beyond it.
 FrameSpan step_safely(Simulation& s) {
   const State good = s.state;
   const Watch good_watch = s.watch;  // that of a failed frame holds no step to go on with
   for (int tries = 0;; ++tries) {
-    const FrameSpan span = plan_frame(s);
-    if (s.contact) detect(s, span);
-    if (!s.cuts.empty()) prepare_drag(s, span);
-    if (s.energy) begin_frame_work(s);
-    for (std::int64_t k = 0; k < span.n_substeps; ++k) substep(s, span, k);
+    FrameSpan span = run_substeps(s);
+    if (s.sleep && wake_disturbed(s)) {
+      finish_exchange(s.neighbours, s.state);
+      s.state = good;
+      forget_hold_reactions(s.holds);
+      span = run_substeps(s);
+    }
     watch_state(s);
     const std::string trouble = find_trouble(s);
     if (trouble.empty() && span.dt <= s.watch.stable_step) return span;
@@ -132,6 +145,7 @@ void run_frame(Simulation& s, Outputs& outputs) {
   if (s.energy) close_frame_work(s);
   FrameRow row = report_forces(s, span);
   if (!s.cuts.empty()) cut_along_blades(s, span);
+  if (s.sleep) fall_asleep(s);
   ++s.frame;
   if (needs_surface(s, outputs)) refresh_surface(s);
   report_state(s, row);

@@ -36,6 +36,7 @@ struct FrameRow {
   std::int64_t frame = 0, step = 0, n_substeps = 0;
   double time = 0, dt = 0, stable_step = 0;  // [s]
   double least_J = 1;
+  double asleep = 0;  // share of the nodes after the frame
   // Only with a metrics output [J]; what is held = what was held at the start + works + error.
   EnergyState energy;
   EnergyWorks works;

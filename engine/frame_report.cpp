@@ -75,6 +75,7 @@ FrameRow report_forces(Simulation& s, const FrameSpan& span) {
 void report_state(Simulation& s, FrameRow& row) {
   row.stable_step = s.watch.stable_step;
   row.least_J = s.watch.least_J;
+  if (s.sleep) row.asleep = s.sleep->share;
   if (s.energy) report_energies(s, row);
   if (!s.duplicate_node.empty()) report_wound(s, row);
   for (const CutStage& stage : s.cuts)

@@ -17,8 +17,9 @@ namespace {
 // The least of all ranks' values with its number; ties go to the lower number.
 void least_of_all(const Communicator& communicator, double& value, std::int32_t& number) {
   const double least = communicator.all_min(value);
-  const double mine = value == least && number >= 0 ? number : 1e18;
-  number = static_cast<std::int32_t>(std::min(communicator.all_min(mine), 2147483647.0));
+  constexpr double none = 1e18;
+  const double first = communicator.all_min(value == least && number >= 0 ? number : none);
+  number = first < none ? static_cast<std::int32_t>(first) : -1;
   value = least;
 }
 
@@ -32,9 +33,9 @@ void force_of(Simulation& s, State& probe, std::vector<double>& u, std::vector<d
   probe.u.swap(u);
 }
 
-// A search that ends leaves the step at 2 / omega less a margin; if it doesn't, the element bound
-// stays.
-void use_frequency(Simulation& s) {
+// 2 / omega less a margin; 0 if the search doesn't end.
+double step_of_frequency(Simulation& s) {
+  if (s.sleep) show_awake(s);  // the step must do when they wake
   State probe = s.state;
   FrequencyOptions options;
   // Small beside an element, large beside the rounding of the elements' numbers.
@@ -44,8 +45,48 @@ void use_frequency(Simulation& s) {
       s.model, s.part, s.state,
       [&](std::vector<double>& u, std::vector<double>& force) { force_of(s, probe, u, force); },
       options, *s.communicator, s.fastest_mode);
-  if (found.is_converged)
-    s.watch.stable_step = std::max(s.watch.stable_step, 2 / (frequency_margin * found.omega));
+  if (s.sleep) show_asleep(s);
+  return found.is_converged ? 2 / (frequency_margin * found.omega) : 0;
+}
+
+// Whether all is finite.
+bool watch_nodes(Simulation& s) {
+  constexpr double none = 1e18;
+  const std::int32_t mine = first_bad_node(s.model, s.part, s.state);
+  const double bad = s.communicator->all_min(mine < 0 ? none : mine);
+  s.watch.is_finite = bad >= none;
+  s.watch.bad_node = s.watch.is_finite ? -1 : static_cast<std::int32_t>(bad);
+  return s.watch.is_finite;
+}
+
+// Whether elements may have other strains than at the last look.
+bool may_look_different(const Simulation& s) {
+  const ElementLook& look = s.look;
+  const double reach = look.reach * std::min(1.0, s.watch.least_J);
+  int has_moved = look.is_done ? 0 : 1;
+  for (std::size_t k = 0; k < look.u.size(); ++k)
+    has_moved |= std::abs(s.state.u[k] - look.u[k]) > reach ? 1 : 0;
+  return s.communicator->all_max(has_moved) > 0;
+}
+
+void take_least(Simulation& s, Watch w) {
+  least_of_all(*s.communicator, w.stable_step, w.stable_element);
+  least_of_all(*s.communicator, w.least_J, w.least_J_element);
+  s.watch = w;
+}
+
+// The elements' own bounds take as long as several steps. They are at most what they were at rest,
+// so that they matter at the first look, where they name an element, and where omega allows less.
+void watch_elements(Simulation& s) {
+  const bool by_frequency = s.scene.solver.stable_step == StableStep::frequency;
+  const bool has_bounds = !by_frequency || !s.look.is_done;
+  take_least(
+      s, has_bounds ? watch(s.model, s.part, s.state) : watch_volumes(s.model, s.part, s.state));
+  const double step = by_frequency && s.watch.least_J > 0 ? step_of_frequency(s) : 0;
+  if (!has_bounds && step < s.rest_step) take_least(s, watch(s.model, s.part, s.state));
+  s.watch.stable_step = std::max(s.watch.stable_step, step);
+  s.look.u.assign(s.state.u.begin(), s.state.u.begin() + 3 * std::ptrdiff_t{s.model.n_owned});
+  s.look.is_done = true;
 }
 
 }  // namespace
@@ -59,21 +100,11 @@ double largest_speed(const Simulation& s) {
 
 void watch_state(Simulation& s) {
   const PhaseScope scope(s.timers, phase_watch);
-  update_volume_change(s.model, s.neighbours, s.state, s.scratch);
-  Watch w = watch(s.model, s.part, s.state);
-  const Communicator& communicator = *s.communicator;
-  const double bad = communicator.all_min(w.is_finite ? 1e18 : static_cast<double>(w.bad_node));
-  w.is_finite = bad > 9e17;
-  w.bad_node = w.is_finite ? -1 : static_cast<std::int32_t>(bad);
-  if (!w.is_finite) {  // steps and J of a broken state mean nothing
-    s.watch.is_finite = false;
-    s.watch.bad_node = w.bad_node;
-    return;
-  }
-  least_of_all(communicator, w.stable_step, w.stable_element);
-  least_of_all(communicator, w.least_J, w.least_J_element);
-  s.watch = w;
-  if (s.scene.solver.stable_step == StableStep::frequency && w.least_J > 0) use_frequency(s);
+  finish_exchange(s.neighbours, s.state);
+  if (!watch_nodes(s)) return;  // steps and J of a broken state mean nothing
+  const bool is_new = may_look_different(s);
+  if (is_new || s.energy) update_volume_change(s.model, s.neighbours, s.state, s.scratch);
+  if (is_new) watch_elements(s);
 }
 
 std::string find_trouble(const Simulation& s) {
@@ -101,7 +132,8 @@ std::string go_back(Simulation& s, const std::string& trouble, int tries) {
                           std::to_string(tries) +
                           " roll-backs with smaller steps did not help: slower instruments, a "
                           "finer mesh or a lower poisson_ratio may");
-  for (Vec3& sum : s.holds.reaction_sum) sum = Vec3::Zero();
+  forget_hold_reactions(s.holds);
+  s.look.is_done = false;  // it was of a state that is gone
   return "rolled back: " + trouble;
 }
 

@@ -13,8 +13,13 @@ inline constexpr int most_roll_backs = 4;
 // supports ran 11 minutes for one frame. Sound runs stay above 1/10.
 inline constexpr double crushed_step = 0.01;
 
-// Sets s.watch to that of all ranks, and volume changes averaged at nodes to those of the present
-// displacement; ends the last step's exchange. Collective.
+// Strain since the last look at the elements below which they are not looked at again: det F and
+// the stable step, which has the margin of solver.step_factor, differ by less than a percent.
+inline constexpr double unseen_strain = 2e-3;
+
+// Sets s.watch to that of all ranks: nodes always, elements if they may have been strained. Ends
+// the last step's exchange; with an energy ledger, volume changes averaged at nodes become those of
+// the present displacement. Collective.
 void watch_state(Simulation& s);
 // Of all nodes of all ranks. Collective. [m/s]
 double largest_speed(const Simulation& s);

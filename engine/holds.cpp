@@ -107,6 +107,10 @@ void add_hold_reactions(Holds& holds) {
     holds.reaction_sum[k] += holds.prescribed[k].reaction;
 }
 
+void forget_hold_reactions(Holds& holds) {
+  std::fill(holds.reaction_sum.begin(), holds.reaction_sum.end(), Vec3::Zero());
+}
+
 void sum_hold_reactions(Holds& holds, std::int64_t n_substeps,
                         std::span<std::array<ExactSum, 3>> force) {
   for (std::size_t k = 0; k < holds.owned.size(); ++k) {

@@ -52,6 +52,8 @@ void apply_edit_to_holds(const MeshEdit& edit, std::int32_t n_nodes_before, Hold
 void aim_holds(Holds& holds, std::span<const Tool> tools, std::span<const Vec3> X, double time);
 // After integrate: adds the reactions to reaction_sum.
 void add_hold_reactions(Holds& holds);
+// Of a frame that is done again.
+void forget_hold_reactions(Holds& holds);
 // Mean force of the tissue on each tool through its holds, over n substeps; adds to force
 // (n_tools), exact in any order.
 void sum_hold_reactions(Holds& holds, std::int64_t n_substeps,

@@ -74,6 +74,7 @@ struct SceneSolver {
   double step_factor = 0.85;  // below 0.866: see docs/stability.md
   StableStep stable_step = StableStep::frequency;
   double mass_scaling_step = 0;  // [s], 0: none
+  double sleep = 0;              // [m], 0: never
   Precision precision = Precision::in_double;
   Formulation triangle = Formulation::tri3_plane_strain;
   Formulation tetrahedron = Formulation::tet4;

@@ -26,6 +26,16 @@ void check_tissue(const Scene& scene, const SourceMap& where) {
     where.fail("tissue.shape", "each component of low must be below that of high");
 }
 
+// A history of strains can't be left out.
+void check_sleep(const Scene& scene, const SourceMap& where) {
+  if (scene.solver.sleep == 0) return;
+  bool is_viscoelastic = !scene.tissue.material.prony.empty();
+  for (const SceneRegionMaterial& other : scene.tissue.region_materials)
+    is_viscoelastic |= !other.material.prony.empty();
+  if (is_viscoelastic)
+    where.fail("solver.sleep", "viscoelastic tissue (prony) can't sleep: leave out one of them");
+}
+
 void complete_materials(SceneTissue& tissue, const SourceMap& where) {
   complete_material(where, "tissue.material", tissue.material);
   for (std::size_t k = 0; k < tissue.region_materials.size(); ++k)
@@ -145,6 +155,7 @@ LoadedScene load_scene(const std::string& file, const std::vector<std::string>& 
   const Scene& scene = located.value;
   check_time(scene, located.where);
   check_tissue(scene, located.where);
+  check_sleep(scene, located.where);
   complete_materials(located.value.tissue, located.where);
   check_supports(scene, located.where);
   check_instruments(located.value, located.where);

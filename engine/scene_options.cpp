@@ -120,6 +120,10 @@ Options<SceneSolver> solver_options() {
            "Selective mass scaling: undeformed elements whose own bound on the step is below this "
            "get inertia against deformation, not against motion as a whole, until they reach it. "
            "0: none.");
+  s.number("sleep", &SceneSolver::sleep, dim::length, not_negative,
+           "Largest error of displacements that may come from leaving out what is at rest: who "
+           "stays within a sixteenth of it for half a second sleeps until its surroundings move or "
+           "are touched. Not for viscoelastic tissue. 0: nothing sleeps.");
   return s;
 }
 

@@ -17,6 +17,7 @@
 #include "engine/frame_log.h"
 #include "engine/holds.h"
 #include "engine/scene.h"
+#include "engine/sleep.h"
 #include "engine/surface_view.h"
 #include "engine/tool.h"
 #include "mesh/facets.h"
@@ -62,6 +63,13 @@ struct Equilibrium {
   double seconds = 0;
 };
 
+// Where the elements were last looked at (frame_watch.h).
+struct ElementLook {
+  bool is_done = false;
+  std::vector<double> u;  // (n_owned * 3) [m]
+  double reach = 0;       // of a node that strains its elements by less than unseen_strain [m]
+};
+
 struct Simulation {
   Communicator* communicator = nullptr;  // owned by main
   Scene scene;
@@ -98,8 +106,10 @@ struct Simulation {
   double contact_reach = 0;      // how far tissue may come towards a tool within a frame [m]
   double start_seconds = 0;      // monotonic clock at time zero of the scene
   std::unique_ptr<EnergyLedger> energy;  // only with a metrics output
+  std::optional<Sleep> sleep;            // only if the scene asks for it
   double step_scale = 1;                 // halved by each roll-back
   Watch watch;                           // of the last frame, over all ranks
+  ElementLook look;
   double rest_step = 0;  // least element bound of the undeformed mesh, over all ranks [s]
   // Only with stable_step = "frequency": the mode (n_owned * 3) found last, where the next search
   // starts, and the mean edge [m].

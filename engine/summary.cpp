@@ -97,6 +97,12 @@ Json latency_json(const Simulation& s) {
           {"worst", quantile(seconds, 1)}};
 }
 
+double mean_share_asleep(const std::vector<FrameRow>& rows) {
+  double sum = 0;
+  for (const FrameRow& row : rows) sum += row.asleep;
+  return rows.empty() ? 0 : sum / static_cast<double>(rows.size());
+}
+
 Json tools_json(const Simulation& s) {
   Json tools;
   for (std::size_t k = 0; k < s.tools.size(); ++k) {
@@ -203,6 +209,7 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   j["deadlines_missed"] = s.log.n_deadlines_missed;
   j["frame_latency_ms"] = latency_json(s);
   j["roll_backs"] = s.log.n_roll_backs;
+  if (s.sleep) j["share_asleep_mean"] = mean_share_asleep(s.log.rows);
   j["least_det_F"] = {{"value", s.log.least_J}, {"element", s.log.least_J_element}};
   j["instruments"] = tools_json(s);
   j["wound"] = {{"partner_nodes", s.duplicate_node.size()},

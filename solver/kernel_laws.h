@@ -56,6 +56,19 @@ struct LawLoops {
     });
   }
 
+  static void least_volume(const BlockTask& task, double* J) {
+    for_groups<Pack>(task, [&](const Group<Pack>& group, std::int64_t block, int lane) {
+      const auto law = law_of_kind<kind>(Law<Material, Pack>{group.value}, task, group);
+      Pack least = zero_of(group.value(0));
+      for (std::int64_t k = 0; k < task.n_points; ++k) {
+        const Tensor<Pack> H = law.full_strain(group.stash.get_tensor(k));
+        const Pack j = volume_change(H, cofactor(H));
+        least = k == 0 ? j : (least < j ? least : j);
+      }
+      store_in_double(J + block * lanes + lane, Pack(1.0 + least));
+    });
+  }
+
   // The bound of elements with several points grows at most as at the worst one.
   static void watch(const BlockTask& task, double* J, double* stiffening) {
     for_groups<Pack>(task, [&](const Group<Pack>& group, std::int64_t block, int lane) {
@@ -88,7 +101,10 @@ LawKernels law_kernels() {
   LawKernels kernels{};
   if constexpr (kind != LawKind::averaged_pressure || Material::is_decoupled) {
     using Loops = LawLoops<Pack, Material, kind>;
-    kernels = {.stress = Loops::stress, .energy = Loops::energy, .watch = Loops::watch};
+    kernels = {.stress = Loops::stress,
+               .energy = Loops::energy,
+               .least_volume = Loops::least_volume,
+               .watch = Loops::watch};
     if constexpr (kind != LawKind::plane_stress) kernels.viscous_stress = Loops::viscous_stress;
   }
   return kernels;

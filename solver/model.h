@@ -170,6 +170,9 @@ struct Scratch {
   std::vector<double> cluster_sums;
   std::vector<double> uncoupled;     // force, while predict couples clusters
   std::vector<ViscousStep> viscous;  // (block lists) of the step that is being computed
+  // Empty, or (blocks through all lists) 1: all its nodes have zero velocity and nobody asks for
+  // their forces, so that it is left out.
+  std::vector<std::uint8_t> is_asleep;
 };
 Scratch make_scratch(const Model& model);
 

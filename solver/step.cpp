@@ -45,6 +45,19 @@ NodeForces node_forces(const Model& model, Scratch& scratch) {
           .force = scratch.force.data()};
 }
 
+// Calls body(begin, end) for the runs of blocks within [begin, end) that don't sleep.
+template <class Body>
+void for_awake_blocks(const Scratch& scratch, std::int64_t begin, std::int64_t end,
+                      const Body& body) {
+  if (scratch.is_asleep.empty()) return body(begin, end);
+  while (begin < end) {
+    std::int64_t next = begin;
+    while (next < end && scratch.is_asleep[next] == 0) ++next;
+    if (begin < next) body(begin, next);
+    begin = next + 1;
+  }
+}
+
 // The blocks of one run, and the nodes that only they meet.
 void compute_run(const Model& model, std::int64_t run, State& state, Scratch& scratch) {
   const SumOrder& sums = model.sums;
@@ -53,10 +66,12 @@ void compute_run(const Model& model, std::int64_t run, State& state, Scratch& sc
   std::int32_t k = sums.run_first[run];
   for (std::int64_t block = sums.run_block[run]; block < end; block += stride_blocks) {
     const std::int64_t next = std::min(end, block + stride_blocks);
-    for_block_range(model, block, next,
-                    [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
-                      add_list(model, blocks, first, n, state, scratch);
-                    });
+    for_awake_blocks(scratch, block, next, [&](std::int64_t begin, std::int64_t awake_end) {
+      for_block_range(model, begin, awake_end,
+                      [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
+                        add_list(model, blocks, first, n, state, scratch);
+                      });
+    });
     const std::int32_t first = k;
     while (k < sums.run_first[run + 1] && sums.last_block[k] < next) ++k;
     active_kernels().nodes.force(nodes, sums.node.data() + first, k - first);

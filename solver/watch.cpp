@@ -45,6 +45,28 @@ void take_element(double undeformed_step, double J, double stiffening, std::int3
 
 constexpr std::int64_t batch_blocks = 16;
 
+// Calls body(lane, element) for those of n blocks from `first` on that are not padding.
+template <class Body>
+void for_elements(const ElementBlocks& blocks, std::int64_t first, std::int64_t n,
+                  const Body& body) {
+  const std::int64_t n_lanes = std::min(n * blocks.lanes, blocks.n_elements - first * blocks.lanes);
+  for (std::int64_t lane = 0; lane < n_lanes; ++lane)
+    body(lane, blocks.element_local[first * blocks.lanes + lane]);
+}
+
+void take_volumes(const Model& model, const Part& part, const State& state,
+                  const ElementBlocks& blocks, std::int64_t first, std::int64_t n,
+                  LeastOfElements& least) {
+  std::array<double, batch_blocks * lanes_of_block<float>> J;
+  for_strained_blocks(model, blocks, state, first, n,
+                      [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
+                        kernels.law.least_volume(task, J.data() + (block - first) * blocks.lanes);
+                      });
+  for_elements(blocks, first, n, [&](std::int64_t lane, std::int32_t k) {
+    least.J.take(std::isfinite(J[lane]) ? J[lane] : -infinity, part.element_global[k]);
+  });
+}
+
 void take_blocks(const Model& model, const Part& part, const State& state,
                  const ElementBlocks& blocks, std::int64_t first, std::int64_t n,
                  LeastOfElements& least) {
@@ -54,15 +76,16 @@ void take_blocks(const Model& model, const Part& part, const State& state,
                         const std::int64_t at = (block - first) * blocks.lanes;
                         kernels.law.watch(task, J.data() + at, stiffening.data() + at);
                       });
-  const std::int64_t n_lanes = std::min(n * blocks.lanes, blocks.n_elements - first * blocks.lanes);
-  for (std::int64_t lane = 0; lane < n_lanes; ++lane) {
-    const std::int32_t k = blocks.element_local[first * blocks.lanes + lane];
+  for_elements(blocks, first, n, [&](std::int64_t lane, std::int32_t k) {
     const double growth = std::max(1.0, stiffening[lane] / blocks.stiffening_at_rest);
     take_element(model.element_step[k], J[lane], growth, part.element_global[k], least);
-  }
+  });
 }
 
-LeastOfElements least_of_elements(const Model& model, const Part& part, const State& state) {
+// take: take_blocks or take_volumes.
+template <class Take>
+LeastOfElements least_of_elements(const Model& model, const Part& part, const State& state,
+                                  const Take& take) {
   LeastOfElements all;
   std::mutex mutex;
   parallel_for(count_blocks(model), [&](std::int64_t begin, std::int64_t end) {
@@ -70,7 +93,7 @@ LeastOfElements least_of_elements(const Model& model, const Part& part, const St
     for (std::int64_t at = begin; at < end; at += batch_blocks)
       for_block_range(model, at, std::min(end, at + batch_blocks),
                       [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
-                        take_blocks(model, part, state, blocks, first, n, least);
+                        take(model, part, state, blocks, first, n, least);
                       });
     const std::scoped_lock lock(mutex);
     all.step.take(least.step.value, least.step.number);
@@ -86,18 +109,11 @@ bool is_sane(double x) {
   return std::abs(x) < limit;  // false for NaN
 }
 
-std::int32_t first_bad_node(const Model& model, const Part& part, const State& state) {
-  for (std::size_t k = 0; k < 3 * static_cast<std::size_t>(model.n_owned); ++k)
-    if (!is_sane(state.u[k]) || !is_sane(state.v[k])) return part.node_global[k / 3];
-  return -1;
-}
-
-}  // namespace
-
-Watch watch(const Model& model, const Part& part, const State& state) {
+template <class Take>
+Watch watch_with(const Model& model, const Part& part, const State& state, const Take& take) {
   CHECK_OP(part.n_local(), ==, model.n_local);
   CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
-  const LeastOfElements least = least_of_elements(model, part, state);
+  const LeastOfElements least = least_of_elements(model, part, state, take);
   Watch w;
   w.stable_step = least.step.value;
   w.stable_element = least.step.number;
@@ -106,6 +122,24 @@ Watch watch(const Model& model, const Part& part, const State& state) {
   w.bad_node = first_bad_node(model, part, state);
   w.is_finite = w.bad_node < 0;
   return w;
+}
+
+}  // namespace
+
+Watch watch(const Model& model, const Part& part, const State& state) {
+  return watch_with(model, part, state, take_blocks);
+}
+
+Watch watch_volumes(const Model& model, const Part& part, const State& state) {
+  Watch w = watch_with(model, part, state, take_volumes);
+  w.stable_step = 0;
+  return w;
+}
+
+std::int32_t first_bad_node(const Model& model, const Part& part, const State& state) {
+  for (std::size_t k = 0; k < 3 * static_cast<std::size_t>(model.n_owned); ++k)
+    if (!is_sane(state.u[k]) || !is_sane(state.v[k])) return part.node_global[k / 3];
+  return -1;
 }
 
 }  // namespace trocar

@@ -24,6 +24,10 @@ struct Watch {
 // Of state.theta and state.u, see average_volume_change. Ties go to the lower global element
 // number.
 Watch watch(const Model& model, const Part& part, const State& state);
+// The same without the stable step (0, element -1), which is most of the work.
+Watch watch_volumes(const Model& model, const Part& part, const State& state);
+// Global number of the first owned node with a value that is not finite or too large, -1 if none.
+std::int32_t first_bad_node(const Model& model, const Part& part, const State& state);
 
 // Energies of single items, so that engine can add them exactly in any order. [J]
 struct EnergyTerms {

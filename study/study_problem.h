@@ -17,6 +17,7 @@ struct Case {
   Precision precision = Precision::in_double;
   double step_factor = 0.9;  // time step / stable step, where there is time
   int n = 4;                 // cells along the edge that the problem names; index of a mesh file
+  double sleep = 0;          // scenes: solver.sleep [m]
 };
 
 struct Outcome {
@@ -41,6 +42,7 @@ struct Problem {
   double growth = 4;                             // cost ~ n^growth
   std::vector<Method> methods;                   // that can compute it
   std::vector<double> factors;                   // of the default sweep
+  std::vector<double> sleeps = {0};              // scenes: solver.sleep [m]
   std::function<std::string(int n)> size_label;  // empty: "n = 8"
   std::function<Outcome(const Case&)> solve;
 

@@ -50,6 +50,7 @@ LoadedScene scene_of(const SceneStudy& study, const Case& c) {
   SceneTissue& tissue = loaded.scene.tissue;
   SceneSolver& solver = loaded.scene.solver;
   solver.step_factor = c.step_factor;
+  solver.sleep = c.sleep;
   solver.precision = c.precision;
   Formulation* const of_shape[] = {&solver.triangle, &solver.tetrahedron, &solver.hexahedron};
   *of_shape[static_cast<int>(shape_of(c.method.formulation))] = c.method.formulation;
@@ -117,6 +118,18 @@ Outcome solve(const SceneStudy& study, const Case& c) {
   return outcome;
 }
 
+// Read as the scene's own key is, with all its checks.
+std::vector<double> sleeps_of(const SceneStudyOptions& options, const SceneStudy& study) {
+  if (options.sleeps.empty()) return {study.loaded.scene.solver.sleep};
+  std::vector<double> sleeps;
+  for (const std::string& sleep : options.sleeps) {
+    std::vector<std::string> overrides = options.overrides;
+    overrides.push_back("solver.sleep='" + sleep + "'");
+    sleeps.push_back(load_scene(options.scene_file, overrides).scene.solver.sleep);
+  }
+  return sleeps;
+}
+
 std::vector<int> sizes_of(const SceneStudy& study, const std::vector<int>& wanted) {
   std::vector<int> sizes;
   if (study.has_shape()) {
@@ -178,6 +191,7 @@ Problem problem_of_scene(const SceneStudyOptions& options, Communicator& communi
   problem.name = std::filesystem::path(options.scene_file).stem().string();
   describe(*study, problem);
   problem.sizes = sizes_of(*study, options.sizes);
+  problem.sleeps = sleeps_of(options, *study);
   Case coarsest{.n = *std::min_element(problem.sizes.begin(), problem.sizes.end())};
   if (study->has_shape() && study->loaded.scene.tissue.shape->elements != ElementKind::hex8)
     coarsest.method.elements = BoxElements::tet4_kuhn;

@@ -15,6 +15,7 @@ struct SceneStudyOptions {
   std::vector<std::string> overrides;  // "key.path=value"
   // Coarse to fine, for scenes whose body is a mesh file; relative to the working folder.
   std::vector<std::string> meshes;
+  std::vector<std::string> sleeps;  // solver.sleep: "0", "0.1 mm"; empty: the scene's
   std::vector<int>
       sizes;  // cells along the direction with most, for generated bodies; may be empty
 };

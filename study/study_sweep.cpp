@@ -17,7 +17,7 @@ namespace {
 struct Curve {
   Method method;
   Precision precision;
-  double step_factor;
+  double step_factor, sleep;
 };
 
 std::vector<Method> wanted_methods(const Problem& problem, const SweepOptions& options) {
@@ -42,7 +42,9 @@ std::vector<Curve> curves_of(const Problem& problem, const SweepOptions& options
   std::vector<Curve> curves;
   for (const Method& method : wanted_methods(problem, options))
     for (const Precision precision : precisions)
-      for (const double factor : factors) curves.push_back({method, precision, factor});
+      for (const double factor : factors)
+        for (const double sleep : problem.sleeps)
+          curves.push_back({method, precision, factor, sleep});
   return curves;
 }
 
@@ -66,9 +68,10 @@ Run run_case(const Problem& problem, const Curve& curve, int n, int repeats) {
           .precision = precision_name(curve.precision),
           .size = problem.size_label ? problem.size_label(n) : "n = " + std::to_string(n),
           .step_factor = problem.is_static() ? 0 : curve.step_factor,
+          .sleep = curve.sleep,
           .n = n};
-  run.outcome =
-      solve_repeatedly(problem, {curve.method, curve.precision, curve.step_factor, n}, repeats);
+  run.outcome = solve_repeatedly(
+      problem, {curve.method, curve.precision, curve.step_factor, n, curve.sleep}, repeats);
   return run;
 }
 
@@ -130,14 +133,32 @@ void rate_scene(Study& study) {
       run.error = largest_difference(run.outcome.samples, finest->outcome.samples) / problem.length;
 }
 
+// What sleep alone changed, run by run: meshes differ by more than that.
+void note_sleep(Study& study) {
+  for (const Run& run : study.runs)
+    for (const Run& awake : study.runs) {
+      const bool is_twin = run.sleep > 0 && awake.sleep == 0 && awake.method == run.method &&
+                           awake.precision == run.precision && awake.n == run.n &&
+                           awake.step_factor == run.step_factor;
+      if (is_twin && is_sound(run) && is_sound(awake))
+        study.notes.push_back(
+            method_text(run) + ", " + run.size + ": at most " +
+            length_text(largest_difference(run.outcome.samples, awake.outcome.samples)) +
+            " from the same run without sleep, " + significant(cost_of(study, run), 3) +
+            " s a simulated second instead of " + significant(cost_of(study, awake), 3) + " s");
+    }
+}
+
 }  // namespace
 
 void rate(Study& study) {
   const Problem& problem = study.problem;
-  if (problem.is_scene())
+  if (problem.is_scene()) {
     rate_scene(study);
-  else
+    note_sleep(study);
+  } else {
     for (Run& run : study.runs) run.error = std::abs(run.outcome.value / problem.reference - 1);
+  }
   for (Run& run : study.runs) {
     if (!is_sound(run)) run.error = std::numeric_limits<double>::infinity();
     run.is_at_reference = run.error < problem.reference_error;
@@ -183,6 +204,7 @@ bool is_sound(const Run& run) {
 std::string method_text(const Run& run) {
   std::string text = run.method + " " + run.precision;
   if (run.step_factor > 0) text += ", step factor " + significant(run.step_factor, 3);
+  if (run.sleep > 0) text += ", sleep " + length_text(run.sleep);
   return text;
 }
 

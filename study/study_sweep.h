@@ -23,6 +23,7 @@ inline constexpr double short_run = 0.3;  // [s]
 struct Run {
   std::string method, precision, size;  // "hex8", "double", "n = 8"
   double step_factor = 0;               // 0: static
+  double sleep = 0;                     // [m]
   int n = 0;
   Outcome outcome;
   double error = 0;              // relative, not below the reference's own; infinite if broken
@@ -44,7 +45,7 @@ Study sweep(const Problem& problem, const SweepOptions& options);
 void rate(Study& study);
 
 bool is_sound(const Run& run);
-// "hex8 single, step factor 0.9"
+// "hex8 single, step factor 0.9, sleep 0.1 mm"
 std::string method_text(const Run& run);
 // Processor seconds per simulated second; of the whole run where nothing moves in time.
 double cost_of(const Study& study, const Run& run);

@@ -22,6 +22,7 @@ Json row_of(const Study& study, const Run& run) {
   row["elements"] = run.method;
   row["precision"] = run.precision;
   row["step_factor"] = is_static ? Json() : Json(run.step_factor);
+  row["sleep_m"] = study.problem.is_scene() ? Json(run.sleep) : Json();
   row["size"] = run.size;
   row["h_m"] = o.h;
   row["dt_s"] = is_static ? Json() : Json(o.dt);

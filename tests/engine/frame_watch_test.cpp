@@ -7,6 +7,8 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "engine_files.h"
+#include "engine_started.h"
+#include "solver_body.h"
 
 namespace trocar {
 namespace {
@@ -19,6 +21,64 @@ Simulation sound_simulation() {
   s.watch.least_J_element = 7;
   s.scene.time.frame_rate = 30;
   return s;
+}
+
+// Irregular tetrahedra or hexahedra, with what they are looked at for.
+std::unique_ptr<Started> block_of(const std::string& elements) {
+  return built(R"([time]
+duration = "1 s"
+[tissue.shape]
+kind = "box"
+cells = [4, 4, 4]
+[tissue.material]
+young_modulus = "3 kPa"
+poisson_ratio = 0.45
+)",
+               {"tissue.shape.elements='" + elements + "'"});
+}
+
+// The corners of an element that move as far as they may, in random directions.
+TEST(WatchState, leaves_elements_alone_while_their_strains_cannot_be_seen) {
+  for (const std::string elements : {"hex8", "tet4-kuhn"}) {
+    const auto run = block_of(elements);
+    Simulation& s = *run->s;
+    const Watch at_rest = s.watch;
+    s.watch.least_J_element = 4711;  // any look would find another
+    Noise noise(3);
+    for (double& u : s.state.u) u = noise() < 0 ? -s.look.reach : s.look.reach;
+    watch_state(s);
+    EXPECT_EQ(s.watch.least_J_element, 4711);
+    s.look.is_done = false;
+    watch_state(s);
+    EXPECT_NE(s.watch.least_J_element, 4711);
+    EXPECT_NEAR(s.watch.least_J, 1, 3.01 * unseen_strain);  // det (I + H) = 1 + tr H + ...
+    EXPECT_LT(s.watch.least_J, 1 - 0.2 * unseen_strain);    // the bound is not idle
+    // A percent, and what a search may stop short of (frequency_margin).
+    EXPECT_NEAR(s.watch.stable_step / at_rest.stable_step, 1, 0.03);
+  }
+}
+
+TEST(WatchState, looks_at_elements_again_once_a_node_has_left) {
+  const auto run = block_of("hex8");
+  Simulation& s = *run->s;
+  s.watch.least_J_element = 4711;
+  s.state.u[0] = 1.01 * s.look.reach;
+  watch_state(s);
+  EXPECT_NE(s.watch.least_J_element, 4711);
+  EXPECT_EQ(s.look.u[0], s.state.u[0]);
+}
+
+// As if the body had stiffened: bounds are read, which name an element, once omega allows less than
+// they did at rest, and else they aren't.
+TEST(WatchState, reads_the_elements_bounds_only_where_they_may_be_needed) {
+  const auto run = block_of("tet4-kuhn");
+  Simulation& s = *run->s;
+  for (const double stiffer : {1., 1e3}) {
+    s.rest_step *= stiffer;
+    s.state.u[0] += 2 * s.look.reach;
+    watch_state(s);
+    EXPECT_EQ(s.watch.stable_element >= 0, stiffer > 1);
+  }
 }
 
 TEST(FindTrouble, is_silent_while_all_is_well) {

@@ -20,6 +20,10 @@ std::string digest_of(const std::string& scene, const std::vector<std::string>& 
   EXPECT_EQ(summary["threads"], threads);
   std::string digest = summary["state_digest"];
   for (const auto& cut : summary["cuts"]) digest += " cut " + cut["nodes_duplicated"].dump();
+  if (summary.contains("share_asleep_mean")) {
+    EXPECT_GT(summary["share_asleep_mean"], 0.05);
+    digest += " asleep " + summary["share_asleep_mean"].dump();
+  }
   return digest;
 }
 
@@ -71,6 +75,34 @@ TEST(StateDigest, of_a_start_in_equilibrium_is_the_same_on_any_ranks_and_threads
 
 TEST(StateDigest, with_scaled_masses_is_the_same_on_any_ranks_and_threads_while_it_is_cut) {
   expect_one_digest("plane_cut.toml", {"time.duration='2 s'", "solver.mass_scaling_step='0.5 ms'"});
+}
+
+// At rest at first, then pressed and pulled.
+TEST(StateDigest, with_sleep_is_the_same_on_any_ranks_and_threads) {
+  for (const std::string precision : {"double", "single"})
+    expect_one_digest("block_hex.toml",
+                      {"tissue.shape.cells=[8,8,8]", "start.state='equilibrium'",
+                       "solver.sleep='0.2 mm'", "solver.precision='" + precision + "'"});
+}
+
+// Asleep until the blade comes; hexahedra become tetrahedra.
+TEST(StateDigest, with_sleep_is_the_same_on_any_ranks_and_threads_while_hexahedra_are_cut) {
+  expect_one_digest("block_hex_cut.toml",
+                    {"time.duration='1.3 s'", "start.state='equilibrium'", "solver.sleep='0.2 mm'",
+                     "instrument=[{kind='scalpel', blade_length='30 mm', path=["
+                     "{time='0.7 s', position=['-35 mm','-9 mm','60 mm'], direction=[0,0.2,-1], "
+                     "forward=[0.94,0.34,0]},"
+                     "{time='0.9 s', position=['-24 mm','-5 mm','22 mm'], direction=[0,0.2,-1], "
+                     "forward=[0.94,0.34,0]},"
+                     "{time='1.3 s', position=['8 mm','6.6 mm','22 mm'], direction=[0,0.2,-1], "
+                     "forward=[0.94,0.34,0]}]}]"});
+}
+
+// Asleep before and after the cut, which leaves elements whose masses are scaled.
+TEST(StateDigest, with_sleep_and_scaled_masses_is_the_same_on_any_ranks_and_threads) {
+  expect_one_digest("plane_cut.toml",
+                    {"time.duration='3.6 s'", "support=[{region='x-'},{region='x+'}]",
+                     "solver.mass_scaling_step='0.5 ms'", "solver.sleep='0.5 mm'"});
 }
 
 // Steps a second of the same frames are doubled: messages follow, what all ranks say together does

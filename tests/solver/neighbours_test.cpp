@@ -4,27 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <limits>
-#include <new>
 
+#include "allocation_count.h"
 #include "solver_ranks.h"
 
 using namespace trocar;
-
-// Every allocation of this program by new.
-static std::int64_t n_allocations = 0;
-[[gnu::noinline]] void* operator new(std::size_t n) {
-  ++n_allocations;
-  if (void* p = std::malloc(n)) return p;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
 
 static Body first_of_two(const Mesh& mesh, const SolverOptions& solver) {
   Body body = make_body(mesh, options_for(mesh, solver), partition_nodes(mesh, 2), 0);

@@ -150,6 +150,19 @@ TEST(Watch, an_element_of_broken_nodes_has_no_stable_step) {
   EXPECT_LT(look(body).least_J, 0);
 }
 
+TEST(Watch, of_volumes_alone_finds_the_same_least_J) {
+  for (const Formulation formulation : all_formulations())
+    for (const double squeeze : {.3, 1.}) {  // below and above the floor of volume
+      Body body = cube(formulation, MaterialModel::neo_hookean, .3);
+      displace(body, [&](const Vec3& X) { return Vec3((squeeze - 1) * X); });
+      shake(body.state.u, 3e-4, 5);
+      const Watch whole = look(body), volumes = watch_volumes(body.model, body.part, body.state);
+      EXPECT_EQ(volumes.least_J, whole.least_J) << name_of(formulation);
+      EXPECT_EQ(volumes.least_J_element, whole.least_J_element) << name_of(formulation);
+      EXPECT_TRUE(volumes.is_finite);
+    }
+}
+
 TEST(EnergyTerms, kinetic_energy_is_that_of_the_lumped_masses) {
   Body body = cube(Formulation::hex8_one_point, MaterialModel::neo_hookean, .3);
   for (std::size_t k = 0; k < body.state.v.size(); k += 3) body.state.v[k] = 2;

@@ -7,6 +7,7 @@
 #include "mesh/mesh_file.h"
 #include "mesh_temporary_folder.h"
 #include "study/study_sweep.h"
+#include "study/study_text.h"
 
 namespace trocar {
 namespace {
@@ -40,6 +41,33 @@ TEST(StudyScene, errors_fall_with_the_cells_and_are_small_beside_the_motion) {
   EXPECT_LT(study.runs[2].error, .2);
   EXPECT_EQ(study.runs[0].outcome.n_elements, 1 * 1 * 2);
   EXPECT_EQ(study.runs[4].outcome.n_elements, 4 * 4 * 8);
+}
+
+TEST(StudyScene, measures_the_error_that_sleep_brings_on_one_mesh) {
+  const TemporaryFolder folder;
+  Communicator alone;
+  const Problem problem =
+      problem_of_scene({.scene_file = folder.file("scene.toml", std::string(hanging_box) + shape),
+                        .overrides = {"time.duration='2 s'", "solver.mass_damping='30 1/s'"},
+                        .sleeps = {"0", "0.2 mm"},
+                        .sizes = {4}},
+                       alone);
+  EXPECT_EQ(problem.sleeps, (std::vector<double>{0, 0.2e-3}));
+  const Study study =
+      sweep(problem, {.elements = {"hex8"}, .precisions = {"double"}, .repeats = 1});
+  ASSERT_EQ(study.runs.size(), 2u);
+  EXPECT_TRUE(study.runs[0].is_reference);
+  double most = 0;
+  for (std::size_t k = 0; k < study.runs[0].outcome.samples.size(); ++k)
+    most = std::max(most,
+                    (study.runs[0].outcome.samples[k] - study.runs[1].outcome.samples[k]).norm());
+  EXPECT_GT(most, 0);  // it slept
+  EXPECT_LT(most, 0.2e-3);
+  EXPECT_NE(method_text(study.runs[1]).find("sleep 0.2 mm"), std::string::npos);
+  ASSERT_EQ(study.notes.size(), 2u);  // the first: one size alone has no reference
+  EXPECT_NE(study.notes[1].find("at most " + length_text(most) + " from the same run without"),
+            std::string::npos)
+      << study.notes[1];
 }
 
 TEST(StudyScene, tetrahedra_and_hexahedra_of_one_scene_come_to_the_same_place) {

@@ -1,0 +1,56 @@
+// Skips what is at rest ([solver] sleep). A node is quiet if it has stayed within a sixteenth of
+// the bound for half a second, and sleeps if it and all nodes it shares an element with are quiet.
+// Sleeping nodes don't move, and blocks of elements whose nodes all sleep are left out: who sleeps
+// is decided by node, so it does not depend on ranks and threads, and which blocks are left out
+// does not matter to the nodes that are awake.
+// A frame in which a node beside sleeping ones goes further than a quarter of the bound from where
+// it was when it came to lie there, or in which a contact, a hold or a blade touches sleeping ones,
+// is done again with all awake: pressure waves cross an organ within a frame, so there is no use in
+// waking a neighbourhood. What sleeps thus misses the eighth in which it was found quiet and
+// about as much as its surroundings moved, a quarter. That is an estimate, not a proof: a body that
+// creeps for ever below the sixteenth in half a second is stopped, too.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/partition.h"
+#include "solver/model.h"
+
+namespace trocar {
+
+struct Simulation;
+
+struct Sleep {
+  double bound = 0;                        // on the error of displacements [m]
+  std::vector<double> anchor;              // (n_owned * 3) displacement that it is quiet around [m]
+  std::vector<std::int32_t> quiet;         // (n_owned) frames since then; -1: it has no anchor yet
+  std::vector<std::uint8_t> is_asleep;     // (n_local)
+  std::vector<std::uint8_t> is_beside;     // (n_owned) awake, with a sleeping neighbour
+  std::vector<double> watched;             // (n_owned * 3) displacement when it became that [m]
+  std::vector<FixedMask> awake_fixed;      // (n_owned) Model::fixed with all awake
+  std::vector<std::uint8_t> block_sleeps;  // Scratch::is_asleep
+  double share = 0;                        // of all nodes that sleep
+};
+
+// All awake, after the topology was built; nothing if the scene doesn't ask for sleep.
+void begin_sleep(Simulation& s);
+// After a frame that went well, before its outputs. Collective.
+void fall_asleep(Simulation& s);
+// Wakes all if a contact, a hold or a blade touches what sleeps. Collective.
+void wake_touched(Simulation& s);
+// Whether a node beside sleeping ones has moved too far; then all are awake. Collective.
+bool wake_disturbed(Simulation& s);
+
+// The model as if all were awake, and back: for searches that want all of it.
+void show_awake(Simulation& s);
+void show_asleep(Simulation& s);
+
+// (n_nodes * 7) anchors, watched displacements, quiet frames (-2 less these where it sleeps), for
+// checkpoints.
+// Collective.
+std::vector<double> gather_sleep(Simulation& s);
+void restore_sleep(std::span<const double> memory, Simulation& s);
+
+}  // namespace trocar

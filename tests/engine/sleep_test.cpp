@@ -1,0 +1,236 @@
+// What sleeps loses no more than the bound, wakes when it is touched or its surroundings move, and
+// is the same after a restart. That ranks and threads don't matter is tested in tests/invariance.
+#include "engine/sleep.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/checkpoint.h"
+#include "engine/equilibrium.h"
+#include "engine_scene.h"
+#include "engine_started.h"
+
+namespace trocar {
+namespace {
+
+// A bar of 120 x 20 x 20 mm on the table in its weight; a probe presses one end from 0.8 s to 2.6
+// s.
+const std::string bar_text = R"([time]
+duration = "3.2 s"
+frame_rate = "30 Hz"
+[start]
+state = "equilibrium"
+[checkpoint]
+every = 0
+[tissue.shape]
+kind = "box"
+low = ["-60 mm", "-10 mm", "0 mm"]
+high = ["60 mm", "10 mm", "20 mm"]
+cells = [24, 4, 4]
+[tissue.material]
+young_modulus = "6 kPa"
+poisson_ratio = 0.4
+[solver]
+gravity = [0, 0, "-9.81 m/s^2"]
+mass_damping = "30 1/s"
+[[support]]
+region = "z-"
+[[instrument]]
+kind = "probe"
+radius = "5 mm"
+path = [
+  { time = "0.7 s", position = ["-50 mm", 0, "30 mm"] },
+  { time = "1.2 s", position = ["-50 mm", 0, "17 mm"] },
+  { time = "2.3 s", position = ["-50 mm", 0, "17 mm"] },
+  { time = "2.8 s", position = ["-46 mm", 0, "40 mm"] },
+]
+)";
+constexpr double bound = 0.1e-3;
+
+std::unique_ptr<Started> started(const std::vector<std::string>& overrides,
+                                 const std::string& text = bar_text) {
+  auto run = built(text, overrides);
+  start_in_equilibrium(run->loaded, *run->s);
+  return run;
+}
+
+const std::vector<std::string> with_sleep = {"solver.sleep='0.1 mm'"};
+
+double largest_difference(const Simulation& a, const Simulation& b) {
+  double most = 0;
+  for (std::size_t k = 0; k < a.state.u.size(); ++k)
+    most = std::max(most, std::abs(a.state.u[k] - b.state.u[k]));
+  return most;
+}
+
+TEST(Sleep, changes_displacements_by_less_than_the_bound_while_much_is_asleep) {
+  const auto awake = started({}), sleepy = started(with_sleep);
+  double most = 0, moved = 0, share_while_pressed = 0;
+  const auto start = awake->s->state.u;
+  while (awake->s->frame < 96) {
+    run_frame(*awake->s, awake->outputs);
+    run_frame(*sleepy->s, sleepy->outputs);
+    most = std::max(most, largest_difference(*awake->s, *sleepy->s));
+    for (std::size_t k = 0; k < start.size(); ++k)
+      moved = std::max(moved, std::abs(awake->s->state.u[k] - start[k]));
+    if (awake->s->frame > 54 && awake->s->frame <= 69)  // a second and more after the first touch
+      share_while_pressed = std::max(share_while_pressed, sleepy->s->sleep->share);
+  }
+  EXPECT_LT(most, bound);
+  EXPECT_GT(most, 0);            // it did leave something out
+  EXPECT_GT(moved, 10 * bound);  // and that is not because nothing happened
+  EXPECT_GT(share_while_pressed, .25);
+  std::printf("largest difference %.3g m, motion %.3g m, share asleep while pressed %.2f\n", most,
+              moved, share_while_pressed);
+}
+
+TEST(Sleep, comes_over_a_body_at_rest_after_half_a_second_and_ends_with_the_first_contact) {
+  const auto run = started(with_sleep);
+  Simulation& s = *run->s;
+  while (s.frame < 15) run_frame(s, run->outputs);
+  EXPECT_EQ(s.sleep->share, 0);  // 14 intervals of rest so far, half a second takes 15
+  run_frame(s, run->outputs);
+  EXPECT_EQ(s.sleep->share, 1);
+  while (s.contact->contacts.empty() && s.frame < 96) run_frame(s, run->outputs);
+  EXPECT_LT(s.frame, 96);
+  EXPECT_EQ(s.sleep->share, 0);
+}
+
+TEST(Sleep, leaves_sleeping_nodes_where_they_are_without_velocity) {
+  const auto run = started(with_sleep);
+  Simulation& s = *run->s;
+  while (s.frame < 66) run_frame(s, run->outputs);
+  ASSERT_GT(s.sleep->share, 0);
+  ASSERT_LT(s.sleep->share, 1);
+  const State before = s.state;
+  const std::vector<std::uint8_t> asleep = s.sleep->is_asleep;
+  run_frame(s, run->outputs);
+  ASSERT_GE(s.sleep->share, 0);
+  for (std::size_t k = 0; k < before.u.size(); ++k) {
+    if (asleep[k / 3] == 0 || s.sleep->is_asleep[k / 3] == 0) continue;
+    EXPECT_EQ(s.state.u[k], before.u[k]);
+    EXPECT_EQ(s.state.v[k], 0);
+  }
+}
+
+// Blocks are left out only where nobody asks for the force: with all blocks computed the same bits
+// come out at nodes that are awake.
+TEST(Sleep, forces_at_awake_nodes_do_not_depend_on_the_blocks_left_out) {
+  const auto run = started(with_sleep);
+  Simulation& s = *run->s;
+  while (s.frame < 66) run_frame(s, run->outputs);
+  ASSERT_GT(std::count(s.scratch.is_asleep.begin(), s.scratch.is_asleep.end(), 1), 0);
+  find_force(s.model, s.neighbours, s.state, s.scratch);
+  const std::vector<double> force = s.scratch.force;
+  s.scratch.is_asleep.clear();
+  find_force(s.model, s.neighbours, s.state, s.scratch);
+  for (std::size_t k = 0; k < force.size(); ++k)
+    if (s.sleep->is_asleep[k / 3] == 0) {
+      EXPECT_EQ(force[k], s.scratch.force[k]);
+    }
+  EXPECT_NE(force, s.scratch.force);
+}
+
+TEST(Sleep, goes_on_after_a_restart_with_the_same_bits) {
+  const auto whole = started(with_sleep);
+  while (whole->s->frame < 67) run_frame(*whole->s, whole->outputs);
+  for (const std::int64_t frame : {10, 30, 66}) {
+    const auto first = started(with_sleep);
+    while (first->s->frame < frame) run_frame(*first->s, first->outputs);
+    const std::vector<std::byte> bytes = checkpoint_to_bytes(take_checkpoint(*first->s));
+    const auto second = built(bar_text, with_sleep);
+    restore_checkpoint(checkpoint_from_bytes(bytes, "c"), *second->s);
+    EXPECT_EQ(second->s->sleep->share, first->s->sleep->share);
+    while (second->s->frame < 67) run_frame(*second->s, second->outputs);
+    EXPECT_EQ(second->s->state.u, whole->s->state.u) << frame;
+    EXPECT_EQ(second->s->sleep->is_asleep, whole->s->sleep->is_asleep) << frame;
+  }
+}
+
+// What sleep changed in a scene, and how much of the body slept before and woke after `moment`.
+struct Compared {
+  double most = 0, moved = 0;
+  double share_before = 0, least_share_after = 1;
+};
+
+Compared compare(const std::string& text, std::int64_t moment, std::int64_t n_frames) {
+  const auto awake = started({}, text), sleepy = started(with_sleep, text);
+  Compared compared;
+  const auto start = awake->s->state.u;
+  while (awake->s->frame < n_frames) {
+    run_frame(*awake->s, awake->outputs);
+    run_frame(*sleepy->s, sleepy->outputs);
+    // After a cut the two bodies may have been cut apart elsewhere.
+    if (awake->s->state.u.size() == start.size() && sleepy->s->state.u.size() == start.size())
+      compared.most = std::max(compared.most, largest_difference(*awake->s, *sleepy->s));
+    const double share = sleepy->s->sleep->share;
+    if (awake->s->frame == moment) compared.share_before = share;
+    if (awake->s->frame > moment)
+      compared.least_share_after = std::min(compared.least_share_after, share);
+  }
+  for (std::size_t k = 0; k < start.size(); ++k)
+    compared.moved = std::max(compared.moved, std::abs(awake->s->state.u[k] - start[k]));
+  return compared;
+}
+
+// Without the probe, and with something else.
+std::string bar_with(const std::string& more) {
+  return bar_text.substr(0, bar_text.find("[[instrument]]")) + more;
+}
+
+TEST(Sleep, ends_when_a_support_moves) {
+  const Compared compared = compare(bar_with(R"([[support]]
+region = "x-"
+path = [
+  { time = "1.0 s", displacement = [0, 0, 0] },
+  { time = "1.3 s", displacement = ["-3 mm", 0, 0] },
+]
+)"),
+                                    29, 60);
+  EXPECT_GT(compared.share_before, 0.8);  // all but the support and what hangs on it
+  EXPECT_EQ(compared.least_share_after, 0);
+  EXPECT_LT(compared.most, bound);
+  EXPECT_GT(compared.moved, 20 * bound);
+}
+
+TEST(Sleep, ends_before_a_blade_cuts_hexahedra) {
+  const std::string text = bar_with(R"([[instrument]]
+kind = "scalpel"
+blade_length = "20 mm"
+path = [
+  { time = "0.8 s", position = ["-40 mm", "1 mm", "40 mm"] },
+  { time = "1.2 s", position = ["-40 mm", "1 mm", "11 mm"] },
+  { time = "1.5 s", position = ["-15 mm", "1 mm", "11 mm"] },
+]
+)");
+  const auto run = started(with_sleep, text);
+  Simulation& s = *run->s;
+  const std::int32_t n_nodes = s.mesh.n_nodes();
+  while (s.frame < 24) run_frame(s, run->outputs);
+  EXPECT_EQ(s.sleep->share, 1);
+  while (s.frame < 48) {
+    const bool cuts = !s.cuts[0].engaged.empty();
+    run_frame(s, run->outputs);
+    if (cuts) {
+      EXPECT_EQ(s.sleep->share, 0) << s.frame;
+    }
+  }
+  EXPECT_GT(s.mesh.n_nodes(), n_nodes);
+  EXPECT_EQ(s.sleep->quiet.size(), static_cast<std::size_t>(s.mesh.n_nodes()));
+}
+
+TEST(Sleep, is_refused_for_viscoelastic_tissue) {
+  const std::string sentence =
+      scene_error(scene_text("[tissue.material]\nprony = [ { share = 0.4, time = 0.02 } ]\n"
+                             "[solver]\nsleep = \"0.1 mm\"\n"));
+  EXPECT_TRUE(contains(sentence, "solver.sleep")) << sentence;
+}
+
+TEST(Sleep, is_absent_unless_it_is_asked_for) {
+  EXPECT_FALSE(started({})->s->sleep.has_value());
+}
+
+}  // namespace
+}  // namespace trocar
