@@ -161,10 +161,15 @@ TEST(V22Hertz, the_formula_is_that_of_the_table_for_a_thick_layer) {
   EXPECT_NEAR(layer_force(1e-3, 1e6), .0166457569, 1e-9);  // sqrt(R d) / h = 3e-9 is left
 }
 
-// Cells of an eighth of the contact's radius, and of a quarter.
+// Layers end at five times their thickness, or at 30 contact radii.
 static void check_indentation(double thickness, double depth) {
   const double a = std::sqrt(radius * depth);
-  const Layer coarse{.thickness = thickness, .h0 = a / 4, .n = 14, .n_z = thickness > .02 ? 12 : 8};
+  const int n = is_report() ? 20 : 14;
+  const Layer coarse{.thickness = thickness,
+                     .width = thickness > .02 ? .1 : .05,
+                     .h0 = a / 5,
+                     .n = n,
+                     .n_z = n / 2};
   const Layer fine = finer(coarse);
   const double F_coarse = indent(coarse, depth), F = indent(fine, depth);
   const double exact = layer_force(depth, thickness) * sphere_over_paraboloid(depth);
@@ -172,7 +177,7 @@ static void check_indentation(double thickness, double depth) {
   // that the order is 3/2. The formula itself is that of small slopes: walls of the contact lean by
   // up to a/R, the square of which counts, d/R.
   const double tolerance = two_mesh_tolerance(F_coarse, F, exact, 1.5) + depth / radius;
-  std::printf("tolerance %.3g\n", tolerance);
+  std::printf("half as fine: %.8g; tolerance %.3g\n", F_coarse, tolerance);
   check_figure({"V22 Sphere on a bonded layer",
                 "force, h = " + std::to_string(thickness).substr(0, 4) +
                     " m, d = " + std::to_string(depth * 1e3).substr(0, 4) + " mm [N]",
