@@ -179,7 +179,7 @@ static void check_momenta(const Variant& variant, double cell, double tolerance)
 }
 
 TEST(V27Spin, a_free_block_keeps_its_linear_and_angular_momentum) {
-  // Rounding: 1e-16 a step and component, a random walk of 1e5 steps; in single 1e-7.
+  // Rounding: 1e-16 a step and component, a random walk of 1e5 steps.
   check_momenta(hex_one_point, .01, 1e-12);
   check_momenta(tet_plain, .01, 1e-12);
   check_momenta(hex_enhanced, .01, 1e-12);

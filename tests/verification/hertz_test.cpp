@@ -161,15 +161,10 @@ TEST(V22Hertz, the_formula_is_that_of_the_table_for_a_thick_layer) {
   EXPECT_NEAR(layer_force(1e-3, 1e6), .0166457569, 1e-9);  // sqrt(R d) / h = 3e-9 is left
 }
 
-// Layers end at five times their thickness, or at 30 contact radii.
+// Cells of an eighth of the contact's radius, and of a quarter.
 static void check_indentation(double thickness, double depth) {
   const double a = std::sqrt(radius * depth);
-  const int n = is_report() ? 20 : 14;
-  const Layer coarse{.thickness = thickness,
-                     .width = thickness > .02 ? .1 : .05,
-                     .h0 = a / 5,
-                     .n = n,
-                     .n_z = n / 2};
+  const Layer coarse{.thickness = thickness, .h0 = a / 4, .n = 14, .n_z = thickness > .02 ? 12 : 8};
   const Layer fine = finer(coarse);
   const double F_coarse = indent(coarse, depth), F = indent(fine, depth);
   const double exact = layer_force(depth, thickness) * sphere_over_paraboloid(depth);
