@@ -95,17 +95,16 @@ struct LawLoops {
   }
 };
 
-// The thickness is found by trial stresses, each of which would move a history on.
 template <class Pack, class Material, LawKind kind>
 LawKernels law_kernels() {
   LawKernels kernels{};
   if constexpr (kind != LawKind::averaged_pressure || Material::is_decoupled) {
     using Loops = LawLoops<Pack, Material, kind>;
     kernels = {.stress = Loops::stress,
+               .viscous_stress = Loops::viscous_stress,
                .energy = Loops::energy,
                .least_volume = Loops::least_volume,
                .watch = Loops::watch};
-    if constexpr (kind != LawKind::plane_stress) kernels.viscous_stress = Loops::viscous_stress;
   }
   return kernels;
 }

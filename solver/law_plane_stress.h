@@ -1,6 +1,6 @@
 // A material whose thickness is free: the stretch F33 is the one without stress, P33(F33) = 0,
-// found anew each time. A fixed number of secant steps whatever the state, so that the bits depend
-// on nothing else.
+// found anew each time from the strain in the plane. For a viscoelastic material it is the whole
+// stress that vanishes, overstress included.
 #pragma once
 
 #include "solver/element_tri3_plane_stress.h"
@@ -14,7 +14,10 @@ struct LawPlaneStress {
   BlockValues<Pack> value;  // of the element
 
   [[gnu::always_inline]] Tensor<Pack> stress(const Tensor<Pack>& H) const {
-    return trial_stress(full_strain(H));
+    if constexpr (has_history)
+      return law.stress(full_strain(H));  // which moves its history on, once
+    else
+      return trial_stress(full_strain(H));
   }
   [[gnu::always_inline]] Pack energy(const Tensor<Pack>& H) const {
     return law.energy(full_strain(H));
@@ -24,36 +27,97 @@ struct LawPlaneStress {
     return law.stiffening(full);
   }
 
-  // H with the thickness that has no stress. The start F33 = 1 / (1 + c (A - 1)), A = det of the
-  // in-plane F, is exact for small strain and for incompressible materials. The first step goes by
-  // the stiffness at rest, each further one by the last two points while they lie far enough apart
-  // to tell a slope, then by the last slope. No step takes more than half of the thickness. The
-  // count leaves rounding alone where no in-plane strain exceeds a half (plane_stress_test.cpp).
+  // H with the thickness that has no stress, between 1/256 and 256 times that at rest. The start
+  // F33 = 1 / (1 + c (A - 1)), A = det of the in-plane F, is exact for small strain and for
+  // incompressible materials. Secant steps, at most to half or twice the thickness; P33 rises with
+  // F33, and a step that would leave the interval where it changes sign, or that follows one which
+  // did not halve P33 (fibres that stiffen exponentially), goes to the middle of that interval. A
+  // lane that has taken a step of the size of rounding stands still, so that its bits do not depend
+  // on its neighbours.
   [[gnu::always_inline]] Tensor<Pack> full_strain(Tensor<Pack> H) const {
     constexpr bool is_double = sizeof(RealOf<Pack>) == sizeof(double);
-    constexpr int n_steps = is_double ? 10 : 8;
     constexpr auto least_step = real<Pack>(is_double ? 1e-13 : 2e-6);
-    const Pack area_change = H(0, 0) + H(1, 1) + (H(0, 0) * H(1, 1) - H(0, 1) * H(1, 0));
-    const Pack change = value(ElementTri3PlaneStress::value_ratio) * area_change;
-    Pack compliance = value(ElementTri3PlaneStress::value_compliance);
-    H(2, 2) = -change / (1.0 + change);
-    Pack P33 = trial_stress(H)(2, 2);
+    Search s = start(H);
 #pragma GCC unroll 1
-    for (int k = 0; k < n_steps; ++k) {
-      const Pack h = H(2, 2), half = 0.5 * (h - 1.0), next = h - compliance * P33;
-      H(2, 2) = next < half ? half : next;
-      const Pack before = P33;
-      P33 = trial_stress(H)(2, 2);
-      const Pack step = H(2, 2) - h, slope = step / (P33 - before);
-      compliance = absolute(step) > least_step ? slope : compliance;
+    for (int k = 0; k < most_steps; ++k) {
+      const Pack h = s.h;
+      take_step(s);
+      s.step = s.h - h;
+      if (!is_any_above(absolute(s.step), least_step)) break;
+      H(2, 2) = s.h;
+      const Pack before = s.P33;
+      s.P33 = trial_stress(H)(2, 2);
+      const Pack slope = s.step / (s.P33 - before);
+      s.compliance = slope > 0.0 ? slope : s.compliance;
+      s.enough = 0.5 * absolute(before);
+      s.step = absolute(s.step) > least_step ? s.step : zero_of(h);
     }
+    H(2, 2) = s.h;
     return H;
   }
 
  private:
+  static constexpr bool has_history = requires(const LawType& l, const Tensor<Pack>& H) {
+    l.trial_stress(H);
+  };
+  static constexpr int most_steps = 64;
+
+  struct Search {
+    Pack h, P33;
+    Pack low, high;   // P33 < 0 < P33 there
+    Pack compliance;  // dh/dP33
+    Pack step;        // the last one; 0: it is found
+    Pack enough;      // a |P33| above this has not fallen enough
+  };
+
+  [[gnu::always_inline]] Search start(Tensor<Pack>& H) const {
+    constexpr auto thinnest = real<Pack>(1.0 / 256 - 1), thickest = real<Pack>(255.0);
+    const Pack area_change = H(0, 0) + H(1, 1) + (H(0, 0) * H(1, 1) - H(0, 1) * H(1, 0));
+    const Pack ratio = value(ElementTri3PlaneStress::value_ratio), change = ratio * area_change;
+    const Pack zero = zero_of(change), guess = -change / (1.0 + change);
+    Search s;
+    s.low = zero + thinnest;
+    s.high = zero + thickest;
+    // The order of the operands keeps a NaN.
+    s.h = guess < s.low ? s.low : (guess > s.high ? s.high : guess);
+    H(2, 2) = s.h;
+    s.P33 = trial_stress(H)(2, 2);
+    // dP33/dF33 ~ lambda A^2 + 2 mu, about what a pressure and a shear modulus make of it
+    s.compliance =
+        value(ElementTri3PlaneStress::value_compliance) / (1.0 + change * (2.0 + area_change));
+    s.step = zero + 1.0;
+    s.enough = absolute(s.P33);
+    return s;
+  }
+
+  [[gnu::always_inline]] static void take_step(Search& s) {
+    s.low = s.P33 < 0.0 ? s.h : s.low;
+    s.high = s.P33 > 0.0 ? s.h : s.high;
+    const Pack half = 0.5 * (s.h - 1.0), twice = 2.0 * s.h + 1.0;
+    Pack next = s.h - s.compliance * s.P33;
+    next = next < half ? half : (next > twice ? twice : next);
+    const Pack middle = 0.5 * (s.low + s.high);
+    const Pack cautious = middle > twice ? twice : middle;
+    next = next >= s.low ? next : cautious;
+    next = next <= s.high ? next : cautious;
+    next = absolute(s.P33) <= s.enough ? next : cautious;
+    s.h = absolute(s.step) > 0.0 ? next : s.h;
+  }
+
   // Out of line: three copies of a material are too much code.
   [[gnu::noinline]] Tensor<Pack> trial_stress(const Tensor<Pack>& H) const {
-    return law.stress(H);
+    if constexpr (has_history)
+      return law.trial_stress(H);
+    else
+      return law.stress(H);
+  }
+
+  [[gnu::always_inline]] static bool is_any_above(const Pack& x, RealOf<Pack> limit) {
+    RealOf<Pack> lane[pack_width<Pack>];
+    store(lane, x);
+    bool is_above = false;
+    for (const RealOf<Pack> each : lane) is_above = is_above || each > limit;
+    return is_above;
   }
 };
 

@@ -15,10 +15,15 @@ struct MaterialNeoHookean : Decoupled<MaterialNeoHookean> {
   // With a = mu (1+q) and F^-T = cof F / J,
   //   P = F^-T [ a dev 2E + J pressure I ] = a F + c cof F = m I + a H + c (cof F - I),
   //   c = m - a,  m = pressure + a (j - tr 2E / 3) / J.
+  // In 144 operations in place of 200, but a and c cancel where the body has turned: in single
+  // precision what is left of mu would be a moment that turns a free body by 7e-6 in 1e5 steps. The
+  // first form has none: its rounding is that of a symmetric tensor.
   template <class Pack>
   [[gnu::always_inline]] static Tensor<Pack> stress_at(const Deformation<Pack>& d,
                                                        const Pack& pressure,
                                                        const BlockValues<Pack>& value) {
+    if constexpr (sizeof(RealOf<Pack>) == sizeof(float))
+      return stress_of_I1bar(d, Pack(value(value_mu_V) * (1.0 + d.iso.q)), pressure);
     const Tensor<Pack>& H = d.H;
     const Tensor<Pack> cof_H = cofactor(H);
     Pack square = H(0, 0) * H(0, 0);

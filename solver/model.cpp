@@ -90,12 +90,6 @@ ElementBlocks empty_blocks(const Source& source, int key, std::int32_t n_element
   const BlockKernels kernels = kernels_for(kernels_of(Simd::scalar), blocks);
   CHECK_OP(kernels.element.n_corners, ==, n_corners(shape_of(blocks.formulation)));
   CHECK_OP(kernels.element.n_stash, <=, max_stash_values);
-  // Its fibres stiffen so fast that the fixed number of iterations for the thickness is too small.
-  if (blocks.formulation == Formulation::tri3_plane_stress &&
-      blocks.material == MaterialModel::holzapfel_gasser_ogden)
-    throw InputError("material of region " + std::to_string(blocks.region) +
-                     ": plane stress is not to be had with holzapfel-gasser-ogden; use plane "
-                     "strain, or transversely-isotropic");
   if (!blocks.prony.empty() && kernels.law.viscous_stress == nullptr)
     throw InputError("material of region " + std::to_string(blocks.region) +
                      ": this kind of element can't be viscoelastic (prony)");

@@ -31,8 +31,12 @@ TEST(Watch, at_rest_reports_the_least_undeformed_step_and_J_of_one) {
   EXPECT_EQ(w.bad_node, -1);
 }
 
-static void check_stretched(Formulation formulation, MaterialModel model, double nu) {
-  double loosest = 1, loosest_below = 1;
+struct Loosest {
+  double ratio = 1, ratio_below_floor = 1;
+};
+
+static void check_stretched(Formulation formulation, MaterialModel model, double nu,
+                            Loosest& loosest) {
   for (const double l : {.2, .35, .5, .8, 1.3, 2., 3.}) {
     if (model == MaterialModel::st_venant_kirchhoff && l < .7) continue;  // collapses
     Body body = cube(formulation, model, nu);
@@ -44,23 +48,24 @@ static void check_stretched(Formulation formulation, MaterialModel model, double
     EXPECT_LT(ratio, 1 + 1e-6)  // differences of forces: 1e-7
         << name_of(formulation) << " material " << static_cast<int>(model) << " l " << l << " nu "
         << nu;
-    double& loosest_here = look(body).least_J < volume_floor ? loosest_below : loosest;
-    loosest_here = std::min(loosest_here, ratio);
+    EXPECT_GT(ratio, 0);
+    double& least = look(body).least_J < volume_floor ? loosest.ratio_below_floor : loosest.ratio;
+    least = std::min(least, ratio);
   }
-  // Plane stress has no volumetric stiffness near the incompressible limit, which its bound, that
-  // of a solid, has all the same.
-  const double floor = formulation == Formulation::tri3_plane_stress ? .07 : .1;
-  EXPECT_GT(loosest, floor) << name_of(formulation) << " nu " << nu;
-  // The bound below the floor of volume adds norms; Ogden's plane stress squeezes thicknesses
-  // there.
-  EXPECT_GT(loosest_below, .01) << name_of(formulation) << " nu " << nu;
 }
 
 TEST(Watch, step_of_a_deformed_body_lies_below_its_true_limit) {
-  for (const Formulation formulation : all_formulations())
+  // How far below is a matter of cost and only told: far in plane stress, which has no volumetric
+  // stiffness near the incompressible limit where its bound, that of a solid, has it all the same,
+  // and below the floor of volume, where the bound adds norms.
+  for (const Formulation formulation : all_formulations()) {
+    Loosest loosest;
     for (const MaterialModel model : all_models())
       for (const double nu : {0., .3, .45, .49})
-        if (is_possible(formulation, model)) check_stretched(formulation, model, nu);
+        if (is_possible(formulation, model)) check_stretched(formulation, model, nu, loosest);
+    std::printf("%s: step / true limit at least %.3f, below the floor of volume %.3f\n",
+                name_of(formulation), loosest.ratio, loosest.ratio_below_floor);
+  }
 }
 
 TEST(Watch, step_of_an_unevenly_deformed_body_lies_below_its_true_limit) {

@@ -183,9 +183,6 @@ inline SolverOptions with(Formulation formulation, SolverOptions options = {}) {
 }
 // Whether elements of the formulation can be of the material.
 inline bool is_possible(Formulation formulation, MaterialModel model) {
-  if (formulation == Formulation::tri3_plane_stress &&
-      model == MaterialModel::holzapfel_gasser_ogden)
-    return false;
   const KernelsOfPrecision& kernels = kernels_of(Simd::scalar).of[0];
   const LawKind law = kernels.element[static_cast<int>(formulation)].law;
   return kernels.law[static_cast<int>(law)][static_cast<int>(model)].stress != nullptr;

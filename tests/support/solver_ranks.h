@@ -40,8 +40,7 @@ inline BodyOptions options_for(const Mesh& mesh, const SolverOptions& solver) {
       .solver = solver};
   options.solver.mass_damping = 2;
   options.solver.gravity = Vec3(0, 1, -9.81);
-  const bool can_relax = !is_averaged && solver.tri3 != Formulation::tri3_plane_stress;
-  if (can_relax) options.materials[0].prony = {{.3, .01}, {.2, 1}};
+  if (!is_averaged) options.materials[0].prony = {{.3, .01}, {.2, 1}};
   options.fixed.assign(mesh.X.size(), 0);
   for (std::size_t i = 0; i < mesh.X.size(); ++i)
     if (mesh.X[i].x() == 0) options.fixed[i] = 7;

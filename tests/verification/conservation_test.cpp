@@ -139,9 +139,10 @@ static Momenta momenta(const Body& body) {
   return m;
 }
 
-static Body spinning_block(const Variant& variant, const Vec3& drift) {
-  Body body = make_box_body(variant, {.size = {.04, .03, .02}, .n = {4, 3, 2}, .material = tissue});
-  const Vec3 centre(.02, .015, .01);
+// Of 4 x 3 x 2 cubes of edge `cell`.
+static Body spinning_block(const Variant& variant, double cell, const Vec3& drift) {
+  const Vec3 size = cell * Vec3(4, 3, 2), centre = .5 * size;
+  Body body = make_box_body(variant, {.size = size, .n = {4, 3, 2}, .material = tissue});
   set_velocity(body, [&](const Vec3& X) { return Vec3(drift + Vec3(3, 8, 5).cross(X - centre)); });
   return body;
 }
@@ -163,13 +164,14 @@ static Momenta greatest_change(Body& body) {
 
 // Linear momentum of a block that flies and spins; angular momentum of one that only spins, because
 // far from the origin x times p loses the digits that it is to be compared by.
-static void check_momenta(const Variant& variant, double tolerance) {
-  const std::string name = "V27 Spinning free block", mesh = mesh_name(variant, {4, 3, 2});
-  Body flying = spinning_block(variant, {.2, -.1, .15});
+static void check_momenta(const Variant& variant, double cell, double tolerance) {
+  const std::string name = "V27 Spinning free block",
+                    mesh = mesh_name(variant, {4, 3, 2}) + (cell == .01 ? "" : ", cells of 1/64 m");
+  Body flying = spinning_block(variant, cell, {.2, -.1, .15});
   const double p = momenta(flying).linear.norm();
   check_figure({name, "change of linear momentum over 1e5 steps", mesh,
                 greatest_change(flying).linear.norm() / p, 0, tolerance, "conservation, relative"});
-  Body spinning = spinning_block(variant, Vec3::Zero());
+  Body spinning = spinning_block(variant, cell, Vec3::Zero());
   const double L = momenta(spinning).angular.norm();
   check_figure({name, "change of angular momentum over 1e5 steps", mesh,
                 greatest_change(spinning).angular.norm() / L, 0, tolerance,
@@ -177,10 +179,13 @@ static void check_momenta(const Variant& variant, double tolerance) {
 }
 
 TEST(V27Spin, a_free_block_keeps_its_linear_and_angular_momentum) {
-  // Rounding: 1e-16 a step and component, a random walk of 1e5 steps; in single 1e-7.
-  check_momenta(hex_one_point, 1e-12);
-  check_momenta(tet_plain, 1e-12);
-  check_momenta(hex_enhanced, 1e-12);
-  check_momenta(tet_nodal_pressure, 1e-12);
-  check_momenta(hex_one_point_single, 1e-5);
+  // Rounding: 1e-16 a step and component, a random walk of 1e5 steps.
+  check_momenta(hex_one_point, .01, 1e-12);
+  check_momenta(tet_plain, .01, 1e-12);
+  check_momenta(hex_enhanced, .01, 1e-12);
+  check_momenta(tet_nodal_pressure, .01, 1e-12);
+  check_momenta(hex_one_point_single, .01, 1e-5);
+  // numerics V27. Where single precision holds positions and gradients exactly, nothing else
+  // drifts.
+  check_momenta(hex_one_point_single, 1. / 64, 1e-6);
 }

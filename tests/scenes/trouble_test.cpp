@@ -1,0 +1,108 @@
+// What a run does when the numbers go wrong, through the front door: it warns, rolls back and goes
+// on with a smaller step, or ends with exit code 3 and keeps what it has.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "program.h"
+
+namespace trocar {
+namespace {
+
+// A soft bar of one layer of one-point hexahedra that bends under its weight.
+const std::string bar = R"(
+[time]
+duration = "0.5 s"
+frame_rate = "30 Hz"
+[tissue.shape]
+kind = "box"
+elements = "hex8"
+low = [0, 0, 0]
+high = ["60 mm", "10 mm", "10 mm"]
+cells = [6, 1, 1]
+[tissue.material]
+model = "neo-hookean"
+young_modulus = "10 kPa"
+poisson_ratio = 0.45
+density = "1000 kg/m^3"
+[solver]
+gravity = [0, 0, "-9.81 m/s^2"]
+mass_damping = "5 1/s"
+[[support]]
+region = "x-"
+fix = "xyz"
+[[output]]
+kind = "metrics"
+file = "metrics.csv"
+)";
+
+// Takes hold of the bar's end, waits for .1 s and moves it along the bar to x within 20 ms.
+std::string pushed_to(const std::string& x) {
+  const std::string direction = R"(, direction = [-1, 0, 0], forward = [0, 1, 0])";
+  const std::string held = R"(position = ["62 mm", "5 mm", "5 mm"])" + direction;
+  return bar + R"([[instrument]]
+kind = "grasper"
+radius = "2 mm"
+grip_radius = "8 mm"
+path = [
+  { time = 0, )" +
+         held + R"(, action = "close" },
+  { time = "0.1 s", )" +
+         held + R"( },
+  { time = "0.12 s", position = [")" +
+         x + R"(", "5 mm", "5 mm"])" + direction + " },\n]\n";
+}
+
+Finished run_text(const std::string& scene, const std::string& folder) {
+  const std::string file = folder + "/scene.toml";
+  std::ofstream(file) << scene;
+  return run_trocar({"run", file, "-q", "-o", folder}, folder);
+}
+
+bool has_event(const nlohmann::json& summary, const std::string& words) {
+  for (const auto& event : summary["events"])
+    if (event.get<std::string>().find(words) != std::string::npos) return true;
+  return false;
+}
+
+TEST(Trouble, hourglass_energy_above_5_per_cent_is_warned_of_once) {
+  const std::string folder = test_folder("hourglass");
+  ASSERT_EQ(run_text(bar, folder).exit_code, 0);
+  const nlohmann::json summary = read_summary(folder);
+  ASSERT_FALSE(summary.is_discarded());
+  EXPECT_GT(summary["energies_J"]["largest_hourglass_share"], 0.05);
+  EXPECT_TRUE(has_event(summary, "% of the stored energy: a finer mesh or more solver.hourglass"));
+  EXPECT_EQ(summary["events"].size(), 1u);
+}
+
+// At 2.6 m/s the steps of the frame's beginning are too long for what happens within it.
+TEST(Trouble, in_a_frame_is_answered_by_rolling_back_and_going_on_with_half_the_step) {
+  const std::string folder = test_folder("rolled-back");
+  ASSERT_EQ(run_text(pushed_to("10 mm"), folder).exit_code, 0);
+  const nlohmann::json summary = read_summary(folder);
+  ASSERT_FALSE(summary.is_discarded());
+  EXPECT_EQ(summary["finished"], true);
+  EXPECT_EQ(summary["frames"], 15);
+  EXPECT_GE(summary["roll_backs"], 1);
+  EXPECT_TRUE(has_event(summary, "s: rolled back: "));
+  EXPECT_TRUE(has_event(summary, "step scale now 0.5"));
+}
+
+// Through the support and 40 cm beyond.
+TEST(Trouble, that_smaller_steps_do_not_cure_ends_the_run_with_3_and_keeps_what_it_has) {
+  const std::string folder = test_folder("given-up");
+  const Finished run = run_text(pushed_to("-400 mm"), folder);
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("in the frame after 0.1 s: "), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("roll-backs with smaller steps did not help"), std::string::npos);
+  const nlohmann::json summary = read_summary(folder);
+  ASSERT_FALSE(summary.is_discarded());
+  EXPECT_EQ(summary["finished"], false);
+  EXPECT_EQ(summary["frames"], 3);
+  const std::string metrics = read_text(folder + "/metrics.csv");
+  EXPECT_EQ(std::count(metrics.begin(), metrics.end(), '\n'), 4);  // head, 3 frames
+}
+
+}  // namespace
+}  // namespace trocar
