@@ -32,25 +32,25 @@ struct LawPlaneStress {
   // incompressible materials. Secant steps, at most to half or twice the thickness; P33 rises with
   // F33, and a step that would leave the interval where it changes sign, or that follows one which
   // did not halve P33 (fibres that stiffen exponentially), goes to the middle of that interval. A
-  // lane that has taken a step of the size of rounding stands still, so that its bits do not depend
-  // on its neighbours.
+  // lane is found after a step of the size of rounding by a slope that was measured nearby (a probe
+  // does so where none was), and then stands still: its bits do not depend on its neighbours.
   [[gnu::always_inline]] Tensor<Pack> full_strain(Tensor<Pack> H) const {
-    constexpr bool is_double = sizeof(RealOf<Pack>) == sizeof(double);
-    constexpr auto least_step = real<Pack>(is_double ? 1e-13 : 2e-6);
     Search s = start(H);
 #pragma GCC unroll 1
     for (int k = 0; k < most_steps; ++k) {
-      const Pack h = s.h;
-      take_step(s);
+      const Pack h = s.h, last = absolute(s.step);
+      take_step(s, last);
       s.step = s.h - h;
-      if (!is_any_above(absolute(s.step), least_step)) break;
+      const Pack size = absolute(s.step);
+      s.is_open = last > near ? s.is_open : (size > least_step ? s.is_open : zero_of(h));
+      s.is_open = absolute(s.P33) > 0.0 ? s.is_open : zero_of(h);
+      if (!is_any_positive(s.is_open)) break;
       H(2, 2) = s.h;
       const Pack before = s.P33;
       s.P33 = trial_stress(H)(2, 2);
       const Pack slope = s.step / (s.P33 - before);
       s.compliance = slope > 0.0 ? slope : s.compliance;
-      s.enough = 0.5 * absolute(before);
-      s.step = absolute(s.step) > least_step ? s.step : zero_of(h);
+      s.enough = size > probe ? 0.5 * absolute(before) : absolute(s.P33);
     }
     H(2, 2) = s.h;
     return H;
@@ -61,12 +61,17 @@ struct LawPlaneStress {
     l.trial_stress(H);
   };
   static constexpr int most_steps = 64;
+  static constexpr bool is_double = sizeof(RealOf<Pack>) == sizeof(double);
+  static constexpr auto least_step = real<Pack>(is_double ? 1e-13 : 2e-6);
+  static constexpr auto probe = real<Pack>(is_double ? 1e-12 : 2e-5);
+  static constexpr auto near = real<Pack>(is_double ? 1e-6 : 2e-3);
 
   struct Search {
     Pack h, P33;
     Pack low, high;   // P33 < 0 < P33 there
     Pack compliance;  // dh/dP33
-    Pack step;        // the last one; 0: it is found
+    Pack step;        // the last one
+    Pack is_open;     // 0: it is found
     Pack enough;      // a |P33| above this has not fallen enough
   };
 
@@ -85,12 +90,13 @@ struct LawPlaneStress {
     // dP33/dF33 ~ lambda A^2 + 2 mu, about what a pressure and a shear modulus make of it
     s.compliance =
         value(ElementTri3PlaneStress::value_compliance) / (1.0 + change * (2.0 + area_change));
-    s.step = zero + 1.0;
+    s.step = s.is_open = zero + 1.0;
     s.enough = absolute(s.P33);
     return s;
   }
 
-  [[gnu::always_inline]] static void take_step(Search& s) {
+  // `last`: size of the step before.
+  [[gnu::always_inline]] static void take_step(Search& s, const Pack& last) {
     s.low = s.P33 < 0.0 ? s.h : s.low;
     s.high = s.P33 > 0.0 ? s.h : s.high;
     const Pack half = 0.5 * (s.h - 1.0), twice = 2.0 * s.h + 1.0;
@@ -101,7 +107,11 @@ struct LawPlaneStress {
     next = next >= s.low ? next : cautious;
     next = next <= s.high ? next : cautious;
     next = absolute(s.P33) <= s.enough ? next : cautious;
-    s.h = absolute(s.step) > 0.0 ? next : s.h;
+    const Pack probed = s.P33 < 0.0 ? s.h + probe : s.h - probe;
+    const Pack probing = absolute(Pack(next - s.h)) < probe ? probed : next;
+    next = last > near ? probing : next;
+    next = absolute(s.P33) > 0.0 ? next : s.h;
+    s.h = s.is_open > 0.0 ? next : s.h;
   }
 
   // Out of line: three copies of a material are too much code.
@@ -112,12 +122,12 @@ struct LawPlaneStress {
       return law.stress(H);
   }
 
-  [[gnu::always_inline]] static bool is_any_above(const Pack& x, RealOf<Pack> limit) {
+  [[gnu::always_inline]] static bool is_any_positive(const Pack& x) {
     RealOf<Pack> lane[pack_width<Pack>];
     store(lane, x);
-    bool is_above = false;
-    for (const RealOf<Pack> each : lane) is_above = is_above || each > limit;
-    return is_above;
+    bool is_positive = false;
+    for (const RealOf<Pack> each : lane) is_positive = is_positive || each > 0;
+    return is_positive;
   }
 };
 
