@@ -51,8 +51,15 @@ static BladePoint locate(const Mesh& mesh, std::span<const Vec3> x,
 
 void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
                    std::span<const std::int32_t> near, CutStroke& stroke) {
+  const auto is_inside = [&](const Vec3& point) {
+    return locate(mesh, x, near, point).element >= 0;
+  };
+  if (stroke.edge.empty() && std::ranges::any_of(sweep.before, is_inside))
+    stroke.ends_in_tissue = true;
   stroke.edge.clear();
   for (const Vec3& point : sweep.after) stroke.edge.push_back(locate(mesh, x, near, point));
+  if (stroke.edge.front().element >= 0 || stroke.edge.back().element >= 0)
+    stroke.ends_in_tissue = true;
 }
 
 BladeSweep carry_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,

@@ -10,7 +10,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 4;
+constexpr std::uint32_t checkpoint_format = 5;
 
 static void visit(Saver& a, Mesh& mesh) {
   std::vector<std::byte> bytes = mesh_to_bytes(mesh);
@@ -46,7 +46,7 @@ static void visit(Archive& a, BladePoint& p) {
 template <class Archive>
 static void visit(Archive& a, CutStroke& s) {
   a(s.hit, s.side, s.opened, s.step, s.surface_node, s.parted_node, s.fresh, s.unfinished, s.edge,
-    s.mean_edge, s.swept);
+    s.ends_in_tissue, s.mean_edge, s.swept);
 }
 template <class Archive>
 static void visit(Archive& a, CutRefusal& r) {
@@ -58,7 +58,8 @@ static void visit(Archive& a, CutRecord& r) {
     r.n_pieces, r.n_elements_added, r.n_elements_dissolved, r.n_converted, r.n_kept_hexahedra,
     r.stable_step_ratio, r.scene_step_ratio, r.least_quality, r.mass_change, r.momentum_change,
     r.kinetic_energy_change, r.largest_deviation, r.mean_deviation, r.mean_edge, r.n_beside,
-    r.refusals, r.blade_travel, r.deepest, r.milliseconds, r.worst_milliseconds);
+    r.n_turned, r.n_chips, r.n_pulled_back, r.refusals, r.blade_travel, r.deepest, r.milliseconds,
+    r.worst_milliseconds);
 }
 template <class Archive>
 static void visit(Archive& a, Location& l) {
