@@ -2,7 +2,9 @@
 // comes out right, what the stable step and the shapes of the elements become, and what it costs.
 // bench_cut [--count N] [--seed S] [--family NAME] [--kind NAME] [--mesh FILE]... [--json FILE]
 // [--markdown FILE]; bench_cut --cuts N [--seed S] [--minutes M]: N cuts of bent bodies, the
-// invariants alone; bench_cut scaling: the same incision in boxes of 5,000 to 1,000,000 tetrahedra.
+// invariants alone; bench_cut --after N [--steps M]: N cuts of moving bodies and M steps after
+// each; bench_cut --stages springs|springs_then_barrier|barrier ...; bench_cut scaling: the same
+// incision in boxes of 5,000 to 1,000,000 tetrahedra.
 #include <cstdlib>
 #include <cstring>
 
@@ -14,12 +16,19 @@ using namespace trocar::cut_bench;
 namespace {
 
 struct Arguments {
-  int count = 20, cuts = 0;
+  int count = 20, cuts = 0, after = 0, steps = 10000;
   unsigned seed = 1;
   double minutes = 1e9;
   std::string family, kind, json, markdown;
+  CutTetOptions options;
   std::vector<std::string> mesh;
 };
+
+CutStages stages_named(const std::string& name) {
+  if (name == "springs") return CutStages::springs;
+  if (name == "springs_then_barrier") return CutStages::springs_then_barrier;
+  return CutStages::barrier;
+}
 
 Arguments read_arguments(int argc, char** argv) {
   Arguments a;
@@ -27,6 +36,9 @@ Arguments read_arguments(int argc, char** argv) {
     const std::string name = argv[k], value = argv[k + 1];
     if (name == "--count") a.count = std::atoi(value.c_str());
     if (name == "--cuts") a.cuts = std::atoi(value.c_str());
+    if (name == "--after") a.after = std::atoi(value.c_str());
+    if (name == "--steps") a.steps = std::atoi(value.c_str());
+    if (name == "--stages") a.options.stages = stages_named(value);
     if (name == "--minutes") a.minutes = std::atof(value.c_str());
     if (name == "--seed") a.seed = unsigned(std::atoi(value.c_str()));
     if (name == "--family") a.family = value;
@@ -44,7 +56,7 @@ Row run(const Family& family, const Kind& kind, const Arguments& a) {
   Row row{family.name, kind.name, {}};
   for (unsigned seed = a.seed; seed < a.seed + unsigned(a.count); ++seed) {
     std::mt19937_64 random(seed);
-    row.result.push_back(make_cut(family.make(seed), kind, random, CutTetOptions{}));
+    row.result.push_back(make_cut(family.make(seed), kind, random, a.options));
     const Result& r = row.result.back();
     if (!r.is_right())
       std::fprintf(stderr, "%s %s seed %u: %d pieces of %d (%d thin), %d refused, %d inverted %s\n",
@@ -63,6 +75,7 @@ int main(int argc, char** argv) {
   }
   const Arguments a = read_arguments(argc, argv);
   if (a.cuts > 0) return print_long_run({a.seed, a.cuts, a.minutes}, stdout) ? 0 : 1;
+  if (a.after > 0) return print_after({a.seed, a.after, a.steps}, stdout) ? 0 : 1;
   std::FILE* table = a.markdown.empty() ? stdout : std::fopen(a.markdown.c_str(), "w");
   print_head(table);
   std::vector<Row> rows;

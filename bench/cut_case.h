@@ -44,6 +44,9 @@ double mean_edge(const Mesh& mesh);
 // Of this thread: others may use the machine.
 double processor_seconds();
 
+// Sheared, stretched and bent; F stays within some 40 % of the identity.
+cutting_test::Deformation random_bend(std::mt19937_64& random);
+
 // Prints what the same incision costs in boxes of 5,000 to 1,000,000 tetrahedra of one size.
 void print_scaling(std::FILE* file);
 
@@ -56,6 +59,15 @@ struct LongRun {
   double minutes = 1e9;
 };
 bool print_long_run(const LongRun& run, std::FILE* file);
+
+// Random cuts of bent bodies in free motion; then `n_steps` steps of central differences at 0.9 of
+// the limit 2 / omega that the cut left. Prints limits and energies by family; false if one blew
+// up.
+struct AfterRun {
+  unsigned seed = 1;
+  int n_cuts = 200, n_steps = 10000;
+};
+bool print_after(const AfterRun& run, std::FILE* file);
 
 // The textbook's way, for comparison: every crossed edge gets a node where the surface meets it,
 // and elements are split there (all edges that `strokes` cross, whether the blade gets there or

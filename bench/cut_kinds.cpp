@@ -125,6 +125,16 @@ static std::vector<Stroke> curved(const Mesh& mesh, Random& random) {
   return {{blade, f.normal, int(2 * half_angle * R / (0.5 * h)), phi}};
 }
 
+// Sheared, stretched and bent; F stays within some 40 % of the identity.
+cutting_test::Deformation random_bend(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> u(-1, 1);
+  Mat3 A = Mat3::Identity();
+  for (int k = 0; k < 9; ++k) A(k / 3, k % 3) += 0.1 * u(random);
+  const Vec3 wave = 3 * Vec3(u(random), u(random), u(random));
+  const Vec3 way = 0.04 * Vec3(u(random), u(random), u(random));
+  return [=](const Vec3& X) { return Vec3(A * X + way * std::sin(wave.dot(X))); };
+}
+
 std::vector<Kind> kinds() {
   return {{"through", true, through},
           {"partial", false, partial},

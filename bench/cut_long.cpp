@@ -18,16 +18,6 @@ struct Count {
 
 }  // namespace
 
-// Sheared, stretched and bent; F stays within some 40 % of the identity.
-static cutting_test::Deformation random_bend(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> u(-1, 1);
-  Mat3 A = Mat3::Identity();
-  for (int k = 0; k < 9; ++k) A(k / 3, k % 3) += 0.1 * u(random);
-  const Vec3 wave = 3 * Vec3(u(random), u(random), u(random));
-  const Vec3 way = 0.04 * Vec3(u(random), u(random), u(random));
-  return [=](const Vec3& X) { return Vec3(A * X + way * std::sin(wave.dot(X))); };
-}
-
 static void count_inverted(const Body& body, Count& count) {
   bool is_in_reference = false, is_present = false;
   for (std::int32_t e = 0; e < body.mesh.n_elements(); ++e) {
@@ -47,11 +37,12 @@ static void cut_once(const Family& family, const Kind& kind, unsigned seed, Coun
   const double mass = cutting_test::mass(cut.body.mesh);
   TetCutter cutter{CutTetOptions{}};
   Result result;
-  for (const Stroke& stroke : kind.strokes(present, random))
+  for (const Stroke& stroke : kind.strokes(present, random)) {
     run_stroke(stroke, cutter, cut, result);
+    count_inverted(cut.body, count);
+  }
   ++count.cuts;
   count.edits += cut.ledger.n_edits;
-  count_inverted(cut.body, count);
   count.unsound += cutting_test::fault(cut.body).empty() ? 0 : 1;
   count.mass_error =
       std::max(count.mass_error, std::abs(cutting_test::mass(cut.body.mesh) / mass - 1));

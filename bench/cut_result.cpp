@@ -145,6 +145,11 @@ Result make_cut(const Mesh& mesh, const Kind& kind, std::mt19937_64& random,
   result.n_refused = ledger.total.n_refused;
   result.n_opened = ledger.total.n_opened_facets;
   result.n_duplicated = ledger.total.n_duplicated;
+  result.n_turned = ledger.total.n_turned;
+  result.n_chips = ledger.total.n_chips;
+  result.n_beside = ledger.total.n_beside;
+  result.n_pulled_back = ledger.total.n_pulled_back;
+  result.n_inverted_by_move = ledger.total.n_inverted;
   result.fault = cutting_test::fault(body);
   result.n_pieces = cutting_test::n_pieces(body.mesh);
   measure_elements(mesh, cut, result);

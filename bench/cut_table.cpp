@@ -66,6 +66,13 @@ std::string refusals(const Row& row) {
                 total(row, [](const Result& r) { return r.n_refused > 0; }));
 }
 
+std::string rungs(const Row& row) {
+  return format("%.0f, %.0f, %.0f", total(row, [](const Result& r) { return r.n_turned; }),
+                total(row, [](const Result& r) { return r.n_chips; }),
+                total(row, [](const Result& r) { return r.n_beside; })) +
+         format(", %.0f", total(row, [](const Result& r) { return r.n_pulled_back; }));
+}
+
 std::string elements(const Row& row) {
   return format("%.0f, %.0f", total(row, [](const Result& r) { return std::max(0, r.n_added); }),
                 total(row, [](const Result& r) { return std::max(0, -r.n_added); }));
@@ -104,6 +111,7 @@ constexpr Column columns[] = {
     {"right", share},
     {"inverted, unsound", faults},
     {"refused facets in cuts", refusals},
+    {"rungs: turned, chips, beside, pulled back", rungs},
     {"elements added, dissolved", elements},
     {"hexahedra: reshaped, converted", hexahedra},
     {"body's step min/p5/median",
@@ -154,16 +162,18 @@ void print_json(const std::vector<Row>& rows, std::FILE* file) {
           file,
           "%s\n{\"mesh\": \"%s\", \"cut\": \"%s\", \"right\": %s, \"fault\": \"%s\", "
           "\"inverted\": %d, \"pieces\": %d, \"pieces_exact\": %d, \"pieces_thin\": %d, "
-          "\"refused\": %d, \"edits\": %d, \"opened\": %d, \"duplicated\": %d, "
+          "\"refused\": %d, \"turned\": %d, \"chips\": %d, \"beside\": %d, \"pulled_back\": %d, "
+          "\"inverted_by_move\": %d, \"edits\": %d, \"opened\": %d, \"duplicated\": %d, "
           "\"added\": %d, \"hexahedra\": %d, \"reshaped\": %d, \"converted\": %d, "
           "\"body_step_ratio\": %.6g, \"cut_step_ratio\": %.6g, "
           "\"dihedral\": %.6g, \"deviation_max\": %.6g, \"volume_error\": %.3g, "
           "\"mass_error\": %.3g, \"seconds\": %.6g, \"longest_advance\": %.6g, "
           "\"subdivision_elements\": %.6g, \"subdivision_step_ratio\": %.6g}",
           comma, row.family.c_str(), row.kind.c_str(), r.is_right() ? "true" : "false",
-          r.fault.c_str(), r.n_inverted, r.n_pieces, r.n_exact, r.n_thin, r.n_refused, r.n_edits,
-          r.n_opened, r.n_duplicated, r.n_added, r.n_hexahedra, r.n_reshaped, r.n_converted,
-          r.body_ratio, r.cut_ratio, r.least_dihedral,
+          r.fault.c_str(), r.n_inverted, r.n_pieces, r.n_exact, r.n_thin, r.n_refused, r.n_turned,
+          r.n_chips, r.n_beside, r.n_pulled_back, r.n_inverted_by_move, r.n_edits, r.n_opened,
+          r.n_duplicated, r.n_added, r.n_hexahedra, r.n_reshaped, r.n_converted, r.body_ratio,
+          r.cut_ratio, r.least_dihedral,
           r.deviation.empty() ? 0.0 : *std::max_element(r.deviation.begin(), r.deviation.end()),
           r.volume_error, r.mass_error, r.seconds, r.longest_advance, r.split_elements,
           r.split_ratio);

@@ -7,6 +7,8 @@
 
 namespace trocar {
 
+// A point this far outside (barycentric) still counts as inside: rounding at facets.
+static constexpr double tolerance = 1e-9;
 // A point outside goes with the element beside it up to this far (barycentric, heights):
 // tissue that runs from the blade and comes back must not pass it uncut.
 static constexpr double reach = 3.0;
@@ -42,14 +44,14 @@ static bool box_holds(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x,
 static BladePoint locate(const Mesh& mesh, std::span<const Vec3> x,
                          std::span<const std::int32_t> near, std::int32_t last, const Vec3& point,
                          double margin) {
-  BladePoint best{-1, Vec3::Zero(), point};
+  BladePoint best{.x = point};
   double most = -reach;
   const auto try_element = [&](std::int32_t e) {
     const std::array<double, 4> b = barycentric(mesh, e, x, point);
     const double least = *std::min_element(b.begin(), b.end());
     if (least <= most) return;
     most = least;
-    best = {e, at(mesh, e, mesh.X, b), point};
+    best = {e, least >= -tolerance, at(mesh, e, mesh.X, b), point};
   };
   for (const std::int32_t e : near) {
     if (box_holds(mesh, e, x, point, margin)) try_element(e);
@@ -75,11 +77,18 @@ static bool holds_some(const Mesh& mesh, std::span<const Vec3> x, std::int32_t e
 
 void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
                    std::span<const std::int32_t> near, CutStroke& stroke) {
+  const auto locate_from = [&](std::int32_t last, const Vec3& point) {
+    return locate(mesh, x, near, last, point, stroke.mean_edge);
+  };
   const std::vector<BladePoint> last = std::move(stroke.edge);
+  if (last.empty() && std::ranges::any_of(sweep.before, [&](const Vec3& point) {
+        return locate_from(-1, point).is_inside;
+      }))
+    stroke.ends_in_tissue = true;
   stroke.edge.clear();
   for (std::size_t k = 0; k < sweep.after.size(); ++k)
-    stroke.edge.push_back(locate(mesh, x, near, k < last.size() ? last[k].element : -1,
-                                 sweep.after[k], stroke.mean_edge));
+    stroke.edge.push_back(locate_from(k < last.size() ? last[k].element : -1, sweep.after[k]));
+  if (stroke.edge.front().is_inside || stroke.edge.back().is_inside) stroke.ends_in_tissue = true;
   stroke.at_edge.clear();
   for (const std::int32_t e : near)
     if (holds_some(mesh, x, e, sweep.after)) stroke.at_edge.push_back(e);

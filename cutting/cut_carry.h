@@ -17,7 +17,8 @@ namespace trocar {
 BladeSweep carry_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
                       const CutStroke& stroke);
 
-// Takes down the material points of sweep.after and the elements that the edge is in. `near`: elements that may hold some.
+// Takes down the material points of sweep.after and the elements that the edge is in. `near`:
+// elements that may hold some.
 void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
                    std::span<const std::int32_t> near, CutStroke& stroke);
 

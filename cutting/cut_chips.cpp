@@ -37,18 +37,26 @@ static bool is_chip(const CutSurroundings& around, const std::vector<std::int32_
   return six_V < 6 * chip_volume * around.h * around.h * around.h;
 }
 
-bool attach_chips(const CutSurroundings& around, const CutOpening& opening, CutLabels& labels) {
-  if (opening.duplication.duplicate_parent.empty()) return false;
-  bool is_changed = false;
+static Vec3 centre_of(const CutPatch& patch, const std::vector<std::int32_t>& piece) {
+  Vec3 sum = Vec3::Zero();
+  for (const std::int32_t e : piece)
+    for (const std::int32_t i : patch.corner[e]) sum += patch.X[i];
+  return sum / static_cast<double>(4 * piece.size());
+}
+
+std::vector<Vec3> attach_chips(const CutSurroundings& around, const CutOpening& opening,
+                               CutLabels& labels) {
+  std::vector<Vec3> centre;
+  if (opening.duplication.duplicate_parent.empty()) return centre;
   std::vector<std::uint8_t> is_seen(around.patch.element.size(), 0);
   for (const auto& [first, f] : opening.facet) {
     if (is_seen[first] != 0) continue;
     const std::vector<std::int32_t> piece = piece_of(around.patch, opening, first, is_seen);
     if (!is_chip(around, piece)) continue;
-    is_changed = true;
+    centre.push_back(centre_of(around.patch, piece));
     for (const std::int32_t e : piece) labels.side[e] = static_cast<std::int8_t>(-labels.side[e]);
   }
-  return is_changed;
+  return centre;
 }
 
 }  // namespace trocar

@@ -7,7 +7,8 @@
 namespace trocar {
 
 // Gives the elements of pieces below half a mean edge cubed, which `opening` would free, the other
-// side; false if there are none.
-bool attach_chips(const CutSurroundings& around, const CutOpening& opening, CutLabels& labels);
+// side; returns the pieces' centres.
+std::vector<Vec3> attach_chips(const CutSurroundings& around, const CutOpening& opening,
+                               CutLabels& labels);
 
 }  // namespace trocar

@@ -43,22 +43,14 @@ static std::vector<DensityChange> density_changes(const Mesh& mesh, const TetCut
   return change;
 }
 
-static std::uint8_t opened_mask(const TetCut& cut, std::int32_t e) {
-  unsigned mask = 0;
-  for (const auto& [element, f] : cut.opening.facet)
-    if (element == e && !is_joined(cut.around.patch, cut.opening.corner, e, f)) mask |= 1U << f;
-  return static_cast<std::uint8_t>(mask);
-}
-
 // Facets that are apart after the edit, by global element.
 static std::vector<OfElement<std::uint8_t>> opened_facets(const TetCut& cut) {
   std::vector<OfElement<std::uint8_t>> opened;
-  std::int32_t last = -1;
   for (const auto& [e, f] : cut.opening.facet) {
-    if (e == last) continue;
-    last = e;
-    if (const std::uint8_t mask = opened_mask(cut, e); mask != 0)
-      opened.push_back({cut.around.patch.element[e], mask});
+    if (is_joined(cut.around.patch, cut.opening.corner, e, f)) continue;
+    const std::int32_t element = cut.around.patch.element[e];
+    if (opened.empty() || opened.back().element != element) opened.push_back({element, 0});
+    opened.back().value = static_cast<std::uint8_t>(opened.back().value | 1U << f);
   }
   return opened;
 }
@@ -83,30 +75,45 @@ MeshEdit make_edit(const Mesh& mesh, const TetCut& cut) {
   return edit;
 }
 
+// Of the elements whose shape or corners change; a copy of a node lies where its parent does.
 static double least_quality(const TetCut& cut) {
   const CutPatch& patch = cut.around.patch;
+  std::vector<std::int32_t> element = moved_elements(cut);
+  for (const CornerChange& change : cut.opening.duplication.corners)
+    element.push_back(change.element);
   Mesh mesh;
-  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
-    add_element(mesh, ElementType::tet4, patch.corner[e]);
+  for (const std::int32_t e : element) add_element(mesh, ElementType::tet4, patch.corner[e]);
   double least = 1;
-  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
-    if (patch.corner[e] != cut.opening.corner[e])
-      least = std::min(least, element_quality(mesh, e, cut.X));
-  for (const std::int32_t e : moved_elements(cut))
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
     least = std::min(least, element_quality(mesh, e, cut.X));
   return least;
 }
 
-static std::vector<CutRefusal> refusals(const TetCut& cut) {
+// Elements that are joined still, at the end of a blade's way from surface to surface.
+static void add_missed(const TetCut& cut, const CutStroke& stroke, std::vector<CutRefusal>& list) {
+  const CutPatch& patch = cut.around.patch;
+  const std::vector<std::span<const CutHit>> hits = hits_of(stroke, patch.element);
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e) {
+    if (cut.labels.kind[e] != CutKind::front || hits[e].empty()) continue;
+    Vec3 sum = Vec3::Zero();
+    for (const std::int32_t i : patch.corner[e]) sum += patch.X[i];
+    list.push_back({sum / 4, CutRefusal::missed});
+  }
+}
+
+static std::vector<CutRefusal> refusals(const TetCut& cut, const CutStroke& stroke, bool is_last) {
   std::vector<CutRefusal> list;
+  for (const Vec3& X : cut.chips) list.push_back({X, CutRefusal::chip});
+  if (!is_last) return list;
   for (const auto& [e, f] : cut.opening.refused) {
     const std::array<std::int32_t, 3> node = facet_nodes(cut.around.patch, e, f);
     list.push_back({(cut.X[node[0]] + cut.X[node[1]] + cut.X[node[2]]) / 3, CutRefusal::pinched});
   }
+  if (has_gone_through(stroke)) add_missed(cut, stroke, list);
   return list;
 }
 
-CutFigures make_figures(const TetCut& cut, bool is_last) {
+CutFigures make_figures(const TetCut& cut, const CutStroke& stroke, bool is_last) {
   CutFigures figures;
   const CutPatch& patch = cut.around.patch;
   for (const auto& [e, f] : cut.opening.facet)
@@ -115,7 +122,7 @@ CutFigures make_figures(const TetCut& cut, bool is_last) {
   figures.n_moved = static_cast<std::int32_t>(cut.transfer.size());
   const std::vector<std::int32_t>& parent = cut.opening.duplication.duplicate_parent;
   figures.n_duplicated = static_cast<std::int32_t>(parent.size());
-  if (is_last) figures.refusals = refusals(cut);
+  figures.refusals = refusals(cut, stroke, is_last);
   figures.n_refused = static_cast<std::int32_t>(figures.refusals.size());
   figures.least_quality = least_quality(cut);
   for (const std::int32_t i : parent) {
@@ -124,6 +131,10 @@ CutFigures make_figures(const TetCut& cut, bool is_last) {
     figures.n_beside += distance > beside_distance * cut.around.h ? 1 : 0;
     figures.mean_deviation += distance / static_cast<double>(parent.size());
   }
+  figures.n_turned = cut.rungs.n_turned;
+  figures.n_chips = static_cast<std::int32_t>(cut.chips.size());
+  figures.n_pulled_back = cut.rungs.n_pulled_back;
+  figures.n_inverted = cut.rungs.n_inverted;
   figures.mean_edge = cut.around.h;
   return figures;
 }

@@ -8,10 +8,15 @@
 
 namespace trocar {
 
-// A facet that stays joined though the blade went through.
+// Where tissue stays joined though the blade went through.
 struct CutRefusal {
-  enum Reason : std::int32_t { pinched };  // the outer surface would be no 2-manifold
-  Vec3 X = Vec3::Zero();                   // its centre, reference configuration [m]
+  enum Reason : std::int32_t {
+    pinched,  // a facet: the outer surface would be no 2-manifold
+    chip,     // elements below half a mean edge cubed stay with the other side
+    missed,   // an element that the blade's path crossed and did not part
+    n_reasons
+  };
+  Vec3 X = Vec3::Zero();  // its centre, reference configuration [m]
   std::int32_t reason = pinched;
 };
 
@@ -27,6 +32,10 @@ struct CutFigures {
   double mean_deviation = 0;  // [m]
   std::int32_t n_beside = 0;  // parted nodes that the floor under the stable step, a support or a
                               // sharp edge keeps more than 0.1 mean edges from the swept surface
+  // Rungs of the ladder: elements whose side was turned so that the outer surface stays a
+  // 2-manifold, chips that stay with the other side, nodes that went less far than
+  // their move wanted so that elements stay valid, and elements that this move had inverted.
+  std::int32_t n_turned = 0, n_chips = 0, n_pulled_back = 0, n_inverted = 0;
   std::int32_t n_converted = 0;       // hexahedra that became six tetrahedra each
   std::int32_t n_kept_hexahedra = 0;  // that were reshaped or opened at a facet and stay hexahedra
   std::vector<CutRefusal> refusals;   // (n_refused)

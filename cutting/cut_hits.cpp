@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cutting/cut_carry.h"
+#include "cutting/cut_near.h"
 
 namespace trocar {
 
@@ -29,12 +30,6 @@ struct Band {
   };
   std::vector<Vec3> point;  // before 0, after 0, before 1, ...
   std::vector<Triangle> triangle;
-  Vec3 low, high;
-};
-
-// Box along axes of its own (columns).
-struct BandBox {
-  Mat3 axes;
   Vec3 low, high;
 };
 
@@ -105,49 +100,6 @@ static BandBox box_of(const Band& band) {
   box.low -= margin;
   box.high += margin;
   return box;
-}
-
-// Bits of the sides of the box, widened by `margin`, beyond which p lies.
-static unsigned outside(const BandBox& box, const Vec3& p, double margin) {
-  const Vec3 q = box.axes.transpose() * p;
-  unsigned code = 0;
-  for (int d = 0; d < 3; ++d)
-    code |=
-        (q[d] < box.low[d] - margin ? 1U << d : 0U) | (q[d] > box.high[d] + margin ? 8U << d : 0U);
-  return code;
-}
-
-// Tetrahedra whose corners are not all beyond one side of the band's box, ascending. An edge that
-// crosses the band has an end within half its length of the box.
-static std::vector<std::int32_t> near_elements(const Mesh& mesh, const CutIndex& index,
-                                               std::span<const Vec3> x, const BandBox& box) {
-  const double margin = 1.5 * index.longest_edge;
-  // The same box along the axes of space rejects most nodes cheaply.
-  const Vec3 middle = box.axes * (0.5 * (box.low + box.high));
-  const Vec3 reach = box.axes.cwiseAbs() * (0.5 * (box.high - box.low) + Vec3::Constant(margin));
-  const Vec3 low = middle - reach, high = middle + reach;
-  const auto is_near = [&](std::int32_t i) {
-    const Vec3& p = x[i];
-    // Without branches: most nodes are far away, in no pattern.
-    const bool is_in_box = (p[0] >= low[0]) & (p[0] <= high[0]) & (p[1] >= low[1]) &
-                           (p[1] <= high[1]) & (p[2] >= low[2]) & (p[2] <= high[2]);
-    return is_in_box && outside(box, p, margin) == 0;
-  };
-  std::vector<std::int32_t> element;
-  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) {
-    if (!is_near(i)) continue;
-    for (const std::int32_t e : index.star(i)) {
-      const std::span<const std::int32_t> c = mesh.corners(e);
-      if (mesh.element_type[e] != ElementType::tet4 ||
-          *std::find_if(c.begin(), c.end(), is_near) != i)
-        continue;
-      unsigned common = ~0U;
-      for (const std::int32_t j : c) common &= outside(box, x[j], 0);
-      if (common == 0) element.push_back(e);
-    }
-  }
-  std::sort(element.begin(), element.end());
-  return element;
 }
 
 static std::vector<EdgeUse> edge_uses(const Mesh& mesh, std::span<const std::int32_t> element) {
@@ -239,21 +191,21 @@ static double mean_length(const Mesh& mesh, const std::vector<EdgeUse>& use) {
   return use.empty() ? 0 : sum / static_cast<double>(use.size());
 }
 
-static double mean_edge_at(const Mesh& mesh, const CutIndex& index, std::span<const Vec3> x,
-                           const BladeSweep& sweep) {
-  const Band band = make_band(sweep, 0);
-  if (band.triangle.empty()) return 0;
-  return mean_length(mesh, edge_uses(mesh, near_elements(mesh, index, x, box_of(band))));
+// Where the band begins in the tissue: where the one before it ended. The first one of a stroke may
+// begin anywhere: that is the one look at all nodes.
+static std::vector<std::int32_t> begin_of(const Mesh& mesh, CutIndex& index,
+                                          std::span<const Vec3> x, const Band& band,
+                                          const BladeSweep& sweep, const CutStroke& stroke) {
+  if (stroke.edge.size() != sweep.before.size()) return near_elements(mesh, index, x, box_of(band));
+  std::vector<std::int32_t> begin;
+  for (const BladePoint& p : stroke.edge)
+    if (p.element >= 0) begin.push_back(p.element);
+  return begin;
 }
 
-void add_hits(const Mesh& mesh, const CutIndex& index, std::span<const Vec3> x,
-              const BladeSweep& sweep, CutStroke& stroke) {
-  if (stroke.mean_edge == 0) stroke.mean_edge = mean_edge_at(mesh, index, x, sweep);
-  const Band band = make_band(carry_edge(mesh, x, sweep, stroke), overlap * stroke.mean_edge);
-  if (band.triangle.empty()) return;
-  const std::vector<std::int32_t> element = near_elements(mesh, index, x, box_of(band));
-  remember_edge(mesh, x, sweep, element, stroke);
-  const std::vector<EdgeUse> use = edge_uses(mesh, element);
+// Edges `use` that the band crosses, for each of their elements.
+static std::vector<CutHit> find_hits(const Mesh& mesh, std::span<const Vec3> x, const Band& band,
+                                     const std::vector<EdgeUse>& use) {
   std::vector<CutHit> found;
   Crossing crossing;
   for (std::size_t begin = 0, end = 0; begin < use.size(); begin = end) {
@@ -267,6 +219,22 @@ void add_hits(const Mesh& mesh, const CutIndex& index, std::span<const Vec3> x,
                        reference_normal(mesh, x, use[k].element, crossing.normal)});
     }
   }
+  return found;
+}
+
+void add_hits(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x, const BladeSweep& sweep,
+              CutStroke& stroke) {
+  const Band swept = make_band(sweep, 0);
+  const std::vector<std::int32_t> begin = begin_of(mesh, index, x, swept, sweep, stroke);
+  if (stroke.mean_edge == 0 && !swept.triangle.empty())
+    stroke.mean_edge =
+        mean_length(mesh, edge_uses(mesh, near_elements(mesh, index, x, box_of(swept), begin)));
+  const Band band = make_band(carry_edge(mesh, x, sweep, stroke), overlap * stroke.mean_edge);
+  if (band.triangle.empty()) return;
+  const std::vector<std::int32_t> element = near_elements(mesh, index, x, box_of(band), begin);
+  remember_edge(mesh, x, sweep, element, stroke);
+  const std::vector<EdgeUse> use = edge_uses(mesh, element);
+  std::vector<CutHit> found = find_hits(mesh, x, band, use);
   if (found.empty()) return;
   stroke.mean_edge = mean_length(mesh, use);
   for (const CutHit& hit : found) stroke.fresh.push_back(hit.element);

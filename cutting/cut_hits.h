@@ -16,8 +16,8 @@ namespace trocar {
 // the tissue, and a little behind. Every element that shares an edge gets the same decision. Sets
 // stroke.mean_edge near the band. `index` is that of the mesh; edges stretched to three times
 // the longest one's length are not seen.
-void add_hits(const Mesh& mesh, const CutIndex& index, std::span<const Vec3> x,
-              const BladeSweep& sweep, CutStroke& stroke);
+void add_hits(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x, const BladeSweep& sweep,
+              CutStroke& stroke);
 
 // The longest way that a point of the blade's edge has gone. [m]
 double sweep_length(const BladeSweep& sweep);

@@ -2,6 +2,8 @@
 #include "cutting/cut_index.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "mesh/facets.h"
 
@@ -18,21 +20,74 @@ static double longest_edge(const Mesh& mesh) {
   return std::sqrt(longest);
 }
 
+bool is_index_of(const CutIndex& index, const Mesh& mesh) {
+  return index.star_begin.size() == mesh.X.size() && index.n_elements == mesh.element_type.size() &&
+         index.corner_node == mesh.corner_node.data();
+}
+
+// A number for the facet, whatever the order of its nodes (the mixing of splitmix64).
+static std::uint64_t facet_key(std::span<const std::int32_t> corner, const std::array<int, 4>& f) {
+  std::array<std::int32_t, 4> node{-1, -1, -1, -1};
+  for (std::size_t k = 0; k < 4; ++k)
+    if (f[k] >= 0) node[k] = corner[static_cast<std::size_t>(f[k])];
+  std::sort(node.begin(), node.end());
+  std::uint64_t key = 0;
+  for (const std::int32_t i : node) {
+    key = (key ^ static_cast<std::uint32_t>(i)) * 0x9E3779B97F4A7C15ULL;
+    key = (key ^ (key >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    key ^= key >> 27;
+  }
+  return key;
+}
+
+static void add_surface_node(std::int32_t i, CutIndex& index) {
+  if (index.is_surface[i] != 0) return;
+  index.is_surface[i] = 1;
+  index.surface_node.push_back(i);
+}
+
+// At an inner node every facet comes twice, so that the keys of the facets around it cancel. (Ten
+// times as fast as pairing the facets; keys that cancel by chance: 2^-64 a node.)
+static void find_surface_nodes(const Mesh& mesh, CutIndex& index) {
+  std::vector<std::uint64_t> sum(mesh.X.size(), 0);
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    const std::span<const std::int32_t> corner = mesh.corners(e);
+    for (int f = 0; f < n_facets(mesh.element_type[e]); ++f) {
+      const std::array<int, 4> facet = facet_corners(mesh.element_type[e], f);
+      const std::uint64_t key = facet_key(corner, facet);
+      for (const int c : facet)
+        if (c >= 0) sum[corner[static_cast<std::size_t>(c)]] ^= key;
+    }
+  }
+  index.surface_node.clear();
+  index.is_surface.assign(mesh.X.size(), 0);
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
+    if (sum[i] != 0) add_surface_node(i, index);
+}
+
+// For what copies add, so that no cut moves whole vectors.
+template <class T>
+static void leave_room(std::vector<T>& values) {
+  values.reserve(values.size() + values.size() / 4);
+}
+
 void update_index(const Mesh& mesh, CutIndex& index) {
-  if (index.star_begin.size() == mesh.X.size() && index.n_elements == mesh.element_type.size() &&
-      index.corner_node == mesh.corner_node.data())
-    return;
+  if (is_index_of(index, mesh)) return;
   NodeElements around = node_elements(mesh);
   index.star_begin.assign(around.offset.begin(), around.offset.end() - 1);
   index.star_size.resize(mesh.X.size());
   for (std::size_t i = 0; i < mesh.X.size(); ++i)
     index.star_size[i] = around.offset[i + 1] - around.offset[i];
   index.star_element = std::move(around.element);
+  find_surface_nodes(mesh, index);
   index.longest_edge = longest_edge(mesh);
   index.ring.assign(mesh.X.size(), no_ring);
   index.local.assign(mesh.X.size(), -1);
   index.corner_node = mesh.corner_node.data();
   index.n_elements = mesh.element_type.size();
+  for (auto* values : {&index.star_begin, &index.star_size, &index.local, &index.star_element})
+    leave_room(*values);
+  for (auto* values : {&index.ring, &index.is_surface}) leave_room(*values);
 }
 
 static void remove_from_star(CutIndex& index, std::int32_t node, std::int32_t element) {
@@ -41,6 +96,26 @@ static void remove_from_star(CutIndex& index, std::int32_t node, std::int32_t el
   const auto at = std::lower_bound(begin, end, element);
   std::copy(at + 1, end, at);
   --index.star_size[node];
+}
+
+// The node that corner c of element e has after the edit.
+static std::int32_t edited_corner(const Mesh& mesh, const MeshEdit& edit, std::int32_t e, int c) {
+  const auto before = [](const CornerChange& p, const std::array<std::int32_t, 2>& q) {
+    return p.element != q[0] ? p.element < q[0] : p.corner < q[1];
+  };
+  const auto at = std::lower_bound(edit.corners.begin(), edit.corners.end(),
+                                   std::array<std::int32_t, 2>{e, c}, before);
+  const bool is_changed = at != edit.corners.end() && at->element == e && at->corner == c;
+  return is_changed ? at->node : mesh.corners(e)[static_cast<std::size_t>(c)];
+}
+
+static void add_opened_facets(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {
+  for (const CutFacets& opened : edit.cut_facets)
+    for (int f = 0; f < n_facets(mesh.element_type[opened.element]); ++f) {
+      if ((opened.mask >> f & 1) == 0) continue;
+      for (const int c : facet_corners(mesh.element_type[opened.element], f))
+        if (c >= 0) add_surface_node(edited_corner(mesh, edit, opened.element, c), index);
+    }
 }
 
 void edit_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {
@@ -53,6 +128,8 @@ void edit_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {
   index.star_size.resize(n_nodes, 0);
   index.ring.resize(n_nodes, no_ring);
   index.local.resize(n_nodes, -1);
+  index.is_surface.resize(n_nodes, 0);
+  add_opened_facets(mesh, edit, index);
   for (const CornerChange& c : change) {
     remove_from_star(index, mesh.corners(c.element)[static_cast<std::size_t>(c.corner)], c.element);
     if (index.star_size[c.node]++ == 0)

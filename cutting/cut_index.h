@@ -15,7 +15,11 @@ struct CutIndex {
   std::vector<std::int32_t> star_begin, star_size;  // (n_nodes) into star_element
   std::vector<std::int32_t> star_element;           // ascending in each star
   double longest_edge = 0;                          // when it was built, reference [m]
-  // Scratch of patches (n_nodes), the same value everywhere between two uses.
+  // Nodes of facets with one element, in any order, and the same as marks (n_nodes). Where
+  // tetrahedra lie on the quads of a hexahedron, these quads' nodes count too.
+  std::vector<std::int32_t> surface_node;
+  std::vector<std::uint8_t> is_surface;
+  // Scratch of searches and patches (n_nodes), the same value everywhere between two uses.
   std::vector<std::uint8_t> ring;
   std::vector<std::int32_t> local;
   const std::int32_t* corner_node = nullptr;  // of the mesh that it belongs to
@@ -28,6 +32,7 @@ struct CutIndex {
 
 inline constexpr std::uint8_t no_ring = 255;
 
+bool is_index_of(const CutIndex& index, const Mesh& mesh);
 // Builds the index anew if it isn't that of `mesh`: another mesh, or one that somebody else has cut
 // (a cut adds nodes).
 void update_index(const Mesh& mesh, CutIndex& index);

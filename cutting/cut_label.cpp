@@ -125,11 +125,11 @@ static void cut_graph(const CutSurroundings& around, CutLabels& labels) {
 
 CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke) {
   const std::vector<ElementSides> sides = element_sides(around, stroke);
+  const std::vector<const std::int8_t*> known = find_elements(stroke.side, around.patch.element);
   CutLabels labels;
   for (std::int32_t e = 0; e < around.patch.n_elements(); ++e) {
-    const std::int8_t* known = find_element(stroke.side, around.patch.element[e]);
-    labels.kind.push_back(known != nullptr ? CutKind::separated : sides[e].kind);
-    labels.side.push_back(known != nullptr ? *known : std::int8_t{0});
+    labels.kind.push_back(known[e] != nullptr ? CutKind::separated : sides[e].kind);
+    labels.side.push_back(known[e] != nullptr ? *known[e] : std::int8_t{0});
   }
   set_terminals(around, sides, labels);
   cut_graph(around, labels);

@@ -74,7 +74,9 @@ static Change best_change(Mending& m) {
   return best;
 }
 
-void mend_labels(const CutSurroundings& around, const CutStroke& stroke, CutLabels& labels) {
+std::int32_t mend_labels(const CutSurroundings& around, const CutStroke& stroke,
+                         CutLabels& labels) {
+  const std::vector<std::int8_t> side = labels.side;
   Mending m{around, stroke, labels, pinched_nodes(around, labels),
             20 + n_element_trials / std::max(1, around.patch.n_elements())};
   std::vector<std::int32_t> hopeless;  // ascending
@@ -89,6 +91,9 @@ void mend_labels(const CutSurroundings& around, const CutStroke& stroke, CutLabe
       return std::binary_search(hopeless.begin(), hopeless.end(), i);
     });
   }
+  std::int32_t n_turned = 0;
+  for (std::size_t e = 0; e < side.size(); ++e) n_turned += side[e] == labels.side[e] ? 0 : 1;
+  return n_turned;
 }
 
 }  // namespace trocar

@@ -7,7 +7,7 @@
 
 namespace trocar {
 
-// Changes sides of elements that have no opened facet yet.
-void mend_labels(const CutSurroundings& around, const CutStroke& stroke, CutLabels& labels);
+// Changes sides of elements that have no opened facet yet; returns how many.
+std::int32_t mend_labels(const CutSurroundings& around, const CutStroke& stroke, CutLabels& labels);
 
 }  // namespace trocar

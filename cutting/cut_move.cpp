@@ -23,7 +23,7 @@ struct Descent {
   const CutSurroundings& around;
   const std::vector<NodeRole>& role;
   MoveLimits limits;
-  std::vector<Vec3> X;
+  std::vector<Vec3>& X;
 };
 
 struct SurfaceTerm {
@@ -129,17 +129,17 @@ static double descend(Descent& d, std::int32_t i) {
   return 0;
 }
 
-static Vec3 foot_on_surface(const Descent& d, std::int32_t i) {
-  const NodeBoundary& boundary = d.around.boundary[i];
-  Vec3 X = d.X[i];
+Vec3 foot_on_surface(const CutSurroundings& around, std::int32_t i, const Vec3& X) {
+  if (around.points.of(i).empty()) return X;
+  Vec3 foot = X;
   for (int k = 0; k < 4; ++k) {
-    const SurfacePlane plane = fit_surface(d.around.points.of(i), X, d.around.h);
-    const Vec3 way = allowed_part(boundary, plane.N);
+    const SurfacePlane plane = fit_surface(around.points.of(i), foot, around.h);
+    const Vec3 way = allowed_part(around.boundary[i], plane.N);
     const double slope = way.dot(plane.N);
-    if (!(slope > 0.05)) return d.X[i];
-    X = project_to_boundary(boundary, X - way * (plane.distance(X) / slope));
+    if (!(slope > 0.05)) return X;
+    foot = project_to_boundary(around.boundary[i], foot - way * (plane.distance(foot) / slope));
   }
-  return X;
+  return foot;
 }
 
 static void snap(Descent& d, std::int32_t i) {
@@ -147,15 +147,15 @@ static void snap(Descent& d, std::int32_t i) {
   const double step = star_step(d, i);
   if (!(step > 0)) return;
   const double least = std::min(d.limits.snap, step);
-  const Vec3 from = d.X[i], to = foot_on_surface(d, i);
+  const Vec3 from = d.X[i], to = foot_on_surface(d.around, i, d.X[i]);
   for (const double part : {1.0, 0.5, 0.25})
     if (try_position(d, i, from + part * (to - from), [&] { return star_step(d, i) >= least; }))
       return;
 }
 
-std::vector<Vec3> move_nodes(const CutSurroundings& around, const std::vector<NodeRole>& role,
-                             const MoveLimits& limits) {
-  Descent d{around, role, limits, around.patch.X};
+void move_nodes(const CutSurroundings& around, const std::vector<NodeRole>& role,
+                const MoveLimits& limits, std::vector<Vec3>& X) {
+  Descent d{around, role, limits, X};
   std::vector<std::int32_t> movable;
   for (std::int32_t i = 0; i < around.patch.n_nodes(); ++i)
     if (role[i] != NodeRole::stays && around.boundary[i].freedom != NodeFreedom::fixed)
@@ -176,7 +176,6 @@ std::vector<Vec3> move_nodes(const CutSurroundings& around, const std::vector<No
   }
   for (const std::int32_t i : movable)
     if (role[i] == NodeRole::on_surface) snap(d, i);
-  return d.X;
 }
 
 }  // namespace trocar

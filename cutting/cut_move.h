@@ -17,9 +17,13 @@ struct MoveLimits {
   double snap = 0;   // nor below this only to put a node on the surface that descent left beside it
 };
 
-// Reference positions of all patch nodes after the move.
-std::vector<Vec3> move_nodes(const CutSurroundings& around, const std::vector<NodeRole>& role,
-                             const MoveLimits& limits);
+// Moves the patch's nodes from where they are in X, reference positions.
+void move_nodes(const CutSurroundings& around, const std::vector<NodeRole>& role,
+                const MoveLimits& limits, std::vector<Vec3>& X);
+
+// The nearest point to X that node i may go to and that is on the swept surface; X if there is
+// none.
+Vec3 foot_on_surface(const CutSurroundings& around, std::int32_t i, const Vec3& X);
 
 // Distance of node i from the swept surface if it stood at X; 0 where no crossing is near. [m]
 double surface_distance(const CutSurroundings& around, std::int32_t i, const Vec3& X);

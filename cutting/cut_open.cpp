@@ -24,18 +24,19 @@ struct PatchMesh {
 
 static PatchMesh make_patch_mesh(const CutPatch& patch) {
   PatchMesh p;
+  const std::size_t n = patch.element.size();
   p.mesh.X = patch.X;
-  p.across.offset = {0};
-  for (std::int32_t e = 0; e < patch.n_elements(); ++e) {
-    p.mesh.element_type.push_back(ElementType::tet4);
-    p.mesh.corner_node.insert(p.mesh.corner_node.end(), patch.corner[e].begin(),
-                              patch.corner[e].end());
-    p.mesh.corner_offset.push_back(4 * (e + 1));
-    p.mesh.cut_facets.push_back(0);
-    p.across.offset.push_back(4 * (e + 1));
-    p.across.neighbour.insert(p.across.neighbour.end(), patch.across[e].begin(),
-                              patch.across[e].end());
-  }
+  p.mesh.element_type.assign(n, ElementType::tet4);
+  p.mesh.cut_facets.assign(n, 0);
+  p.mesh.corner_node.reserve(4 * n);
+  p.across.neighbour.reserve(4 * n);
+  p.mesh.corner_offset.resize(n + 1);
+  for (std::size_t e = 0; e <= n; ++e) p.mesh.corner_offset[e] = static_cast<std::int32_t>(4 * e);
+  p.across.offset = p.mesh.corner_offset;
+  for (const auto& corner : patch.corner)
+    p.mesh.corner_node.insert(p.mesh.corner_node.end(), corner.begin(), corner.end());
+  for (const auto& across : patch.across)
+    p.across.neighbour.insert(p.across.neighbour.end(), across.begin(), across.end());
   p.around = {patch.star_offset, patch.star_element};
   return p;
 }
@@ -200,9 +201,10 @@ static std::vector<std::int32_t> broken_nodes(const CutSurroundings& around,
 }
 
 // Closes one facet at each broken node; false if there was none to close.
-static bool close_facets(const CutSurroundings& around, const std::vector<Edge>& outer,
-                         const std::vector<std::int32_t>& broken, std::vector<TetFacet>& facet,
-                         CutOpening& opening) {
+static bool close_facets(const CutSurroundings& around, const std::vector<std::int32_t>& broken,
+                         std::vector<TetFacet>& facet, CutOpening& opening) {
+  if (broken.empty()) return false;
+  const std::vector<Edge> outer = outer_edges(around.patch);
   bool is_changed = false;
   for (const std::int32_t i : broken) {
     const std::ptrdiff_t k = facet_to_close(around, facet, i, outer);
@@ -236,11 +238,9 @@ CutOpening open_facets(const CutSurroundings& around, const CutLabels& labels,
                        const std::vector<std::uint8_t>& stays_whole) {
   const PatchMesh mesh = make_patch_mesh(around.patch);
   std::vector<TetFacet> facet = facets_between_sides(around.patch, labels);
-  const std::vector<Edge> outer = outer_edges(around.patch);
   CutOpening opening;
   do split_nodes(around.patch, mesh, facet, opening);
-  while (close_facets(around, outer, broken_nodes(around, facet, stays_whole, opening), facet,
-                      opening));
+  while (close_facets(around, broken_nodes(around, facet, stays_whole, opening), facet, opening));
   return opening;
 }
 

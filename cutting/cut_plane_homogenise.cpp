@@ -4,15 +4,15 @@
 #include <cmath>
 #include <utility>
 
+#include "cutting/cut_pair_forces.h"
+
 namespace trocar {
 
 namespace {
 
-constexpr double gain = 0.25;          // explicit Euler step of the overdamped eq. 6, m = c = k = 1
-constexpr double longest_step = 0.05;  // h
-constexpr double cut_off_squared = 2.2 * 2.2;      // r0^2
-constexpr double largest_rho = 1 / (0.55 * 0.55);  // r is clamped at 0.55 r0
-constexpr double least_area = 0.1;                 // of the area before the cut
+using namespace pair_forces;
+
+constexpr double least_area = 0.1;  // of the area before the cut
 
 // Pairs are stored by movable node (slot); the other end may be any node of the patch.
 struct Pair {
@@ -68,37 +68,22 @@ Network make_network(const PlanePatch& patch, std::span<const Movable> movable) 
   return network;
 }
 
-// g_ij = (r - l) (x_j - x_i) / r, eq. 4 with k = 1.
 void add_springs(const PlanePatch& patch, std::span<const Movable> movable, const Network& network,
                  double scale, std::vector<Vec2>& force) {
   for (const Pair& pair : network.springs) {
     const Vec2 d = patch.x[pair.other] - patch.x[movable[pair.slot].node];
     const double r = d.norm();
-    if (r > 0) force[pair.slot] += scale * (1 - pair.length / r) * d;
+    if (r > 0) force[pair.slot] += spring(scale, r, pair.length) * d;
   }
 }
 
-// rho^(k / 2) without libm's pow, whose bits differ between machines.
-double half_power(double rho, int k) {
-  double result = k % 2 == 0 ? 1 : std::sqrt(rho);
-  for (k /= 2; k > 0; k /= 2, rho *= rho)
-    if (k % 2 == 1) result *= rho;
-  return result;
-}
-
-// Eq. 5 with A = r0^(m + 2) / (m (n - m)), B = r0^(n + 2) / (n (n - m)), so that phi'(r0) = 0 and
-// phi''(r0) = 1: -phi'(r) / r = (rho^(n/2 + 1) - rho^(m/2 + 1)) / (n - m) with rho = r0^2 / r^2.
 void add_particles(const PlanePatch& patch, std::span<const Movable> movable,
                    const Network& network, const CutPlaneOptions& options,
                    std::vector<Vec2>& force) {
-  const int n = options.repulsion, m = options.attraction;
-  const double scale = options.particle / (n - m);
+  const LennardJones repel{options.repulsion, options.attraction, options.particle};
   for (const Pair& pair : network.particles) {
     const Vec2 d = patch.x[movable[pair.slot].node] - patch.x[pair.other];
-    const double r2 = d.squaredNorm();
-    if (r2 > cut_off_squared * pair.length) continue;
-    const double rho = std::min(pair.length / r2, largest_rho);
-    force[pair.slot] += scale * half_power(rho, m + 2) * (half_power(rho, n - m) - 1) * d;
+    force[pair.slot] += repel(d.squaredNorm(), pair.length) * d;
   }
 }
 

@@ -87,8 +87,9 @@ static std::vector<bool> neutral_nodes(const CutSurroundings& around, const CutS
 std::vector<ElementSides> element_sides(const CutSurroundings& around, const CutStroke& stroke) {
   const CutPatch& patch = around.patch;
   std::vector<CrossedEdges> crossed(patch.element.size());
+  const std::vector<std::span<const CutHit>> hits = hits_of(stroke, patch.element);
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
-    for (const CutHit& hit : hits_of(stroke, patch.element[e]))
+    for (const CutHit& hit : hits[e])
       crossed[e].first_side[static_cast<std::size_t>(hit.edge)] = hit.is_first_plus ? 1 : -1;
   const std::vector<bool> is_neutral = neutral_nodes(around, stroke, crossed);
   std::vector<ElementSides> sides;

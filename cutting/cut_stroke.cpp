@@ -5,6 +5,11 @@
 
 namespace trocar {
 
+bool has_gone_through(const CutStroke& stroke) {
+  const auto is_outside = [](const BladePoint& p) { return !p.is_inside; };
+  return !stroke.ends_in_tissue && std::ranges::all_of(stroke.edge, is_outside);
+}
+
 std::span<const CutHit> hits_of(const CutStroke& stroke, std::int32_t element) {
   const auto begin =
       std::lower_bound(stroke.hit.begin(), stroke.hit.end(), element,
@@ -12,6 +17,21 @@ std::span<const CutHit> hits_of(const CutStroke& stroke, std::int32_t element) {
   auto end = begin;
   while (end != stroke.hit.end() && end->element == element) ++end;
   return {begin, end};
+}
+
+std::vector<std::span<const CutHit>> hits_of(const CutStroke& stroke,
+                                             std::span<const std::int32_t> element) {
+  std::vector<std::span<const CutHit>> hits(element.size());
+  if (element.empty()) return hits;
+  auto at = std::lower_bound(stroke.hit.begin(), stroke.hit.end(), element[0],
+                             [](const CutHit& hit, std::int32_t e) { return hit.element < e; });
+  for (std::size_t k = 0; k < element.size(); ++k) {
+    while (at != stroke.hit.end() && at->element < element[k]) ++at;
+    const auto begin = at;
+    while (at != stroke.hit.end() && at->element == element[k]) ++at;
+    hits[k] = {begin, at};
+  }
+  return hits;
 }
 
 }  // namespace trocar

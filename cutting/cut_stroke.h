@@ -38,8 +38,9 @@ struct OfElement {
 // A point of the blade's edge at the end of a frame.
 struct BladePoint {
   std::int32_t element = -1;  // that held it, or beside it; -1: far outside the body
-  Vec3 X = Vec3::Zero();      // reference position [m]
-  Vec3 x = Vec3::Zero();      // position at that time [m]
+  bool is_inside = false;
+  Vec3 X = Vec3::Zero();  // reference position [m]
+  Vec3 x = Vec3::Zero();  // position at that time [m]
 };
 
 struct CutStroke {
@@ -56,19 +57,32 @@ struct CutStroke {
   std::vector<std::int32_t> unfinished;  // elements to look at again at the next edit, ascending
   std::vector<BladePoint> edge;          // where the blade's edge is in the tissue
   std::vector<std::int32_t> at_edge;     // elements that hold it, ascending
-  double mean_edge = 0;                  // around the last hits [m]; 0: not known yet
-  double swept = 0;                      // since the last edit [m]
+  bool ends_in_tissue = false;  // the blade began there, or an end of its edge was there: it need
+                                // not go through
+  double mean_edge = 0;         // around the last hits [m]; 0: not known yet
+  double swept = 0;             // since the last edit [m]
 };
+
+// Whether the blade has left the tissue all along its edge, and cut what it swept from surface to
+// surface.
+bool has_gone_through(const CutStroke& stroke);
 
 // The entry of `element`, nullptr if there is none.
 template <class T>
 const T* find_element(const std::vector<OfElement<T>>& values, std::int32_t element);
+// The entries of many elements, ascending.
+template <class T>
+std::vector<const T*> find_elements(const std::vector<OfElement<T>>& values,
+                                    std::span<const std::int32_t> element);
 // Adds or overwrites entries; both ascending.
 template <class T>
 void merge_elements(std::vector<OfElement<T>>& values, const std::vector<OfElement<T>>& changes);
 
 // The crossings of an element's edges.
 std::span<const CutHit> hits_of(const CutStroke& stroke, std::int32_t element);
+// Those of many elements, ascending.
+std::vector<std::span<const CutHit>> hits_of(const CutStroke& stroke,
+                                             std::span<const std::int32_t> element);
 
 }  // namespace trocar
 

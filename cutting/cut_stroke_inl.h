@@ -16,6 +16,21 @@ const T* find_element(const std::vector<OfElement<T>>& values, std::int32_t elem
 }
 
 template <class T>
+std::vector<const T*> find_elements(const std::vector<OfElement<T>>& values,
+                                    std::span<const std::int32_t> element) {
+  std::vector<const T*> found(element.size(), nullptr);
+  if (element.empty()) return found;
+  auto at =
+      std::lower_bound(values.begin(), values.end(), element[0],
+                       [](const OfElement<T>& entry, std::int32_t e) { return entry.element < e; });
+  for (std::size_t k = 0; k < element.size(); ++k) {
+    while (at != values.end() && at->element < element[k]) ++at;
+    if (at != values.end() && at->element == element[k]) found[k] = &at->value;
+  }
+  return found;
+}
+
+template <class T>
 void merge_elements(std::vector<OfElement<T>>& values, const std::vector<OfElement<T>>& changes) {
   std::vector<OfElement<T>> merged;
   merged.reserve(values.size() + changes.size());

@@ -8,9 +8,7 @@
 namespace trocar {
 
 SurfacePoints surface_points(const CutPatch& patch, const CutStroke& stroke) {
-  std::vector<std::span<const CutHit>> hits;
-  hits.reserve(patch.element.size());
-  for (const std::int32_t e : patch.element) hits.push_back(hits_of(stroke, e));
+  const std::vector<std::span<const CutHit>> hits = hits_of(stroke, patch.element);
   SurfacePoints points{{0}, {}};
   for (std::int32_t i = 0; i < patch.n_nodes(); ++i) {
     const auto first = static_cast<std::ptrdiff_t>(points.point.size());

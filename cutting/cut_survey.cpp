@@ -62,10 +62,10 @@ static void mark_cut_nodes(TetCut& cut, const CutStroke& stroke) {
   cut.is_cut.assign(patch.node.size(), 0);
   for (const auto& [e, f] : cut.opening.facet)
     for (const std::int32_t i : facet_nodes(patch, e, f)) cut.is_cut[i] = 1;
+  const std::vector<const std::uint8_t*> opened = find_elements(stroke.opened, patch.element);
   for (std::int32_t e = 0; e < patch.n_elements(); ++e) {
-    const std::uint8_t* opened = find_element(stroke.opened, patch.element[e]);
-    for (int f = 0; opened != nullptr && f < 4; ++f)
-      if ((*opened >> f & 1) != 0)
+    for (int f = 0; opened[e] != nullptr && f < 4; ++f)
+      if ((*opened[e] >> f & 1) != 0)
         for (const std::int32_t i : facet_nodes(patch, e, f)) cut.is_cut[i] = 1;
   }
 }
@@ -92,12 +92,12 @@ void set_roles(TetCut& cut, const CutStroke& stroke, bool is_last) {
 }
 
 MoveLimits move_limits(const CutSurroundings& around, const CutStroke& stroke, double part) {
+  const CutPatch& patch = around.patch;
+  const std::vector<const double*> before = find_elements(stroke.step, patch.element);
   double least = std::numeric_limits<double>::infinity();
-  for (std::int32_t e = 0; e < around.patch.n_elements(); ++e) {
-    const double* before = find_element(stroke.step, around.patch.element[e]);
-    least = std::min(
-        least, before != nullptr ? *before : step_bound(around.patch.X, around.patch.corner[e]));
-  }
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
+    least =
+        std::min(least, before[e] != nullptr ? *before[e] : step_bound(patch.X, patch.corner[e]));
   return {part * least, std::max(part, least_snap) * least};
 }
 

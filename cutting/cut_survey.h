@@ -11,6 +11,11 @@
 
 namespace trocar {
 
+// How often each rung of the ladder was needed, see CutFigures.
+struct CutRungs {
+  std::int32_t n_turned = 0, n_pulled_back = 0, n_inverted = 0;
+};
+
 struct TetCut {
   CutSurroundings around;
   CutLabels labels;
@@ -19,6 +24,8 @@ struct TetCut {
   std::vector<std::uint8_t> is_cut;  // (n_nodes) on a facet that this stroke opened, now or before
   std::vector<Vec3> X;               // (n_nodes) reference positions afterwards
   std::vector<NodeTransfer> transfer;  // of the moved nodes
+  std::vector<Vec3> chips;             // centres of those that stay with the other side
+  CutRungs rungs;
 };
 
 // The surroundings of the elements that were crossed since the last edit; without elements if

@@ -2,6 +2,7 @@
 #include "cutting/cut_tet.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/check.h"
 #include "base/error.h"
@@ -9,6 +10,7 @@
 #include "cutting/cut_edit.h"
 #include "cutting/cut_hex.h"
 #include "cutting/cut_hits.h"
+#include "cutting/cut_homogenise.h"
 #include "cutting/cut_index.h"
 #include "cutting/cut_mend.h"
 
@@ -61,11 +63,32 @@ static double least_ratio(const CutTetOptions& options, const HexTets& tets) {
   return tets.mesh.X.empty() ? ratio : std::min(0.95, cube_over_tet * ratio);
 }
 
+static std::vector<Vec3> moved_nodes(const TetCut& cut, const CutTetOptions& options,
+                                     const MoveLimits& limits) {
+  std::vector<Vec3> X = cut.around.patch.X;
+  if (options.stages == CutStages::springs)
+    homogenise_nodes(cut.around, cut.role, -std::numeric_limits<double>::infinity(), X);
+  if (options.stages == CutStages::springs_then_barrier)
+    homogenise_nodes(cut.around, cut.role, limits.floor, X);
+  if (options.stages != CutStages::springs) move_nodes(cut.around, cut.role, limits, X);
+  return X;
+}
+
+static std::int32_t count_inverted(const CutPatch& patch, std::span<const Vec3> X) {
+  const auto is_inverted = [&](const auto& corner) { return !(six_volumes(X, corner) > 0); };
+  return static_cast<std::int32_t>(std::ranges::count_if(patch.corner, is_inverted));
+}
+
+static std::int32_t count_different(std::span<const Vec3> a, std::span<const Vec3> b) {
+  std::int32_t n = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) n += a[i] == b[i] ? 0 : 1;
+  return n;
+}
+
 // Cuts the tetrahedra of `mesh`.
 MeshEdit TetCutter::Front::advance(const Mesh& mesh, std::span<const Vec3> x,
                                    std::span<const std::uint8_t> is_held, const BladeSweep& sweep,
                                    bool is_last, CutFigures& figures) {
-  update_index(mesh, index);
   add_hits(mesh, index, x, sweep, stroke);
   stroke.swept += sweep_length(sweep);
   if (!is_last && stroke.swept < options.advance * stroke.mean_edge) return {};
@@ -74,22 +97,35 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, std::span<const Vec3> x,
   cut.around = survey(mesh, index, x, is_held, stroke, is_last);
   if (cut.around.patch.n_elements() == 0) return {};
   cut.labels = label_elements(cut.around, stroke);
-  if (is_last) mend_labels(cut.around, stroke, cut.labels);
+  if (is_last) cut.rungs.n_turned = mend_labels(cut.around, stroke, cut.labels);
   std::vector<std::uint8_t> stays_whole(cut.around.patch.node.size(), 0);
   if (!is_last) stays_whole = unripe_nodes(cut.around, cut.labels);
   cut.opening = open_facets(cut.around, cut.labels, stays_whole);
-  if (attach_chips(cut.around, cut.opening, cut.labels))
-    cut.opening = open_facets(cut.around, cut.labels, stays_whole);
+  cut.chips = attach_chips(cut.around, cut.opening, cut.labels);
+  if (!cut.chips.empty()) cut.opening = open_facets(cut.around, cut.labels, stays_whole);
   set_roles(cut, stroke, is_last);
-  cut.X =
-      move_nodes(cut.around, cut.role, move_limits(cut.around, stroke, least_ratio(options, tets)));
+  cut.X = moved_nodes(cut, options, move_limits(cut.around, stroke, least_ratio(options, tets)));
+  cut.rungs.n_inverted = count_inverted(cut.around.patch, cut.X);
+  const std::vector<Vec3> wanted = cut.X;
   cut.transfer = transfer_moves(cut.around.patch, cut.X);
+  cut.rungs.n_pulled_back = count_different(wanted, cut.X);
 
-  figures = make_figures(cut, is_last);
+  figures = make_figures(cut, stroke, is_last);
   remember(cut, mesh.n_nodes(), stroke);
   MeshEdit edit = make_edit(mesh, cut);
   edit_index(mesh, edit, index);
   return edit;
+}
+
+void TetCutter::prepare(const Mesh& mesh) {
+  Front& f = *front_;
+  if (is_index_of(f.index, mesh)) return;  // which has no hexahedra then
+  if (!has_hexahedra(mesh)) {
+    f.tets = {};
+    return update_index(mesh, f.index);
+  }
+  update_hex_tets(mesh, f.tets);
+  update_index(f.tets.mesh, f.index);
 }
 
 MeshEdit TetCutter::advance(const Mesh& mesh, std::span<const Vec3> x,
@@ -97,12 +133,9 @@ MeshEdit TetCutter::advance(const Mesh& mesh, std::span<const Vec3> x,
                             bool is_last, CutFigures& figures) {
   check_arguments(mesh, x, is_held, sweep);
   figures = {};
+  prepare(mesh);
   Front& f = *front_;
-  if (!has_hexahedra(mesh)) {
-    f.tets = {};
-    return f.advance(mesh, x, is_held, sweep, is_last, figures);
-  }
-  update_hex_tets(mesh, f.tets);
+  if (f.tets.mesh.X.empty()) return f.advance(mesh, x, is_held, sweep, is_last, figures);
   const MeshEdit edit = f.advance(f.tets.mesh, x, is_held, sweep, is_last, figures);
   if (edit.is_empty()) return edit;
   return edit_of_body(mesh, x, f.index, edit, f.tets, figures);

@@ -16,12 +16,20 @@
 
 namespace trocar {
 
+// How nodes get onto the blade's surface and elements around them get their shapes back.
+enum class CutStages : std::uint8_t {
+  springs,               // displaced, then springs and Lennard-Jones particles, as in the plane
+  springs_then_barrier,  // the same as far as elements stay valid, then descent on the barrier
+  barrier                // descent on the barrier alone
+};
+
 struct CutTetOptions {
   double advance =
       0.5;  // of the local mean edge length that the blade must sweep before the mesh is changed
   // Floor on the ratio least stable step after / before of the elements around (element bound).
   // What would sink below it stops on its way to the blade: the cut lies beside it there.
   double least_step_ratio = 0.35;
+  CutStages stages = CutStages::barrier;
 };
 
 // One blade's cut from its entry into tissue to its exit.
@@ -30,6 +38,10 @@ class TetCutter {
   explicit TetCutter(const CutTetOptions& options);
   ~TetCutter();
   TetCutter(TetCutter&&) noexcept;
+
+  // Looks at the whole mesh once; without it, the first advance does. From then on an advance costs
+  // what it touches.
+  void prepare(const Mesh& mesh);
 
   // Takes up the swept band; makes the edit once enough is swept (or is_last: the blade left or
   // stopped). The edit is empty while it waits. x (n_nodes) present positions; is_held (n_nodes)

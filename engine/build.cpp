@@ -127,6 +127,8 @@ void build_cuts(Simulation& s) {
                                                 .least_step_ratio = cutting.least_step_ratio})});
   }
   if (!s.cuts.empty()) warn_of_whole_hexahedra(s);
+  if (s.mesh.dimension() == 3)
+    for (CutStage& stage : s.cuts) stage.tet.prepare(s.mesh);
 }
 
 void build_instruments(const LoadedScene& loaded, Simulation& s) {

@@ -41,12 +41,12 @@ static void visit(Archive& a, OfElement<T>& entry) {
 }
 template <class Archive>
 static void visit(Archive& a, BladePoint& p) {
-  a(p.element, p.X, p.x);
+  a(p.element, p.is_inside, p.X, p.x);
 }
 template <class Archive>
 static void visit(Archive& a, CutStroke& s) {
   a(s.hit, s.side, s.opened, s.step, s.surface_node, s.parted_node, s.fresh, s.unfinished, s.edge,
-    s.at_edge, s.mean_edge, s.swept);
+    s.at_edge, s.ends_in_tissue, s.mean_edge, s.swept);
 }
 template <class Archive>
 static void visit(Archive& a, CutRefusal& r) {
@@ -58,7 +58,8 @@ static void visit(Archive& a, CutRecord& r) {
     r.n_pieces, r.n_elements_added, r.n_elements_dissolved, r.n_converted, r.n_kept_hexahedra,
     r.stable_step_ratio, r.scene_step_ratio, r.least_quality, r.mass_change, r.momentum_change,
     r.kinetic_energy_change, r.largest_deviation, r.mean_deviation, r.mean_edge, r.n_beside,
-    r.refusals, r.blade_travel, r.deepest, r.milliseconds, r.worst_milliseconds);
+    r.n_turned, r.n_chips, r.n_pulled_back, r.refusals, r.blade_travel, r.deepest, r.milliseconds,
+    r.worst_milliseconds);
 }
 template <class Archive>
 static void visit(Archive& a, Location& l) {

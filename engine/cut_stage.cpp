@@ -71,6 +71,9 @@ void add_figures(const CutFigures& figures, bool has_edit, CutRecord& record) {
   record.n_moved += figures.n_moved;
   record.n_duplicated += figures.n_duplicated;
   record.n_opened_facets += figures.n_opened_facets;
+  record.n_turned += figures.n_turned;
+  record.n_chips += figures.n_chips;
+  record.n_pulled_back += figures.n_pulled_back;
   record.n_converted += figures.n_converted;
   record.n_kept_hexahedra += figures.n_kept_hexahedra;
   record.largest_deviation = std::max(record.largest_deviation, figures.largest_deviation);

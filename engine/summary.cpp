@@ -1,6 +1,7 @@
 #include "engine/summary.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -43,10 +44,14 @@ Json mesh_json(const Mesh& mesh, const SceneSolver& solver) {
 }
 
 Json refusals_json(const CutRecord& c) {
+  constexpr std::array<const char*, CutRefusal::n_reasons> reason = {
+      "the outer surface would no longer be a closed surface",
+      "a chip below half an edge cubed stays with the other side",
+      "an element on the blade's way was not parted"};
   Json list = Json::array();
   for (const CutRefusal& r : c.refusals)
     list.push_back({{"X_m", {r.X.x(), r.X.y(), r.X.z()}},
-                    {"reason", "the outer surface would no longer be a closed surface"}});
+                    {"reason", reason[static_cast<std::size_t>(r.reason)]}});
   return list;
 }
 
@@ -58,6 +63,9 @@ Json stroke_json(const CutRecord& c) {
           {"refused", c.n_refused},
           {"refusals", refusals_json(c)},
           {"nodes_beside_blade", c.n_beside},
+          {"elements_turned", c.n_turned},
+          {"chips", c.n_chips},
+          {"nodes_pulled_back", c.n_pulled_back},
           {"nodes_moved", c.n_moved},
           {"nodes_duplicated", c.n_duplicated},
           {"facets_opened", c.n_opened_facets},

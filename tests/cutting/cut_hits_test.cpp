@@ -24,10 +24,10 @@ BladeSweep sweep_of(const Blade& blade, double from, double to, const Vec3& norm
 
 TEST(AddHits, finds_all_edges_that_a_plane_crosses_for_all_their_elements) {
   const Mesh mesh = box();
+  CutIndex index = index_of(mesh);
   const Vec3 centre(0.5, 0.45, 0.52), normal = Vec3(1, 0.4, -0.3).normalized();
   CutStroke stroke;
-  add_hits(mesh, index_of(mesh), mesh.X, sweep_of(plane_blade(centre, normal, 2), 0, 1, normal),
-           stroke);
+  add_hits(mesh, index, mesh.X, sweep_of(plane_blade(centre, normal, 2), 0, 1, normal), stroke);
   std::set<std::pair<std::int32_t, std::int32_t>> found, expected;
   for (const CutHit& hit : stroke.hit) found.insert(hit.key());
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
@@ -46,12 +46,13 @@ TEST(AddHits, finds_all_edges_that_a_plane_crosses_for_all_their_elements) {
 
 TEST(AddHits, finds_in_small_steps_what_it_finds_in_one) {
   const Mesh mesh = box();
+  CutIndex index = index_of(mesh);
   const Vec3 centre(0.5, 0.45, 0.52), normal = Vec3(1, 0.4, -0.3).normalized();
   const Blade blade = plane_blade(centre, normal, 2);
   CutStroke one, many;
-  add_hits(mesh, index_of(mesh), mesh.X, sweep_of(blade, 0, 1, normal), one);
+  add_hits(mesh, index, mesh.X, sweep_of(blade, 0, 1, normal), one);
   for (int k = 0; k < 60; ++k)
-    add_hits(mesh, index_of(mesh), mesh.X, sweep_of(blade, k / 60.0, (k + 1) / 60.0, normal), many);
+    add_hits(mesh, index, mesh.X, sweep_of(blade, k / 60.0, (k + 1) / 60.0, normal), many);
   ASSERT_EQ(one.hit.size(), many.hit.size());
   for (std::size_t k = 0; k < one.hit.size(); ++k) {
     EXPECT_EQ(one.hit[k].key(), many.hit[k].key());
@@ -61,6 +62,7 @@ TEST(AddHits, finds_in_small_steps_what_it_finds_in_one) {
 
 TEST(AddHits, gives_the_crossing_in_the_reference_of_a_deformed_body) {
   const Mesh mesh = box();
+  CutIndex index = index_of(mesh);
   Mat3 F;
   F << 1.2, 0.3, 0, -0.1, 0.9, 0.2, 0.1, 0, 1.1;
   std::vector<Vec3> x;
@@ -68,7 +70,7 @@ TEST(AddHits, gives_the_crossing_in_the_reference_of_a_deformed_body) {
   const Vec3 N = Vec3(0.2, 1, 0.1).normalized(), C(0.5, 0.5, 0.5);
   const Vec3 n = (F.inverse().transpose() * N).normalized();  // the plane N, C as it lies in x
   CutStroke stroke;
-  add_hits(mesh, index_of(mesh), x, sweep_of(plane_blade(F * C, n, 3), 0, 1, n), stroke);
+  add_hits(mesh, index, x, sweep_of(plane_blade(F * C, n, 3), 0, 1, n), stroke);
   EXPECT_GT(stroke.hit.size(), 100U);
   for (const CutHit& hit : stroke.hit) {
     EXPECT_NEAR(N.dot(hit.X - C), 0, 1e-13);  // rounding
@@ -78,26 +80,28 @@ TEST(AddHits, gives_the_crossing_in_the_reference_of_a_deformed_body) {
 
 TEST(AddHits, takes_a_crossing_back_if_the_blade_comes_back_from_the_other_side) {
   const Mesh mesh = box();
+  CutIndex index = index_of(mesh);
   const Vec3 normal = Vec3::UnitX();
   CutStroke stroke;
   const Blade there = plane_blade({0.55, 0.5, 0.5}, normal, 2);
-  add_hits(mesh, index_of(mesh), mesh.X, sweep_of(there, 0, 1, normal), stroke);
+  add_hits(mesh, index, mesh.X, sweep_of(there, 0, 1, normal), stroke);
   EXPECT_FALSE(stroke.hit.empty());
-  add_hits(mesh, index_of(mesh), mesh.X, sweep_of(there, 0, 1, -normal), stroke);
+  add_hits(mesh, index, mesh.X, sweep_of(there, 0, 1, -normal), stroke);
   EXPECT_TRUE(stroke.hit.empty());
 }
 
 TEST(AddHits, leaves_no_gap_where_the_body_slips_between_two_bands) {
   const Mesh mesh = box();
+  CutIndex index = index_of(mesh);
   const Vec3 normal = Vec3::UnitX();
   const Blade blade = plane_blade({0.55, 0.5, 0.5}, normal, 1);
   CutStroke still, slipping;
-  add_hits(mesh, index_of(mesh), mesh.X, sweep_of(blade, 0, 1, normal), still);
+  add_hits(mesh, index, mesh.X, sweep_of(blade, 0, 1, normal), still);
   for (int k = 0; k < 20; ++k) {
     std::vector<Vec3> x = mesh.X;  // to and fro along the cut by a third of an edge
     const Vec3 shift = (k % 2 == 0 ? 0.08 : 0.0) * Vec3(0, 1, 1);
     for (Vec3& p : x) p += shift;
-    add_hits(mesh, index_of(mesh), x, sweep_of(blade, k / 20.0, (k + 1) / 20.0, normal), slipping);
+    add_hits(mesh, index, x, sweep_of(blade, k / 20.0, (k + 1) / 20.0, normal), slipping);
   }
   EXPECT_EQ(slipping.hit.size(), still.hit.size());
 }

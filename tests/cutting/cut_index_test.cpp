@@ -27,6 +27,17 @@ TEST(CutIndex, that_was_edited_is_the_index_of_the_edited_mesh) {
   ASSERT_EQ(index.star_size, fresh.star_size);
   for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)
     EXPECT_TRUE(std::ranges::equal(index.star(i), fresh.star(i))) << i;
+  EXPECT_EQ(index.is_surface, fresh.is_surface);
+  EXPECT_EQ(index.surface_node.size(), fresh.surface_node.size());
+}
+
+TEST(CutIndex, knows_the_nodes_of_the_surface) {
+  for (const BoxElements elements : {BoxElements::tet4_kuhn, BoxElements::hex8}) {
+    const Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {4, 5, 3}, elements);
+    CutIndex index = index_of(mesh);
+    std::ranges::sort(index.surface_node);
+    EXPECT_EQ(index.surface_node, boundary_surface(mesh).node);
+  }
 }
 
 TEST(CutIndex, gives_a_patch_of_three_rings_around_its_seeds) {

@@ -124,5 +124,24 @@ TEST(CutInvariants, the_stable_step_keeps_its_floor_whatever_it_is) {
   }
 }
 
+TEST(CutInvariants, whatever_stage_moves_the_nodes_the_body_stays_sound) {
+  for (const CutStages stages :
+       {CutStages::springs, CutStages::springs_then_barrier, CutStages::barrier}) {
+    Body body(centred_block(0.2));
+    const double before = least_step_of(body.mesh), mass_before = mass(body.mesh);
+    TetCutter cutter{CutTetOptions{.stages = stages}};
+    const Ledger ledger = cut(body, plane_blade({0.02, 0.05, 0}, tilted, 1), tilted, 25, cutter);
+    EXPECT_EQ(fault(body), "");
+    EXPECT_EQ(n_pieces(body.mesh), 2);
+    EXPECT_NEAR(mass(body.mesh) / mass_before, 1, 1e-12);
+    if (stages == CutStages::springs) {
+      EXPECT_GT(ledger.total.n_pulled_back, 0);  // nothing in springs and particles sees volumes
+    } else {
+      EXPECT_EQ(ledger.total.n_inverted, 0);
+      EXPECT_GE(least_step_of(body.mesh), CutTetOptions{}.least_step_ratio * before * (1 - 1e-12));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace trocar

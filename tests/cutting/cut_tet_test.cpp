@@ -208,5 +208,43 @@ TEST(TetCutter, refuses_a_plane_mesh) {
   EXPECT_THROW(advance(cutter, body, sweep, false, ledger), InputError);
 }
 
+// A plane through the whole body, taken up in one band; the edit is made when the blade is out.
+// `forget` changes what the stroke remembers in between.
+CutFigures cut_through(Body& body, const std::function<void(CutStroke&)>& forget) {
+  const Vec3 normal = Vec3(1, 0.5, 0.2).normalized();
+  const Blade blade = plane_blade({0.52, 0.5, 0.5}, normal, 1.5);
+  TetCutter cutter{CutTetOptions{.advance = 100}};
+  CutFigures figures;
+  cutter.advance(body.mesh, body.x, body.is_held, {blade(0), blade(1), normal}, false, figures);
+  CutStroke stroke = cutter.stroke();
+  forget(stroke);
+  cutter.set_stroke(stroke);
+  Ledger ledger;
+  const MeshEdit edit = cutter.advance(body.mesh, body.x, body.is_held,
+                                       {blade(1), blade(1.1), normal}, true, figures);
+  apply(edit, figures, body, ledger);
+  return figures;
+}
+
+TEST(TetCutter, names_the_place_where_a_cut_from_surface_to_surface_leaves_tissue_joined) {
+  const Vec3 centre(0.5, 0.5, 0.5);
+  Body whole(make_box({0, 0, 0}, {1, 1, 1}, {6, 6, 6}, BoxElements::tet4_kuhn));
+  Body joined = whole;
+  EXPECT_EQ(cut_through(whole, [](CutStroke&) {}).n_refused, 0);
+  EXPECT_EQ(n_pieces(whole.mesh), 2);
+  Vec3 gap = Vec3::Zero();
+  const CutFigures figures = cut_through(joined, [&](CutStroke& stroke) {
+    for (const CutHit& hit : stroke.hit)
+      if ((hit.X - centre).norm() < (gap - centre).norm()) gap = hit.X;
+    std::erase_if(stroke.hit, [&](const CutHit& hit) { return hit.X == gap; });
+  });
+  EXPECT_EQ(n_pieces(joined.mesh), 1);
+  ASSERT_GT(figures.n_refused, 0);
+  for (const CutRefusal& refusal : figures.refusals) {
+    EXPECT_EQ(refusal.reason, CutRefusal::missed);
+    EXPECT_LT((refusal.X - gap).norm(), mean_edge_of(joined.mesh));
+  }
+}
+
 }  // namespace
 }  // namespace trocar

@@ -73,6 +73,10 @@ inline void apply(const MeshEdit& edit, const CutFigures& figures, Body& body, L
   total.n_moved += figures.n_moved;
   total.n_beside += figures.n_beside;
   total.n_duplicated += figures.n_duplicated;
+  total.n_turned += figures.n_turned;
+  total.n_chips += figures.n_chips;
+  total.n_pulled_back += figures.n_pulled_back;
+  total.n_inverted += figures.n_inverted;
   total.least_quality = std::min(total.least_quality, figures.least_quality);
   total.largest_deviation = std::max(total.largest_deviation, figures.largest_deviation);
   ledger.deviation_sum += figures.mean_deviation * figures.n_duplicated;

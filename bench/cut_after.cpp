@@ -1,0 +1,196 @@
+// What explicit time integration does after a cut: bodies that move are cut, and stepped on.
+#include <map>
+
+#include "cut_case.h"
+#include "stability_body.h"
+
+namespace trocar::cut_bench {
+
+namespace {
+
+constexpr int n_cells = 4;
+constexpr int steps_a_frame = 10;  // the limit is looked for anew each time, as a scene does
+constexpr double blown_up = 1;     // growth of the energy
+
+// The step: a part of 2 / omega or of the elements' least bound, in the present deformation.
+struct Rule {
+  const char* name;
+  double part;
+  bool is_sharp;
+};
+constexpr std::array<Rule, 3> rules{{{"0.9 of the elements' bound", 0.9, false},
+                                     {"0.85 of 2 / omega, a scene's default", 0.85, true},
+                                     {"0.9 of 2 / omega", 0.9, true}}};
+
+struct After {
+  double bound_ratio = 1, limit_ratio = 1;  // after / before the cut, in the present deformation
+  std::array<double, rules.size()> growth{}, uncut{};  // of the energy, less 1; of the uncut body
+  int n_edits = 0;
+};
+
+BodyOptions tissue() {
+  return {.materials = {{MaterialModel::neo_hookean, 3000, .45, 1000}}};
+}
+
+}  // namespace
+
+// Bent by some 10 %, with waves of a tenth of the speed of sound in shear (1 m/s).
+static trocar::Body moving_body(Mesh mesh, std::mt19937_64& random) {
+  trocar::Body body = make_body(std::move(mesh), tissue());
+  const cutting_test::Deformation bend = random_bend(random), wave = random_bend(random);
+  displace(body, [&](const Vec3& X) { return Vec3(0.25 * (bend(X) - X)); });
+  for (std::size_t i = 0; i < body.mesh.X.size(); ++i) {
+    const Vec3 v = 0.5 * (wave(body.mesh.X[i]) - body.mesh.X[i]);
+    for (std::size_t k = 0; k < 3; ++k) body.state.v[3 * i + k] = v[Eigen::Index(k)];
+  }
+  return body;
+}
+
+static std::vector<Vec3> present(const trocar::Body& body) {
+  std::vector<Vec3> x = body.mesh.X;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] += Vec3(body.state.u[3 * i], body.state.u[3 * i + 1], body.state.u[3 * i + 2]);
+  return x;
+}
+
+static void apply(const MeshEdit& edit, trocar::Body& body) {
+  if (edit.is_empty()) return;
+  Mesh mesh = body.mesh;
+  std::vector<double> u = body.state.u, v = body.state.v;
+  apply_edit(edit, mesh, 3, u);
+  apply_edit(edit, mesh, 3, v);
+  apply_edit(edit, mesh);
+  body = make_body(std::move(mesh), tissue());
+  body.state.u = std::move(u);
+  body.state.v = std::move(v);
+}
+
+// The body moves on by some steps between two advances of the blade.
+static void cut_in_motion(const Stroke& stroke, double dt, TetCutter& cutter, trocar::Body& body,
+                          After& after) {
+  cutter.start_stroke();
+  for (int k = 0; k < stroke.n_steps; ++k) {
+    for (int n = 0; n < 2; ++n) step(body, dt);
+    const BladeSweep sweep{stroke.blade(double(k) / stroke.n_steps),
+                           stroke.blade(double(k + 1) / stroke.n_steps), stroke.normal};
+    const std::vector<std::uint8_t> is_held(body.mesh.X.size(), 0);
+    CutFigures figures;
+    const MeshEdit edit =
+        cutter.advance(body.mesh, present(body), is_held, sweep, k + 1 == stroke.n_steps, figures);
+    apply(edit, body);
+    after.n_edits += edit.is_empty() ? 0 : 1;
+  }
+}
+
+// As engine finds it: 2 / omega, or the elements' bound where that is larger. `mode` is where the
+// search starts.
+static double limit_in_scene(trocar::Body& body, std::vector<double>& mode) {
+  const double bound = look(body).stable_step;
+  if (!(bound > 0)) return 0;
+  const auto forces = [&](std::vector<double>& u, std::vector<double>& f) {
+    State state = body.state;
+    state.u = u;
+    compute_force(body.model, state, body.scratch);
+    f = body.scratch.force;
+  };
+  const HighestFrequency found = find_highest_frequency(body.model, body.part, body.state, forces,
+                                                        {.amplitude = 1e-8}, Communicator(), mode);
+  return std::max(bound, 2 / (frequency_margin * found.omega));
+}
+
+// Largest energy over the first one, less 1; infinite if the body is not finite any more.
+static double growth(trocar::Body body, const Rule& rule, int n_steps) {
+  std::vector<double> mode;
+  double first = 0, most = 0;
+  for (int done = 0; done < n_steps; done += steps_a_frame) {
+    const double bound = look(body).stable_step;
+    const double limit = rule.is_sharp ? limit_in_scene(body, mode) : bound;
+    if (!(bound > 0) || !is_finite(body)) return std::numeric_limits<double>::infinity();
+    const double energy = step_and_measure(body, rule.part * limit);
+    if (done == 0) first = energy;
+    most = std::max(most, energy);
+    for (int k = 1; k < steps_a_frame; ++k) step(body, rule.part * limit);
+  }
+  return is_finite(body) ? most / first - 1 : std::numeric_limits<double>::infinity();
+}
+
+static After cut_and_step(const Family& family, const Kind& kind, unsigned seed, int n_steps) {
+  std::mt19937_64 random(seed);
+  trocar::Body body = moving_body(family.make(seed), random);
+  After after;
+  for (std::size_t k = 0; k < rules.size(); ++k) after.uncut[k] = growth(body, rules[k], n_steps);
+  Mesh shape = body.mesh;  // the blade moves in space
+  shape.X = present(body);
+  const double limit = limit_of(body), bound = look(body).stable_step;
+  TetCutter cutter{CutTetOptions{}};
+  // Stable even where a cut has left the step at its floor.
+  for (const Stroke& stroke : kind.strokes(shape, random))
+    cut_in_motion(stroke, 0.5 * CutTetOptions{}.least_step_ratio * limit, cutter, body, after);
+  after.limit_ratio = limit_of(body) / limit;
+  after.bound_ratio = look(body).stable_step / bound;
+  for (std::size_t k = 0; k < rules.size(); ++k) after.growth[k] = growth(body, rules[k], n_steps);
+  return after;
+}
+
+template <class Value>
+static std::string least_and_median(const std::vector<After>& cuts, const Value& value) {
+  std::vector<double> v;
+  for (const After& cut : cuts) v.push_back(value(cut));
+  std::sort(v.begin(), v.end());
+  return text("%.2f, %.2f", v[0], v[v.size() / 2]);
+}
+
+static void print_family(const std::string& name, const std::vector<After>& cuts, std::FILE* file) {
+  int n_edits = 0;
+  for (const After& cut : cuts) n_edits += cut.n_edits;
+  std::fprintf(file, "| %s | %zu | %d | %s | %s |", name.c_str(), cuts.size(), n_edits,
+               least_and_median(cuts, [](const After& c) { return c.bound_ratio; }).c_str(),
+               least_and_median(cuts, [](const After& c) { return c.limit_ratio; }).c_str());
+  for (std::size_t k = 0; k < rules.size(); ++k) {
+    double most = 0;
+    int n_blown = 0, n_uncut = 0;
+    for (const After& cut : cuts) {
+      n_blown += cut.growth[k] < blown_up ? 0 : 1;
+      n_uncut += cut.uncut[k] < blown_up ? 0 : 1;
+      if (cut.growth[k] < blown_up) most = std::max(most, cut.growth[k]);
+    }
+    std::fprintf(file, " %d (%d), %.3f |", n_blown, n_uncut, 1 + most);
+  }
+  std::fprintf(file, "\n");
+}
+
+static void print_head(int n_steps, std::FILE* file) {
+  std::fprintf(file, "| mesh | cuts | edits | bound after / before: least, median | 2 / omega |");
+  for (const Rule& rule : rules) std::fprintf(file, " %s |", rule.name);
+  std::fprintf(file, "\n|---|---|---|---|---|---|---|---|\n");
+  std::fprintf(stderr,
+               "last columns: bodies that blew up in %d steps (uncut ones), largest energy "
+               "of the others over that at the cut\n",
+               n_steps);
+}
+
+bool print_after(const AfterRun& run, std::FILE* file) {
+  const std::vector<Family> all = generated_families(n_cells);
+  const std::vector<Kind> kind = kinds();
+  std::map<std::string, std::vector<After>> of_family;
+  bool is_sound = true;
+  for (int k = 0; k < run.n_cuts; ++k) {
+    const unsigned seed = run.seed + unsigned(k);
+    const Family& family = all[seed % all.size()];
+    const Kind& cut = kind[seed / all.size() % kind.size()];
+    const After after = cut_and_step(family, cut, seed, run.n_steps);
+    of_family[family.name].push_back(after);
+    for (std::size_t r = 0; r < 1; ++r) {  // the promise
+      if (after.growth[r] < blown_up) continue;
+      is_sound = false;
+      std::fprintf(file, "seed %u blew up: %s %s, %s, energy %.3g-fold; uncut %.3g-fold\n", seed,
+                   family.name.c_str(), cut.name.c_str(), rules[r].name, 1 + after.growth[r],
+                   1 + after.uncut[r]);
+    }
+  }
+  print_head(run.n_steps, file);
+  for (const auto& [name, cuts] : of_family) print_family(name, cuts, file);
+  return is_sound;
+}
+
+}  // namespace trocar::cut_bench

@@ -1,0 +1,30 @@
+// Which elements a blade's band may meet, without a look at the whole mesh: a walk from the body's
+// surface, where a band enters, and from where the one before it ended.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+#include "cutting/cut_index.h"
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+// Box along axes of its own (columns). [m]
+struct BandBox {
+  Mat3 axes;
+  Vec3 low, high;
+};
+
+// Tetrahedra whose corners are not all beyond one side of the box in the present configuration x,
+// ascending: all in the body ...
+std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
+                                        const BandBox& box);
+// ... and those that hang together, through such elements, with the body's surface or with
+// `begin`. What is cut in one piece with the surface or with one of these elements is among them.
+std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
+                                        const BandBox& box, std::span<const std::int32_t> begin);
+
+}  // namespace trocar

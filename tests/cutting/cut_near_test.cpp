@@ -1,0 +1,104 @@
+#include "cutting/cut_near.h"
+
+#include <gtest/gtest.h>
+
+#include "cutting_tet.h"
+
+namespace trocar {
+namespace {
+
+using namespace cutting_test;
+
+// Two blocks side by side with a gap: a body whose surface a band enters several times.
+Mesh two_blocks() {
+  Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {6, 6, 6}, BoxElements::tet4_kuhn);
+  const Mesh other = make_box({1.5, 0, 0}, {2.5, 1, 1}, {6, 6, 6}, BoxElements::tet4_five);
+  const std::int32_t n = mesh.n_nodes();
+  mesh.X.insert(mesh.X.end(), other.X.begin(), other.X.end());
+  for (std::int32_t e = 0; e < other.n_elements(); ++e) {
+    const auto c = other.corners(e);
+    add_element(mesh, ElementType::tet4,
+                std::vector<std::int32_t>{c[0] + n, c[1] + n, c[2] + n, c[3] + n});
+  }
+  jitter(mesh, 0.2, 3);
+  return mesh;
+}
+
+Vec3 random_point(std::mt19937& random, const Vec3& low, const Vec3& high) {
+  std::uniform_real_distribution<double> u(0, 1);
+  Vec3 p;
+  for (int d = 0; d < 3; ++d) p[d] = low[d] + (high[d] - low[d]) * u(random);
+  return p;
+}
+
+BandBox random_box(std::mt19937& random) {
+  const Vec3 n = random_point(random, {-1, -1, -1}, {1, 1, 1}).normalized();
+  const Vec3 u = n.unitOrthogonal();
+  BandBox box;
+  box.axes << n, u, n.cross(u);
+  const Vec3 middle = box.axes.transpose() * random_point(random, {0, 0, 0}, {2.5, 1, 1});
+  const Vec3 half = random_point(random, {0, 0.02, 0.02}, {0.02, 0.6, 0.6});
+  box.low = middle - half;
+  box.high = middle + half;
+  return box;
+}
+
+// Whether points of a fine grid over the box's flat middle lie in the element: it is surely met.
+bool is_met(const Mesh& mesh, std::int32_t e, const BandBox& box) {
+  const auto c = mesh.corners(e);
+  Mat3 D;
+  for (int k = 0; k < 3; ++k) D.col(k) = mesh.X[c[k + 1]] - mesh.X[c[0]];
+  const Mat3 inverse = D.inverse();
+  constexpr int n = 12;
+  for (int j = 0; j <= n; ++j)
+    for (int k = 0; k <= n; ++k) {
+      const Vec3 part(0.5, double(j) / n, double(k) / n);
+      const Vec3 p = box.axes * (box.low + (box.high - box.low).cwiseProduct(part));
+      const Vec3 b = inverse * (p - mesh.X[c[0]]);
+      if (b.minCoeff() >= 0 && b.sum() <= 1) return true;
+    }
+  return false;
+}
+
+// The element that holds the middle of the box, nothing if it is outside.
+std::vector<std::int32_t> begin_of(const Mesh& mesh, BandBox box) {
+  box.low = box.high = 0.5 * (box.low + box.high);
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    if (is_met(mesh, e, box)) return {e};
+  return {};
+}
+
+TEST(NearElements, are_found_from_the_surface_or_the_begin_wherever_a_band_lies) {
+  const Mesh mesh = two_blocks();
+  CutIndex index = index_of(mesh);
+  std::mt19937 random(1);
+  int n_met = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const BandBox box = random_box(random);
+    const auto all = near_elements(mesh, index, mesh.X, box);
+    const auto found = near_elements(mesh, index, mesh.X, box, begin_of(mesh, box));
+    EXPECT_TRUE(std::ranges::includes(all, found));
+    for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+      if (!is_met(mesh, e, box)) continue;
+      ++n_met;
+      EXPECT_TRUE(std::ranges::binary_search(found, e)) << trial << " " << e;
+    }
+  }
+  EXPECT_GT(n_met, 500);
+  EXPECT_TRUE(std::ranges::all_of(index.ring, [](int r) { return r == no_ring; }));
+}
+
+TEST(NearElements, deep_in_the_body_are_found_from_the_begin_only) {
+  const Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {16, 16, 16}, BoxElements::tet4_kuhn);
+  CutIndex index = index_of(mesh);
+  BandBox box;
+  box.axes = Mat3::Identity();
+  box.low = box.high = Vec3(0.51, 0.52, 0.53);  // eight cells deep
+  EXPECT_TRUE(near_elements(mesh, index, mesh.X, box, {}).empty());
+  const auto found = near_elements(mesh, index, mesh.X, box, begin_of(mesh, box));
+  EXPECT_EQ(found, near_elements(mesh, index, mesh.X, box));
+  EXPECT_FALSE(found.empty());
+}
+
+}  // namespace
+}  // namespace trocar
