@@ -169,7 +169,8 @@ TEST(PlaneStress, the_thickness_is_free_of_stress_to_rounding) {
                             : M::model == MaterialModel::holzapfel_gasser_ogden ? largest_exponent
                                                                                 : 1;
       EXPECT_LT(in_double, factor * 2e-15);
-      EXPECT_LT(in_single, factor * 1e-6);
+      // In single precision a step of 2e-6 ends the search: as much strain may be left.
+      EXPECT_LT(in_single, factor * 2e-6);
     }
   });
 }
