@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "base/error.h"
 #include "cut_result.h"
 
 using namespace trocar;
@@ -66,9 +67,7 @@ Row run(const Family& family, const Kind& kind, const Arguments& a) {
   return row;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_all(int argc, char** argv) {
   if (argc == 2 && std::string(argv[1]) == "scaling") {
     print_scaling(stdout);
     return 0;
@@ -92,4 +91,16 @@ int main(int argc, char** argv) {
   std::FILE* json = std::fopen(a.json.c_str(), "w");
   print_json(rows, json);
   std::fclose(json);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_all(argc, argv);
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "bench_cut: %s\n", error.what());
+    return 2;
+  }
 }
