@@ -52,6 +52,11 @@ TEST(StateDigest, of_the_hexahedral_block_is_the_same_on_any_ranks_and_threads_w
   expect_one_digest("block_hex_cut.toml", {"time.duration='0.8 s'"});
 }
 
+TEST(StateDigest, of_a_duct_is_the_same_on_any_ranks_and_threads_while_scissors_cut_it) {
+  expect_one_digest("duct_scissors.toml",
+                    {"tissue.shape.cells=[4,4,20]", "time.duration='0.85 s'"});
+}
+
 TEST(StateDigest, of_the_plane_cut_is_the_same_on_any_ranks_and_threads) {
   expect_one_digest("plane_cut.toml", {});
 }
