@@ -74,20 +74,21 @@ static std::vector<Vec3> twisted_corner(int n, const std::vector<double>& times)
 }
 
 TEST(V20TwistingColumn, the_corner_follows_the_fine_mesh) {
-  const int n = 16;
+  const int n = is_report() ? 32 : 16;
   const std::vector<double> time = {.025, .05, .1};
   const std::vector<Vec3> corner = {
       {-.5316, -.112, -1.229}, {-1.1264, -.0762, -.1707}, {-.2945, .0293, .1688}};
   const std::vector<Vec3> coarse = twisted_corner(n / 2, time), fine = twisted_corner(n, time);
   for (std::size_t k = 0; k < time.size(); ++k) {
     const double error = (fine[k] - corner[k]).norm();
-    // numerics V20 knows each component to .003; there one-point hexahedra with 16 cells keep it,
-    // which these miss in the last row (docs/verification.md). |coarse - fine| is Roache's index.
+    // numerics V20 knows each component to .003, which is what 32 cells, those of the reference,
+    // are held to. 16 cells get Roache's index, |coarse - fine|, beside it.
+    const double known = .003 * std::sqrt(3);
+    const double tolerance = is_report() ? known : known + (coarse[k] - fine[k]).norm();
     check_figure({"V20 Twisting column",
                   "distance of the corner to the reference at t = " +
                       std::to_string(time[k]).substr(0, 5) + " [m]",
-                  mesh_name(hex_one_point, {n, 6 * n, n}), error, 0,
-                  (coarse[k] - fine[k]).norm() + .003 * std::sqrt(3), "hex8, n = 32",
+                  mesh_name(hex_one_point, {n, 6 * n, n}), error, 0, tolerance, "hex8, n = 32",
                   order_between((coarse[k] - corner[k]).norm(), error)});
   }
 }
