@@ -8,6 +8,7 @@
 #include <span>
 
 #include "base/communicator.h"
+#include "base/vec.h"
 
 namespace trocar {
 
@@ -25,5 +26,12 @@ class ExactSum {
   static constexpr std::size_t n_limbs = 10;
   std::array<std::uint64_t, n_limbs + 1> limbs_{};
 };
+
+// One for each component of a vector.
+using ExactSum3 = std::array<ExactSum, 3>;
+
+inline void add(const Vec3& value, ExactSum3& sum) {
+  for (int i = 0; i < 3; ++i) sum[static_cast<std::size_t>(i)].add(value[i]);
+}
 
 }  // namespace trocar

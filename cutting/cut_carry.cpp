@@ -29,69 +29,91 @@ static Vec3 at(const Mesh& mesh, std::int32_t e, std::span<const Vec3> X,
   return point;
 }
 
-// Cheaper than barycentric coordinates, and rarely true. `margin` [m].
-static bool box_holds(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x, const Vec3& point,
-                      double margin) {
-  Vec3 low = x[mesh.corners(e)[0]], high = low;
-  for (const std::int32_t i : mesh.corners(e).subspan(1)) {
-    low = low.cwiseMin(x[i]);
-    high = high.cwiseMax(x[i]);
-  }
-  return ((point - low).array() >= -margin).all() && ((high - point).array() >= -margin).all();
-}
+namespace {
 
-// `last`: element that the point went with before, -1 for none.
-static BladePoint locate(const Mesh& mesh, std::span<const Vec3> x,
-                         std::span<const std::int32_t> near, std::int32_t last, const Vec3& point,
-                         double margin) {
-  BladePoint best{.x = point};
+// Around an element: cheaper than barycentric coordinates, and rarely holds a point.
+struct Box {
+  Vec3 low, high;
+  bool holds(const Vec3& point, double margin) const {
+    return ((point - low).array() >= -margin).all() && ((high - point).array() >= -margin).all();
+  }
+};
+
+// The best element so far for a point, and its least barycentric coordinate there.
+struct Place {
   double most = -reach;
-  const auto try_element = [&](std::int32_t e) {
-    const std::array<double, 4> b = barycentric(mesh, e, x, point);
-    const double least = *std::min_element(b.begin(), b.end());
-    if (least <= most) return;
-    most = least;
-    best = {e, least >= -tolerance, at(mesh, e, mesh.X, b), point};
-  };
-  for (const std::int32_t e : near) {
-    if (box_holds(mesh, e, x, point, margin)) try_element(e);
-    if (most >= 0) return best;
+  BladePoint point;
+};
+
+}  // namespace
+
+static Box box_of(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
+  Box box{x[mesh.corners(e)[0]], x[mesh.corners(e)[0]]};
+  for (const std::int32_t i : mesh.corners(e).subspan(1)) {
+    box.low = box.low.cwiseMin(x[i]);
+    box.high = box.high.cwiseMax(x[i]);
   }
-  if (last >= 0) try_element(last);
-  return best;
+  return box;
 }
 
-// Whether an element holds some of the points that divide the pieces of a polyline into four.
-static bool holds_some(const Mesh& mesh, std::span<const Vec3> x, std::int32_t e,
-                       std::span<const Vec3> line) {
+static void try_element(const Mesh& mesh, std::span<const Vec3> x, std::int32_t e, Place& place) {
+  const std::array<double, 4> b = barycentric(mesh, e, x, place.point.x);
+  const double least = *std::min_element(b.begin(), b.end());
+  if (least <= place.most) return;
+  place = {least, {e, least >= -tolerance, at(mesh, e, mesh.X, b), place.point.x}};
+}
+
+// The first element of `near` that holds each point, else the nearest within `margin` [m].
+static std::vector<Place> find_places(const Mesh& mesh, std::span<const Vec3> x,
+                                      std::span<const std::int32_t> near,
+                                      const std::vector<Vec3>& points, double margin) {
+  std::vector<Place> places;
+  for (const Vec3& point : points) places.push_back({.point = {.x = point}});
+  for (const std::int32_t e : near) {
+    const Box box = box_of(mesh, e, x);
+    for (Place& place : places)
+      if (place.most < 0 && box.holds(place.point.x, margin)) try_element(mesh, x, e, place);
+  }
+  return places;
+}
+
+// Points that divide the pieces of a polyline into four.
+static std::vector<Vec3> refined(const std::vector<Vec3>& line) {
   constexpr int parts = 4;
+  std::vector<Vec3> points;
   for (std::size_t k = 0; k + 1 < line.size(); ++k)
-    for (int j = 0; j <= parts; ++j) {
-      const Vec3 point = line[k] + (line[k + 1] - line[k]) * (1.0 * j / parts);
-      if (!box_holds(mesh, e, x, point, 0)) continue;
-      const std::array<double, 4> b = barycentric(mesh, e, x, point);
-      if (*std::min_element(b.begin(), b.end()) >= 0) return true;
-    }
-  return false;
+    for (int j = 0; j < parts; ++j)
+      points.push_back(line[k] + (line[k + 1] - line[k]) * (1.0 * j / parts));
+  points.push_back(line.back());
+  return points;
+}
+
+static bool holds_some(const Mesh& mesh, std::span<const Vec3> x, std::int32_t e,
+                       const std::vector<Vec3>& points) {
+  const Box box = box_of(mesh, e, x);
+  return std::ranges::any_of(points, [&](const Vec3& point) {
+    return box.holds(point, 0) && std::ranges::min(barycentric(mesh, e, x, point)) >= 0;
+  });
 }
 
 void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
                    std::span<const std::int32_t> near, CutStroke& stroke) {
-  const auto locate_from = [&](std::int32_t last, const Vec3& point) {
-    return locate(mesh, x, near, last, point, stroke.mean_edge);
-  };
-  const std::vector<BladePoint> last = std::move(stroke.edge);
-  if (last.empty() && std::ranges::any_of(sweep.before, [&](const Vec3& point) {
-        return locate_from(-1, point).is_inside;
-      }))
+  const double margin = stroke.mean_edge;
+  const auto is_inside = [](const Place& place) { return place.point.is_inside; };
+  if (stroke.edge.empty() &&
+      std::ranges::any_of(find_places(mesh, x, near, sweep.before, margin), is_inside))
     stroke.ends_in_tissue = true;
+  std::vector<Place> places = find_places(mesh, x, near, sweep.after, margin);
+  for (std::size_t k = 0; k < std::min(places.size(), stroke.edge.size()); ++k)
+    if (places[k].most < 0 && stroke.edge[k].element >= 0)
+      try_element(mesh, x, stroke.edge[k].element, places[k]);
   stroke.edge.clear();
-  for (std::size_t k = 0; k < sweep.after.size(); ++k)
-    stroke.edge.push_back(locate_from(k < last.size() ? last[k].element : -1, sweep.after[k]));
-  if (stroke.edge.front().is_inside || stroke.edge.back().is_inside) stroke.ends_in_tissue = true;
+  for (const Place& place : places) stroke.edge.push_back(place.point);
+  if (is_inside(places.front()) || is_inside(places.back())) stroke.ends_in_tissue = true;
   stroke.at_edge.clear();
+  const std::vector<Vec3> points = refined(sweep.after);
   for (const std::int32_t e : near)
-    if (holds_some(mesh, x, e, sweep.after)) stroke.at_edge.push_back(e);
+    if (holds_some(mesh, x, e, points)) stroke.at_edge.push_back(e);
 }
 
 BladeSweep carry_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,

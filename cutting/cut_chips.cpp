@@ -37,13 +37,6 @@ static bool is_chip(const CutSurroundings& around, const std::vector<std::int32_
   return six_V < 6 * chip_volume * around.h * around.h * around.h;
 }
 
-static Vec3 centre_of(const CutPatch& patch, const std::vector<std::int32_t>& piece) {
-  Vec3 sum = Vec3::Zero();
-  for (const std::int32_t e : piece)
-    for (const std::int32_t i : patch.corner[e]) sum += patch.X[i];
-  return sum / static_cast<double>(4 * piece.size());
-}
-
 std::vector<Vec3> attach_chips(const CutSurroundings& around, const CutOpening& opening,
                                CutLabels& labels) {
   std::vector<Vec3> centre;

@@ -95,9 +95,7 @@ static void add_missed(const TetCut& cut, const CutStroke& stroke, std::vector<C
   const std::vector<std::span<const CutHit>> hits = hits_of(stroke, patch.element);
   for (std::int32_t e = 0; e < patch.n_elements(); ++e) {
     if (cut.labels.kind[e] != CutKind::front || hits[e].empty()) continue;
-    Vec3 sum = Vec3::Zero();
-    for (const std::int32_t i : patch.corner[e]) sum += patch.X[i];
-    list.push_back({sum / 4, CutRefusal::missed});
+    list.push_back({centre_of(patch, {&e, 1}), CutRefusal::missed});
   }
 }
 
@@ -151,8 +149,9 @@ static void remember_sides(const TetCut& cut, CutStroke& stroke) {
   std::vector<std::uint8_t> has_opened(patch.element.size(), 0);
   for (const auto& [e, f] : cut.opening.facet) has_opened[e] = 1;
   std::vector<OfElement<std::int8_t>> side;
+  const std::vector<std::span<const CutHit>> hits = hits_of(stroke, patch.element);
   for (std::int32_t e = 0; e < patch.n_elements(); ++e) {
-    if (cut.labels.kind[e] == CutKind::front && hits_of(stroke, patch.element[e]).empty())
+    if (cut.labels.kind[e] == CutKind::front && hits[e].empty())
       stroke.unfinished.push_back(patch.element[e]);
     if (cut.labels.side[e] == 0 || cut.labels.kind[e] == CutKind::front) continue;
     const auto& corner = patch.corner[e];

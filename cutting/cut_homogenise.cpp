@@ -2,7 +2,6 @@
 #include "cutting/cut_homogenise.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "cutting/cut_pair_forces.h"
 
@@ -87,20 +86,13 @@ static System make_system(const CutSurroundings& around, const std::vector<NodeR
   return system;
 }
 
-static double star_step(const System& system, std::int32_t i) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const std::int32_t e : system.around.patch.star(i))
-    least = std::min(least, step_bound(system.X, system.around.patch.corner[e]));
-  return least;
-}
-
 // Puts node i to `to`, or as far as the elements around allow. Returns how far it went.
 static double go(System& system, std::int32_t i, const Vec3& to) {
   const Vec3 from = system.X[i];
-  const double least = std::min(system.least_step, star_step(system, i));
+  const double least = std::min(system.least_step, star_step(system.around.patch, system.X, i));
   for (const double part : {1.0, 0.5, 0.25}) {
     system.X[i] = project_to_boundary(system.around.boundary[i], from + part * (to - from));
-    if (star_step(system, i) >= least) return (system.X[i] - from).norm();
+    if (star_step(system.around.patch, system.X, i) >= least) return (system.X[i] - from).norm();
   }
   system.X[i] = from;
   return 0;

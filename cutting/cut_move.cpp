@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cutting/cut_energy.h"
 
@@ -64,13 +63,6 @@ static NodeEnergy node_energy(const Descent& d, std::int32_t i, const SurfaceTer
   return energy;
 }
 
-static double star_step(const Descent& d, std::int32_t i) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const std::int32_t e : d.around.patch.star(i))
-    least = std::min(least, step_bound(d.X, d.around.patch.corner[e]));
-  return least;
-}
-
 // Newton's step within what the boundary allows; downhill also where the Hessian is not definite.
 static Vec3 newton_step(const NodeEnergy& energy, const NodeBoundary& boundary, double h) {
   Mat3 P;
@@ -119,7 +111,7 @@ static double descend(Descent& d, std::int32_t i) {
   const SurfaceTerm term = surface_term(d, i);
   const NodeEnergy energy = node_energy(d, i, term);
   if (!std::isfinite(energy.value)) return 0;
-  const double least_step = std::min(d.limits.floor, star_step(d, i));
+  const double least_step = std::min(d.limits.floor, star_step(d.around.patch, d.X, i));
   const Vec3 from = d.X[i];
   Vec3 step = newton_step(energy, d.around.boundary[i], d.around.h);
   for (int trial = 0; trial < 5; ++trial, step *= 0.5)
@@ -144,12 +136,13 @@ Vec3 foot_on_surface(const CutSurroundings& around, std::int32_t i, const Vec3& 
 
 static void snap(Descent& d, std::int32_t i) {
   if (d.around.points.of(i).empty()) return;
-  const double step = star_step(d, i);
+  const double step = star_step(d.around.patch, d.X, i);
   if (!(step > 0)) return;
   const double least = std::min(d.limits.snap, step);
   const Vec3 from = d.X[i], to = foot_on_surface(d.around, i, d.X[i]);
   for (const double part : {1.0, 0.5, 0.25})
-    if (try_position(d, i, from + part * (to - from), [&] { return star_step(d, i) >= least; }))
+    if (try_position(d, i, from + part * (to - from),
+                     [&] { return star_step(d.around.patch, d.X, i) >= least; }))
       return;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace trocar {
 
@@ -42,6 +43,20 @@ double step_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& co
     sum += (X[corner[facet[1]]] - o).cross(X[corner[facet[2]]] - o).squaredNorm();
   }
   return six_volumes(X, corner) / std::sqrt(sum);
+}
+
+double star_step(const CutPatch& patch, std::span<const Vec3> X, std::int32_t i) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::int32_t e : patch.star(i))
+    least = std::min(least, step_bound(X, patch.corner[e]));
+  return least;
+}
+
+Vec3 centre_of(const CutPatch& patch, std::span<const std::int32_t> element) {
+  Vec3 sum = Vec3::Zero();
+  for (const std::int32_t e : element)
+    for (const std::int32_t i : patch.corner[e]) sum += patch.X[i];
+  return sum / static_cast<double>(4 * element.size());
 }
 
 // Marks the nodes around the seeds with their rings; returns them, ascending.

@@ -61,5 +61,10 @@ double six_volumes(std::span<const Vec3> X, const std::array<std::int32_t, 4>& c
 // 6 V / sqrt(sum of squared double facet areas): in proportion to the element's bound of the stable
 // step; negative if inverted. [m]
 double step_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner);
+// The least one of the elements around node i, all at the positions X.
+double star_step(const CutPatch& patch, std::span<const Vec3> X, std::int32_t i);
+
+// Mean of all corners of some elements, as they lie before the cut. [m]
+Vec3 centre_of(const CutPatch& patch, std::span<const std::int32_t> element);
 
 }  // namespace trocar

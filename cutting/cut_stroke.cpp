@@ -10,15 +10,6 @@ bool has_gone_through(const CutStroke& stroke) {
   return !stroke.ends_in_tissue && std::ranges::all_of(stroke.edge, is_outside);
 }
 
-std::span<const CutHit> hits_of(const CutStroke& stroke, std::int32_t element) {
-  const auto begin =
-      std::lower_bound(stroke.hit.begin(), stroke.hit.end(), element,
-                       [](const CutHit& hit, std::int32_t e) { return hit.element < e; });
-  auto end = begin;
-  while (end != stroke.hit.end() && end->element == element) ++end;
-  return {begin, end};
-}
-
 std::vector<std::span<const CutHit>> hits_of(const CutStroke& stroke,
                                              std::span<const std::int32_t> element) {
   std::vector<std::span<const CutHit>> hits(element.size());

@@ -78,9 +78,7 @@ std::vector<const T*> find_elements(const std::vector<OfElement<T>>& values,
 template <class T>
 void merge_elements(std::vector<OfElement<T>>& values, const std::vector<OfElement<T>>& changes);
 
-// The crossings of an element's edges.
-std::span<const CutHit> hits_of(const CutStroke& stroke, std::int32_t element);
-// Those of many elements, ascending.
+// The crossings of elements' edges; elements ascending.
 std::vector<std::span<const CutHit>> hits_of(const CutStroke& stroke,
                                              std::span<const std::int32_t> element);
 

@@ -41,24 +41,20 @@ void add_drag(const Model& model, const State& state, double dt, BladeDrag& drag
   const double gain = step_response(model, state, dt) / dt;  // of velocity to force over mass
   for (BladeDrag::Node& node : drag.node) {
     const auto k = 3 * static_cast<std::size_t>(node.local);
-    const Vec3 v(state.v[k], state.v[k + 1], state.v[k + 2]);
-    const Vec3 f(force[k], force[k + 1], force[k + 2]);
+    const double behind = node.speed - node.direction.dot(Vec3::Map(&state.v[k]));  // [m/s]
     const double mass = model.mass[static_cast<std::size_t>(node.local)];
-    const double to_blade = mass / gain * (node.speed - v.dot(node.direction));
-    node.force = std::clamp(to_blade - f.dot(node.direction), 0.0, node.most);
+    auto f = Vec3::Map(&force[k]);
+    node.force = std::clamp(mass / gain * behind - node.direction.dot(f), 0.0, node.most);
     node.force_sum += node.force;
-    for (std::size_t i = 0; i < 3; ++i)
-      force[k + i] += node.force * node.direction[static_cast<Eigen::Index>(i)];
+    f += node.force * node.direction;
   }
 }
 
 void sum_drag_reactions(const BladeDrag& drag, std::int64_t n_substeps,
-                        std::span<std::array<ExactSum, 3>> force) {
-  for (const BladeDrag::Node& node : drag.node) {
-    const Vec3 mean = -node.force_sum / static_cast<double>(n_substeps) * node.direction;
-    for (std::size_t i = 0; i < 3; ++i)
-      force[static_cast<std::size_t>(node.tool)][i].add(mean[static_cast<Eigen::Index>(i)]);
-  }
+                        std::span<ExactSum3> force) {
+  for (const BladeDrag::Node& node : drag.node)
+    add(-node.force_sum / static_cast<double>(n_substeps) * node.direction,
+        force[static_cast<std::size_t>(node.tool)]);
 }
 
 }  // namespace trocar

@@ -50,7 +50,6 @@ void add_drag(const Model& model, const State& state, double dt, BladeDrag& drag
 
 // Mean force of the tissue on each tool over n substeps; adds to force (n_tools), exact in any
 // order.
-void sum_drag_reactions(const BladeDrag& drag, std::int64_t n_substeps,
-                        std::span<std::array<ExactSum, 3>> force);
+void sum_drag_reactions(const BladeDrag& drag, std::int64_t n_substeps, std::span<ExactSum3> force);
 
 }  // namespace trocar

@@ -79,13 +79,11 @@ void move_tools(std::span<const Tool> tools, double t, double dt, std::span<Tool
 }
 
 void sum_contact_reactions(ContactStage& stage, std::int64_t n_substeps,
-                           std::span<std::array<ExactSum, 3>> force) {
+                           std::span<ExactSum3> force) {
   if (!stage.set.is_counted_here) return;
-  for (const ContactSet::Item& item : stage.set.items) {
-    const Vec3 mean = item.reaction_sum / static_cast<double>(n_substeps);
-    for (std::size_t i = 0; i < 3; ++i)
-      force[static_cast<std::size_t>(item.contact.tool)][i].add(mean[static_cast<Eigen::Index>(i)]);
-  }
+  for (const ContactSet::Item& item : stage.set.items)
+    add(item.reaction_sum / static_cast<double>(n_substeps),
+        force[static_cast<std::size_t>(item.contact.tool)]);
 }
 
 }  // namespace trocar

@@ -59,6 +59,6 @@ void add_contact_force(const ContactStage& stage, std::span<double> force);
 void move_tools(std::span<const Tool> tools, double t, double dt, std::span<ToolMotion> motion);
 // Mean over the frame, added to force (n_tools), exact in any order.
 void sum_contact_reactions(ContactStage& stage, std::int64_t n_substeps,
-                           std::span<std::array<ExactSum, 3>> force);
+                           std::span<ExactSum3> force);
 
 }  // namespace trocar

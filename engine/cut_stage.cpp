@@ -95,13 +95,14 @@ void note_edit(Simulation& s, const MeshEdit& edit, const CutFigures& figures, G
   record.n_elements_dissolved += std::max<std::int64_t>(-difference, 0);
 }
 
-void cut_volume(Simulation& s, CutStage& stage, const FrameSpan& span, bool is_last,
+BladeSweep sweep_of(const Tool& tool, const FrameSpan& span) {
+  return {.before = cutting_edge(tool, span.t0),
+          .after = cutting_edge(tool, span.t1),
+          .normal = tool.path.at(0.5 * (span.t0 + span.t1)).rotation * Vec3::UnitY()};
+}
+
+void cut_volume(Simulation& s, CutStage& stage, const BladeSweep& sweep, bool is_last,
                 GlobalState& global) {
-  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
-  const Pose pose = tool.path.at(0.5 * (span.t0 + span.t1));
-  const BladeSweep sweep{.before = cutting_edge(tool, span.t0),
-                         .after = cutting_edge(tool, span.t1),
-                         .normal = pose.rotation * Vec3::UnitY()};
   CutFigures figures;
   const auto is_held = held_nodes(s.holds, s.fixed);
   const MeshEdit edit = stage.tet.advance(s.mesh, global.x, is_held, sweep, is_last, figures);
@@ -150,6 +151,10 @@ Vec3 middle(const std::vector<Vec3>& points) {
   return sum / static_cast<double>(points.size());
 }
 
+Vec3 way_of_middle(const BladeSweep& sweep) {
+  return middle(sweep.after) - middle(sweep.before);
+}
+
 // True if this is the edge's last frame in the tissue.
 bool leaves_tissue(const Tool& tool, const FrameSpan& span, bool is_near, CutStage& stage) {
   stage.n_idle_frames = stage.engaged.empty() ? stage.n_idle_frames + 1 : 0;
@@ -169,17 +174,17 @@ void add_to_record(double travel, double milliseconds, CutStage& stage) {
 void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, CutStage& stage,
                      std::optional<GlobalState>& global) {
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
-  const std::vector<Vec3> before = cutting_edge(tool, span.t0), edge = cutting_edge(tool, span.t1);
+  const BladeSweep sweep = sweep_of(tool, span);
   Box blade;
-  for (const Vec3& point : edge) blade.add(point);
-  for (const Vec3& point : before) blade.add(point);
+  for (const Vec3& point : sweep.after) blade.add(point);
+  for (const Vec3& point : sweep.before) blade.add(point);
   const bool is_near = blade.meets(tissue) && is_cutting(tool, span.t0, span.t1);
   stage.engaged.clear();
   if (!is_near && !stage.is_in_stroke) return;
 
   const double start = monotonic_seconds();
   if (!global) global = gather_state(s);
-  locate_edge(s, *global, edge, stage);
+  locate_edge(s, *global, sweep.after, stage);
   if (!stage.is_in_stroke) {
     if (stage.engaged.empty()) return;
     s.stable_step_before_cut = s.watch.stable_step;
@@ -190,9 +195,9 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
   if (s.mesh.dimension() == 2)
     cut_plane_piece(s, stage, span, is_last, *global);
   else
-    cut_volume(s, stage, span, is_last, *global);
-  locate_edge(s, *global, edge, stage);
-  add_to_record((middle(edge) - middle(before)).norm(), 1e3 * (monotonic_seconds() - start), stage);
+    cut_volume(s, stage, sweep, is_last, *global);
+  locate_edge(s, *global, sweep.after, stage);
+  add_to_record(way_of_middle(sweep).norm(), 1e3 * (monotonic_seconds() - start), stage);
   if (is_last) end_stroke(s, stage, span.t1);
 }
 
@@ -210,11 +215,10 @@ void prepare_drag(Simulation& s, const FrameSpan& span) {
   for (const CutStage& stage : s.cuts) {
     const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
     if (stage.engaged.empty() || !is_cutting(tool, span.t0, span.t1)) continue;
-    const Vec3 way = middle(cutting_edge(tool, span.t1)) - middle(cutting_edge(tool, span.t0));
     add_engaged_edge({.tool = stage.tool,
                       .place = stage.engaged,
                       .length = stage.engaged_length,
-                      .velocity = way / (span.t1 - span.t0)},
+                      .velocity = way_of_middle(sweep_of(tool, span)) / (span.t1 - span.t0)},
                      s.mesh, s.part, s.scene.cutting.resistance, s.drag);
   }
 }

@@ -16,7 +16,7 @@ namespace {
 // Mean over the frame of what the tissue does to each tool: contact, held nodes, the blade's
 // resistance.
 void sum_forces(Simulation& s, const FrameSpan& span, FrameRow& row) {
-  std::vector<std::array<ExactSum, 3>> sums(s.tools.size());
+  std::vector<ExactSum3> sums(s.tools.size());
   if (s.contact) sum_contact_reactions(*s.contact, span.n_substeps, sums);
   sum_hold_reactions(s.holds, span.n_substeps, sums);
   sum_drag_reactions(s.drag, span.n_substeps, sums);

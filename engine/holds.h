@@ -56,7 +56,6 @@ void add_hold_reactions(Holds& holds);
 void forget_hold_reactions(Holds& holds);
 // Mean force of the tissue on each tool through its holds, over n substeps; adds to force
 // (n_tools), exact in any order.
-void sum_hold_reactions(Holds& holds, std::int64_t n_substeps,
-                        std::span<std::array<ExactSum, 3>> force);
+void sum_hold_reactions(Holds& holds, std::int64_t n_substeps, std::span<ExactSum3> force);
 
 }  // namespace trocar

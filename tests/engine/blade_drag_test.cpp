@@ -69,7 +69,7 @@ TEST(BladeDrag, on_the_tool_is_what_it_is_on_the_tissue) {
   Edge edge;
   edge.step();
   edge.step();
-  std::vector<std::array<ExactSum, 3>> reaction(1);
+  std::vector<ExactSum3> reaction(1);
   sum_drag_reactions(edge.drag, 2, reaction);
   EXPECT_NEAR(reaction[0][0].value(), -edge.sum(0) / 2, 1e-15);
   EXPECT_EQ(reaction[0][1].value(), 0);

@@ -185,7 +185,7 @@ TEST(ContactReactions, are_the_mean_over_the_substeps_by_tool) {
     c.stage.set.items[k].contact.tool = k == 2 ? 1 : 0;
     c.stage.set.items[k].reaction_sum = Vec3(2, 8 * static_cast<double>(k), 1);
   }
-  std::vector<std::array<ExactSum, 3>> force(2);
+  std::vector<ExactSum3> force(2);
   sum_contact_reactions(c.stage, 4, force);
   EXPECT_EQ(force[0][0].value(), 0);  // another rank reports them
   c.stage.set.is_counted_here = true;
