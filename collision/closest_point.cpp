@@ -68,7 +68,8 @@ TrianglePoint closest_point_triangle(const Vec3& p, const Triangle& x) {
   }
   const double sum = va + vb + vc;
   if (!(va > 0 && vb > 0 && vc > 0)) return closest_point_on_edges(p, x);
-  return at_weights(x, 1 - vb / sum - vc / sum, vb / sum, vc / sum);
+  // 1 less the others may be -1e-17, which contact would take for a lever without end.
+  return at_weights(x, va / sum, vb / sum, vc / sum);
 }
 
 SegmentPair closest_points_segments(const Segment& first, const Segment& second) {

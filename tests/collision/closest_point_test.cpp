@@ -31,10 +31,24 @@ TEST(ClosestPointTriangle, satisfies_the_optimality_condition_for_random_points)
     const Vec3 p = random.in_box(2);
     const TrianglePoint q = closest_point_triangle(p, x);
     EXPECT_NEAR(q.weight[0] + q.weight[1] + q.weight[2], 1, rounding);
-    for (const double w : q.weight) EXPECT_GE(w, -rounding);
+    for (const double w : q.weight) EXPECT_GE(w, 0);
     EXPECT_NEAR((at_weights(x, q.weight) - q.point).norm(), 0, rounding);
     // Flat triangles amplify rounding by their aspect ratio, up to 1e4 among these.
     expect_nearest(p, std::array{p}, q.point, x, 1e-9);
+  }
+}
+
+// Contact divides by the weights of free nodes: one of -1e-17 threw a node to infinity.
+TEST(ClosestPointTriangle, has_no_negative_weight_beside_an_edge) {
+  Random random(2);
+  for (int k = 0; k < 20000; ++k) {
+    const Triangle x = random.triangle(1);
+    const double t = random.in_box(1).cwiseAbs().maxCoeff();
+    const Vec3 above = 0.1 * (x[1] - x[0]).cross(x[2] - x[0]);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Vec3 p = x[a] + t * (x[(a + 1) % 3] - x[a]) + above;
+      for (const double w : closest_point_triangle(p, x).weight) ASSERT_GE(w, 0) << k;
+    }
   }
 }
 
