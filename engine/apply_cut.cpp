@@ -6,6 +6,7 @@
 #include "engine/frame_watch.h"
 #include "engine/mesh_measures.h"
 #include "mesh/quality.h"
+#include "solver/frequency.h"
 #include "solver/history.h"
 
 namespace trocar {
@@ -81,10 +82,13 @@ std::vector<std::int32_t> nodes_of(const Mesh& mesh, std::span<const std::int32_
 }
 
 double least_element_step(const Simulation& s, std::span<const std::int32_t> elements) {
+  const std::vector<std::int32_t>& mine = s.part.element_global;
   double least = 1e300;
-  for (std::size_t k = 0; k < s.part.element_global.size(); ++k)
-    if (std::binary_search(elements.begin(), elements.end(), s.part.element_global[k]))
-      least = std::min(least, s.model.element_step[k]);
+  for (const std::int32_t e : elements) {
+    const auto at = std::lower_bound(mine.begin(), mine.end(), e);
+    if (at != mine.end() && *at == e)
+      least = std::min(least, s.model.element_step[static_cast<std::size_t>(at - mine.begin())]);
+  }
   return s.communicator->all_min(least);
 }
 
@@ -123,6 +127,32 @@ std::vector<double> volume_ratios(const Mesh& after, const EditedElements& edite
                edited.volume[static_cast<std::size_t>(at - edited.before.begin())];
   }
   return ratio;
+}
+
+// The fastest mode known so far and where its components were.
+struct KnownMode {
+  Part part;
+  std::vector<double> x;  // (n_owned * 3), empty: not searched for
+};
+
+// Where the next search starts: the mode known, with duplicates like their parents, and noise as
+// large at the edited elements, so that a faster mode that is new there has a share.
+void carry_mode(const KnownMode& known, const MeshEdit& edit, std::int32_t n_before,
+                std::span<const std::int32_t> edited_nodes, Simulation& s) {
+  if (s.communicator->all_max(known.x.empty() ? 0 : 1) == 0) return;
+  s.fastest_mode.resize(3 * static_cast<std::size_t>(s.model.n_owned));
+  for (std::int64_t i = 0; i < s.model.n_owned; ++i) {
+    const std::int32_t node = s.part.node_global[i];
+    const std::int32_t from = node < n_before ? node : edit.duplicate_parent[node - n_before];
+    std::copy_n(&known.x[3 * std::size_t(known.part.node_local[from])], 3, &s.fastest_mode[3 * i]);
+  }
+  double largest = 0;
+  for (const double value : known.x) largest = std::max(largest, std::abs(value));
+  largest = s.communicator->all_max(largest);
+  for (const std::int32_t node : edited_nodes) {
+    const std::int32_t i = s.part.node_local[node];
+    if (i >= 0 && i < s.model.n_owned) add_noise(s.model, s.part, i, 0.3 * largest, s.fastest_mode);
+  }
 }
 
 // Supports and partner pairs go with the nodes.
@@ -182,8 +212,11 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   inherit_by_duplicates(s, edit, n_before);
   apply_edit_to_owners(edit.duplicate_parent, s.node_owner);
   apply_edit_to_holds(edit, n_before, s.holds);
+  const KnownMode known{.part = std::move(s.part), .x = std::move(s.fastest_mode)};
   rebuild_topology(s);
-  restore_momentum(nodes_of(s.mesh, edited.after), s.mass, before, global, record);
+  const std::vector<std::int32_t> nodes_after = nodes_of(s.mesh, edited.after);
+  carry_mode(known, edit, n_before, nodes_after, s);
+  restore_momentum(nodes_after, s.mass, before, global, record);
   scatter_state(s, global);
   restore_history(s.model, s.part, history, edited.parent, volume_ratios(s.mesh, edited), s.state);
   watch_state(s);

@@ -132,7 +132,7 @@ void build_cuts(Simulation& s) {
 }
 
 void build_instruments(const LoadedScene& loaded, Simulation& s) {
-  const double edge = mean_edge_length(s.mesh);
+  const double edge = s.edge_length;
   for (std::size_t k = 0; k < s.scene.instruments.size(); ++k) {
     const SceneInstrument& instrument = s.scene.instruments[k];
     if (s.mesh.dimension() == 2 && instrument.kind == InstrumentKind::scissors)
@@ -214,7 +214,6 @@ void rebuild_topology(Simulation& s) {
   localise_holds(s.holds, s.part);
   s.fastest_mode.clear();
   s.look = nothing_looked_at(s);
-  if (s.scene.solver.stable_step == StableStep::frequency) s.edge_length = mean_edge_length(s.mesh);
   if (s.contact) s.contact->detector.set_surface(s.surface);
 }
 
@@ -227,6 +226,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   s.mesh = load_tissue(loaded, communicator);
   s.materials = region_materials(loaded, s.mesh);
   s.node_owner = partition_nodes(s.mesh, communicator);
+  s.edge_length = mean_edge_length(s.mesh);
   build_supports(s);
   if (s.scene.start.state == StartState::equilibrium) check_is_held(loaded, s);
   build_instruments(loaded, s);

@@ -41,10 +41,8 @@ void locate_edge(const Simulation& s, const GlobalState& global, std::span<const
   stage.engaged.clear();
   const bool is_plane = s.mesh.dimension() == 2;
   const std::size_t n = is_plane ? 1 : edge.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    const Location location = locate_point(s.mesh, global.x, edge[k]);
+  for (const Location& location : locate_points(s.mesh, global.x, edge.first(n)))
     if (location.element >= 0) stage.engaged.push_back(location);
-  }
   const double spacing = n > 1 ? (edge[1] - edge[0]).norm() : s.scene.tissue.thickness;
   stage.engaged_length = spacing * static_cast<double>(stage.engaged.size());
 }
@@ -192,11 +190,12 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
   }
   stage.strokes.back().end = span.t1;
   const bool is_last = leaves_tissue(tool, span, is_near, stage);
+  const std::int64_t n_edits = stage.strokes.back().n_edits;
   if (s.mesh.dimension() == 2)
     cut_plane_piece(s, stage, span, is_last, *global);
   else
     cut_volume(s, stage, sweep, is_last, *global);
-  locate_edge(s, *global, sweep.after, stage);
+  if (stage.strokes.back().n_edits > n_edits) locate_edge(s, *global, sweep.after, stage);
   add_to_record(way_of_middle(sweep).norm(), 1e3 * (monotonic_seconds() - start), stage);
   if (is_last) end_stroke(s, stage, span.t1);
 }

@@ -62,28 +62,48 @@ Weights weights_of(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x, co
   return simplex_weights(mesh.corners(e), x, p);
 }
 
-bool box_holds(std::span<const std::int32_t> corner, std::span<const Vec3> x, const Vec3& p) {
-  Vec3 low = x[static_cast<std::size_t>(corner[0])], high = low;
-  for (const std::int32_t node : corner.subspan(1)) {
-    low = low.cwiseMin(x[static_cast<std::size_t>(node)]);
-    high = high.cwiseMax(x[static_cast<std::size_t>(node)]);
+struct Box {
+  Vec3 low, high;
+  void add(const Vec3& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
   }
-  return (p.array() >= low.array() - 1e-12).all() && (p.array() <= high.array() + 1e-12).all();
+  bool meets(const Box& other) const {
+    constexpr double margin = 1e-12;
+    return (other.low.array() <= high.array() + margin).all() &&
+           (other.high.array() >= low.array() - margin).all();
+  }
+};
+
+Box box_of(std::span<const std::int32_t> corner, std::span<const Vec3> x) {
+  const Vec3& first = x[static_cast<std::size_t>(corner[0])];
+  Box box{first, first};
+  for (const std::int32_t node : corner.subspan(1)) box.add(x[static_cast<std::size_t>(node)]);
+  return box;
 }
 
 }  // namespace
 
-Location locate_point(const Mesh& mesh, std::span<const Vec3> x, const Vec3& point) {
+std::vector<Location> locate_points(const Mesh& mesh, std::span<const Vec3> x,
+                                    std::span<const Vec3> points) {
+  std::vector<Location> location(points.size());
+  if (points.empty()) return location;
+  Box all{points[0], points[0]};
+  for (const Vec3& point : points) all.add(point);
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    if (!box_holds(mesh.corners(e), x, point)) continue;
-    const Weights w = weights_of(mesh, e, x, point);
-    if (w.least >= -1e-12) return {.element = e, .weight = w.weight};
+    const Box box = box_of(mesh.corners(e), x);
+    if (!box.meets(all)) continue;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (location[k].element >= 0 || !box.meets({points[k], points[k]})) continue;
+      const Weights w = weights_of(mesh, e, x, points[k]);
+      if (w.least >= -1e-12) location[k] = {.element = e, .weight = w.weight};
+    }
   }
-  return {};
+  return location;
 }
 
 Location locate_nearest(const Mesh& mesh, std::span<const Vec3> x, const Vec3& point) {
-  Location nearest = locate_point(mesh, x, point);
+  Location nearest = locate_points(mesh, x, std::span(&point, 1))[0];
   if (nearest.element >= 0) return nearest;
   double best = -1e300;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "mesh/mesh.h"
 
@@ -14,9 +15,10 @@ struct Location {
   std::array<double, max_corners> weight{};  // barycentric
 };
 
-// In positions x; the lowest element number wins on a border. O(n_elements) box tests.
-Location locate_point(const Mesh& mesh, std::span<const Vec3> x, const Vec3& point);
-// As before; outside the body the element whose least weight is largest (extrapolated weights).
+// In positions x; the lowest element number wins on a border. n_elements box tests.
+std::vector<Location> locate_points(const Mesh& mesh, std::span<const Vec3> x,
+                                    std::span<const Vec3> points);
+// Of one point; outside the body the element whose least weight is largest (extrapolated weights).
 Location locate_nearest(const Mesh& mesh, std::span<const Vec3> x, const Vec3& point);
 // sum of weight * field at the element's corners.
 Vec3 interpolate(const Mesh& mesh, const Location& location, std::span<const Vec3> field);

@@ -110,11 +110,11 @@ struct Simulation {
   double step_scale = 1;                 // halved by each roll-back
   Watch watch;                           // of the last frame, over all ranks
   ElementLook look;
-  double rest_step = 0;  // least element bound of the undeformed mesh, over all ranks [s]
+  double rest_step = 0;    // least element bound of the undeformed mesh, over all ranks [s]
+  double edge_length = 0;  // mean of the mesh at time zero [m]
   // Only with stable_step = "frequency": the mode (n_owned * 3) found last, where the next search
-  // starts, and the mean edge [m].
+  // starts.
   std::vector<double> fastest_mode;
-  double edge_length = 0;
   double stable_step_before_cut = 0;
   std::optional<AddedMass> added_mass;     // only with mass scaling
   std::optional<Equilibrium> equilibrium;  // only if this process looked for one

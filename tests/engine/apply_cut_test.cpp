@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/frame_watch.h"
 #include "engine_scene.h"
 #include "engine_started.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/quality.h"
+#include "solver/frequency.h"
 #include "solver/history.h"
 #include "solver/viscous_step.h"
 
@@ -148,6 +150,28 @@ CutRecord cut_at_once(Simulation& s) {
   apply_cut(s, edit, global, record);
   record.n_converted = figures.n_converted;
   return record;
+}
+
+// The search goes on from the mode before the edit: what it finds must be what a search from
+// nothing finds, up to what either may stop short of.
+TEST(ApplyCut, does_not_miss_a_mode_that_is_faster_after_the_edit) {
+  for (const char* elements : {"tet4-kuhn", "tet4-five", "hex8"}) {
+    const auto started = built(block_text(elements, hanging + level_blade));
+    Simulation& s = *started->s;
+    Outputs outputs;
+    std::int64_t n_edits = 0;
+    while (s.frame < 14) {
+      run_frame(s, outputs);
+      if (s.cuts[0].strokes.empty() || s.cuts[0].strokes[0].n_edits == n_edits) continue;
+      n_edits = s.cuts[0].strokes[0].n_edits;
+      const double step = s.watch.stable_step;
+      s.fastest_mode.clear();
+      s.look.is_done = false;
+      watch_state(s);
+      EXPECT_NEAR(step / s.watch.stable_step, 1, frequency_margin - 1) << elements << s.frame;
+    }
+    EXPECT_GE(n_edits, 3);
+  }
 }
 
 TEST(ApplyCut, keeps_mass_and_both_momenta_where_hexahedra_are_converted) {

@@ -34,17 +34,26 @@ Vec3 blend(const Mesh& mesh, std::int32_t e, const std::vector<double>& weight) 
   return point;
 }
 
-TEST(Locate, finds_the_element_and_the_weights_of_an_inner_point) {
+Location locate(const Mesh& mesh, const Vec3& point) {
+  return locate_points(mesh, mesh.X, std::span(&point, 1))[0];
+}
+
+TEST(Locate, finds_the_elements_and_the_weights_of_inner_points) {
   std::mt19937 random(1);
   for (const NamedMesh& named : simplex_meshes()) {
     const Mesh& mesh = named.mesh;
+    std::vector<std::vector<double>> weight;
+    std::vector<Vec3> point;
     for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-      const std::vector<double> weight = random_weights(random, mesh.corners(e).size());
-      const Location found = locate_point(mesh, mesh.X, blend(mesh, e, weight));
-      ASSERT_EQ(found.element, e) << named.name;
+      weight.push_back(random_weights(random, mesh.corners(e).size()));
+      point.push_back(blend(mesh, e, weight.back()));
+    }
+    const std::vector<Location> found = locate_points(mesh, mesh.X, point);
+    for (std::size_t e = 0; e < point.size(); ++e) {
+      ASSERT_EQ(found[e].element, e) << named.name;
       // Rounding errors grow with the condition of the element, below 1e3 here.
-      for (std::size_t a = 0; a < weight.size(); ++a)
-        EXPECT_NEAR(found.weight[a], weight[a], 1e-12) << named.name;
+      for (std::size_t a = 0; a < weight[e].size(); ++a)
+        EXPECT_NEAR(found[e].weight[a], weight[e][a], 1e-12) << named.name;
     }
   }
 }
@@ -53,23 +62,23 @@ TEST(Locate, gives_a_node_to_the_lowest_of_its_elements) {
   for (const NamedMesh& named : simplex_meshes()) {
     const NodeElements around = node_elements(named.mesh);
     for (std::int32_t i = 0; i < named.mesh.n_nodes(); ++i)
-      EXPECT_EQ(locate_point(named.mesh, named.mesh.X, named.mesh.X[i]).element, around.of(i)[0])
-          << named.name << i;
+      EXPECT_EQ(locate(named.mesh, named.mesh.X[i]).element, around.of(i)[0]) << named.name << i;
   }
 }
 
 TEST(Locate, says_that_a_point_lies_outside) {
   for (const NamedMesh& named : simplex_meshes())
-    EXPECT_EQ(locate_point(named.mesh, named.mesh.X, Vec3(5, 5, 0)).element, -1) << named.name;
+    EXPECT_EQ(locate(named.mesh, Vec3(5, 5, 0)).element, -1) << named.name;
 }
 
 TEST(Locate, looks_in_the_positions_that_it_is_given) {
   const Mesh mesh = make_rectangle(0.07, 0.04, 5, 4);
   std::vector<Vec3> x = mesh.X;
   for (Vec3& point : x) point += Vec3(1, 2, 0);
-  EXPECT_EQ(locate_point(mesh, x, Vec3(0.03, 0.02, 0)).element, -1);
-  EXPECT_EQ(locate_point(mesh, x, Vec3(1.03, 2.02, 0)).element,
-            locate_point(mesh, mesh.X, Vec3(0.03, 0.02, 0)).element);
+  const std::array points{Vec3(0.03, 0.02, 0), Vec3(1.03, 2.02, 0)};
+  const std::vector<Location> found = locate_points(mesh, x, points);
+  EXPECT_EQ(found[0].element, -1);
+  EXPECT_EQ(found[1].element, locate(mesh, Vec3(0.03, 0.02, 0)).element);
 }
 
 TEST(LocateNearest, agrees_with_locate_inside) {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "mesh/facet_sort.h"
 #include "mesh_fixtures.h"
 
 using namespace trocar;
@@ -46,6 +47,31 @@ TEST(FacetCorners, of_simplices_leave_out_the_opposite_corner) {
   for (const ElementType type : {ElementType::tri3, ElementType::tet4})
     for (int f = 0; f < n_facets(type); ++f)
       for (const int corner : facet_corners(type, f)) EXPECT_NE(corner, f);
+}
+
+// Corner numbers are all that is sorted, so any will do: here three kinds of elements on 60 nodes.
+TEST(FacetSides, are_in_the_order_of_comparisons_whatever_elements_are_mixed) {
+  Mesh mesh;
+  mesh.X.assign(60, Vec3::Zero());
+  std::uint64_t random = 1;
+  for (int e = 0; e < 300; ++e) {
+    const ElementType type =
+        std::array{ElementType::tri3, ElementType::tet4, ElementType::hex8}[e % 3];
+    std::vector<std::int32_t> corner;
+    while (corner.size() < static_cast<std::size_t>(n_corners(type))) {
+      random = random * 6364136223846793005U + 1442695040888963407U;
+      const auto i = static_cast<std::int32_t>((random >> 33) % 60);
+      if (std::find(corner.begin(), corner.end(), i) == corner.end()) corner.push_back(i);
+    }
+    add_element(mesh, type, corner);
+  }
+  const std::vector<FacetSide> side = sorted_facet_sides(mesh);
+  const auto lowest = [](const FacetSide& s) {
+    return *std::ranges::find_if(s.node, [](std::int32_t i) { return i >= 0; });
+  };
+  EXPECT_EQ(side.size(), 100U * (3 + 4 + 6));
+  EXPECT_TRUE(std::ranges::is_sorted(side, {},
+                                     [&](const FacetSide& s) { return std::pair(lowest(s), s); }));
 }
 
 TEST(FacetNeighbours, are_symmetric_and_share_exactly_the_facet) {
