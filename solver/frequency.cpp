@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/digest.h"
-#include "base/exact_sum.h"
+#include "base/reproducible_dot.h"
 #include "solver/mass_clusters.h"
 
 namespace trocar {
@@ -15,9 +15,9 @@ namespace {
 
 using Vector = std::vector<double>;
 
-// A direction and what K makes of it, both (n_owned * 3).
+// A direction, what K makes of it and what M makes of it, all (n_owned * 3).
 struct Direction {
-  Vector x, Kx;
+  Vector x, Kx, Mx;
 };
 
 struct Search {
@@ -27,25 +27,14 @@ struct Search {
   const ForceOfDisplacement& forces;
   const FrequencyOptions& options;
   const Communicator& communicator;
+  std::int64_t n = 0;  // components on all ranks
   Vector force_at_rest, u, force, room;
 
   std::size_t size() const { return 3 * static_cast<std::size_t>(model.n_owned); }
   bool is_fixed(std::size_t k) const { return (model.fixed[k / 3] >> (k % 3) & 1) != 0; }
-
-  // a·b or a·M b over all ranks, the same bits however they are spread.
-  template <class Term>
-  double sum(const Term& term) const {
-    ExactSum total;
-    for (std::size_t k = 0; k < size(); k += 3) total.add(term(k) + term(k + 1) + term(k + 2));
-    total.all_sum(communicator);
-    return total.value();
-  }
+  // The same bits on any ranks.
   double dot(const Vector& a, const Vector& b) const {
-    return sum([&](std::size_t k) { return a[k] * b[k]; });
-  }
-  double mass_dot(const Vector& a, const Vector& b) {
-    multiply_by_mass(model, a, room);
-    return dot(room, b);
+    return reproducible_dot(a, b, n, communicator);
   }
 };
 
@@ -53,8 +42,15 @@ void add_scaled(Vector& a, double c, const Vector& b) {
   for (std::size_t k = 0; k < a.size(); ++k) a[k] += c * b[k];
 }
 
+// d += c b; K follows by linearity where it is known.
+void add_scaled(Direction& d, double c, const Direction& b) {
+  add_scaled(d.x, c, b.x);
+  add_scaled(d.Mx, c, b.Mx);
+  if (!d.Kx.empty()) add_scaled(d.Kx, c, b.Kx);
+}
+
 void scale(Direction& d, double c) {
-  for (Vector* v : {&d.x, &d.Kx})
+  for (Vector* v : {&d.x, &d.Kx, &d.Mx})
     for (double& value : *v) value *= c;
 }
 
@@ -73,15 +69,11 @@ void apply_stiffness(Search& s, Direction& d) {
 }
 
 // Removes from d its part along the unit directions of `basis` and makes it one; false if nothing
-// is left of it. K follows by linearity where it is known.
-bool orthonormalise(Search& s, const std::vector<const Direction*>& basis, Direction& d) {
+// is left of it.
+bool orthonormalise(const Search& s, const std::vector<const Direction*>& basis, Direction& d) {
   for (int pass = 0; pass < 2; ++pass)  // once more for what rounding left
-    for (const Direction* b : basis) {
-      const double c = s.mass_dot(b->x, d.x);
-      add_scaled(d.x, -c, b->x);
-      if (!d.Kx.empty()) add_scaled(d.Kx, -c, b->Kx);
-    }
-  const double norm2 = s.mass_dot(d.x, d.x);
+    for (const Direction* b : basis) add_scaled(d, -s.dot(b->x, d.Mx), *b);
+  const double norm2 = s.dot(d.x, d.Mx);
   if (!(norm2 > 0) || !std::isfinite(norm2)) return false;
   scale(d, 1 / std::sqrt(norm2));
   return true;
@@ -89,15 +81,16 @@ bool orthonormalise(Search& s, const std::vector<const Direction*>& basis, Direc
 
 Direction start_direction(const Search& s, const Vector& mode) {
   Direction d{.x = mode};
-  if (mode.size() == s.size()) return d;
-  d.x.assign(s.size(), 0.0);
-  for (std::int64_t i = 0; i < s.model.n_owned; ++i) add_noise(s.model, s.part, i, 1, d.x);
+  if (mode.size() != s.size()) {
+    d.x.assign(s.size(), 0.0);
+    for (std::int64_t i = 0; i < s.model.n_owned; ++i) add_noise(s.model, s.part, i, 1, d.x);
+  }
+  multiply_by_mass(s.model, d.x, d.Mx);
   return d;
 }
 
 // The largest Ritz value of the directions; x becomes its vector, p the part of it that is new.
-double rayleigh_ritz(const Search& s, Direction& x, const Direction& r,
-                     std::optional<Direction>& p) {
+double rayleigh_ritz(const Search& s, Direction& x, Direction& r, std::optional<Direction>& p) {
   const std::vector<const Direction*> basis =
       p ? std::vector<const Direction*>{&x, &r, &*p} : std::vector<const Direction*>{&x, &r};
   const auto n = static_cast<Eigen::Index>(basis.size());
@@ -108,24 +101,22 @@ double rayleigh_ritz(const Search& s, Direction& x, const Direction& r,
           s.dot(basis[static_cast<std::size_t>(i)]->x, basis[static_cast<std::size_t>(j)]->Kx);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);
   const Eigen::VectorXd c = solver.eigenvectors().col(n - 1);
-  Direction fresh{Vector(s.size(), 0.0), Vector(s.size(), 0.0)};
-  for (Eigen::Index i = 1; i < n; ++i) {
-    add_scaled(fresh.x, c[i], basis[static_cast<std::size_t>(i)]->x);
-    add_scaled(fresh.Kx, c[i], basis[static_cast<std::size_t>(i)]->Kx);
-  }
+  Direction fresh = std::move(r);
+  scale(fresh, c[1]);
+  if (n == 3) add_scaled(fresh, c[2], *p);
   scale(x, c[0]);
-  add_scaled(x.x, 1, fresh.x);
-  add_scaled(x.Kx, 1, fresh.Kx);
+  add_scaled(x, 1, fresh);
   p = std::move(fresh);
   return solver.eigenvalues()[n - 1];
 }
 
 // M^-1 K x - omega^2 x
 Direction residual(Search& s, const Direction& x, double omega2) {
-  Direction r{x.Kx};
+  Direction r{.x = x.Kx};
   add_cluster_force(s.model, {}, r.x, s.room);
   for (std::size_t k = 0; k < s.size(); ++k)
     r.x[k] = s.is_fixed(k) ? 0 : r.x[k] / s.model.inertia[k / 3] - omega2 * x.x[k];
+  multiply_by_mass(s.model, r.x, r.Mx);
   return r;
 }
 
@@ -144,7 +135,15 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
                                         const ForceOfDisplacement& forces,
                                         const FrequencyOptions& options,
                                         const Communicator& communicator, Vector& mode) {
-  Search s{model, part, state, forces, options, communicator, {}, state.u, {}, {}};
+  const auto n_owned = static_cast<std::uint64_t>(model.n_owned);
+  Search s{.model = model,
+           .part = part,
+           .state = state,
+           .forces = forces,
+           .options = options,
+           .communicator = communicator,
+           .n = 3 * static_cast<std::int64_t>(communicator.all_sum(n_owned)),
+           .u = state.u};
   forces(s.u, s.force_at_rest);
   Direction x = start_direction(s, mode);
   std::optional<Direction> p;  // not "empty": a rank without nodes has empty directions
@@ -154,7 +153,7 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
   double omega2 = s.dot(x.x, x.Kx);
   for (;; ++found.n_iterations) {
     Direction r = residual(s, x, omega2);
-    found.residual = std::sqrt(s.mass_dot(r.x, r.x)) / std::abs(omega2);
+    found.residual = std::sqrt(s.dot(r.x, r.Mx)) / std::abs(omega2);
     found.is_converged =
         found.n_iterations >= options.least_iterations && found.residual <= options.tolerance;
     if (found.is_converged || found.n_iterations == options.most_iterations) break;

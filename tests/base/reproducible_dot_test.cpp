@@ -1,0 +1,80 @@
+#include "base/reproducible_dot.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <set>
+
+#include "base/exact_sum.h"
+
+namespace trocar {
+namespace {
+
+const Communicator alone;
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  return reproducible_dot(a, b, static_cast<std::int64_t>(a.size()), alone);
+}
+
+// Sizes over 60 powers of two, both signs.
+std::vector<double> random_vector(std::size_t n, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> digits(-1, 1), exponent(-60, 0);
+  std::vector<double> values(n);
+  for (double& value : values)
+    value = std::ldexp(digits(random), static_cast<int>(exponent(random)));
+  return values;
+}
+
+TEST(ReproducibleDot, agrees_with_an_exact_sum_of_the_products) {
+  for (const std::size_t n : {1U, 3U, 4U, 1001U, 300000U}) {
+    const std::vector<double> a = random_vector(n, 1), b = random_vector(n, 2);
+    ExactSum sum;
+    double largest = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      sum.add(a[k] * b[k]);
+      largest = std::max(largest, std::abs(a[k] * b[k]));
+    }
+    const double n3 = std::pow(static_cast<double>(n), 3);
+    EXPECT_NEAR(dot(a, b), sum.value(),
+                12 * n3 * 0x1p-104 * largest + 1e-16 * std::abs(sum.value()));
+  }
+}
+
+TEST(ReproducibleDot, has_the_same_bits_in_any_order) {
+  const std::size_t n = 5003;
+  const std::vector<double> a = random_vector(n, 3), b = random_vector(n, 4);
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::mt19937_64 random(5);
+  std::set<double> plain, reproducible;
+  for (int k = 0; k < 6; ++k, std::shuffle(order.begin(), order.end(), random)) {
+    std::vector<double> shuffled_a, shuffled_b;
+    for (const std::size_t i : order) {
+      shuffled_a.push_back(a[i]);
+      shuffled_b.push_back(b[i]);
+    }
+    plain.insert(std::inner_product(shuffled_a.begin(), shuffled_a.end(), shuffled_b.begin(), 0.0));
+    reproducible.insert(dot(shuffled_a, shuffled_b));
+  }
+  EXPECT_EQ(reproducible.size(), 1U);
+  EXPECT_GT(plain.size(), 1U) << "these numbers prove nothing";
+}
+
+TEST(ReproducibleDot, of_nothing_is_zero_and_of_infinities_not_a_number) {
+  EXPECT_EQ(dot({}, {}), 0);
+  EXPECT_EQ(dot({0, 0}, {1, 2}), 0);
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const double bad : {infinite, -infinite, std::numeric_limits<double>::quiet_NaN()})
+    for (std::size_t at = 0; at < 6; ++at) {
+      std::vector<double> a(6, 1.0);
+      a[at] = bad;
+      EXPECT_TRUE(std::isnan(dot(a, std::vector<double>(6, 2.0)))) << bad << at;
+    }
+}
+
+}  // namespace
+}  // namespace trocar
