@@ -134,6 +134,7 @@ Host find_host(const PlanePatch& patch, int node, const Vec2& p) {
   Host best;
   double best_inside = -std::numeric_limits<double>::max();
   std::vector<int> visited;
+  visited.reserve(max_visited);
   visit_star(patch, node, [&](int e, int) {
     visited.push_back(e);
     return true;

@@ -14,16 +14,16 @@ using namespace pair_forces;
 
 constexpr double least_area = 0.1;  // of the area before the cut
 
-// Pairs are stored by movable node (slot); the other end may be any node of the patch.
+// Both ends feel a pair; what nodes that stay feel is not used.
 struct Pair {
-  int slot, other;
+  int i, j;       // nodes
   double length;  // spring: l; particles: r0^2
 };
 struct Network {
   std::vector<Pair> springs, particles;
 };
 
-double mean_edge(const PlanePatch& patch, const std::vector<int>& around, int node) {
+double mean_edge(const PlanePatch& patch, std::span<const int> around, int node) {
   double sum = 0;
   for (const int j : around) sum += (patch.X[j] - patch.X[node]).norm();
   return sum / static_cast<double>(around.size());
@@ -32,58 +32,53 @@ double mean_edge(const PlanePatch& patch, const std::vector<int>& around, int no
 // Calls visit for the nodes two edges away and nearer, once each; `last` holds for whom a node was
 // visited last. Neighbours by topology never see across an older cut.
 template <typename Visit>
-void visit_two_rings(const std::vector<std::vector<int>>& around, int node, std::vector<int>& last,
-                     Visit visit) {
+void visit_two_rings(const PlaneNeighbours& around, int node, std::vector<int>& last, Visit visit) {
   last[node] = node;
-  for (const int j : around[node]) {
+  for (const int j : around.of(node)) {
     if (std::exchange(last[j], node) != node) visit(j);
-    for (const int k : around[j])
+    for (const int k : around.of(j))
       if (std::exchange(last[k], node) != node) visit(k);
   }
 }
 
 Network make_network(const PlanePatch& patch, std::span<const Movable> movable) {
-  std::vector<std::vector<int>> around(patch.node.size());
-  std::vector<double> mean(patch.node.size(), 0);
+  const PlaneNeighbours around = all_neighbours(patch);
+  std::vector<double> mean;
+  for (int i = 0; i < patch.n_nodes(); ++i) mean.push_back(mean_edge(patch, around.of(i), i));
   std::vector<int> last(patch.node.size(), -1);
-  const auto visit = [&](int i) {
-    if (!around[i].empty()) return;
-    around[i] = neighbours(patch, i);
-    mean[i] = mean_edge(patch, around[i], i);
-  };
+  std::vector<std::uint8_t> is_done(patch.node.size(), 0);  // all its pairs are there
   Network network;
-  for (int slot = 0; slot < static_cast<int>(movable.size()); ++slot) {
-    const int i = movable[slot].node;
-    visit(i);
-    for (const int j : around[i]) {
-      visit(j);
-      network.springs.push_back({slot, j, (patch.X[j] - patch.X[i]).norm()});
-    }
+  for (const auto& [i, side] : movable) {
+    for (const int j : around.of(i))
+      if (is_done[j] == 0) network.springs.push_back({i, j, (patch.X[j] - patch.X[i]).norm()});
     visit_two_rings(around, i, last, [&](int j) {
-      visit(j);
       const double r0 = 0.5 * (mean[i] + mean[j]);
-      network.particles.push_back({slot, j, r0 * r0});
+      if (is_done[j] == 0) network.particles.push_back({i, j, r0 * r0});
     });
+    is_done[i] = 1;
   }
   return network;
 }
 
-void add_springs(const PlanePatch& patch, std::span<const Movable> movable, const Network& network,
-                 double scale, std::vector<Vec2>& force) {
-  for (const Pair& pair : network.springs) {
-    const Vec2 d = patch.x[pair.other] - patch.x[movable[pair.slot].node];
+void add_springs(const PlanePatch& patch, const Network& network, double scale,
+                 std::vector<Vec2>& force) {
+  for (const auto& [i, j, length] : network.springs) {
+    const Vec2 d = patch.x[j] - patch.x[i];
     const double r = d.norm();
-    if (r > 0) force[pair.slot] += spring(scale, r, pair.length) * d;
+    if (!(r > 0)) continue;
+    const Vec2 f = spring(scale, r, length) * d;
+    force[i] += f;
+    force[j] -= f;
   }
 }
 
-void add_particles(const PlanePatch& patch, std::span<const Movable> movable,
-                   const Network& network, const CutPlaneOptions& options,
+void add_particles(const PlanePatch& patch, const Network& network, const CutPlaneOptions& options,
                    std::vector<Vec2>& force) {
   const LennardJones repel{options.repulsion, options.attraction, options.particle};
-  for (const Pair& pair : network.particles) {
-    const Vec2 d = patch.x[movable[pair.slot].node] - patch.x[pair.other];
-    force[pair.slot] += repel(d.squaredNorm(), pair.length) * d;
+  for (const auto& [i, j, r0_squared] : network.particles) {
+    const Vec2 d = patch.x[i] - patch.x[j], f = repel(d.squaredNorm(), r0_squared) * d;
+    force[i] += f;
+    force[j] -= f;
   }
 }
 
@@ -125,7 +120,7 @@ double take_step(PlanePatch& patch, std::span<const Movable> movable,
   std::vector<Vec2> before;
   for (const Movable& m : movable) before.push_back(patch.x[m.node]);
   for (std::size_t slot = 0; slot < movable.size(); ++slot)
-    move_node(patch, movable[slot], force[slot]);
+    move_node(patch, movable[slot], force[movable[slot].node]);
   take_back_squeezed(patch, movable, before);
   double largest = 0;
   for (std::size_t slot = 0; slot < movable.size(); ++slot)
@@ -141,9 +136,9 @@ void homogenise(PlanePatch& patch, std::span<const Movable> movable,
   const Network network = make_network(patch, movable);
   std::vector<Vec2> force;
   for (int step = 0; step < options.most_steps; ++step) {
-    force.assign(movable.size(), Vec2::Zero());
-    add_springs(patch, movable, network, options.spring, force);
-    if (options.particle > 0) add_particles(patch, movable, network, options, force);
+    force.assign(patch.node.size(), Vec2::Zero());
+    add_springs(patch, network, options.spring, force);
+    if (options.particle > 0) add_particles(patch, network, options, force);
     if (take_step(patch, movable, force) < options.threshold * patch.h) return;
   }
 }

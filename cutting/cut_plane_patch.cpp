@@ -44,6 +44,29 @@ std::vector<int> neighbours(const PlanePatch& patch, int node) {
   return result;
 }
 
+// Each edge once for each of its ends: by the element to its left, or, where that is none, by the
+// one to its right.
+template <typename Visit>
+static void visit_directed_edges(const PlanePatch& patch, Visit visit) {
+  for (int e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; f < 3; ++f) {
+      const int a = patch.corner[e][(f + 1) % 3], b = patch.corner[e][(f + 2) % 3];
+      visit(a, b);
+      if (patch.across[e][f] < 0) visit(b, a);
+    }
+}
+
+PlaneNeighbours all_neighbours(const PlanePatch& patch) {
+  PlaneNeighbours result;
+  result.offset.assign(patch.node.size() + 1, 0);
+  visit_directed_edges(patch, [&](int a, int) { ++result.offset[a + 1]; });
+  for (std::size_t i = 1; i < result.offset.size(); ++i) result.offset[i] += result.offset[i - 1];
+  result.node.resize(static_cast<std::size_t>(result.offset.back()));
+  std::vector<int> next(result.offset.begin(), result.offset.end() - 1);
+  visit_directed_edges(patch, [&](int a, int b) { result.node[next[a]++] = b; });
+  return result;
+}
+
 PatchFacet find_edge(const PlanePatch& patch, int a, int b) {
   PatchFacet found;
   visit_star(patch, a, [&](int e, int k) {

@@ -79,6 +79,14 @@ void visit_star(const PlanePatch& patch, int node, Visit visit) {
 
 // Nodes that share an edge with a node.
 std::vector<int> neighbours(const PlanePatch& patch, int node);
+// The same of all nodes at once.
+struct PlaneNeighbours {
+  std::vector<int> offset, node;  // (n_nodes + 1), (offset.back())
+  std::span<const int> of(int i) const {
+    return {node.data() + offset[i], static_cast<std::size_t>(offset[i + 1] - offset[i])};
+  }
+};
+PlaneNeighbours all_neighbours(const PlanePatch& patch);
 
 // An element as seen from one of its facets.
 struct PatchFacet {
