@@ -87,7 +87,7 @@ bool remesh_around(Attempt& attempt, const CutPlaneOptions& options) {
   if (!displace_onto_cut(patch, attempt.chains, movable, is_cut)) return false;
   homogenise(patch, movable, options);
   std::vector<std::uint8_t> is_awake(patch.node.size(), 1);
-  for (int round = 0; round < 2 && options.is_robust; ++round) {
+  for (int round = 0; round < 3 && options.is_robust; ++round) {
     area_step(patch, movable, options.area_sweeps, is_awake);
     if (quality_flips(patch, movable, is_cut, is_awake) == 0) break;
   }
