@@ -59,11 +59,28 @@ static void set_geometric_side(const CutSurroundings& around, const ElementSides
     high = std::max(high, phi);
   }
   if (high > clear_distance * around.h && low < -clear_distance * around.h)
-    labels.kind[e] = CutKind::front;
+    labels.kind[e] = labels.has_front ? CutKind::front : CutKind::separated;
   else if (high == low)
     labels.kind[e] = CutKind::separated;
   else
     labels.side[e] = high >= -low ? 1 : -1;
+}
+
+// Sides of the corners of elements that were crossed but not parted, by their distances: behind a
+// blade that has gone through, these are elements of which it left out an edge (tissue that moves
+// from frame to frame slips past its edge).
+static void part_front(const CutSurroundings& around, std::vector<ElementSides>& sides) {
+  for (std::int32_t e = 0; e < around.patch.n_elements(); ++e) {
+    if (sides[e].kind != CutKind::front) continue;
+    sides[e].kind = CutKind::separated;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Vec3& X = around.patch.X[around.patch.corner[e][c]];
+      const std::span<const SurfacePoint> points = points_at(around, e, c);
+      const double phi = points.empty() ? 0 : fit_surface(points, X, around.h).distance(X);
+      const int side = (phi > 0 ? 1 : 0) - (phi < 0 ? 1 : 0);
+      sides[e].corner[c] = static_cast<std::int8_t>(sides[e].is_neutral[c] ? 0 : side);
+    }
+  }
 }
 
 static bool is_unknown(const CutLabels& labels, std::int32_t e) {
@@ -123,10 +140,12 @@ static void cut_graph(const CutSurroundings& around, CutLabels& labels) {
     if (is_unknown(labels, e)) labels.side[e] = is_plus[vertex[e]] != 0 ? 1 : -1;
 }
 
-CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke) {
-  const std::vector<ElementSides> sides = element_sides(around, stroke);
+CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke, bool is_last) {
+  std::vector<ElementSides> sides = element_sides(around, stroke);
   const std::vector<const std::int8_t*> known = find_elements(stroke.side, around.patch.element);
   CutLabels labels;
+  labels.has_front = !is_last || !has_gone_through(stroke);
+  if (!labels.has_front) part_front(around, sides);
   for (std::int32_t e = 0; e < around.patch.n_elements(); ++e) {
     labels.kind.push_back(known[e] != nullptr ? CutKind::separated : sides[e].kind);
     labels.side.push_back(known[e] != nullptr ? *known[e] : std::int8_t{0});
