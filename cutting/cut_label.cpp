@@ -88,9 +88,10 @@ static bool is_unknown(const CutLabels& labels, std::int32_t e) {
 }
 
 // Gives uncut neighbours of cut elements their side; one that the surface is about to pass through
-// belongs to the front.
+// belongs to the front. An element with a side may have all its crossed edges at nodes that lie on
+// the surface by now: neighbours to which it stayed joined, `unfinished`, are still such.
 static void set_terminals(const CutSurroundings& around, const std::vector<ElementSides>& sides,
-                          CutLabels& labels) {
+                          const std::vector<std::int32_t>& unfinished, CutLabels& labels) {
   const CutPatch& patch = around.patch;
   for (std::int32_t u = 0; u < patch.n_elements(); ++u) {
     if (labels.kind[u] != CutKind::uncut) continue;
@@ -98,9 +99,13 @@ static void set_terminals(const CutSurroundings& around, const std::vector<Eleme
     // A whole facet on the surface: the fourth corner says where the element belongs.
     bool is_neighbour = std::count(neutral.begin(), neutral.end(), true) >= 3;
     bool is_plus = false, is_minus = false;
+    const bool is_unfinished = std::ranges::binary_search(unfinished, patch.element[u]);
     for (int f = 0; f < 4; ++f) {
       const std::int32_t e = patch.across[u][f];
-      if (e < 0 || sides[e].kind != CutKind::separated) continue;
+      if (e < 0) continue;
+      const bool is_known = labels.kind[e] == CutKind::separated && labels.side[e] != 0;
+      is_neighbour = is_neighbour || (is_unfinished && is_known);
+      if (sides[e].kind != CutKind::separated) continue;
       is_neighbour = true;
       const int side = implied_side(sides[e], facet_towards(patch, e, u));
       is_plus = is_plus || side > 0;
@@ -150,7 +155,7 @@ CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke,
     labels.kind.push_back(known[e] != nullptr ? CutKind::separated : sides[e].kind);
     labels.side.push_back(known[e] != nullptr ? *known[e] : std::int8_t{0});
   }
-  set_terminals(around, sides, labels);
+  set_terminals(around, sides, stroke.unfinished, labels);
   cut_graph(around, labels);
   labels.is_front_node.assign(around.patch.node.size(), 0);
   for (std::int32_t e = 0; e < around.patch.n_elements(); ++e)

@@ -5,6 +5,9 @@
 
 namespace trocar {
 
+// A slice of the body thinner than this (over h) may stay with the other side.
+static constexpr double shaving = 0.35;
+
 namespace {
 
 // The mesh as it will be after the edit.
@@ -50,14 +53,25 @@ static std::array<std::int32_t, 3> nodes_of(const std::array<std::int32_t, 4>& c
   return {corner[k[0]], corner[k[1]], corner[k[2]]};
 }
 
-// Elements with crossed edges and no side, but those whose crossings all touch the surface.
+// Whether both ends of a crossed edge of element e are too far from the surface to lie beside it.
+static bool is_crossed_clearly(const CutSurroundings& around, std::int32_t e,
+                               std::span<const CutHit> hits) {
+  return std::ranges::any_of(hits, [&](const CutHit& hit) {
+    return std::ranges::all_of(tet_edges[static_cast<std::size_t>(hit.edge)], [&](int c) {
+      const std::int32_t i = around.patch.corner[e][static_cast<std::size_t>(c)];
+      return surface_distance(around, i, around.patch.X[i]) > shaving * around.h;
+    });
+  });
+}
+
+// Elements without a side that the blade crossed.
 static void add_unparted(const TetCut& cut, const CutStroke& stroke,
                          std::vector<CutRefusal>& places) {
   const CutPatch& patch = cut.around.patch;
   const std::vector<std::span<const CutHit>> hits = hits_of(stroke, patch.element);
   const std::vector<const std::int8_t*> side = find_elements(stroke.side, patch.element);
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
-    if (!hits[e].empty() && side[e] == nullptr && cut.labels.kind[e] != CutKind::uncut)
+    if (side[e] == nullptr && is_crossed_clearly(cut.around, e, hits[e]))
       places.push_back({centre_of(patch, {&e, 1}), CutRefusal::missed});
 }
 

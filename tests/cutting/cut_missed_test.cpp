@@ -64,7 +64,7 @@ TEST(MissedPlaces, are_none_behind_a_blade_that_leaves_nothing_out) {
 
 // As when tissue runs from the blade between two frames.
 TEST(MissedPlaces, narrower_than_an_element_are_parted_at_the_end) {
-  const Outcome outcome = cut_all_but(0.5 + 0.25 * cell, 0.5 - 0.25 * cell);
+  const Outcome outcome = cut_all_but(0.5 + 0.15 * cell, 0.5 - 0.15 * cell);
   EXPECT_EQ(outcome.n_pieces, 2);
   EXPECT_TRUE(outcome.refusals.empty());
 }
