@@ -13,14 +13,19 @@ constexpr int steps_a_frame = 10;  // the limit is looked for anew each time, as
 constexpr double blown_up = 1;     // growth of the energy
 
 // The step: a part of 2 / omega or of the elements' least bound, in the present deformation.
+// Central differences conserve an energy near the true one as long as the step stays what it is;
+// one that falls and rises with the deformation swings with the body's own modes and drives them.
+// So the step only falls, but for one rule that shows it.
 struct Rule {
   const char* name;
   double part;
   bool is_sharp;
+  bool rises;
 };
-constexpr std::array<Rule, 3> rules{{{"0.9 of the elements' bound", 0.9, false},
-                                     {"0.85 of 2 / omega, a scene's default", 0.85, true},
-                                     {"0.9 of 2 / omega", 0.9, true}}};
+constexpr std::array<Rule, 4> rules{{{"0.9 of the elements' bound", 0.9, false, false},
+                                     {"the same, step rises again", 0.9, false, true},
+                                     {"0.85 of 2 / omega, a scene's default", 0.85, true, false},
+                                     {"0.9 of 2 / omega", 0.9, true, false}}};
 
 struct After {
   double bound_ratio = 1, limit_ratio = 1;  // after / before the cut, in the present deformation
@@ -101,15 +106,16 @@ static double limit_in_scene(trocar::Body& body, std::vector<double>& mode) {
 // Largest energy over the first one, less 1; infinite if the body is not finite any more.
 static double growth(trocar::Body body, const Rule& rule, int n_steps) {
   std::vector<double> mode;
-  double first = 0, most = 0;
+  double first = 0, most = 0, dt = std::numeric_limits<double>::infinity();
   for (int done = 0; done < n_steps; done += steps_a_frame) {
     const double bound = look(body).stable_step;
     const double limit = rule.is_sharp ? limit_in_scene(body, mode) : bound;
     if (!(bound > 0) || !is_finite(body)) return std::numeric_limits<double>::infinity();
-    const double energy = step_and_measure(body, rule.part * limit);
+    dt = rule.rises ? rule.part * limit : std::min(dt, rule.part * limit);
+    const double energy = step_and_measure(body, dt);
     if (done == 0) first = energy;
     most = std::max(most, energy);
-    for (int k = 1; k < steps_a_frame; ++k) step(body, rule.part * limit);
+    for (int k = 1; k < steps_a_frame; ++k) step(body, dt);
   }
   return is_finite(body) ? most / first - 1 : std::numeric_limits<double>::infinity();
 }
@@ -162,7 +168,7 @@ static void print_family(const std::string& name, const std::vector<After>& cuts
 static void print_head(int n_steps, std::FILE* file) {
   std::fprintf(file, "| mesh | cuts | edits | bound after / before: least, median | 2 / omega |");
   for (const Rule& rule : rules) std::fprintf(file, " %s |", rule.name);
-  std::fprintf(file, "\n|---|---|---|---|---|---|---|---|\n");
+  std::fprintf(file, "\n|---|---|---|---|---|---|---|---|---|\n");
   std::fprintf(stderr,
                "last columns: bodies that blew up in %d steps (uncut ones), largest energy "
                "of the others over that at the cut\n",

@@ -89,17 +89,7 @@ static double least_quality(const TetCut& cut) {
   return least;
 }
 
-// Elements that are joined still, at the end of a blade's way from surface to surface.
-static void add_missed(const TetCut& cut, const CutStroke& stroke, std::vector<CutRefusal>& list) {
-  const CutPatch& patch = cut.around.patch;
-  const std::vector<std::span<const CutHit>> hits = hits_of(stroke, patch.element);
-  for (std::int32_t e = 0; e < patch.n_elements(); ++e) {
-    if (cut.labels.kind[e] != CutKind::front || hits[e].empty()) continue;
-    list.push_back({centre_of(patch, {&e, 1}), CutRefusal::missed});
-  }
-}
-
-static std::vector<CutRefusal> refusals(const TetCut& cut, const CutStroke& stroke, bool is_last) {
+static std::vector<CutRefusal> refusals(const TetCut& cut, bool is_last) {
   std::vector<CutRefusal> list;
   for (const Vec3& X : cut.chips) list.push_back({X, CutRefusal::chip});
   if (!is_last) return list;
@@ -107,11 +97,10 @@ static std::vector<CutRefusal> refusals(const TetCut& cut, const CutStroke& stro
     const std::array<std::int32_t, 3> node = facet_nodes(cut.around.patch, e, f);
     list.push_back({(cut.X[node[0]] + cut.X[node[1]] + cut.X[node[2]]) / 3, CutRefusal::pinched});
   }
-  if (has_gone_through(stroke)) add_missed(cut, stroke, list);
   return list;
 }
 
-CutFigures make_figures(const TetCut& cut, const CutStroke& stroke, bool is_last) {
+CutFigures make_figures(const TetCut& cut, bool is_last) {
   CutFigures figures;
   const CutPatch& patch = cut.around.patch;
   for (const auto& [e, f] : cut.opening.facet)
@@ -120,7 +109,7 @@ CutFigures make_figures(const TetCut& cut, const CutStroke& stroke, bool is_last
   figures.n_moved = static_cast<std::int32_t>(cut.transfer.size());
   const std::vector<std::int32_t>& parent = cut.opening.duplication.duplicate_parent;
   figures.n_duplicated = static_cast<std::int32_t>(parent.size());
-  figures.refusals = refusals(cut, stroke, is_last);
+  figures.refusals = refusals(cut, is_last);
   figures.n_refused = static_cast<std::int32_t>(figures.refusals.size());
   figures.least_quality = least_quality(cut);
   for (const std::int32_t i : parent) {

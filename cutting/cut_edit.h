@@ -8,8 +8,7 @@
 namespace trocar {
 
 MeshEdit make_edit(const Mesh& mesh, const TetCut& cut);
-// Of `stroke` before it remembers this edit.
-CutFigures make_figures(const TetCut& cut, const CutStroke& stroke, bool is_last);
+CutFigures make_figures(const TetCut& cut, bool is_last);
 // `n_nodes` of the mesh before the edit: copies are numbered from there.
 void remember(const TetCut& cut, std::int32_t n_nodes, CutStroke& stroke);
 

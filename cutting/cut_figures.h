@@ -13,7 +13,7 @@ struct CutRefusal {
   enum Reason : std::int32_t {
     pinched,  // a facet: the outer surface would be no 2-manifold
     chip,     // elements below half a mean edge cubed stay with the other side
-    missed,   // an element that the blade's path crossed and did not part
+    missed,   // an element, facet or edge on the blade's path that holds both sides together
     n_reasons
   };
   Vec3 X = Vec3::Zero();  // its centre, reference configuration [m]

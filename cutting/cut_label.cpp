@@ -59,11 +59,28 @@ static void set_geometric_side(const CutSurroundings& around, const ElementSides
     high = std::max(high, phi);
   }
   if (high > clear_distance * around.h && low < -clear_distance * around.h)
-    labels.kind[e] = CutKind::front;
+    labels.kind[e] = labels.has_front ? CutKind::front : CutKind::separated;
   else if (high == low)
     labels.kind[e] = CutKind::separated;
   else
     labels.side[e] = high >= -low ? 1 : -1;
+}
+
+// Sides of the corners of elements that were crossed but not parted, by their distances: behind a
+// blade that has gone through, these are elements of which it left out an edge (tissue that moves
+// from frame to frame slips past its edge).
+static void part_front(const CutSurroundings& around, std::vector<ElementSides>& sides) {
+  for (std::int32_t e = 0; e < around.patch.n_elements(); ++e) {
+    if (sides[e].kind != CutKind::front) continue;
+    sides[e].kind = CutKind::separated;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Vec3& X = around.patch.X[around.patch.corner[e][c]];
+      const std::span<const SurfacePoint> points = points_at(around, e, c);
+      const double phi = points.empty() ? 0 : fit_surface(points, X, around.h).distance(X);
+      const int side = (phi > 0 ? 1 : 0) - (phi < 0 ? 1 : 0);
+      sides[e].corner[c] = static_cast<std::int8_t>(sides[e].is_neutral[c] ? 0 : side);
+    }
+  }
 }
 
 static bool is_unknown(const CutLabels& labels, std::int32_t e) {
@@ -71,9 +88,10 @@ static bool is_unknown(const CutLabels& labels, std::int32_t e) {
 }
 
 // Gives uncut neighbours of cut elements their side; one that the surface is about to pass through
-// belongs to the front.
+// belongs to the front. An element with a side may have all its crossed edges at nodes that lie on
+// the surface by now: neighbours to which it stayed joined, `unfinished`, are still such.
 static void set_terminals(const CutSurroundings& around, const std::vector<ElementSides>& sides,
-                          CutLabels& labels) {
+                          const std::vector<std::int32_t>& unfinished, CutLabels& labels) {
   const CutPatch& patch = around.patch;
   for (std::int32_t u = 0; u < patch.n_elements(); ++u) {
     if (labels.kind[u] != CutKind::uncut) continue;
@@ -81,9 +99,13 @@ static void set_terminals(const CutSurroundings& around, const std::vector<Eleme
     // A whole facet on the surface: the fourth corner says where the element belongs.
     bool is_neighbour = std::count(neutral.begin(), neutral.end(), true) >= 3;
     bool is_plus = false, is_minus = false;
+    const bool is_unfinished = std::ranges::binary_search(unfinished, patch.element[u]);
     for (int f = 0; f < 4; ++f) {
       const std::int32_t e = patch.across[u][f];
-      if (e < 0 || sides[e].kind != CutKind::separated) continue;
+      if (e < 0) continue;
+      const bool is_known = labels.kind[e] == CutKind::separated && labels.side[e] != 0;
+      is_neighbour = is_neighbour || (is_unfinished && is_known);
+      if (sides[e].kind != CutKind::separated) continue;
       is_neighbour = true;
       const int side = implied_side(sides[e], facet_towards(patch, e, u));
       is_plus = is_plus || side > 0;
@@ -123,15 +145,17 @@ static void cut_graph(const CutSurroundings& around, CutLabels& labels) {
     if (is_unknown(labels, e)) labels.side[e] = is_plus[vertex[e]] != 0 ? 1 : -1;
 }
 
-CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke) {
-  const std::vector<ElementSides> sides = element_sides(around, stroke);
+CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke, bool is_last) {
+  std::vector<ElementSides> sides = element_sides(around, stroke);
   const std::vector<const std::int8_t*> known = find_elements(stroke.side, around.patch.element);
   CutLabels labels;
+  labels.has_front = !is_last || !has_gone_through(stroke);
+  if (!labels.has_front) part_front(around, sides);
   for (std::int32_t e = 0; e < around.patch.n_elements(); ++e) {
     labels.kind.push_back(known[e] != nullptr ? CutKind::separated : sides[e].kind);
     labels.side.push_back(known[e] != nullptr ? *known[e] : std::int8_t{0});
   }
-  set_terminals(around, sides, labels);
+  set_terminals(around, sides, stroke.unfinished, labels);
   cut_graph(around, labels);
   labels.is_front_node.assign(around.patch.node.size(), 0);
   for (std::int32_t e = 0; e < around.patch.n_elements(); ++e)

@@ -20,9 +20,11 @@ struct CutLabels {
   std::vector<std::uint8_t>
       is_front_node;  // (n_nodes) of an element of the front: the blade is still in there, and a
                       // node that moves could take an edge past it uncrossed
+  bool has_front = true;  // false at the end of a stroke that has gone through: all that it crossed
+                          // is parted then
 };
 
-CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke);
+CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke, bool is_last);
 
 // Cost of opening a facet: squared distances of its nodes plus a little for its area.
 double facet_cost(const CutSurroundings& around, std::int32_t e, int f);

@@ -13,6 +13,7 @@
 #include "cutting/cut_homogenise.h"
 #include "cutting/cut_index.h"
 #include "cutting/cut_mend.h"
+#include "cutting/cut_missed.h"
 
 namespace trocar {
 
@@ -85,6 +86,11 @@ static std::int32_t count_different(std::span<const Vec3> a, std::span<const Vec
   return n;
 }
 
+static void add_refusals(const std::vector<CutRefusal>& list, CutFigures& figures) {
+  figures.refusals.insert(figures.refusals.end(), list.begin(), list.end());
+  figures.n_refused = static_cast<std::int32_t>(figures.refusals.size());
+}
+
 // Cuts the tetrahedra of `mesh`.
 MeshEdit TetCutter::Front::advance(const Mesh& mesh, std::span<const Vec3> x,
                                    std::span<const std::uint8_t> is_held, const BladeSweep& sweep,
@@ -95,8 +101,12 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, std::span<const Vec3> x,
 
   TetCut cut;
   cut.around = survey(mesh, index, x, is_held, stroke, is_last);
-  if (cut.around.patch.n_elements() == 0) return {};
-  cut.labels = label_elements(cut.around, stroke);
+  const bool is_through = is_last && has_gone_through(stroke);
+  if (cut.around.patch.n_elements() == 0) {
+    if (is_through) add_refusals(missed_places(mesh, cut, stroke), figures);
+    return {};
+  }
+  cut.labels = label_elements(cut.around, stroke, is_last);
   if (is_last) cut.rungs.n_turned = mend_labels(cut.around, stroke, cut.labels);
   std::vector<std::uint8_t> stays_whole(cut.around.patch.node.size(), 0);
   if (!is_last) stays_whole = unripe_nodes(cut.around, cut.labels);
@@ -110,8 +120,9 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, std::span<const Vec3> x,
   cut.transfer = transfer_moves(cut.around.patch, cut.X);
   cut.rungs.n_pulled_back = count_different(wanted, cut.X);
 
-  figures = make_figures(cut, stroke, is_last);
+  figures = make_figures(cut, is_last);
   remember(cut, mesh.n_nodes(), stroke);
+  if (is_through) add_refusals(missed_places(mesh, cut, stroke), figures);
   MeshEdit edit = make_edit(mesh, cut);
   edit_index(mesh, edit, index);
   return edit;

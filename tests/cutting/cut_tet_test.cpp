@@ -226,24 +226,17 @@ CutFigures cut_through(Body& body, const std::function<void(CutStroke&)>& forget
   return figures;
 }
 
-TEST(TetCutter, names_the_place_where_a_cut_from_surface_to_surface_leaves_tissue_joined) {
+TEST(TetCutter, parts_elements_behind_the_blade_although_an_edge_slipped_past_it) {
   const Vec3 centre(0.5, 0.5, 0.5);
-  Body whole(make_box({0, 0, 0}, {1, 1, 1}, {6, 6, 6}, BoxElements::tet4_kuhn));
-  Body joined = whole;
-  EXPECT_EQ(cut_through(whole, [](CutStroke&) {}).n_refused, 0);
-  EXPECT_EQ(n_pieces(whole.mesh), 2);
-  Vec3 gap = Vec3::Zero();
-  const CutFigures figures = cut_through(joined, [&](CutStroke& stroke) {
+  Body body(make_box({0, 0, 0}, {1, 1, 1}, {6, 6, 6}, BoxElements::tet4_kuhn));
+  const CutFigures figures = cut_through(body, [&](CutStroke& stroke) {
+    Vec3 slipped = Vec3::Zero();
     for (const CutHit& hit : stroke.hit)
-      if ((hit.X - centre).norm() < (gap - centre).norm()) gap = hit.X;
-    std::erase_if(stroke.hit, [&](const CutHit& hit) { return hit.X == gap; });
+      if ((hit.X - centre).norm() < (slipped - centre).norm()) slipped = hit.X;
+    std::erase_if(stroke.hit, [&](const CutHit& hit) { return hit.X == slipped; });
   });
-  EXPECT_EQ(n_pieces(joined.mesh), 1);
-  ASSERT_GT(figures.n_refused, 0);
-  for (const CutRefusal& refusal : figures.refusals) {
-    EXPECT_EQ(refusal.reason, CutRefusal::missed);
-    EXPECT_LT((refusal.X - gap).norm(), mean_edge_of(joined.mesh));
-  }
+  EXPECT_EQ(n_pieces(body.mesh), 2);
+  EXPECT_EQ(figures.n_refused, 0);
 }
 
 }  // namespace

@@ -1,0 +1,132 @@
+// Topology alone: what is open all along its edges parts the tissue, however it got there.
+#include "cutting/cut_missed.h"
+
+#include <algorithm>
+
+namespace trocar {
+
+// A slice of the body thinner than this (over h) may stay with the other side.
+static constexpr double shaving = 0.35;
+
+namespace {
+
+// The mesh as it will be after the edit.
+struct After {
+  const Mesh& mesh;
+  const TetCut& cut;
+
+  // Of a tetrahedron.
+  std::array<std::int32_t, 4> corners(std::int32_t e) const {
+    const CutPatch& patch = cut.around.patch;
+    const std::span<const std::int32_t> c = mesh.corners(e);
+    std::array<std::int32_t, 4> node{c[0], c[1], c[2], c[3]};
+    if (const std::int32_t local = patch.local_element(e); local >= 0)
+      for (std::size_t k = 0; k < 4; ++k)
+        if (const std::int32_t i = cut.opening.corner[local][k]; i >= patch.n_nodes())
+          node[k] = mesh.n_nodes() + i - patch.n_nodes();
+    return node;
+  }
+  Vec3 X(std::int32_t i) const {
+    const CutPatch& patch = cut.around.patch;
+    if (i >= mesh.n_nodes())
+      return cut.X[cut.opening.duplication.duplicate_parent[i - mesh.n_nodes()]];
+    const std::int32_t local = patch.local_node(i);
+    return local >= 0 ? cut.X[local] : mesh.X[i];
+  }
+};
+
+struct SidedFacet {
+  std::array<std::int32_t, 3> node;  // ascending
+  std::int8_t side;
+};
+
+// An edge of an opened facet and its node opposite to it.
+struct LipEdge {
+  std::array<std::int32_t, 2> node;  // ascending
+  std::int32_t opposite;
+};
+
+}  // namespace
+
+static std::array<std::int32_t, 3> nodes_of(const std::array<std::int32_t, 4>& corner, int f) {
+  const std::array<int, 3>& k = tet_facets[static_cast<std::size_t>(f)];
+  return {corner[k[0]], corner[k[1]], corner[k[2]]};
+}
+
+// Whether both ends of a crossed edge of element e are too far from the surface to lie beside it.
+static bool is_crossed_clearly(const CutSurroundings& around, std::int32_t e,
+                               std::span<const CutHit> hits) {
+  return std::ranges::any_of(hits, [&](const CutHit& hit) {
+    return std::ranges::all_of(tet_edges[static_cast<std::size_t>(hit.edge)], [&](int c) {
+      const std::int32_t i = around.patch.corner[e][static_cast<std::size_t>(c)];
+      return surface_distance(around, i, around.patch.X[i]) > shaving * around.h;
+    });
+  });
+}
+
+// Elements without a side that the blade crossed.
+static void add_unparted(const TetCut& cut, const CutStroke& stroke,
+                         std::vector<CutRefusal>& places) {
+  const CutPatch& patch = cut.around.patch;
+  const std::vector<std::span<const CutHit>> hits = hits_of(stroke, patch.element);
+  const std::vector<const std::int8_t*> side = find_elements(stroke.side, patch.element);
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
+    if (side[e] == nullptr && is_crossed_clearly(cut.around, e, hits[e]))
+      places.push_back({centre_of(patch, {&e, 1}), CutRefusal::missed});
+}
+
+static void add_joined_facets(const After& after, const CutStroke& stroke,
+                              std::vector<CutRefusal>& places) {
+  std::vector<SidedFacet> facet;
+  facet.reserve(4 * stroke.side.size());
+  for (const auto& [e, side] : stroke.side) {
+    const std::array<std::int32_t, 4> corner = after.corners(e);
+    for (int f = 0; f < 4; ++f) {
+      facet.push_back({nodes_of(corner, f), side});
+      std::ranges::sort(facet.back().node);
+    }
+  }
+  std::ranges::sort(facet, {}, [](const SidedFacet& f) { return std::pair{f.node, f.side}; });
+  for (std::size_t k = 1; k < facet.size(); ++k) {
+    const auto& [node, side] = facet[k];
+    if (node != facet[k - 1].node || side == facet[k - 1].side) continue;
+    const Vec3 sum = after.X(node[0]) + after.X(node[1]) + after.X(node[2]);
+    places.push_back({sum / 3, CutRefusal::missed});
+  }
+}
+
+// Both lips of an opened facet are triangles with the same corners in space; where they share an
+// edge, the opening ends.
+static void add_rims(const After& after, const CutStroke& stroke, std::vector<CutRefusal>& places) {
+  std::vector<LipEdge> edge;
+  for (const auto& [e, mask] : stroke.opened) {
+    const std::array<std::int32_t, 4> corner = after.corners(e);
+    for (int f = 0; f < 4; ++f) {
+      if ((mask >> f & 1) == 0) continue;
+      const std::array<std::int32_t, 3> node = nodes_of(corner, f);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t a = node[k], b = node[(k + 1) % 3];
+        edge.push_back({{std::min(a, b), std::max(a, b)}, node[(k + 2) % 3]});
+      }
+    }
+  }
+  std::ranges::sort(edge, {}, [](const LipEdge& l) { return std::pair{l.node, l.opposite}; });
+  for (std::size_t k = 1; k < edge.size(); ++k) {
+    const auto& [node, opposite] = edge[k];
+    if (node != edge[k - 1].node || opposite == edge[k - 1].opposite) continue;
+    if (after.X(opposite) != after.X(edge[k - 1].opposite)) continue;
+    places.push_back({(after.X(node[0]) + after.X(node[1])) / 2, CutRefusal::missed});
+  }
+}
+
+std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut,
+                                      const CutStroke& stroke) {
+  const After after{mesh, cut};
+  std::vector<CutRefusal> places;
+  add_unparted(cut, stroke, places);
+  add_joined_facets(after, stroke, places);
+  add_rims(after, stroke, places);
+  return places;
+}
+
+}  // namespace trocar

@@ -1,0 +1,17 @@
+// Where a blade went from surface to surface and tissue stays joined. Nothing repairs it; a stroke
+// must not end without saying so.
+#pragma once
+
+#include <vector>
+
+#include "cutting/cut_figures.h"
+#include "cutting/cut_survey.h"
+
+namespace trocar {
+
+// At the end of a stroke that has gone through, which remembers `cut`, its last edit of `mesh`
+// (not applied yet): elements that the blade crossed and that got no side, facets between two
+// sides that are not open, and edges where both lips of an opened facet hang together.
+std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut, const CutStroke& stroke);
+
+}  // namespace trocar
