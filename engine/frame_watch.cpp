@@ -34,8 +34,7 @@ void force_of(Simulation& s, State& probe, std::vector<double>& u, std::vector<d
 }
 
 // 2 / omega less a margin; 0 if the search doesn't end.
-double step_of_frequency(Simulation& s) {
-  if (s.sleep) show_awake(s);  // the step must do when they wake
+double search_step(Simulation& s, std::vector<double>& mode) {
   State probe = s.state;
   FrequencyOptions options;
   // Small beside an element, large beside the rounding of the elements' numbers.
@@ -44,9 +43,23 @@ double step_of_frequency(Simulation& s) {
   const HighestFrequency found = find_highest_frequency(
       s.model, s.part, s.state,
       [&](std::vector<double>& u, std::vector<double>& force) { force_of(s, probe, u, force); },
-      options, *s.communicator, s.fastest_mode);
-  if (s.sleep) show_asleep(s);
+      options, *s.communicator, mode);
   return found.is_converged ? 2 / (frequency_margin * found.omega) : 0;
+}
+
+// With local steps, the body with its fine nodes at rest sets the step unless the fine ones do, in
+// spite of their substeps.
+double step_of_frequency(Simulation& s) {
+  if (s.sleep) show_awake(s);  // the step must do when they wake
+  double step = search_step(s, s.fastest_mode);
+  if (s.multirate) {
+    s.model.fixed.swap(s.multirate->coarse_fixed);
+    const double coarse = search_step(s, s.slow_mode);
+    s.model.fixed.swap(s.multirate->coarse_fixed);
+    step = std::min(coarse, step * s.multirate->steps.limit / 2);
+  }
+  if (s.sleep) show_asleep(s);
+  return step;
 }
 
 // Whether all is finite.
@@ -90,6 +103,12 @@ void watch_elements(Simulation& s) {
 }
 
 }  // namespace
+
+void refine_forces(Simulation& s, double dt) {
+  if (!s.multirate) return;
+  refine_force({.model = s.model, .state = s.state, .prescribed = s.holds.prescribed, .dt = dt},
+               *s.multirate, s.scratch);
+}
 
 double largest_speed(const Simulation& s) {
   double most = 0;

@@ -24,12 +24,13 @@ std::string digest_of(const std::string& scene, const std::vector<std::string>& 
     EXPECT_GT(summary["share_asleep_mean"], 0.05);
     digest += " asleep " + summary["share_asleep_mean"].dump();
   }
+  if (summary.contains("multirate")) digest += " multirate " + summary["multirate"].dump();
   return digest;
 }
 
 // All combinations of {1, 2, 3, 4} ranks and {1, 2} threads. No pictures: they don't touch the
 // state.
-void expect_one_digest(const std::string& scene, std::vector<std::string> settings) {
+std::string expect_one_digest(const std::string& scene, std::vector<std::string> settings) {
   settings.push_back("output=[]");
   const std::string first = digest_of(scene, settings, 1, 1);
   for (int ranks = 1; ranks <= 4; ++ranks)
@@ -38,6 +39,7 @@ void expect_one_digest(const std::string& scene, std::vector<std::string> settin
         EXPECT_EQ(digest_of(scene, settings, ranks, threads), first)
             << scene << " on " << ranks << " x " << threads;
       }
+  return first;
 }
 
 TEST(StateDigest, of_the_liver_is_the_same_on_any_ranks_and_threads_while_it_is_cut) {
@@ -108,6 +110,12 @@ TEST(StateDigest, with_sleep_and_scaled_masses_is_the_same_on_any_ranks_and_thre
   expect_one_digest("plane_cut.toml",
                     {"time.duration='3.6 s'", "support=[{region='x-'},{region='x+'}]",
                      "solver.mass_scaling_step='0.5 ms'", "solver.sleep='0.5 mm'"});
+}
+
+// The cut leaves small elements.
+TEST(StateDigest, with_local_steps_is_the_same_on_any_ranks_and_threads_while_it_is_cut) {
+  const std::string digest = expect_one_digest("plane_cut.toml", {"solver.multirate=true"});
+  EXPECT_NE(digest.find("multirate"), std::string::npos) << "nothing was small";
 }
 
 // Steps a second of the same frames are doubled: messages follow, what all ranks say together does
