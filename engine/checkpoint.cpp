@@ -66,6 +66,7 @@ void restore_searches(const Checkpoint& c, Simulation& s) {
   s.slow_mode = of_owned(c.slow_mode, s.part);
   s.look.u = of_owned(c.looked_at, s.part);
   s.look.is_done = !c.looked_at.empty();
+  if (s.look.is_done && c.slow_mode.empty()) s.multirate.reset();  // it was given up
   if (s.energy && c.has_energies)
     s.energy->memory = c.energy;
   else if (s.energy)

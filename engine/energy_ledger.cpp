@@ -55,7 +55,9 @@ void open_energy_ledger(Simulation& s) {
 
 EnergyState mechanical_energy(Simulation& s) {
   compute_force(s.model, s.state, s.scratch);
-  if (s.state.last_dt > 0) refine_forces(s, s.state.last_dt);
+  // After a cut the last step may be too long for the substeps of new small elements.
+  if (s.state.last_dt > 0 && s.state.last_dt <= s.watch.stable_step)
+    refine_forces(s, s.state.last_dt);
   EnergyTerms terms;
   energy_terms(s.model, s.part, s.state, terms);
   terms.strain.insert(terms.strain.end(), terms.volumetric.begin(), terms.volumetric.end());

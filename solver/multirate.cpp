@@ -4,13 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "base/check.h"
 #include "solver/block_ranges.h"
 
 namespace trocar {
 
 namespace {
 
-constexpr double damping = 0.05;  // nu
+constexpr double least_cosine = 4. / 9;  // 1 / T_p(d)
 constexpr int most_substeps = 64;
 constexpr double least_gain = 1.2;  // in element-steps, below which it isn't worth it
 
@@ -32,6 +33,13 @@ Chebyshev chebyshev(int n, double x) {
   }
   c.derivative = next_dT;
   return c;
+}
+
+// d of T_p(d) = 1 / least_cosine, by T_p/2(d) = sqrt((T_p(d) + 1) / 2).
+double chebyshev_argument(int p) {
+  double T = 1 / least_cosine;
+  for (; p > 1; p /= 2) T = std::sqrt((T + 1) / 2);
+  return T;
 }
 
 double least_step(std::span<const RestingElement> resting) {
@@ -99,17 +107,18 @@ void build_body(const MultiRateBody& body, MultiRate& m, Communicator& communica
   m.start_force.resize(n_values);
   m.z.resize(n_values);
   m.z_before.resize(n_values);
-  m.fixed.resize(static_cast<std::size_t>(m.part.n_owned));
+  m.moves.resize(static_cast<std::size_t>(m.part.n_owned));
 }
 
-// u on all local nodes, what is held in this step.
+// u on all local nodes, what moves in this step.
 void begin(const MultiRateStep& step, MultiRate& m) {
   for (std::size_t i = 0; i < m.whole.size(); ++i)
     std::copy_n(&step.state.u[3 * static_cast<std::size_t>(m.whole[i])], 3, &m.state.u[3 * i]);
-  for (std::size_t i = 0; i < m.fixed.size(); ++i)
-    m.fixed[i] = step.model.fixed[static_cast<std::size_t>(m.whole[i])];
+  for (std::size_t i = 0; i < m.moves.size(); ++i)
+    m.moves[i] =
+        m.is_fine[i] == 0 ? FixedMask{0} : static_cast<FixedMask>(~step.model.fixed[m.whole[i]]);
   for (const PrescribedNode& held : step.prescribed)
-    if (const std::int32_t i = m.of_whole[held.node]; i >= 0) m.fixed[i] = 7;
+    if (const std::int32_t i = m.of_whole[held.node]; i >= 0) m.moves[i] = 0;
   std::fill(m.z.begin(), m.z.end(), 0.0);
   std::fill(m.z_before.begin(), m.z_before.end(), 0.0);
 }
@@ -121,7 +130,6 @@ void advance(const MultiRateStep& step, int k, const Scratch& whole, MultiRate& 
     for (std::int64_t i = begin; i < end; ++i) {
       const std::int64_t w = m.whole[i];
       for (std::int64_t j = 0; j < 3; ++j) {
-        if ((m.fixed[i] >> j & 1) != 0) continue;
         const std::int64_t at = 3 * i + j;
         const double change = m.scratch.force[at] - m.start_force[at];
         const double a = (whole.force[3 * w + j] + change) / step.model.inertia[w];
@@ -136,8 +144,9 @@ void advance(const MultiRateStep& step, int k, const Scratch& whole, MultiRate& 
 void move_fine_nodes(const MultiRateStep& step, MultiRate& m) {
   parallel_for_nodes(m.part.n_owned, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i)
-      for (std::int64_t j = 0; j < 3 && m.is_fine[i] != 0; ++j)
-        m.state.u[3 * i + j] = step.state.u[3 * std::int64_t{m.whole[i]} + j] + m.z[3 * i + j];
+      for (std::int64_t j = 0; j < 3; ++j)
+        if ((m.moves[i] >> j & 1) != 0)
+          m.state.u[3 * i + j] = step.state.u[3 * std::int64_t{m.whole[i]} + j] + m.z[3 * i + j];
   });
 }
 
@@ -145,15 +154,15 @@ void give_force(const MultiRateStep& step, const MultiRate& m, Scratch& scratch)
   const double scale = 2 / (step.dt * step.dt);
   for (std::int64_t i = 0; i < m.part.n_owned; ++i)
     for (std::int64_t j = 0; j < 3; ++j)
-      if ((m.fixed[i] >> j & 1) == 0)
-        scratch.force[3 * std::int64_t{m.whole[i]} + j] =
-            step.model.inertia[m.whole[i]] * (scale * m.z[3 * i + j]);
+      scratch.force[3 * std::int64_t{m.whole[i]} + j] =
+          step.model.inertia[m.whole[i]] * (scale * m.z[3 * i + j]);
 }
 
 }  // namespace
 
 LocalSteps local_steps(int p) {
-  const double d = 1 + damping / (p * p);
+  CHECK_OP(p & (p - 1), ==, 0);
+  const double d = chebyshev_argument(p);
   const Chebyshev c = chebyshev(p, d);
   const double w = 2 * c.derivative / c.T.back();
   LocalSteps steps{.back = {0}, .gain = {1 / (w * d)}, .limit = std::sqrt(w * (1 + d))};
@@ -168,9 +177,10 @@ MultiRatePlan plan_multirate(const Mesh& mesh, std::span<const RestingElement> r
   const double least = least_step(resting), n = static_cast<double>(resting.size());
   MultiRatePlan best{.is_fine = std::vector<std::uint8_t>(mesh.X.size(), 0)};
   for (int p = 2; p <= most_substeps && least > 0; p *= 2) {
-    MultiRatePlan plan = plan_of(mesh, resting, p * least);
+    const double longer = local_steps(p).limit / 2;  // than the step without
+    MultiRatePlan plan = plan_of(mesh, resting, longer * least);
     plan.n_substeps = p;
-    plan.gain = p * n / (n + p * static_cast<double>(plan.element.size()));
+    plan.gain = longer * n / (n + p * static_cast<double>(plan.element.size()));
     if (plan.gain > std::max(least_gain, best.gain)) best = std::move(plan);
   }
   return best;

@@ -5,9 +5,13 @@
 //   z_0 = 0,  z_1 = dt^2 / (w d) a_0,  z_k+1 = (1 + b_k) z_k - b_k z_k-1 + 2/w c_k dt^2 a_k,
 //   F~ = 2 M z_p / dt^2
 // takes the place of F(u) in the step; away from elements that touch fine nodes the two are equal.
-// d = 1 + nu / p^2, w = 2 T_p'(d) / T_p(d), b_k = T_k-1 / T_k+1 and c_k = T_k / T_k+1 of the
-// Chebyshev polynomials at d. Without damping (nu = 0) z is p steps of central differences, which
-// become unstable where a fine frequency meets its coarse neighbours in resonance.
+// w = 2 T_p'(d) / T_p(d), b_k = T_k-1 / T_k+1 and c_k = T_k / T_k+1 of the Chebyshev polynomials at
+// d > 1. At d = 1, z is p steps of central differences: unstable where a fine frequency meets its
+// coarse neighbours in resonance. With d as in the paper (1 + 0.05 / p^2), steps are stable, but
+// their cosines cos(omega~ dt) = T_p(d - (omega dt)^2 / w) / T_p(d) go back and forth between about
+// -1 and 1: some mode meets the third-order resonance at -1/2 that finite strains feed
+// (docs/stability.md). T_p(d) = 9/4 keeps all of them above -4/9, where the highest coarse mode is
+// at 0.85 of its limit, and costs a fifth of the fine nodes' limit.
 #pragma once
 
 #include <memory>
@@ -28,6 +32,7 @@ struct LocalSteps {
   std::vector<double> back, gain;  // (p)
   double limit = 2;                // of dt omega, omega the highest frequency of all
 };
+// p: a power of two.
 LocalSteps local_steps(int p);
 
 // Which elements are computed p times a step.
@@ -54,7 +59,7 @@ struct MultiRate {
   std::vector<std::int32_t> whole;      // (n_local) local number in the whole body
   std::vector<std::int32_t> of_whole;   // (n_owned of the whole body) local number here or -1
   std::vector<std::uint8_t> is_fine;    // (n_owned)
-  std::vector<FixedMask> fixed;         // (n_owned) supported or held in this step
+  std::vector<FixedMask> moves;         // (n_owned) fine, and not supported or held in this step
   std::vector<double> start_force;      // (n_owned * 3) of these elements at u [N]
   std::vector<double> z, z_before;      // (n_owned * 3) [m]
   std::vector<FixedMask> coarse_fixed;  // (n_owned of the whole body) fixed, and fine nodes
@@ -69,8 +74,9 @@ struct MultiRateBody {
 std::unique_ptr<MultiRate> make_multirate(const MultiRatePlan& plan, const MultiRateBody& body,
                                           Communicator& communicator);
 
-// scratch.force from F(u) to F~ of a step dt. What is held stays where it is meanwhile. Collective
-// among neighbours.
+// scratch.force from F(u) to F~ of a step dt. What is held stays where it is meanwhile, and its
+// force is what the others' substeps exert on it: the sum of all is that of F(u). Collective among
+// neighbours.
 struct MultiRateStep {
   const Model& model;
   const State& state;

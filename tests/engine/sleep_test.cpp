@@ -228,17 +228,6 @@ TEST(Sleep, is_refused_for_viscoelastic_tissue) {
   EXPECT_TRUE(contains(sentence, "solver.sleep")) << sentence;
 }
 
-TEST(MultiRate, is_refused_with_what_it_cannot_compute) {
-  for (const char* const other :
-       {"[tissue.material]\nprony = [ { share = 0.4, time = 0.02 } ]\n[solver]\n",
-        "[solver]\ntetrahedron = \"nodal-pressure\"\n",
-        "[solver]\nstable_step = \"element-bound\"\n", "[solver]\nmass_scaling_step = 0.001\n"}) {
-    EXPECT_TRUE(contains(scene_error(scene_text(std::string(other) + "multirate = true\n")),
-                         "solver.multirate"));
-    EXPECT_EQ(scene_error(scene_text(other)), "");
-  }
-}
-
 TEST(Sleep, is_absent_unless_it_is_asked_for) {
   EXPECT_FALSE(started({})->s->sleep.has_value());
 }
