@@ -20,6 +20,9 @@ central differences have a third-order resonance where omega dt / 2 = sin(pi/3) 
 mode is excited at all: by noise in double, by rounding alone in single precision (80,129 steps). A step of 0.9 of the limit leaves modes below the highest one in the resonance, and
 diverged in single precision after 158,099 steps of a block whose mode at 0.957 of the highest frequency it met; steps below 0.866 leave none. Hence `solver.step_factor = 0.85`.
 
+Local steps (`solver.multirate`) are damped so that 0.85 of their limit leaves none there either (architecture.md). With their step held fixed and twice the amplitude of the rows below (shear strains of 0.1, noise,
+no damping) the body with a sliver kept its energy for 30,000 steps and diverged before 100,000; without local steps it did so at four times the amplitude, after 84,800.
+
 )";
 
 static std::string row_text(const StabilityRow& row) {
@@ -61,7 +64,7 @@ int main(int argc, char** argv) {
   for (const StabilityCase run :
        {steps_around_the_limit, third_order_resonance, nearly_incompressible, confined_compression,
         inversion_and_recovery, nodal_noise, stiffness_jumps, slivers, free_fall, long_vibration,
-        non_finite_values})
+        local_time_steps, non_finite_values})
     for (const StabilityRow& row : run(scale)) {
       const std::string text = row_text(row);
       std::printf("%s", text.c_str());

@@ -25,6 +25,7 @@ std::vector<StabilityRow> stiffness_jumps(double scale);
 std::vector<StabilityRow> slivers(double scale);
 std::vector<StabilityRow> free_fall(double scale);
 std::vector<StabilityRow> long_vibration(double scale);
+std::vector<StabilityRow> local_time_steps(double scale);
 std::vector<StabilityRow> non_finite_values(double scale);
 
 }  // namespace trocar

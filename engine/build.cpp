@@ -178,6 +178,21 @@ ElementLook nothing_looked_at(const Simulation& s) {
   return {.reach = unseen_strain / 7 * s.communicator->all_min(h)};
 }
 
+// Small elements with steps of their own, if they set everyone's. Collective.
+std::unique_ptr<MultiRate> find_multirate(const Simulation& s) {
+  if (!s.scene.solver.is_multirate) return nullptr;
+  const MultiRatePlan plan =
+      plan_multirate(s.mesh, resting_elements(s.mesh, s.materials, solver_options(s.scene)));
+  if (plan.n_substeps == 1) return nullptr;
+  return make_multirate(plan,
+                        {.mesh = s.mesh,
+                         .materials = s.materials,
+                         .node_owner = s.node_owner,
+                         .part = s.part,
+                         .model = s.model},
+                        *s.communicator);
+}
+
 }  // namespace
 
 SolverOptions solver_options(const Scene& scene) {
@@ -206,6 +221,7 @@ void rebuild_topology(Simulation& s) {
   for (const double step : s.model.element_step) rest_step = std::min(rest_step, step);
   s.rest_step = s.communicator->all_min(rest_step);
   s.scratch = make_scratch(s.model);
+  s.multirate = find_multirate(s);
   begin_sleep(s);
   if (s.energy) s.scratch.damping_work.assign(static_cast<std::size_t>(s.model.n_owned), 0.0);
   s.surface = boundary_surface(s.mesh);
@@ -213,6 +229,7 @@ void rebuild_topology(Simulation& s) {
   s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part, rank);
   localise_holds(s.holds, s.part);
   s.fastest_mode.clear();
+  s.slow_mode.clear();
   s.look = nothing_looked_at(s);
   if (s.contact) s.contact->detector.set_surface(s.surface);
 }

@@ -34,6 +34,7 @@ void check_fit(const Checkpoint& c, const Simulation& s) {
   const std::size_t n = c.mesh.X.size();
   if (c.u.size() != 3 * n || c.v.size() != 3 * n || c.fixed.size() != n ||
       (!c.fastest_mode.empty() && c.fastest_mode.size() != 3 * n) ||
+      (!c.slow_mode.empty() && c.slow_mode.size() != 3 * n) ||
       (!c.looked_at.empty() && c.looked_at.size() != 3 * n) ||
       c.sleep.size() != (s.sleep ? 7 * n : 0) || c.cuts.size() != s.cuts.size() ||
       c.is_open.size() != s.tools.size())
@@ -62,8 +63,10 @@ std::vector<double> of_owned(std::span<const double> field, const Part& part) {
 // here.
 void restore_searches(const Checkpoint& c, Simulation& s) {
   s.fastest_mode = of_owned(c.fastest_mode, s.part);
+  s.slow_mode = of_owned(c.slow_mode, s.part);
   s.look.u = of_owned(c.looked_at, s.part);
   s.look.is_done = !c.looked_at.empty();
+  if (s.look.is_done && c.slow_mode.empty()) s.multirate.reset();  // it was given up
   if (s.energy && c.has_energies)
     s.energy->memory = c.energy;
   else if (s.energy)
@@ -102,6 +105,8 @@ Checkpoint take_checkpoint(Simulation& s) {
   // A rank may own no node; a search may not have run.
   if (s.communicator->all_max(s.fastest_mode.empty() ? 0 : 1) > 0)
     c.fastest_mode = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.fastest_mode, *s.communicator);
+  if (s.communicator->all_max(s.slow_mode.empty() ? 0 : 1) > 0)
+    c.slow_mode = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.slow_mode, *s.communicator);
   if (s.look.is_done)
     c.looked_at = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.look.u, *s.communicator);
   if (s.sleep) c.sleep = gather_sleep(s);
@@ -149,6 +154,7 @@ FrameStart start_of_frame(const Simulation& s) {
           .holds = s.holds.holds,
           .is_open = s.holds.is_open,
           .fastest_mode = s.fastest_mode,
+          .slow_mode = s.slow_mode,
           .look = s.look,
           .sleep = s.sleep,
           .n_events = s.log.events.size(),
@@ -157,6 +163,7 @@ FrameStart start_of_frame(const Simulation& s) {
 
 Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start) {
   s.fastest_mode = start.fastest_mode;
+  s.slow_mode = start.slow_mode;
   s.look = start.look;
   s.sleep = start.sleep;
   Checkpoint c = take_checkpoint(s);

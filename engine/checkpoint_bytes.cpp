@@ -118,8 +118,8 @@ template <class Archive>
 static void visit(Archive& a, Checkpoint& c) {
   a(c.version, c.simd, c.scene, c.body_crc, c.frame, c.digest, c.mesh, c.fixed, c.duplicate_parent,
     c.duplicate_node, c.time, c.last_dt, c.step, c.step_scale, c.stable_step_before_cut, c.watch,
-    c.holds, c.is_open, c.cuts, c.log, c.history, c.history_time, c.fastest_mode, c.looked_at,
-    c.sleep, c.has_energies, c.energy, c.recordings);
+    c.holds, c.is_open, c.cuts, c.log, c.history, c.history_time, c.fastest_mode, c.slow_mode,
+    c.looked_at, c.sleep, c.has_energies, c.energy, c.recordings);
 }
 
 static void put_blob(ByteWriter& writer, const Blob& blob) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/frame_report.h"
+#include "engine/frame_watch.h"
 #include "engine/simulation.h"
 #include "solver/mass_clusters.h"
 #include "solver/step.h"
@@ -54,6 +55,9 @@ void open_energy_ledger(Simulation& s) {
 
 EnergyState mechanical_energy(Simulation& s) {
   compute_force(s.model, s.state, s.scratch);
+  // After a cut the last step may be too long for the substeps of new small elements.
+  if (s.state.last_dt > 0 && s.state.last_dt <= s.watch.stable_step)
+    refine_forces(s, s.state.last_dt);
   EnergyTerms terms;
   energy_terms(s.model, s.part, s.state, terms);
   terms.strain.insert(terms.strain.end(), terms.volumetric.begin(), terms.volumetric.end());

@@ -67,19 +67,25 @@ void resolve_contacts(Simulation& s, const FrameSpan& span, std::int64_t k) {
   add_contact_force(contact, s.scratch.force);
 }
 
+double waited_for_neighbours(const Simulation& s) {
+  return s.neighbours.waited + (s.multirate ? s.multirate->neighbours.waited : 0);
+}
+
 // What it waits for neighbours counts as exchange.
-void update_force(Simulation& s) {
-  const double waited = s.neighbours.waited;
+void update_force(Simulation& s, double dt) {
+  const double before = waited_for_neighbours(s);
   {
     const PhaseScope scope(s.timers, phase_force);
     find_force(s.model, s.neighbours, s.state, s.scratch);
+    refine_forces(s, dt);
   }
-  s.timers.add(phase_exchange, s.neighbours.waited - waited);
-  s.timers.add(phase_force, waited - s.neighbours.waited);
+  const double waited = waited_for_neighbours(s) - before;
+  s.timers.add(phase_exchange, waited);
+  s.timers.add(phase_force, -waited);
 }
 
 void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
-  update_force(s);
+  update_force(s, span.dt);
   aim_holds(s.holds, s.tools, s.mesh.X, span.t0 + static_cast<double>(k + 1) * span.dt);
   if (s.contact) {
     const PhaseScope scope(s.timers, phase_contact);

@@ -34,8 +34,7 @@ void force_of(Simulation& s, State& probe, std::vector<double>& u, std::vector<d
 }
 
 // 2 / omega less a margin; 0 if the search doesn't end.
-double step_of_frequency(Simulation& s) {
-  if (s.sleep) show_awake(s);  // the step must do when they wake
+double search_step(Simulation& s, std::vector<double>& mode) {
   State probe = s.state;
   FrequencyOptions options;
   // Small beside an element, large beside the rounding of the elements' numbers.
@@ -44,9 +43,33 @@ double step_of_frequency(Simulation& s) {
   const HighestFrequency found = find_highest_frequency(
       s.model, s.part, s.state,
       [&](std::vector<double>& u, std::vector<double>& force) { force_of(s, probe, u, force); },
-      options, *s.communicator, s.fastest_mode);
-  if (s.sleep) show_asleep(s);
+      options, *s.communicator, mode);
   return found.is_converged ? 2 / (frequency_margin * found.omega) : 0;
+}
+
+// The body with its fine nodes at rest sets the step unless the fine ones do, in spite of their
+// substeps. Local steps were planned from bounds, which are 0.5 to 1 of the true limits: those that
+// don't pay are given up at the first look.
+double step_with_local_steps(Simulation& s, double step_without) {
+  constexpr double least_gain = 1.2;
+  const MultiRate& m = *s.multirate;
+  s.model.fixed.swap(s.multirate->coarse_fixed);
+  const double coarse = search_step(s, s.slow_mode);
+  s.model.fixed.swap(s.multirate->coarse_fixed);
+  const double step = std::min(coarse, step_without * m.steps.limit / 2);
+  const double cost = 1 + static_cast<double>(m.steps.gain.size()) * m.share;
+  if (s.look.is_done || step > least_gain * cost * step_without) return step;
+  s.multirate.reset();
+  s.slow_mode.clear();
+  return step_without;
+}
+
+double step_of_frequency(Simulation& s) {
+  if (s.sleep) show_awake(s);  // the step must do when they wake
+  double step = search_step(s, s.fastest_mode);
+  if (s.multirate) step = step_with_local_steps(s, step);
+  if (s.sleep) show_asleep(s);
+  return step;
 }
 
 // Whether all is finite.
@@ -90,6 +113,12 @@ void watch_elements(Simulation& s) {
 }
 
 }  // namespace
+
+void refine_forces(Simulation& s, double dt) {
+  if (!s.multirate) return;
+  refine_force({.model = s.model, .state = s.state, .prescribed = s.holds.prescribed, .dt = dt},
+               *s.multirate, s.scratch);
+}
 
 double largest_speed(const Simulation& s) {
   double most = 0;

@@ -21,6 +21,8 @@ inline constexpr double unseen_strain = 2e-3;
 // the last step's exchange; with an energy ledger, volume changes averaged at nodes become those of
 // the present displacement. Collective.
 void watch_state(Simulation& s);
+// Forces of a step dt in place of those at this moment, with solver.multirate. Collective.
+void refine_forces(Simulation& s, double dt);
 // Of all nodes of all ranks. Collective. [m/s]
 double largest_speed(const Simulation& s);
 // A sentence with element or node and cause, "" if all is well. The same on every rank.

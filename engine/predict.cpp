@@ -5,6 +5,7 @@
 
 #include "base/threads.h"
 #include "base/timers.h"
+#include "engine/frame_watch.h"
 #include "engine/simulation.h"
 #include "mesh/quality.h"
 #include "solver/step.h"
@@ -23,6 +24,7 @@ double measure_step(Simulation& s, double dt) {
   while (elapsed < 0.25) {
     for (int k = 0; k < 20; ++k, ++n) {
       find_force(s.model, s.neighbours, s.state, s.scratch);
+      refine_forces(s, dt);
       integrate(s.model, s.scratch, {}, dt, s.state);
       start_exchange(s.neighbours, s.state);
     }
@@ -50,8 +52,9 @@ std::string predict(Simulation& s) {
   const double limit = s.scene.solver.step_factor * s.watch.stable_step;
   const double n_substeps = std::ceil(frame / limit);
   const double step_seconds = measure_step(s, frame / n_substeps);
-  const auto bytes =
-      s.communicator->all_sum(static_cast<std::uint64_t>(memory_bytes(s.model, s.scratch)));
+  std::uint64_t mine = memory_bytes(s.model, s.scratch);
+  if (s.multirate) mine += memory_bytes(s.multirate->model, s.multirate->scratch);
+  const std::uint64_t bytes = s.communicator->all_sum(mine);
   std::string text = s.scene.name + "\n";
   text += line("nodes", "%.0f", m.n_nodes);
   text += line("elements", "%.0f", s.mesh.n_elements());
@@ -62,6 +65,10 @@ std::string predict(Simulation& s) {
   if (s.added_mass)
     text += line("added mass", "%.3g %% of the body's, against deformation only",
                  100 * s.added_mass->share);
+  if (s.multirate)
+    text +=
+        line("local steps", "%.0f a step", static_cast<double>(s.multirate->steps.gain.size())) +
+        line("of the elements", "%.3g %%", 100 * s.multirate->share);
   text += line("steps a frame", "%.0f", n_substeps);
   text += line("steps a second", "%.0f (without contact, cuts and pictures)", 1 / step_seconds);
   text +=

@@ -75,6 +75,7 @@ struct SceneSolver {
   StableStep stable_step = StableStep::frequency;
   double mass_scaling_step = 0;  // [s], 0: none
   double sleep = 0;              // [m], 0: never
+  bool is_multirate = false;
   Precision precision = Precision::in_double;
   Formulation triangle = Formulation::tri3_plane_strain;
   Formulation tetrahedron = Formulation::tet4;

@@ -26,14 +26,25 @@ void check_tissue(const Scene& scene, const SourceMap& where) {
     where.fail("tissue.shape", "each component of low must be below that of high");
 }
 
-// A history of strains can't be left out.
-void check_sleep(const Scene& scene, const SourceMap& where) {
-  if (scene.solver.sleep == 0) return;
-  bool is_viscoelastic = !scene.tissue.material.prony.empty();
-  for (const SceneRegionMaterial& other : scene.tissue.region_materials)
-    is_viscoelastic |= !other.material.prony.empty();
-  if (is_viscoelastic)
+bool is_viscoelastic(const SceneTissue& tissue) {
+  return !tissue.material.prony.empty() ||
+         std::any_of(
+             tissue.region_materials.begin(), tissue.region_materials.end(),
+             [](const SceneRegionMaterial& other) { return !other.material.prony.empty(); });
+}
+
+// A history of strains can't be left out, nor computed several times a step; the same with volume
+// changes averaged over elements of which only some are computed again.
+void check_shortcuts(const Scene& scene, const SourceMap& where) {
+  const SceneSolver& solver = scene.solver;
+  if (solver.sleep > 0 && is_viscoelastic(scene.tissue))
     where.fail("solver.sleep", "viscoelastic tissue (prony) can't sleep: leave out one of them");
+  if (!solver.is_multirate) return;
+  if (is_viscoelastic(scene.tissue) || solver.tetrahedron == Formulation::tet4_nodal_pressure ||
+      solver.mass_scaling_step > 0 || solver.stable_step != StableStep::frequency)
+    where.fail("solver.multirate",
+               "it needs stable_step = \"frequency\" and none of prony, tetrahedron = "
+               "\"nodal-pressure\", mass_scaling_step");
 }
 
 void complete_materials(SceneTissue& tissue, const SourceMap& where) {
@@ -155,7 +166,7 @@ LoadedScene load_scene(const std::string& file, const std::vector<std::string>& 
   const Scene& scene = located.value;
   check_time(scene, located.where);
   check_tissue(scene, located.where);
-  check_sleep(scene, located.where);
+  check_shortcuts(scene, located.where);
   complete_materials(located.value.tissue, located.where);
   check_supports(scene, located.where);
   check_instruments(located.value, located.where);

@@ -23,6 +23,7 @@
 #include "mesh/facets.h"
 #include "mesh/partition.h"
 #include "solver/model.h"
+#include "solver/multirate.h"
 #include "solver/neighbours.h"
 #include "solver/watch.h"
 
@@ -106,6 +107,7 @@ struct Simulation {
   double contact_reach = 0;      // how far tissue may come towards a tool within a frame [m]
   double start_seconds = 0;      // monotonic clock at time zero of the scene
   std::unique_ptr<EnergyLedger> energy;  // only with a metrics output
+  std::unique_ptr<MultiRate> multirate;  // only if the scene asks for it and it saves work
   std::optional<Sleep> sleep;            // only if the scene asks for it
   double step_scale = 1;                 // halved by each roll-back
   Watch watch;                           // of the last frame, over all ranks
@@ -113,8 +115,8 @@ struct Simulation {
   double rest_step = 0;    // least element bound of the undeformed mesh, over all ranks [s]
   double edge_length = 0;  // mean of the mesh at time zero [m]
   // Only with stable_step = "frequency": the mode (n_owned * 3) found last, where the next search
-  // starts.
-  std::vector<double> fastest_mode;
+  // starts. With multirate, slow_mode is that of coarse nodes.
+  std::vector<double> fastest_mode, slow_mode;
   double stable_step_before_cut = 0;
   std::optional<AddedMass> added_mass;     // only with mass scaling
   std::optional<Equilibrium> equilibrium;  // only if this process looked for one

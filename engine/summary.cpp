@@ -217,6 +217,9 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   j["deadlines_missed"] = s.log.n_deadlines_missed;
   j["frame_latency_ms"] = latency_json(s);
   j["roll_backs"] = s.log.n_roll_backs;
+  if (s.multirate)
+    j["multirate"] = {{"substeps", s.multirate->steps.gain.size()},
+                      {"share_of_elements", s.multirate->share}};
   if (s.sleep) j["share_asleep_mean"] = mean_share_asleep(s.log.rows);
   j["least_det_F"] = {{"value", s.log.least_J}, {"element", s.log.least_J_element}};
   j["instruments"] = tools_json(s);

@@ -173,7 +173,6 @@ void order_sums(Model& model) {
   add_runs(n_inside, sums);
   sums.n_inside_runs = sums.n_runs;
   add_runs(count_blocks(model) - n_inside, sums);
-  CHECK_OP(sums.n_runs, >, 0);
   const NodeUse use = use_of_nodes(model);
   order_own_nodes(use, model);
   place_shared_corners(use, model);

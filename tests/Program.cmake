@@ -15,3 +15,10 @@ foreach(folder scenes invariance faults)
     gtest_discover_tests(test_${folder} TEST_PREFIX ${folder}/ DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 RUN_SERIAL TRUE)
   endif()
 endforeach()
+
+# Many scenes in one start of ranks.
+add_executable(scene_digests invariance/scene_digests.cpp)
+target_link_libraries(scene_digests PRIVATE engine)
+target_compile_options(scene_digests PRIVATE ${TROCAR_TEST_WARNINGS})
+add_dependencies(test_invariance scene_digests)
+target_compile_definitions(test_invariance PRIVATE TROCAR_SCENE_DIGESTS="$<TARGET_FILE:scene_digests>")

@@ -262,12 +262,8 @@ TEST(Resume, of_two_ranks_that_were_signalled_goes_on_with_one) {
   const std::string folder = test_folder("two-signalled");
   const std::string scene = scene_file(folder, resume_block_text);
   const std::string expected = uninterrupted(scene);
-  std::vector<std::string> words;
-  std::stringstream mpirun(TROCAR_MPIRUN);
-  for (std::string word; mpirun >> word;) words.push_back(word);
-  words.insert(words.end(), {"-np", "2", TROCAR_PROGRAM});
-  const std::vector<std::string> arguments = run_arguments(scene, folder, often_in_real_time);
-  words.insert(words.end(), arguments.begin(), arguments.end());
+  const std::vector<std::string> words =
+      mpirun_words(2, TROCAR_PROGRAM, run_arguments(scene, folder, often_in_real_time));
   EXPECT_EQ(run_until_signal(words, folder, SIGUSR1, 200), stopped);
   resume_and_compare(scene, folder, {1, 1}, expected);
 }

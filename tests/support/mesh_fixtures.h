@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <string>
@@ -32,6 +33,34 @@ inline const std::vector<Vec3>& unit_cube_corners() {
   static const std::vector<Vec3> X = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                                       {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
   return X;
+}
+
+// Half hexahedra, half tetrahedra on the same nodes, three materials that alternate: every list
+// occurs, and elements of different lists meet at most nodes. 8 x 4 x 4 cells, n times finer.
+inline Mesh mixed_mesh(int n = 1) {
+  const Vec3 high(.06, .03, .03);
+  const std::array<int, 3> cells = {8 * n, 4 * n, 4 * n};
+  const Mesh hex = make_box(Vec3(0, 0, 0), high, cells, BoxElements::hex8);
+  const Mesh tet = make_box(Vec3(0, 0, 0), high, cells, BoxElements::tet4_kuhn);
+  Mesh mesh;
+  mesh.X = hex.X;
+  mesh.region_name = {"a", "b", "c"};
+  for (std::int32_t cell = 0; cell < hex.n_elements(); ++cell)
+    if (cell % (8 * n) < 4 * n)
+      add_element(mesh, ElementType::hex8, hex.corners(cell), cell % 3);
+    else
+      for (int k = 0; k < 6; ++k)
+        add_element(mesh, ElementType::tet4, tet.corners(6 * cell + k), (cell + k) % 3);
+  return mesh;
+}
+
+// A block of 30 mm with one layer of cells a sixteenth as thick. 10 x 3 x 3 cells, n times finer.
+inline Mesh with_thin_layer(BoxElements elements, int n = 1) {
+  Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(.10, .03, .03), {10 * n, 3 * n, 3 * n}, elements);
+  const double cell = .01 / n;
+  for (Vec3& X : mesh.X)
+    if (X.x() > 1.5 * cell) X.x() -= .9375 * cell;  // all behind the second plane of nodes
+  return mesh;
 }
 
 // One of each kind of generated volume mesh.

@@ -76,15 +76,20 @@ inline Finished run_trocar(const std::vector<std::string>& arguments, const std:
   return run_words(words, folder, seconds);
 }
 
-// Under mpirun with this many ranks.
-inline Finished run_trocar_on(int ranks, const std::vector<std::string>& arguments,
-                              const std::string& folder, int seconds = 300) {
+inline std::vector<std::string> mpirun_words(int ranks, const std::string& program,
+                                             const std::vector<std::string>& arguments) {
   std::vector<std::string> words;
   std::stringstream mpirun(TROCAR_MPIRUN);
   for (std::string word; mpirun >> word;) words.push_back(word);
-  words.insert(words.end(), {"-np", std::to_string(ranks), TROCAR_PROGRAM});
+  words.insert(words.end(), {"-np", std::to_string(ranks), program});
   words.insert(words.end(), arguments.begin(), arguments.end());
-  return run_words(words, folder, seconds);
+  return words;
+}
+
+// Under mpirun with this many ranks.
+inline Finished run_trocar_on(int ranks, const std::vector<std::string>& arguments,
+                              const std::string& folder, int seconds = 300) {
+  return run_words(mpirun_words(ranks, TROCAR_PROGRAM, arguments), folder, seconds);
 }
 
 inline nlohmann::json read_summary(const std::string& folder) {

@@ -6,27 +6,10 @@
 #include <vector>
 
 #include "base/threads.h"
+#include "mesh_fixtures.h"
 #include "solver_body.h"
 
 namespace trocar {
-
-// Half hexahedra, half tetrahedra on the same nodes, three materials that alternate: every list
-// occurs, and elements of different lists meet at most nodes.
-inline Mesh mixed_mesh() {
-  const Vec3 high(.06, .03, .03);
-  const Mesh hex = make_box(Vec3(0, 0, 0), high, {8, 4, 4}, BoxElements::hex8);
-  const Mesh tet = make_box(Vec3(0, 0, 0), high, {8, 4, 4}, BoxElements::tet4_kuhn);
-  Mesh mesh;
-  mesh.X = hex.X;
-  mesh.region_name = {"a", "b", "c"};
-  for (std::int32_t cell = 0; cell < hex.n_elements(); ++cell)
-    if (cell % 8 < 4)
-      add_element(mesh, ElementType::hex8, hex.corners(cell), cell % 3);
-    else
-      for (int k = 0; k < 6; ++k)
-        add_element(mesh, ElementType::tet4, tet.corners(6 * cell + k), (cell + k) % 3);
-  return mesh;
-}
 
 inline BodyOptions options_for(const Mesh& mesh, const SolverOptions& solver) {
   const bool is_averaged = solver.tet4 == Formulation::tet4_nodal_pressure;

@@ -1,0 +1,236 @@
+#include "solver/multirate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/check.h"
+#include "solver/block_ranges.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr double least_cosine = 4. / 9;  // 1 / T_p(d)
+constexpr int most_substeps = 64;
+constexpr double least_gain = 1.2;  // in element-steps, below which it isn't worth it
+
+// T_0 ... T_n at x, and the derivative of T_n.
+struct Chebyshev {
+  std::vector<double> T;
+  double derivative = 0;
+};
+
+Chebyshev chebyshev(int n, double x) {
+  Chebyshev c{.T = {1, x}};
+  double dT = 0, next_dT = 1;  // of T_k-1, T_k
+  for (int k = 1; k < n; ++k) {
+    const double T_k = c.T[static_cast<std::size_t>(k)];
+    c.T.push_back(2 * x * T_k - c.T[static_cast<std::size_t>(k) - 1]);
+    const double after = 2 * T_k + 2 * x * next_dT - dT;
+    dT = next_dT;
+    next_dT = after;
+  }
+  c.derivative = next_dT;
+  return c;
+}
+
+// d of T_p(d) = 1 / least_cosine, by T_p/2(d) = sqrt((T_p(d) + 1) / 2).
+double chebyshev_argument(int p) {
+  double T = 1 / least_cosine;
+  for (; p > 1; p /= 2) T = std::sqrt((T + 1) / 2);
+  return T;
+}
+
+double least_step(std::span<const RestingElement> resting) {
+  double least = std::numeric_limits<double>::max();
+  for (const RestingElement& element : resting) least = std::min(least, element.step);
+  return least;
+}
+
+// Nodes of elements whose step is below `step`, and the elements that touch them.
+MultiRatePlan plan_of(const Mesh& mesh, std::span<const RestingElement> resting, double step) {
+  MultiRatePlan plan{.is_fine = std::vector<std::uint8_t>(mesh.X.size(), 0)};
+  for (const RestingElement& element : resting)
+    if (element.step < step)
+      for (const std::int32_t i : mesh.corners(element.number)) plan.is_fine[i] = 1;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    const auto corners = mesh.corners(e);
+    if (std::any_of(corners.begin(), corners.end(),
+                    [&](std::int32_t i) { return plan.is_fine[i] != 0; }))
+      plan.element.push_back(e);
+  }
+  return plan;
+}
+
+// The elements alone; `node` (n_nodes) the new numbers or -1.
+Mesh part_of(const Mesh& mesh, std::span<const std::int32_t> elements,
+             std::vector<std::int32_t>& node) {
+  node.assign(mesh.X.size(), -1);
+  for (const std::int32_t e : elements)
+    for (const std::int32_t i : mesh.corners(e)) node[i] = 0;
+  Mesh part{.region_name = mesh.region_name};
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    if (node[i] < 0) continue;
+    node[i] = part.n_nodes();
+    part.X.push_back(mesh.X[i]);
+  }
+  for (const std::int32_t e : elements) {
+    std::vector<std::int32_t> corners;
+    for (const std::int32_t i : mesh.corners(e)) corners.push_back(node[i]);
+    add_element(part, mesh.element_type[e], corners, mesh.element_region[e]);
+    part.density_factor.back() = mesh.density_factor[e];
+    if (!mesh.fibre.empty()) part.fibre.push_back(mesh.fibre[e]);
+  }
+  return part;
+}
+
+template <class T>
+std::vector<T> of_part(std::span<const T> values, std::span<const std::int32_t> node, const T&) {
+  std::vector<T> kept;
+  for (std::size_t i = 0; i < node.size(); ++i)
+    if (node[i] >= 0) kept.push_back(values[i]);
+  return kept;
+}
+
+// What the elements' own force needs: no loads, and masses that nobody asks for.
+void build_body(const MultiRateBody& body, MultiRate& m, Communicator& communicator) {
+  SolverOptions options = body.model.options;
+  options.gravity = Vec3::Zero();
+  const auto n = m.mesh.X.size();
+  m.model = build_model(m.mesh, m.part, body.materials, std::vector<FixedMask>(n),
+                        std::vector<double>(n, 1.0), options);
+  m.state = make_state(m.model);
+  m.scratch = make_scratch(m.model);
+  m.neighbours = make_neighbours(m.halo, m.model, false, communicator);
+  const auto n_values = 3 * static_cast<std::size_t>(m.part.n_owned);
+  m.start_force.resize(n_values);
+  m.z.resize(n_values);
+  m.z_before.resize(n_values);
+  m.moves.resize(static_cast<std::size_t>(m.part.n_owned));
+}
+
+// u on all local nodes, what moves in this step.
+void begin(const MultiRateStep& step, MultiRate& m) {
+  for (std::size_t i = 0; i < m.whole.size(); ++i)
+    std::copy_n(&step.state.u[3 * static_cast<std::size_t>(m.whole[i])], 3, &m.state.u[3 * i]);
+  for (std::size_t i = 0; i < m.moves.size(); ++i)
+    m.moves[i] =
+        m.is_fine[i] == 0 ? FixedMask{0} : static_cast<FixedMask>(~step.model.fixed[m.whole[i]]);
+  for (const PrescribedNode& held : step.prescribed)
+    if (const std::int32_t i = m.of_whole[held.node]; i >= 0) m.moves[i] = 0;
+  std::fill(m.z.begin(), m.z.end(), 0.0);
+  std::fill(m.z_before.begin(), m.z_before.end(), 0.0);
+}
+
+// From z_k to z_k+1, with the elements' forces at u + P z_k in scratch.
+void advance(const MultiRateStep& step, int k, const Scratch& whole, MultiRate& m) {
+  const double back = m.steps.back[k], gain = m.steps.gain[k] * step.dt * step.dt;
+  parallel_for_nodes(m.part.n_owned, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      const std::int64_t w = m.whole[i];
+      for (std::int64_t j = 0; j < 3; ++j) {
+        const std::int64_t at = 3 * i + j;
+        const double change = m.scratch.force[at] - m.start_force[at];
+        const double a = (whole.force[3 * w + j] + change) / step.model.inertia[w];
+        const double z = m.z[at];
+        m.z[at] = (1 + back) * z - back * m.z_before[at] + gain * a;
+        m.z_before[at] = z;
+      }
+    }
+  });
+}
+
+void move_fine_nodes(const MultiRateStep& step, MultiRate& m) {
+  parallel_for_nodes(m.part.n_owned, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+      for (std::int64_t j = 0; j < 3; ++j)
+        if ((m.moves[i] >> j & 1) != 0)
+          m.state.u[3 * i + j] = step.state.u[3 * std::int64_t{m.whole[i]} + j] + m.z[3 * i + j];
+  });
+}
+
+void give_force(const MultiRateStep& step, const MultiRate& m, Scratch& scratch) {
+  const double scale = 2 / (step.dt * step.dt);
+  for (std::int64_t i = 0; i < m.part.n_owned; ++i)
+    for (std::int64_t j = 0; j < 3; ++j)
+      scratch.force[3 * std::int64_t{m.whole[i]} + j] =
+          step.model.inertia[m.whole[i]] * (scale * m.z[3 * i + j]);
+}
+
+}  // namespace
+
+LocalSteps local_steps(int p) {
+  CHECK_OP(p & (p - 1), ==, 0);
+  const double d = chebyshev_argument(p);
+  const Chebyshev c = chebyshev(p, d);
+  const double w = 2 * c.derivative / c.T.back();
+  LocalSteps steps{.back = {0}, .gain = {1 / (w * d)}, .limit = std::sqrt(w * (1 + d))};
+  for (std::size_t k = 1; k + 1 < c.T.size(); ++k) {
+    steps.back.push_back(c.T[k - 1] / c.T[k + 1]);
+    steps.gain.push_back(2 / w * c.T[k] / c.T[k + 1]);
+  }
+  return steps;
+}
+
+MultiRatePlan plan_multirate(const Mesh& mesh, std::span<const RestingElement> resting) {
+  const double least = least_step(resting), n = static_cast<double>(resting.size());
+  MultiRatePlan best{.is_fine = std::vector<std::uint8_t>(mesh.X.size(), 0)};
+  for (int p = 2; p <= most_substeps && least > 0; p *= 2) {
+    const double longer = local_steps(p).limit / 2;  // than the step without
+    MultiRatePlan plan = plan_of(mesh, resting, longer * least);
+    plan.n_substeps = p;
+    plan.gain = longer * n / (n + p * static_cast<double>(plan.element.size()));
+    if (plan.gain > std::max(least_gain, best.gain)) best = std::move(plan);
+  }
+  return best;
+}
+
+std::unique_ptr<MultiRate> make_multirate(const MultiRatePlan& plan, const MultiRateBody& body,
+                                          Communicator& communicator) {
+  auto multirate = std::make_unique<MultiRate>();
+  MultiRate& m = *multirate;
+  m.steps = local_steps(plan.n_substeps);
+  m.share = static_cast<double>(plan.element.size()) / body.mesh.n_elements();
+  std::vector<std::int32_t> node;
+  m.mesh = part_of(body.mesh, plan.element, node);
+  const std::vector<std::int32_t> owner = of_part(body.node_owner, node, std::int32_t{});
+  const std::vector<std::uint8_t> is_fine =
+      of_part(std::span<const std::uint8_t>(plan.is_fine), node, std::uint8_t{});
+  m.part = make_part(m.mesh, owner, communicator.rank());
+  m.halo = make_halo(m.mesh, owner, m.part, communicator.rank());
+  m.coarse_fixed = body.model.fixed;
+  for (std::size_t i = 0; i < m.coarse_fixed.size(); ++i)
+    if (plan.is_fine[static_cast<std::size_t>(body.part.node_global[i])] != 0)
+      m.coarse_fixed[i] = 7;
+  m.of_whole.assign(static_cast<std::size_t>(body.model.n_owned), -1);
+  m.whole.resize(m.part.node_global.size());
+  for (std::size_t g = 0; g < node.size(); ++g) {
+    const std::int32_t local = node[g] < 0 ? -1 : m.part.node_local[node[g]];
+    if (local < 0) continue;
+    m.whole[local] = body.part.node_local[g];
+    if (local >= m.part.n_owned) continue;
+    m.of_whole[m.whole[local]] = local;
+  }
+  for (std::int32_t i = 0; i < m.part.n_owned; ++i)
+    m.is_fine.push_back(is_fine[static_cast<std::size_t>(m.part.node_global[i])]);
+  if (m.part.n_owned > 0) build_body(body, m, communicator);
+  return multirate;
+}
+
+void refine_force(const MultiRateStep& step, MultiRate& m, Scratch& scratch) {
+  if (m.part.n_owned == 0) return;
+  begin(step, m);
+  find_force(m.model, m.neighbours, m.state, m.scratch);
+  m.start_force = m.scratch.force;
+  advance(step, 0, scratch, m);
+  for (int k = 1; k < static_cast<int>(m.steps.back.size()); ++k) {
+    move_fine_nodes(step, m);
+    start_exchange(m.neighbours, m.state);
+    find_force(m.model, m.neighbours, m.state, m.scratch);
+    advance(step, k, scratch, m);
+  }
+  give_force(step, m, scratch);
+}
+
+}  // namespace trocar

@@ -1,0 +1,190 @@
+// Local steps in whole scenes: what they save, what they change, and what they live together with.
+// The same bits on any ranks and threads: tests/invariance; stability and order: tests/solver.
+#include "solver/multirate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/checkpoint.h"
+#include "engine/equilibrium.h"
+#include "engine_scene.h"
+#include "engine_started.h"
+#include "mesh/mesh_file.h"
+#include "mesh_fixtures.h"
+
+namespace trocar {
+namespace {
+
+// Hung at its left side, with thin elements at 5 mm; a probe presses them from above, a grasper
+// pulls them down.
+const std::string hung_text = R"([time]
+duration = "1 s"
+frame_rate = "30 Hz"
+[checkpoint]
+every = 0
+[tissue.material]
+young_modulus = "6 kPa"
+poisson_ratio = 0.4
+[solver]
+gravity = [0, 0, "-2 m/s^2"]
+mass_damping = "20 1/s"
+[[region]]
+name = "left"
+low = ["-1 mm", "-1 mm", "-1 mm"]
+high = ["1 mm", "31 mm", "31 mm"]
+[[support]]
+region = "left"
+)";
+const std::string tools_text = R"([[instrument]]
+kind = "probe"
+radius = "5 mm"
+path = [
+  { time = 0, position = ["12 mm", "15 mm", "34 mm"] },
+  { time = 0.3, position = ["12 mm", "15 mm", "26 mm"] },
+]
+[[instrument]]
+kind = "grasper"
+grip_radius = "7 mm"
+path = [
+  { time = 0, position = ["11 mm", "-20 mm", "-20 mm"] },
+  { time = 0.15, position = ["11 mm", 0, 0], action = "close" },
+  { time = 0.4, position = ["13 mm", "-3 mm", "-2 mm"] },
+]
+)";
+const std::string scalpel_text = R"([[instrument]]
+kind = "scalpel"
+blade_length = "40 mm"
+path = [
+  { time = 0.1, position = ["32 mm", "-6 mm", "12 mm"], forward = [0, 1, 0] },
+  { time = 0.5, position = ["30 mm", "20 mm", "12 mm"], forward = [0, 1, 0] },
+]
+)";
+
+std::unique_ptr<Started> hung(const std::string& tools, BoxElements elements,
+                              const std::vector<std::string>& overrides) {
+  const TestFolder folder;
+  write_mesh(with_thin_layer(elements, 2), folder.file("m.msh"));
+  std::vector<std::string> all = overrides;
+  all.push_back("tissue.mesh='" + folder.file("m.msh") + "'");
+  return built(hung_text + tools, all);
+}
+
+void run_to(Started& started, std::int64_t frame) {
+  while (started.s->frame < frame) run_frame(*started.s, started.outputs);
+}
+
+const std::vector<std::string> local = {"solver.multirate=true"};
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, std::abs(a[k] - b[k]));
+  return a.size() == b.size() ? most : HUGE_VAL;
+}
+
+// Both differ from the exact motion by their steps' squares; the finer run is nearly exact.
+TEST(MultiRate, halves_the_steps_of_a_pressed_and_pulled_body_and_keeps_its_motion) {
+  for (const BoxElements elements : {BoxElements::hex8, BoxElements::tet4_kuhn}) {
+    const auto plain = hung(tools_text, elements, {}), with = hung(tools_text, elements, local),
+               exact = hung(tools_text, elements, {"solver.step_factor=0.25"});
+    ASSERT_TRUE(with->s->multirate);
+    EXPECT_FALSE(plain->s->multirate);
+    double of_plain = 0, of_with = 0;
+    for (std::int64_t frame = 1; frame <= 20; ++frame) {
+      for (Started* run : {plain.get(), with.get(), exact.get()}) run_to(*run, frame);
+      of_plain = std::max(of_plain, largest_difference(plain->s->state.u, exact->s->state.u));
+      of_with = std::max(of_with, largest_difference(with->s->state.u, exact->s->state.u));
+    }
+    const std::vector<double> rest(exact->s->state.u.size(), 0.0);
+    const double moved = largest_difference(exact->s->state.u, rest);
+    EXPECT_LT(with->s->state.step, .55 * static_cast<double>(plain->s->state.step));
+    EXPECT_GT(moved, 2e-3);
+    EXPECT_LT(of_with, .02 * moved);
+    std::printf(
+        "%lld steps instead of %lld; largest error %.2g mm instead of %.2g mm, motion %.2g mm\n",
+        static_cast<long long>(with->s->state.step), static_cast<long long>(plain->s->state.step),
+        1e3 * of_with, 1e3 * of_plain, 1e3 * moved);
+  }
+}
+
+double balance_error(const Simulation& s) {
+  double error = 0, turned_over = 0;
+  for (const FrameRow& row : s.log.rows) {
+    error = std::max(error, std::abs(row.energy_error));
+    turned_over = std::max({turned_over, row.energy.strain, row.energy.kinetic,
+                            std::abs(row.works.contact), std::abs(row.works.holds)});
+  }
+  return error / turned_over;
+}
+
+// Up to the scheme's own error, which falls with the square of the step.
+TEST(MultiRate, energy_ledger_closes_with_contact_and_holds) {
+  double error[2];
+  for (const int k : {0, 1}) {
+    const auto run = hung(tools_text, BoxElements::tet4_kuhn,
+                          {"output=[{kind='metrics',file='m.csv'}]", "solver.multirate=true",
+                           k == 0 ? "solver.step_factor=0.8" : "solver.step_factor=0.2"});
+    run_to(*run, 20);
+    EXPECT_NE(run->s->log.rows.back().works.contact, 0);
+    EXPECT_NE(run->s->log.rows.back().works.holds, 0);
+    error[k] = balance_error(*run->s);
+  }
+  std::printf("energy balance: %.2g of what was turned over, with a quarter of the step %.2g\n",
+              error[0], error[1]);
+  EXPECT_LT(error[0], .02);
+  EXPECT_LT(error[1], error[0] / 8);  // 16 but for impacts
+}
+
+TEST(MultiRate, goes_on_after_a_cut_and_after_a_restart_with_the_same_bits) {
+  const auto cut = [] { return hung(scalpel_text, BoxElements::tet4_kuhn, local); };
+  const auto whole = cut();
+  const std::int32_t n_before = whole->s->mesh.n_nodes();
+  run_to(*whole, 20);
+  EXPECT_GT(whole->s->mesh.n_nodes(), n_before);
+  ASSERT_TRUE(whole->s->multirate);
+  EXPECT_EQ(whole->s->multirate->of_whole.size(),
+            static_cast<std::size_t>(whole->s->mesh.n_nodes()));
+  for (const std::int64_t frame : {4, 12}) {
+    const auto first = cut();
+    run_to(*first, frame);
+    const std::vector<std::byte> bytes = checkpoint_to_bytes(take_checkpoint(*first->s));
+    const auto second = cut();
+    restore_checkpoint(checkpoint_from_bytes(bytes, "c"), *second->s);
+    run_to(*second, 20);
+    EXPECT_EQ(second->s->state.u, whole->s->state.u) << frame;
+    EXPECT_EQ(second->s->state.v, whole->s->state.v) << frame;
+  }
+}
+
+TEST(MultiRate, leaves_a_body_that_sleeps_where_it_is) {
+  const auto run = hung("[start]\nstate = \"equilibrium\"\n", BoxElements::hex8,
+                        {"solver.multirate=true", "solver.sleep='1 mm'"});
+  start_in_equilibrium(run->loaded, *run->s);
+  run_to(*run, 17);
+  ASSERT_TRUE(run->s->multirate);
+  EXPECT_EQ(run->s->sleep->share, 1);
+  const std::vector<double> u = run->s->state.u;
+  run_to(*run, 20);
+  EXPECT_EQ(run->s->state.u, u);
+}
+
+TEST(MultiRate, is_built_only_where_it_is_asked_for_and_saves_work) {
+  const std::string even = scene_text("[solver]\n");
+  EXPECT_FALSE(built(even)->s->multirate);
+  EXPECT_FALSE(built(even + "multirate = true\n")->s->multirate);
+}
+
+TEST(MultiRate, is_refused_with_what_it_cannot_compute) {
+  for (const char* const other :
+       {"[tissue.material]\nprony = [ { share = 0.4, time = 0.02 } ]\n[solver]\n",
+        "[solver]\ntetrahedron = \"nodal-pressure\"\n",
+        "[solver]\nstable_step = \"element-bound\"\n", "[solver]\nmass_scaling_step = 0.001\n"}) {
+    EXPECT_TRUE(contains(scene_error(scene_text(std::string(other) + "multirate = true\n")),
+                         "solver.multirate"));
+    EXPECT_EQ(scene_error(scene_text(other)), "");
+  }
+}
+
+}  // namespace
+}  // namespace trocar
