@@ -22,6 +22,8 @@ template <class Pack>
     return *from;
   else if constexpr (pack_width<Pack> == 8)
     return _mm512_maskz_cvtps_pd(0xFF, load<PackOf<float, 8>>(from));  // in one, not in two halves
+  else if constexpr (pack_width<Pack> == 4)
+    return _mm256_cvtps_pd(load<PackOf<float, 4>>(from));  // likewise
   else
     return __builtin_convertvector(load<PackOf<float, pack_width<Pack>>>(from), Pack);
 }
