@@ -37,27 +37,4 @@ template <class Pack>
     return __builtin_convertvector(x, PackOf<float, pack_width<Pack>>);
 }
 
-// As many lanes of doubles, for formulas that single precision would spoil.
-template <class Pack>
-using InDouble = PackOf<double, pack_width<Pack>>;
-// By reference: registers wider than the instruction set's can't be returned.
-template <class Pack>
-[[gnu::always_inline]] inline void widen(const Pack& x, InDouble<Pack>& wide) {
-  if constexpr (std::is_same_v<RealOf<Pack>, double>)
-    wide = x;
-  else if constexpr (pack_width<Pack> == 1)
-    wide = static_cast<double>(x[0]);
-  else
-    wide = __builtin_convertvector(x, InDouble<Pack>);
-}
-template <class Pack>
-[[gnu::always_inline]] inline Pack rounded_to(const InDouble<Pack>& x) {
-  if constexpr (std::is_same_v<RealOf<Pack>, double>)
-    return x;
-  else if constexpr (pack_width<Pack> == 1)
-    return Pack{static_cast<float>(x)};
-  else
-    return __builtin_convertvector(x, Pack);
-}
-
 }  // namespace trocar

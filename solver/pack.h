@@ -49,11 +49,6 @@ template <>
 struct PackType<double, 8> {
   using type = double __attribute__((vector_size(64)));
 };
-// Two registers: what eight and eight singles are in double.
-template <>
-struct PackType<double, 16> {
-  using type = double __attribute__((vector_size(128)));
-};
 template <>
 struct PackType<std::uint32_t, 1> {
   using type = std::uint32_t __attribute__((vector_size(4)));
