@@ -156,6 +156,9 @@ template <class Pack, int n>
   alignas(64) RealOf<Pack> force[n][width][4];
 #pragma GCC unroll 8
   for (int a = 0; a < n; ++a) store_corner(&force[a][0][0], f[a]);
+  // Read back where it is used: or every store is made twice, the second one to copies for the
+  // single lanes.
+  asm volatile("" ::: "memory");
   for (int first = 0; first < width; first += row_lanes) {
     const std::uint32_t group_row = row[first / row_lanes];
     if (is_row(group_row))

@@ -50,9 +50,14 @@ template <class Pack>
                                                            const Pack& shear,
                                                            const Pack& pressure) {
   Tensor<Pack> P = stress_of(d, shear, d.twice_E, pressure);
+  const auto is_below = d.iso.extended > 0.0;
+  if (!is_any(is_below)) return P;
   const Pack scale = shear * d.iso.extended;
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) P(i, j) += scale * (i == j ? Pack(1.0 + d.H(i, j)) : d.H(i, j));
+    for (int j = 0; j < 3; ++j) {
+      const Pack F = i == j ? Pack(1.0 + d.H(i, j)) : d.H(i, j);
+      P(i, j) = is_below ? Pack(P(i, j) + scale * F) : P(i, j);
+    }
   return P;
 }
 // Any other S.

@@ -80,13 +80,20 @@ OnePointShape one_point_shape(const ElementInput& input) {
 ElementConstants one_point_constants(const ElementInput& input, const OnePointShape& shape,
                                      std::span<const double> stiffness, double k) {
   ElementConstants c{.volume = shape.volume};
-  for (std::size_t j = 0; j < 3; ++j) {
-    const auto i = static_cast<Eigen::Index>(j);
-    for (std::size_t m = 0; m < shape.X.size(); ++m)
-      c.value[ElementHex8::value_X + 3 * m + j] = shape.X[m][i];
-  }
-  c.value[ElementHex8::value_inverse] = 1 / (64 * shape.volume);
+  const auto put = [&](std::size_t at, std::span<const Vec3> modes) {
+    for (const Vec3& mode : modes)
+      for (const double x : mode) c.value[at++] = x;
+  };
+  const std::span<const Vec3> X = shape.X, b = shape.b;
+  put(ElementHex8::value_X, X.subspan(3, 4));
   std::copy(stiffness.begin(), stiffness.end(), c.value.begin() + ElementHex8::value_k);
+  const std::size_t at = ElementHex8::value_k + stiffness.size();
+  if (input.precision == Precision::in_single) {
+    put(at, b.first(6));
+  } else {
+    put(at, X.first(3));
+    c.value[at + 9] = 1 / (64 * shape.volume);
+  }
   c.omega2 = combined_bound(shape.bound, k, c.volume, hourglass_norms(shape.b, shape.X), input);
   return c;
 }

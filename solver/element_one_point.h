@@ -2,7 +2,8 @@
 // stash (stash.h), forces out of it. For elements with one stress point: Element has strain(value,
 // u, kept) that returns the mean gradient H and keeps what else it needs, forces(value, kept, V P,
 // f), and where something is kept, prepare(value, kept), before u is known, and
-// hourglass_energy(value, kept).
+// hourglass_energy(value, kept). values_added_in_single and kept_spared_in_single if numbers
+// differ.
 #pragma once
 
 #include "solver/block_data.h"
@@ -20,6 +21,16 @@ struct OnePoint {
   static constexpr int n_values = Element::n_values;
   static constexpr int n_points = 1;
   static constexpr int n_kept = Element::n_kept;
+  static constexpr int values_added_in_single = [] {
+    if constexpr (requires { Element::values_added_in_single; })
+      return Element::values_added_in_single;
+    return 0;
+  }();
+  static constexpr int kept_spared_in_single = [] {
+    if constexpr (requires { Element::kept_spared_in_single; })
+      return Element::kept_spared_in_single;
+    return 0;
+  }();
 
   template <class Pack>
   [[gnu::always_inline]] static void prepare(const BlockValues<Pack>& value,

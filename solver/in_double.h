@@ -22,6 +22,8 @@ template <class Pack>
     return *from;
   else if constexpr (pack_width<Pack> == 8)
     return _mm512_maskz_cvtps_pd(0xFF, load<PackOf<float, 8>>(from));  // in one, not in two halves
+  else if constexpr (pack_width<Pack> == 4)
+    return _mm256_cvtps_pd(load<PackOf<float, 4>>(from));  // likewise
   else
     return __builtin_convertvector(load<PackOf<float, pack_width<Pack>>>(from), Pack);
 }
@@ -33,29 +35,6 @@ template <class Pack>
     return _mm512_maskz_cvtpd_ps(0xFF, x);
   else
     return __builtin_convertvector(x, PackOf<float, pack_width<Pack>>);
-}
-
-// As many lanes of doubles, for formulas that single precision would spoil.
-template <class Pack>
-using InDouble = PackOf<double, pack_width<Pack>>;
-// By reference: registers wider than the instruction set's can't be returned.
-template <class Pack>
-[[gnu::always_inline]] inline void widen(const Pack& x, InDouble<Pack>& wide) {
-  if constexpr (std::is_same_v<RealOf<Pack>, double>)
-    wide = x;
-  else if constexpr (pack_width<Pack> == 1)
-    wide = static_cast<double>(x[0]);
-  else
-    wide = __builtin_convertvector(x, InDouble<Pack>);
-}
-template <class Pack>
-[[gnu::always_inline]] inline Pack rounded_to(const InDouble<Pack>& x) {
-  if constexpr (std::is_same_v<RealOf<Pack>, double>)
-    return x;
-  else if constexpr (pack_width<Pack> == 1)
-    return Pack{static_cast<float>(x)};
-  else
-    return __builtin_convertvector(x, Pack);
 }
 
 }  // namespace trocar

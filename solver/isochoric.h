@@ -41,9 +41,12 @@ template <class Pack>
   constexpr auto by_floor = real<Pack>(1 / volume_floor);
   const Pack J = 1.0 + j, s = 1.0 - J * by_floor;
   const auto is_below = s > 0.0;
-  const Pack below = real<Pack>(volume_floor) / (1.0 + s * (1.0 + s));  // 1/y
-  const Pack a = is_below ? below : J;
-  const Pack a_less_1 = is_below ? below - 1.0 : j;
+  Pack a = J, a_less_1 = j, below = zero_of(J);
+  if (is_any(is_below)) {
+    below = real<Pack>(volume_floor) / (1.0 + s * (1.0 + s));  // 1/y
+    a = is_below ? below : J;
+    a_less_1 = is_below ? below - 1.0 : j;
+  }
   Pack r = guess_inverse_cube_root(a);
   // |t| < 0.11, 6e-4, 1.1e-10
   for (int k = 0; k < (sizeof(RealOf<Pack>) == 8 ? 2 : 1); ++k) {
@@ -56,9 +59,13 @@ template <class Pack>
   const Pack correction = r * excess * (third - excess * two_ninths);
   rho -= correction;
   r -= correction;
-  const Pack share = below * by_floor, slope = (1.0 + 2.0 * s) * share * by_floor;
-  return {rho * (2.0 + rho), is_below ? slope : Pack(r * r * r),
-          is_below ? Pack(3.0 * s * s * share) : zero_of(J)};
+  Isochoric<Pack> result{rho * (2.0 + rho), r * r * r, zero_of(J)};
+  if (is_any(is_below)) {
+    const Pack share = below * by_floor, slope = (1.0 + 2.0 * s) * share * by_floor;
+    result.inverse = is_below ? slope : result.inverse;
+    result.extended = is_below ? Pack(3.0 * s * s * share) : result.extended;
+  }
+  return result;
 }
 
 }  // namespace trocar

@@ -101,10 +101,16 @@ struct ElementLoops {
 template <class Pack, class Element>
 ElementKernels element_kernels() {
   using Loops = ElementLoops<Pack, Element>;
+  int n_values = Element::n_values, n_kept = Element::n_kept;
+  constexpr bool is_single = sizeof(RealOf<Pack>) == sizeof(float);
+  if constexpr (is_single && requires { Element::values_added_in_single; }) {
+    n_values += Element::values_added_in_single;
+    n_kept -= Element::kept_spared_in_single;
+  }
   ElementKernels kernels{.n_corners = Element::n_corners,
                          .n_points = Element::n_points,
-                         .n_values = Element::n_values,
-                         .n_stash = tensor_values * Element::n_points + Element::n_kept,
+                         .n_values = n_values,
+                         .n_stash = tensor_values * Element::n_points + n_kept,
                          .law = Element::law,
                          .strain = Loops::strain,
                          .force = Loops::force,

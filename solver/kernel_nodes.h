@@ -16,9 +16,17 @@ struct NodeLoops {
   static constexpr int width = pack_width<Pack>;
 
   static void force(const NodeForces& task, const std::int32_t* node, std::int64_t n) {
-    for (std::int64_t k = 0; k < n; ++k) {
+    std::int64_t k = 0;
+    while (k < n) {
       const std::int64_t i = node[k];
+      if constexpr (width == 8)
+        if (k + width <= n && follow_each_other(node + k)) {
+          force_of_eight(task, task.mass + i, task.sum + 4 * i, task.force + 3 * i);
+          k += width;
+          continue;
+        }
       force_of_node(task, task.mass[i], task.sum + 4 * i, task.force + 3 * i);
+      ++k;
     }
   }
 
@@ -51,6 +59,35 @@ struct NodeLoops {
       for (int j = 0; j < 3; ++j) force[j] = mass * task.gravity[j] - sum[j];
       for (int j = 0; j < 4; ++j) sum[j] = 0;
     }
+  }
+
+  static bool follow_each_other(const std::int32_t* node) {
+    const __m256i number = _mm256_loadu_si256(reinterpret_cast<const __m256i_u*>(node));
+    const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    const __m256i expected = _mm256_add_epi32(_mm256_set1_epi32(node[0]), lane);
+    return _mm256_movemask_epi8(_mm256_cmpeq_epi32(number, expected)) == -1;
+  }
+
+  template <int r>
+  [[gnu::always_inline]] static void store_force(const NodeForces& task, const Pack& mass,
+                                                 const Pack& sum, double* force) {
+    const double* const g = task.gravity;
+    const double x = g[width * r % 3], y = g[(width * r + 1) % 3], z = g[(width * r + 2) % 3];
+    const Pack gravity{x, y, z, x, y, z, x, y};
+    const Pack m = of_components<r>(mass, std::make_index_sequence<width>{});
+    store(force + r * width, Pack(m * gravity - sum));
+  }
+
+  // force_of_node of nodes that follow each other, by whole registers.
+  [[gnu::always_inline]] static void force_of_eight(const NodeForces& task, const double* mass,
+                                                    double* sum, double* force) {
+    const Pack m = load<Pack>(mass);
+    Pack s[4];  // two nodes each, x y z 0
+    for (int k = 0; k < 4; ++k) s[k] = load<Pack>(sum + k * width);
+    store_force<0>(task, m, __builtin_shufflevector(s[0], s[1], 0, 1, 2, 4, 5, 6, 8, 9), force);
+    store_force<1>(task, m, __builtin_shufflevector(s[1], s[2], 2, 4, 5, 6, 8, 9, 10, 12), force);
+    store_force<2>(task, m, __builtin_shufflevector(s[2], s[3], 5, 6, 8, 9, 10, 12, 13, 14), force);
+    for (int k = 0; k < 4; ++k) store(sum + k * width, Pack{});
   }
 
   // Of `width` nodes, the factor of each component in the r-th register of three.

@@ -133,7 +133,8 @@ ElementConstants constants_of(const Source& source, std::int32_t e) {
                             .mu = lame_mu(material),
                             .density = material.density * source.mesh.density_factor[e],
                             .hourglass = source.options.hourglass,
-                            .thickness = source.options.thickness});
+                            .thickness = source.options.thickness,
+                            .precision = source.options.precision});
 }
 
 // Unit vector.

@@ -49,11 +49,6 @@ template <>
 struct PackType<double, 8> {
   using type = double __attribute__((vector_size(64)));
 };
-// Two registers: what eight and eight singles are in double.
-template <>
-struct PackType<double, 16> {
-  using type = double __attribute__((vector_size(128)));
-};
 template <>
 struct PackType<std::uint32_t, 1> {
   using type = std::uint32_t __attribute__((vector_size(4)));
@@ -163,6 +158,24 @@ template <class Pack>
   using Word = std::conditional_t<sizeof(RealOf<Pack>) == 8, std::uint64_t, std::uint32_t>;
   constexpr Word no_sign = static_cast<Word>(~Word{0}) >> 1;
   return __builtin_bit_cast(Pack, __builtin_bit_cast(Bits, x) & no_sign);
+}
+
+// Whether the condition holds in any lane; seldom, so that what follows is put aside.
+template <class Mask>
+[[gnu::always_inline]] inline bool is_any(const Mask& condition) {
+  bool any = false;
+  if constexpr (std::is_same_v<Mask, bool>)
+    any = condition;
+  else if constexpr (sizeof(Mask) == 64)
+    any = _mm512_test_epi32_mask(__builtin_bit_cast(__m512i, condition),
+                                 __builtin_bit_cast(__m512i, condition)) != 0;
+  else if constexpr (sizeof(Mask) == 32)
+    any = _mm256_movemask_epi8(__builtin_bit_cast(__m256i, condition)) != 0;
+  else if constexpr (sizeof(Mask) == 16)
+    any = _mm_movemask_epi8(__builtin_bit_cast(__m128i, condition)) != 0;
+  else
+    any = condition[0] != 0;
+  return __builtin_expect(any, false);
 }
 
 template <class Pack>

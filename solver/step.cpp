@@ -73,7 +73,10 @@ void compute_run(const Model& model, std::int64_t run, State& state, Scratch& sc
                       });
     });
     const std::int32_t first = k;
-    while (k < sums.run_first[run + 1] && sums.last_block[k] < next) ++k;
+    const auto last_block = sums.last_block.begin();
+    k = static_cast<std::int32_t>(
+        std::lower_bound(last_block + first, last_block + sums.run_first[run + 1], next) -
+        last_block);
     active_kernels().nodes.force(nodes, sums.node.data() + first, k - first);
   }
 }

@@ -85,7 +85,7 @@ TEST(Golden, volume_gradients_and_hourglass_stiffness_of_the_one_point_hexahedro
     for (int j = 0; j < 3; ++j) EXPECT_NEAR(sum[j], B[a][j], 1e-8);  // printed digits
     for (int p = 0; p < 4; ++p) {
       double g = S[3 + p];
-      for (int j = 0; j < 3; ++j) g -= sum[j] * c.value[ElementHex8::value_X + 3 * (3 + p) + j];
+      for (int j = 0; j < 3; ++j) g -= sum[j] * c.value[ElementHex8::value_X + 3 * p + j];
       EXPECT_NEAR(g, gamma[a][p], 6e-9);  // printed digits
     }
   }

@@ -97,3 +97,29 @@ TEST(NodeKernels, a_force_is_the_weight_less_the_sum_which_becomes_zero) {
     EXPECT_EQ(sum[9], 9);
   });
 }
+
+TEST(NodeKernels, a_nodes_force_has_the_same_bits_whatever_stands_beside_it_in_the_list) {
+  // Nodes in a row; eight whose first and last are as far apart as in a row; the rest.
+  std::vector<std::int32_t> node = {2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14,
+                                    15, 16, 17, 18, 21, 22, 30, 31, 24, 25, 27, 28};
+  for (const std::int32_t i : {0, 1, 19, 20, 23, 26, 29, 32, 33, 34, 35, 36}) node.push_back(i);
+  ASSERT_EQ(std::ssize(node), n_nodes);
+  Noise noise(8);
+  std::vector<double> mass(n_nodes, 2.0), sum(4 * n_nodes);
+  for (double& m : mass) m += noise();
+  for (double& s : sum) s = noise();
+  for_each_simd([&](const NodeKernels& kernels) {
+    std::vector<double> sum_alone = sum, sum_together = sum, alone(3 * n_nodes), together = alone;
+    NodeForces task{.mass = mass.data(), .gravity = {.3, .7, -9.81, 0}};
+    task.sum = sum_together.data();
+    task.force = together.data();
+    kernels.force(task, node.data(), n_nodes);
+    task.sum = sum_alone.data();
+    task.force = alone.data();
+    for (const std::int32_t& i : node) kernels.force(task, &i, 1);
+    EXPECT_EQ(together, alone);
+    EXPECT_EQ(sum_together, std::vector<double>(4 * n_nodes, 0.0));
+    for (std::size_t k = 0; k < alone.size(); ++k)  // two roundings of numbers below 32
+      EXPECT_NEAR(together[k], mass[k / 3] * task.gravity[k % 3] - sum[k / 3 * 4 + k % 3], 1e-14);
+  });
+}
