@@ -163,19 +163,19 @@ template <class Pack>
 // Whether the condition holds in any lane; seldom, so that what follows is put aside.
 template <class Mask>
 [[gnu::always_inline]] inline bool is_any(const Mask& condition) {
-  bool any = false;
+  bool is_found = false;
   if constexpr (std::is_same_v<Mask, bool>)
-    any = condition;
+    is_found = condition;
   else if constexpr (sizeof(Mask) == 64)
-    any = _mm512_test_epi32_mask(__builtin_bit_cast(__m512i, condition),
+    is_found = _mm512_test_epi32_mask(__builtin_bit_cast(__m512i, condition),
                                  __builtin_bit_cast(__m512i, condition)) != 0;
   else if constexpr (sizeof(Mask) == 32)
-    any = _mm256_movemask_epi8(__builtin_bit_cast(__m256i, condition)) != 0;
+    is_found = _mm256_movemask_epi8(__builtin_bit_cast(__m256i, condition)) != 0;
   else if constexpr (sizeof(Mask) == 16)
-    any = _mm_movemask_epi8(__builtin_bit_cast(__m128i, condition)) != 0;
+    is_found = _mm_movemask_epi8(__builtin_bit_cast(__m128i, condition)) != 0;
   else
-    any = condition[0] != 0;
-  return __builtin_expect(any, false);
+    is_found = condition[0] != 0;
+  return __builtin_expect(is_found, false);
 }
 
 template <class Pack>
