@@ -168,7 +168,7 @@ template <class Mask>
     is_found = condition;
   else if constexpr (sizeof(Mask) == 64)
     is_found = _mm512_test_epi32_mask(__builtin_bit_cast(__m512i, condition),
-                                 __builtin_bit_cast(__m512i, condition)) != 0;
+                                      __builtin_bit_cast(__m512i, condition)) != 0;
   else if constexpr (sizeof(Mask) == 32)
     is_found = _mm256_movemask_epi8(__builtin_bit_cast(__m256i, condition)) != 0;
   else if constexpr (sizeof(Mask) == 16)
