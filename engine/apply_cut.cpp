@@ -129,26 +129,20 @@ std::vector<double> volume_ratios(const Mesh& after, const EditedElements& edite
   return ratio;
 }
 
-// The fastest mode known so far and where its components were.
-struct KnownMode {
-  Part part;
-  std::vector<double> x;  // (n_owned * 3), empty: not searched for
-};
-
-// Where the next search starts: the mode known, with duplicates like their parents, and noise as
-// large at the edited elements, so that a faster mode that is new there has a share.
-void carry_mode(const KnownMode& known, const MeshEdit& edit, std::int32_t n_before,
+// Where the next search starts: the mode known (of all nodes before the edit, empty if none was
+// searched for), with duplicates like their parents, and noise at the edited elements, so that a
+// faster mode that is new there has a share. Owners may have changed: scaled masses move nodes.
+void carry_mode(std::span<const double> known, const MeshEdit& edit, std::int32_t n_before,
                 std::span<const std::int32_t> edited_nodes, Simulation& s) {
-  if (s.communicator->all_max(known.x.empty() ? 0 : 1) == 0) return;
+  if (known.empty()) return;
   s.fastest_mode.resize(3 * static_cast<std::size_t>(s.model.n_owned));
   for (std::int64_t i = 0; i < s.model.n_owned; ++i) {
     const std::int32_t node = s.part.node_global[i];
     const std::int32_t from = node < n_before ? node : edit.duplicate_parent[node - n_before];
-    std::copy_n(&known.x[3 * std::size_t(known.part.node_local[from])], 3, &s.fastest_mode[3 * i]);
+    std::copy_n(&known[3 * std::size_t(from)], 3, &s.fastest_mode[3 * i]);
   }
   double largest = 0;
-  for (const double value : known.x) largest = std::max(largest, std::abs(value));
-  largest = s.communicator->all_max(largest);
+  for (const double value : known) largest = std::max(largest, std::abs(value));
   for (const std::int32_t node : edited_nodes) {
     const std::int32_t i = s.part.node_local[node];
     if (i >= 0 && i < s.model.n_owned) add_noise(s.model, s.part, i, 0.3 * largest, s.fastest_mode);
@@ -212,10 +206,12 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   inherit_by_duplicates(s, edit, n_before);
   apply_edit_to_owners(edit.duplicate_parent, s.node_owner);
   apply_edit_to_holds(edit, n_before, s.holds);
-  const KnownMode known{.part = std::move(s.part), .x = std::move(s.fastest_mode)};
+  std::vector<double> known_mode;
+  if (s.communicator->all_max(s.fastest_mode.empty() ? 0 : 1) > 0)
+    known_mode = all_gather_field(s.part, n_before, 3, s.fastest_mode, *s.communicator);
   rebuild_topology(s);
   const std::vector<std::int32_t> nodes_after = nodes_of(s.mesh, edited.after);
-  carry_mode(known, edit, n_before, nodes_after, s);
+  carry_mode(known_mode, edit, n_before, nodes_after, s);
   restore_momentum(nodes_after, s.mass, before, global, record);
   scatter_state(s, global);
   restore_history(s.model, s.part, history, edited.parent, volume_ratios(s.mesh, edited), s.state);
