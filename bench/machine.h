@@ -1,5 +1,5 @@
-// What this core can do at the moment, measured beside whatever is compared with it: others may use
-// the machine.
+// What the cores of this rank's threads can do at the moment, all at once, measured beside whatever
+// is compared with it: others may use the machine.
 #pragma once
 
 #include <time.h>
