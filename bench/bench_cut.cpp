@@ -3,8 +3,8 @@
 // bench_cut [--count N] [--seed S] [--family NAME] [--kind NAME] [--mesh FILE]... [--json FILE]
 // [--markdown FILE]; bench_cut --cuts N [--seed S] [--minutes M]: N cuts of bent bodies, the
 // invariants alone; bench_cut --after N [--steps M]: N cuts of moving bodies and M steps after
-// each; bench_cut --stages springs|springs_then_barrier|barrier ...; bench_cut scaling: the same
-// incision in boxes of 5,000 to 1,000,000 tetrahedra.
+// each; bench_cut --stages springs|springs_then_barrier|barrier ...; bench_cut scaling [N]...: the
+// same incision in boxes of N x N x N cells (default: 6,000 to 1,000,000 tetrahedra).
 #include <cstdlib>
 #include <cstring>
 
@@ -68,8 +68,11 @@ Row run(const Family& family, const Kind& kind, const Arguments& a) {
 }
 
 int run_all(int argc, char** argv) {
-  if (argc == 2 && std::string(argv[1]) == "scaling") {
-    print_scaling(stdout);
+  if (argc >= 2 && std::string(argv[1]) == "scaling") {
+    std::vector<int> cells;
+    for (int k = 2; k < argc; ++k) cells.push_back(std::max(8, std::atoi(argv[k])));
+    if (cells.empty()) cells = {10, 15, 24, 55};
+    print_scaling(cells, stdout);
     return 0;
   }
   const Arguments a = read_arguments(argc, argv);

@@ -47,8 +47,8 @@ double processor_seconds();
 // Sheared, stretched and bent; F stays within some 40 % of the identity.
 cutting_test::Deformation random_bend(std::mt19937_64& random);
 
-// Prints what the same incision costs in boxes of 5,000 to 1,000,000 tetrahedra of one size.
-void print_scaling(std::FILE* file);
+// Prints what the same incision costs in boxes of so many cells along an edge, six tetrahedra each.
+void print_scaling(std::span<const int> cells, std::FILE* file);
 
 // Random cuts of bent bodies, the generated families and all kinds in turn: prints how many left an
 // element inverted, in the reference or in the present configuration, or the body unsound, and the

@@ -61,13 +61,13 @@ static Cost least_cost(int n, double step) {
   return best;
 }
 
-void print_scaling(std::FILE* file) {
+void print_scaling(std::span<const int> cells, std::FILE* file) {
   std::fprintf(file,
                "| tetrahedra | set-up, once [ms] | cut in half edges [ms] | over the first row | "
                "median, longest half edge [ms] | cut in edges [ms] | median, longest edge [ms] |\n"
                "|---|---|---|---|---|---|---|\n");
   double first = 0;
-  for (const int n : {10, 15, 24, 55}) {
+  for (const int n : cells) {
     const Cost half = least_cost(n, 0.5), whole = least_cost(n, 1);
     if (first == 0) first = half.cut();
     std::fprintf(file, "| %d | %.1f | %.2f | %.2f | %.2f, %.2f | %.2f | %.2f, %.2f |\n",
