@@ -2,7 +2,6 @@
 #include "cutting/cut_survey.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace trocar {
 
@@ -11,9 +10,9 @@ static constexpr double immovable_cost = 30;
 // A node that can't move may lie this far from the surface (over h) without counting as off it.
 static constexpr double tolerated_distance = 0.1;
 
-// Part of the least step bound before that elements keep when a node is put on the surface for the
-// look only. (0.5 at the lips left the step at 0.5 and the nodes no nearer to the blade.)
-static constexpr double least_snap = 0.75;
+// To put a node on the surface for the look only, elements may sink to this part of the median step
+// bound around, and none below the least one: a grid keeps 0.75 of its step, an organ's mesh all.
+static constexpr double part_of_typical = 0.75;
 
 static std::vector<std::int32_t> seed_elements(const CutStroke& stroke, bool is_last) {
   std::vector<std::int32_t> seed = stroke.fresh;
@@ -94,11 +93,13 @@ void set_roles(TetCut& cut, const CutStroke& stroke, bool is_last) {
 MoveLimits move_limits(const CutSurroundings& around, const CutStroke& stroke, double part) {
   const CutPatch& patch = around.patch;
   const std::vector<const double*> before = find_elements(stroke.step, patch.element);
-  double least = std::numeric_limits<double>::infinity();
+  std::vector<double> bound;
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
-    least =
-        std::min(least, before[e] != nullptr ? *before[e] : step_bound(patch.X, patch.corner[e]));
-  return {part * least, std::max(part, least_snap) * least};
+    bound.push_back(before[e] != nullptr ? *before[e] : step_bound(patch.X, patch.corner[e]));
+  const double least = *std::min_element(bound.begin(), bound.end());
+  const auto middle = bound.begin() + std::ssize(bound) / 2;
+  std::nth_element(bound.begin(), middle, bound.end());
+  return {part * least, std::max(part * least, std::min(least, part_of_typical * *middle))};
 }
 
 }  // namespace trocar

@@ -56,14 +56,6 @@ static void check_arguments(const Mesh& mesh, std::span<const Vec3> x,
     throw InputError("a blade's band cuts tetrahedra and hexahedra, and this mesh is plane");
 }
 
-// The floor under step bounds of tetrahedra. Those of a cube have 1 / sqrt(2) of its bound, and the
-// promise is about the body that there was: theirs keep so much more.
-static double least_ratio(const CutTetOptions& options, const HexTets& tets) {
-  constexpr double cube_over_tet = 1.4143;
-  const double ratio = options.least_step_ratio;
-  return tets.mesh.X.empty() ? ratio : std::min(0.95, cube_over_tet * ratio);
-}
-
 static std::vector<Vec3> moved_nodes(const TetCut& cut, const CutTetOptions& options,
                                      const MoveLimits& limits) {
   std::vector<Vec3> X = cut.around.patch.X;
@@ -114,7 +106,7 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, std::span<const Vec3> x,
   cut.chips = attach_chips(cut.around, cut.opening, cut.labels);
   if (!cut.chips.empty()) cut.opening = open_facets(cut.around, cut.labels, stays_whole);
   set_roles(cut, stroke, is_last);
-  cut.X = moved_nodes(cut, options, move_limits(cut.around, stroke, least_ratio(options, tets)));
+  cut.X = moved_nodes(cut, options, move_limits(cut.around, stroke, options.least_step_ratio));
   cut.rungs.n_inverted = count_inverted(cut.around.patch, cut.X);
   const std::vector<Vec3> wanted = cut.X;
   cut.transfer = transfer_moves(cut.around.patch, cut.X);

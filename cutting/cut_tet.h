@@ -26,9 +26,10 @@ enum class CutStages : std::uint8_t {
 struct CutTetOptions {
   double advance =
       0.5;  // of the local mean edge length that the blade must sweep before the mesh is changed
-  // Floor on the ratio least stable step after / before of the elements around (element bound).
-  // What would sink below it stops on its way to the blade: the cut lies beside it there.
-  double least_step_ratio = 0.35;
+  // Floor on the ratio least stable step after / before of the tetrahedra around (element bound; a
+  // cube's tetrahedra have 1/sqrt(2) of its own). What would sink below it stops on its way to the
+  // blade: the cut lies beside it there.
+  double least_step_ratio = 0.75;
   CutStages stages = CutStages::barrier;
 };
 

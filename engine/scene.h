@@ -89,7 +89,7 @@ struct SceneContact {
 
 struct SceneCutting {
   double advance = 0.5;
-  double least_step_ratio = 0.35;
+  double least_step_ratio = 0.75;
   double resistance = 0;  // force per length of engaged edge [N/m]
   CutMode mode = CutMode::robust;
   double spring = 1, particle = 0.1;
