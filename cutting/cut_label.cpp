@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cutting/cut_flow.h"
 
@@ -45,25 +46,40 @@ static std::span<const SurfacePoint> points_at(const CutSurroundings& around, st
   return points;
 }
 
-// Side of an uncut element by the distances of its corners. If the surface is about to pass through
-// it, it belongs to the front; if all its corners lie on the surface, the minimum cut decides.
-static void set_geometric_side(const CutSurroundings& around, const ElementSides& sides,
-                               std::int32_t e, CutLabels& labels) {
+namespace {
+
+// Least and largest distance of an element's corners from the surface, zero among them. [m]
+struct Extent {
   double low = 0, high = 0;
+  bool is_on_both_sides(double h) const {
+    return high > clear_distance * h && low < -clear_distance * h;
+  }
+};
+
+}  // namespace
+
+static Extent extent_of(const CutSurroundings& around, const ElementSides& sides, std::int32_t e) {
+  Extent extent;
   for (std::size_t c = 0; c < 4; ++c) {
     const std::int32_t i = around.patch.corner[e][c];
     const std::span<const SurfacePoint> points = points_at(around, e, c);
     if (sides.is_neutral[c] || points.empty()) continue;
     const double phi = fit_surface(points, around.patch.X[i], around.h).distance(around.patch.X[i]);
-    low = std::min(low, phi);
-    high = std::max(high, phi);
+    extent.low = std::min(extent.low, phi);
+    extent.high = std::max(extent.high, phi);
   }
-  if (high > clear_distance * around.h && low < -clear_distance * around.h)
+  return extent;
+}
+
+// Side of an uncut element by the distances of its corners. If the surface is about to pass through
+// it, it belongs to the front; if all its corners lie on the surface, the minimum cut decides.
+static void set_geometric_side(const Extent& extent, double h, std::int32_t e, CutLabels& labels) {
+  if (extent.is_on_both_sides(h))
     labels.kind[e] = labels.has_front ? CutKind::front : CutKind::separated;
-  else if (high == low)
+  else if (extent.high == extent.low)
     labels.kind[e] = CutKind::separated;
   else
-    labels.side[e] = high >= -low ? 1 : -1;
+    labels.side[e] = extent.high >= -extent.low ? 1 : -1;
 }
 
 // Sides of the corners of elements that were crossed but not parted, by their distances: behind a
@@ -115,7 +131,7 @@ static void set_terminals(const CutSurroundings& around, const std::vector<Eleme
     if (is_plus != is_minus)
       labels.side[u] = is_plus ? 1 : -1;
     else
-      set_geometric_side(around, sides[u], u, labels);
+      set_geometric_side(extent_of(around, sides[u], u), around.h, u, labels);
   }
 }
 
@@ -143,6 +159,54 @@ static void cut_graph(const CutSurroundings& around, CutLabels& labels) {
   const std::vector<std::uint8_t> is_plus = minimum_cut(n_vertices, source, sink, arcs);
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     if (is_unknown(labels, e)) labels.side[e] = is_plus[vertex[e]] != 0 ? 1 : -1;
+}
+
+// The elements without a side that a walk around edge (a, b) from element e into u meets before it
+// comes to the - side; empty if it doesn't.
+static std::vector<std::int32_t> walk_around(const CutPatch& patch, const CutLabels& labels,
+                                             std::int32_t a, std::int32_t b, std::int32_t e,
+                                             std::int32_t u) {
+  std::vector<std::int32_t> met;
+  while (u >= 0 && labels.side[u] == 0) {
+    met.push_back(u);
+    const auto& corner = patch.corner[u];
+    std::int32_t next = -1;
+    for (std::size_t f = 0; f < 4; ++f)  // its facets at the edge: opposite to neither end
+      if (corner[f] != a && corner[f] != b && patch.across[u][f] != e) next = patch.across[u][f];
+    e = std::exchange(u, next);
+  }
+  return u >= 0 && labels.side[u] < 0 ? met : std::vector<std::int32_t>{};
+}
+
+// Elements without a side that hold both sides together around an edge.
+static std::vector<std::int32_t> bridges(const CutPatch& patch, const CutLabels& labels) {
+  std::vector<std::int32_t> found;
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; labels.side[e] > 0 && f < 4; ++f) {
+      const std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::vector<std::int32_t> met =
+            walk_around(patch, labels, node[k], node[(k + 1) % 3], e, patch.across[e][f]);
+        found.insert(found.end(), met.begin(), met.end());
+      }
+    }
+  return found;
+}
+
+bool part_bridges(const CutSurroundings& around, const CutStroke& stroke, CutLabels& labels) {
+  const std::vector<ElementSides> sides = element_sides(around, stroke);
+  bool is_changed = false;
+  for (bool is_going_on = true; is_going_on; is_changed = is_changed || is_going_on) {
+    is_going_on = false;
+    for (const std::int32_t e : bridges(around.patch, labels)) {
+      const Extent extent = extent_of(around, sides[e], e);
+      if (is_unknown(labels, e) || extent.is_on_both_sides(around.h)) continue;
+      set_geometric_side(extent, around.h, e, labels);
+      is_going_on = true;
+    }
+    if (is_going_on) cut_graph(around, labels);
+  }
+  return is_changed;
 }
 
 CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke, bool is_last) {

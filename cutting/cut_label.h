@@ -26,6 +26,11 @@ struct CutLabels {
 
 CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke, bool is_last);
 
+// Behind a blade that has gone through, no edge may hold both sides together: elements around it
+// that the blade left beside it get the side they lie on. Those that lie on both were not cut.
+// Whether there were any.
+bool part_bridges(const CutSurroundings& around, const CutStroke& stroke, CutLabels& labels);
+
 // Cost of opening a facet: squared distances of its nodes plus a little for its area.
 double facet_cost(const CutSurroundings& around, std::int32_t e, int f);
 

@@ -99,7 +99,10 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, std::span<const Vec3> x,
     return {};
   }
   cut.labels = label_elements(cut.around, stroke, is_last);
+  if (is_through) part_bridges(cut.around, stroke, cut.labels);
   if (is_last) cut.rungs.n_turned = mend_labels(cut.around, stroke, cut.labels);
+  if (is_through && part_bridges(cut.around, stroke, cut.labels))
+    cut.rungs.n_turned += mend_labels(cut.around, stroke, cut.labels);
   std::vector<std::uint8_t> stays_whole(cut.around.patch.node.size(), 0);
   if (!is_last) stays_whole = unripe_nodes(cut.around, cut.labels);
   cut.opening = open_facets(cut.around, cut.labels, stays_whole);
