@@ -72,18 +72,6 @@ inline int count(double full, double scale) {
   return std::max(1, static_cast<int>(full * scale));
 }
 
-// One step; the energy at its beginning, with the kinetic part 1/2 m v- · v+ that central
-// differences conserve (numerics 1.1; that of one velocity alone swings with the step).
-inline double step_and_measure(Body& body, double dt) {
-  const double W = stored_energy(body);
-  const std::vector<double> before = body.state.v;
-  step(body, dt);
-  double T = 0;
-  for (std::size_t k = 0; k < before.size(); ++k)
-    T += .5 * body.model.mass[k / 3] * before[k] * body.state.v[k];
-  return T + W;
-}
-
 // Largest energy of n steps over that of the first one; looked at every 16th step.
 inline double energy_growth(Body& body, double dt, int n) {
   double start = 0, most = 0;

@@ -1,24 +1,37 @@
 # Tests that go through the front door: they start the program, alone and under mpirun.
 find_package(nlohmann_json REQUIRED)
 string(JOIN " " mpirun_text ${TROCAR_MPIRUN})
+add_library(test_program STATIC support/program.cpp)
+target_link_libraries(test_program PUBLIC test_support_mesh nlohmann_json::nlohmann_json PRIVATE test_options)
+target_compile_definitions(test_program PUBLIC TROCAR_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+  TROCAR_PROGRAM="$<TARGET_FILE:trocar>" TROCAR_MPIRUN="${mpirun_text}")
+target_precompile_headers(test_program PRIVATE <gtest/gtest.h> <cmath> <filesystem> <fstream> <nlohmann/json.hpp> <sstream> <string>)
+
+# These keep all cores of the machine busy themselves; they come first, so that no core waits for their turn. The others start the
+# program alone, or wait.
+set(many_ranks "StateDigest.*:Traffic.*:Resume.in_*:Resume.of_*:Signals.*:BlockHex*")
+set(properties TIMEOUT 600 ENVIRONMENT OMP_WAIT_POLICY=passive)
+set(many_ranks_properties ${properties} PROCESSORS 4 COST 100)
 foreach(folder scenes invariance faults)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*_test.cpp)
   if(sources)
     add_executable(test_${folder} ${sources})
     add_dependencies(test_${folder} trocar)
-    target_link_libraries(test_${folder} PRIVATE mesh nlohmann_json::nlohmann_json GTest::gtest GTest::gtest_main)
-    target_include_directories(test_${folder} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/support)
-    target_compile_options(test_${folder} PRIVATE ${TROCAR_TEST_WARNINGS})
-    target_compile_definitions(test_${folder} PRIVATE TROCAR_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
-      TROCAR_PROGRAM="$<TARGET_FILE:trocar>" TROCAR_MPIRUN="${mpirun_text}")
-    # They use all cores of the machine themselves.
-    gtest_discover_tests(test_${folder} TEST_PREFIX ${folder}/ DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 RUN_SERIAL TRUE)
+    target_link_libraries(test_${folder} PRIVATE test_program test_options GTest::gtest_main)
+    target_precompile_headers(test_${folder} REUSE_FROM test_program)
+    gtest_discover_tests(test_${folder} TEST_PREFIX ${folder}/ DISCOVERY_TIMEOUT 60 TEST_FILTER -${many_ranks}:LiverIncision.*
+      TEST_LIST ${folder}_tests PROPERTIES ${properties})
+    gtest_discover_tests(test_${folder} TEST_PREFIX ${folder}/ DISCOVERY_TIMEOUT 60 TEST_FILTER ${many_ranks}
+      TEST_LIST ${folder}_tests_on_many_ranks PROPERTIES ${many_ranks_properties})
   endif()
 endforeach()
 
+# One run for all its tests.
+add_test(NAME scenes/LiverIncision COMMAND test_scenes --gtest_filter=LiverIncision.*)
+set_tests_properties(scenes/LiverIncision PROPERTIES ${many_ranks_properties})
+
 # Many scenes in one start of ranks.
 add_executable(scene_digests invariance/scene_digests.cpp)
-target_link_libraries(scene_digests PRIVATE engine)
-target_compile_options(scene_digests PRIVATE ${TROCAR_TEST_WARNINGS})
+target_link_libraries(scene_digests PRIVATE engine test_options)
 add_dependencies(test_invariance scene_digests)
 target_compile_definitions(test_invariance PRIVATE TROCAR_SCENE_DIGESTS="$<TARGET_FILE:scene_digests>")

@@ -292,9 +292,8 @@ TEST(ContactDetector, reports_its_time_on_twenty_thousand_triangles) {
                                    box_piece(Vec3(3e-3, 0.2e-3, 1e-2))}};
   ContactDetector detector({probe, blade});
   detector.set_surface(surface);
-  const std::vector<Pose> pose = {
-      {Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(1, 1, 3)), Vec3(0, 0, 0.049)},
-      {Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(3, 1, 1)), Vec3(0.05, 0, 0)}};
+  const std::vector<Pose> pose = {{rotation_from_z(Vec3(1, 1, 3)), Vec3(0, 0, 0.049)},
+                                  {rotation_from_z(Vec3(3, 1, 1)), Vec3(0.05, 0, 0)}};
   std::size_t n_contacts = detect(detector, mesh.X, pose, 1e-3).size();
   double best = 1;
   for (int k = 0; k < 20; ++k) {

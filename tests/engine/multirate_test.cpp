@@ -13,54 +13,27 @@
 #include "engine_started.h"
 #include "mesh/mesh_file.h"
 #include "mesh_fixtures.h"
+#include "scene_parts.h"
 
 namespace trocar {
 namespace {
 
 // Hung at its left side, with thin elements at 5 mm; a probe presses them from above, a grasper
 // pulls them down.
-const std::string hung_text = R"([time]
-duration = "1 s"
-frame_rate = "30 Hz"
-[checkpoint]
-every = 0
-[tissue.material]
-young_modulus = "6 kPa"
-poisson_ratio = 0.4
-[solver]
-gravity = [0, 0, "-2 m/s^2"]
-mass_damping = "20 1/s"
-[[region]]
-name = "left"
-low = ["-1 mm", "-1 mm", "-1 mm"]
-high = ["1 mm", "31 mm", "31 mm"]
-[[support]]
-region = "left"
-)";
-const std::string tools_text = R"([[instrument]]
-kind = "probe"
-radius = "5 mm"
-path = [
+const std::string hung_text = time_table("1 s") + "[checkpoint]\nevery = 0\n" + tissue_of_kpa(6) +
+                              solver_table("-2", 20) + held_left;
+const std::string tools_text = probe_along(R"(
   { time = 0, position = ["12 mm", "15 mm", "34 mm"] },
   { time = 0.3, position = ["12 mm", "15 mm", "26 mm"] },
-]
-[[instrument]]
-kind = "grasper"
-grip_radius = "7 mm"
-path = [
+)") + grasper_along("7 mm", R"(
   { time = 0, position = ["11 mm", "-20 mm", "-20 mm"] },
   { time = 0.15, position = ["11 mm", 0, 0], action = "close" },
   { time = 0.4, position = ["13 mm", "-3 mm", "-2 mm"] },
-]
-)";
-const std::string scalpel_text = R"([[instrument]]
-kind = "scalpel"
-blade_length = "40 mm"
-path = [
+)");
+const std::string scalpel_text = scalpel_along("40 mm", R"(
   { time = 0.1, position = ["32 mm", "-6 mm", "12 mm"], forward = [0, 1, 0] },
   { time = 0.5, position = ["30 mm", "20 mm", "12 mm"], forward = [0, 1, 0] },
-]
-)";
+)");
 
 std::unique_ptr<Started> hung(const std::string& tools, BoxElements elements,
                               const std::vector<std::string>& overrides) {

@@ -11,16 +11,15 @@
 #include "engine/equilibrium.h"
 #include "engine_scene.h"
 #include "engine_started.h"
+#include "scene_parts.h"
 
 namespace trocar {
 namespace {
 
 // A bar of 120 x 20 x 20 mm on the table in its weight; a probe presses one end from 0.8 s to 2.6
 // s.
-const std::string bar_text = R"([time]
-duration = "3.2 s"
-frame_rate = "30 Hz"
-[start]
+const std::string bar_text = time_table("3.2 s") + tissue_of_kpa(6) + solver_table("-9.81", 30) +
+                             R"([start]
 state = "equilibrium"
 [checkpoint]
 every = 0
@@ -29,24 +28,14 @@ kind = "box"
 low = ["-60 mm", "-10 mm", "0 mm"]
 high = ["60 mm", "10 mm", "20 mm"]
 cells = [24, 4, 4]
-[tissue.material]
-young_modulus = "6 kPa"
-poisson_ratio = 0.4
-[solver]
-gravity = [0, 0, "-9.81 m/s^2"]
-mass_damping = "30 1/s"
 [[support]]
 region = "z-"
-[[instrument]]
-kind = "probe"
-radius = "5 mm"
-path = [
+)" + probe_along(R"(
   { time = "0.7 s", position = ["-50 mm", 0, "30 mm"] },
   { time = "1.2 s", position = ["-50 mm", 0, "17 mm"] },
   { time = "2.3 s", position = ["-50 mm", 0, "17 mm"] },
   { time = "2.8 s", position = ["-46 mm", 0, "40 mm"] },
-]
-)";
+)");
 constexpr double bound = 0.1e-3;
 
 std::unique_ptr<Started> started(const std::vector<std::string>& overrides,

@@ -114,13 +114,6 @@ std::string digest_of(const std::string& scene, std::vector<std::string> setting
   return read_summary(folder).value("state_digest", "no digest");
 }
 
-// Until the blade is in it.
-TEST(StateDigest, of_the_liver_is_the_same_on_three_ranks_while_it_is_cut) {
-  const std::vector<std::string> shorter = {"time.duration='3.6 s'"};
-  EXPECT_EQ(digest_of("liver_incision.toml", shorter, 3, 1),
-            digest_of("liver_incision.toml", shorter, 1, 2));
-}
-
 // Steps a second of the same frames are doubled: messages follow, what all ranks say together does
 // not. The start and the end need some messages of their own.
 TEST(Traffic, collectives_go_by_frames_and_messages_by_steps) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "scene_parts.h"
+
 namespace trocar {
 
 struct SmallScene {
@@ -15,7 +17,7 @@ struct SmallScene {
 };
 
 inline std::string scene_start(const std::string& duration) {
-  return "[time]\nduration = \"" + duration + "\"\nframe_rate = \"50 Hz\"\n";
+  return time_table(duration, 50);
 }
 
 struct SmallBlock {
@@ -24,10 +26,8 @@ struct SmallBlock {
   std::string supports = "[[support]]\nregion = \"z-\"\n";
 };
 
-inline const std::string soft_tissue =
-    "[tissue.material]\nyoung_modulus = \"2 kPa\"\npoisson_ratio = 0.4\n";
-inline const std::string heavy =
-    "[solver]\ngravity = [0, 0, \"-3 m/s^2\"]\nmass_damping = \"20 1/s\"\n";
+inline const std::string soft_tissue = tissue_of_kpa(2);
+inline const std::string heavy = solver_table("-3", 20);
 inline const std::string at_rest = "[start]\nstate = \"equilibrium\"\ntolerance = 1e-4\n";
 
 // 60 x 40 x 30 mm.
@@ -43,34 +43,21 @@ inline SmallBlock hexahedra(const std::string& solver = "") {
   return {.elements = "hex8", .cells = "[14, 9, 8]", .solver = solver};
 }
 
-inline const std::string probe = R"([[instrument]]
-kind = "probe"
-radius = "5 mm"
-path = [
+inline const std::string probe = probe_along(R"(
   { time = 0, position = ["18 mm", "-8 mm", "36 mm"] },
   { time = 0.12, position = ["18 mm", "-8 mm", "25 mm"] },
   { time = 0.3, position = ["18 mm", "-8 mm", "40 mm"] },
-]
-)";
-inline const std::string late_probe = R"([[instrument]]
-kind = "probe"
-name = "late probe"
-radius = "5 mm"
-path = [
+)");
+inline const std::string late_probe = probe_along(R"(
   { time = 0.7, position = ["18 mm", "-8 mm", "36 mm"] },
   { time = 0.8, position = ["18 mm", "-8 mm", "26 mm"] },
-]
-)";
-inline const std::string grasper = R"([[instrument]]
-kind = "grasper"
-grip_radius = "9 mm"
-path = [
+)");
+inline const std::string grasper = grasper_along("9 mm", R"(
   { time = 0, position = ["-44 mm", "34 mm", "48 mm"] },
   { time = 0.1, position = ["-28 mm", "18 mm", "30 mm"], action = "close" },
   { time = 0.2, position = ["-32 mm", "22 mm", "32 mm"] },
   { time = 0.3, position = ["-32 mm", "22 mm", "32 mm"], action = "open" },
-]
-)";
+)");
 inline const std::string moving_support = R"([[support]]
 region = "x+"
 path = [
@@ -80,8 +67,7 @@ path = [
 )";
 
 inline std::string scalpel(const std::string& keys, const std::string& name = "scalpel") {
-  return "[[instrument]]\nkind = \"scalpel\"\nname = \"" + name +
-         "\"\nblade_length = \"40 mm\"\npath = [\n" + keys + "]\n";
+  return scalpel_along("40 mm", keys) + "name = \"" + name + "\"\n";
 }
 inline const std::string partial_cut = scalpel(R"(
   { time = 0.02, position = ["-45 mm", "1 mm", "12 mm"] },
@@ -182,55 +168,32 @@ name = "bottom"
 low = ["-1 mm", "-1 mm", "-1 mm"]
 high = ["61 mm", "31 mm", "1 mm"]
 )" + soft_tissue + heavy + "[[support]]\nregion = \"bottom\"\n" +
-                                 R"([[instrument]]
-kind = "probe"
-radius = "5 mm"
-path = [
+                                 probe_along(R"(
   { time = 0, position = ["45 mm", "15 mm", "36 mm"] },
   { time = 0.2, position = ["45 mm", "15 mm", "24 mm"] },
-]
-)";
+)");
 
 // A block with a layer of thin elements at x = 5 mm (with_thin_layer), hung at its left side.
 inline const char* const layer_files[] = {"layer-hex8.msh", "layer-tet4.msh"};
 inline std::string layered(const char* file, const std::string& solver,
                            const std::string& duration) {
   return scene_start(duration) + "[tissue]\nmesh = \"" + file + "\"\n" + soft_tissue +
-         "[solver]\ngravity = [0, 0, -1]\nmass_damping = \"20 1/s\"\nmultirate = true\n" + solver +
-         R"([[region]]
-name = "left"
-low = ["-1 mm", "-1 mm", "-1 mm"]
-high = ["1 mm", "31 mm", "31 mm"]
-[[support]]
-region = "left"
-)";
+         solver_table("-1", 20) + "multirate = true\n" + solver + held_left;
 }
 // On the layer.
-inline const std::string layer_probe = R"([[instrument]]
-kind = "probe"
-radius = "5 mm"
-path = [
+inline const std::string layer_probe = probe_along(R"(
   { time = 0, position = ["6 mm", "12 mm", "36 mm"] },
   { time = 0.15, position = ["6 mm", "12 mm", "26 mm"] },
-]
-)";
-inline const std::string late_layer_probe = R"([[instrument]]
-kind = "probe"
-radius = "5 mm"
-path = [
+)");
+inline const std::string late_layer_probe = probe_along(R"(
   { time = 0.62, position = ["6 mm", "12 mm", "36 mm"] },
   { time = 0.75, position = ["6 mm", "12 mm", "26 mm"] },
-]
-)";
-inline const std::string layer_grasper = R"([[instrument]]
-kind = "grasper"
-grip_radius = "6 mm"
-path = [
+)");
+inline const std::string layer_grasper = grasper_along("6 mm", R"(
   { time = 0, position = ["6 mm", "-20 mm", "-14 mm"] },
   { time = 0.1, position = ["6 mm", 0, "6 mm"], action = "close" },
   { time = 0.2, position = ["8 mm", "-2 mm", "5 mm"] },
-]
-)";
+)");
 inline const std::string layer_cut = scalpel(R"(
   { time = 0.04, position = ["16 mm", "-4 mm", "12 mm"], forward = [0, 1, 0] },
   { time = 0.3, position = ["14 mm", "20 mm", "12 mm"], forward = [0, 1, 0] },

@@ -80,8 +80,16 @@ void expect_closed_energy_balance(const nlohmann::json& summary, double most) {
   EXPECT_LT(energies["largest_balance_error_share"], most);
 }
 
+// On two ranks; all tests of the liver look at one run, for which they run in one process.
+const Ran& liver_run() {
+  static const Ran ran = run_scene_file(
+      "liver_incision.toml",
+      "[{kind='metrics', file='metrics.csv'}, {kind='recording', file='liver.trocar'}]");
+  return ran;
+}
+
 TEST(LiverIncision, is_pressed_grasped_cut_and_opened) {
-  const Ran ran = run_scene_file("liver_incision.toml", "[{kind='metrics', file='metrics.csv'}]");
+  const Ran& ran = liver_run();
   ASSERT_FALSE(ran.summary.is_discarded());
   EXPECT_EQ(ran.summary["finished"], true);
   EXPECT_GE(ran.summary["mesh"]["elements"]["tet4"], 20000);
@@ -104,6 +112,22 @@ TEST(LiverIncision, is_pressed_grasped_cut_and_opened) {
   EXPECT_EQ(at_time(ran.metrics, wound, 3.0), 0.0);
   const double before_pull = at_time(ran.metrics, wound, 4.9), after_pull = wound.back();
   EXPECT_GT(after_pull, before_pull + 2e-3);  // the grasper pulls the wound open
+}
+
+// Until the blade is in it.
+TEST(LiverIncision, has_the_same_bits_on_three_ranks_with_two_threads_each_while_it_is_cut) {
+  const std::string folder = test_folder("liver-on-three");
+  const Finished run =
+      run_trocar_on(3,
+                    {"run", config("liver_incision.toml"), "-q", "--threads", "2", "-o", folder,
+                     "--set", "output=[]", "--set", "time.duration='3.6 s'"},
+                    folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string digest = read_summary(folder)["state_digest"];
+  const Finished list =
+      run_trocar({"replay", liver_run().folder + "/liver.trocar", "--list"}, folder);
+  ASSERT_EQ(list.exit_code, 0) << list.err;
+  EXPECT_NE(list.out.find("3.6000 s  " + digest), std::string::npos) << digest;
 }
 
 TEST(BlockHex, is_pressed_and_comes_back) {

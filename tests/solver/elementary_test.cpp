@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
 #include "solver/symmetric_eigen.h"
+#include "solver_algebra.h"
 #include "solver_body.h"
 
 using namespace trocar;
@@ -67,7 +67,7 @@ TEST(SymmetricEigen, gives_back_its_tensor_from_orthonormal_vectors) {
   for (int k = 0; k < 2000; ++k) {
     Mat3 R;
     for (int i = 0; i < 9; ++i) R.data()[i] = noise();
-    const Mat3 Q = Eigen::HouseholderQR<Mat3>(R).householderQ();
+    const Mat3 Q = orthogonal_factor(R);
     Vec3 d(noise(), noise(), noise());
     if (k % 4 == 1) d[1] = d[0];
     if (k % 4 == 2) d[1] = d[0] + 1e-9 * noise();

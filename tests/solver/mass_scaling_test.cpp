@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <numeric>
 
 #include "solver/mass_clusters.h"
 #include "solver/relax.h"
+#include "solver_algebra.h"
 #include "solver_stiffness.h"
 
 using namespace trocar;
@@ -71,9 +71,7 @@ double dense_limit(Body& body) {
   for (Eigen::Index i = 0; i < m.rows(); ++i)
     for (Eigen::Index j = 0; j < m.cols(); ++j)
       for (int a = 0; a < 3; ++a) M(3 * i + a, 3 * j + a) = m(i, j);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(K, M,
-                                                                         Eigen::EigenvaluesOnly);
-  return 2 / std::sqrt(solver.eigenvalues().maxCoeff());
+  return 2 / std::sqrt(eigenvalues(K, M).maxCoeff());
 }
 
 constexpr BoxElements kinds[] = {BoxElements::tet4_kuhn, BoxElements::hex8};

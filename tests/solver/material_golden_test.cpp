@@ -6,6 +6,7 @@
 #include "solver/in_double.h"
 #include "solver/material_list.h"
 #include "solver/material_setup.h"
+#include "solver_algebra.h"
 #include "solver_body.h"
 
 using namespace trocar;
@@ -71,7 +72,7 @@ static Vec3 free_stretches(Vec3 s, const std::vector<int>& free) {
       below[free[k]] -= 1e-6;
       J.col(k) = (residual(above) - residual(below)) / 2e-6;
     }
-    const Eigen::VectorXd step = J.partialPivLu().solve(residual(s));
+    const Eigen::VectorXd step = solution(J, residual(s));
     for (Eigen::Index k = 0; k < n; ++k) s[free[k]] -= step[k];
   }
   return s;

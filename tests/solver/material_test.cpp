@@ -1,8 +1,7 @@
 // Materials on their own: stress against energy, closed forms, small strain.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
+#include "solver_algebra.h"
 #include "solver_material.h"
 
 using namespace trocar;
@@ -150,7 +149,7 @@ TEST(Material, stress_has_an_isochoric_part_and_a_pressure_that_depends_on_the_v
 template <class M>
 static double largest_tangent(const Mat3& F, const Mat3& G_root) {
   // omega^2 ~ max over dF = d G_root of d2W; columns of dF weighted by the element's gradients.
-  Eigen::Matrix<double, 9, 9> A;
+  Eigen::MatrixXd A(9, 9);
   const double h = 1e-6;
   for (int i = 0; i < 9; ++i) {
     Mat3 d = Mat3::Zero();
@@ -159,10 +158,7 @@ static double largest_tangent(const Mat3& F, const Mat3& G_root) {
     const Mat3 back = dP * G_root.transpose();
     A.col(i) = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(back.data());
   }
-  const Eigen::Matrix<double, 9, 9> symmetric = 0.5 * (A + A.transpose());
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>>(symmetric)
-      .eigenvalues()
-      .maxCoeff();
+  return eigenvalues(0.5 * (A + A.transpose())).maxCoeff();
 }
 
 TEST(Material, stiffening_bounds_the_tangent_of_any_deformation) {
@@ -174,8 +170,7 @@ TEST(Material, stiffening_bounds_the_tangent_of_any_deformation) {
       const Mat3 F = random_gradient(noise, k % 3 == 0 ? 0.7 : 0.3);
       const Mat3 root = random_gradient(noise, 0.8);
       const Mat3 G = root * root.transpose();
-      const double at_rest =
-          lambda * G.trace() + 2 * mu * Eigen::SelfAdjointEigenSolver<Mat3>(G).eigenvalues()[2];
+      const double at_rest = lambda * G.trace() + 2 * mu * eigenvalues(G)[2];
       const double bound =
           at_rest * M::stiffening(tensor(F - Mat3::Identity()), BlockOfOne<M>().values());
       const double tangent = largest_tangent<M>(F, root);

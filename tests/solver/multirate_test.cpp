@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "solver_algebra.h"
 #include "solver_multirate.h"
 #include "solver_stiffness.h"
 
@@ -37,10 +38,6 @@ Eigen::MatrixXd operator_of(Refined& refined, double dt) {
                 (2 * h * std::sqrt(mass(i) * mass(k)));
   }
   return A;
-}
-
-Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& A) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
 // From dense eigenvalues.

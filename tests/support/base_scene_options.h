@@ -45,67 +45,17 @@ struct Scene {
   std::vector<Instrument> instrument;
 };
 
-inline Options<Material> material_options() {
-  Options<Material> options("What tissue is made of.");
-  options.choice("law", &Material::law,
-                 {{"neo-hookean", Law::neo_hookean}, {"linear", Law::linear}}, "Constitutive law.");
-  options.number("young_modulus", &Material::young_modulus, dim::pressure, positive,
-                 "Young's modulus E.");
-  options.number("poisson_ratio", &Material::poisson_ratio, dim::none,
-                 {.low = 0, .high = 0.5, .is_high_open = true}, "Poisson's ratio.");
-  options.number("density", &Material::density, dim::density, positive, "Mass per volume.");
-  return options;
-}
+Options<Material> material_options();
 
-inline Options<Instrument> instrument_options() {
-  Options<Keyframe> keyframe("A place at a time.");
-  keyframe.number("time", &Keyframe::time, dim::time, not_negative, "When.", Need::required);
-  keyframe.vector("position", &Keyframe::position, dim::length, any, "Where.");
-  Options<Instrument> options("A tool.");
-  options.number("radius", &Instrument::radius, dim::length, positive, "Radius of the tip.");
-  options.integer("n_sides", &Instrument::n_sides, {.low = 3}, "Sides of the shaft.");
-  options.list("path", &Instrument::path, keyframe, "Keyframes.");
-  return options;
-}
+Options<Instrument> instrument_options();
 
-inline Options<Scene> scene_options() {
-  Options<Tissue> tissue("The body.");
-  tissue.text("mesh", &Tissue::mesh, "Mesh file.", Need::required);
-  tissue.table("material", &Tissue::material, material_options(), "Its material.");
-  Options<Camera> camera("A view.");
-  camera.integers("size", &Camera::size, at_least_one, "Pixels across and down.");
-  camera.number("view_angle", &Camera::view_angle, dim::angle, positive, "Of view | vertical.");
-  Options<Scene> scene("A scene.");
-  scene.text("name", &Scene::name, "What it is called.");
-  scene.boolean("is_fast", &Scene::is_fast, "Whether to run without waiting.");
-  scene.number("duration", &Scene::duration, dim::time, positive, "Length of the run.");
-  scene.vector("gravity", &Scene::gravity, dim::acceleration, any, "Gravity.");
-  scene.table("tissue", &Scene::tissue, tissue, "The tissue.", Need::required);
-  scene.table("camera", &Scene::camera, camera, "The endoscope.");
-  scene.list("instrument", &Scene::instrument, instrument_options(), "The tools.");
-  return scene;
-}
+Options<Scene> scene_options();
 
-inline Located<Scene> read_scene(const std::string& text,
-                                 const std::vector<std::string>& overrides = {}) {
-  Located<Scene> scene;
-  read_options_text(scene_options(), text, "s.toml", overrides, &scene.value, scene.where);
-  return scene;
-}
+Located<Scene> read_scene(const std::string& text, const std::vector<std::string>& overrides = {});
 
 // The message of the error that reading gives, "" if there is none.
-inline std::string scene_error(const std::string& text,
-                               const std::vector<std::string>& overrides = {}) {
-  try {
-    read_scene(text, overrides);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
+std::string scene_error(const std::string& text, const std::vector<std::string>& overrides = {});
 
-inline void expect_part(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "looked for: " << part << "\nin: " << text;
-}
+void expect_part(const std::string& text, const std::string& part);
 
 }  // namespace trocar

@@ -16,24 +16,10 @@ class Random {
   double between(double low, double high) {
     return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
   }
-  Vec3 in_box(double half) {
-    const double x = between(-half, half), y = between(-half, half), z = between(-half, half);
-    return {x, y, z};
-  }
-  Vec3 direction() {
-    for (;;) {
-      const Vec3 d = in_box(1);
-      if (d.norm() > 0.1 && d.norm() < 1) return d.normalized();
-    }
-  }
-  Quat rotation() {
-    const Vec3 axis = direction();
-    return Quat(Eigen::AngleAxisd(between(0, 3.14), axis));
-  }
-  Triangle triangle(double half) {
-    const Vec3 a = in_box(half), b = in_box(half), c = in_box(half);
-    return {a, b, c};
-  }
+  Vec3 in_box(double half);
+  Vec3 direction();
+  Quat rotation();
+  Triangle triangle(double half);
 
  private:
   std::mt19937 engine_;
@@ -51,8 +37,9 @@ void expect_nearest(const Vec3& p, const First& first, const Vec3& q, const Seco
   for (const Vec3& b : second) EXPECT_GE(d.dot(b - q), -tolerance);
 }
 
-inline Vec3 at_weights(const Triangle& x, const std::array<double, 3>& w) {
-  return w[0] * x[0] + w[1] * x[1] + w[2] * x[2];
-}
+// Turns z to the direction; Eigen takes seconds to compile it.
+Quat rotation_from_z(const Vec3& direction);
+
+Vec3 at_weights(const Triangle& x, const std::array<double, 3>& w);
 
 }  // namespace trocar

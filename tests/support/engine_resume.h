@@ -4,27 +4,21 @@
 
 #include <string>
 
+#include "scene_parts.h"
+
 namespace trocar {
 
 // Tetrahedra, pressed by a probe from 0.1 s, held by a grasper from 0.2 s to 0.9 s, cut from 0.25 s
 // to 0.75 s, moved by a support.
-inline const std::string resume_block_text = R"(name = "resumed block"
-[time]
-duration = "1.2 s"
-frame_rate = "30 Hz"
-[tissue.shape]
+inline const std::string resume_block_text = "name = \"resumed block\"\n" + time_table("1.2 s") +
+                                             R"([tissue.shape]
 kind = "box"
 elements = "tet4-five"
 low = ["-30 mm", "-20 mm", "0 mm"]
 high = ["30 mm", "20 mm", "30 mm"]
 cells = [8, 5, 4]
-[tissue.material]
-young_modulus = "6 kPa"
-poisson_ratio = 0.4
-[solver]
-gravity = [0, 0, "-9.81 m/s^2"]
-mass_damping = "20 1/s"
-[cutting]
+)" + tissue_of_kpa(6) + solver_table("-9.81", 20) +
+                                             R"([cutting]
 resistance = "10 N/m"
 [[support]]
 region = "z-"
@@ -63,20 +57,14 @@ path = [
 )";
 
 // Triangles, cut in pieces, pulled by a support.
-inline const std::string resume_plane_text = R"(name = "resumed plane"
-[time]
-duration = "1.2 s"
-frame_rate = "30 Hz"
-[tissue]
+inline const std::string resume_plane_text = "name = \"resumed plane\"\n" + time_table("1.2 s") +
+                                             R"([tissue]
 thickness = "5 mm"
 [tissue.shape]
 kind = "rectangle"
 high = ["70 mm", "40 mm", 0]
 cells = [20, 16, 1]
-[tissue.material]
-young_modulus = "6 kPa"
-poisson_ratio = 0.4
-[solver]
+)" + tissue_of_kpa(6) + R"([solver]
 mass_damping = "20 1/s"
 [[support]]
 region = "x-"

@@ -1,42 +1,14 @@
 // All arrays of two meshes, bit for bit.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include "base/error.h"
 #include "mesh/mesh.h"
 
 namespace trocar::test {
 
-inline void expect_equal(const Mesh& a, const Mesh& b) {
-  EXPECT_EQ(a.X, b.X);
-  EXPECT_EQ(a.element_type, b.element_type);
-  EXPECT_EQ(a.corner_offset, b.corner_offset);
-  EXPECT_EQ(a.corner_node, b.corner_node);
-  EXPECT_EQ(a.element_region, b.element_region);
-  EXPECT_EQ(a.region_name, b.region_name);
-  EXPECT_EQ(a.density_factor, b.density_factor);
-  EXPECT_EQ(a.cut_facets, b.cut_facets);
-  EXPECT_EQ(a.fibre, b.fibre);
-  EXPECT_EQ(a.copied_node, b.copied_node);
-  ASSERT_EQ(a.node_sets.size(), b.node_sets.size());
-  for (std::size_t s = 0; s < a.node_sets.size(); ++s) {
-    EXPECT_EQ(a.node_sets[s].name, b.node_sets[s].name);
-    EXPECT_EQ(a.node_sets[s].node, b.node_sets[s].node);
-  }
-}
+void expect_equal(const Mesh& a, const Mesh& b);
 
-inline bool is_equal(const Mesh& a, const Mesh& b) {
-  const auto is_same_set = [](const NodeSet& s, const NodeSet& t) {
-    return s.name == t.name && s.node == t.node;
-  };
-  return a.X == b.X && a.element_type == b.element_type && a.corner_node == b.corner_node &&
-         a.element_region == b.element_region && a.region_name == b.region_name &&
-         a.density_factor == b.density_factor && a.cut_facets == b.cut_facets &&
-         a.fibre == b.fibre && a.copied_node == b.copied_node &&
-         std::equal(a.node_sets.begin(), a.node_sets.end(), b.node_sets.begin(), b.node_sets.end(),
-                    is_same_set);
-}
+bool is_equal(const Mesh& a, const Mesh& b);
 
 // The message of the InputError that f throws.
 template <class F>

@@ -10,11 +10,7 @@ namespace trocar {
 // Adds to scratch.force at the present time; empty: nothing.
 using AddForce = std::function<void(Body& body)>;
 
-inline void forced_step(Body& body, double dt, const AddForce& add_force = {}) {
-  force(body);
-  if (add_force) add_force(body);
-  integrate(body.model, body.scratch, {}, dt, body.state);
-}
+void forced_step(Body& body, double dt, const AddForce& add_force = {});
 
 // Steps to time t with `factor` of the stable step of the deformed elements, looked at every 20
 // steps; calls after_step(body) after each.
@@ -31,9 +27,7 @@ void advance(Body& body, double t, double factor, const AfterStep& after_step) {
   }
 }
 
-inline void advance(Body& body, double t, double factor) {
-  advance(body, t, factor, [](const Body&) {});
-}
+void advance(Body& body, double t, double factor);
 
 template <class Field>
 void set_velocity(Body& body, const Field& field) {
@@ -73,8 +67,6 @@ double measured_period(Body& body, const Mode& mode, double factor) {
 }
 
 // log2 of the ratio of errors of a mesh and of one twice as fine.
-inline double order_between(double coarse, double fine) {
-  return std::log2(std::abs(coarse) / std::abs(fine));
-}
+double order_between(double coarse, double fine);
 
 }  // namespace trocar

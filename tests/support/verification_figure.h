@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <string>
 
@@ -24,43 +23,17 @@ struct Figure {
 };
 
 // Whether this run makes the report: larger meshes and longer runs are due.
-inline bool is_report() {
-  return std::getenv("TROCAR_VERIFICATION_RECORD") != nullptr;
-}
+bool is_report();
 
-inline double error_of(const Figure& figure) {
-  const double difference = figure.number - figure.reference;
-  return figure.reference == 0 ? difference : difference / std::abs(figure.reference);
-}
+double error_of(const Figure& figure);
 
 // How far a number may be from its reference, from itself and that of a mesh half as fine: the grid
 // convergence index of Roache (J. Fluids Eng. 116, 1994) with his factor 3 for two meshes. The
 // error falls by 2^order in theory, so that `fine` would be off by (coarse - fine) / (2^order - 1).
-inline double two_mesh_tolerance(double coarse, double fine, double reference, double order = 2) {
-  return 3 * std::abs((coarse - fine) / reference) / (std::exp2(order) - 1);
-}
+double two_mesh_tolerance(double coarse, double fine, double reference, double order = 2);
 
-inline void record(const Figure& figure) {
-  const char* path = std::getenv("TROCAR_VERIFICATION_RECORD");
-  std::FILE* file = path == nullptr ? nullptr : std::fopen(path, "a");
-  if (file == nullptr) return;
-  std::fprintf(file,
-               "{\"problem\": \"%s\", \"quantity\": \"%s\", \"mesh\": \"%s\", \"number\": %.10g, "
-               "\"reference\": %.10g, \"error\": %.4g, \"tolerance\": %g, \"source\": \"%s\", "
-               "\"order\": %.3g}\n",
-               figure.problem.c_str(), figure.quantity.c_str(), figure.mesh.c_str(), figure.number,
-               figure.reference, error_of(figure), figure.tolerance, figure.source.c_str(),
-               figure.order);
-  std::fclose(file);
-}
+void record(const Figure& figure);
 
-inline void check_figure(const Figure& figure) {
-  std::printf("%s, %s, %s: %.8g, reference %.8g, error %.2g\n", figure.problem.c_str(),
-              figure.quantity.c_str(), figure.mesh.c_str(), figure.number, figure.reference,
-              error_of(figure));
-  record(figure);
-  EXPECT_LE(std::abs(error_of(figure)), figure.tolerance)
-      << figure.problem << ", " << figure.quantity << ", " << figure.mesh;
-}
+void check_figure(const Figure& figure);
 
 }  // namespace trocar

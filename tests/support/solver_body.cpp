@@ -1,0 +1,172 @@
+#include "solver_body.h"
+
+namespace trocar {
+
+// Test bodies are too small for threads; invariance_test.cpp asks for more where it wants them.
+[[maybe_unused]] static const bool is_one_thread = (set_thread_count(1), true);
+
+Body::Body() = default;
+Body::Body(const Body& other) = default;
+Body::Body(Body&& other) noexcept = default;
+Body& Body::operator=(const Body& other) = default;
+Body& Body::operator=(Body&& other) noexcept = default;
+Body::~Body() = default;
+
+std::vector<double> mass_of(const Mesh& mesh, const BodyOptions& options) {
+  std::vector<double> density;
+  for (const Material& material : options.materials) density.push_back(material.density);
+  return lumped_mass(mesh, density, options.solver.thickness);
+}
+
+Body make_body(Mesh mesh, BodyOptions options, const std::vector<std::int32_t>& owner, int rank) {
+  Body body;
+  body.mesh = std::move(mesh);
+  body.materials = options.materials;
+  if (options.fixed.empty()) options.fixed.assign(body.mesh.X.size(), 0);
+  body.mass = mass_of(body.mesh, options);
+  const std::vector<std::int32_t> alone(body.mesh.X.size(), 0);
+  body.part = make_part(body.mesh, owner.empty() ? alone : owner, rank);
+  body.model =
+      build_model(body.mesh, body.part, body.materials, options.fixed, body.mass, options.solver);
+  body.state = make_state(body.model);
+  body.scratch = make_scratch(body.model);
+  return body;
+}
+
+Watch look(Body& body) {
+  average_volume_change(body.model, body.state, body.scratch);
+  return watch(body.model, body.part, body.state);
+}
+
+void shake(std::vector<double>& values, double amount, std::uint64_t seed) {
+  Noise noise(seed);
+  for (double& value : values) value += amount * noise();
+}
+
+const std::vector<double>& force(Body& body) {
+  Neighbours none;
+  find_force(body.model, none, body.state, body.scratch);
+  return body.scratch.force;
+}
+
+double sum(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+double largest(const std::vector<double>& values) {
+  double most = 0;
+  for (const double value : values) {
+    if (std::isnan(value)) return value;
+    most = std::max(most, std::abs(value));
+  }
+  return most;
+}
+
+double stored_energy(Body& body) {
+  average_volume_change(body.model, body.state, body.scratch);
+  EnergyTerms terms;
+  energy_terms(body.model, body.part, body.state, terms);
+  return sum(terms.strain) + sum(terms.hourglass) + sum(terms.volumetric);
+}
+
+void step(Body& body, double dt) {
+  Neighbours none;
+  find_force(body.model, none, body.state, body.scratch);
+  integrate(body.model, body.scratch, {}, dt, body.state);
+}
+
+double step_and_measure(Body& body, const std::function<void()>& step) {
+  const double W = stored_energy(body);
+  const std::vector<double> before = body.state.v;
+  step();
+  double T = 0;
+  for (std::size_t k = 0; k < before.size(); ++k)
+    T += .5 * body.model.mass[k / 3] * before[k] * body.state.v[k];
+  return T + W;
+}
+
+double step_and_measure(Body& body, double dt) {
+  return step_and_measure(body, [&] { step(body, dt); });
+}
+
+double least_element_step(const Body& body) {
+  return *std::min_element(body.model.element_step.begin(), body.model.element_step.end());
+}
+
+Mesh one_element(ElementType type, const std::vector<Vec3>& X) {
+  Mesh mesh;
+  mesh.X = X;
+  std::vector<std::int32_t> corner(X.size());
+  std::iota(corner.begin(), corner.end(), 0);
+  add_element(mesh, type, corner);
+  return mesh;
+}
+
+std::vector<Mesh> irregular_elements() {
+  return {one_element(ElementType::tri3, {{0, 0, 0}, {.011, .002, 0}, {.003, .009, 0}}),
+          one_element(ElementType::tet4,
+                      {{0, 0, 0}, {.010, .001, 0}, {.002, .012, .001}, {.001, .002, .009}}),
+          one_element(ElementType::hex8, {{0, 0, 0},
+                                          {.011, .001, -.001},
+                                          {.012, .010, .001},
+                                          {-.001, .009, 0},
+                                          {.001, -.001, .010},
+                                          {.010, 0, .011},
+                                          {.0115, .0105, .0095},
+                                          {0, .011, .0105}})};
+}
+
+Mesh irregular_patch(Formulation formulation) {
+  Mesh mesh = irregular_elements()[static_cast<std::size_t>(shape_of(formulation))];
+  if (formulation == Formulation::tet4_nodal_pressure) {
+    mesh.X.emplace_back(.009, .010, .011);
+    add_element(mesh, ElementType::tet4, std::vector<std::int32_t>{1, 4, 2, 3});
+  }
+  return mesh;
+}
+
+std::vector<Formulation> all_formulations() {
+  std::vector<Formulation> all;
+  for (int f = 0; f < n_formulations; ++f) all.push_back(static_cast<Formulation>(f));
+  return all;
+}
+
+SolverOptions with(Formulation formulation, SolverOptions options) {
+  if (shape_of(formulation) == ElementType::tri3) options.tri3 = formulation;
+  if (shape_of(formulation) == ElementType::tet4) options.tet4 = formulation;
+  if (shape_of(formulation) == ElementType::hex8) options.hex8 = formulation;
+  return options;
+}
+
+bool is_possible(Formulation formulation, MaterialModel model) {
+  const KernelsOfPrecision& kernels = kernels_of(Simd::scalar).of[0];
+  const LawKind law = kernels.element[static_cast<int>(formulation)].law;
+  return kernels.law[static_cast<int>(law)][static_cast<int>(model)].stress != nullptr;
+}
+
+const std::vector<MaterialModel>& all_models() {
+  static const std::vector<MaterialModel> models = {MaterialModel::linear,
+                                                    MaterialModel::st_venant_kirchhoff,
+                                                    MaterialModel::neo_hookean,
+                                                    MaterialModel::mooney_rivlin,
+                                                    MaterialModel::yeoh,
+                                                    MaterialModel::ogden,
+                                                    MaterialModel::transversely_isotropic,
+                                                    MaterialModel::holzapfel_gasser_ogden};
+  return models;
+}
+
+Material material_of(MaterialModel model, double mu, double K, double density) {
+  const double nu = (3 * K - 2 * mu) / (6 * K + 2 * mu);
+  Material m{
+      .model = model, .young_modulus = 2 * mu * (1 + nu), .poisson_ratio = nu, .density = density};
+  m.c10 = .3 * mu, m.c01 = .2 * mu;
+  m.c1 = .5 * mu, m.c2 = .1 * mu, m.c3 = .05 * mu;
+  m.ogden[0] = {.mu = mu, .alpha = -8};
+  m.eta = 2 * mu;
+  m.k1 = 2 * mu, m.k2 = 5, m.kappa = .1;
+  m.fibre_angle = 3.14159265358979323846 / 6;
+  return m;
+}
+
+}  // namespace trocar
