@@ -15,17 +15,22 @@ namespace {
 constexpr std::size_t n_lanes = 4;  // sums side by side, so that the loops become vector loops
 using Lanes = std::array<double, n_lanes>;
 
-// Of the products' sizes; NaN if one is not finite.
-double largest_product(std::span<const double> a, std::span<const double> b) {
-  Lanes largest{}, poison{};
-  const auto take = [&](double product, std::size_t i) {
-    largest[i] = std::max(largest[i], std::abs(product));
-    poison[i] += product - product;
-  };
+// take(product, lane) for all products, side by side.
+template <class Take>
+void for_products(std::span<const double> a, std::span<const double> b, const Take& take) {
   std::size_t k = 0;
   for (; k + n_lanes <= a.size(); k += n_lanes)
     for (std::size_t i = 0; i < n_lanes; ++i) take(a[k + i] * b[k + i], i);
   for (; k < a.size(); ++k) take(a[k] * b[k], 0);
+}
+
+// Of the products' sizes; NaN if one is not finite.
+double largest_product(std::span<const double> a, std::span<const double> b) {
+  Lanes largest{}, poison{};
+  for_products(a, b, [&](double product, std::size_t i) {
+    largest[i] = std::max(largest[i], std::abs(product));
+    poison[i] += product - product;
+  });
   return std::ranges::max(largest) + poison[0] + poison[1] + poison[2] + poison[3];
 }
 
@@ -47,15 +52,11 @@ double reproducible_dot(std::span<const double> a, std::span<const double> b, st
   const double coarse = rounder(n, largest);
   const double fine = rounder(n, coarse * 0x1p-52);
   Lanes sum{}, rest_sum{};
-  const auto add = [&](double product, std::size_t i) {
+  for_products(a, b, [&](double product, std::size_t i) {
     const double rounded = (product + coarse) - coarse;
     sum[i] += rounded;
     rest_sum[i] += ((product - rounded) + fine) - fine;
-  };
-  std::size_t k = 0;
-  for (; k + n_lanes <= a.size(); k += n_lanes)
-    for (std::size_t i = 0; i < n_lanes; ++i) add(a[k + i] * b[k + i], i);
-  for (; k < a.size(); ++k) add(a[k] * b[k], 0);
+  });
   ExactSum total;
   for (std::size_t i = 0; i < n_lanes; ++i) {
     total.add(sum[i]);

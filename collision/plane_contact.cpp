@@ -133,29 +133,32 @@ TrianglePoint straight_above(const Vec3& core, const Segment& edge) {
 }  // namespace
 
 PlaneEdges boundary_edges(const Surface& surface) {
-  struct Side {
-    std::int32_t a, b, triangle;  // the edge as its triangle runs along it
-    bool operator<(const Side& other) const {
-      return std::tie(a, b, triangle) < std::tie(other.a, other.b, other.triangle);
-    }
-  };
-  std::vector<Side> sides;
-  for (std::size_t t = 0; t < surface.triangle.size(); ++t)
+  std::int32_t n_nodes = 0;
+  for (const std::array<std::int32_t, 3>& triangle : surface.triangle)
+    n_nodes = std::max(n_nodes, *std::max_element(triangle.begin(), triangle.end()) + 1);
+  // Ends of the sides that start from each node.
+  std::vector<std::size_t> first(static_cast<std::size_t>(n_nodes) + 1, 0);
+  std::vector<std::int32_t> end(3 * surface.triangle.size());
+  for (const std::array<std::int32_t, 3>& triangle : surface.triangle)
+    for (const std::int32_t i : triangle) ++first[static_cast<std::size_t>(i) + 1];
+  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  for (const std::array<std::int32_t, 3>& triangle : surface.triangle)
     for (std::size_t k = 0; k < 3; ++k)
-      sides.push_back(
-          {surface.triangle[t][k], surface.triangle[t][(k + 1) % 3], static_cast<std::int32_t>(t)});
-  const std::vector<Side> in_order = sides;
-  std::sort(sides.begin(), sides.end());
-  const auto has_opposite = [&](const Side& side) {
-    const auto found = std::lower_bound(sides.begin(), sides.end(), Side{side.b, side.a, 0});
-    return found != sides.end() && found->a == side.b && found->b == side.a;
+      end[next[static_cast<std::size_t>(triangle[k])]++] = triangle[(k + 1) % 3];
+  const auto has_side = [&](std::int32_t a, std::int32_t b) {
+    const auto at = [&](std::size_t i) { return end.begin() + static_cast<std::ptrdiff_t>(i); };
+    const auto i = static_cast<std::size_t>(a);
+    return std::find(at(first[i]), at(first[i + 1]), b) != at(first[i + 1]);
   };
   PlaneEdges edges;
-  for (const Side& side : in_order) {
-    if (has_opposite(side)) continue;
-    edges.node.push_back({side.a, side.b});
-    edges.triangle.push_back(side.triangle);
-  }
+  for (std::size_t t = 0; t < surface.triangle.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t a = surface.triangle[t][k], b = surface.triangle[t][(k + 1) % 3];
+      if (has_side(b, a)) continue;
+      edges.node.push_back({a, b});
+      edges.triangle.push_back(static_cast<std::int32_t>(t));
+    }
   return edges;
 }
 

@@ -9,28 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "base/vec.h"
+#include "base/box.h"
 #include "collision/closest_point.h"
 
 namespace trocar {
-
-struct Box {
-  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
-  void add(const Vec3& p) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  void add(const Box& box) {
-    low = low.cwiseMin(box.low);
-    high = high.cwiseMax(box.high);
-  }
-  bool overlaps(const Box& box) const {
-    return (low.array() <= box.high.array()).all() && (box.low.array() <= high.array()).all();
-  }
-  double distance2(const Vec3& p) const {
-    return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
-  }
-};
 
 class SurfaceTree {
  public:

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/box.h"
+
 namespace trocar {
 
 // A point this far outside (barycentric) still counts as inside: rounding at facets.
@@ -31,14 +33,6 @@ static Vec3 at(const Mesh& mesh, std::int32_t e, std::span<const Vec3> X,
 
 namespace {
 
-// Around an element: cheaper than barycentric coordinates, and rarely holds a point.
-struct Box {
-  Vec3 low, high;
-  bool holds(const Vec3& point, double margin) const {
-    return ((point - low).array() >= -margin).all() && ((high - point).array() >= -margin).all();
-  }
-};
-
 // The best element so far for a point, and its least barycentric coordinate there.
 struct Place {
   double most = -reach;
@@ -47,12 +41,10 @@ struct Place {
 
 }  // namespace
 
+// Cheaper to ask than barycentric coordinates, and rarely holds a point.
 static Box box_of(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
-  Box box{x[mesh.corners(e)[0]], x[mesh.corners(e)[0]]};
-  for (const std::int32_t i : mesh.corners(e).subspan(1)) {
-    box.low = box.low.cwiseMin(x[i]);
-    box.high = box.high.cwiseMax(x[i]);
-  }
+  Box box;
+  for (const std::int32_t i : mesh.corners(e)) box.add(x[i]);
   return box;
 }
 

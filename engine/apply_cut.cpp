@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 
+#include "engine/apply_cut_patch.h"
+#include "engine/apply_cut_topology.h"
 #include "engine/frame_watch.h"
 #include "engine/mesh_measures.h"
 #include "mesh/quality.h"
-#include "solver/frequency.h"
 #include "solver/history.h"
 
 namespace trocar {
@@ -72,15 +75,6 @@ void restore_momentum(std::span<const std::int32_t> nodes, std::span<const doubl
   record.kinetic_energy_change += after.kinetic - kinetic_before;
 }
 
-std::vector<std::int32_t> nodes_of(const Mesh& mesh, std::span<const std::int32_t> elements) {
-  std::vector<std::int32_t> nodes;
-  for (const std::int32_t e : elements)
-    nodes.insert(nodes.end(), mesh.corners(e).begin(), mesh.corners(e).end());
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
-}
-
 double least_element_step(const Simulation& s, std::span<const std::int32_t> elements) {
   const std::vector<std::int32_t>& mine = s.part.element_global;
   double least = 1e300;
@@ -92,63 +86,122 @@ double least_element_step(const Simulation& s, std::span<const std::int32_t> ele
   return s.communicator->all_min(least);
 }
 
-double total(std::span<const double> values) {
+double mass_of(std::span<const std::int32_t> nodes, std::span<const double> mass) {
   ExactSum sum;
-  for (const double value : values) sum.add(value);
+  for (const std::int32_t i : nodes) sum.add(mass[static_cast<std::size_t>(i)]);
   return sum.value();
+}
+
+std::vector<std::int32_t> united(std::span<const std::int32_t> a, std::span<const std::int32_t> b) {
+  std::vector<std::int32_t> all;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
+  return all;
 }
 
 // Elements that an edit touches, before and after it: a hexahedron may have become tetrahedra.
 struct EditedElements {
   std::vector<std::int32_t> before, after;  // ascending
-  std::vector<std::int32_t> parent;         // (n_elements after)
   std::vector<double> volume;               // of `before`, before the edit [m^3]
+  std::vector<std::int32_t> parent;         // (n_elements after); empty: no element was split
 };
 
-EditedElements find_edited(const Mesh& mesh, const MeshEdit& edit) {
-  EditedElements edited{.before = edited_elements(mesh, edit),
-                        .parent = element_parents(mesh, edit)};
-  for (std::size_t e = 0; e < edited.parent.size(); ++e)
-    if (std::binary_search(edited.before.begin(), edited.before.end(), edited.parent[e]))
-      edited.after.push_back(static_cast<std::int32_t>(e));
+EditedElements find_edited(const Mesh& mesh, const NodeCorners& corners, const MeshEdit& edit) {
+  EditedElements edited;
+  if (edit.splits.empty()) {
+    edited.before = edited.after = edited_elements(corners, edit);
+  } else {
+    edited.before = edited_elements(mesh, edit);
+    edited.parent = element_parents(mesh, edit);
+    for (std::size_t e = 0; e < edited.parent.size(); ++e)
+      if (std::binary_search(edited.before.begin(), edited.before.end(), edited.parent[e]))
+        edited.after.push_back(static_cast<std::int32_t>(e));
+  }
   for (const std::int32_t e : edited.before)
     edited.volume.push_back(element_volume(mesh, e, mesh.X));
   return edited;
 }
 
-// Volumes of the elements after the edit over those of the elements that they were or were parts
-// of; 1 where the edit left them.
-std::vector<double> volume_ratios(const Mesh& after, const EditedElements& edited) {
-  std::vector<double> ratio(after.element_type.size(), 1.0);
+// What an element's history comes from, behind the edit.
+struct HistorySource {
+  std::vector<double> copies;        // of all elements before the edit; empty without viscosity
+  std::vector<std::int32_t> parent;  // (n_elements)
+  // (n_elements) Volumes over those of the elements that they were or were parts of; 1 where the
+  // edit left them.
+  std::vector<double> scale;
+};
+
+void find_parents(const Mesh& after, const EditedElements& edited, HistorySource& history) {
+  if (history.copies.empty()) return;
+  history.parent = edited.parent;
+  if (history.parent.empty()) {
+    history.parent.resize(after.element_type.size());
+    std::iota(history.parent.begin(), history.parent.end(), 0);
+  }
+  history.scale.assign(after.element_type.size(), 1.0);
   for (const std::int32_t e : edited.after) {
     const auto k = static_cast<std::size_t>(e);
-    const auto at = std::lower_bound(edited.before.begin(), edited.before.end(), edited.parent[k]);
-    ratio[k] = element_volume(after, e, after.X) /
-               edited.volume[static_cast<std::size_t>(at - edited.before.begin())];
+    const auto at = std::lower_bound(edited.before.begin(), edited.before.end(), history.parent[k]);
+    history.scale[k] = element_volume(after, e, after.X) /
+                       edited.volume[static_cast<std::size_t>(at - edited.before.begin())];
   }
-  return ratio;
 }
 
-// Where the next search starts: the mode known (of all nodes before the edit, empty if none was
-// searched for), with duplicates like their parents, and noise at the edited elements, so that a
-// faster mode that is new there has a share.
-void carry_mode(std::span<const double> known, const MeshEdit& edit, std::int32_t n_before,
-                std::span<const std::int32_t> edited_nodes, Simulation& s) {
-  // With scaled masses the search from a known mode differed between ranks in its last digits: from
-  // nothing it does not.
-  if (known.empty() || s.added_mass) return;
-  s.fastest_mode.resize(3 * static_cast<std::size_t>(s.model.n_owned));
-  for (std::int64_t i = 0; i < s.model.n_owned; ++i) {
-    const std::int32_t node = s.part.node_global[i];
-    const std::int32_t from = node < n_before ? node : edit.duplicate_parent[node - n_before];
-    std::copy_n(&known[3 * std::size_t(from)], 3, &s.fastest_mode[3 * i]);
+// What is known of the body before an edit and holds for most of it behind it.
+struct Known {
+  Watch watch;
+  bool is_looked_at = false;
+  std::vector<double> mode, looked_at;  // (n_owned * 3), with scaled masses (n_nodes * 3)
+};
+
+// Scaled masses may move owners.
+Known take_known(Simulation& s) {
+  Known known{s.watch, s.look.is_done, s.fastest_mode, s.look.u};
+  if (!s.added_mass) return known;
+  known.mode = gather_owned(s, known.mode);
+  known.looked_at = gather_owned(s, known.looked_at);
+  return known;
+}
+
+// Duplicates, which have the highest numbers, are like their parents. No owner has changed.
+void append_duplicates(const MeshEdit& edit, const Part& part, std::vector<double>& owned) {
+  const auto first = std::ssize(part.node_local) - std::ssize(edit.duplicate_parent);
+  for (auto i = std::ssize(owned) / 3; i < part.n_owned; ++i) {
+    const std::int32_t parent = edit.duplicate_parent[part.node_global[i] - first];
+    const Vec3 value = Vec3::Map(&owned[3 * part.node_local[parent]]);
+    owned.insert(owned.end(), value.begin(), value.end());
   }
-  double largest = 0;
-  for (const double value : known) largest = std::max(largest, std::abs(value));
-  for (const std::int32_t node : edited_nodes) {
-    const std::int32_t i = s.part.node_local[node];
-    if (i >= 0 && i < s.model.n_owned) add_noise(s.model, s.part, i, 0.3 * largest, s.fastest_mode);
+}
+
+// The same of a field of all nodes; what is left is that of owned ones.
+void take_owned(const MeshEdit& edit, const Part& part, std::vector<double>& whole) {
+  for (const std::int32_t parent : edit.duplicate_parent) {
+    const Vec3 value = Vec3::Map(&whole[3 * parent]);
+    whole.insert(whole.end(), value.begin(), value.end());
   }
+  whole = of_owned(whole, part);
+}
+
+void restore_known(const MeshEdit& edit, std::span<const std::int32_t> element_parent, Known known,
+                   Simulation& s) {
+  for (std::vector<double>* field : {&known.mode, &known.looked_at})
+    if (s.added_mass && !field->empty())
+      take_owned(edit, s.part, *field);
+    else if (!field->empty())
+      append_duplicates(edit, s.part, *field);
+  s.fastest_mode = std::move(known.mode);
+  s.look.u = std::move(known.looked_at);
+  s.look.is_done = known.is_looked_at;
+  s.watch = known.watch;
+  for (std::int32_t* element : {&s.watch.stable_element, &s.watch.least_J_element})
+    if (*element >= 0 && !element_parent.empty())
+      *element = static_cast<std::int32_t>(
+          std::lower_bound(element_parent.begin(), element_parent.end(), *element) -
+          element_parent.begin());
+}
+
+// Whether the step is known from what is around the edit and what was known of the rest.
+bool keeps_step(const Simulation& s) {
+  return s.look.is_done && s.watch.is_finite && s.watch.least_J > 0 && !s.scene.solver.is_multirate;
 }
 
 // Supports and partner pairs go with the nodes.
@@ -161,7 +214,64 @@ void inherit_by_duplicates(Simulation& s, const MeshEdit& edit, std::int32_t n_b
   }
 }
 
+// All that every rank holds of the whole body; returns keeps_places.
+bool edit_whole(const MeshEdit& edit, GlobalState& global, Simulation& s) {
+  const std::int32_t n_before = s.mesh.n_nodes();
+  apply_edit(edit, s.mesh, 3, global.u);
+  apply_edit(edit, s.mesh, 3, global.v);
+  inherit_by_duplicates(s, edit, n_before);
+  apply_edit_to_owners(edit.duplicate_parent, s.node_owner);
+  apply_edit_to_holds(edit, n_before, s.holds);
+  const bool is_local = keeps_places(s, edit);
+  if (edit.splits.empty()) apply_edit(edit, s.mesh, s.corners);
+  apply_edit(edit, s.mesh);
+  if (!edit.splits.empty()) s.corners = node_corners(s.mesh);
+  global.x = present_positions(s.mesh.X, global.u);
+  return is_local;
+}
+
+// Of the edited elements and their nodes; the energy is the body's.
+struct Before {
+  Motion motion;
+  double least_step = 0, mass = 0, energy = 0;
+};
+
+Before measure_before(Simulation& s, std::span<const std::int32_t> elements,
+                      std::span<const std::int32_t> nodes, const GlobalState& global) {
+  const Vec3 centre = motion_of(nodes, s.mass, global, Vec3::Zero()).centre;
+  return {.motion = motion_of(nodes, s.mass, global, centre),
+          .least_step = least_element_step(s, elements),
+          .mass = mass_of(nodes, s.mass),
+          .energy = s.energy ? mechanical_energy(s).sum() : 0};
+}
+
+void add_to_record(Simulation& s, const Before& before, std::span<const std::int32_t> elements,
+                   std::span<const std::int32_t> nodes, CutRecord& record) {
+  if (s.energy) s.energy->memory.works.cut += mechanical_energy(s).sum() - before.energy;
+  for (const std::int32_t e : elements)
+    record.least_quality = std::min(record.least_quality, element_quality(s.mesh, e, s.mesh.X));
+  record.stable_step_ratio =
+      std::min(record.stable_step_ratio, least_element_step(s, elements) / before.least_step);
+  const double mass_change = std::abs(mass_of(nodes, s.mass) - before.mass);
+  record.mass_change = std::max(record.mass_change,
+                                mass_change / std::accumulate(s.mass.begin(), s.mass.end(), 0.0));
+}
+
 }  // namespace
+
+std::vector<double> gather_owned(const Simulation& s, std::span<const double> owned) {
+  if (s.communicator->all_max(owned.empty() ? 0 : 1) == 0) return {};
+  return all_gather_field(s.part, s.mesh.n_nodes(), 3, owned, *s.communicator);
+}
+
+std::vector<double> of_owned(std::span<const double> field, const Part& part) {
+  std::vector<double> mine;
+  for (std::int32_t i = 0; i < part.n_owned && !field.empty(); ++i) {
+    const auto at = field.subspan(3 * static_cast<std::size_t>(part.node_global[i]), 3);
+    mine.insert(mine.end(), at.begin(), at.end());
+  }
+  return mine;
+}
 
 GlobalState gather_state(Simulation& s) {
   const PhaseScope scope(s.timers, phase_gather);
@@ -189,43 +299,33 @@ void scatter_state(Simulation& s, const GlobalState& global) {
 }
 
 void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutRecord& record) {
-  const EditedElements edited = find_edited(s.mesh, edit);
-  const std::int32_t n_before = s.mesh.n_nodes();
-  const std::vector<std::int32_t> nodes_before = nodes_of(s.mesh, edited.before);
-  const double step_before = least_element_step(s, edited.before);
-  const double mass_before = total(s.mass);
-  const double energy_before = s.energy ? mechanical_energy(s).sum() : 0;
-  Motion before = motion_of(nodes_before, s.mass, global, Vec3::Zero());
-  before = motion_of(nodes_before, s.mass, global, before.centre);
+  if (s.corners.first.empty()) s.corners = node_corners(s.mesh);
+  const EditedElements edited = find_edited(s.mesh, s.corners, edit);
+  std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited.before);
+  const Before before = measure_before(s, edited.before, nodes, global);
+  HistorySource history{.copies =
+                            s.communicator->all_gather(copy_history(s.model, s.part, s.state))};
+  Known known = take_known(s);
+  const bool is_step_local = keeps_step(s);
 
-  const std::vector<double> history =
-      s.communicator->all_gather(copy_history(s.model, s.part, s.state));
-
-  apply_edit(edit, s.mesh, 3, global.u);
-  apply_edit(edit, s.mesh, 3, global.v);
-  apply_edit(edit, s.mesh);
-  global.x = present_positions(s.mesh.X, global.u);
-  inherit_by_duplicates(s, edit, n_before);
-  apply_edit_to_owners(edit.duplicate_parent, s.node_owner);
-  apply_edit_to_holds(edit, n_before, s.holds);
-  std::vector<double> known_mode;
-  if (s.communicator->all_max(s.fastest_mode.empty() ? 0 : 1) > 0)
-    known_mode = all_gather_field(s.part, n_before, 3, s.fastest_mode, *s.communicator);
-  rebuild_topology(s);
-  const std::vector<std::int32_t> nodes_after = nodes_of(s.mesh, edited.after);
-  carry_mode(known_mode, edit, n_before, nodes_after, s);
-  restore_momentum(nodes_after, s.mass, before, global, record);
+  const bool is_local = edit_whole(edit, global, s);
+  nodes = united(nodes, nodes_of(s.mesh, edited.after));
+  if (is_local)
+    update_topology(s, edited.after, nodes);
+  else
+    rebuild_topology(s);
+  restore_momentum(nodes, s.mass, before.motion, global, record);
   scatter_state(s, global);
-  restore_history(s.model, s.part, history, edited.parent, volume_ratios(s.mesh, edited), s.state);
-  watch_state(s);
-  if (s.energy) s.energy->memory.works.cut += mechanical_energy(s).sum() - energy_before;
-
-  for (const std::int32_t e : edited.after)
-    record.least_quality = std::min(record.least_quality, element_quality(s.mesh, e, s.mesh.X));
-  record.stable_step_ratio =
-      std::min(record.stable_step_ratio, least_element_step(s, edited.after) / step_before);
-  record.mass_change =
-      std::max(record.mass_change, std::abs(total(s.mass) - mass_before) / mass_before);
+  find_parents(s.mesh, edited, history);
+  restore_history(s.model, s.part, history.copies, history.parent, history.scale, s.state);
+  if (is_step_local) {
+    restore_known(edit, edited.parent, std::move(known), s);
+    watch_edit(s, edited.after, {global, history.copies, history.parent, history.scale});
+    if (s.energy) update_volume_change(s.model, s.neighbours, s.state, s.scratch);
+  } else {
+    watch_state(s);
+  }
+  add_to_record(s, before, edited.after, nodes, record);
   s.log.new_edits.push_back({.frame = s.frame, .edit = edit});
 }
 

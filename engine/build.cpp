@@ -26,12 +26,6 @@ namespace {
 // Depth from which on an instrument is not laid on the body but lies in it, in reaches of contact.
 constexpr double buried = 0.4;
 
-std::vector<double> region_densities(const std::vector<Material>& materials) {
-  std::vector<double> density;
-  for (const Material& material : materials) density.push_back(material.density);
-  return density;
-}
-
 std::vector<Material> region_materials(const LoadedScene& loaded, const Mesh& mesh) {
   const SceneTissue& tissue = loaded.scene.tissue;
   std::vector<Material> materials(mesh.region_name.size(), to_material(tissue.material));
@@ -169,13 +163,17 @@ void check_slow_element(const Simulation& s) {
   log_warning(sentence);
 }
 
-// A component r of displacements strains tetrahedra by at most 4 sqrt(3) r / h, hexahedra at their
-// centre by 6 r / h, with the least altitude h. Collective.
-ElementLook nothing_looked_at(const Simulation& s) {
-  double h = std::numeric_limits<double>::max();
+std::vector<double> least_altitudes(const Simulation& s) {
+  std::vector<double> altitude;
   for (const std::int32_t e : s.part.element_global)
-    h = std::min(h, least_altitude(s.mesh, e, s.mesh.X));
-  return {.reach = unseen_strain / 7 * s.communicator->all_min(h)};
+    altitude.push_back(least_altitude(s.mesh, e, s.mesh.X));
+  return altitude;
+}
+
+double least_of_ranks(const std::vector<double>& values, const Communicator& communicator) {
+  double least = std::numeric_limits<double>::max();
+  for (const double value : values) least = std::min(least, value);
+  return communicator.all_min(least);
 }
 
 // Small elements with steps of their own, if they set everyone's. Collective.
@@ -207,6 +205,12 @@ SolverOptions solver_options(const Scene& scene) {
           .hex8 = solver.hexahedron};
 }
 
+std::vector<double> region_densities(std::span<const Material> materials) {
+  std::vector<double> density;
+  for (const Material& material : materials) density.push_back(material.density);
+  return density;
+}
+
 void rebuild_topology(Simulation& s) {
   const int rank = s.communicator->rank();
   const std::optional<MassScaling> scaling = plan_mass_scaling(s);
@@ -217,20 +221,25 @@ void rebuild_topology(Simulation& s) {
   if (scaling) scale_mass(*scaling, s.part, s.model);
   if (scaling) report_mass_scaling(*scaling, s);
   s.neighbours = make_neighbours(s.halo, s.model, s.contact != nullptr, *s.communicator);
-  double rest_step = std::numeric_limits<double>::max();
-  for (const double step : s.model.element_step) rest_step = std::min(rest_step, step);
-  s.rest_step = s.communicator->all_min(rest_step);
   s.scratch = make_scratch(s.model);
   s.multirate = find_multirate(s);
   begin_sleep(s);
   if (s.energy) s.scratch.damping_work.assign(static_cast<std::size_t>(s.model.n_owned), 0.0);
   s.surface = boundary_surface(s.mesh);
   s.n_pieces = count_pieces(s.mesh);
-  s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part, rank);
-  localise_holds(s.holds, s.part);
+  s.altitude = least_altitudes(s);
   s.fastest_mode.clear();
   s.slow_mode.clear();
-  s.look = nothing_looked_at(s);
+  follow_model(s);
+}
+
+void follow_model(Simulation& s) {
+  s.rest_step = least_of_ranks(s.model.element_step, *s.communicator);
+  s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part, s.communicator->rank());
+  localise_holds(s.holds, s.part);
+  // A component r of displacements strains tetrahedra by at most 4 sqrt(3) r / h, hexahedra at
+  // their centre by 6 r / h, with the least altitude h.
+  s.look = {.reach = unseen_strain / 7 * least_of_ranks(s.altitude, *s.communicator)};
   if (s.contact) s.contact->detector.set_surface(s.surface);
 }
 

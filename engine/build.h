@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "engine/scene.h"
 #include "engine/simulation.h"
@@ -11,5 +13,10 @@ namespace trocar {
 // Reads the body, partitions it, builds the parts that the scene uses and no others. Collective.
 // Throws InputError on every rank.
 std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& communicator);
+
+// (n_regions) [kg/m^3]
+std::vector<double> region_densities(std::span<const Material> materials);
+// What follows from model, surface and altitudes: the last part of rebuild_topology. Collective.
+void follow_model(Simulation& s);
 
 }  // namespace trocar

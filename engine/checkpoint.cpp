@@ -49,16 +49,6 @@ void check_machine(const Checkpoint& c) {
                 ": the result may differ in its last digits from that of an uninterrupted run");
 }
 
-// (n_owned * 3) of a field (n_nodes * 3), or empty.
-std::vector<double> of_owned(std::span<const double> field, const Part& part) {
-  std::vector<double> mine;
-  for (std::int32_t i = 0; i < part.n_owned && !field.empty(); ++i) {
-    const auto at = field.subspan(3 * static_cast<std::size_t>(part.node_global[i]), 3);
-    mine.insert(mine.end(), at.begin(), at.end());
-  }
-  return mine;
-}
-
 // What the next watch starts from, and the energy ledger; one that the checkpoint lacks starts
 // here.
 void restore_searches(const Checkpoint& c, Simulation& s) {
@@ -102,13 +92,9 @@ Checkpoint take_checkpoint(Simulation& s) {
                .history_time = s.state.history_time,
                .has_energies = s.energy != nullptr};
   if (s.energy) c.energy = s.energy->memory;
-  // A rank may own no node; a search may not have run.
-  if (s.communicator->all_max(s.fastest_mode.empty() ? 0 : 1) > 0)
-    c.fastest_mode = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.fastest_mode, *s.communicator);
-  if (s.communicator->all_max(s.slow_mode.empty() ? 0 : 1) > 0)
-    c.slow_mode = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.slow_mode, *s.communicator);
-  if (s.look.is_done)
-    c.looked_at = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.look.u, *s.communicator);
+  c.fastest_mode = gather_owned(s, s.fastest_mode);
+  c.slow_mode = gather_owned(s, s.slow_mode);
+  if (s.look.is_done) c.looked_at = gather_owned(s, s.look.u);
   if (s.sleep) c.sleep = gather_sleep(s);
   for (const CutStage& stage : s.cuts) c.cuts.push_back(memory_of(stage));
   return c;
@@ -118,6 +104,7 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   check_fit(c, s);
   check_machine(c);
   s.mesh = c.mesh;
+  s.corners = {};
   s.fixed = c.fixed;
   s.node_owner = partition_nodes(s.mesh, *s.communicator);
   s.duplicate_parent = c.duplicate_parent;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/box.h"
 #include "engine/apply_cut.h"
 #include "engine/frame_report.h"
 #include "engine/mesh_measures.h"
@@ -17,17 +18,6 @@ constexpr int idle_frames_to_leave =
     3;  // a blade that touches nothing for so long has left the tissue
 constexpr double plane_advance =
     3.0;  // mean edge lengths of the path that the paper's algorithm takes at a time
-
-struct Box {
-  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
-  void add(const Vec3& p) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  bool meets(const Box& other) const {
-    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
-  }
-};
 
 Box surface_box(const Simulation& s) {
   Box box;
@@ -176,7 +166,7 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
   Box blade;
   for (const Vec3& point : sweep.after) blade.add(point);
   for (const Vec3& point : sweep.before) blade.add(point);
-  const bool is_near = blade.meets(tissue) && is_cutting(tool, span.t0, span.t1);
+  const bool is_near = blade.overlaps(tissue) && is_cutting(tool, span.t0, span.t1);
   stage.engaged.clear();
   if (!is_near && !stage.is_in_stroke) return;
 

@@ -24,27 +24,17 @@ void least_of_all(const Communicator& communicator, double& value, std::int32_t&
 }
 
 // Forces of displacements for the search, halos and all.
-void force_of(Simulation& s, State& probe, std::vector<double>& u, std::vector<double>& force) {
+void force_of(RankBody& body, State& probe, std::vector<double>& u, std::vector<double>& force) {
   probe.u.swap(u);
-  start_exchange(s.neighbours, probe);
-  find_force(s.model, s.neighbours, probe, s.scratch);
-  force.swap(s.scratch.force);
-  s.scratch.force.resize(force.size());
+  start_exchange(body.neighbours, probe);
+  find_force(body.model, body.neighbours, probe, body.scratch);
+  force.swap(body.scratch.force);
+  body.scratch.force.resize(force.size());
   probe.u.swap(u);
 }
 
-// 2 / omega less a margin; 0 if the search doesn't end.
 double search_step(Simulation& s, std::vector<double>& mode) {
-  State probe = s.state;
-  FrequencyOptions options;
-  // Small beside an element, large beside the rounding of the elements' numbers.
-  const bool is_single = s.model.options.precision == Precision::in_single;
-  options.amplitude = (is_single ? 1e-2 : 1e-6) * s.edge_length;
-  const HighestFrequency found = find_highest_frequency(
-      s.model, s.part, s.state,
-      [&](std::vector<double>& u, std::vector<double>& force) { force_of(s, probe, u, force); },
-      options, *s.communicator, mode);
-  return found.is_converged ? 2 / (frequency_margin * found.omega) : 0;
+  return search_step(s, search_amplitude(s), *s.communicator, mode);
 }
 
 // The body with its fine nodes at rest sets the step unless the fine ones do, in spite of their
@@ -113,6 +103,22 @@ void watch_elements(Simulation& s) {
 }
 
 }  // namespace
+
+double search_amplitude(const Simulation& s) {
+  const bool is_single = s.model.options.precision == Precision::in_single;
+  return (is_single ? 1e-2 : 1e-6) * s.edge_length;
+}
+
+double search_step(RankBody& body, double amplitude, const Communicator& communicator,
+                   std::vector<double>& mode) {
+  State probe = body.state;
+  const auto forces = [&](std::vector<double>& u, std::vector<double>& force) {
+    force_of(body, probe, u, force);
+  };
+  const HighestFrequency found = find_highest_frequency(
+      body.model, body.part, body.state, forces, {.amplitude = amplitude}, communicator, mode);
+  return found.is_converged ? 2 / (frequency_margin * found.omega) : 0;
+}
 
 void refine_forces(Simulation& s, double dt) {
   if (!s.multirate) return;

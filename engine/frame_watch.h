@@ -21,6 +21,13 @@ inline constexpr double unseen_strain = 2e-3;
 // the last step's exchange; with an energy ledger, volume changes averaged at nodes become those of
 // the present displacement. Collective.
 void watch_state(Simulation& s);
+// Largest displacement of the differences that find a frequency: small beside an element, large
+// beside the rounding of the elements' numbers. [m]
+double search_amplitude(const Simulation& s);
+// 2 / omega of the body's highest frequency less the search's margin, from `mode` on
+// (find_highest_frequency); 0 if the search doesn't end. Collective.
+double search_step(RankBody& body, double amplitude, const Communicator& communicator,
+                   std::vector<double>& mode);
 // Forces of a step dt in place of those at this moment, with solver.multirate. Collective.
 void refine_forces(Simulation& s, double dt);
 // Of all nodes of all ranks. Collective. [m/s]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/box.h"
 #include "mesh/hex_split.h"
 
 namespace trocar {
@@ -62,23 +63,11 @@ Weights weights_of(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x, co
   return simplex_weights(mesh.corners(e), x, p);
 }
 
-struct Box {
-  Vec3 low, high;
-  void add(const Vec3& p) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  bool meets(const Box& other) const {
-    constexpr double margin = 1e-12;
-    return (other.low.array() <= high.array() + margin).all() &&
-           (other.high.array() >= low.array() - margin).all();
-  }
-};
+constexpr double margin = 1e-12;
 
 Box box_of(std::span<const std::int32_t> corner, std::span<const Vec3> x) {
-  const Vec3& first = x[static_cast<std::size_t>(corner[0])];
-  Box box{first, first};
-  for (const std::int32_t node : corner.subspan(1)) box.add(x[static_cast<std::size_t>(node)]);
+  Box box;
+  for (const std::int32_t node : corner) box.add(x[static_cast<std::size_t>(node)]);
   return box;
 }
 
@@ -88,15 +77,15 @@ std::vector<Location> locate_points(const Mesh& mesh, std::span<const Vec3> x,
                                     std::span<const Vec3> points) {
   std::vector<Location> location(points.size());
   if (points.empty()) return location;
-  Box all{points[0], points[0]};
+  Box all;
   for (const Vec3& point : points) all.add(point);
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
     const Box box = box_of(mesh.corners(e), x);
-    if (!box.meets(all)) continue;
+    if (!box.overlaps(all, margin)) continue;
     for (std::size_t k = 0; k < points.size(); ++k) {
-      if (location[k].element >= 0 || !box.meets({points[k], points[k]})) continue;
+      if (location[k].element >= 0 || !box.holds(points[k], margin)) continue;
       const Weights w = weights_of(mesh, e, x, points[k]);
-      if (w.least >= -1e-12) location[k] = {.element = e, .weight = w.weight};
+      if (w.least >= -margin) location[k] = {.element = e, .weight = w.weight};
     }
   }
   return location;

@@ -21,10 +21,10 @@
 #include "engine/surface_view.h"
 #include "engine/tool.h"
 #include "mesh/facets.h"
+#include "mesh/node_corners.h"
 #include "mesh/partition.h"
-#include "solver/model.h"
 #include "solver/multirate.h"
-#include "solver/neighbours.h"
+#include "solver/rank_body.h"
 #include "solver/watch.h"
 
 namespace trocar {
@@ -71,12 +71,14 @@ struct ElementLook {
   double reach = 0;       // of a node that strains its elements by less than unseen_strain [m]
 };
 
-struct Simulation {
+// The base is this rank's share.
+struct Simulation : RankBody {
   Communicator* communicator = nullptr;  // owned by main
   Scene scene;
 
   // Replicated on every rank.
   Mesh mesh;
+  NodeCorners corners;                   // empty before the first cut
   std::vector<Material> materials;       // (n_regions)
   std::vector<double> mass;              // (n_nodes) [kg]
   std::vector<FixedMask> fixed;          // (n_nodes)
@@ -85,14 +87,6 @@ struct Simulation {
   std::vector<std::int32_t> duplicate_parent,
       duplicate_node;         // pairs of partner nodes, over all cuts
   std::int32_t n_pieces = 1;  // that the body has fallen into
-
-  // This rank's share.
-  Part part;
-  Halo halo;
-  Neighbours neighbours;
-  Model model;
-  State state;
-  Scratch scratch;
 
   std::vector<Tool> tools;
   Holds holds;                            // grasped nodes and moving supports
@@ -112,8 +106,9 @@ struct Simulation {
   double step_scale = 1;                 // halved by each roll-back
   Watch watch;                           // of the last frame, over all ranks
   ElementLook look;
-  double rest_step = 0;    // least element bound of the undeformed mesh, over all ranks [s]
-  double edge_length = 0;  // mean of the mesh at time zero [m]
+  std::vector<double> altitude;  // (n local elements) least one, undeformed [m]
+  double rest_step = 0;          // least element bound of the undeformed mesh, over all ranks [s]
+  double edge_length = 0;        // mean of the mesh at time zero [m]
   // Only with stable_step = "frequency": the mode (n_owned * 3) found last, where the next search
   // starts. With multirate, slow_mode is that of coarse nodes.
   std::vector<double> fastest_mode, slow_mode;

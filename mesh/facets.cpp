@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "mesh/facet_sort.h"
 #include "mesh/hex_split.h"
+#include "mesh/surface_edit.h"
 
 namespace trocar {
 
@@ -101,7 +102,7 @@ static void add_triangle(Surface& surface, const std::array<std::int32_t, 3>& tr
   surface.is_quad_half.push_back(is_quad_half ? 1 : 0);
 }
 
-static void add_facet(Surface& surface, const Mesh& mesh, std::int32_t e, int f) {
+void add_facet(Surface& surface, const Mesh& mesh, std::int32_t e, int f) {
   const std::array<int, 4> corner = facet_corners(mesh.element_type[e], f);
   if (corner[2] < 0) return;  // the edge of a triangle has no area
   std::array<std::int32_t, 4> node{};
@@ -121,8 +122,7 @@ static void add_facet(Surface& surface, const Mesh& mesh, std::int32_t e, int f)
   if (n == 4) add_triangle(surface, {node[0], node[2], node[3]}, e, is_cut, true);
 }
 
-// Facets of one element only, as bits by element.
-static std::vector<std::uint8_t> boundary_facets(const Mesh& mesh) {
+std::vector<std::uint8_t> boundary_facets(const Mesh& mesh) {
   std::vector<std::uint8_t> is_boundary(mesh.element_type.size(), 0);
   const std::vector<FacetSide> side = sorted_facet_sides(mesh);
   for (std::size_t begin = 0, end = 0; begin < side.size(); begin = end) {

@@ -1,6 +1,7 @@
 // A rank's part of the mesh, its halo, and the exchange of nodal fields with its neighbours.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "base/check.h"
@@ -25,7 +26,7 @@ static std::vector<std::uint8_t> touched_nodes(const Mesh& mesh,
 
 Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int rank) {
   CHECK_OP(node_owner.size(), ==, mesh.X.size());
-  Part part;
+  Part part{.rank = rank};
   const std::vector<std::uint8_t> is_touched = touched_nodes(mesh, node_owner, rank, part);
   for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
     if (node_owner[i] == rank) part.node_global.push_back(i);
@@ -35,6 +36,40 @@ Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int r
   part.node_local.assign(mesh.X.size(), -1);
   for (std::int32_t k = 0; k < part.n_local(); ++k) part.node_local[part.node_global[k]] = k;
   return part;
+}
+
+// Whether an element at the node has a corner that the rank owns.
+static bool is_near(const Mesh& mesh, const NodeCorners& corners,
+                    std::span<const std::int32_t> node_owner, int rank, std::int32_t node) {
+  for (std::int32_t at = corners.first[node]; at >= 0; at = corners.next[at])
+    for (const std::int32_t i : mesh.corners(corners.element[at]))
+      if (node_owner[i] == rank) return true;
+  return false;
+}
+
+void update_part(const Mesh& mesh, const NodeCorners& corners,
+                 std::span<const std::int32_t> node_owner, std::span<const std::int32_t> nodes,
+                 Part& part) {
+  const auto first_new = static_cast<std::int32_t>(part.node_local.size());
+  const std::int32_t n_owned_before = part.n_owned;
+  const auto end_of_owned = part.node_global.begin() + part.n_owned;
+  std::vector<std::int32_t> halo;
+  std::set_difference(end_of_owned, part.node_global.end(), nodes.begin(), nodes.end(),
+                      std::back_inserter(halo));
+  for (auto i = end_of_owned; i != part.node_global.end(); ++i) part.node_local[*i] = -1;
+  part.node_global.erase(end_of_owned, part.node_global.end());
+  for (std::int32_t i = first_new; i < mesh.n_nodes(); ++i)
+    if (node_owner[i] == part.rank) part.node_global.push_back(i);
+  part.n_owned = part.n_local();
+  const auto end_of_kept = std::ssize(halo);
+  for (const std::int32_t i : nodes)
+    if (node_owner[i] != part.rank && is_near(mesh, corners, node_owner, part.rank, i))
+      halo.push_back(i);
+  std::inplace_merge(halo.begin(), halo.begin() + end_of_kept, halo.end());
+  part.node_global.insert(part.node_global.end(), halo.begin(), halo.end());
+  part.node_local.resize(mesh.X.size(), -1);
+  for (std::int32_t k = n_owned_before; k < part.n_local(); ++k)
+    part.node_local[part.node_global[k]] = k;
 }
 
 // Ascending by rank, then by local number, which within owned and within halo nodes is the order of

@@ -7,6 +7,7 @@
 
 #include "base/communicator.h"
 #include "mesh/mesh.h"
+#include "mesh/node_corners.h"
 
 namespace trocar {
 
@@ -22,6 +23,7 @@ void apply_edit_to_owners(std::span<const std::int32_t> duplicate_parent,
 // This rank's part: all elements that touch a node it owns. Local numbers: owned nodes ascending,
 // then halo nodes ascending.
 struct Part {
+  int rank = 0;
   std::vector<std::int32_t> node_global;  // (n_local)
   std::int32_t n_owned = 0;
   std::vector<std::int32_t> element_global;  // ascending
@@ -30,6 +32,12 @@ struct Part {
   std::int32_t n_local() const { return static_cast<std::int32_t>(node_global.size()); }
 };
 Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int rank);
+// The same after an edit that kept the owners of all corners and split no hexahedra, from the part
+// before it: the elements stay. `nodes`: all corners of edited elements, before and after it,
+// ascending. In time of theirs and of the halo's.
+void update_part(const Mesh& mesh, const NodeCorners& corners,
+                 std::span<const std::int32_t> node_owner, std::span<const std::int32_t> nodes,
+                 Part& part);
 
 // Which local nodes go to and come from which rank, ascending global number on both sides. Made
 // without communication.

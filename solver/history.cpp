@@ -65,7 +65,7 @@ void restore_history(const Model& model, const Part& part, std::span<const doubl
   const std::int32_t last = parent.empty() ? -1 : parent.back();  // parents ascend
   std::vector<std::size_t> place(static_cast<std::size_t>(last) + 1, copies.size());
   for (std::size_t at = 0; at < copies.size(); at += 2 + static_cast<std::size_t>(copies[at + 1]))
-    place[static_cast<std::size_t>(copies[at])] = at;
+    if (copies[at] <= last) place[static_cast<std::size_t>(copies[at])] = at;
   for_histories(model, part, [&](std::int32_t e, std::int64_t first, int width, int lanes) {
     const auto element = static_cast<std::size_t>(e);
     const std::size_t at = place[static_cast<std::size_t>(parent[element])];

@@ -20,7 +20,7 @@ std::int64_t place_history(std::vector<ElementBlocks>& lists);
 
 // The history of this rank's elements, one after the other: global number, count, numbers.
 std::vector<double> copy_history(const Model& model, const Part& part, const State& state);
-// What copies of all ranks, one behind the other, say of this rank's elements. Element e gets the
+// What copies of all ranks, one behind the other, say of the part's elements. Element e gets the
 // numbers of the one that it was or was a part of, parent[e], multiplied by scale[e]: its volume
 // over the parent's, since stresses are stored times the volume of the whole element. One of a
 // single point whose parent had several gets their mean.

@@ -14,6 +14,7 @@
 #include "solver/history.h"
 #include "solver/kernels.h"
 #include "solver/material_setup.h"
+#include "solver/model_edit.h"
 #include "solver/simd.h"
 #include "solver/sum_order.h"
 #include "solver/volume_averages.h"
@@ -165,21 +166,33 @@ double resting_step(const ElementConstants& constants, double stiffening) {
   return constants.volume > 0 ? 2 / std::sqrt(constants.omega2 * stiffening) : 0;
 }
 
-// A lane's element; lanes behind the last element repeat its corners with all constants zero.
-void fill_lane(const Source& source, std::int64_t lane, ElementBlocks& blocks,
-               std::vector<double>& element_step) {
+// Lanes behind the last element repeat its corners.
+void fill_corners(const Source& source, std::int64_t lane, ElementBlocks& blocks) {
   const std::int64_t block = lane / blocks.lanes, l = lane % blocks.lanes;
-  const bool is_padding = lane >= blocks.n_elements;
-  if (is_padding) blocks.element_local[lane] = blocks.element_local[blocks.n_elements - 1];
-  const std::int32_t k = blocks.element_local[lane], e = source.part.element_global[k];
+  const std::int32_t e = source.part.element_global[blocks.element_local[lane]];
   const std::span<const std::int32_t> node = source.mesh.corners(e);
   const auto n = static_cast<std::int64_t>(node.size());
   for (std::int64_t a = 0; a < n; ++a)
     blocks.corner[(block * n + a) * blocks.lanes + l] = source.part.node_local[node[a]];
+}
+
+// A lane's element; all constants behind the last one are zero.
+void fill_lane(const Source& source, std::int64_t lane, ElementBlocks& blocks,
+               std::vector<double>& element_step) {
+  const bool is_padding = lane >= blocks.n_elements;
+  if (is_padding) blocks.element_local[lane] = blocks.element_local[blocks.n_elements - 1];
+  fill_corners(source, lane, blocks);
   if (is_padding) return;
+  const std::int32_t k = blocks.element_local[lane], e = source.part.element_global[k];
   const ElementConstants constants = constants_of(source, e);
   fill_values(source, e, constants, lane, blocks);
   element_step[k] = resting_step(constants, blocks.stiffening_at_rest);
+}
+
+void check_step(const Source& source, std::size_t k, const Model& model) {
+  if (!(model.element_step[k] > 0))
+    throw InputError("element " + std::to_string(source.part.element_global[k]) +
+                     " has no positive volume, or a stiffness or density that is not finite");
 }
 
 void fill_blocks(const Source& source, Model& model) {
@@ -189,30 +202,63 @@ void fill_blocks(const Source& source, Model& model) {
       for (std::int64_t lane = begin * blocks.lanes; lane < end * blocks.lanes; ++lane)
         fill_lane(source, lane, blocks, model.element_step);
     });
-  for (std::size_t k = 0; k < model.element_step.size(); ++k)
-    if (!(model.element_step[k] > 0))
-      throw InputError("element " + std::to_string(source.part.element_global[k]) +
-                       " has no positive volume, or a stiffness or density that is not finite");
+  for (std::size_t k = 0; k < model.element_step.size(); ++k) check_step(source, k, model);
 }
 
 // Plane bodies hold z.
-void take_nodes(const Source& source, std::span<const FixedMask> fixed,
-                std::span<const double> mass, Model& model) {
-  const FixedMask plane = source.mesh.dimension() == 2 ? 4 : 0;
-  model.n_local = source.part.n_local();
-  model.n_owned = source.part.n_owned;
-  model.mass.reserve(static_cast<std::size_t>(model.n_owned));
-  model.inertia.reserve(static_cast<std::size_t>(model.n_owned));
-  model.fixed.reserve(static_cast<std::size_t>(model.n_owned));
-  for (std::int32_t i = 0; i < model.n_owned; ++i) {
-    const std::int32_t global = source.part.node_global[i];
-    if (!(mass[global] > 0))
-      throw InputError("node " + std::to_string(global) +
-                       " has no mass: each node must belong to an element");
-    model.mass.push_back(mass[global]);
-    model.inertia.push_back(mass[global]);
-    model.fixed.push_back(static_cast<FixedMask>(fixed[global] | plane));
+FixedMask held_by_plane(const Mesh& mesh) {
+  return mesh.dimension() == 2 ? 4 : 0;
+}
+
+void take_node(const ModelSource& source, std::int32_t i, FixedMask plane, Model& model) {
+  const std::int32_t global = source.part.node_global[i];
+  const double mass = source.mass[global];
+  if (!(mass > 0))
+    throw InputError("node " + std::to_string(global) +
+                     " has no mass: each node must belong to an element");
+  model.mass[i] = mass;
+  model.inertia[i] = mass;
+  model.fixed[i] = static_cast<FixedMask>(source.fixed[global] | plane);
+}
+
+void resize_nodes(const Part& part, Model& model) {
+  const auto n_owned = static_cast<std::size_t>(part.n_owned);
+  model.n_local = part.n_local();
+  model.n_owned = part.n_owned;
+  model.mass.resize(n_owned);
+  model.inertia.resize(n_owned);
+  model.fixed.resize(n_owned);
+}
+
+void link_nodes(const Source& source, Model& model) {
+  order_sums(model);
+  link_volume_averages(source.mesh, source.materials, model);
+}
+
+// Where element k of the part is.
+struct Place {
+  ElementBlocks& blocks;
+  std::int64_t lane;
+};
+Place place_of(std::int32_t k, Model& model) {
+  for (ElementBlocks& blocks : model.blocks) {
+    const auto end = blocks.element_local.begin() + blocks.n_elements;
+    const auto at = std::lower_bound(blocks.element_local.begin(), end, k);
+    if (at != end && *at == k) return {blocks, at - blocks.element_local.begin()};
   }
+  CHECK(false);
+  return {model.blocks.front(), 0};
+}
+
+// With the padding that repeats its corners.
+void refill(const Source& source, std::int32_t k, Model& model) {
+  const Place place = place_of(k, model);
+  ElementBlocks& blocks = place.blocks;
+  fill_lane(source, place.lane, blocks, model.element_step);
+  check_step(source, static_cast<std::size_t>(k), model);
+  if (place.lane + 1 < blocks.n_elements) return;
+  for (std::int64_t lane = place.lane + 1; lane < std::ssize(blocks.element_local); ++lane)
+    fill_corners(source, lane, blocks);
 }
 
 }  // namespace
@@ -225,13 +271,39 @@ Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> 
   check_formulations(options);
   Model model;
   model.options = options;
-  take_nodes(source, fixed, mass, model);
+  resize_nodes(part, model);
+  const FixedMask plane = held_by_plane(mesh);
+  for (std::int32_t i = 0; i < model.n_owned; ++i)
+    take_node({mesh, part, materials, fixed, mass}, i, plane, model);
   make_lists(source, model);
   fill_blocks(source, model);
-  order_sums(model);
   model.n_history = place_history(model.blocks);
-  link_volume_averages(mesh, materials, model);
+  link_nodes(source, model);
   return model;
+}
+
+void edit_model(const ModelSource& from, std::span<const std::int32_t> elements,
+                std::span<const std::int32_t> nodes, Model& model) {
+  CHECK(model.clusters.node.empty());
+  const Source source{from.mesh, from.part, from.materials, model.options};
+  resize_nodes(from.part, model);
+  const FixedMask plane = held_by_plane(from.mesh);
+  for (const std::int32_t node : nodes)
+    if (const std::int32_t i = from.part.node_local[node]; i >= 0 && i < model.n_owned)
+      take_node(from, i, plane, model);
+  const std::vector<std::int32_t>& mine = from.part.element_global;
+  for (const std::int32_t e : elements)
+    if (const auto at = std::lower_bound(mine.begin(), mine.end(), e); at != mine.end() && *at == e)
+      refill(source, static_cast<std::int32_t>(at - mine.begin()), model);
+  for (ElementBlocks& blocks : model.blocks) {
+    blocks.target.clear();
+    for (std::int64_t lane = 0; blocks.reads_halo && lane < std::ssize(blocks.element_local);
+         ++lane)  // numbers of halo nodes have moved up
+      fill_corners(source, lane, blocks);
+  }
+  model.sums = {};
+  model.averages = {};
+  link_nodes(source, model);
 }
 
 std::vector<RestingElement> resting_elements(const Mesh& mesh, std::span<const Material> materials,

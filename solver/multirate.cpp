@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/check.h"
+#include "mesh/sub_mesh.h"
 #include "solver/block_ranges.h"
 
 namespace trocar {
@@ -61,36 +62,6 @@ MultiRatePlan plan_of(const Mesh& mesh, std::span<const RestingElement> resting,
       plan.element.push_back(e);
   }
   return plan;
-}
-
-// The elements alone; `node` (n_nodes) the new numbers or -1.
-Mesh part_of(const Mesh& mesh, std::span<const std::int32_t> elements,
-             std::vector<std::int32_t>& node) {
-  node.assign(mesh.X.size(), -1);
-  for (const std::int32_t e : elements)
-    for (const std::int32_t i : mesh.corners(e)) node[i] = 0;
-  Mesh part{.region_name = mesh.region_name};
-  for (std::size_t i = 0; i < node.size(); ++i) {
-    if (node[i] < 0) continue;
-    node[i] = part.n_nodes();
-    part.X.push_back(mesh.X[i]);
-  }
-  for (const std::int32_t e : elements) {
-    std::vector<std::int32_t> corners;
-    for (const std::int32_t i : mesh.corners(e)) corners.push_back(node[i]);
-    add_element(part, mesh.element_type[e], corners, mesh.element_region[e]);
-    part.density_factor.back() = mesh.density_factor[e];
-    if (!mesh.fibre.empty()) part.fibre.push_back(mesh.fibre[e]);
-  }
-  return part;
-}
-
-template <class T>
-std::vector<T> of_part(std::span<const T> values, std::span<const std::int32_t> node, const T&) {
-  std::vector<T> kept;
-  for (std::size_t i = 0; i < node.size(); ++i)
-    if (node[i] >= 0) kept.push_back(values[i]);
-  return kept;
 }
 
 // What the elements' own force needs: no loads, and masses that nobody asks for.
@@ -192,11 +163,9 @@ std::unique_ptr<MultiRate> make_multirate(const MultiRatePlan& plan, const Multi
   MultiRate& m = *multirate;
   m.steps = local_steps(plan.n_substeps);
   m.share = static_cast<double>(plan.element.size()) / body.mesh.n_elements();
-  std::vector<std::int32_t> node;
-  m.mesh = part_of(body.mesh, plan.element, node);
-  const std::vector<std::int32_t> owner = of_part(body.node_owner, node, std::int32_t{});
-  const std::vector<std::uint8_t> is_fine =
-      of_part(std::span<const std::uint8_t>(plan.is_fine), node, std::uint8_t{});
+  SubMesh sub = make_sub_mesh(body.mesh, plan.element);
+  m.mesh = std::move(sub.mesh);
+  const std::vector<std::int32_t> owner = values_of(body.node_owner, sub.node);
   m.part = make_part(m.mesh, owner, communicator.rank());
   m.halo = make_halo(m.mesh, owner, m.part, communicator.rank());
   m.coarse_fixed = body.model.fixed;
@@ -205,15 +174,13 @@ std::unique_ptr<MultiRate> make_multirate(const MultiRatePlan& plan, const Multi
       m.coarse_fixed[i] = 7;
   m.of_whole.assign(static_cast<std::size_t>(body.model.n_owned), -1);
   m.whole.resize(m.part.node_global.size());
-  for (std::size_t g = 0; g < node.size(); ++g) {
-    const std::int32_t local = node[g] < 0 ? -1 : m.part.node_local[node[g]];
-    if (local < 0) continue;
-    m.whole[local] = body.part.node_local[g];
-    if (local >= m.part.n_owned) continue;
-    m.of_whole[m.whole[local]] = local;
+  for (std::int32_t i = 0; i < m.part.n_local(); ++i) {
+    const std::int32_t global = sub.node[m.part.node_global[i]];
+    m.whole[i] = body.part.node_local[global];
+    if (i >= m.part.n_owned) continue;
+    m.of_whole[m.whole[i]] = i;
+    m.is_fine.push_back(plan.is_fine[static_cast<std::size_t>(global)]);
   }
-  for (std::int32_t i = 0; i < m.part.n_owned; ++i)
-    m.is_fine.push_back(is_fine[static_cast<std::size_t>(m.part.node_global[i])]);
   if (m.part.n_owned > 0) build_body(body, m, communicator);
   return multirate;
 }

@@ -22,7 +22,7 @@
 #include "mesh/partition.h"
 #include "solver/material.h"
 #include "solver/model.h"
-#include "solver/neighbours.h"
+#include "solver/rank_body.h"
 #include "solver/step.h"
 
 namespace trocar {
@@ -46,16 +46,10 @@ struct MultiRatePlan {
 MultiRatePlan plan_multirate(const Mesh& mesh, std::span<const RestingElement> resting);
 
 // The elements of a plan as a body of their own; a rank without such nodes has an empty one.
-struct MultiRate {
+struct MultiRate : RankBody {
   LocalSteps steps;
-  double share = 0;  // of all elements
-  Mesh mesh;         // on every rank
-  Part part;
-  Halo halo;
-  Neighbours neighbours;
-  Model model;
-  State state;
-  Scratch scratch;
+  double share = 0;                     // of all elements
+  Mesh mesh;                            // on every rank
   std::vector<std::int32_t> whole;      // (n_local) local number in the whole body
   std::vector<std::int32_t> of_whole;   // (n_owned of the whole body) local number here or -1
   std::vector<std::uint8_t> is_fine;    // (n_owned)

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "mesh/node_corners.h"
 #include "mesh/quality.h"
 #include "mesh_fixtures.h"
+#include "mesh_opened_box.h"
 
 using namespace trocar;
 
@@ -21,33 +23,17 @@ static NodeMove move_to(const Mesh& mesh, std::int32_t node, std::int32_t host, 
   return {.node = node, .X = X, .host = host, .weight = weights(mesh, host, X)};
 }
 
-// A box that is opened along the plane z = 1/2 in its x > 1/2 half, with two nodes moved before.
-struct OpenedBox {
-  Mesh mesh = make_box(Vec3::Zero(), Vec3::Ones(), {4, 4, 4}, BoxElements::tet4_kuhn);
-  MeshEdit edit;
-  OpenedBox() {
+// With two nodes moved before.
+struct MovedAndOpenedBox : OpenedBox {
+  MovedAndOpenedBox() {
     const NodeElements around = node_elements(mesh);
     for (const std::int32_t i : {62, 63})  // interior neighbours, each in the other's star
       edit.moves.push_back(move_to(mesh, i, around.of(i)[5], mesh.X[i] + Vec3(0.02, -0.01, 0.03)));
-    std::vector<std::int32_t> copy(mesh.X.size(), -1);
-    for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
-      if (mesh.X[i].z() == 0.5 && mesh.X[i].x() > 0.5) {
-        copy[i] = mesh.n_nodes() + static_cast<std::int32_t>(edit.duplicate_parent.size());
-        edit.duplicate_parent.push_back(i);
-      }
-    for (std::int32_t e = 0; e < mesh.n_elements(); ++e) open_element(e, copy);
-  }
-  void open_element(std::int32_t e, const std::vector<std::int32_t>& copy) {
-    const std::span<const std::int32_t> node = mesh.corners(e);
-    double z = 0;
-    for (const std::int32_t i : node) z += mesh.X[i].z() / 4;
-    for (std::int32_t a = 0; a < 4 && z > 0.5; ++a)
-      if (copy[node[a]] >= 0) edit.corners.push_back({e, a, copy[node[a]]});
   }
 };
 
 TEST(MeshEdit, leaves_a_sound_mesh_of_the_same_volume) {
-  OpenedBox box;
+  MovedAndOpenedBox box;
   const double V = total_volume(box.mesh);
   apply_edit(box.edit, box.mesh);
   EXPECT_EQ(validate(box.mesh), std::vector<std::string>{});
@@ -55,7 +41,7 @@ TEST(MeshEdit, leaves_a_sound_mesh_of_the_same_volume) {
 }
 
 TEST(MeshEdit, opens_a_slit_that_keeps_one_piece_and_a_spherical_surface) {
-  OpenedBox box;
+  MovedAndOpenedBox box;
   apply_edit(box.edit, box.mesh);
   const Surface surface = boundary_surface(box.mesh);
   EXPECT_TRUE(is_closed(surface.triangle));
@@ -63,7 +49,7 @@ TEST(MeshEdit, opens_a_slit_that_keeps_one_piece_and_a_spherical_surface) {
 }
 
 TEST(MeshEdit, duplicates_lie_on_their_parents_and_join_their_node_sets) {
-  OpenedBox box;
+  MovedAndOpenedBox box;
   const std::int32_t n_nodes = box.mesh.n_nodes();
   apply_edit(box.edit, box.mesh);
   ASSERT_EQ(box.mesh.n_nodes(), n_nodes + static_cast<int>(box.edit.duplicate_parent.size()));
@@ -79,7 +65,7 @@ TEST(MeshEdit, duplicates_lie_on_their_parents_and_join_their_node_sets) {
 }
 
 TEST(MeshEdit, keeps_an_affine_field_affine) {
-  OpenedBox box;
+  MovedAndOpenedBox box;
   const auto affine = [](const Vec3& X) {
     return Vec3(1 + 2 * X.x() - X.y(), X.z() * 3 - 0.5, X.x() + X.y() + X.z());
   };
@@ -118,10 +104,11 @@ TEST(MeshEdit, sets_cut_facets_and_density_factors) {
 }
 
 TEST(EditedElements, are_those_whose_volume_corners_or_density_changed) {
-  OpenedBox box;
+  MovedAndOpenedBox box;
   box.edit.density = {{.element = 7, .factor = 2}};
   const std::vector<std::int32_t> edited = edited_elements(box.mesh, box.edit);
   EXPECT_TRUE(std::is_sorted(edited.begin(), edited.end()));
+  EXPECT_EQ(edited_elements(node_corners(box.mesh), box.edit), edited);
   Mesh after = box.mesh;
   apply_edit(box.edit, after);
   for (std::int32_t e = 0; e < after.n_elements(); ++e) {

@@ -1,0 +1,132 @@
+#include "engine/apply_cut_patch.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "engine/frame_watch.h"
+#include "solver/history.h"
+#include "solver/step.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr FixedMask all_components = 7;
+constexpr double share_of_slower_mode = 0.1;
+
+std::vector<std::int32_t> free_nodes(const Simulation& s, std::span<const std::int32_t> edited,
+                                     int n_rings) {
+  std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited);
+  for (int ring = 0; ring < n_rings; ++ring)
+    nodes = nodes_of(s.mesh, elements_around(s.corners, nodes));
+  return nodes;
+}
+
+// All that the forces of the nodes depend on: pressures averaged at nodes take one ring more.
+std::vector<std::int32_t> elements_of_forces(const Simulation& s,
+                                             std::span<const std::int32_t> nodes) {
+  std::vector<std::int32_t> elements = elements_around(s.corners, nodes);
+  if (s.model.options.tet4 == Formulation::tet4_nodal_pressure)
+    elements = elements_around(s.corners, nodes_of(s.mesh, elements));
+  return elements;
+}
+
+// Grows until the clusters of scaled masses that it touches are whole: their mean motion takes all
+// their nodes.
+MassScaling take_in_clusters(const Simulation& s, SubMesh& sub) {
+  for (;;) {
+    MassScaling scaling =
+        find_mass_scaling(sub.mesh, s.materials, s.model.options, s.scene.solver.mass_scaling_step);
+    const std::vector<std::int32_t> around =
+        elements_around(s.corners, values_of<std::int32_t>(sub.node, scaling.node));
+    std::vector<std::int32_t> grown;
+    std::set_union(sub.element.begin(), sub.element.end(), around.begin(), around.end(),
+                   std::back_inserter(grown));
+    if (grown.size() == sub.element.size()) return scaling;
+    sub = make_sub_mesh(s.mesh, grown);
+  }
+}
+
+std::vector<FixedMask> fixed_in_patch(const Simulation& s, std::span<const std::int32_t> node,
+                                      std::span<const std::int32_t> free) {
+  std::vector<FixedMask> fixed = values_of<FixedMask>(s.fixed, node);
+  for (std::size_t i = 0; i < node.size(); ++i)
+    if (!std::binary_search(free.begin(), free.end(), node[i])) fixed[i] = all_components;
+  return fixed;
+}
+
+void set_state(const Simulation& s, const PatchState& state, Patch& patch) {
+  patch.state = make_state(patch.model);
+  patch.state.time = patch.state.history_time = s.state.time;
+  for (std::size_t i = 0; i < patch.sub.node.size(); ++i)
+    std::copy_n(&state.global.u[3 * static_cast<std::size_t>(patch.sub.node[i])], 3,
+                &patch.state.u[3 * i]);
+  if (!state.history.empty())
+    restore_history(patch.model, patch.part, state.history,
+                    values_of(state.parent, patch.sub.element),
+                    values_of(state.scale, patch.sub.element), patch.state);
+  average_volume_change(patch.model, patch.state, patch.scratch);
+}
+
+// a + share * b of owned nodes (n_owned * 3), b (n_nodes of the patch * 3) of the patch.
+void add_patch_mode(const Patch& patch, const Part& part, double of_whole, double of_patch,
+                    std::span<const double> patch_mode, std::vector<double>& mode) {
+  for (double& value : mode) value *= of_whole;
+  for (std::size_t i = 0; i < patch.sub.node.size(); ++i) {
+    const std::int32_t local = part.node_local[patch.sub.node[i]];
+    if (local < 0 || local >= part.n_owned) continue;
+    for (std::size_t k = 0; k < 3; ++k)
+      mode[3 * static_cast<std::size_t>(local) + k] += of_patch * patch_mode[3 * i + k];
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
+                                  const PatchState& state) {
+  auto made = std::make_unique<Patch>();
+  Patch& patch = *made;
+  const std::vector<std::int32_t> free = free_nodes(s, edited, state.n_rings);
+  patch.sub = make_sub_mesh(s.mesh, elements_of_forces(s, free));
+  MassScaling scaling;
+  if (s.added_mass) scaling = take_in_clusters(s, patch.sub);
+  const std::vector<std::int32_t>& node = patch.sub.node;
+  patch.part = make_part(patch.sub.mesh, std::vector<std::int32_t>(node.size(), 0), 0);
+  patch.model = build_model(patch.sub.mesh, patch.part, s.materials, fixed_in_patch(s, node, free),
+                            values_of<double>(s.mass, node), s.model.options);
+  if (s.added_mass) scale_mass(scaling, patch.part, patch.model);
+  patch.scratch = make_scratch(patch.model);
+  set_state(s, state, patch);
+  return made;
+}
+
+Watch watch_patch(const Simulation& s, Patch& patch, std::vector<double>& mode) {
+  Watch w = watch(patch.model, patch.part, patch.state);
+  if (s.scene.solver.stable_step == StableStep::frequency && w.least_J > 0)
+    w.stable_step =
+        std::max(w.stable_step, search_step(patch, search_amplitude(s), Communicator(), mode));
+  for (std::int32_t* element : {&w.stable_element, &w.least_J_element})
+    if (*element >= 0) *element = patch.sub.element[static_cast<std::size_t>(*element)];
+  return w;
+}
+
+void watch_edit(Simulation& s, std::span<const std::int32_t> edited, const PatchState& state) {
+  const PhaseScope scope(s.timers, phase_watch);
+  const std::unique_ptr<Patch> patch = make_patch(s, edited, state);
+  std::vector<double> mode;
+  const Watch w = watch_patch(s, *patch, mode);
+  const bool is_faster = w.stable_step < s.watch.stable_step;
+  if (!mode.empty())
+    add_patch_mode(*patch, s.part, is_faster ? share_of_slower_mode : 1,
+                   is_faster ? 1 : share_of_slower_mode, mode, s.fastest_mode);
+  if (is_faster) {
+    s.watch.stable_step = w.stable_step;
+    s.watch.stable_element = w.stable_element;
+  }
+  if (w.least_J < s.watch.least_J) {
+    s.watch.least_J = w.least_J;
+    s.watch.least_J_element = w.least_J_element;
+  }
+}
+
+}  // namespace trocar

@@ -1,0 +1,45 @@
+// The stable step after an edit. The highest modes of a mesh are local: one that the edit made
+// faster is found in a patch, the edited elements and some rings around them with all else held.
+// With the step known before, which holds for the rest, that takes a time of the patch's size.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/apply_cut.h"
+#include "mesh/sub_mesh.h"
+
+namespace trocar {
+
+// A body of this rank's own; every rank makes the same one, so that nobody waits for another.
+struct Patch : RankBody {
+  SubMesh sub;
+};
+
+// Rings of nodes around the edited elements that move in a patch; apply_cut_patch_test.cpp prints
+// what others give.
+inline constexpr int patch_rings = 2;
+
+// After the edit: the state of all nodes, and copies of the history (history.h) of the elements
+// that `parent` names, times `scale`.
+struct PatchState {
+  const GlobalState& global;
+  std::span<const double> history;
+  std::span<const std::int32_t> parent;  // (n_elements)
+  std::span<const double> scale;         // (n_elements)
+  int n_rings = patch_rings;
+};
+std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
+                                  const PatchState& state);
+
+// Least bounds of its elements and, if the scene's step is a frequency's, the step of its highest
+// frequency with the mode (n_nodes of the patch * 3); elements by their numbers in the mesh.
+Watch watch_patch(const Simulation& s, Patch& patch, std::vector<double>& mode);
+
+// The body's watch and fastest mode, where they are of before the edit, as they are after it: the
+// slower of both steps is stable (by the margin of the search), and the next search starts from
+// both modes. The scene has no multirate, whose step does not follow from its elements alone.
+void watch_edit(Simulation& s, std::span<const std::int32_t> edited, const PatchState& state);
+
+}  // namespace trocar

@@ -1,0 +1,82 @@
+#include "engine/apply_cut_topology.h"
+
+#include <algorithm>
+
+#include "engine/build.h"
+#include "mesh/connected_nodes.h"
+#include "mesh/quality.h"
+#include "mesh/surface_edit.h"
+#include "solver/model_edit.h"
+
+namespace trocar {
+
+namespace {
+
+// Sums go over elements in ascending order, as in the whole mesh: the same bits.
+void update_mass(const SubMesh& around, std::span<const std::int32_t> nodes, Simulation& s) {
+  const std::vector<double> mass =
+      lumped_mass(around.mesh, region_densities(s.materials), s.scene.tissue.thickness);
+  s.mass.resize(s.mesh.X.size());
+  for (std::size_t i = 0; i < mass.size(); ++i)
+    if (std::binary_search(nodes.begin(), nodes.end(), around.node[i]))
+      s.mass[static_cast<std::size_t>(around.node[i])] = mass[i];
+}
+
+// Pieces join nowhere, and part only where the elements around an edit part.
+void update_pieces(const SubMesh& around, Simulation& s) {
+  if (count_pieces(around.mesh) > 1) s.n_pieces = count_pieces(s.mesh);
+}
+
+void update_part_and_model(Simulation& s, std::span<const std::int32_t> elements,
+                           std::span<const std::int32_t> nodes) {
+  const int rank = s.communicator->rank();
+  update_part(s.mesh, s.corners, s.node_owner, nodes, s.part);
+  s.halo = make_halo(s.mesh, s.node_owner, s.part, rank);
+  edit_model(
+      {.mesh = s.mesh, .part = s.part, .materials = s.materials, .fixed = s.fixed, .mass = s.mass},
+      elements, nodes, s.model);
+  s.neighbours = make_neighbours(s.halo, s.model, s.contact != nullptr, *s.communicator);
+  s.scratch = make_scratch(s.model);
+  if (s.energy) s.scratch.damping_work.assign(static_cast<std::size_t>(s.model.n_owned), 0.0);
+  const std::vector<std::int32_t>& mine = s.part.element_global;
+  for (const std::int32_t e : elements)
+    if (const auto at = std::lower_bound(mine.begin(), mine.end(), e); at != mine.end() && *at == e)
+      s.altitude[static_cast<std::size_t>(at - mine.begin())] = least_altitude(s.mesh, e, s.mesh.X);
+}
+
+bool holds_one(const Part& part, std::span<const std::int32_t> elements) {
+  return std::any_of(elements.begin(), elements.end(), [&](std::int32_t e) {
+    return std::binary_search(part.element_global.begin(), part.element_global.end(), e);
+  });
+}
+
+}  // namespace
+
+bool keeps_places(const Simulation& s, const MeshEdit& edit) {
+  const SceneSolver& solver = s.scene.solver;
+  if (!edit.splits.empty() || solver.mass_scaling_step != 0 || solver.is_multirate ||
+      solver.sleep != 0)
+    return false;
+  const auto owner = [&](std::int32_t i) { return s.node_owner[static_cast<std::size_t>(i)]; };
+  return std::all_of(edit.corners.begin(), edit.corners.end(), [&](const CornerChange& change) {
+    const auto corner = static_cast<std::size_t>(change.corner);
+    return owner(change.node) == owner(s.mesh.corners(change.element)[corner]);
+  });
+}
+
+void update_topology(Simulation& s, std::span<const std::int32_t> elements,
+                     std::span<const std::int32_t> nodes) {
+  const std::vector<std::int32_t> touching = elements_around(s.corners, nodes);
+  const SubMesh around =
+      make_sub_mesh(s.mesh, elements_around(s.corners, nodes_of(s.mesh, touching)));
+  update_mass(around, nodes, s);
+  update_surface(s.mesh, {nodes, touching, around}, s.surface);
+  update_pieces(around, s);
+  if (holds_one(s.part, elements))
+    update_part_and_model(s, elements, nodes);
+  else
+    s.part.node_local.resize(s.mesh.X.size(), -1);
+  follow_model(s);
+}
+
+}  // namespace trocar

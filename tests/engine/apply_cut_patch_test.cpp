@@ -1,0 +1,134 @@
+// The highest frequency that is looked for around an edit alone, against that of the whole body.
+#include "engine/apply_cut_patch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "engine/frame_watch.h"
+#include "engine_scene.h"
+#include "engine_started.h"
+#include "solver/frequency.h"
+#include "solver/history.h"
+
+namespace trocar {
+namespace {
+
+struct Kind {
+  std::string elements, material, solver;
+};
+
+const std::vector<Kind> kinds = {{"tet4-kuhn", "", ""},
+                                 {"tet4-five", "", ""},
+                                 {"tet4-kuhn", "prony = [ { share = 0.4, time = 0.5 } ]\n",
+                                  "tetrahedron = \"nodal-pressure\"\n"},
+                                 {"hex8", "", ""},
+                                 {"tet4-kuhn", "", "mass_scaling_step = \"0.16 ms\"\n"}};
+
+// 40 x 32 x 32 mm in cells of 4 mm, hanging, cut from one side to beyond the middle.
+std::string scene_of(const Kind& kind) {
+  return "[time]\nduration = \"1 s\"\nframe_rate = 100\n[tissue.shape]\nkind = \"box\"\n"
+         "low = [-0.02, -0.016, 0]\nhigh = [0.02, 0.016, 0.032]\ncells = [10, 8, 8]\n"
+         "elements = \"" +
+         kind.elements +
+         "\"\n[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\ndensity = 1000\n" +
+         kind.material + "[solver]\ngravity = [0, 0, -9.81]\n" + kind.solver +
+         "[[support]]\nregion = \"z+\"\nfix = \"xyz\"\n"
+         "[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.02\npath = [\n"
+         "{ time = 0.01, position = [-0.03, 0.02, 0.01], direction = [0, 1, 0], "
+         "forward = [1, 0, 0.2] },\n"
+         "{ time = 0.10, position = [0.01, 0.02, 0.018], direction = [0, 1, 0], "
+         "forward = [1, 0, 0.2] } ]\n";
+}
+
+double highest_frequency(RankBody& body, double amplitude, double tolerance) {
+  State probe = body.state;
+  std::vector<double> mode;
+  const auto forces = [&](std::vector<double>& u, std::vector<double>& force) {
+    probe.u = u;
+    find_force(body.model, body.neighbours, probe, body.scratch);
+    force = body.scratch.force;
+  };
+  const HighestFrequency found = find_highest_frequency(
+      body.model, body.part, body.state, forces,
+      {.amplitude = amplitude, .tolerance = tolerance, .most_iterations = 1000}, Communicator(),
+      mode);
+  EXPECT_TRUE(found.is_converged);
+  return found.omega;
+}
+
+// The body as it is, cut by its last edit, in n_rings.
+std::unique_ptr<Patch> patch_of(Simulation& s, int n_rings) {
+  const GlobalState global = gather_state(s);
+  const std::vector<double> history = copy_history(s.model, s.part, s.state);
+  std::vector<std::int32_t> itself(s.mesh.element_type.size());
+  std::iota(itself.begin(), itself.end(), 0);
+  const std::vector<double> same(itself.size(), 1.0);
+  // By the numbers before the splits: what was split has its place there still.
+  const MeshEdit& edit = s.log.new_edits.back().edit;
+  std::vector<std::int32_t> edited;
+  for (const NodeMove& move : edit.moves) edited.push_back(move.node);
+  for (const CornerChange& change : edit.corners) edited.push_back(change.node);
+  return make_patch(
+      s, elements_around(s.corners, edited),
+      {.global = global, .history = history, .parent = itself, .scale = same, .n_rings = n_rings});
+}
+
+// Modes that an edit made faster are in the patch: the faster of what was and what it has is the
+// body's highest frequency, up to what a search leaves out.
+TEST(Patch, has_the_mode_that_an_edit_made_the_fastest) {
+  for (const Kind& kind : kinds) {
+    const auto started = built(scene_of(kind));
+    Simulation& s = *started->s;
+    const double h = search_amplitude(s);
+    Outputs outputs;
+    int n_edits = 0, n_faster = 0;
+    double before = highest_frequency(s, h, 1e-3);
+    while (s.frame < 12) {
+      run_frame(s, outputs);
+      if (s.cuts[0].strokes.empty() || s.cuts[0].strokes[0].n_edits == n_edits) continue;
+      n_edits = static_cast<int>(s.cuts[0].strokes[0].n_edits);
+      const double after = highest_frequency(s, h, 1e-3);
+      n_faster += after > before ? 1 : 0;
+      for (int n_rings = 0; n_rings <= 4; ++n_rings) {
+        const auto patch = patch_of(s, n_rings);
+        const double omega = highest_frequency(*patch, h, 1e-3);
+        std::printf("%s %d rings: %d of %d elements, %.4f of the body's, before %.4f\n",
+                    kind.elements.c_str(), n_rings, patch->sub.mesh.n_elements(),
+                    s.mesh.n_elements(), omega / after, before / after);
+        // A body with more held is never faster; differences and the search leave 1e-3.
+        EXPECT_LT(omega, 1.001 * after);
+        // Half of what the step's margin is: the rest is for searches that stop early.
+        if (n_rings == patch_rings)
+          EXPECT_GT(std::max(before, omega) / after, 1 - (frequency_margin - 1) / 2);
+      }
+      before = after;
+    }
+    EXPECT_GE(n_edits, 3);
+  }
+}
+
+// Where nothing else sets the step, the one taken after an edit is that of a search through the
+// body, from nothing: never longer by more than either search's margin.
+TEST(Patch, never_gives_a_longer_step_than_a_search_of_the_whole_body) {
+  for (const Kind& kind : kinds) {
+    const auto started = built(scene_of(kind));
+    Simulation& s = *started->s;
+    Outputs outputs;
+    std::int64_t n_edits = 0;
+    while (s.frame < 12) {
+      run_frame(s, outputs);
+      if (s.cuts[0].strokes.empty() || s.cuts[0].strokes[0].n_edits == n_edits) continue;
+      n_edits = s.cuts[0].strokes[0].n_edits;
+      std::vector<double> mode;
+      const double whole = search_step(s, search_amplitude(s), Communicator(), mode);
+      ASSERT_GT(whole, 0);
+      EXPECT_LT(s.watch.stable_step / whole, frequency_margin) << kind.elements;
+    }
+    EXPECT_GE(n_edits, 3);
+  }
+}
+
+}  // namespace
+}  // namespace trocar

@@ -1,0 +1,61 @@
+// All that two models hold, bit for bit.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "solver/model.h"
+
+namespace trocar {
+
+inline void expect_equal(const ElementBlocks& a, const ElementBlocks& b) {
+  EXPECT_EQ(a.formulation, b.formulation);
+  EXPECT_EQ(a.region, b.region);
+  EXPECT_EQ(a.reads_halo, b.reads_halo);
+  EXPECT_EQ(a.n_elements, b.n_elements);
+  EXPECT_EQ(a.element_local, b.element_local);
+  EXPECT_EQ(a.corner, b.corner);
+  EXPECT_EQ(a.target, b.target);
+  EXPECT_EQ(a.row, b.row);
+  EXPECT_TRUE(a.data == b.data);
+  EXPECT_TRUE(a.data_single == b.data_single);
+  EXPECT_EQ(a.first_history, b.first_history);
+  EXPECT_EQ(a.field, b.field);
+  EXPECT_EQ(a.first_lane, b.first_lane);
+}
+
+inline void expect_equal(const SumOrder& a, const SumOrder& b) {
+  EXPECT_EQ(a.n_runs, b.n_runs);
+  EXPECT_EQ(a.n_inside_runs, b.n_inside_runs);
+  EXPECT_EQ(a.run_block, b.run_block);
+  EXPECT_EQ(a.n_places, b.n_places);
+  EXPECT_EQ(a.node, b.node);
+  EXPECT_EQ(a.last_block, b.last_block);
+  EXPECT_EQ(a.run_first, b.run_first);
+  EXPECT_EQ(a.shared_node, b.shared_node);
+  EXPECT_EQ(a.shared_end, b.shared_end);
+}
+
+inline void expect_equal(const VolumeAverages& a, const VolumeAverages& b) {
+  EXPECT_EQ(a.n_fields, b.n_fields);
+  EXPECT_EQ(a.n_lanes, b.n_lanes);
+  EXPECT_EQ(a.offset, b.offset);
+  EXPECT_EQ(a.lane, b.lane);
+  EXPECT_EQ(a.stiffness, b.stiffness);
+  EXPECT_EQ(a.share, b.share);
+}
+
+inline void expect_equal(const Model& a, const Model& b) {
+  EXPECT_EQ(a.n_local, b.n_local);
+  EXPECT_EQ(a.n_owned, b.n_owned);
+  EXPECT_EQ(a.mass, b.mass);
+  EXPECT_EQ(a.inertia, b.inertia);
+  EXPECT_EQ(a.fixed, b.fixed);
+  EXPECT_EQ(a.element_step, b.element_step);
+  EXPECT_EQ(a.n_history, b.n_history);
+  ASSERT_EQ(a.blocks.size(), b.blocks.size());
+  for (std::size_t k = 0; k < a.blocks.size(); ++k) expect_equal(a.blocks[k], b.blocks[k]);
+  expect_equal(a.sums, b.sums);
+  expect_equal(a.averages, b.averages);
+}
+
+}  // namespace trocar
