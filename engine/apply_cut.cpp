@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "base/log.h"
 #include "engine/apply_cut_patch.h"
 #include "engine/apply_cut_topology.h"
 #include "engine/frame_watch.h"
@@ -150,13 +151,13 @@ void find_parents(const Mesh& after, const EditedElements& edited, HistorySource
 struct Known {
   Watch watch;
   bool is_looked_at = false;
-  std::vector<double> mode, looked_at;  // (n_owned * 3), with scaled masses (n_nodes * 3)
+  std::vector<double> mode, looked_at;  // (n_owned * 3), or (n_nodes * 3) if they are of all nodes
+  bool is_of_all = false;
 };
 
-// Scaled masses may move owners.
-Known take_known(Simulation& s) {
-  Known known{s.watch, s.look.is_done, s.fastest_mode, s.look.u};
-  if (!s.added_mass) return known;
+Known take_known(Simulation& s, bool may_move_owners) {
+  Known known{s.watch, s.look.is_done, s.fastest_mode, s.look.u, may_move_owners};
+  if (!may_move_owners) return known;
   known.mode = gather_owned(s, known.mode);
   known.looked_at = gather_owned(s, known.looked_at);
   return known;
@@ -184,7 +185,7 @@ void take_owned(const MeshEdit& edit, const Part& part, std::vector<double>& who
 void restore_known(const MeshEdit& edit, std::span<const std::int32_t> element_parent, Known known,
                    Simulation& s) {
   for (std::vector<double>* field : {&known.mode, &known.looked_at})
-    if (s.added_mass && !field->empty())
+    if (known.is_of_all && !field->empty())
       take_owned(edit, s.part, *field);
     else if (!field->empty())
       append_duplicates(edit, s.part, *field);
@@ -214,6 +215,18 @@ void inherit_by_duplicates(Simulation& s, const MeshEdit& edit, std::int32_t n_b
   }
 }
 
+// Hexahedra that became tetrahedra take longer: beyond this, owners are chosen anew. METIS takes
+// about as long as 100 steps; a tenth of the steps that follow is more within half a second.
+constexpr double tolerated_imbalance = 1.1;
+
+void rebalance(Simulation& s) {
+  const double now = imbalance(s.mesh, s.node_owner, s.communicator->size());
+  if (now <= tolerated_imbalance) return;
+  s.node_owner = partition_nodes(s.mesh, *s.communicator);
+  log_info("after a cut the busiest rank has " + std::to_string(std::lround(100 * (now - 1))) +
+           " % more work than the mean: parts are chosen anew");
+}
+
 // All that every rank holds of the whole body; returns keeps_places.
 bool edit_whole(const MeshEdit& edit, GlobalState& global, Simulation& s) {
   const std::int32_t n_before = s.mesh.n_nodes();
@@ -225,7 +238,10 @@ bool edit_whole(const MeshEdit& edit, GlobalState& global, Simulation& s) {
   const bool is_local = keeps_places(s, edit);
   if (edit.splits.empty()) apply_edit(edit, s.mesh, s.corners);
   apply_edit(edit, s.mesh);
-  if (!edit.splits.empty()) s.corners = node_corners(s.mesh);
+  if (!edit.splits.empty()) {
+    s.corners = node_corners(s.mesh);
+    rebalance(s);
+  }
   global.x = present_positions(s.mesh.X, global.u);
   return is_local;
 }
@@ -305,7 +321,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   const Before before = measure_before(s, edited.before, nodes, global);
   HistorySource history{.copies =
                             s.communicator->all_gather(copy_history(s.model, s.part, s.state))};
-  Known known = take_known(s);
+  Known known = take_known(s, s.added_mass || !edit.splits.empty());
   const bool is_step_local = keeps_step(s);
 
   const bool is_local = edit_whole(edit, global, s);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <string>
 
 #include "base/error.h"
@@ -16,7 +17,30 @@ namespace trocar {
 struct NodalGraph {
   std::vector<idx_t> offset;  // (n_nodes + 1)
   std::vector<idx_t> neighbour;
+  std::vector<idx_t> work;  // (n_nodes)
 };
+
+// A corner's share of its element's step, in the ratio of docs/performance.md: a one-point
+// hexahedron takes some 2.7 times as long as a tetrahedron, a triangle 1.25 times.
+static int corner_work(ElementType type) {
+  switch (type) {
+    case ElementType::hex8:
+      return 4;
+    case ElementType::tet4:
+      return 3;
+    case ElementType::tri3:
+      return 5;
+  }
+  return 1;
+}
+
+static std::vector<idx_t> node_work(const Mesh& mesh) {
+  std::vector<idx_t> work(mesh.X.size(), 0);
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    for (const std::int32_t i : mesh.corners(e))
+      work[static_cast<std::size_t>(i)] += corner_work(mesh.element_type[e]);
+  return work;
+}
 
 static NodalGraph nodal_graph(const Mesh& mesh) {
   const std::vector<std::array<std::int32_t, 2>> edges = mesh_edges(mesh);
@@ -33,6 +57,7 @@ static NodalGraph nodal_graph(const Mesh& mesh) {
     graph.neighbour[next[i]++] = j;
     graph.neighbour[next[j]++] = i;
   }
+  graph.work = node_work(mesh);
   return graph;
 }
 
@@ -45,8 +70,8 @@ static std::vector<std::int32_t> metis_owners(NodalGraph graph, int n_parts) {
   options[METIS_OPTION_NUMBERING] = 0;
   std::vector<idx_t> owner(static_cast<std::size_t>(n_nodes));
   const int status = METIS_PartGraphKway(
-      &n_nodes, &n_constraints, graph.offset.data(), graph.neighbour.data(), nullptr, nullptr,
-      nullptr, &n_owners, nullptr, nullptr, options.data(), &cut, owner.data());
+      &n_nodes, &n_constraints, graph.offset.data(), graph.neighbour.data(), graph.work.data(),
+      nullptr, nullptr, &n_owners, nullptr, nullptr, options.data(), &cut, owner.data());
   if (status == METIS_ERROR_MEMORY)
     throw MachineError("not enough memory to partition the mesh with METIS");
   if (status != METIS_OK)
@@ -105,6 +130,14 @@ std::vector<std::int32_t> partition_nodes(const Mesh& mesh, Communicator& commun
   owner.resize(mesh.X.size());
   std::memcpy(owner.data(), bytes.data(), bytes.size());
   return owner;
+}
+
+double imbalance(const Mesh& mesh, std::span<const std::int32_t> node_owner, int n_parts) {
+  const std::vector<idx_t> work = node_work(mesh);
+  std::vector<double> of_part(static_cast<std::size_t>(n_parts), 0);
+  for (std::size_t i = 0; i < work.size(); ++i) of_part[node_owner[i]] += work[i];
+  const double sum = std::accumulate(of_part.begin(), of_part.end(), 0.0);
+  return *std::max_element(of_part.begin(), of_part.end()) * n_parts / sum;
 }
 
 void apply_edit_to_owners(std::span<const std::int32_t> duplicate_parent,

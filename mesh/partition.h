@@ -11,11 +11,14 @@
 
 namespace trocar {
 
-// Owner of each node, by METIS with a fixed seed on rank 0; the same on every rank. Collective.
+// Owner of each node, by METIS with a fixed seed on rank 0; parts of equal work, that of an element
+// shared by its corners; the same on every rank. Collective.
 // Throws InputError if there are fewer nodes than ranks.
 std::vector<std::int32_t> partition_nodes(const Mesh& mesh, Communicator& communicator);
 // The same for any number of parts, by this process alone; each part gets at least one node.
 std::vector<std::int32_t> partition_nodes(const Mesh& mesh, int n_parts);
+// Work of the part that has most over the mean of all: what a step takes longer than it had to.
+double imbalance(const Mesh& mesh, std::span<const std::int32_t> node_owner, int n_parts);
 // A duplicated node stays with its parent's owner.
 void apply_edit_to_owners(std::span<const std::int32_t> duplicate_parent,
                           std::vector<std::int32_t>& node_owner);

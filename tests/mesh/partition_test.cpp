@@ -28,6 +28,30 @@ TEST(PartitionNodes, is_balanced_on_twenty_thousand_nodes) {
   }
 }
 
+// As many nodes in hexahedra as in tetrahedra, six in the place of each: parts of equal numbers of
+// nodes would have an imbalance of up to 2 * 6 * 12 / (6 * 12 + 32) = 1.38.
+TEST(PartitionNodes, is_balanced_by_the_work_of_elements) {
+  Mesh mesh = make_box(Vec3::Zero(), Vec3::Ones(), {8, 8, 8}, BoxElements::hex8);
+  const Mesh tets = make_box(Vec3(2, 0, 0), Vec3(3, 1, 1), {8, 8, 8}, BoxElements::tet4_kuhn);
+  const std::int32_t first = mesh.n_nodes();
+  mesh.X.insert(mesh.X.end(), tets.X.begin(), tets.X.end());
+  for (std::int32_t e = 0; e < tets.n_elements(); ++e) {
+    std::vector<std::int32_t> corners(tets.corners(e).begin(), tets.corners(e).end());
+    for (std::int32_t& i : corners) i += first;
+    add_element(mesh, ElementType::tet4, corners);
+  }
+  for (const int n_parts : {2, 3})
+    EXPECT_LT(imbalance(mesh, partition_nodes(mesh, n_parts), n_parts), 1.1) << n_parts;
+}
+
+// Planes of four nodes with one or two hexahedra beside them: 48 of 256 parts of the work.
+TEST(Imbalance, is_the_largest_share_of_the_work_over_the_mean) {
+  const Mesh mesh = make_box(Vec3::Zero(), Vec3(8, 1, 1), {8, 1, 1}, BoxElements::hex8);
+  std::vector<std::int32_t> owner;
+  for (const Vec3& X : mesh.X) owner.push_back(X.x() < 1.5 ? 0 : 1);
+  EXPECT_DOUBLE_EQ(imbalance(mesh, owner, 2), 2 * 208 / 256.0);
+}
+
 TEST(PartitionNodes, cuts_few_edges) {
   // Two halves of a cube of n^3 nodes meet in n^2 nodes: about 7 edges each for Kuhn's tetrahedra
   // (14 a node).
