@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "base/error.h"
 #include "mesh/generate.h"
 #include "mesh/mesh_file.h"
