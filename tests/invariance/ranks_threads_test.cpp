@@ -102,6 +102,24 @@ TEST(StateDigest, of_twenty_small_scenes_in_both_precisions_is_the_same_on_any_r
   }
 }
 
+// A coarse block, of which a cut converts a good part on the side of few ranks.
+TEST(StateDigest, is_the_same_where_a_cut_makes_ranks_choose_their_parts_anew) {
+  const std::string folder = test_folder("rebalanced");
+  SmallBlock coarse = hexahedra();
+  coarse.cells = "[8, 6, 4]";
+  std::ofstream(folder + "/scene.toml") << block(coarse) + curved_cut;
+  std::set<std::string> digests;
+  for (const int ranks : {1, 4}) {
+    const Finished run = run_trocar_on(
+        ranks, {"run", folder + "/scene.toml", "-o", folder, "--threads", "1"}, folder);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const bool is_told = (run.out + run.err).find("parts are chosen anew") != std::string::npos;
+    EXPECT_EQ(is_told, ranks > 1);
+    digests.insert(read_summary(folder).value("state_digest", "no digest"));
+  }
+  EXPECT_EQ(digests.size(), 1u);
+}
+
 std::string digest_of(const std::string& scene, std::vector<std::string> settings, int ranks,
                       int threads) {
   const std::string folder = test_folder("invariance");
