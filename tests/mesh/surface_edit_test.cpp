@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mesh/node_corners.h"
 #include "mesh_opened_box.h"
 
 using namespace trocar;
