@@ -152,8 +152,8 @@ CutRecord cut_at_once(Simulation& s) {
   return record;
 }
 
-// The search goes on from the mode before the edit: what it finds must be what a search from
-// nothing finds, up to what either may stop short of.
+// The step after an edit comes from a search around it and from what was known: a search of the
+// whole body from nothing may only find a longer one, up to what either may stop short of.
 TEST(ApplyCut, does_not_miss_a_mode_that_is_faster_after_the_edit) {
   for (const char* elements : {"tet4-kuhn", "tet4-five", "hex8"}) {
     const auto started = built(block_text(elements, hanging + level_blade));
@@ -168,7 +168,7 @@ TEST(ApplyCut, does_not_miss_a_mode_that_is_faster_after_the_edit) {
       s.fastest_mode.clear();
       s.look.is_done = false;
       watch_state(s);
-      EXPECT_NEAR(step / s.watch.stable_step, 1, frequency_margin - 1) << elements << s.frame;
+      EXPECT_LT(step / s.watch.stable_step, frequency_margin) << elements << s.frame;
     }
     EXPECT_GE(n_edits, 3);
   }

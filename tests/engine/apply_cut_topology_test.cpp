@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/threads.h"
 #include "engine/apply_cut.h"
 #include "engine/frame_watch.h"
 #include "engine_scene.h"
