@@ -59,7 +59,13 @@ inline void print_parts(Formulation formulation, Precision precision, int n_elem
       of[3], of[4], of[5]);
 }
 
-// Calls measure(body, parts) for the elements that have a target, sheared, neo-Hookean; it returns
+inline Body sheared_body(const Mesh& mesh, Formulation formulation, Precision precision) {
+  Body body = make_body(mesh, {.solver = with(formulation, {.precision = precision})});
+  displace(body, [](const Vec3& X) { return Vec3(0.05 * X.y(), 0, 0); });
+  return body;
+}
+
+// Calls measure(parts) for the elements that have a target, sheared, neo-Hookean; it returns
 // what print_parts takes, of the whole body.
 template <class Measure>
 void report_parts(int n_elements, const Measure& measure) {
@@ -67,8 +73,7 @@ void report_parts(int n_elements, const Measure& measure) {
   for (const Formulation formulation : {Formulation::hex8_one_point, Formulation::tet4})
     for (const Precision precision : precisions) {
       const Mesh mesh = jittered_body(formulation, n_elements);
-      Body body = make_body(mesh, {.solver = with(formulation, {.precision = precision})});
-      displace(body, [](const Vec3& X) { return Vec3(0.05 * X.y(), 0, 0); });
+      Body body = sheared_body(mesh, formulation, precision);
       std::array<double, n_step_parts> of = measure(parts_of_step(body));
       for (double& value : of) value /= mesh.n_elements();
       std::printf("%s", separator);

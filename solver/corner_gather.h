@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "solver/in_double.h"
+#include "solver/node_offsets.h"
 #include "solver/row_order.h"
 
 namespace trocar {
@@ -113,7 +114,7 @@ template <int lanes, class Pack, int n>
   }
   constexpr int width = pack_width<Pack>;
   std::uint32_t at[n][width];
-  for (int a = 0; a < n; ++a) multiply<3>(corner + a * lanes, at[a]);
+  for (int a = 0; a < n; ++a) multiply(corner + a * lanes, 3, at[a]);
   // Read back lane by lane: taken out of registers, each would take a shuffle.
   asm volatile("" ::: "memory");
 #pragma GCC unroll 8

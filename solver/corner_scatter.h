@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "solver/in_double.h"
+#include "solver/node_offsets.h"
 #include "solver/row_order.h"
 
 namespace trocar {
@@ -203,7 +204,7 @@ template <class Pack, int n>
                                              int first, const std::int32_t* target, double* sum) {
   constexpr int width = pack_width < Pack >> row_lanes ? row_lanes : pack_width<Pack>;
   std::uint32_t at[n][width];
-  for (int a = 0; a < n; ++a) multiply<4>(target + a * block_lanes<Pack>, at[a]);
+  for (int a = 0; a < n; ++a) multiply(target + a * block_lanes<Pack>, 4, at[a]);
   // Read back lane by lane: taken out of registers, each would take a shuffle.
   asm volatile("" ::: "memory");
 #pragma GCC unroll 8

@@ -37,14 +37,4 @@ template <class Pack>
     return __builtin_convertvector(x, PackOf<float, pack_width<Pack>>);
 }
 
-// Node numbers of some lanes, times a stride.
-template <int stride, int n>
-[[gnu::always_inline]] inline void multiply(const std::int32_t* node, std::uint32_t (&to)[n]) {
-  using Numbers = PackOf<std::uint32_t, n>;
-  Numbers x;
-  __builtin_memcpy(&x, node, sizeof x);
-  x *= stride;
-  __builtin_memcpy(to, &x, sizeof x);
-}
-
 }  // namespace trocar
