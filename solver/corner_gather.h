@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "solver/in_double.h"
+#include "solver/node_offsets.h"
 #include "solver/row_order.h"
 
 namespace trocar {
@@ -22,21 +23,26 @@ template <class Pack>
     x[1] = __builtin_shufflevector(__builtin_shufflevector(a, b, 1, 4, 7, 7), c, 0, 1, 2, 6);
     x[2] = __builtin_shufflevector(__builtin_shufflevector(a, b, 2, 5, 5, 5), c, 0, 1, 4, 7);
   } else {
-    const Pack x5 = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0);
-    const Pack y5 = __builtin_shufflevector(a, b, 1, 4, 7, 10, 13, 0, 0, 0);
-    const Pack z5 = __builtin_shufflevector(a, b, 2, 5, 8, 11, 14, 0, 0, 0);
-    x[0] = __builtin_shufflevector(x5, c, 0, 1, 2, 3, 4, 5, 10, 13);
-    x[1] = __builtin_shufflevector(y5, c, 0, 1, 2, 3, 4, 8, 11, 14);
-    x[2] = __builtin_shufflevector(z5, c, 0, 1, 2, 3, 4, 9, 12, 15);
+    // The wanted numbers stand at different places of the three: blended, then put in order.
+    const auto blend =
+        [](const Pack& of_0, const Pack& of_1, const Pack& of_2) __attribute__((always_inline)) {
+      const Pack of_01 = __builtin_shufflevector(of_0, of_1, 0, 9, 2, 3, 12, 5, 6, 15);
+      return __builtin_shufflevector(of_01, of_2, 0, 1, 10, 3, 4, 13, 6, 7);
+    };
+    const Pack xs = blend(a, b, c), ys = blend(c, a, b), zs = blend(b, c, a);
+    x[0] = __builtin_shufflevector(xs, xs, 0, 3, 6, 1, 4, 7, 2, 5);
+    x[1] = __builtin_shufflevector(ys, ys, 1, 4, 7, 2, 5, 0, 3, 6);
+    x[2] = __builtin_shufflevector(zs, zs, 2, 5, 0, 3, 6, 1, 4, 7);
   }
 }
 
-// Of nodes anywhere. Reads a double behind each node: masked loads cost 6 to 9 % of a step.
+// Of nodes anywhere, the first number of each at u + first[lane]. Reads a double behind each node:
+// masked loads cost 6 to 9 % of a step.
 template <class Pack>
-[[gnu::always_inline]] inline void gather_nodes(const double* u, const std::int32_t* node,
+[[gnu::always_inline]] inline void gather_nodes(const double* u, const std::uint32_t* first,
                                                 Pack (&x)[3]) {
   constexpr int width = pack_width<Pack>;
-  const auto at = [&](int lane) { return u + 3 * std::int64_t{node[lane]}; };
+  const auto at = [&](int lane) { return u + first[lane]; };
   if constexpr (width == 1) {
     for (int i = 0; i < 3; ++i) x[i] = at(0)[i];
   } else if constexpr (width == 2) {
@@ -72,9 +78,9 @@ template <class Pack>
 // A copy of the nodes of a group, behind which a double may be read.
 template <class Pack, int n, int lanes>
 struct NodeCopies {
-  static constexpr auto corner = [] {
-    std::array<std::int32_t, n * lanes> number{};
-    for (int k = 0; k < n * lanes; ++k) number[k] = k;
+  static constexpr auto first = [] {
+    std::array<std::uint32_t, n * lanes> number{};
+    for (int k = 0; k < n * lanes; ++k) number[k] = static_cast<std::uint32_t>(3 * k);
     return number;
   }();
   double u[3 * n * lanes + 1];
@@ -102,19 +108,29 @@ template <int lanes, class Pack, int n>
     if (row == no_row_at_end) {
       using Copies = NodeCopies<Pack, n, lanes>;
       const Copies copies(u, corner);
-      for (int a = 0; a < n; ++a) gather_nodes(copies.u, Copies::corner.data() + a * lanes, x[a]);
+      for (int a = 0; a < n; ++a) gather_nodes(copies.u, Copies::first.data() + a * lanes, x[a]);
       return;
     }
   }
+  constexpr int width = pack_width<Pack>;
+  std::uint32_t at[n][width];
+  for (int a = 0; a < n; ++a) multiply(corner + a * lanes, 3, at[a]);
+  // Read back lane by lane: taken out of registers, each would take a shuffle.
+  asm volatile("" ::: "memory");
 #pragma GCC unroll 8
-  for (int a = 0; a < n; ++a) gather_nodes(u, corner + a * lanes, x[a]);
+  for (int a = 0; a < n; ++a) gather_nodes(u, at[a], x[a]);
 }
 
 // Lanes of two registers as one, the first one's first.
 template <class Pack, class Half, std::size_t... k>
 [[gnu::always_inline]] inline Pack join(const Half& low, const Half& high,
                                         std::index_sequence<k...>) {
-  return __builtin_shufflevector(low, high, k...);
+  if constexpr (pack_width<Pack> == 16) {
+    const Pack first = _mm512_castps256_ps512(low);
+    return _mm512_mask_insertf32x8(first, 0xFFFF, first, high, 1);  // two instructions fewer
+  } else {
+    return __builtin_shufflevector(low, high, k...);
+  }
 }
 
 // Differences to the first corner, rounded, by halves of a register.

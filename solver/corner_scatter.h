@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "solver/in_double.h"
+#include "solver/node_offsets.h"
 #include "solver/row_order.h"
 
 namespace trocar {
@@ -15,6 +16,17 @@ template <int l, class Pack>
 [[gnu::always_inline]] inline Pack two_rows(const Pack& xy, const Pack& z) {
   constexpr int at = 2 * (l % 4);
   return __builtin_shufflevector(xy, z, at, at + 1, 8 + l, 8 + l, at + 2, at + 3, 9 + l, 9 + l);
+}
+
+// Those of eight lanes.
+template <class Pack>
+[[gnu::always_inline]] inline void all_rows(const Pack (&f)[3], Pack (&row)[4]) {
+  const Pack xy0 = __builtin_shufflevector(f[0], f[1], 0, 8, 1, 9, 2, 10, 3, 11);
+  const Pack xy4 = __builtin_shufflevector(f[0], f[1], 4, 12, 5, 13, 6, 14, 7, 15);
+  row[0] = two_rows<0>(xy0, f[2]);
+  row[1] = two_rows<2>(xy0, f[2]);
+  row[2] = two_rows<4>(xy4, f[2]);
+  row[3] = two_rows<6>(xy4, f[2]);
 }
 
 // To [lane][x y z and anything].
@@ -41,12 +53,9 @@ template <class Pack>
     store(to + 8, __builtin_shufflevector(xy0, z0, 2, 3, 6, 7));
     store(to + 12, __builtin_shufflevector(xy1, z1, 2, 3, 6, 7));
   } else {
-    const Pack xy0 = __builtin_shufflevector(f[0], f[1], 0, 8, 1, 9, 2, 10, 3, 11);
-    const Pack xy4 = __builtin_shufflevector(f[0], f[1], 4, 12, 5, 13, 6, 14, 7, 15);
-    store(to, two_rows<0>(xy0, f[2]));
-    store(to + 8, two_rows<2>(xy0, f[2]));
-    store(to + 16, two_rows<4>(xy4, f[2]));
-    store(to + 24, two_rows<6>(xy4, f[2]));
+    Pack row[4];
+    all_rows(f, row);
+    for (int k = 0; k < 4; ++k) store(to + k * width, row[k]);
   }
 }
 
@@ -94,11 +103,11 @@ template <int width, int n, class Real>
     store(sum + j, Part(load<Part>(sum + j) + load_in_double<Part>(from + j)));
 }
 
-// add_numbers of n numbers to sum + 4 and then to sum, by whole registers. What is added first
-// stays in registers: read back from memory, shifted by a node, it would have to leave the store
-// buffer first (7.5 instead of 4.2 ns a hexahedron).
-template <int n, class Real>
-[[gnu::always_inline]] inline void add_neighbours(const Real* first, const Real* second,
+// Of n numbers first(j), j = 0, 8 …: sum[4 + j …] += first(j) and then sum[j …] += second(j), by
+// whole registers. What is added first stays in registers: read back from memory, shifted by a
+// node, it would have to leave the store buffer first (7.5 instead of 4.2 ns a hexahedron).
+template <int n, class First, class Second>
+[[gnu::always_inline]] inline void add_neighbours(const First& first, const Second& second,
                                                   double* sum) {
   using Part = PackOf<double, 8>;
   using Quad = PackOf<double, 4>;
@@ -106,33 +115,87 @@ template <int n, class Real>
   Part before = __builtin_shufflevector(low, low, 0, 1, 2, 3, 0, 1, 2, 3);
 #pragma GCC unroll 8
   for (int j = 0; j < n; j += 8) {
-    const Part added = load<Part>(sum + 4 + j) + load_in_double<Part>(first + j);
+    const Part added = load<Part>(sum + 4 + j) + first(j);
     const Part shifted = __builtin_shufflevector(before, added, 4, 5, 6, 7, 8, 9, 10, 11);
-    store(sum + j, Part(shifted + load_in_double<Part>(second + j)));
+    store(sum + j, Part(shifted + second(j)));
     before = added;
   }
   store(sum + n, __builtin_shufflevector(before, before, 4, 5, 6, 7));
 }
 
-// Corner after corner of a row of at most eight lanes from `lane` on; force[corner][lane][x y z 0].
+// Numbers of a row of at most eight lanes.
+template <class Pack>
+inline constexpr int row_numbers = 4 *
+                                   (pack_width < Pack >> row_lanes ? row_lanes : pack_width<Pack>);
+
+// Adds two corners of a row from `lane` on, a first; force[corner][lane][x y z 0].
+template <class Pack, int n>
+[[gnu::always_inline]] inline void add_two(const RealOf<Pack> (&force)[n][pack_width<Pack>][4],
+                                           int lane, const std::int32_t* target, int a, int b,
+                                           double* sum) {
+  constexpr int numbers = row_numbers<Pack>;
+  const std::int64_t to_a = target[a * block_lanes<Pack>], to_b = target[b * block_lanes<Pack>];
+  const RealOf<Pack>*const from_a = &force[a][lane][0], *const from_b = &force[b][lane][0];
+  if constexpr (add_width<Pack> == 8) {
+    if (to_a - to_b == 1) {
+      using Part = PackOf<double, 8>;
+      add_neighbours<numbers>([&](int j) { return load_in_double<Part>(from_a + j); },
+                              [&](int j) { return load_in_double<Part>(from_b + j); },
+                              sum + 4 * to_b);
+      return;
+    }
+  }
+  add_numbers<add_width<Pack>, numbers>(from_a, sum + 4 * to_a);
+  add_numbers<add_width<Pack>, numbers>(from_b, sum + 4 * to_b);
+}
+
+// Corner after corner of a row.
 template <class Pack, int n>
 [[gnu::always_inline]] inline void add_row(const RealOf<Pack> (&force)[n][pack_width<Pack>][4],
                                            int lane, const std::int32_t* target, std::uint32_t row,
                                            double* sum) {
-  constexpr int numbers = 4 * (pack_width < Pack >> row_lanes ? row_lanes : pack_width<Pack>);
-  for (int k = 0; k < n; ++k) {
-    const int a = corner_of_row(row, k);
-    double* const at = sum + 4 * std::int64_t{target[a * block_lanes<Pack>]};
-    if constexpr (add_width<Pack> == 8) {
-      const int b = k + 1 < n ? corner_of_row(row, k + 1) : a;
-      if (target[a * block_lanes<Pack>] - target[b * block_lanes<Pack>] == 1) {
-        add_neighbours<numbers>(&force[a][lane][0], &force[b][lane][0], at - 4);
-        ++k;
-        continue;
-      }
-    }
-    add_numbers<add_width<Pack>, numbers>(&force[a][lane][0], at);
+  for (int k = 0; k + 1 < n; k += 2)
+    add_two<Pack>(force, lane, target, corner_of_row(row, k), corner_of_row(row, k + 1), sum);
+  if constexpr (n % 2 != 0) {
+    const int a = corner_of_row(row, n - 1);
+    add_numbers<add_width<Pack>, row_numbers<Pack>>(
+        &force[a][lane][0], sum + 4 * std::int64_t{target[a * block_lanes<Pack>]});
   }
+}
+// Of hexahedra of a box: corners are known beforehand.
+template <class Pack>
+[[gnu::always_inline]] inline void add_box_row(const RealOf<Pack> (&force)[8][pack_width<Pack>][4],
+                                               int lane, const std::int32_t* target, double* sum) {
+#pragma GCC unroll 4
+  for (int k = 0; k < 8; k += 2)
+    add_two<Pack>(force, lane, target, corner_of_row(box_row, k), corner_of_row(box_row, k + 1),
+                  sum);
+}
+
+// Likewise from eight lanes of doubles, without a detour through memory. False, and nothing is
+// added, where neighbours don't follow each other.
+template <class Pack>
+[[gnu::always_inline]] inline bool add_box_row(const Pack (&f)[8][3], const std::int32_t* target,
+                                               double* sum) {
+  constexpr int lanes = block_lanes<Pack>;
+  std::int32_t apart = 0;
+#pragma GCC unroll 4
+  for (int k = 0; k < 8; k += 2)
+    apart |= target[corner_of_row(box_row, k) * lanes] -
+             target[corner_of_row(box_row, k + 1) * lanes] - 1;
+  if (apart != 0) return false;
+#pragma GCC unroll 4
+  for (int k = 0; k < 8; k += 2) {
+    const int a = corner_of_row(box_row, k), b = corner_of_row(box_row, k + 1);
+    Pack first[4], second[4];
+    all_rows(f[a], first);
+    all_rows(f[b], second);
+    add_neighbours<row_numbers<Pack>>(
+        [&](int j) __attribute__((always_inline)) { return first[j / 8]; },
+        [&](int j) __attribute__((always_inline)) { return second[j / 8]; },
+        sum + 4 * std::int64_t{target[b * lanes]});
+  }
+  return true;
 }
 
 // Element after element of at most eight lanes.
@@ -140,12 +203,16 @@ template <class Pack, int n>
 [[gnu::always_inline]] inline void add_lanes(const RealOf<Pack> (&force)[n][pack_width<Pack>][4],
                                              int first, const std::int32_t* target, double* sum) {
   constexpr int width = pack_width < Pack >> row_lanes ? row_lanes : pack_width<Pack>;
+  std::uint32_t at[n][width];
+  for (int a = 0; a < n; ++a) multiply(target + a * block_lanes<Pack>, 4, at[a]);
+  // Read back lane by lane: taken out of registers, each would take a shuffle.
+  asm volatile("" ::: "memory");
 #pragma GCC unroll 8
   for (int lane = 0; lane < width; ++lane)
 #pragma GCC unroll 8
     for (int a = 0; a < n; ++a)
-      add_numbers<(add_width<Pack> < 4 ? add_width<Pack> : 4), 4>(
-          force[a][first + lane], sum + 4 * std::int64_t{target[a * block_lanes<Pack> + lane]});
+      add_numbers<(add_width<Pack> < 4 ? add_width<Pack> : 4), 4>(force[a][first + lane],
+                                                                  sum + at[a][lane]);
 }
 
 // Adds the forces of a group's corners to sum[4 * target].
@@ -153,6 +220,8 @@ template <class Pack, int n>
 [[gnu::always_inline]] inline void add_corners(const Pack (&f)[n][3], const std::int32_t* target,
                                                const std::uint32_t* row, double* sum) {
   constexpr int width = pack_width<Pack>;
+  if constexpr (n == 8 && add_width<Pack> == 8 && width == 8)
+    if (row[0] == box_row && add_box_row(f, target, sum)) return;
   alignas(64) RealOf<Pack> force[n][width][4];
 #pragma GCC unroll 8
   for (int a = 0; a < n; ++a) store_corner(&force[a][0][0], f[a]);
@@ -161,6 +230,11 @@ template <class Pack, int n>
   asm volatile("" ::: "memory");
   for (int first = 0; first < width; first += row_lanes) {
     const std::uint32_t group_row = row[first / row_lanes];
+    if constexpr (n == 8)
+      if (group_row == box_row) {
+        add_box_row<Pack>(force, first, target + first, sum);
+        continue;
+      }
     if (is_row(group_row))
       add_row<Pack>(force, first, target + first, group_row, sum);
     else

@@ -67,6 +67,7 @@ struct OnePointHex8 {
                                                     const Pack (&u)[8][3],
                                                     const Stash<Pack>& kept) {
     Tensor<Pack> H;
+#pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) {
       Pack w[n_hex_modes];
       modes_of_corners(u, i, w);
@@ -88,6 +89,7 @@ struct OnePointHex8 {
                                             const Tensor<Pack>& VP, Pack (&f)[8][3]) {
     Pack g[n_hourglass_modes][3];
     hourglass_forces(value, kept, g);
+#pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) {
       Pack P[3], w[n_hex_modes];
       for (int j = 0; j < 3; ++j) {

@@ -11,14 +11,26 @@ namespace trocar {
 template <class Pack, int n>
 [[gnu::always_inline]] inline Pack mean_of_corners(const double* x, std::int64_t stride,
                                                    const std::int32_t* corner) {
-  RealOf<Pack> mean[pack_width<Pack>];
-  for (int lane = 0; lane < pack_width<Pack>; ++lane) {
+  constexpr int width = pack_width<Pack>;
+  std::uint32_t at[n][width];
+  for (int a = 0; a < n; ++a)
+    multiply(corner + a * block_lanes<Pack>, static_cast<std::uint32_t>(stride), at[a]);
+  RealOf<Pack> mean[width];
+  for (int lane = 0; lane < width; ++lane) {
     double sum = 0;
-    for (int a = 0; a < n; ++a) sum += x[stride * corner[a * block_lanes<Pack> + lane]];
+    for (int a = 0; a < n; ++a) sum += x[at[a][lane]];
     mean[lane] = static_cast<RealOf<Pack>>(sum * (1.0 / n));
   }
   return load<Pack>(mean);
 }
+
+template <class Pack, class Element>
+inline constexpr int n_values_of = [] {
+  if constexpr (sizeof(RealOf<Pack>) == sizeof(float) &&
+                requires { Element::values_added_in_single; })
+    return Element::n_values + Element::values_added_in_single;
+  return Element::n_values;
+}();
 
 template <class Pack, class Element>
 struct ElementLoops {
@@ -80,12 +92,13 @@ struct ElementLoops {
                                                           int lane) {
     return task.row + (block * lanes + lane) / row_lanes;
   }
-  // Asks for the constants of a block that the next task will read; behind the last one nothing
-  // happens.
+  // Asks for the constants of a block that the next task will read, of most materials all; behind
+  // the last one nothing happens.
   [[gnu::always_inline]] static void fetch(const BlockTask& task, std::int64_t block) {
-    constexpr int line = 64;
+    constexpr int line = 64, n_lines = n_values_of<Pack, Element> + 2;
     const char* const at = static_cast<const char*>(task.data) + block * task.n_values * line;
-    for (std::int64_t k = 0; k < task.n_values; ++k) __builtin_prefetch(at + k * line, 0, 2);
+#pragma GCC unroll 128
+    for (int k = 0; k < n_lines; ++k) __builtin_prefetch(at + k * line, 0, 2);
   }
   // Calls body(the element's constants, stash, block, lane) for every group.
   template <class Body>
@@ -101,15 +114,13 @@ struct ElementLoops {
 template <class Pack, class Element>
 ElementKernels element_kernels() {
   using Loops = ElementLoops<Pack, Element>;
-  int n_values = Element::n_values, n_kept = Element::n_kept;
+  int n_kept = Element::n_kept;
   constexpr bool is_single = sizeof(RealOf<Pack>) == sizeof(float);
-  if constexpr (is_single && requires { Element::values_added_in_single; }) {
-    n_values += Element::values_added_in_single;
+  if constexpr (is_single && requires { Element::kept_spared_in_single; })
     n_kept -= Element::kept_spared_in_single;
-  }
   ElementKernels kernels{.n_corners = Element::n_corners,
                          .n_points = Element::n_points,
-                         .n_values = n_values,
+                         .n_values = n_values_of<Pack, Element>,
                          .n_stash = tensor_values * Element::n_points + n_kept,
                          .law = Element::law,
                          .strain = Loops::strain,

@@ -15,13 +15,16 @@ template <class Pack>
 struct NodeLoops {
   static constexpr int width = pack_width<Pack>;
 
-  static void force(const NodeForces& task, const std::int32_t* node, std::int64_t n) {
+  // What is constant is copied: memory could change with every store.
+  static void force(const NodeForces& given, const std::int32_t* node, std::int64_t n) {
+    const NodeForces task = given;
+    const Pack gravity[3] = {gravity_of<0>(task), gravity_of<1>(task), gravity_of<2>(task)};
     std::int64_t k = 0;
     while (k < n) {
       const std::int64_t i = node[k];
       if constexpr (width == 8)
         if (k + width <= n && follow_each_other(node + k)) {
-          force_of_eight(task, task.mass + i, task.sum + 4 * i, task.force + 3 * i);
+          force_of_eight(gravity, task.mass + i, task.sum + 4 * i, task.force + 3 * i);
           k += width;
           continue;
         }
@@ -30,7 +33,8 @@ struct NodeLoops {
     }
   }
 
-  static void motion(const NodeMotion& task, std::int64_t begin, std::int64_t end) {
+  static void motion(const NodeMotion& given, std::int64_t begin, std::int64_t end) {
+    const NodeMotion task = given;
     std::int64_t i = begin;
     for (; i + width <= end; i += width) move(task, from(task, i));
     if (i < end) move_last(task, i, static_cast<int>(end - i));
@@ -68,25 +72,37 @@ struct NodeLoops {
     return _mm256_movemask_epi8(_mm256_cmpeq_epi32(number, expected)) == -1;
   }
 
+  // Of the components in the r-th register of three.
   template <int r>
-  [[gnu::always_inline]] static void store_force(const NodeForces& task, const Pack& mass,
+  [[gnu::always_inline]] static Pack gravity_of(const NodeForces& task) {
+    Pack g{};
+    if constexpr (width == 8) {
+      const double x = task.gravity[width * r % 3], y = task.gravity[(width * r + 1) % 3],
+                   z = task.gravity[(width * r + 2) % 3];
+      g = Pack{x, y, z, x, y, z, x, y};
+    }
+    return g;
+  }
+
+  template <int r>
+  [[gnu::always_inline]] static void store_force(const Pack& gravity, const Pack& mass,
                                                  const Pack& sum, double* force) {
-    const double* const g = task.gravity;
-    const double x = g[width * r % 3], y = g[(width * r + 1) % 3], z = g[(width * r + 2) % 3];
-    const Pack gravity{x, y, z, x, y, z, x, y};
     const Pack m = of_components<r>(mass, std::make_index_sequence<width>{});
     store(force + r * width, Pack(m * gravity - sum));
   }
 
   // force_of_node of nodes that follow each other, by whole registers.
-  [[gnu::always_inline]] static void force_of_eight(const NodeForces& task, const double* mass,
+  [[gnu::always_inline]] static void force_of_eight(const Pack (&gravity)[3], const double* mass,
                                                     double* sum, double* force) {
     const Pack m = load<Pack>(mass);
     Pack s[4];  // two nodes each, x y z 0
     for (int k = 0; k < 4; ++k) s[k] = load<Pack>(sum + k * width);
-    store_force<0>(task, m, __builtin_shufflevector(s[0], s[1], 0, 1, 2, 4, 5, 6, 8, 9), force);
-    store_force<1>(task, m, __builtin_shufflevector(s[1], s[2], 2, 4, 5, 6, 8, 9, 10, 12), force);
-    store_force<2>(task, m, __builtin_shufflevector(s[2], s[3], 5, 6, 8, 9, 10, 12, 13, 14), force);
+    store_force<0>(gravity[0], m, __builtin_shufflevector(s[0], s[1], 0, 1, 2, 4, 5, 6, 8, 9),
+                   force);
+    store_force<1>(gravity[1], m, __builtin_shufflevector(s[1], s[2], 2, 4, 5, 6, 8, 9, 10, 12),
+                   force);
+    store_force<2>(gravity[2], m, __builtin_shufflevector(s[2], s[3], 5, 6, 8, 9, 10, 12, 13, 14),
+                   force);
     for (int k = 0; k < 4; ++k) store(sum + k * width, Pack{});
   }
 
@@ -112,14 +128,22 @@ struct NodeLoops {
       if ((nodes.fixed[k / 3] >> k % 3 & 1) != 0) nodes.v[k] = 0;
   }
 
+  [[gnu::always_inline]] static bool is_any_fixed(const Nodes& nodes) {
+    std::conditional_t<width == 8, std::uint64_t, std::uint8_t> any = 0;
+    if constexpr (width == 8) {
+      __builtin_memcpy(&any, nodes.fixed, sizeof any);
+    } else {
+      for (int l = 0; l < width; ++l) any = static_cast<std::uint8_t>(any | nodes.fixed[l]);
+    }
+    return any != 0;
+  }
+
   [[gnu::always_inline]] static void move(const NodeMotion& task, const Nodes& nodes) {
     const Pack gain = task.gain / load<Pack>(nodes.inertia);
     accelerate<0>(task, nodes, gain);
     accelerate<1>(task, nodes, gain);
     accelerate<2>(task, nodes, gain);
-    std::uint8_t any = 0;
-    for (int l = 0; l < width; ++l) any = static_cast<std::uint8_t>(any | nodes.fixed[l]);
-    if (any != 0) hold(nodes);
+    if (is_any_fixed(nodes)) hold(nodes);
     for (int k = 0; k < 3 * width; k += width)
       store(nodes.u + k, Pack(load<Pack>(nodes.u + k) + task.dt * load<Pack>(nodes.v + k)));
   }
@@ -131,7 +155,7 @@ struct NodeLoops {
   }
 
   // Fewer than a register's: in copies, by the same instructions.
-  static void move_last(const NodeMotion& task, std::int64_t i, int n) {
+  [[gnu::always_inline]] static void move_last(const NodeMotion& task, std::int64_t i, int n) {
     double inertia[width], force[3 * width] = {}, v[3 * width] = {}, u[3 * width] = {};
     std::uint8_t fixed[width] = {};
     const Nodes nodes = from(task, i);

@@ -20,6 +20,9 @@ constexpr bool is_row(std::uint32_t row) {
   return row < no_row_at_end;
 }
 
+// Of hexahedra of a box whose nodes are numbered along xi first, then eta, then zeta.
+inline constexpr std::uint32_t box_row = 0x01324576;
+
 constexpr int corner_of_row(std::uint32_t row, int k) {
   return static_cast<int>(row >> (4 * k) & 15U);
 }

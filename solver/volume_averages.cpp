@@ -136,11 +136,14 @@ void average_with_border(const Model& model, State& state, Scratch& scratch) {
   CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * averages.n_fields);
   find_volume_change(model, state, true, scratch);
   const std::int64_t n = std::int64_t{model.n_owned} * averages.n_fields;
+  const double* const change = scratch.volume_change.data();
   parallel_for_nodes(n, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t item = begin; item < end; ++item) {
       double sum = 0;
-      for (std::int64_t k = averages.offset[item]; k < averages.offset[item + 1]; ++k)
-        sum += scratch.volume_change[averages.lane[k]];
+      const std::int64_t* const lane = averages.lane.data() + averages.offset[item];
+      const std::int64_t n_lanes = averages.offset[item + 1] - averages.offset[item];
+#pragma GCC unroll 4
+      for (std::int64_t k = 0; k < n_lanes; ++k) sum += change[lane[k]];
       state.theta[item] = averages.stiffness[item] > 0 ? sum / averages.stiffness[item] : 0;
     }
   });

@@ -1,0 +1,85 @@
+// A step's parts, each to be measured on its own.
+#pragma once
+
+#include <array>
+#include <cstdio>
+#include <functional>
+
+#include "bench/jittered_body.h"
+#include "solver/block_ranges.h"
+#include "solver/sum_order.h"
+
+namespace trocar {
+
+// A step's element kernels up to a part.
+enum class Until { strain, law, force };
+
+inline void run_elements(Body& body, Until last) {
+  for (const ElementBlocks& blocks : body.model.blocks)
+    for_strained_blocks(
+        body.model, blocks, body.state, 0, blocks.n_blocks,
+        [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
+          if (last == Until::strain) return;
+          kernels.law.stress(task);
+          if (last == Until::law) return;
+          const std::int64_t corner = block * kernels.element.n_corners * blocks.lanes;
+          kernels.element.force(task, targets(blocks).data() + corner, body.scratch.sum.data());
+        });
+}
+
+inline void run_nodes(Body& body) {
+  const NodeForces nodes{.mass = body.model.mass.data(),
+                         .gravity = {0, 0, 0, 0},
+                         .sum = body.scratch.sum.data(),
+                         .force = body.scratch.force.data()};
+  active_kernels().nodes.force(nodes, body.model.sums.node.data(),
+                               std::ssize(body.model.sums.node));
+}
+
+constexpr int n_step_parts = 6;
+
+// Strain, strain and law, these and force, nodes, motion, all: law and force are told apart by
+// leaving out what comes behind, so that what overlaps counts once.
+inline std::array<std::function<void()>, n_step_parts> parts_of_step(Body& body) {
+  return {[&] { run_elements(body, Until::strain); },
+          [&] { run_elements(body, Until::law); },
+          [&] { run_elements(body, Until::force); },
+          [&] { run_nodes(body); },
+          [&] { integrate(body.model, body.scratch, {}, 1e-12, body.state); },
+          [&] { step(body, 1e-12); }};
+}
+
+// As JSON, of what was measured of each part per element.
+inline void print_parts(Formulation formulation, Precision precision, int n_elements,
+                        const std::array<double, n_step_parts>& of) {
+  std::printf(
+      "\n  {\"element\": \"%s\", \"precision\": \"%s\", \"elements\": %d, \"strain\": %.2f, "
+      "\"law\": %.2f, \"force\": %.2f, \"nodes\": %.2f, \"motion\": %.2f, \"step\": %.2f}",
+      name_of(formulation), name_of(precision), n_elements, of[0], of[1] - of[0], of[2] - of[1],
+      of[3], of[4], of[5]);
+}
+
+inline Body sheared_body(const Mesh& mesh, Formulation formulation, Precision precision) {
+  Body body = make_body(mesh, {.solver = with(formulation, {.precision = precision})});
+  displace(body, [](const Vec3& X) { return Vec3(0.05 * X.y(), 0, 0); });
+  return body;
+}
+
+// Calls measure(parts) for the elements that have a target, sheared, neo-Hookean; it returns
+// what print_parts takes, of the whole body.
+template <class Measure>
+void report_parts(int n_elements, const Measure& measure) {
+  const char* separator = "";
+  for (const Formulation formulation : {Formulation::hex8_one_point, Formulation::tet4})
+    for (const Precision precision : precisions) {
+      const Mesh mesh = jittered_body(formulation, n_elements);
+      Body body = sheared_body(mesh, formulation, precision);
+      std::array<double, n_step_parts> of = measure(parts_of_step(body));
+      for (double& value : of) value /= mesh.n_elements();
+      std::printf("%s", separator);
+      print_parts(formulation, precision, mesh.n_elements(), of);
+      separator = ",";
+    }
+}
+
+}  // namespace trocar
