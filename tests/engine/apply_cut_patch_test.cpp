@@ -58,18 +58,21 @@ double highest_frequency(RankBody& body, double amplitude, double tolerance) {
   return found.omega;
 }
 
-// The body as it is, cut by its last edit, in n_rings.
-std::unique_ptr<Patch> patch_of(Simulation& s, int n_rings) {
+// Nodes that a frame's edit moved or added.
+std::vector<std::int32_t> edited_nodes(const std::vector<Vec3>& X_before, const Mesh& mesh) {
+  std::vector<std::int32_t> edited;
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
+    if (i >= std::ssize(X_before) || mesh.X[i] != X_before[i]) edited.push_back(i);
+  return edited;
+}
+
+// The body as it is, around these nodes, in n_rings.
+std::unique_ptr<Patch> patch_of(Simulation& s, std::span<const std::int32_t> edited, int n_rings) {
   const GlobalState global = gather_state(s);
   const std::vector<double> history = copy_history(s.model, s.part, s.state);
   std::vector<std::int32_t> itself(s.mesh.element_type.size());
   std::iota(itself.begin(), itself.end(), 0);
   const std::vector<double> same(itself.size(), 1.0);
-  // By the numbers before the splits: what was split has its place there still.
-  const MeshEdit& edit = s.log.new_edits.back().edit;
-  std::vector<std::int32_t> edited;
-  for (const NodeMove& move : edit.moves) edited.push_back(move.node);
-  for (const CornerChange& change : edit.corners) edited.push_back(change.node);
   return make_patch(
       s, elements_around(s.corners, edited),
       {.global = global, .history = history, .parent = itself, .scale = same, .n_rings = n_rings});
@@ -86,12 +89,14 @@ TEST(Patch, has_the_mode_that_an_edit_made_the_fastest) {
     int n_edits = 0;
     double before = highest_frequency(s, h, 1e-3);
     while (s.frame < 12) {
+      const std::vector<Vec3> X_before = s.mesh.X;
       run_frame(s, outputs);
       if (s.cuts[0].strokes.empty() || s.cuts[0].strokes[0].n_edits == n_edits) continue;
+      const std::vector<std::int32_t> edited = edited_nodes(X_before, s.mesh);
       n_edits = static_cast<int>(s.cuts[0].strokes[0].n_edits);
       const double after = highest_frequency(s, h, 1e-3);
       for (int n_rings = 0; n_rings <= 4; ++n_rings) {
-        const auto patch = patch_of(s, n_rings);
+        const auto patch = patch_of(s, edited, n_rings);
         const double omega = highest_frequency(*patch, h, 1e-3);
         std::printf("%s %d rings: %d of %d elements, %.4f of the body's, before %.4f\n",
                     kind.elements.c_str(), n_rings, patch->sub.mesh.n_elements(),
