@@ -194,17 +194,20 @@ static std::vector<std::int32_t> bridges(const CutPatch& patch, const CutLabels&
 }
 
 bool part_bridges(const CutSurroundings& around, const CutStroke& stroke, CutLabels& labels) {
+  std::vector<std::int32_t> found = bridges(around.patch, labels);
+  if (found.empty()) return false;
   const std::vector<ElementSides> sides = element_sides(around, stroke);
   bool is_changed = false;
-  for (bool is_going_on = true; is_going_on; is_changed = is_changed || is_going_on) {
+  for (bool is_going_on = true; is_going_on; found = bridges(around.patch, labels)) {
     is_going_on = false;
-    for (const std::int32_t e : bridges(around.patch, labels)) {
+    for (const std::int32_t e : found) {
       const Extent extent = extent_of(around, sides[e], e);
       if (is_unknown(labels, e) || extent.is_on_both_sides(around.h)) continue;
       set_geometric_side(extent, around.h, e, labels);
       is_going_on = true;
     }
     if (is_going_on) cut_graph(around, labels);
+    is_changed = is_changed || is_going_on;
   }
   return is_changed;
 }

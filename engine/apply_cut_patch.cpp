@@ -68,7 +68,7 @@ void set_state(const Simulation& s, const PatchState& state, Patch& patch) {
   average_volume_change(patch.model, patch.state, patch.scratch);
 }
 
-// a + share * b of owned nodes (n_owned * 3), b (n_nodes of the patch * 3) of the patch.
+// Of owned nodes (n_owned * 3): mode * of_whole + patch_mode (n_nodes of the patch * 3) * of_patch.
 void add_patch_mode(const Patch& patch, const Part& part, double of_whole, double of_patch,
                     std::span<const double> patch_mode, std::vector<double>& mode) {
   for (double& value : mode) value *= of_whole;
