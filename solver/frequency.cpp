@@ -79,11 +79,18 @@ bool orthonormalise(const Search& s, const std::vector<const Direction*>& basis,
   return true;
 }
 
+// Within +-1 by the global number alone, so that every mode of vibration has a share.
+double noise(const Search& s, std::size_t k) {
+  const auto global = static_cast<std::uint64_t>(s.part.node_global[k / 3]);
+  return static_cast<double>(mix64(3 * global + k % 3 + 1) >> 11) * 0x1p-52 - 1;
+}
+
 Direction start_direction(const Search& s, const Vector& mode) {
   Direction d{.x = mode};
   if (mode.size() != s.size()) {
     d.x.assign(s.size(), 0.0);
-    for (std::int64_t i = 0; i < s.model.n_owned; ++i) add_noise(s.model, s.part, i, 1, d.x);
+    for (std::size_t k = 0; k < s.size(); ++k)
+      if (!s.is_fixed(k)) d.x[k] = noise(s, k);
   }
   multiply_by_mass(s.model, d.x, d.Mx);
   return d;
@@ -121,15 +128,6 @@ Direction residual(Search& s, const Direction& x, double omega2) {
 }
 
 }  // namespace
-
-void add_noise(const Model& model, const Part& part, std::int64_t i, double size, Vector& mode) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto global = static_cast<std::uint64_t>(part.node_global[i]);
-    const std::uint64_t bits = mix64(3 * global + k + 1) >> 11;
-    if ((model.fixed[i] >> k & 1) == 0)
-      mode[3 * static_cast<std::size_t>(i) + k] += size * (static_cast<double>(bits) * 0x1p-52 - 1);
-  }
-}
 
 HighestFrequency find_highest_frequency(const Model& model, const Part& part, const State& state,
                                         const ForceOfDisplacement& forces,

@@ -34,11 +34,6 @@ inline constexpr double frequency_margin = 1.02;
 // Collective.
 using ForceOfDisplacement = std::function<void(std::vector<double>& u, std::vector<double>& force)>;
 
-// Adds to owned node i of a mode (n_owned * 3) values within +-size that follow from the global
-// number alone, so that every mode of vibration has a share. Fixed components stay.
-void add_noise(const Model& model, const Part& part, std::int64_t i, double size,
-               std::vector<double>& mode);
-
 // mode (n_owned * 3): where the search starts, empty for a start from the node numbers alone; what
 // it found, of norm 1 in M. The result does not depend on ranks and threads. Collective.
 HighestFrequency find_highest_frequency(const Model& model, const Part& part, const State& state,
