@@ -1,10 +1,9 @@
 #include "apps/command_cut2d.h"
 
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
+#include "apps/write_file.h"
 #include "base/log.h"
 #include "base/units.h"
 #include "cutting/cut_plane_paper.h"
@@ -18,16 +17,6 @@
 namespace trocar {
 
 namespace {
-
-void write_file(const std::string& file, const std::string& text) {
-  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-  std::error_code ignored;  // the stream says what matters
-  if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
-  std::ofstream stream(file);
-  if (!(stream << text).flush())
-    throw MachineError(file + ": can't be written (disk full or no permission)");
-  log_info(file);
-}
 
 Cut2dMode mode_of(const std::string& name) {
   return name == "paper" ? Cut2dMode::paper

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 
+#include "apps/write_file.h"
 #include "base/log.h"
 #include "base/quoted.h"
 #include "base/threads.h"
@@ -18,15 +18,6 @@
 namespace trocar {
 
 namespace {
-
-void write_file(const std::string& file, const std::string& text) {
-  std::error_code ignored;  // the stream says what matters
-  std::filesystem::create_directories(std::filesystem::path(file).parent_path(), ignored);
-  std::ofstream stream(file);
-  if (!(stream << text).flush())
-    throw MachineError(file + ": can't be written (disk full or no permission)");
-  log_info(file);
-}
 
 void print_list() {
   for (const Problem& problem : built_in_problems()) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/sort_unique.h"
 #include "cutting/cut_hex.h"
 #include "cutting/cut_hex_shape.h"
 
@@ -82,8 +83,7 @@ static void measure_deviation(const Mesh& mesh, const std::vector<Stroke>& strok
       if ((mesh.cut_facets[e] >> f & 1) != 0)
         for (const int c : facet_corners(mesh.element_type[e], f))
           if (c >= 0) node.push_back(mesh.corners(e)[c]);
-  std::sort(node.begin(), node.end());
-  node.erase(std::unique(node.begin(), node.end()), node.end());
+  sort_unique(node);
   for (const std::int32_t i : node) {
     double least = 1e300;
     for (const Stroke& stroke : strokes)

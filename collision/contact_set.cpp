@@ -3,27 +3,23 @@
 #include <algorithm>
 
 #include "base/check.h"
+#include "base/sort_unique.h"
 
 namespace trocar {
 
 namespace {
 
-std::size_t index(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 // Each rank with nodes tells all others of them: they are few.
 Halo all_to_all(const ContactSet& set, std::span<const std::int32_t> node_owner, int rank) {
   std::vector<int> ranks;
-  for (const std::int32_t i : set.node) ranks.push_back(node_owner[index(i)]);
-  std::sort(ranks.begin(), ranks.end());
-  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  for (const std::int32_t i : set.node) ranks.push_back(node_owner[to_size(i)]);
+  sort_unique(ranks);
   Halo halo;
   for (const int other : ranks) {
     if (other == rank) continue;
     halo.neighbours.push_back({.rank = other, .send = set.owned});
     for (std::size_t place = 0; place < set.node.size(); ++place)
-      if (node_owner[index(set.node[place])] == other)
+      if (node_owner[to_size(set.node[place])] == other)
         halo.neighbours.back().receive.push_back(static_cast<std::int32_t>(place));
   }
   return halo;
@@ -33,8 +29,7 @@ std::vector<std::int32_t> nodes_of(std::span<const Contact> contacts) {
   std::vector<std::int32_t> node;
   for (const Contact& contact : contacts)
     node.insert(node.end(), contact.node.begin(), contact.node.end());
-  std::sort(node.begin(), node.end());
-  node.erase(std::unique(node.begin(), node.end()), node.end());
+  sort_unique(node);
   return node;
 }
 
@@ -45,11 +40,11 @@ ContactSet prepare_contacts(std::span<const Contact> contacts,
                             std::span<const double> mass, std::span<const std::uint8_t> is_held) {
   ContactSet set{.node = nodes_of(contacts)};
   for (const std::int32_t i : set.node) {
-    if (node_owner[index(i)] == rank) {
+    if (node_owner[to_size(i)] == rank) {
       set.owned.push_back(static_cast<std::int32_t>(set.inverse_mass.size()));
-      set.local.push_back(part.node_local[index(i)]);
+      set.local.push_back(part.node_local[to_size(i)]);
     }
-    set.inverse_mass.push_back(is_held[index(i)] != 0 ? 0 : 1 / mass[index(i)]);
+    set.inverse_mass.push_back(is_held[to_size(i)] != 0 ? 0 : 1 / mass[to_size(i)]);
   }
   if (set.owned.empty()) return {};
   for (const Contact& contact : contacts) {

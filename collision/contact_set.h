@@ -13,6 +13,10 @@
 
 namespace trocar {
 
+inline std::size_t to_size(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
 // n·(extra displacement of x) >= lack.
 struct ContactConstraint {
   std::int32_t item = 0;

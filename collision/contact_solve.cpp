@@ -14,17 +14,13 @@ constexpr int most_rounds = 30;
 constexpr double furthest = 4;        // that a contact moves a node, in what it lacks
 constexpr double good_enough = 1e-3;  // change in a round / deepest point at the start
 
-std::size_t index(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 std::array<Vec3, 3> corners_of(const ContactSet& set, const ContactSet::Item& item) {
-  return {set.x_end[index(item.place[0])], set.x_end[index(item.place[1])],
-          set.x_end[index(item.place[2])]};
+  return {set.x_end[to_size(item.place[0])], set.x_end[to_size(item.place[1])],
+          set.x_end[to_size(item.place[2])]};
 }
 
 const ToolMotion& tool_of(const ContactStep& step, const ContactSet::Item& item) {
-  return step.tools[index(item.contact.tool)];
+  return step.tools[to_size(item.contact.tool)];
 }
 
 // arm: from the tool's origin to its point y.
@@ -33,7 +29,7 @@ void set_approach(const ContactSet& set, const ContactStep& step, double release
   Vec3 relative = -step.dt * (tool.velocity + tool.angular_velocity.cross(arm));
   double inverse = 0, lightest = 0;
   for (std::size_t a = 0; a < 3; ++a) {
-    const std::size_t i = index(c.place[a]);
+    const std::size_t i = to_size(c.place[a]);
     relative += c.weight[a] * (set.x_end[i] - set.x_start[i]);
     inverse += c.weight[a] * c.weight[a] * set.inverse_mass[i];
     lightest = std::max(lightest, c.weight[a] * set.inverse_mass[i]);
@@ -48,7 +44,7 @@ void set_approach(const ContactSet& set, const ContactStep& step, double release
 
 void add_triangle(const ContactStep& step, const ContactOptions& options, std::int32_t k,
                   ContactSet& set) {
-  const ContactSet::Item& item = set.items[index(k)];
+  const ContactSet::Item& item = set.items[to_size(k)];
   const ToolMotion& tool = tool_of(step, item);
   ContactConstraint c{.item = k,
                       .place = item.place,
@@ -56,7 +52,7 @@ void add_triangle(const ContactStep& step, const ContactOptions& options, std::i
                       .normal = tool.pose.rotation * item.contact.normal};
   const Vec3 arm = tool.pose.rotation * item.contact.point;
   Vec3 x = Vec3::Zero();
-  for (std::size_t a = 0; a < 3; ++a) x += c.weight[a] * set.x_end[index(c.place[a])];
+  for (std::size_t a = 0; a < 3; ++a) x += c.weight[a] * set.x_end[to_size(c.place[a])];
   const double gap = c.normal.dot(x - (arm + tool.pose.translation));
   set_approach(set, step, options.release_speed, gap, arm, tool, c);
   if (c.lack > 0 && c.felt_mass > 0) set.constraints.push_back(c);
@@ -70,7 +66,7 @@ void find_deepest(const ContactDetector& detector, const ContactStep& step, Cont
     const Vec3 facet = (x[1] - x[0]).cross(x[2] - x[0]);
     for (std::size_t a = 0; a < 3; ++a) {
       const auto found = detector.touch_node(item.contact, x[a], tool_of(step, item).pose);
-      DeepestPiece& of_node = set.deepest[index(item.place[a])];
+      DeepestPiece& of_node = set.deepest[to_size(item.place[a])];
       if (found && found->gap < of_node.touch.gap && found->normal.dot(facet) < 0)
         of_node = {.item = static_cast<std::int32_t>(k), .touch = *found};
     }
@@ -82,7 +78,7 @@ void add_nodes(const ContactDetector& detector, const ContactStep& step,
   find_deepest(detector, step, set);
   for (std::size_t i = 0; i < set.deepest.size(); ++i) {
     if (set.deepest[i].item < 0) continue;
-    const ToolMotion& tool = tool_of(step, set.items[index(set.deepest[i].item)]);
+    const ToolMotion& tool = tool_of(step, set.items[to_size(set.deepest[i].item)]);
     const NodeTouch& touch = set.deepest[i].touch;
     const auto place = static_cast<std::int32_t>(i);
     ContactConstraint c{.item = set.deepest[i].item,
@@ -96,13 +92,13 @@ void add_nodes(const ContactDetector& detector, const ContactStep& step,
 }
 
 Vec3 extra(const ContactConstraint& c, std::span<const Vec3> move) {
-  return c.weight[0] * move[index(c.place[0])] + c.weight[1] * move[index(c.place[1])] +
-         c.weight[2] * move[index(c.place[2])];
+  return c.weight[0] * move[to_size(c.place[0])] + c.weight[1] * move[to_size(c.place[1])] +
+         c.weight[2] * move[to_size(c.place[2])];
 }
 
 void apply(const ContactConstraint& c, const Vec3& impulse, ContactSet& set) {
   for (std::size_t a = 0; a < 3; ++a)
-    set.move[index(c.place[a])] += c.weight[a] * set.inverse_mass[index(c.place[a])] * impulse;
+    set.move[to_size(c.place[a])] += c.weight[a] * set.inverse_mass[to_size(c.place[a])] * impulse;
 }
 
 // Returns by how much the contact point went.
@@ -152,10 +148,10 @@ void solve_contacts(const ContactDetector& detector, const ContactStep& step,
   std::fill(set.force.begin(), set.force.end(), Vec3::Zero());
   for (const ContactConstraint& c : constraints) {
     const Vec3 force = (c.push * c.normal + c.drag) / step.response;
-    Vec3& reaction = set.items[index(c.item)].reaction_sum;
+    Vec3& reaction = set.items[to_size(c.item)].reaction_sum;
     for (std::size_t a = 0; a < 3; ++a) {
-      if (set.inverse_mass[index(c.place[a])] == 0) continue;
-      set.force[index(c.place[a])] += c.weight[a] * force;
+      if (set.inverse_mass[to_size(c.place[a])] == 0) continue;
+      set.force[to_size(c.place[a])] += c.weight[a] * force;
       reaction -= c.weight[a] * force;
     }
   }

@@ -7,6 +7,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/sort_unique.h"
 #include "collision/narrow_phase.h"
 #include "collision/plane_contact.h"
 #include "collision/surface_tree.h"
@@ -142,8 +143,7 @@ void ContactDetector::State::find_candidates(const PosedPiece& piece) {
     tree->overlapping(box, box_candidates);
     candidates.insert(candidates.end(), box_candidates.begin(), box_candidates.end());
   }
-  std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  sort_unique(candidates);
 }
 
 void ContactDetector::State::touch_surface(const PosedPiece& piece,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/sort_unique.h"
 namespace trocar {
 
 namespace {
@@ -72,8 +73,7 @@ Duplication duplicate_nodes(const Mesh& mesh, std::span<const ElementFacet> open
   Separation separation{mesh, across, {opened.begin(), opened.end()}};
   std::sort(separation.opened.begin(), separation.opened.end());
   std::vector<std::int32_t> ascending(nodes.begin(), nodes.end());
-  std::sort(ascending.begin(), ascending.end());
-  ascending.erase(std::unique(ascending.begin(), ascending.end()), ascending.end());
+  sort_unique(ascending);
 
   Duplication result;
   std::vector<int> component;

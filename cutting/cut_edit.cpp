@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort_unique.h"
 #include "mesh/quality.h"
 
 namespace trocar {
@@ -19,8 +20,7 @@ static std::vector<std::int32_t> moved_elements(const TetCut& cut) {
   std::vector<std::int32_t> element;
   for (const NodeTransfer& t : cut.transfer)
     element.insert(element.end(), patch.star(t.node).begin(), patch.star(t.node).end());
-  std::sort(element.begin(), element.end());
-  element.erase(std::unique(element.begin(), element.end()), element.end());
+  sort_unique(element);
   return element;
 }
 
@@ -124,11 +124,6 @@ CutFigures make_figures(const TetCut& cut, bool is_last) {
   figures.n_inverted = cut.rungs.n_inverted;
   figures.mean_edge = cut.around.h;
   return figures;
-}
-
-static void sort_unique(std::vector<std::int32_t>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 // Sides are kept where something is open: there they can't be taken back. Elsewhere the next edit

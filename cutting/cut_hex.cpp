@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/sort_unique.h"
 #include "cutting/cut_patch.h"
 #include "mesh/hex_split.h"
 
@@ -43,8 +44,7 @@ std::vector<std::int32_t> whole_hexahedra(const Mesh& mesh) {
   }
   for (const SplitQuad& quad : split_quads(mesh, sorted_facet_sides(mesh)))
     if (!has_own_diagonal(mesh, quad)) whole.push_back(quad.hex);
-  std::sort(whole.begin(), whole.end());
-  whole.erase(std::unique(whole.begin(), whole.end()), whole.end());
+  sort_unique(whole);
   return whole;
 }
 

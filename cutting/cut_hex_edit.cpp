@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/sort_unique.h"
 #include "cutting/cut_hex.h"
 #include "cutting/cut_hex_shape.h"
 #include "cutting/cut_patch.h"
 #include "mesh/hex_split.h"
-
 namespace trocar {
 
 // A hexahedron whose Jacobian falls below this part of the centre's is converted: in the reference,
@@ -131,11 +131,6 @@ static bool is_sound(const Translation& t, std::int32_t e, const KeptHex& hex) {
 
 static bool stays_hexahedron(const Translation& t, std::int32_t e, KeptHex& hex) {
   return join_corners(t, e, hex) && join_facets(t, e, hex) && is_sound(t, e, hex);
-}
-
-static void sort_unique(std::vector<std::int32_t>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 // Elements of the body around moved nodes and at parted ones, whose stars the index has split up.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort_unique.h"
 #include "cutting/cut_carry.h"
 #include "cutting/cut_near.h"
 
@@ -238,8 +239,7 @@ void add_hits(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x, const 
   if (found.empty()) return;
   stroke.mean_edge = mean_length(mesh, use);
   for (const CutHit& hit : found) stroke.fresh.push_back(hit.element);
-  std::sort(stroke.fresh.begin(), stroke.fresh.end());
-  stroke.fresh.erase(std::unique(stroke.fresh.begin(), stroke.fresh.end()), stroke.fresh.end());
+  sort_unique(stroke.fresh);
   merge_hits(stroke.hit, found);
 }
 

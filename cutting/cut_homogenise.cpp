@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/sort_unique.h"
 #include "cutting/cut_pair_forces.h"
 
 namespace trocar {
@@ -39,8 +40,7 @@ static std::vector<std::int32_t> neighbours(const CutPatch& patch, std::int32_t 
   for (const std::int32_t e : patch.star(i))
     for (const std::int32_t j : patch.corner[e])
       if (j != i) node.push_back(j);
-  std::sort(node.begin(), node.end());
-  node.erase(std::unique(node.begin(), node.end()), node.end());
+  sort_unique(node);
   return node;
 }
 
@@ -59,8 +59,7 @@ static std::vector<std::int32_t> second_neighbours(const CutPatch& patch, std::i
     node.push_back(j);
     node.insert(node.end(), next.begin(), next.end());
   }
-  std::sort(node.begin(), node.end());
-  node.erase(std::unique(node.begin(), node.end()), node.end());
+  sort_unique(node);
   std::erase(node, i);
   return node;
 }

@@ -13,8 +13,8 @@ namespace trocar {
 static constexpr int max_sweeps = 10;
 // Weight of (distance / h)^2 against f^2, inside and where the lips of the wound show.
 static constexpr double inner_weight = 80, outer_weight = 300;
-static constexpr double longest_step = 0.3;      // of h
-static constexpr double smallest_motion = 2e-3;  // of h: less counts as rest
+static constexpr double longest_relaxing_step = 0.3;  // of h
+static constexpr double smallest_motion = 2e-3;       // of h: less counts as rest
 
 namespace {
 
@@ -78,7 +78,8 @@ static Vec3 newton_step(const NodeEnergy& energy, const NodeBoundary& boundary, 
     break;
   }
   const double length = step.norm();
-  return length > longest_step * h ? Vec3(step * (longest_step * h / length)) : step;
+  return length > longest_relaxing_step * h ? Vec3(step * (longest_relaxing_step * h / length))
+                                            : step;
 }
 
 // Puts node i to `to` if `is_better` says so there, else leaves it.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/sort_unique.h"
 namespace trocar {
 
 using Corners = std::vector<std::array<std::int32_t, 4>>;
@@ -123,8 +124,7 @@ static bool is_link_sound(const CutPatch& patch, const Corners& corner, std::int
   for (const std::int32_t e : patch.star(i))
     for (std::size_t c = 0; c < 4; ++c)
       if (patch.corner[e][c] == i) copy.push_back(corner[e][c]);
-  std::sort(copy.begin(), copy.end());
-  copy.erase(std::unique(copy.begin(), copy.end()), copy.end());
+  sort_unique(copy);
   return std::all_of(copy.begin(), copy.end(), [&](std::int32_t k) {
     return is_one_cycle(link_boundary(patch, corner, patch.star(i), k));
   });
@@ -190,8 +190,7 @@ static std::vector<std::int32_t> broken_nodes(const CutSurroundings& around,
   std::vector<std::int32_t> nodes, broken;
   for (const auto& [e, f] : facet)
     for (const std::int32_t i : facet_nodes(around.patch, e, f)) nodes.push_back(i);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sort_unique(nodes);
   const std::vector<std::int32_t>& parent = opening.duplication.duplicate_parent;
   for (const std::int32_t i : nodes)
     if ((stays_whole[i] != 0 && std::binary_search(parent.begin(), parent.end(), i)) ||

@@ -7,15 +7,15 @@ namespace trocar {
 namespace {
 
 constexpr int max_rounds = 40;
-constexpr double least_quality = 0.03;  // of an element while nodes are still on their way
-constexpr double least_area = 0.02;     // of its area before the cut
-constexpr double least_flipped = 1e-3;  // of the mean area of the two elements
+constexpr double least_quality = 0.03;     // of an element while nodes are still on their way
+constexpr double least_moved_area = 0.02;  // of its area before the cut
+constexpr double least_flipped = 1e-3;     // of the mean area of the two elements
 
 bool is_allowed(const PlanePatch& patch, int node, const Vec2& x) {
   const StarShape now = star_shape(patch, node, patch.x[node]);
   const StarShape then = star_shape(patch, node, x);
   return then.quality >= std::min(least_quality, now.quality) &&
-         then.area >= std::min(least_area, now.area) && then.area > 0;
+         then.area >= std::min(least_moved_area, now.area) && then.area > 0;
 }
 
 // True when the node is at its cut point.

@@ -15,12 +15,12 @@ using namespace pair_forces;
 constexpr double least_area = 0.1;  // of the area before the cut
 
 // Both ends feel a pair; what nodes that stay feel is not used.
-struct Pair {
+struct PlanePair {
   int i, j;       // nodes
   double length;  // spring: l; particles: r0^2
 };
 struct Network {
-  std::vector<Pair> springs, particles;
+  std::vector<PlanePair> springs, particles;
 };
 
 double mean_edge(const PlanePatch& patch, std::span<const int> around, int node) {

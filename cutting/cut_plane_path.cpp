@@ -12,12 +12,12 @@ constexpr double least_length = 0.3;    // h
 constexpr double tip_clearance = 0.4;   // h
 constexpr double same_crossing = 1e-2;  // h
 
-struct Crossing {
+struct PathCrossing {
   double s = 0;
   PatchFacet facet;
 };
 struct Crossings {
-  std::vector<Crossing> enter, leave;  // ascending s
+  std::vector<PathCrossing> enter, leave;  // ascending s
 };
 
 std::size_t segment_at(const SubPath& path, double s) {
@@ -50,7 +50,7 @@ void cross_segment(const PlanePatch& patch, const SubPath& path, std::size_t k, 
   const double turn = cross(b - a, d);  // the inside is to the left of a -> b
   const double t = cross(b - a, a - p) / turn;
   if (t < -1e-9 || t > 1 + 1e-9) return;
-  const Crossing crossing{path.s[k] + t * (path.s[k + 1] - path.s[k]), facet};
+  const PathCrossing crossing{path.s[k] + t * (path.s[k + 1] - path.s[k]), facet};
   (turn > 0 ? crossings.enter : crossings.leave).push_back(crossing);
 }
 
@@ -64,33 +64,33 @@ Crossings find_crossings(const PlanePatch& patch, const SubPath& path, int tip) 
       for (std::size_t k = 0; k + 1 < path.point.size(); ++k)
         cross_segment(patch, path, k, {e, f}, crossings);
     }
-  const auto is_before = [](const Crossing& a, const Crossing& b) { return a.s < b.s; };
+  const auto is_before = [](const PathCrossing& a, const PathCrossing& b) { return a.s < b.s; };
   std::stable_sort(crossings.enter.begin(), crossings.enter.end(), is_before);
   std::stable_sort(crossings.leave.begin(), crossings.leave.end(), is_before);
   return crossings;
 }
 
-const Crossing* first_after(const std::vector<Crossing>& crossings, double s) {
-  for (const Crossing& crossing : crossings)
+const PathCrossing* first_after(const std::vector<PathCrossing>& crossings, double s) {
+  for (const PathCrossing& crossing : crossings)
     if (crossing.s > s) return &crossing;
   return nullptr;
 }
 
 // Where the first piece begins; s < 0 if the path never meets the body.
-Crossing find_start(const PlanePatch& patch, const SubPath& path, int tip,
-                    const Crossings& crossings) {
+PathCrossing find_start(const PlanePatch& patch, const SubPath& path, int tip,
+                        const Crossings& crossings) {
   if (tip >= 0) return {0, {}};
-  Crossing start{0, {}};
+  PathCrossing start{0, {}};
   const double distance = boundary_distance(patch, path.point[0], -1, start.facet);
   const double ahead = std::min(2 * on_boundary * patch.h, 0.5 * path.length());
   if (distance < on_boundary * patch.h && is_inside(patch, position(path, ahead))) return start;
   if (is_inside(patch, path.point[0])) return {0, {}};
-  const Crossing* enter = first_after(crossings.enter, -1);
-  return enter != nullptr ? *enter : Crossing{-1, {}};
+  const PathCrossing* enter = first_after(crossings.enter, -1);
+  return enter != nullptr ? *enter : PathCrossing{-1, {}};
 }
 
-Crossing find_end(const PlanePatch& patch, const SubPath& path, int tip) {
-  Crossing end{path.length(), {}};
+PathCrossing find_end(const PlanePatch& patch, const SubPath& path, int tip) {
+  PathCrossing end{path.length(), {}};
   PatchFacet nearest;
   if (boundary_distance(patch, path.point.back(), tip, nearest) < on_boundary * patch.h)
     end.facet = nearest;
@@ -197,10 +197,10 @@ std::vector<SubPath> clip_to_body(const PlanePatch& patch, const SubPath& path, 
   std::vector<SubPath> result;
   const Crossings crossings = find_crossings(patch, path, tip);
   const double tolerance = same_crossing * patch.h;
-  Crossing start = find_start(patch, path, tip, crossings);
+  PathCrossing start = find_start(patch, path, tip, crossings);
   while (start.s >= 0 && start.s < path.length()) {
-    const Crossing* leave = first_after(crossings.leave, start.s + tolerance);
-    const Crossing end = leave != nullptr ? *leave : find_end(patch, path, tip);
+    const PathCrossing* leave = first_after(crossings.leave, start.s + tolerance);
+    const PathCrossing end = leave != nullptr ? *leave : find_end(patch, path, tip);
     if (end.s - start.s > least_length * patch.h) {
       result.push_back(trimmed(path, start.s, end.s));
       result.back().start_on = start.facet;
@@ -208,8 +208,8 @@ std::vector<SubPath> clip_to_body(const PlanePatch& patch, const SubPath& path, 
       result.back().tip = start.s > 0 ? -1 : tip;
     }
     if (leave == nullptr) break;
-    const Crossing* enter = first_after(crossings.enter, leave->s - tolerance);
-    start = enter != nullptr ? *enter : Crossing{-1, {}};
+    const PathCrossing* enter = first_after(crossings.enter, leave->s - tolerance);
+    start = enter != nullptr ? *enter : PathCrossing{-1, {}};
   }
   return result;
 }

@@ -8,11 +8,11 @@ namespace trocar {
 
 namespace {
 
-constexpr double at_rest = 1e-2;    // h: a smaller step does not wake the neighbours
-constexpr double not_worth = 1e-3;  // h: a smaller step is not taken
+constexpr double asleep_below = 1e-2;  // h: a smaller step does not wake the neighbours
+constexpr double not_worth = 1e-3;     // h: a smaller step is not taken
 constexpr double shape_weight = 0.1 / 6.928203230275509;  // 1 / quality = S / (4 sqrt(3) A)
 constexpr double good_quality = 0.8;                      // elements as good are not flipped
-constexpr double least_area = 1e-3;                       // of the area before the cut
+constexpr double least_smooth_area = 1e-3;                // of the area before the cut
 constexpr int max_star = 24;  // nodes of more elements stay where they are
 
 // Elements around a node by their opposite edges, valid until the next flip.
@@ -40,7 +40,7 @@ double energy(const PlanePatch& patch, const Star& star, const Vec2& x) {
   for (int k = 0; k < star.n; ++k) {
     const Vec2 b = patch.x[star.b[k]] - x, c = patch.x[star.c[k]] - x;
     const double A = 0.5 * cross(b, c);
-    if (A * star.per_A0[k] <= least_area) return std::numeric_limits<double>::infinity();
+    if (A * star.per_A0[k] <= least_smooth_area) return std::numeric_limits<double>::infinity();
     const double S = b.squaredNorm() + c.squaredNorm() + (c - b).squaredNorm();
     const double strain = A * star.per_A0[k] - 1;
     E += strain * strain + shape_weight * S / A;
@@ -64,7 +64,7 @@ Expansion expand(const PlanePatch& patch, const Star& star, const Vec2& x) {
     const double A = 0.5 * cross(b, c), per_A = 1 / A, per_A0 = star.per_A0[k];
     const double S = b.squaredNorm() + c.squaredNorm() + bc.squaredNorm();
     const double strain = A * per_A0 - 1, shape = shape_weight * per_A, mixed = shape * per_A;
-    if (A * per_A0 <= least_area) result.E = std::numeric_limits<double>::infinity();
+    if (A * per_A0 <= least_smooth_area) result.E = std::numeric_limits<double>::infinity();
     result.E += strain * strain + shape * S;
     result.g += (2 * strain * per_A0 - mixed * S) * gA + shape * gS;
     const double outer = 2 * per_A0 * per_A0 + 2 * mixed * S * per_A;
@@ -179,7 +179,7 @@ void area_step(PlanePatch& patch, std::span<const Movable> movable, int n_sweeps
       Star& star = stars[slot];
       if (star.n == 0) star = find_star(patch, m.node);
       is_awake[m.node] = 0;
-      if (relax(patch, m, star) < at_rest * patch.h) continue;
+      if (relax(patch, m, star) < asleep_below * patch.h) continue;
       for (int k = 0; k < star.n; ++k) is_awake[star.b[k]] = is_awake[star.c[k]] = 1;
       is_awake[m.node] = 1;
     }

@@ -10,7 +10,7 @@ namespace trocar {
 
 namespace {
 
-constexpr double mm = 1e3, mm2 = 1e6;  // in a metre, in a square metre
+constexpr double in_mm = 1e3, in_mm2 = 1e6;  // a metre, a square metre
 
 Spread spread(const std::vector<double>& values) {
   if (values.empty()) return {};
@@ -29,9 +29,9 @@ PlaneStatistics plane_statistics(const Mesh& mesh) {
   std::vector<double> area, edge, of_two;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
     const std::span<const std::int32_t> corner = mesh.corners(e);
-    area.push_back(mm2 * element_volume(mesh, e, mesh.X));
+    area.push_back(in_mm2 * element_volume(mesh, e, mesh.X));
     for (std::size_t a = 0; a < 3; ++a) {
-      edge.push_back(mm * (mesh.X[corner[a]] - mesh.X[corner[(a + 1) % 3]]).norm());
+      edge.push_back(in_mm * (mesh.X[corner[a]] - mesh.X[corner[(a + 1) % 3]]).norm());
       if (a < 2) of_two.push_back(edge.back());
     }
   }

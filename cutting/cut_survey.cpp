@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/sort_unique.h"
 namespace trocar {
 
 // Squared distance over h, in place of it, of a node that would have to move and can't.
@@ -20,8 +21,7 @@ static std::vector<std::int32_t> seed_elements(const CutStroke& stroke, bool is_
   if (is_last)
     for (const CutHit& hit : stroke.hit)
       if (find_element(stroke.side, hit.element) == nullptr) seed.push_back(hit.element);
-  std::sort(seed.begin(), seed.end());
-  seed.erase(std::unique(seed.begin(), seed.end()), seed.end());
+  sort_unique(seed);
   return seed;
 }
 

@@ -11,7 +11,6 @@ namespace trocar {
 
 namespace {
 
-constexpr FixedMask all_components = 7;
 constexpr double share_of_slower_mode = 0.1;
 
 std::vector<std::int32_t> free_nodes(const Simulation& s, std::span<const std::int32_t> edited,

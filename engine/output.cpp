@@ -61,17 +61,6 @@ std::vector<FilmOrder> film_orders(const Scene& scene, const Outputs& outputs,
   return orders;
 }
 
-void make_folder(const std::string& folder) {
-  std::error_code trouble;
-  std::filesystem::create_directories(folder, trouble);
-  const std::string probe = folder + "/.trocar-write-test";
-  const bool is_writable = !trouble && std::ofstream(probe).put('x').flush();
-  if (!is_writable)
-    throw MachineError("the output folder \"" + folder + "\" can't be written" +
-                       (trouble ? ": " + trouble.message() : "") + "; choose another one with -o");
-  std::filesystem::remove(probe, trouble);
-}
-
 std::unique_ptr<RecordingWriter> new_recording(const Simulation& s, const std::string& file) {
   RecordingHead head{
       .version = version_text(), .scene = echo_options(scene_options(), &s.scene), .mesh = s.mesh};
@@ -129,7 +118,7 @@ void rename_films(const Simulation& s, Outputs& outputs) {
 }
 
 void open_writers(const Simulation& s, const Checkpoint* resumed, Outputs& outputs) {
-  make_folder(outputs.folder);
+  make_output_folder(outputs.folder);
   if (resumed)
     rename_films(s, outputs);
   else
@@ -189,6 +178,17 @@ void hand_out_edits(Simulation& s, Outputs& outputs) {
 }
 
 }  // namespace
+
+void make_output_folder(const std::string& folder) {
+  std::error_code trouble;
+  std::filesystem::create_directories(folder, trouble);
+  const std::string probe = folder + "/.trocar-write-test";
+  const bool is_writable = !trouble && std::ofstream(probe).put('x').flush();
+  if (!is_writable)
+    throw MachineError("the output folder \"" + folder + "\" can't be written" +
+                       (trouble ? ": " + trouble.message() : "") + "; choose another one with -o");
+  std::filesystem::remove(probe, trouble);
+}
 
 Outputs open_outputs(Simulation& s, const std::string& folder, const Checkpoint* resumed) {
   Outputs outputs;

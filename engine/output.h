@@ -40,6 +40,8 @@ struct Outputs {
   Outputs(Outputs&&) noexcept;
 };
 
+// Throws MachineError if nothing can be written there.
+void make_output_folder(const std::string& folder);
 // Makes the folder and opens all files. Collective; throws MachineError on every rank if the folder
 // can't be written. resumed: where the run goes on, null at time zero: recordings and metrics are
 // cut off there and go on, films and contact sheets get files of their own. Throws InputError on

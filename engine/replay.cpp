@@ -10,6 +10,7 @@
 #include "base/log.h"
 #include "engine/film_studio.h"
 #include "engine/mesh_measures.h"
+#include "engine/output.h"
 #include "engine/recording.h"
 #include "mesh/facets.h"
 #include "mesh/vtu_file.h"
@@ -107,13 +108,6 @@ void check_frame(const RecordedFrame& frame, const Mesh& mesh, const std::string
                      " nodes");
 }
 
-void make_folder(const std::string& folder) {
-  std::error_code trouble;
-  std::filesystem::create_directories(folder, trouble);
-  if (trouble)
-    throw MachineError("the folder \"" + folder + "\" can't be made: " + trouble.message());
-}
-
 std::size_t n_orders(const ReplayOptions& options) {
   return (options.video.empty() ? 0u : 1u) + (options.frames ? 1u : 0u);
 }
@@ -153,7 +147,7 @@ void replay(const ReplayOptions& options) {
   if (options.list) return list_frames(reader);
   if (options.video.empty() && !options.frames && !options.vtu)
     throw InputError("nothing to do: ask for --video FILE, --frames, --vtu or --list");
-  make_folder(options.folder);
+  make_output_folder(options.folder);
   const auto frames = chosen_frames(reader, options);
   const std::unique_ptr<FilmStudio> studio = open_studio(reader, options, frames);
   std::vector<PvdEntry> entries;

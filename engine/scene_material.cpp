@@ -11,26 +11,25 @@ namespace trocar {
 
 namespace {
 
-using Model = MaterialModel;
+const std::vector<std::pair<std::string, MaterialModel>> models = {
+    {"linear", MaterialModel::linear},
+    {"st-venant-kirchhoff", MaterialModel::st_venant_kirchhoff},
+    {"neo-hookean", MaterialModel::neo_hookean},
+    {"mooney-rivlin", MaterialModel::mooney_rivlin},
+    {"yeoh", MaterialModel::yeoh},
+    {"ogden", MaterialModel::ogden},
+    {"transversely-isotropic", MaterialModel::transversely_isotropic},
+    {"holzapfel-gasser-ogden", MaterialModel::holzapfel_gasser_ogden}};
 
-const std::vector<std::pair<std::string, Model>> models = {
-    {"linear", Model::linear},
-    {"st-venant-kirchhoff", Model::st_venant_kirchhoff},
-    {"neo-hookean", Model::neo_hookean},
-    {"mooney-rivlin", Model::mooney_rivlin},
-    {"yeoh", Model::yeoh},
-    {"ogden", Model::ogden},
-    {"transversely-isotropic", Model::transversely_isotropic},
-    {"holzapfel-gasser-ogden", Model::holzapfel_gasser_ogden}};
-
-constexpr unsigned bit(Model model) {
+constexpr unsigned bit(MaterialModel model) {
   return 1U << static_cast<unsigned>(model);
 }
-constexpr unsigned has_young = bit(Model::linear) | bit(Model::st_venant_kirchhoff) |
-                               bit(Model::neo_hookean) | bit(Model::transversely_isotropic) |
-                               bit(Model::holzapfel_gasser_ogden);
+constexpr unsigned has_young =
+    bit(MaterialModel::linear) | bit(MaterialModel::st_venant_kirchhoff) |
+    bit(MaterialModel::neo_hookean) | bit(MaterialModel::transversely_isotropic) |
+    bit(MaterialModel::holzapfel_gasser_ogden);
 constexpr unsigned all_models = ~0U;
-constexpr unsigned is_hgo = bit(Model::holzapfel_gasser_ogden);
+constexpr unsigned is_hgo = bit(MaterialModel::holzapfel_gasser_ogden);
 
 // A number of a material: who has it, and what stands for it when absent (NaN: it is needed).
 struct Parameter {
@@ -55,16 +54,17 @@ const std::vector<Parameter>& parameters() {
        "mu at small strain; 0.45 if absent; 0.5 itself has no finite stable step."},
       {"density", &SceneMaterial::density, dim::density, positive, all_models, 1060,
        "Mass density rho; 1060 kg/m^3 if absent."},
-      {"c10", &SceneMaterial::c10, dim::pressure, any, bit(Model::mooney_rivlin), needed,
+      {"c10", &SceneMaterial::c10, dim::pressure, any, bit(MaterialModel::mooney_rivlin), needed,
        "mooney-rivlin: mu = 2 (c10 + c01)."},
-      {"c01", &SceneMaterial::c01, dim::pressure, any, bit(Model::mooney_rivlin), 0,
+      {"c01", &SceneMaterial::c01, dim::pressure, any, bit(MaterialModel::mooney_rivlin), 0,
        "mooney-rivlin."},
-      {"c1", &SceneMaterial::c1, dim::pressure, positive, bit(Model::yeoh), needed,
+      {"c1", &SceneMaterial::c1, dim::pressure, positive, bit(MaterialModel::yeoh), needed,
        "yeoh: mu = 2 c1."},
-      {"c2", &SceneMaterial::c2, dim::pressure, any, bit(Model::yeoh), 0, "yeoh."},
-      {"c3", &SceneMaterial::c3, dim::pressure, any, bit(Model::yeoh), 0, "yeoh."},
-      {"eta", &SceneMaterial::eta, dim::pressure, not_negative, bit(Model::transversely_isotropic),
-       needed, "transversely-isotropic: fibre modulus."},
+      {"c2", &SceneMaterial::c2, dim::pressure, any, bit(MaterialModel::yeoh), 0, "yeoh."},
+      {"c3", &SceneMaterial::c3, dim::pressure, any, bit(MaterialModel::yeoh), 0, "yeoh."},
+      {"eta", &SceneMaterial::eta, dim::pressure, not_negative,
+       bit(MaterialModel::transversely_isotropic), needed,
+       "transversely-isotropic: fibre modulus."},
       {"k1", &SceneMaterial::k1, dim::pressure, not_negative, is_hgo, needed,
        "holzapfel-gasser-ogden: fibre modulus."},
       {"k2", &SceneMaterial::k2, dim::none, positive, is_hgo, needed,
@@ -159,7 +159,7 @@ Options<SceneMaterial> material_options() {
 void complete_material(const SourceMap& where, const std::string& path, SceneMaterial& m) {
   if (!m.tissue.empty()) take_tissue(where, path, m);
   for (const Parameter& p : parameters()) check_parameter(where, path, p, m);
-  if ((m.model == Model::ogden) == m.ogden.empty())
+  if ((m.model == MaterialModel::ogden) == m.ogden.empty())
     where.fail(path, m.ogden.empty() ? "model ogden needs terms: ogden = [{mu = \"1 kPa\", alpha = "
                                        "2}]"
                                      : "ogden terms belong to model ogden");

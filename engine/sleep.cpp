@@ -11,7 +11,6 @@ namespace {
 
 constexpr double quiet_share = 1. / 16, watch_share = 1. / 4;  // of the bound
 constexpr double quiet_time = 0.5;                             // [s]
-constexpr FixedMask all_components = 7;
 
 bool has_left(const std::vector<double>& from, double reach, const State& state, std::int64_t i) {
   for (std::int64_t k = 3 * i; k < 3 * i + 3; ++k)

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/sort_unique.h"
 #include "mesh/facet_sort.h"
 #include "mesh/hex_split.h"
 #include "mesh/surface_edit.h"
@@ -87,8 +88,7 @@ std::vector<std::array<std::int32_t, 2>> mesh_edges(const Mesh& mesh) {
         const std::int32_t from = mesh.corners(e)[a], to = mesh.corners(e)[b];
         if (std::min(from, to) == i) above.push_back(std::max(from, to));
       }
-    std::sort(above.begin(), above.end());
-    above.erase(std::unique(above.begin(), above.end()), above.end());
+    sort_unique(above);
     for (const std::int32_t j : above) edge.push_back({i, j});
   }
   return edge;

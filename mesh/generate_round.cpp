@@ -1,11 +1,10 @@
 // Balls and cylinders as mapped boxes.
-#include <algorithm>
 #include <functional>
 #include <string>
 
 #include "base/error.h"
+#include "base/sort_unique.h"
 #include "mesh/box_cells.h"
-
 namespace trocar {
 
 namespace {
@@ -60,8 +59,7 @@ NodeSet joined_sides(const Mesh& mesh, std::size_t n_sides, const std::string& n
   NodeSet set{name, {}};
   for (std::size_t s = 0; s < n_sides; ++s)
     set.node.insert(set.node.end(), mesh.node_sets[s].node.begin(), mesh.node_sets[s].node.end());
-  std::sort(set.node.begin(), set.node.end());
-  set.node.erase(std::unique(set.node.begin(), set.node.end()), set.node.end());
+  sort_unique(set.node);
   return set;
 }
 

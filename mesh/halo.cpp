@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/check.h"
+#include "base/sort_unique.h"
 #include "mesh/partition.h"
-
 namespace trocar {
 
 // Marks of all corners of the elements that touch an owned node; fills part.element_global.
@@ -86,8 +86,7 @@ static std::vector<RankNode> nodes_to_send(const Mesh& mesh,
       for (const std::int32_t own : mesh.corners(e))
         if (node_owner[own] == rank) pairs.emplace_back(node_owner[other], part.node_local[own]);
     }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  sort_unique(pairs);
   return pairs;
 }
 

@@ -3,13 +3,9 @@
 #include <algorithm>
 
 #include "base/check.h"
+#include "base/sort_unique.h"
 
 namespace trocar {
-
-static void sort_uniquely(std::vector<std::int32_t>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
 
 static void link(NodeCorners& corners, std::int32_t node, std::int32_t corner) {
   corners.next[corner] = corners.first[node];
@@ -55,7 +51,7 @@ std::vector<std::int32_t> elements_around(const NodeCorners& corners,
   for (const std::int32_t node : nodes)
     for (std::int32_t at = corners.first[node]; at >= 0; at = corners.next[at])
       elements.push_back(corners.element[at]);
-  sort_uniquely(elements);
+  sort_unique(elements);
   return elements;
 }
 
@@ -66,7 +62,7 @@ std::vector<std::int32_t> edited_elements(const NodeCorners& before, const MeshE
   std::vector<std::int32_t> elements = elements_around(before, moved);
   for (const CornerChange& change : edit.corners) elements.push_back(change.element);
   for (const DensityChange& change : edit.density) elements.push_back(change.element);
-  sort_uniquely(elements);
+  sort_unique(elements);
   return elements;
 }
 
@@ -74,7 +70,7 @@ std::vector<std::int32_t> nodes_of(const Mesh& mesh, std::span<const std::int32_
   std::vector<std::int32_t> nodes;
   for (const std::int32_t e : elements)
     nodes.insert(nodes.end(), mesh.corners(e).begin(), mesh.corners(e).end());
-  sort_uniquely(nodes);
+  sort_unique(nodes);
   return nodes;
 }
 

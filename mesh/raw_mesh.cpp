@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/sort_unique.h"
 
 namespace trocar {
 
@@ -39,8 +40,7 @@ void add_cell(RawMesh& raw, CellKind kind, std::span<const std::int32_t> corners
 
 void make_group_lists(RawMesh& raw) {
   std::vector<std::int32_t> tags = raw.cell_group;
-  std::sort(tags.begin(), tags.end());
-  tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
+  sort_unique(tags);
   tags.erase(std::remove(tags.begin(), tags.end(), 0), tags.end());
   raw.group_offset.resize(tags.size() + 2);
   std::iota(raw.group_offset.begin() + 1, raw.group_offset.end(), 0);

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/quoted.h"
+#include "base/sort_unique.h"
 
 namespace trocar {
 
@@ -33,8 +34,7 @@ std::vector<GroupKey> used_keys(const RawMesh& raw, int low, int high) {
       if (is_used[list * n_dimensions + static_cast<std::size_t>(d)])
         for (const std::int32_t tag : raw.groups(static_cast<std::int32_t>(list)))
           keys.push_back({d, tag});
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  sort_unique(keys);
   return keys;
 }
 
@@ -152,8 +152,7 @@ std::vector<NodeSet> make_node_sets(const RawMesh& raw, int dimension,
     corner += n;
   }
   for (NodeSet& set : sets) {
-    std::sort(set.node.begin(), set.node.end());
-    set.node.erase(std::unique(set.node.begin(), set.node.end()), set.node.end());
+    sort_unique(set.node);
     set.node.shrink_to_fit();
   }
   return sets;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/sort_unique.h"
 namespace trocar {
 
 namespace {
@@ -49,8 +50,7 @@ std::vector<std::int32_t> merged_nodes(const Surface& old, const Surface& fresh,
                       std::back_inserter(kept));
   for (const std::array<std::int32_t, 3>& triangle : fresh.triangle)
     of_fresh.insert(of_fresh.end(), triangle.begin(), triangle.end());
-  std::sort(of_fresh.begin(), of_fresh.end());
-  of_fresh.erase(std::unique(of_fresh.begin(), of_fresh.end()), of_fresh.end());
+  sort_unique(of_fresh);
   std::set_intersection(of_fresh.begin(), of_fresh.end(), nodes.begin(), nodes.end(),
                         std::back_inserter(here));
   std::merge(kept.begin(), kept.end(), here.begin(), here.end(), std::back_inserter(all));

@@ -21,7 +21,7 @@ namespace trocar {
 
 namespace {
 
-constexpr std::size_t queue_length = 4;
+constexpr std::size_t frames_in_flight = 4;
 
 bool is_program(const std::string& path) {
   struct stat info {};
@@ -129,7 +129,7 @@ struct VideoWriter::Pipe {
         width(w),
         height(h),
         encoder(encoder_arguments(path, w, h, rate)),
-        work(queue_length,
+        work(frames_in_flight,
              [this](Image& image) { with_file_name([&] { encoder.write(image.rgb); }); }) {}
 
   template <class Body>

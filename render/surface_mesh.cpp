@@ -114,11 +114,6 @@ void add_node_vertices(const SurfaceShape& shape, const Faces& faces, std::int32
   }
 }
 
-using Vec3f = Eigen::Vector3f;
-Eigen::Map<const Vec3f> as_vector(const std::array<float, 3>& a) {
-  return Eigen::Map<const Vec3f>(a.data());
-}
-
 // Averages the normals of cut faces with their neighbours': a cut follows element faces, and their
 // zigzag would glitter.
 void smooth_cut_normals(SurfaceMesh& mesh) {

@@ -11,6 +11,11 @@
 
 namespace trocar {
 
+using Vec3f = Eigen::Vector3f;
+inline Eigen::Map<const Vec3f> as_vector(const std::array<float, 3>& a) {
+  return Eigen::Map<const Vec3f>(a.data());
+}
+
 // One vertex as the GPU gets it.
 struct SurfaceVertex {
   std::array<float, 3> x;       // present position [m]

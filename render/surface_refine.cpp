@@ -8,12 +8,6 @@ namespace trocar {
 
 namespace {
 
-using Vec3f = Eigen::Vector3f;
-
-Eigen::Map<const Vec3f> as_vector(const std::array<float, 3>& a) {
-  return Eigen::Map<const Vec3f>(a.data());
-}
-
 // The middle may leave the chord by at most this part of its length.
 constexpr float max_rise = 0.15f;
 

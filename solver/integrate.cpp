@@ -18,10 +18,6 @@ Coefficients coefficients(double alpha, double last_dt, double dt) {
   return {dt_m, (2 - alpha * dt_m) / (2 + alpha * dt_m), 2 * dt_m / (2 + alpha * dt_m)};
 }
 
-bool is_fixed(const Model& model, std::int64_t i, int j) {
-  return (model.fixed[i] >> j & 1) != 0;
-}
-
 // (v+ - v) / dt_m + alpha (v+ + v) / 2 of a component that goes from u to u_next; M times it is the
 // force.
 double given_acceleration(const Model& model, const Coefficients& c, double v, double v_next) {

@@ -9,10 +9,6 @@ struct Sides {
   std::span<double> force, mass;
 };
 
-bool is_fixed(const Model& model, std::int64_t i, int j) {
-  return (model.fixed[i] >> j & 1) != 0;
-}
-
 // As if no acceleration were given.
 void sum_cluster(const Model& model, std::size_t c, std::span<const double> force,
                  const Sides& sides) {

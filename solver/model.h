@@ -19,6 +19,7 @@ namespace trocar {
 
 // Components of a node that a support holds: bit 0 x, bit 1 y, bit 2 z.
 using FixedMask = std::uint8_t;
+constexpr FixedMask all_components = 7;
 
 struct SolverOptions {
   double mass_damping = 0;      // alpha of C = alpha M [1/s]
@@ -119,6 +120,10 @@ struct Model {
   VolumeAverages averages;
   SolverOptions options;
 };
+
+inline bool is_fixed(const Model& model, std::int64_t owned, int direction) {
+  return (model.fixed[owned] >> direction & 1) != 0;
+}
 
 // materials (n_regions of the mesh); fixed (n_nodes, global); mass (n_nodes, global) from
 // lumped_mass.

@@ -11,7 +11,6 @@ namespace trocar {
 
 namespace {
 
-constexpr double mm = 1e-3;
 constexpr double straight = 1e-9;  // sine of the turn of three points that count as one line
 
 double read_number(const std::string& text, const std::string& point) {

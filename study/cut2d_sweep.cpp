@@ -15,8 +15,8 @@ namespace trocar {
 
 namespace {
 
-constexpr double mm = 1e-3;
-constexpr double margin = 10 * mm, shortest = 12 * mm;  // room between ends and the boundary
+constexpr double boundary_margin = 10 * mm,
+                 shortest = 12 * mm;  // room between ends and the boundary
 
 // Uniform in [a, b), with the same bits from every library.
 class Random {
@@ -34,7 +34,8 @@ std::vector<Vec3> random_path(Random& random, double top) {
   do {
     path.clear();
     for (int k = 0; k < 2; ++k) {
-      const double x = random(margin, 60 * mm), y = random(margin, top - margin);
+      const double x = random(boundary_margin, 60 * mm),
+                   y = random(boundary_margin, top - boundary_margin);
       path.emplace_back(x, y, 0);
     }
   } while ((path[1] - path[0]).norm() < shortest);

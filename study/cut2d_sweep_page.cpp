@@ -3,22 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "study/study_text.h"
 #include "study/svg.h"
 
 namespace trocar {
 
 namespace {
 
-constexpr double width = 640, height = 330, left = 60, right = 620, top = 40, bottom = 270;
-constexpr std::array<const char*, n_cut2d_settings> colours = {"#8a6d1f", "#1f5fbf", "#c01818"};
-
-std::string fixed(double value, int decimals) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
+constexpr double chart_width = 640, height = 330, left = 60, right = 620, top = 40, bottom = 270;
+constexpr std::array<const char*, n_cut2d_settings> setting_colours = {"#8a6d1f", "#1f5fbf",
+                                                                       "#c01818"};
 
 double x_of(const Cut2dParameter& parameter, std::size_t k) {
   const auto n = static_cast<double>(parameter.values.size());
@@ -34,7 +29,8 @@ std::string axes_svg(const Cut2dParameter& parameter) {
   for (int k = 0; k <= 5; ++k) {
     const double y = y_of(0.2 * k);
     text += svg_line({left, y}, {right, y}, {"#dddddd", 1, ""});
-    text += svg_text({left - 8, y + 4}, {.text = fixed(0.2 * k, 1), .anchor = SvgAnchor::end});
+    text +=
+        svg_text({left - 8, y + 4}, {.text = with_decimals(0.2 * k, 1), .anchor = SvgAnchor::end});
   }
   for (std::size_t k = 0; k < parameter.values.size(); ++k)
     text += svg_text({x_of(parameter, k), bottom + 20},
@@ -48,7 +44,7 @@ std::string curve_svg(const Cut2dParameter& parameter, int setting, double Cut2d
                       const std::string& dash) {
   std::vector<SvgPoint> points;
   std::string markers;
-  const std::string colour = colours[static_cast<std::size_t>(setting)];
+  const std::string colour = setting_colours[static_cast<std::size_t>(setting)];
   for (std::size_t k = 0; k < parameter.values.size(); ++k) {
     const Cut2dSample& sample = parameter.values[k].samples[static_cast<std::size_t>(setting)];
     points.push_back({x_of(parameter, k), y_of(sample.*member)});
@@ -61,7 +57,7 @@ std::string legend_svg() {
   std::string text;
   for (int s = 0; s < n_cut2d_settings; ++s) {
     const double x = left + 200.0 * s;
-    const char* colour = colours[static_cast<std::size_t>(s)];
+    const char* colour = setting_colours[static_cast<std::size_t>(s)];
     text += svg_marker({x, bottom + 44}, s, colour, true, "");
     text += svg_text({x + 10, bottom + 48}, {.text = cut2d_setting_names[s], .colour = colour});
   }
@@ -85,11 +81,11 @@ bool is_default(const Cut2dValue& value, int setting) {
 
 std::string sentence(const Cut2dParameter& parameter) {
   const Cut2dValue& best = best_value(parameter);
-  std::string text =
-      "Robust mode: best 5 % quantile " + fixed(best.samples.back().low, 3) + " at " + best.label;
+  std::string text = "Robust mode: best 5 % quantile " + with_decimals(best.samples.back().low, 3) +
+                     " at " + best.label;
   for (const Cut2dValue& value : parameter.values)
     if (is_default(value, n_cut2d_settings - 1))
-      text += "; the default " + value.label + " has " + fixed(value.samples.back().low, 3);
+      text += "; the default " + value.label + " has " + with_decimals(value.samples.back().low, 3);
   return text + ".\n";
 }
 
@@ -100,7 +96,7 @@ std::string parameter_svg(const Cut2dParameter& parameter) {
   for (int s = 0; s < n_cut2d_settings; ++s)
     content += curve_svg(parameter, s, &Cut2dSample::median, "") +
                curve_svg(parameter, s, &Cut2dSample::low, "6 4");
-  return svg_document(width, height, "Plane cut: " + parameter.name, content + legend_svg());
+  return svg_document(chart_width, height, "Plane cut: " + parameter.name, content + legend_svg());
 }
 
 std::string parameter_file(const Cut2dParameter& parameter) {
@@ -118,9 +114,10 @@ std::string parameter_section(const Cut2dParameter& parameter) {
       const Cut2dSample& sample = value.samples[static_cast<std::size_t>(s)];
       const char* mark = is_default(value, s) ? "**" : "";
       text += "| " + (mark + value.label + mark) + " | " + cut2d_setting_names[s] + " | " +
-              fixed(sample.median, 3) + " | " + fixed(sample.low, 3) + " | " +
-              fixed(sample.worst, 3) + " | " + std::to_string(sample.n_refused) + " | " +
-              fixed(sample.area_sigma, 3) + " | " + fixed(1e6 * sample.seconds, 0) + " us |\n";
+              with_decimals(sample.median, 3) + " | " + with_decimals(sample.low, 3) + " | " +
+              with_decimals(sample.worst, 3) + " | " + std::to_string(sample.n_refused) + " | " +
+              with_decimals(sample.area_sigma, 3) + " | " + with_decimals(1e6 * sample.seconds, 0) +
+              " us |\n";
     }
   return text + "\n" + sentence(parameter);
 }

@@ -1,7 +1,6 @@
 #include "study/cut2d_table.h"
 
 #include <array>
-#include <cstdio>
 
 #include "cutting/cut_plane_paper.h"
 #include "study/study_text.h"
@@ -18,16 +17,11 @@ constexpr std::array<const char*, 14> units = {"",     "",     "",   "",   "",  
 constexpr std::size_t first_number = 3;
 using Cells = std::array<std::string, 14>;
 
-std::string fixed(double value, int decimals) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
-
 std::string time_text(const Cut2dRow& row) {
   if (row.best_seconds <= 0) return "";
   if (row.best_seconds == row.median_seconds) return seconds_text(row.best_seconds);
-  return fixed(1e6 * row.best_seconds, 0) + " / " + fixed(1e6 * row.median_seconds, 0) + " us";
+  return with_decimals(1e6 * row.best_seconds, 0) + " / " +
+         with_decimals(1e6 * row.median_seconds, 0) + " us";
 }
 
 Cells cells_of(const Cut2dRow& row) {
@@ -37,14 +31,14 @@ Cells cells_of(const Cut2dRow& row) {
           row.source,
           std::to_string(s.n_nodes),
           std::to_string(s.n_elements),
-          fixed(s.area.min, 2),
-          fixed(s.area.max, 2),
-          fixed(s.area.mean, 2),
-          fixed(s.area.sigma, 2),
-          fixed(s.edge.min, 1),
-          fixed(s.edge.max, 1),
-          fixed(s.edge.mean, 1),
-          fixed(s.edge.sigma, 1),
+          with_decimals(s.area.min, 2),
+          with_decimals(s.area.max, 2),
+          with_decimals(s.area.mean, 2),
+          with_decimals(s.area.sigma, 2),
+          with_decimals(s.edge.min, 1),
+          with_decimals(s.edge.max, 1),
+          with_decimals(s.edge.mean, 1),
+          with_decimals(s.edge.sigma, 1),
           time_text(row)};
 }
 

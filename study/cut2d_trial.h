@@ -12,6 +12,7 @@ namespace trocar {
 // As published, as Trocar cuts by default, or by subdivision (the paper's "OR").
 enum class Cut2dMode { paper, robust, subdivision };
 
+constexpr double mm = 1e-3;           // [m]
 using Cut2dPath = std::vector<Vec3>;  // (>= 2) [m]
 
 struct Cut2dTrial {

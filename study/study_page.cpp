@@ -40,7 +40,7 @@ std::string section(const Study& study, const std::string& image_folder) {
   return text;
 }
 
-constexpr const char* head =
+constexpr const char* page_head =
     "# Run time against error\n\n"
     "Made by `scripts/accuracy`, which runs `trocar study --all --docs docs`. Each problem is "
     "computed with every element, in double and single precision, with several sizes of cells and "
@@ -76,7 +76,7 @@ std::string front_table(const Study& study) {
 }
 
 std::string accuracy_page(const std::vector<Study>& studies, const std::string& image_folder) {
-  std::string text = head;
+  std::string text = page_head;
   text += std::string("- Kernels of this page: ") + simd_name() +
           ", one thread. Times depend on the machine and on what else it does: compare ratios.\n";
   for (const Study& study : studies) text += section(study, image_folder);

@@ -11,7 +11,7 @@ namespace trocar {
 
 namespace {
 
-constexpr double height = 6, duration = .55, frame = .025;
+constexpr double column_height = 6, duration = .55, frame_time = .025;
 
 // Top of the parabola through the largest of the samples and its neighbours.
 double peak_of(const std::vector<double>& y) {
@@ -24,28 +24,28 @@ double peak_of(const std::vector<double>& y) {
 }
 
 void swing(const Case& c, StudyBody& body, Outcome& outcome) {
-  const auto top = 3 * static_cast<std::size_t>(nearest_node(body.mesh, {.5, height, .5}));
+  const auto top = 3 * static_cast<std::size_t>(nearest_node(body.mesh, {.5, column_height, .5}));
   std::vector<double> deflection;
   const auto look = [&](double) { deflection.push_back(body.state.u[top]); };
-  while (body.state.time < duration - frame / 2)
-    if (!advance_frame(body, frame, c.step_factor, look)) {
+  while (body.state.time < duration - frame_time / 2)
+    if (!advance_frame(body, frame_time, c.step_factor, look)) {
       outcome.trouble = "the body is broken after " + std::to_string(body.state.time) + " s";
       return;
     }
   outcome.value = peak_of(deflection);
 }
 
-Outcome solve(const Case& c) {
+Outcome solve_column(const Case& c) {
   Outcome outcome;
   const double start = processor_seconds();
   outcome.h = 1. / c.n;
   StudyBody body = make_study_body(
-      make_box(Vec3::Zero(), Vec3(1, height, 1), {c.n, 6 * c.n, c.n}, c.method.elements), outcome.h,
-      {MaterialModel::neo_hookean, 17e6, .45, 1100},
+      make_box(Vec3::Zero(), Vec3(1, column_height, 1), {c.n, 6 * c.n, c.n}, c.method.elements),
+      outcome.h, {MaterialModel::neo_hookean, 17e6, .45, 1100},
       [](const Vec3& X) { return FixedMask{X.y() < 1e-9 ? FixedMask{7} : FixedMask{0}}; },
       with_method({}, c.method, c.precision));
   for (std::size_t i = 0; i < body.mesh.X.size(); ++i)
-    body.state.v[3 * i] = 10 * body.mesh.X[i].y() / height;
+    body.state.v[3 * i] = 10 * body.mesh.X[i].y() / column_height;
   const double ready = processor_seconds();
   swing(c, body, outcome);
   outcome.stepping_seconds = processor_seconds() - ready;
@@ -72,7 +72,7 @@ Problem problem_bending_column() {
           .size_meaning = "cells over the width of 1 m (even)",
           .methods = solid_methods(),
           .factors = {.5, .9},
-          .solve = solve};
+          .solve = solve_column};
 }
 
 }  // namespace trocar

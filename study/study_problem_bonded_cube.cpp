@@ -6,11 +6,11 @@ namespace trocar {
 
 namespace {
 
-constexpr double half_width = .05, height = .1, lift = .02;
+constexpr double cube_half_width = .05, cube_height = .1, lift = .02;
 
-Outcome solve(const Case& c) {
+Outcome solve_bonded_cube(const Case& c) {
   const StaticBox box = {
-      .size = {half_width, half_width, height},
+      .size = {cube_half_width, cube_half_width, cube_height},
       .n = {c.n, c.n, 2 * c.n},
       .material = {MaterialModel::neo_hookean, 3000, .49, 1000},
       .fixed =
@@ -19,11 +19,12 @@ Outcome solve(const Case& c) {
           },
       .moved = [](const Vec3& X) -> std::optional<Vec3> {
         if (X.z() < 1e-9) return Vec3(0, 0, 0);
-        if (X.z() > height - 1e-9) return Vec3(0, 0, lift);
+        if (X.z() > cube_height - 1e-9) return Vec3(0, 0, lift);
         return std::nullopt;
       }};
-  return relax_box(
-      c, box, [](const StudyBody& body) { return 4 * reaction_above(body, height - 1e-9).z(); });
+  return relax_box(c, box, [](const StudyBody& body) {
+    return 4 * reaction_above(body, cube_height - 1e-9).z();
+  });
 }
 
 }  // namespace
@@ -43,7 +44,7 @@ Problem problem_bonded_cube() {
           .size_meaning = "cells over the half width of 50 mm",
           .methods = solid_methods(),
           .factors = {1},
-          .solve = solve};
+          .solve = solve_bonded_cube};
 }
 
 }  // namespace trocar

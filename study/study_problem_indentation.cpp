@@ -8,11 +8,11 @@ namespace trocar {
 
 namespace {
 
-constexpr double half_width = .05, height = .05;
+constexpr double layer_half_width = .05, layer_height = .05;
 
-Outcome solve(const Case& c) {
+Outcome solve_indentation(const Case& c) {
   const StaticBox box = {
-      .size = {half_width, half_width, height},
+      .size = {layer_half_width, layer_half_width, layer_height},
       .n = {c.n, c.n, c.n},
       .material = {MaterialModel::neo_hookean, 3000, .49, 1000},
       .fixed =
@@ -21,12 +21,13 @@ Outcome solve(const Case& c) {
             return static_cast<FixedMask>((X.x() < 1e-9 ? 1 : 0) | (X.y() < 1e-9 ? 2 : 0));
           },
       .moved = [](const Vec3& X) -> std::optional<Vec3> {
-        if (X.z() < height - 1e-9) return std::nullopt;
+        if (X.z() < layer_height - 1e-9) return std::nullopt;
         const double r2 = X.x() * X.x() + X.y() * X.y();
         return Vec3(0, 0, -.01 * std::exp(-r2 / (2 * .012 * .012)));
       }};
-  return relax_box(
-      c, box, [](const StudyBody& body) { return 4 * reaction_above(body, height - 1e-9).z(); });
+  return relax_box(c, box, [](const StudyBody& body) {
+    return 4 * reaction_above(body, layer_height - 1e-9).z();
+  });
 }
 
 }  // namespace
@@ -43,7 +44,7 @@ Problem problem_indentation() {
           .size_meaning = "cells over the half width of 50 mm",
           .methods = solid_methods(),
           .factors = {1},
-          .solve = solve};
+          .solve = solve_indentation};
 }
 
 }  // namespace trocar

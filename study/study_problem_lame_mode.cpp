@@ -61,7 +61,7 @@ void vibrate(const Case& c, StudyBody& body, Outcome& outcome) {
     outcome.trouble = "the body does not vibrate through ten periods";
 }
 
-Outcome solve(const Case& c) {
+Outcome solve_lame_mode(const Case& c) {
   Outcome outcome;
   const double start = processor_seconds();
   outcome.h = a / c.n;
@@ -97,7 +97,7 @@ Problem problem_lame_mode() {
           .growth = 3,
           .methods = solid_methods(),
           .factors = {.5, .9},
-          .solve = solve};
+          .solve = solve_lame_mode};
 }
 
 }  // namespace trocar

@@ -14,7 +14,7 @@ namespace trocar {
 namespace {
 
 // Cases of one curve: everything but the size.
-struct Curve {
+struct CurveCases {
   Method method;
   Precision precision;
   double step_factor, sleep;
@@ -33,13 +33,13 @@ std::vector<Method> wanted_methods(const Problem& problem, const SweepOptions& o
   return wanted;
 }
 
-std::vector<Curve> curves_of(const Problem& problem, const SweepOptions& options) {
+std::vector<CurveCases> curves_of(const Problem& problem, const SweepOptions& options) {
   std::vector<Precision> precisions;
   for (const std::string& name : options.precisions) precisions.push_back(precision_named(name));
   if (precisions.empty()) precisions = {Precision::in_double, Precision::in_single};
   const bool has_factors = !problem.is_static() && !options.step_factors.empty();
   const std::vector<double>& factors = has_factors ? options.step_factors : problem.factors;
-  std::vector<Curve> curves;
+  std::vector<CurveCases> curves;
   for (const Method& method : wanted_methods(problem, options))
     for (const Precision precision : precisions)
       for (const double factor : factors)
@@ -63,7 +63,7 @@ Outcome solve_repeatedly(const Problem& problem, const Case& c, int repeats) {
   return outcome;
 }
 
-Run run_case(const Problem& problem, const Curve& curve, int n, int repeats) {
+Run run_case(const Problem& problem, const CurveCases& curve, int n, int repeats) {
   Run run{.method = curve.method.name,
           .precision = precision_name(curve.precision),
           .size = problem.size_label ? problem.size_label(n) : "n = " + std::to_string(n),
@@ -171,7 +171,7 @@ Study sweep(const Problem& problem, const SweepOptions& options) {
   Study study{.problem = problem};
   std::vector<int> sizes = options.sizes.empty() ? problem.sizes : options.sizes;
   std::sort(sizes.begin(), sizes.end());
-  const std::vector<Curve> curves = curves_of(problem, options);
+  const std::vector<CurveCases> curves = curves_of(problem, options);
   std::map<std::size_t, Run> last;  // of each curve
   double left = options.budget;
   for (const int n : sizes)

@@ -17,6 +17,12 @@ std::string significant(double value, int digits) {
   return text;
 }
 
+std::string with_decimals(double value, int decimals) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
 namespace {
 
 std::string scaled(double value, double unit, const char* name) {

@@ -1,0 +1,15 @@
+// Values in ascending order, each once.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+namespace trocar {
+
+template <class T>
+void sort_unique(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+}  // namespace trocar
