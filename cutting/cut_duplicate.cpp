@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/sort_unique.h"
+
 namespace trocar {
 
 namespace {

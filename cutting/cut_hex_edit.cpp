@@ -7,6 +7,7 @@
 #include "cutting/cut_hex_shape.h"
 #include "cutting/cut_patch.h"
 #include "mesh/hex_split.h"
+
 namespace trocar {
 
 // A hexahedron whose Jacobian falls below this part of the centre's is converted: in the reference,

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/sort_unique.h"
+
 namespace trocar {
 
 using Corners = std::vector<std::array<std::int32_t, 4>>;

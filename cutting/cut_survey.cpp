@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/sort_unique.h"
+
 namespace trocar {
 
 // Squared distance over h, in place of it, of a node that would have to move and can't.

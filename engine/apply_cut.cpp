@@ -77,13 +77,10 @@ void restore_momentum(std::span<const std::int32_t> nodes, std::span<const doubl
 }
 
 double least_element_step(const Simulation& s, std::span<const std::int32_t> elements) {
-  const std::vector<std::int32_t>& mine = s.part.element_global;
   double least = 1e300;
-  for (const std::int32_t e : elements) {
-    const auto at = std::lower_bound(mine.begin(), mine.end(), e);
-    if (at != mine.end() && *at == e)
-      least = std::min(least, s.model.element_step[static_cast<std::size_t>(at - mine.begin())]);
-  }
+  for (const std::int32_t e : elements)
+    if (const std::int64_t k = s.part.place_of(e); k >= 0)
+      least = std::min(least, s.model.element_step[static_cast<std::size_t>(k)]);
   return s.communicator->all_min(least);
 }
 

@@ -38,16 +38,14 @@ void update_part_and_model(Simulation& s, std::span<const std::int32_t> elements
   s.neighbours = make_neighbours(s.halo, s.model, s.contact != nullptr, *s.communicator);
   s.scratch = make_scratch(s.model);
   if (s.energy) s.scratch.damping_work.assign(static_cast<std::size_t>(s.model.n_owned), 0.0);
-  const std::vector<std::int32_t>& mine = s.part.element_global;
   for (const std::int32_t e : elements)
-    if (const auto at = std::lower_bound(mine.begin(), mine.end(), e); at != mine.end() && *at == e)
-      s.altitude[static_cast<std::size_t>(at - mine.begin())] = least_altitude(s.mesh, e, s.mesh.X);
+    if (const std::int64_t k = s.part.place_of(e); k >= 0)
+      s.altitude[static_cast<std::size_t>(k)] = least_altitude(s.mesh, e, s.mesh.X);
 }
 
 bool holds_one(const Part& part, std::span<const std::int32_t> elements) {
-  return std::any_of(elements.begin(), elements.end(), [&](std::int32_t e) {
-    return std::binary_search(part.element_global.begin(), part.element_global.end(), e);
-  });
+  return std::any_of(elements.begin(), elements.end(),
+                     [&](std::int32_t e) { return part.place_of(e) >= 0; });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/sort_unique.h"
 #include "mesh/box_cells.h"
+
 namespace trocar {
 
 namespace {

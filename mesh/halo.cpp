@@ -7,6 +7,7 @@
 #include "base/check.h"
 #include "base/sort_unique.h"
 #include "mesh/partition.h"
+
 namespace trocar {
 
 // Marks of all corners of the elements that touch an owned node; fills part.element_global.
@@ -22,6 +23,11 @@ static std::vector<std::uint8_t> touched_nodes(const Mesh& mesh,
     for (const std::int32_t i : node) is_touched[i] = 1;
   }
   return is_touched;
+}
+
+std::int64_t Part::place_of(std::int32_t element) const {
+  const auto at = std::lower_bound(element_global.begin(), element_global.end(), element);
+  return at != element_global.end() && *at == element ? at - element_global.begin() : -1;
 }
 
 Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int rank) {

@@ -32,6 +32,8 @@ struct Part {
   std::vector<std::int32_t> element_global;  // ascending
   std::vector<std::int32_t> node_local;      // (n_nodes) local number or -1
 
+  // Place of an element in element_global, -1 if the part lacks it.
+  std::int64_t place_of(std::int32_t element) const;
   std::int32_t n_local() const { return static_cast<std::int32_t>(node_global.size()); }
 };
 Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int rank);

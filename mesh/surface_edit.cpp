@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "base/sort_unique.h"
+
 namespace trocar {
 
 namespace {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "render/gl_light.h"
 #include "render/shader_instrument.h"
 #include "render/shader_post.h"
+#include "render/shader_shade.h"
 
 namespace trocar {
 
@@ -22,15 +24,13 @@ GlTarget part_of(const GlContext& context, int width, int height, int divisor, G
 
 GlPost::GlPost(const GlContext& context, int width, int height)
     : gl_(context.gl()),
-      occlusion_program_(
-          make_program(context, "occlusion", shader_screen_vertex, shader_occlusion)),
-      blur_program_(
-          make_program(context, "occlusion blur", shader_screen_vertex, shader_occlusion_blur)),
+      shade_program_(make_program(context, "shade", shader_screen_vertex, shader_shade)),
+      blur_program_(make_program(context, "shade blur", shader_screen_vertex, shader_shade_blur)),
       glow_program_(make_program(context, "glow", shader_screen_vertex, shader_glow)),
       composite_program_(
           make_program(context, "composite", shader_screen_vertex, shader_composite)),
-      occlusion_(part_of(context, width, height, 2, wide_format)),
-      blurred_(part_of(context, width, height, 2, GL_RGBA8)),
+      shade_(part_of(context, width, height, 2, wide_format)),
+      blurred_(part_of(context, width, height, 2, wide_format)),
       glow_x_(part_of(context, width, height, 4, wide_format)),
       glow_(part_of(context, width, height, 4, wide_format)),
       output_(part_of(context, width, height, 1, GL_RGBA8)) {
@@ -43,23 +43,25 @@ void GlPost::fill_screen() const {
   gl_.BindVertexArray(0);
 }
 
-void GlPost::find_occlusion(const GlTarget& picture, const View& view) const {
-  bind_middle(gl_, occlusion_, view.visible_part);
-  bind_texture(gl_, 0, GL_TEXTURE_2D, picture.depth);
-  occlusion_program_.use();
-  occlusion_program_.set("depth", 0.0);
-  occlusion_program_.set("depth_map", 0);
-  occlusion_program_.set("tan_half", view.tan_half_height * view.aspect, view.tan_half_height);
-  occlusion_program_.set("near_far", view.near, view.far);
-  occlusion_program_.set("reach", occlusion_reach * view.distance);
+void GlPost::find_shade(GLuint depth, GLuint shadow_map, const View& view) const {
+  gl_.Disable(GL_DEPTH_TEST);
+  bind_middle(gl_, shade_, view.visible_part);
+  bind_texture(gl_, 0, GL_TEXTURE_2D, depth);
+  bind_texture(gl_, 1, GL_TEXTURE_2D, shadow_map);
+  use_with_view(shade_program_, view);
+  shade_program_.set("depth", 0.0);
+  shade_program_.set("depth_map", 0);
+  shade_program_.set("shadow_map", 1);
+  shade_program_.set("reach", occlusion_reach * view.distance);
   fill_screen();
 
   bind_middle(gl_, blurred_, view.visible_part);
-  bind_texture(gl_, 0, GL_TEXTURE_2D, occlusion_.colour);
+  bind_texture(gl_, 0, GL_TEXTURE_2D, shade_.colour);
   blur_program_.use();
   blur_program_.set("depth", 0.0);
-  blur_program_.set("occlusion", 0);
+  blur_program_.set("shade", 0);
   fill_screen();
+  gl_.Enable(GL_DEPTH_TEST);
 }
 
 void GlPost::find_glow(const GlTarget& picture) const {
@@ -80,7 +82,6 @@ void GlPost::find_glow(const GlTarget& picture) const {
 
 void GlPost::run(const GlTarget& picture, const View& view, bool has_endoscope_mask) const {
   gl_.Disable(GL_DEPTH_TEST);
-  find_occlusion(picture, view);
   find_glow(picture);
 
   bind_target(gl_, output_);
@@ -93,7 +94,7 @@ void GlPost::run(const GlTarget& picture, const View& view, bool has_endoscope_m
   composite_program_.use();
   composite_program_.set("depth", 0.0);
   composite_program_.set("picture", 0);
-  composite_program_.set("occlusion", 1);
+  composite_program_.set("shade", 1);
   composite_program_.set("glow", 2);
   composite_program_.set("aspect", view.aspect);
   composite_program_.set("is_endoscope", has_endoscope_mask ? 1.0 : 0.0);

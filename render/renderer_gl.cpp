@@ -6,11 +6,11 @@
 #include "base/error.h"
 #include "base/timers.h"
 #include "render/caption.h"
+#include "render/gl_light.h"
 #include "render/gl_mesh.h"
 #include "render/gl_post.h"
 #include "render/renderer.h"
 #include "render/shader_instrument.h"
-#include "render/shader_light.h"
 #include "render/shader_tissue.h"
 #include "render/surface_mesh.h"
 #include "render/tissue_pattern.h"
@@ -24,14 +24,15 @@ constexpr int largest_side = 8192;
 constexpr int n_samples = 4;  // llvmpipe offers no more
 constexpr GLenum picture_format = GL_RGBA16F;
 constexpr int shadow_side = 1024;
+constexpr int cavity_divisor = 4;  // of the sides: the wall is out of focus
 constexpr int pattern_side = 64, pattern_cells = 8;
 // Names of PhaseTimers, in the order of their indices.
-constexpr const char* phase_names[] = {"normals",  "upload", "shadows",
+constexpr const char* phase_names[] = {"normals",  "upload", "shade",
                                        "surfaces", "post",   "read back"};
 enum Phase : std::size_t {
   normals_phase,
   upload_phase,
-  shadow_phase,
+  shade_phase,
   surfaces_phase,
   post_phase,
   read_back_phase
@@ -39,10 +40,6 @@ enum Phase : std::size_t {
 constexpr double tool_crease_cosine = 0.82;  // 35 degrees
 // Surfaces up to this size are refined: finer ones look round as they are.
 constexpr std::size_t most_refined_triangles = 20000;
-
-std::string with_light(const char* shader) {
-  return std::string("#version 330 core\n") + shader_light + shader;
-}
 
 GLuint make_solid_texture(const GlContext& context, int side,
                           const std::vector<std::uint8_t>& rgba) {
@@ -66,12 +63,12 @@ int checked_side(int side, int width, int height) {
                    std::to_string(largest_side));
 }
 
-SurfaceMesh tissue_mesh(const TissueView& tissue) {
+SurfaceMesh tissue_mesh(const TissueView& tissue, const Vec3& eye) {
   const SurfaceMesh mesh = make_surface_mesh(
       {.x = tissue.x, .X = tissue.X, .triangle = tissue.triangle, .is_cut = tissue.is_cut});
   if (tissue.has_edges) return mark_edges(mesh, tissue.is_quad_half);
   if (mesh.index.size() > 3 * most_refined_triangles || tissue.is_two_sided) return mesh;
-  return refine_surface_mesh(mesh);
+  return refine_surface_mesh(mesh, &eye);
 }
 
 // In the world; X stays in the instrument's frame, where the brush marks are.
@@ -92,8 +89,8 @@ struct Renderer::Gl {
   const GlFunctions& gl;
   std::optional<GlCurrent> current_while_made;
   GlPost post;
-  GlProgram depth_only, tissue, instrument, background;
-  GlTarget samples, picture, shadow;
+  GlProgram depth_only, tissue, instrument, background, enlarged;
+  GlTarget samples, picture, shadow, cavity;
   GLuint field = 0, bump = 0;
   std::vector<GlMesh> meshes;  // tissues, then instruments; kept from frame to frame
   std::vector<std::uint8_t> rgba;
@@ -103,10 +100,11 @@ struct Renderer::Gl {
   void fill_meshes(const SceneView& scene);
   void fill(std::size_t k, const SurfaceMesh& surface);
   void draw_shadows(const View& view, std::size_t n_meshes) const;
+  void draw_depths(const View& view, std::size_t n_meshes) const;
   void draw_picture(const SceneView& scene, const View& view) const;
   void draw_tissues(const SceneView& scene) const;
   void draw_instruments(const SceneView& scene) const;
-  void draw_background(const SceneView& scene, const View& view) const;
+  void draw_cavity(const SceneView& scene, const View& view) const;
   void use_with_light(const GlProgram& program, const View& view) const;
   void resolve() const;
   void read_back(Image& image);
@@ -119,17 +117,20 @@ Renderer::Gl::Gl(int w, int h)
       current_while_made(context),
       post(context, w, h),
       depth_only(make_program(context, "depth", shader_surface_vertex, shader_depth_only)),
-      tissue(make_program(context, "tissue", shader_surface_vertex, with_light(shader_tissue))),
+      tissue(make_program(context, "tissue", shader_tissue_vertex, with_light(shader_tissue))),
       instrument(make_program(context, "instrument", shader_surface_vertex,
                               with_light(shader_instrument))),
       background(
           make_program(context, "background", shader_screen_vertex, with_light(shader_background))),
+      enlarged(make_program(context, "enlarged", shader_screen_vertex, shader_enlarged)),
       samples(make_target(context, w, h,
                           {.colour = picture_format, .has_depth = true, .samples = n_samples})),
       picture(make_target(context, w, h,
                           {.colour = picture_format, .has_depth = true, .is_filtered = true})),
       shadow(make_target(context, shadow_side, shadow_side,
-                         {.has_depth = true, .is_filtered = true, .is_shadow_map = true})) {
+                         {.has_depth = true, .is_filtered = true, .is_shadow_map = true})),
+      cavity(make_target(context, std::max(1, w / cavity_divisor), std::max(1, h / cavity_divisor),
+                         {.colour = picture_format, .is_filtered = true})) {
   const TissuePattern pattern = make_tissue_pattern(pattern_side, pattern_cells);
   field = make_solid_texture(context, pattern.side, pattern.field);
   bump = make_solid_texture(context, pattern.side, pattern.bump);
@@ -150,7 +151,7 @@ void Renderer::Gl::fill_meshes(const SceneView& scene) {
     SurfaceMesh surface;
     {
       PhaseScope scope(timers, normals_phase);
-      surface = tissue_mesh(view);
+      surface = tissue_mesh(view, scene.camera.eye);
     }
     fill(k++, surface);
   }
@@ -173,17 +174,18 @@ void Renderer::Gl::draw_shadows(const View& view, std::size_t n_meshes) const {
   gl.Disable(GL_POLYGON_OFFSET_FILL);
 }
 
+// Depths alone, for the shade: surfaces are drawn when it is known.
+void Renderer::Gl::draw_depths(const View& view, std::size_t n_meshes) const {
+  bind_target(gl, picture);
+  gl.Clear(GL_DEPTH_BUFFER_BIT);
+  bind_middle(gl, picture, view.visible_part);
+  depth_only.set("projection", view.projection);
+  for (std::size_t k = 0; k < n_meshes; ++k) trocar::draw(gl, meshes[k]);
+}
+
 void Renderer::Gl::use_with_light(const GlProgram& program, const View& view) const {
-  program.use();
-  program.set("projection", view.projection);
-  program.set("lamp_projection", view.lamp_projection);
-  program.set("eye", view.eye);
-  program.set("lamp", view.lamp);
-  program.set("forward", view.forward);
-  program.set("right", view.right);
-  program.set("up", view.up);
-  program.set("distance_scale", view.distance);
-  program.set("shadow_map", 0);
+  use_with_view(program, view);
+  program.set("shade_map", 0);
   program.set("field", 1);
   program.set("bump", 2);
 }
@@ -209,35 +211,41 @@ void Renderer::Gl::draw_instruments(const SceneView& scene) const {
   }
 }
 
-void Renderer::Gl::draw_background(const SceneView& scene, const View& view) const {
-  background.set("depth", 0.999999);
-  background.set("tan_half", view.tan_half_height * view.aspect, view.tan_half_height);
+void Renderer::Gl::draw_cavity(const SceneView& scene, const View& view) const {
+  gl.Disable(GL_DEPTH_TEST);
+  bind_target(gl, cavity);
+  use_with_light(background, view);
+  background.set("depth", 0.0);
   background.set("target", scene.camera.target);
   post.fill_screen();
+  gl.Enable(GL_DEPTH_TEST);
 }
 
 // Instruments first: they hide tissue, whose pixels cost more.
 void Renderer::Gl::draw_picture(const SceneView& scene, const View& view) const {
+  bind_texture(gl, 0, GL_TEXTURE_2D, post.shade());
+  bind_texture(gl, 1, GL_TEXTURE_3D, field);
+  bind_texture(gl, 2, GL_TEXTURE_3D, bump);
+  draw_cavity(scene, view);
   bind_target(gl, samples);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
   bind_middle(gl, samples, view.visible_part);
-  bind_texture(gl, 0, GL_TEXTURE_2D, shadow.depth);
-  bind_texture(gl, 1, GL_TEXTURE_3D, field);
-  bind_texture(gl, 2, GL_TEXTURE_3D, bump);
   use_with_light(instrument, view);
   draw_instruments(scene);
   use_with_light(tissue, view);
   draw_tissues(scene);
-  use_with_light(background, view);
-  draw_background(scene, view);
+  bind_texture(gl, 0, GL_TEXTURE_2D, cavity.colour);
+  enlarged.use();
+  enlarged.set("depth", 0.999999);
+  enlarged.set("picture", 0);
+  post.fill_screen();
 }
 
 void Renderer::Gl::resolve() const {
   gl.Disable(GL_SCISSOR_TEST);  // it would hold for the copy, too
   gl.BindFramebuffer(GL_READ_FRAMEBUFFER, samples.framebuffer);
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, picture.framebuffer);
-  gl.BlitFramebuffer(0, 0, width, height, 0, 0, width, height,
-                     GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  gl.BlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 void Renderer::Gl::read_back(Image& image) {
@@ -261,8 +269,11 @@ void Renderer::draw(const SceneView& scene, Image& image) {
   const GlCurrent current(g.context);
   g.fill_meshes(scene);
   {
-    PhaseScope scope(g.timers, shadow_phase);
-    g.draw_shadows(view, scene.tissues.size() + scene.instruments.size());
+    PhaseScope scope(g.timers, shade_phase);
+    const std::size_t n_meshes = scene.tissues.size() + scene.instruments.size();
+    g.draw_shadows(view, n_meshes);
+    g.draw_depths(view, n_meshes);
+    g.post.find_shade(g.picture.depth, g.shadow.depth, view);
     g.gl.Finish();
   }
   {

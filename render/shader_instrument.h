@@ -21,7 +21,7 @@ void main() {
   vec3 v = normalize(eye - x), l = normalize(lamp - x);
   float s = streak(X);
   vec3 brushed = normalize(n + 0.05 * s * up + 0.03 * s * right);
-  float strength = min(lamp_strength(x), 2.2), lit = lit_part(x, n);
+  float strength = min(lamp_strength(x), 2.2), lit = lit_part(x);
 
   vec3 r = reflect(-v, brushed);
   // The room in the metal: bright round the lens, dark to the sides, red from the tissue below.
@@ -74,6 +74,14 @@ void main() {
       1.0, dot(d, forward)));
   out_colour = vec4(compress(c), 1.0);
 }
+)glsl";
+
+// A smooth picture of fewer pixels as the background.
+inline constexpr const char* shader_enlarged = R"glsl(#version 330 core
+in vec2 at;
+uniform sampler2D picture;
+out vec4 out_colour;
+void main() { out_colour = texture(picture, at); }
 )glsl";
 
 }  // namespace trocar

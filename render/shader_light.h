@@ -1,5 +1,5 @@
-// GLSL shared by all surfaces: the lamp at the endoscope's tip, its shadow, the cavity's glow, and
-// what is written. Fragments write radiance / (1 + its greatest part): averaging the samples of a
+// GLSL shared by all surfaces: the lamp at the endoscope's tip, the cavity's glow, and what is
+// written. Fragments write radiance / (1 + its greatest part): averaging the samples of a
 // pixel then keeps the edges of highlights smooth (Karis 2013). The composite pass (shader_post.h)
 // undoes it.
 #pragma once
@@ -10,8 +10,7 @@ inline constexpr const char* shader_light = R"glsl(
 uniform vec3 eye, lamp, forward, right, up;
 uniform float distance_scale;       // from the eye to its target
 uniform float is_endoscope;
-uniform mat4 lamp_projection;
-uniform sampler2DShadow shadow_map;
+uniform sampler2D shade_map;
 out vec4 out_colour;
 
 const float PI = 3.14159265;
@@ -19,22 +18,20 @@ const vec3 lamp_colour = vec3(1.0, 0.965, 0.92);
 
 vec3 compress(vec3 c) { return c / (1.0 + max(c.r, max(c.g, c.b))); }
 
-// Share of the lamp's light that arrives, from six looks around the point.
-// Its penumbra is wide: the lamp is a ring.
-
-float lit_part(vec3 x, vec3 n) {
-  vec4 h = lamp_projection * vec4(x + n * (0.004 * distance_scale), 1.0);
-  vec3 s = h.xyz / h.w * 0.5 + 0.5;
-  if (h.w <= 0.0 || s.x <= 0.0 || s.y <= 0.0 || s.x >= 1.0 || s.y >= 1.0) return 1.0;
-  s.z -= 0.0004;
-  const vec2 ring[6] = vec2[6](vec2(1.0, 0.0), vec2(0.5, 0.87), vec2(-0.5, 0.87), vec2(-1.0,
-      0.0), vec2(-0.5, -0.87), vec2(0.5, -0.87));
-  float lit = 0.0;
-  for (int k = 0; k < 6; ++k) {
-    float r = (k & 1) == 0 ? 0.0030 : 0.0012;
-    lit += texture(shadow_map, vec3(s.xy + r * ring[k], s.z));
+// Share of the lamp's light that arrives, from the half-size shade around that is as deep.
+float lit_part(vec3 x) {
+  float depth = dot(x - eye, forward), sum = 0.0, weight = 1e-9;
+  vec2 at = 0.5 * gl_FragCoord.xy - 0.5, part = fract(at);
+  ivec2 first = ivec2(floor(at)), last = textureSize(shade_map, 0) - 1;
+  for (int k = 0; k < 4; ++k) {
+    ivec2 corner = ivec2(k & 1, k >> 1);
+    vec3 s = texelFetch(shade_map, clamp(first + corner, ivec2(0), last), 0).rgb;
+    vec2 w = mix(1.0 - part, part, vec2(corner));
+    float same = abs(s.b - depth) < 0.02 * depth ? 1.0 : 1e-3;
+    sum += same * w.x * w.y * s.g;
+    weight += same * w.x * w.y;
   }
-  return lit / 6.0;
+  return sum / weight;
 }
 
 // Falls off with distance and towards the border of the lamp's cone.

@@ -22,17 +22,40 @@ void main() {
 }
 )glsl";
 
+// With the widest bumps of the pattern: they stretch over many triangles.
+inline constexpr const char* shader_tissue_vertex = R"glsl(#version 330 core
+in vec3 in_position, in_reference, in_normal;
+in vec4 in_edge, in_mark;
+uniform mat4 projection;
+uniform sampler3D bump;
+uniform float texture_size;
+out vec3 x, p, normal;
+out vec3 edge;
+out vec2 mark;
+out vec3 swell;
+void main() {
+  x = in_position;
+  p = in_reference / texture_size;
+  normal = in_normal;
+  edge = in_edge.xyz;
+  mark = in_mark.xy;
+  swell = textureLod(bump, 0.13 * p, 0.0).xyz - 0.5;
+  gl_Position = projection * vec4(x, 1.0);
+}
+)glsl";
+
 inline constexpr const char* shader_depth_only = R"glsl(#version 330 core
 void main() {}
 )glsl";
 
 inline constexpr const char* shader_tissue = R"glsl(
-in vec3 x, X, normal;
+in vec3 x, p, normal;
 in vec3 edge;
-in vec2 mark;                 // is_cut, rim
+in vec2 mark;         // is_cut, rim
+in vec3 swell;        // of the pattern
 uniform sampler3D field, bump;
 uniform vec3 colour, cut_colour;
-uniform float wetness, texture_size;
+uniform float wetness;
 uniform float has_edges;
 
 struct Skin {
@@ -48,8 +71,8 @@ vec3 slope_at(vec3 p) { return texture(bump, p).xyz - 0.5; }
 // llvmpipe takes both branches of an `if`.
 
 struct Looks {
-  vec4 wide, near, fine;          // field
-  vec3 swell, bump, grain;        // slopes
+  vec4 wide, near, fine;  // field
+  vec3 bump, grain;       // slopes
 };
 
 Skin outer_skin(Looks k) {
@@ -67,7 +90,7 @@ Skin outer_skin(Looks k) {
   vessel = max(vessel, 0.7 * (1.0 - smoothstep(0.01, 0.12, branch)) * smoothstep(0.45, 0.62,
       k.near.r));
   s.albedo = mix(s.albedo, colour * vec3(0.55, 0.13, 0.30), 0.55 * vessel);
-  s.slope = 0.8 * k.swell + 0.62 * k.bump + 0.25 * k.grain;
+  s.slope = 0.8 * swell + 0.62 * k.bump + 0.25 * k.grain;
   s.film = smoothstep(0.34, 0.60, 0.6 * k.near.r + 0.4 * k.wide.r);
   s.roughness = mix(0.36, 0.19, s.film);
   return s;
@@ -88,7 +111,7 @@ Skin cut_skin(Looks k, float depth) {
   float blood = smoothstep(0.44, 0.64, 0.6 * k.near.r + 0.4 * k.fine.r);
   s.albedo = mix(s.albedo, vec3(0.34, 0.010, 0.011), 0.62 * blood);
   s.albedo *= mix(vec3(1.0), vec3(0.72, 0.50, 0.50), depth);  // light is lost between the walls
-  s.slope = 0.5 * k.swell + 0.9 * k.bump + 0.9 * k.grain;
+  s.slope = 0.5 * swell + 0.9 * k.bump + 0.9 * k.grain;
   s.film = 0.6 + 0.4 * blood;
   s.roughness = mix(0.34, 0.20, blood);
   return s;
@@ -126,14 +149,12 @@ vec3 shine(Skin s, vec3 n, vec3 v, vec3 l, float lit, float strength) {
 }
 
 void main() {
-  vec3 p = X / texture_size;
   bool is_cut = mark.x > 0.5;
   Skin s;
   Looks k;
   k.wide = texture(field, 0.10 * p);
   k.near = texture(field, 0.27 * p);
   k.fine = texture(field, 1.25 * p);
-  k.swell = slope_at(0.13 * p);
   k.bump = slope_at(0.45 * p);
   k.grain = slope_at(1.6 * p);
   if (is_cut) s = cut_skin(k, 1.0 - mark.y); else s = outer_skin(k);
@@ -143,7 +164,7 @@ void main() {
   vec3 v = normalize(eye - x), l = normalize(lamp - x);
   vec3 bumpy = normalize(n - 0.75 * (s.slope - n * dot(n, s.slope)));
   float strength = lamp_strength(x);
-  float lit = dot(n, l) > -0.3 ? lit_part(x, n) : 0.0;
+  float lit = dot(n, l) > -0.3 ? lit_part(x) : 0.0;
 
   vec3 light = 0.86 * lamp_colour * strength * soft_diffuse(dot(bumpy, l), lit);
   // second light guide, at the lens

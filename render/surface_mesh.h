@@ -44,8 +44,10 @@ struct SurfaceShape {
 SurfaceMesh make_surface_mesh(const SurfaceShape& shape);
 
 // Each triangle in four, with new vertices on the curved surface that the normals tell of (Vlachos
-// et al. 2001, Curved PN triangles, the middle of an edge). Leaves no gap at split vertices.
-SurfaceMesh refine_surface_mesh(const SurfaceMesh& mesh);
+// et al. 2001, Curved PN triangles, the middle of an edge). Leaves no gap at split vertices. With
+// an eye, only edges near the outline that it sees are split: elsewhere the normals are curve
+// enough.
+SurfaceMesh refine_surface_mesh(const SurfaceMesh& mesh, const Vec3* eye = nullptr);
 
 // Every triangle with three vertices of its own whose `edge` says how far the edges are.
 // is_quad_half (n_triangles, or empty): 1 for both triangles of a quad, one after the other, whose

@@ -10,6 +10,8 @@ namespace {
 
 // The middle may leave the chord by at most this part of its length.
 constexpr float max_rise = 0.15f;
+// Outlines run where the surface is seen at a flatter angle than this cosine.
+constexpr float outline_cosine = 0.3f;
 
 // How the middle of an edge rises from the chord so that the curve is normal to both normals.
 Vec3f rise(const SurfaceVertex& a, const SurfaceVertex& b) {
@@ -29,6 +31,7 @@ struct EdgeTable {
         end;                              // vertices of the first two sheets that meet here
     std::array<std::uint32_t, 2> middle;  // vertex made for each of them
     int n_sheets = 0;
+    bool is_split = false;
   };
   std::vector<Slot> slot;
   std::uint64_t mask;
@@ -50,12 +53,18 @@ struct EdgeTable {
 
 struct Refinement {
   const SurfaceMesh& coarse;
+  std::vector<float> cosine;  // (n_vertices) between normal and sight; empty: all edges are split
   EdgeTable edges;
   std::uint32_t n_points = 0;
   SurfaceMesh fine;
 
-  explicit Refinement(const SurfaceMesh& mesh) : coarse(mesh), edges(mesh.index.size() / 2 + 64) {
+  Refinement(const SurfaceMesh& mesh, const Vec3* eye)
+      : coarse(mesh), edges(mesh.index.size() / 2 + 64) {
     for (const std::uint32_t p : mesh.point) n_points = std::max(n_points, p + 1);
+    if (eye != nullptr)
+      for (const SurfaceVertex& v : mesh.vertex)
+        cosine.push_back(
+            as_vector(v.normal).dot((eye->cast<float>() - as_vector(v.x)).normalized()));
     fine.vertex.reserve(3 * mesh.vertex.size());
     fine.vertex = mesh.vertex;
     fine.point = mesh.point;
@@ -68,8 +77,14 @@ struct Refinement {
     return edges.of(static_cast<std::int64_t>(point[a]) << 32 | point[b]);
   }
 
+  bool is_near_outline(std::uint32_t a, std::uint32_t b) const {
+    return cosine.empty() || cosine[a] * cosine[b] < 0 ||
+           std::min(std::abs(cosine[a]), std::abs(cosine[b])) < outline_cosine;
+  }
+
   void note(std::uint32_t a, std::uint32_t b) {
     EdgeTable::Slot& e = edge(a, b);
+    e.is_split = e.is_split || is_near_outline(a, b);
     for (int s = 0; s < e.n_sheets; ++s)
       if (e.end[s][0] == a && e.end[s][1] == b) return;
     if (e.n_sheets == 2) return;  // a third sheet takes the middle of the second
@@ -80,7 +95,7 @@ struct Refinement {
     for (std::size_t k = 0; k < coarse.index.size(); ++k) {
       std::uint32_t a = coarse.index[k], b = coarse.index[k % 3 == 2 ? k - 2 : k + 1];
       EdgeTable::Slot& e = edge(a, b);
-      if (e.n_sheets < 0) continue;
+      if (e.n_sheets < 0 || !e.is_split) continue;
       Vec3f lift = Vec3f::Zero();
       for (int s = 0; s < e.n_sheets; ++s)
         lift += rise(coarse.vertex[e.end[s][0]], coarse.vertex[e.end[s][1]]);
@@ -105,25 +120,52 @@ struct Refinement {
     return static_cast<std::uint32_t>(fine.vertex.size() - 1);
   }
 
-  std::uint32_t middle(std::uint32_t a, std::uint32_t b) {
+  // Of a split edge; -1 else.
+  std::int64_t middle(std::uint32_t a, std::uint32_t b) {
     const EdgeTable::Slot& e = edge(a, b);
+    if (!e.is_split) return -1;
     const bool is_first = e.end[0][0] == a && e.end[0][1] == b;
     return e.middle[is_first || e.n_sheets == -1 ? 0 : 1];
+  }
+
+  void add(std::int64_t a, std::int64_t b, std::int64_t c) {
+    for (const std::int64_t v : {a, b, c}) fine.index.push_back(static_cast<std::uint32_t>(v));
+  }
+
+  // By the number of its edges that are split; turned until they are the first.
+  void add_triangle(std::array<std::int64_t, 3> v, std::array<std::int64_t, 3> m) {
+    const auto n_split = std::count_if(m.begin(), m.end(), [](std::int64_t k) { return k >= 0; });
+    const bool is_turned = n_split == 1 || n_split == 2;
+    while (is_turned && (m[0] < 0 || (n_split == 2 && m[1] < 0))) {
+      std::rotate(v.begin(), v.begin() + 1, v.end());
+      std::rotate(m.begin(), m.begin() + 1, m.end());
+    }
+    if (n_split == 0) return add(v[0], v[1], v[2]);
+    if (n_split == 1) {
+      add(v[0], m[0], v[2]);
+      return add(m[0], v[1], v[2]);
+    }
+    add(m[0], v[1], m[1]);
+    if (n_split == 2) {
+      add(v[0], m[0], v[2]);
+      return add(m[0], m[1], v[2]);
+    }
+    add(v[0], m[0], m[2]);
+    add(m[2], m[1], v[2]);
+    add(m[0], m[1], m[2]);
   }
 };
 
 }  // namespace
 
-SurfaceMesh refine_surface_mesh(const SurfaceMesh& mesh) {
-  Refinement r(mesh);
+SurfaceMesh refine_surface_mesh(const SurfaceMesh& mesh, const Vec3* eye) {
+  Refinement r(mesh, eye);
   for (std::size_t k = 0; k < mesh.index.size(); ++k)
     r.note(mesh.index[k], mesh.index[k % 3 == 2 ? k - 2 : k + 1]);
   r.make_middles();
   for (std::size_t k = 0; k < mesh.index.size(); k += 3) {
     const std::uint32_t a = mesh.index[k], b = mesh.index[k + 1], c = mesh.index[k + 2];
-    const std::uint32_t ab = r.middle(a, b), bc = r.middle(b, c), ca = r.middle(c, a);
-    for (const std::uint32_t v : {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca})
-      r.fine.index.push_back(v);
+    r.add_triangle({a, b, c}, {r.middle(a, b), r.middle(b, c), r.middle(c, a)});
   }
   return std::move(r.fine);
 }

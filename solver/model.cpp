@@ -291,10 +291,9 @@ void edit_model(const ModelSource& from, std::span<const std::int32_t> elements,
   for (const std::int32_t node : nodes)
     if (const std::int32_t i = from.part.node_local[node]; i >= 0 && i < model.n_owned)
       take_node(from, i, plane, model);
-  const std::vector<std::int32_t>& mine = from.part.element_global;
   for (const std::int32_t e : elements)
-    if (const auto at = std::lower_bound(mine.begin(), mine.end(), e); at != mine.end() && *at == e)
-      refill(source, static_cast<std::int32_t>(at - mine.begin()), model);
+    if (const std::int64_t k = from.part.place_of(e); k >= 0)
+      refill(source, static_cast<std::int32_t>(k), model);
   for (ElementBlocks& blocks : model.blocks) {
     blocks.target.clear();
     for (std::int64_t lane = 0; blocks.reads_halo && lane < std::ssize(blocks.element_local);

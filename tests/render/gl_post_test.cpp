@@ -25,6 +25,8 @@ TEST(GlPost, known_radiance_leaves_as_its_tone_in_srgb) {
   const GlPost post(context, w, h);
   const GlTarget picture =
       make_target(context, w, h, {.colour = GL_RGBA16F, .has_depth = true, .is_filtered = true});
+  const GlTarget shadow =
+      make_target(context, 16, 16, {.has_depth = true, .is_filtered = true, .is_shadow_map = true});
   const View view = make_view({}, w, h);
   for (const Vec3& radiance :
        {Vec3(0.02, 0.001, 0.0), Vec3(0.5, 0.18, 0.06), Vec3(0.85, 0.4, 0.7)}) {
@@ -33,6 +35,7 @@ TEST(GlPost, known_radiance_leaves_as_its_tone_in_srgb) {
         (radiance / (1 + radiance.maxCoeff())).cast<float>();  // as surfaces write it
     gl.ClearColor(c.x(), c.y(), c.z(), 1);
     gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    post.find_shade(picture.depth, shadow.depth, view);  // nothing near: nothing darkens
     post.run(picture, view, false);
     std::array<std::uint8_t, 4> pixel{};
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, post.output().framebuffer);

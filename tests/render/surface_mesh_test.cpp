@@ -192,3 +192,30 @@ TEST(SurfaceEdges, each_triangle_has_its_own_vertices_and_the_diagonal_is_hidden
       EXPECT_EQ(quad.vertex[k].edge[c], is_diagonal || c == k % 3 ? 255 : 0);
     }
 }
+
+TEST(SurfaceRefine, for_an_eye_only_edges_near_the_outline_are_split_and_no_gap_opens) {
+  const SurfaceMesh coarse = surface_of(make_sphere_surface(Vec3::Zero(), 1, 32));
+  const Vec3 eye(0, 0, 4);
+  const SurfaceMesh fine = refine_surface_mesh(coarse, &eye);
+  EXPECT_TRUE(is_closed(fine));
+  EXPECT_GT(fine.index.size(), coarse.index.size());
+  EXPECT_LT(fine.index.size(), 2.5 * coarse.index.size());
+  for (std::size_t v = coarse.vertex.size(); v < fine.vertex.size(); ++v) {
+    // An end of the edge is seen at a cosine below 0.3, its other end at most an edge further:
+    // seen from four radii the angle changes by less than twice the edge's 2 pi / 32.
+    const Vec3 x = vec(fine.vertex[v].x);
+    EXPECT_LT(std::abs(x.dot((eye - x).normalized())), 0.3 + 2 * 0.2);
+  }
+  // Where the outline runs the new vertices are as near to the ball as those of the whole.
+  const SurfaceMesh whole = refine_surface_mesh(coarse);
+  double outline_points = 0;
+  for (std::size_t v = coarse.vertex.size(); v < whole.vertex.size(); ++v)
+    if (const Vec3 x = vec(whole.vertex[v].x); std::abs(x.dot((eye - x).normalized())) < 0.05)
+      ++outline_points;
+  double kept_points = 0;
+  for (std::size_t v = coarse.vertex.size(); v < fine.vertex.size(); ++v)
+    if (const Vec3 x = vec(fine.vertex[v].x); std::abs(x.dot((eye - x).normalized())) < 0.05)
+      ++kept_points;
+  EXPECT_GT(outline_points, 0);
+  EXPECT_EQ(kept_points, outline_points);
+}

@@ -1,0 +1,25 @@
+#include "render/gl_light.h"
+
+#include "render/shader_light.h"
+
+namespace trocar {
+
+std::string with_light(const char* shader) {
+  return std::string("#version 330 core\n") + shader_light + shader;
+}
+
+void use_with_view(const GlProgram& program, const View& view) {
+  program.use();
+  program.set("projection", view.projection);
+  program.set("lamp_projection", view.lamp_projection);
+  program.set("eye", view.eye);
+  program.set("lamp", view.lamp);
+  program.set("forward", view.forward);
+  program.set("right", view.right);
+  program.set("up", view.up);
+  program.set("distance_scale", view.distance);
+  program.set("tan_half", view.tan_half_height * view.aspect, view.tan_half_height);
+  program.set("near_far", view.near, view.far);
+}
+
+}  // namespace trocar
