@@ -90,8 +90,8 @@ double energy_of(Simulation& s) {
 }
 
 // Nothing gives it energy. What central differences conserve is off by the part of it that lies in
-// the fastest modes, and the step's first fall changes that part: 18 % here. A step that follows
-// the deformation drives the body to 2.6-fold in the same time.
+// the fastest modes; the step's first fall, by a tenth, changes that part: to 1.16-fold here. A step
+// that follows the deformation gives 1.77-fold in the same time.
 TEST(Frame, does_not_let_the_step_drive_a_body_that_swings_without_damping) {
   const auto started = swinging_block();
   Simulation& s = *started->s;
@@ -102,7 +102,7 @@ TEST(Frame, does_not_let_the_step_drive_a_body_that_swings_without_damping) {
     run_frame(s, started->outputs);
     most = std::max(most, energy_of(s));
   }
-  EXPECT_LT(most, 1.5 * first);
+  EXPECT_LT(most, 1.4 * first);
   EXPECT_EQ(s.log.n_roll_backs, 0);
 }
 
