@@ -90,8 +90,8 @@ double energy_of(Simulation& s) {
 }
 
 // Nothing gives it energy. What central differences conserve is off by the part of it that lies in
-// the fastest modes; the step's first fall, by a tenth, changes that part: to 1.16-fold here. A step
-// that follows the deformation gives 1.77-fold in the same time.
+// the fastest modes; the step's first fall, by a tenth, changes that part: to 1.16-fold here. A
+// step that follows the deformation gives 1.77-fold in the same time.
 TEST(Frame, does_not_let_the_step_drive_a_body_that_swings_without_damping) {
   const auto started = swinging_block();
   Simulation& s = *started->s;
