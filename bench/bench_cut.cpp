@@ -77,7 +77,7 @@ int run_all(int argc, char** argv) {
   }
   const Arguments a = read_arguments(argc, argv);
   if (a.cuts > 0) return print_long_run({a.seed, a.cuts, a.minutes}, stdout) ? 0 : 1;
-  if (a.after > 0) return print_after({a.seed, a.after, a.steps}, stdout) ? 0 : 1;
+  if (a.after > 0) return print_after({a.seed, a.after, a.steps, a.family}, stdout) ? 0 : 1;
   std::FILE* table = a.markdown.empty() ? stdout : std::fopen(a.markdown.c_str(), "w");
   print_head(table);
   std::vector<Row> rows;

@@ -61,11 +61,12 @@ struct LongRun {
 bool print_long_run(const LongRun& run, std::FILE* file);
 
 // Random cuts of bent bodies in free motion; then `n_steps` steps of central differences at 0.9 of
-// the limit 2 / omega that the cut left. Prints limits and energies by family; false if one blew
-// up.
+// the elements' bound that the cut left, and at a scene's default. Prints limits and energies by
+// family; false if one blew up.
 struct AfterRun {
   unsigned seed = 1;
   int n_cuts = 200, n_steps = 10000;
+  std::string family = {};  // of those cuts; empty: all
 };
 bool print_after(const AfterRun& run, std::FILE* file);
 

@@ -83,6 +83,7 @@ Checkpoint take_checkpoint(Simulation& s) {
                .last_dt = s.state.last_dt,
                .step = s.state.step,
                .step_scale = s.step_scale,
+               .held_step = s.held_step,
                .stable_step_before_cut = s.stable_step_before_cut,
                .watch = s.watch,
                .holds = s.holds.holds,
@@ -124,6 +125,7 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   if (s.sleep) restore_sleep(c.sleep, s);
   for (std::size_t k = 0; k < s.cuts.size(); ++k) remember(c.cuts[k], s.cuts[k]);
   s.step_scale = c.step_scale;
+  s.held_step = c.held_step;
   s.stable_step_before_cut = c.stable_step_before_cut;
   s.watch = c.watch;
   s.log = c.log;

@@ -2,6 +2,7 @@
 // frame.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -104,7 +105,9 @@ struct Simulation : RankBody {
   std::unique_ptr<MultiRate> multirate;  // only if the scene asks for it and it saves work
   std::optional<Sleep> sleep;            // only if the scene asks for it
   double step_scale = 1;                 // halved by each roll-back
-  Watch watch;                           // of the last frame, over all ranks
+  // The stable step falls at once and rises slowly (step_rise in frame.cpp). [s]
+  double held_step = std::numeric_limits<double>::infinity();
+  Watch watch;  // of the last frame, over all ranks
   ElementLook look;
   std::vector<double> altitude;  // (n local elements) least one, undeformed [m]
   double rest_step = 0;          // least element bound of the undeformed mesh, over all ranks [s]

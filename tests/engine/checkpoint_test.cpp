@@ -170,6 +170,20 @@ TEST(Checkpoint, keeps_a_step_that_roll_backs_have_halved) {
   EXPECT_EQ(t->log.n_roll_backs, 1);
 }
 
+TEST(Checkpoint, keeps_a_step_that_is_still_rising) {
+  Communicator alone;
+  const LoadedScene scene = loaded_text(resume_plane_text);
+  const auto s = build(scene, alone), t = build(scene, alone);
+  Outputs outputs;
+  s->held_step = 0.5 * s->watch.stable_step;
+  restore_checkpoint(take_checkpoint(*s), *t);
+  run_frame(*s, outputs);
+  run_frame(*t, outputs);
+  EXPECT_EQ(bytes_of(*t), bytes_of(*s));
+  EXPECT_EQ(t->held_step, s->held_step);
+  EXPECT_LT(t->held_step, t->watch.stable_step);
+}
+
 TEST(Checkpoint, of_a_frame_that_failed_is_that_of_its_beginning) {
   Communicator alone;
   const auto s = build(loaded_text(resume_block_text), alone);
