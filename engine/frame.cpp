@@ -21,13 +21,16 @@ namespace {
 // a step.
 constexpr double step_rise = 1e-4;
 
+double stable_step(const Simulation& s) {
+  return std::min(s.watch.stable_step, s.held_step);
+}
+
 FrameSpan plan_frame(const Simulation& s) {
   const double length = 1 / s.scene.time.frame_rate;
   FrameSpan span;
   span.t0 = static_cast<double>(s.frame) / s.scene.time.frame_rate;
   span.t1 = static_cast<double>(s.frame + 1) / s.scene.time.frame_rate;
-  const double stable_step = std::min(s.watch.stable_step, s.held_step);
-  const double dt = s.scene.solver.step_factor * s.step_scale * stable_step;
+  const double dt = s.scene.solver.step_factor * s.step_scale * stable_step(s);
   span.n_substeps = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / dt)));
   span.dt = length / static_cast<double>(span.n_substeps);
   return span;
@@ -154,9 +157,9 @@ FrameSpan step_safely(Simulation& s) {
 void run_frame(Simulation& s, Outputs& outputs) {
   const double start = monotonic_seconds();
   grasp(s, plan_frame(s));
-  const double stable_step = std::min(s.watch.stable_step, s.held_step);
+  const double held_step = stable_step(s);
   const FrameSpan span = step_safely(s);
-  s.held_step = std::min(s.watch.stable_step, stable_step + step_rise / s.scene.time.frame_rate);
+  s.held_step = std::min(s.watch.stable_step, held_step + step_rise / s.scene.time.frame_rate);
   if (s.energy) close_frame_work(s);
   FrameRow row = report_forces(s, span);
   if (!s.cuts.empty()) cut_along_blades(s, span);
