@@ -10,6 +10,7 @@
 #include "cutting/cut_plane_paper.h"
 #include "mesh/edit.h"
 #include "mesh/quality.h"
+#include "study/cut2d_trial.h"
 
 namespace trocar {
 
