@@ -1,11 +1,19 @@
 #include "render/gl_light.h"
 
 #include "render/shader_light.h"
+#include "render/shader_tissue.h"
 
 namespace trocar {
 
+static constexpr const char* glsl_version = "#version 330 core\n";
+
+std::string surface_vertex(bool has_swell) {
+  return std::string(glsl_version) + (has_swell ? "#define HAS_SWELL\n" : "") +
+         shader_surface_vertex;
+}
+
 std::string with_light(const char* shader) {
-  return std::string("#version 330 core\n") + shader_light + shader;
+  return std::string(glsl_version) + shader_light + shader;
 }
 
 void use_with_view(const GlProgram& program, const View& view) {

@@ -99,8 +99,9 @@ struct Renderer::Gl {
   Gl(int w, int h);
   void fill_meshes(const SceneView& scene);
   void fill(std::size_t k, const SurfaceMesh& surface);
-  void draw_shadows(const View& view, std::size_t n_meshes) const;
-  void draw_depths(const View& view, std::size_t n_meshes) const;
+  void find_shade(const View& view, std::size_t n_meshes) const;
+  void draw_depths(const GlTarget& target, double part, const Mat4f& projection,
+                   std::size_t n_meshes) const;
   void draw_picture(const SceneView& scene, const View& view) const;
   void draw_tissues(const SceneView& scene) const;
   void draw_instruments(const SceneView& scene) const;
@@ -116,9 +117,9 @@ Renderer::Gl::Gl(int w, int h)
       gl(context.gl()),
       current_while_made(context),
       post(context, w, h),
-      depth_only(make_program(context, "depth", shader_surface_vertex, shader_depth_only)),
-      tissue(make_program(context, "tissue", shader_tissue_vertex, with_light(shader_tissue))),
-      instrument(make_program(context, "instrument", shader_surface_vertex,
+      depth_only(make_program(context, "depth", surface_vertex(false), shader_depth_only)),
+      tissue(make_program(context, "tissue", surface_vertex(true), with_light(shader_tissue))),
+      instrument(make_program(context, "instrument", surface_vertex(false),
                               with_light(shader_instrument))),
       background(
           make_program(context, "background", shader_screen_vertex, with_light(shader_background))),
@@ -161,26 +162,27 @@ void Renderer::Gl::fill_meshes(const SceneView& scene) {
   }
 }
 
-void Renderer::Gl::draw_shadows(const View& view, std::size_t n_meshes) const {
-  bind_target(gl, shadow);
-  gl.Enable(GL_DEPTH_TEST);
-  gl.DepthFunc(GL_LESS);
+// part: of the width, in the middle.
+void Renderer::Gl::draw_depths(const GlTarget& target, double part, const Mat4f& projection,
+                               std::size_t n_meshes) const {
+  bind_target(gl, target);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
-  gl.Enable(GL_POLYGON_OFFSET_FILL);
-  gl.PolygonOffset(1.5f, 2.0f);
+  bind_middle(gl, target, part);
   depth_only.use();
-  depth_only.set("projection", view.lamp_projection);
+  depth_only.set("projection", projection);
   for (std::size_t k = 0; k < n_meshes; ++k) trocar::draw(gl, meshes[k]);
-  gl.Disable(GL_POLYGON_OFFSET_FILL);
 }
 
-// Depths alone, for the shade: surfaces are drawn when it is known.
-void Renderer::Gl::draw_depths(const View& view, std::size_t n_meshes) const {
-  bind_target(gl, picture);
-  gl.Clear(GL_DEPTH_BUFFER_BIT);
-  bind_middle(gl, picture, view.visible_part);
-  depth_only.set("projection", view.projection);
-  for (std::size_t k = 0; k < n_meshes; ++k) trocar::draw(gl, meshes[k]);
+// From depths alone, before surfaces are drawn.
+void Renderer::Gl::find_shade(const View& view, std::size_t n_meshes) const {
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthFunc(GL_LESS);
+  gl.Enable(GL_POLYGON_OFFSET_FILL);
+  gl.PolygonOffset(1.5f, 2.0f);
+  draw_depths(shadow, 1, view.lamp_projection, n_meshes);
+  gl.Disable(GL_POLYGON_OFFSET_FILL);
+  draw_depths(picture, view.visible_part, view.projection, n_meshes);
+  post.find_shade(picture.depth, shadow.depth, view);
 }
 
 void Renderer::Gl::use_with_light(const GlProgram& program, const View& view) const {
@@ -270,10 +272,7 @@ void Renderer::draw(const SceneView& scene, Image& image) {
   g.fill_meshes(scene);
   {
     PhaseScope scope(g.timers, shade_phase);
-    const std::size_t n_meshes = scene.tissues.size() + scene.instruments.size();
-    g.draw_shadows(view, n_meshes);
-    g.draw_depths(view, n_meshes);
-    g.post.find_shade(g.picture.depth, g.shadow.depth, view);
+    g.find_shade(view, scene.tissues.size() + scene.instruments.size());
     g.gl.Finish();
   }
   {

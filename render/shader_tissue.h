@@ -5,41 +5,28 @@
 
 namespace trocar {
 
-inline constexpr const char* shader_surface_vertex = R"glsl(#version 330 core
+// Of tissue HAS_SWELL: the widest bumps of the pattern stretch over many triangles.
+inline constexpr const char* shader_surface_vertex = R"glsl(
 in vec3 in_position, in_reference, in_normal;
 in vec4 in_edge, in_mark;
 uniform mat4 projection;
 out vec3 x, X, normal;
 out vec3 edge;
 out vec2 mark;
+#ifdef HAS_SWELL
+uniform sampler3D bump;
+uniform float texture_size;
+out vec3 swell;
+#endif
 void main() {
   x = in_position;
   X = in_reference;
   normal = in_normal;
   edge = in_edge.xyz;
   mark = in_mark.xy;
-  gl_Position = projection * vec4(x, 1.0);
-}
-)glsl";
-
-// With the widest bumps of the pattern: they stretch over many triangles.
-inline constexpr const char* shader_tissue_vertex = R"glsl(#version 330 core
-in vec3 in_position, in_reference, in_normal;
-in vec4 in_edge, in_mark;
-uniform mat4 projection;
-uniform sampler3D bump;
-uniform float texture_size;
-out vec3 x, p, normal;
-out vec3 edge;
-out vec2 mark;
-out vec3 swell;
-void main() {
-  x = in_position;
-  p = in_reference / texture_size;
-  normal = in_normal;
-  edge = in_edge.xyz;
-  mark = in_mark.xy;
-  swell = textureLod(bump, 0.13 * p, 0.0).xyz - 0.5;
+#ifdef HAS_SWELL
+  swell = textureLod(bump, 0.13 * X / texture_size, 0.0).xyz - 0.5;
+#endif
   gl_Position = projection * vec4(x, 1.0);
 }
 )glsl";
@@ -49,13 +36,13 @@ void main() {}
 )glsl";
 
 inline constexpr const char* shader_tissue = R"glsl(
-in vec3 x, p, normal;
+in vec3 x, X, normal;
 in vec3 edge;
 in vec2 mark;         // is_cut, rim
 in vec3 swell;        // of the pattern
 uniform sampler3D field, bump;
 uniform vec3 colour, cut_colour;
-uniform float wetness;
+uniform float wetness, texture_size;
 uniform float has_edges;
 
 struct Skin {
@@ -149,6 +136,7 @@ vec3 shine(Skin s, vec3 n, vec3 v, vec3 l, float lit, float strength) {
 }
 
 void main() {
+  vec3 p = X / texture_size;
   bool is_cut = mark.x > 0.5;
   Skin s;
   Looks k;
