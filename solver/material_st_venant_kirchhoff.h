@@ -3,7 +3,7 @@
 #pragma once
 
 #include "solver/block_data.h"
-#include "solver/largest_eigenvalue.h"
+#include "solver/symmetric_eigenvalues.h"
 #include "solver/material_model.h"
 #include "solver/stiffening.h"
 
