@@ -122,7 +122,7 @@ Direction residual(Search& s, const Direction& x, double omega2) {
   Direction r{.x = x.Kx};
   add_cluster_force(s.model, {}, r.x, s.room);
   for (std::size_t k = 0; k < s.size(); ++k)
-    r.x[k] = s.is_fixed(k) ? 0 : r.x[k] / s.model.inertia[k / 3] - omega2 * x.x[k];
+    r.x[k] = s.is_fixed(k) ? 0 : r.x[k] / inertia_of(s.model)[k / 3] - omega2 * x.x[k];
   multiply_by_mass(s.model, r.x, r.Mx);
   return r;
 }

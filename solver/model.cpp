@@ -217,7 +217,6 @@ void take_node(const ModelSource& source, std::int32_t i, FixedMask plane, Model
     throw InputError("node " + std::to_string(global) +
                      " has no mass: each node must belong to an element");
   model.mass[i] = mass;
-  model.inertia[i] = mass;
   model.fixed[i] = static_cast<FixedMask>(source.fixed[global] | plane);
 }
 
@@ -226,7 +225,6 @@ void resize_nodes(const Part& part, Model& model) {
   model.n_local = part.n_local();
   model.n_owned = part.n_owned;
   model.mass.resize(n_owned);
-  model.inertia.resize(n_owned);
   model.fixed.resize(n_owned);
 }
 

@@ -108,7 +108,7 @@ struct MassClusters {
 struct Model {
   std::int32_t n_local = 0, n_owned = 0;
   std::vector<double> mass;     // (n_owned) what gravity acts on [kg]
-  std::vector<double> inertia;  // (n_owned) mass, and d where it is scaled [kg]
+  std::vector<double> inertia;  // (n_owned) mass and d of clusters; empty without, see inertia_of
   MassClusters clusters;
   std::vector<FixedMask> fixed;  // (n_owned)
   // One a (reads_halo, region, formulation), in this order.
@@ -123,6 +123,11 @@ struct Model {
 
 inline bool is_fixed(const Model& model, std::int64_t owned, int direction) {
   return (model.fixed[owned] >> direction & 1) != 0;
+}
+
+// (n_owned) what a node resists acceleration with [kg]
+inline const std::vector<double>& inertia_of(const Model& model) {
+  return model.inertia.empty() ? model.mass : model.inertia;
 }
 
 // materials (n_regions of the mesh); fixed (n_nodes, global); mass (n_nodes, global) from
