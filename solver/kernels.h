@@ -16,6 +16,7 @@ namespace trocar {
 // list's precision.
 struct BlockTask {
   const double* u = nullptr;             // (n_local * 3) [m]
+  const float* position = nullptr;       // (n_local * 4) of Model::position [m]
   const std::int32_t* corner = nullptr;  // [block][corner][lane] local node
   const std::uint32_t* row = nullptr;    // [eight lanes] of row_order.h
   const void* data = nullptr;            // [block][value][lane]: the material's, the element's
@@ -46,6 +47,7 @@ struct ElementKernels {
   int n_values;  // behind those of the material
   int n_stash;   // values of a lane in the stash
   LawKind law;
+  bool reads_positions;       // BlockTask::position
   int share, share_stride;    // as in BlockTask, without the material's values
   ElementKernel strain;       // to the stash
   ForceKernel force;          // from the stash

@@ -111,6 +111,9 @@ struct Model {
   std::vector<double> inertia;  // (n_owned) mass and d of clusters; empty without, see inertia_of
   MassClusters clusters;
   std::vector<FixedMask> fixed;  // (n_owned)
+  // (n_local * 4) reference positions less the least of the mesh, and a zero, for elements
+  // that make their gradients of them (element_hex8.h); empty if there are none. [m]
+  AlignedVector<float> position;
   // One a (reads_halo, region, formulation), in this order.
   std::vector<ElementBlocks> blocks;
   SumOrder sums;

@@ -133,7 +133,7 @@ void compute_force(const Model& model, State& state, Scratch& scratch) {
 std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
   const auto bytes = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
   std::size_t sum = bytes(model.mass) + bytes(model.inertia) + bytes(model.fixed) +
-                    bytes(model.sums.node) + bytes(model.sums.last_block) +
+                    bytes(model.position) + bytes(model.sums.node) + bytes(model.sums.last_block) +
                     bytes(model.sums.shared_node) + bytes(model.sums.shared_end) +
                     bytes(model.element_step) + bytes(model.averages.offset) +
                     bytes(model.averages.lane) + bytes(model.averages.stiffness) +

@@ -203,6 +203,21 @@ TEST(MemoryBytes, counts_what_a_tetrahedron_needs) {
   EXPECT_EQ(memory_bytes(body.model, body.scratch), expected);
 }
 
+// A general mesh: no element of it is a parallelepiped.
+static double bytes_of_hexahedron(Precision precision) {
+  Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {20, 20, 20}, BoxElements::hex8);
+  Noise noise(3);
+  for (Vec3& X : mesh.X) X += .005 * Vec3(noise(), noise(), noise());
+  const Body body = make_body(mesh, {.solver = {.precision = precision}});
+  const std::size_t state = (body.state.u.size() + body.state.v.size()) * sizeof(double);
+  return static_cast<double>(memory_bytes(body.model, body.scratch) + state) / mesh.n_elements();
+}
+
+TEST(MemoryBytes, of_a_hexahedron_are_at_most_400_in_double_and_220_in_single) {
+  EXPECT_LE(bytes_of_hexahedron(Precision::in_double), 400);
+  EXPECT_LE(bytes_of_hexahedron(Precision::in_single), 220);
+}
+
 TEST(MemoryBytes, counts_the_clusters_of_scaled_mass) {
   Body body = make_body(make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {4, 4, 4}, BoxElements::tet4_kuhn));
   const std::size_t before = memory_bytes(body.model, body.scratch);
