@@ -64,14 +64,15 @@ struct ElementLoops {
         });
   }
 
-  static void force(const BlockTask& task, const std::int32_t* target, double* sum) {
+  static void force(const BlockTask& task, const std::int32_t* target, void* sum) {
+    RealOf<Pack>* const to = static_cast<RealOf<Pack>*>(sum);
     for_elements(
         task, [&](const auto& value, const auto& stash, std::int64_t block, int lane)
                   __attribute__((always_inline)) {
                     if (lane == 0) fetch(task, block + task.n_blocks);
                     Pack f[n][3];
                     Element::force(value, stash, f);
-                    add_corners(f, target + block * n * lanes + lane, rows(task, block, lane), sum);
+                    add_corners(f, target + block * n * lanes + lane, rows(task, block, lane), to);
                   });
   }
 

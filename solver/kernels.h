@@ -37,8 +37,8 @@ struct BlockTask {
 
 using ElementKernel = void (*)(const BlockTask& task);
 // Adds corner forces [N] to sum[4 * target + (x, y, z)], element after element; target [block]
-// [corner][lane].
-using ForceKernel = void (*)(const BlockTask& task, const std::int32_t* target, double* sum);
+// [corner][lane]; sums are of the list's precision.
+using ForceKernel = void (*)(const BlockTask& task, const std::int32_t* target, void* sum);
 // K V (J - 1) or an energy [J] to [block][lane].
 using ValueKernel = void (*)(const BlockTask& task, double* to);
 
@@ -78,10 +78,11 @@ struct KernelsOfPrecision {
 };
 
 // force[3 i + j] = mass[i] gravity[j] - sum[4 i + j], and zero in place of the sum.
+template <class Real>
 struct NodeForces {
   const double* mass;  // [kg]
   double gravity[4];   // and a zero [m/s^2]
-  double* sum;         // [N]
+  Real* sum;           // [N]
   double* force;       // [N]
 };
 
@@ -94,9 +95,14 @@ struct NodeMotion {
   double *v, *u;              // [m/s], [m]
 };
 
+template <class Real>
+using NodeForceKernel = void (*)(const NodeForces<Real>& task, const std::int32_t* node,
+                                 std::int64_t n);
+
 // The nodes' part of a step.
 struct NodeKernels {
-  void (*force)(const NodeForces& task, const std::int32_t* node, std::int64_t n);
+  NodeForceKernel<double> force;
+  NodeForceKernel<float> force_of_singles;
   void (*motion)(const NodeMotion& task, std::int64_t begin, std::int64_t end);
 };
 

@@ -350,7 +350,8 @@ State make_state(const Model& model) {
 
 Scratch make_scratch(const Model& model) {
   Scratch scratch;
-  scratch.sum.resize(static_cast<std::size_t>(model.sums.n_places) * 4);
+  with_sums(model, scratch,
+            [&](auto& sum) { sum.resize(static_cast<std::size_t>(model.sums.n_places) * 4); });
   scratch.volume_change.resize(static_cast<std::size_t>(model.averages.n_lanes));
   scratch.force.resize(static_cast<std::size_t>(model.n_owned) * 3);
   scratch.viscous.resize(model.blocks.size());

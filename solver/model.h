@@ -172,8 +172,10 @@ State make_state(const Model& model);
 
 // Neither saved nor shown. Allocated once a model.
 struct Scratch {
-  AlignedVector<double> sum;          // (n_places * 4) corner forces of each place of SumOrder;
-                                      // all zero between steps [N]
+  // (n_places * 4) corner forces of each place of SumOrder, all zero between steps; the one of the
+  // model's precision, the other is empty. [N]
+  AlignedVector<double> sum;
+  AlignedVector<float> sum_single;
   std::vector<double> volume_change;  // K V (J - 1) of lanes, see VolumeAverages [J]
   std::vector<double> force;          // (n_owned * 3) external - internal force [N]
   // Empty, or (n_owned): energy that mass damping takes from each node, added up by integrate [J].
