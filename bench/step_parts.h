@@ -23,17 +23,14 @@ inline void run_elements(Body& body, Until last) {
           kernels.law.stress(task);
           if (last == Until::law) return;
           const std::int64_t corner = block * kernels.element.n_corners * blocks.lanes;
-          kernels.element.force(task, targets(blocks).data() + corner, body.scratch.sum.data());
+          with_sums(body.model, body.scratch, [&](auto& sum) {
+            kernels.element.force(task, targets(blocks).data() + corner, sum.data());
+          });
         });
 }
 
 inline void run_nodes(Body& body) {
-  const NodeForces nodes{.mass = body.model.mass.data(),
-                         .gravity = {0, 0, 0, 0},
-                         .sum = body.scratch.sum.data(),
-                         .force = body.scratch.force.data()};
-  active_kernels().nodes.force(nodes, body.model.sums.node.data(),
-                               std::ssize(body.model.sums.node));
+  finish_nodes(body.model, body.model.sums.node, body.scratch);
 }
 
 constexpr int n_step_parts = 6;

@@ -82,6 +82,7 @@ inline BlockTask block_task(const Model& model, const ElementBlocks& blocks,
   const bool averages = element.volume_change != nullptr;
   const int share = element.share > 0 ? kernels.n_material_values + element.share : 0;
   return {.u = state.u.data(),
+          .position = model.position.data(),
           .corner = blocks.corner.data() + first * element.n_corners * blocks.lanes,
           .row = blocks.row.data() + first * blocks.lanes / row_lanes,
           .data = is_single ? static_cast<const void*>(blocks.data_single.data() + at)

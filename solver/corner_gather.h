@@ -133,10 +133,46 @@ template <class Pack, class Half, std::size_t... k>
   }
 }
 
+// Numbers i, i + 3, … of three registers.
+template <int i, class Pack, std::size_t... k>
+[[gnu::always_inline]] inline Pack every_third(const Pack (&row)[3], std::index_sequence<k...>) {
+  constexpr std::size_t width = sizeof...(k), two = 2 * width;
+  const Pack low = __builtin_shufflevector(row[0], row[1], (3 * k + i < two ? 3 * k + i : 0)...);
+  return __builtin_shufflevector(low, row[2], (3 * k + i < two ? k : width + (3 * k + i - two))...);
+}
+
+// Differences to the first corner, rounded, of sixteen lanes that stand in two rows: rounded first,
+// put in order afterwards, half as many registers.
+template <class Pack, int n>
+[[gnu::always_inline]] inline void gather_two_rows(const double* u, const std::int32_t* corner,
+                                                   Pack (&x)[n][3]) {
+  using Half = PackOf<double, row_lanes>;
+  using Lanes = std::make_index_sequence<2 * row_lanes>;
+  const auto eight = [&](int a, int k) __attribute__((always_inline)) {
+    const std::int64_t node = corner[a * 2 * row_lanes + (k < 3 ? 0 : row_lanes)];
+    return load<Half>(u + 3 * node + row_lanes * (k % 3));
+  };
+  Half first[6];
+  for (int k = 0; k < 6; ++k) first[k] = eight(0, k);
+  for (int i = 0; i < 3; ++i) x[0][i] = Pack{};
+#pragma GCC unroll 8
+  for (int a = 1; a < n; ++a) {
+    Pack row[3];
+    for (int r = 0; r < 3; ++r)
+      row[r] = join<Pack>(in_single(Half(eight(a, 2 * r) - first[2 * r])),
+                          in_single(Half(eight(a, 2 * r + 1) - first[2 * r + 1])), Lanes{});
+    x[a][0] = every_third<0>(row, Lanes{});
+    x[a][1] = every_third<1>(row, Lanes{});
+    x[a][2] = every_third<2>(row, Lanes{});
+  }
+}
+
 // Differences to the first corner, rounded, by halves of a register.
 template <class Pack, int n>
 [[gnu::always_inline]] inline void gather_singles(const double* u, const std::int32_t* corner,
                                                   const std::uint32_t* row, Pack (&x)[n][3]) {
+  if constexpr (pack_width<Pack> == 2 * row_lanes)
+    if (is_row(row[0]) && is_row(row[1])) return gather_two_rows(u, corner, x);
   constexpr int width = pack_width<Pack> / 2;
   PackOf<double, width> low[n][3], high[n][3];
   gather_doubles<block_lanes<Pack>>(u, corner, row[0], low);

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "solver/in_double.h"
+#include "solver/block_data.h"
 #include "solver/node_offsets.h"
 #include "solver/row_order.h"
 
@@ -88,42 +88,53 @@ template <class Pack>
   }
 }
 
-// Numbers that are added to sums in one go.
-template <class Pack>
-inline constexpr int add_width = sizeof(Pack) < 2 * sizeof(double)
-                                     ? 1
-                                     : static_cast<int>(sizeof(Pack) / sizeof(double));
-
-// sum[0 … n) += from[0 … n)
+// sum[0 … n) += from[0 … n), width of them in one go.
 template <int width, int n, class Real>
-[[gnu::always_inline]] inline void add_numbers(const Real* from, double* sum) {
-  using Part = PackOf<double, width>;
+[[gnu::always_inline]] inline void add_numbers(const Real* from, Real* sum) {
+  using Part = PackOf<Real, width>;
 #pragma GCC unroll 8
   for (int j = 0; j < n; j += width)
-    store(sum + j, Part(load<Part>(sum + j) + load_in_double<Part>(from + j)));
+    store(sum + j, Part(load<Part>(sum + j) + load<Part>(from + j)));
 }
 
-// Of n numbers first(j), j = 0, 8 …: sum[4 + j …] += first(j) and then sum[j …] += second(j), by
-// whole registers. What is added first stays in registers: read back from memory, shifted by a
-// node, it would have to leave the store buffer first (7.5 instead of 4.2 ns a hexahedron).
-template <int n, class First, class Second>
+// Of registers of `width` numbers, the last four of `before` and all but the last four of `after`.
+template <class Part, std::size_t... k>
+[[gnu::always_inline]] inline Part a_node_later(const Part& before, const Part& after,
+                                                std::index_sequence<k...>) {
+  return __builtin_shufflevector(before, after, (sizeof...(k) - 4 + k)...);
+}
+// A register whose last four numbers are these.
+template <class Part, class Quad, std::size_t... k>
+[[gnu::always_inline]] inline Part last_in(const Quad& x, std::index_sequence<k...>) {
+  return __builtin_shufflevector(x, x, (k % 4)...);
+}
+// The last four numbers.
+template <class Part, std::size_t... k>
+[[gnu::always_inline]] inline auto last_node(const Part& x, std::index_sequence<k...>) {
+  return __builtin_shufflevector(x, x, (pack_width<Part> - 4 + k)...);
+}
+
+// Of n numbers first(j), j = 0, a register's width …: sum[4 + j …] += first(j) and then sum[j …] +=
+// second(j). What is added first stays in registers: read back from memory, shifted by a node, it
+// would have to leave the store buffer first (7.5 instead of 4.2 ns a hexahedron).
+template <class Part, int n, class First, class Second>
 [[gnu::always_inline]] inline void add_neighbours(const First& first, const Second& second,
-                                                  double* sum) {
-  using Part = PackOf<double, 8>;
-  using Quad = PackOf<double, 4>;
+                                                  RealOf<Part>* sum) {
+  constexpr int width = pack_width<Part>;
+  using Quad = PackOf<RealOf<Part>, 4>;
   const Quad low = load<Quad>(sum);
-  Part before = __builtin_shufflevector(low, low, 0, 1, 2, 3, 0, 1, 2, 3);
+  Part before = last_in<Part>(low, std::make_index_sequence<width>{});
 #pragma GCC unroll 8
-  for (int j = 0; j < n; j += 8) {
+  for (int j = 0; j < n; j += width) {
     const Part added = load<Part>(sum + 4 + j) + first(j);
-    const Part shifted = __builtin_shufflevector(before, added, 4, 5, 6, 7, 8, 9, 10, 11);
+    const Part shifted = a_node_later(before, added, std::make_index_sequence<width>{});
     store(sum + j, Part(shifted + second(j)));
     before = added;
   }
-  store(sum + n, __builtin_shufflevector(before, before, 4, 5, 6, 7));
+  store(sum + n, last_node(before, std::make_index_sequence<4>{}));
 }
 
-// Numbers of a row of at most eight lanes.
+// Numbers of a row of at most eight lanes; as many as are added to sums in one go.
 template <class Pack>
 inline constexpr int row_numbers = 4 *
                                    (pack_width < Pack >> row_lanes ? row_lanes : pack_width<Pack>);
@@ -132,76 +143,99 @@ inline constexpr int row_numbers = 4 *
 template <class Pack, int n>
 [[gnu::always_inline]] inline void add_two(const RealOf<Pack> (&force)[n][pack_width<Pack>][4],
                                            int lane, const std::int32_t* target, int a, int b,
-                                           double* sum) {
-  constexpr int numbers = row_numbers<Pack>;
+                                           RealOf<Pack>* sum) {
+  constexpr int numbers = row_numbers<Pack>, width = pack_width<Pack>;
   const std::int64_t to_a = target[a * block_lanes<Pack>], to_b = target[b * block_lanes<Pack>];
   const RealOf<Pack>*const from_a = &force[a][lane][0], *const from_b = &force[b][lane][0];
-  if constexpr (add_width<Pack> == 8) {
+  if constexpr (width >= 8) {
     if (to_a - to_b == 1) {
-      using Part = PackOf<double, 8>;
-      add_neighbours<numbers>([&](int j) { return load_in_double<Part>(from_a + j); },
-                              [&](int j) { return load_in_double<Part>(from_b + j); },
-                              sum + 4 * to_b);
+      add_neighbours<Pack, numbers>([&](int j) { return load<Pack>(from_a + j); },
+                                    [&](int j) { return load<Pack>(from_b + j); }, sum + 4 * to_b);
       return;
     }
   }
-  add_numbers<add_width<Pack>, numbers>(from_a, sum + 4 * to_a);
-  add_numbers<add_width<Pack>, numbers>(from_b, sum + 4 * to_b);
+  add_numbers<width, numbers>(from_a, sum + 4 * to_a);
+  add_numbers<width, numbers>(from_b, sum + 4 * to_b);
 }
 
 // Corner after corner of a row.
 template <class Pack, int n>
 [[gnu::always_inline]] inline void add_row(const RealOf<Pack> (&force)[n][pack_width<Pack>][4],
                                            int lane, const std::int32_t* target, std::uint32_t row,
-                                           double* sum) {
+                                           RealOf<Pack>* sum) {
   for (int k = 0; k + 1 < n; k += 2)
     add_two<Pack>(force, lane, target, corner_of_row(row, k), corner_of_row(row, k + 1), sum);
   if constexpr (n % 2 != 0) {
     const int a = corner_of_row(row, n - 1);
-    add_numbers<add_width<Pack>, row_numbers<Pack>>(
+    add_numbers<pack_width<Pack>, row_numbers<Pack>>(
         &force[a][lane][0], sum + 4 * std::int64_t{target[a * block_lanes<Pack>]});
   }
 }
+
 // Of hexahedra of a box: corners are known beforehand.
 template <class Pack>
 [[gnu::always_inline]] inline void add_box_row(const RealOf<Pack> (&force)[8][pack_width<Pack>][4],
-                                               int lane, const std::int32_t* target, double* sum) {
+                                               int lane, const std::int32_t* target,
+                                               RealOf<Pack>* sum) {
 #pragma GCC unroll 4
   for (int k = 0; k < 8; k += 2)
     add_two<Pack>(force, lane, target, corner_of_row(box_row, k), corner_of_row(box_row, k + 1),
                   sum);
 }
 
-// Likewise from eight lanes of doubles, without a detour through memory. False, and nothing is
-// added, where neighbours don't follow each other.
-template <class Pack>
-[[gnu::always_inline]] inline bool add_box_row(const Pack (&f)[8][3], const std::int32_t* target,
-                                               double* sum) {
-  constexpr int lanes = block_lanes<Pack>;
-  std::int32_t apart = 0;
-#pragma GCC unroll 4
-  for (int k = 0; k < 8; k += 2)
-    apart |= target[corner_of_row(box_row, k) * lanes] -
-             target[corner_of_row(box_row, k + 1) * lanes] - 1;
-  if (apart != 0) return false;
+// Rows [x y z and anything] of the lanes of a half, or of all eight.
+template <int half>
+[[gnu::always_inline]] inline void rows_of_eight(const PackOf<double, 8> (&f)[3],
+                                                 PackOf<double, 8> (&row)[4]) {
+  all_rows(f, row);
+}
+template <int half>
+[[gnu::always_inline]] inline void rows_of_eight(const PackOf<float, 16> (&f)[3],
+                                                 PackOf<float, 16> (&row)[2]) {
+  row[0] = rows_of_four<2 * half>(f, std::make_index_sequence<16>{});
+  row[1] = rows_of_four<2 * half + 1>(f, std::make_index_sequence<16>{});
+}
+
+// The same of eight lanes that are still in registers, without a detour through memory, where
+// neighbours follow each other.
+template <int half, class Pack>
+[[gnu::always_inline]] inline void add_box_row(const Pack (&f)[8][3], const std::int32_t* target,
+                                               RealOf<Pack>* sum) {
+  constexpr int width = pack_width<Pack>;
 #pragma GCC unroll 4
   for (int k = 0; k < 8; k += 2) {
     const int a = corner_of_row(box_row, k), b = corner_of_row(box_row, k + 1);
-    Pack first[4], second[4];
-    all_rows(f[a], first);
-    all_rows(f[b], second);
-    add_neighbours<row_numbers<Pack>>(
-        [&](int j) __attribute__((always_inline)) { return first[j / 8]; },
-        [&](int j) __attribute__((always_inline)) { return second[j / 8]; },
-        sum + 4 * std::int64_t{target[b * lanes]});
+    Pack first[row_numbers<Pack> / width], second[row_numbers<Pack> / width];
+    rows_of_eight<half>(f[a], first);
+    rows_of_eight<half>(f[b], second);
+    add_neighbours<Pack, row_numbers<Pack>>(
+        [&](int j) __attribute__((always_inline)) { return first[j / width]; },
+        [&](int j) __attribute__((always_inline)) { return second[j / width]; },
+        sum + 4 * std::int64_t{target[b * block_lanes<Pack> + half * row_lanes]});
   }
-  return true;
+}
+
+// Whether it may: all lanes stand in rows of a box.
+template <class Pack>
+[[gnu::always_inline]] inline bool are_box_rows(const std::int32_t* target,
+                                                const std::uint32_t* row) {
+  std::int32_t apart = 0;
+#pragma GCC unroll 2
+  for (int first = 0; first < pack_width<Pack>; first += row_lanes) {
+    if (row[first / row_lanes] != box_row) return false;
+#pragma GCC unroll 4
+    for (int k = 0; k < 8; k += 2)
+      apart |= target[corner_of_row(box_row, k) * block_lanes<Pack> + first] -
+               target[corner_of_row(box_row, k + 1) * block_lanes<Pack> + first] - 1;
+  }
+  return apart == 0;
 }
 
 // Element after element of at most eight lanes.
 template <class Pack, int n>
 [[gnu::always_inline]] inline void add_lanes(const RealOf<Pack> (&force)[n][pack_width<Pack>][4],
-                                             int first, const std::int32_t* target, double* sum) {
+                                             int first, const std::int32_t* target,
+                                             RealOf<Pack>* sum) {
   constexpr int width = pack_width < Pack >> row_lanes ? row_lanes : pack_width<Pack>;
   std::uint32_t at[n][width];
   for (int a = 0; a < n; ++a) multiply(target + a * block_lanes<Pack>, 4, at[a]);
@@ -211,17 +245,21 @@ template <class Pack, int n>
   for (int lane = 0; lane < width; ++lane)
 #pragma GCC unroll 8
     for (int a = 0; a < n; ++a)
-      add_numbers<(add_width<Pack> < 4 ? add_width<Pack> : 4), 4>(force[a][first + lane],
-                                                                  sum + at[a][lane]);
+      add_numbers<(pack_width<Pack> < 4 ? pack_width<Pack> : 4), 4>(force[a][first + lane],
+                                                                    sum + at[a][lane]);
 }
 
 // Adds the forces of a group's corners to sum[4 * target].
 template <class Pack, int n>
 [[gnu::always_inline]] inline void add_corners(const Pack (&f)[n][3], const std::int32_t* target,
-                                               const std::uint32_t* row, double* sum) {
+                                               const std::uint32_t* row, RealOf<Pack>* sum) {
   constexpr int width = pack_width<Pack>;
-  if constexpr (n == 8 && add_width<Pack> == 8 && width == 8)
-    if (row[0] == box_row && add_box_row(f, target, sum)) return;
+  if constexpr (n == 8 && sizeof(Pack) == 64)
+    if (are_box_rows<Pack>(target, row)) {
+      add_box_row<0>(f, target, sum);
+      if constexpr (width > row_lanes) add_box_row<1>(f, target, sum);
+      return;
+    }
   alignas(64) RealOf<Pack> force[n][width][4];
 #pragma GCC unroll 8
   for (int a = 0; a < n; ++a) store_corner(&force[a][0][0], f[a]);

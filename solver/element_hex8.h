@@ -4,10 +4,10 @@
 //   H = sum_m w_m (x) b_m        (b_6 = 0: the volume does not depend on xi eta zeta)
 //   q_p = w_p - H X_p,  X_p = sum_a G_p,a X_a,  g_p = dW_hg/dq_p (hourglass.h)
 //   f_a = sum_m S_m,a (P' b_m) + sum_p G_p,a g_p,  P' = V P - sum_p g_p (x) X_p.
-// A translation gives exactly zero. In double not the b_m are held but what they are made of, the
-// modes X_m: dV/dX costs 108 instructions of a step's 730 and saves 64 bytes. In single it would
-// have to be done in double, a quarter of the step, or its rounding would turn a free body by 1e-5
-// in 1e5 steps: there the b_m are held, rounded once, for 32 bytes.
+// A translation gives exactly zero. The b_m are not held but made of the modes X_m in each step,
+// 108 instructions of a group's 730 in double: the X_m are 21 numbers, 18 of which would be held
+// otherwise. In single not even these are held but made of the nodes' positions (Model::position),
+// which eight elements share: 16 bytes a node in place of 120 an element.
 #pragma once
 
 #include "solver/block_data.h"
@@ -24,24 +24,29 @@ struct OnePointHex8 {
   using Hourglass = HourglassType;
   static constexpr Formulation formulation = Hourglass::formulation;
   static constexpr int n_corners = 8;
-  static constexpr int value_X = 0;                                  // X_3 … X_6 [m]
-  static constexpr int value_k = value_X + 3 * n_hourglass_modes;    // of hourglass.h [N/m]
-  static constexpr int value_shape = value_k + Hourglass::n_values;  // in double X_0 X_1 X_2 [m]
-  static constexpr int value_inverse = value_shape + 9;              // and 1 / (64 V) [1/m^3],
+  static constexpr int value_k = 0;                                    // of hourglass.h [N/m]
+  static constexpr int value_X = value_k + Hourglass::n_values;        // in double X_3 … X_6 [m],
+  static constexpr int value_shape = value_X + 3 * n_hourglass_modes;  // X_0 X_1 X_2 [m]
+  static constexpr int value_inverse = value_shape + 9;                // and 1 / (64 V) [1/m^3]
   static constexpr int n_values = value_inverse + 1;
-  static constexpr int n_b = 18, values_added_in_single = n_b - 10;  // in single b_0 … b_5 [1/m]
-  static constexpr int n_kept = 3 * n_hourglass_modes + n_b;         // q and b
-  static constexpr int kept_spared_in_single = n_b;
+  static constexpr int values_spared_in_single = n_values - value_X;
+  static constexpr int n_b = 18, n_X = 3 * n_hourglass_modes;
+  static constexpr int n_kept = 3 * n_hourglass_modes + n_b;  // q and b
+  static constexpr int kept_added_in_single = n_X + 1;
 
-  // Of what is kept, behind the strain: q_0 … q_3, then b_0 … b_5.
-  static constexpr int kept_q = 0, kept_b = 3 * n_hourglass_modes;
+  // Of what is kept, behind the strain: q_0 … q_3, then b_0 … b_5; in single dV/dX in place of b,
+  // as it is, then X_3 … X_6 and what makes b of dV/dX: one product a component of H and P'.
+  static constexpr int kept_q = 0, kept_b = 3 * n_hourglass_modes, kept_X = kept_b + n_b;
+  static constexpr int kept_inverse = kept_X + n_X;
+
+  template <class Pack>
+  static constexpr bool reads_positions = sizeof(RealOf<Pack>) == sizeof(float);
 
   // Keeps b_m = dV/dX_m / V of V = ([X_0 X_1 X_2] + ([X_4 X_3 X_2] + [X_5 X_1 X_3] + [X_0 X_5 X_4])
   // / 3) / 64, the exact volume (hex8_reference.h).
   template <class Pack>
   [[gnu::always_inline]] static void prepare(const BlockValues<Pack>& value,
                                              const Stash<Pack>& kept) {
-    if constexpr (holds_b<Pack>) return;
     const Pack inverse = value(value_inverse), third = real<Pack>(1.0 / 3) * inverse;
     Pack X[6][3], d[6][3];  // d_m = X_m / (64 V), a third of it where m > 2
     for (int m = 0; m < 6; ++m)
@@ -49,16 +54,34 @@ struct OnePointHex8 {
         X[m][i] = value((m < 3 ? value_shape + 3 * m : value_X + 3 * (m - 3)) + i);
         d[m][i] = X[m][i] * (m < 3 ? inverse : third);
       }
+    for_volume_gradient(
+        X, d, [&](int m, int i, const Pack& b) __attribute__((always_inline)) {
+          kept.put(kept_b + 3 * m + i, b);
+        });
+  }
+
+  // The same of corners at x. V is made of the same modes, so that sum_m X_m (x) b_m = I but for
+  // rounding. Keeps X_3 … X_6, too.
+  template <class Pack>
+  [[gnu::always_inline]] static void prepare(Pack (&x)[8][3], const Stash<Pack>& kept) {
+    Pack X[6][3], d[6][3];  // d_m = X_m, a third of it where m > 2
     for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      for (int m = 0; m < 3; ++m) {
-        const int n = (m + 1) % 3, o = (m + 2) % 3, b = kept_b + 3 * m + i;
-        kept.put(b, Pack((X[n][j] * d[o][k] - X[n][k] * d[o][j]) +
-                         (X[3 + o][j] * d[3 + n][k] - X[3 + o][k] * d[3 + n][j])));
-        kept.put(b + 9, Pack((X[o][j] * d[3 + n][k] - X[o][k] * d[3 + n][j]) +
-                             (X[n][k] * d[3 + o][j] - X[n][j] * d[3 + o][k])));
+      for (int a = 7; a >= 0; --a) x[a][i] -= x[0][i];
+      Pack w[n_hex_modes];
+      modes_of_corners(x, i, w);
+      for (int m = 0; m < 6; ++m) {
+        X[m][i] = w[m];
+        d[m][i] = m < 3 ? w[m] : Pack(real<Pack>(1.0 / 3) * w[m]);
       }
+      for (int p = 0; p < 4; ++p) kept.put(kept_X + 3 * p + i, w[3 + p]);
     }
+    Pack V = zero_of(X[0][0]);  // 64 V = X_0 . dV/dX_0 + X_3 . dV/dX_3
+    for_volume_gradient(
+        X, d, [&](int m, int i, const Pack& b) __attribute__((always_inline)) {
+          kept.put(kept_b + 3 * m + i, b);
+          if (m % 3 == 0) V += X[m][i] * b;
+        });
+    kept.put(kept_inverse, Pack(1.0 / V));
   }
 
   // H; keeps q.
@@ -72,13 +95,14 @@ struct OnePointHex8 {
       Pack w[n_hex_modes];
       modes_of_corners(u, i, w);
       for (int j = 0; j < 3; ++j) {
-        H(i, j) = w[0] * b_of(value, kept, 0, j);
-        for (int m = 1; m < 6; ++m) H(i, j) += w[m] * b_of(value, kept, m, j);
+        H(i, j) = w[0] * b_of(kept, 0, j);
+        for (int m = 1; m < 6; ++m) H(i, j) += w[m] * b_of(kept, m, j);
+        if constexpr (reads_positions<Pack>) H(i, j) *= kept.get(kept_inverse);
       }
       for (int p = 0; p < 4; ++p) {
-        const int X = value_X + 3 * p;
-        kept.put(kept_q + 3 * p + i, Pack(w[3 + p] - (H(i, 0) * value(X) + H(i, 1) * value(X + 1) +
-                                                      H(i, 2) * value(X + 2))));
+        kept.put(kept_q + 3 * p + i, Pack(w[3 + p] - (H(i, 0) * X_of(value, kept, p, 0) +
+                                                      H(i, 1) * X_of(value, kept, p, 1) +
+                                                      H(i, 2) * X_of(value, kept, p, 2))));
       }
     }
     return H;
@@ -94,11 +118,11 @@ struct OnePointHex8 {
       Pack P[3], w[n_hex_modes];
       for (int j = 0; j < 3; ++j) {
         P[j] = VP(i, j);
-        for (int p = 0; p < 4; ++p) P[j] -= g[p][i] * value(value_X + 3 * p + j);
+        for (int p = 0; p < 4; ++p) P[j] -= g[p][i] * X_of(value, kept, p, j);
+        if constexpr (reads_positions<Pack>) P[j] *= kept.get(kept_inverse);
       }
       for (int m = 0; m < 6; ++m)
-        w[m] = P[0] * b_of(value, kept, m, 0) + P[1] * b_of(value, kept, m, 1) +
-               P[2] * b_of(value, kept, m, 2);
+        w[m] = P[0] * b_of(kept, m, 0) + P[1] * b_of(kept, m, 1) + P[2] * b_of(kept, m, 2);
       for (int p = 0; p < 3; ++p) w[3 + p] += g[p][i];
       w[6] = g[3][i];
       corners_of_modes(w, i, f);
@@ -116,16 +140,36 @@ struct OnePointHex8 {
   }
 
  private:
-  template <class Pack>
-  static constexpr bool holds_b = sizeof(RealOf<Pack>) == sizeof(float);
+  // Calls body(m, i, component i of dV/dX_m times what X and d hold of it), m < 6, d as above.
+  template <class Pack, class Body>
+  [[gnu::always_inline]] static void for_volume_gradient(const Pack (&X)[6][3],
+                                                         const Pack (&d)[6][3], const Body& body) {
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      for (int m = 0; m < 3; ++m) {
+        const int n = (m + 1) % 3, o = (m + 2) % 3;
+        body(m, i,
+             Pack((X[n][j] * d[o][k] - X[n][k] * d[o][j]) +
+                  (X[3 + o][j] * d[3 + n][k] - X[3 + o][k] * d[3 + n][j])));
+        body(3 + m, i,
+             Pack((X[o][j] * d[3 + n][k] - X[o][k] * d[3 + n][j]) +
+                  (X[n][k] * d[3 + o][j] - X[n][j] * d[3 + o][k])));
+      }
+    }
+  }
 
   template <class Pack>
-  [[gnu::always_inline]] static Pack b_of(const BlockValues<Pack>& value, const Stash<Pack>& kept,
-                                          int m, int i) {
-    if constexpr (holds_b<Pack>)
-      return value(value_shape + 3 * m + i);
+  [[gnu::always_inline]] static Pack b_of(const Stash<Pack>& kept, int m, int i) {
+    return kept.get(kept_b + 3 * m + i);
+  }
+  // Of X_3 … X_6.
+  template <class Pack>
+  [[gnu::always_inline]] static Pack X_of(const BlockValues<Pack>& value, const Stash<Pack>& kept,
+                                          int p, int i) {
+    if constexpr (reads_positions<Pack>)
+      return kept.get(kept_X + 3 * p + i);
     else
-      return kept.get(kept_b + 3 * m + i);
+      return value(value_X + 3 * p + i);
   }
 
   template <class Pack>

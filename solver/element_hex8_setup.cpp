@@ -84,16 +84,12 @@ ElementConstants one_point_constants(const ElementInput& input, const OnePointSh
     for (const Vec3& mode : modes)
       for (const double x : mode) c.value[at++] = x;
   };
-  const std::span<const Vec3> X = shape.X, b = shape.b;
-  put(ElementHex8::value_X, X.subspan(3, 4));
+  const std::span<const Vec3> X = shape.X;
   std::copy(stiffness.begin(), stiffness.end(), c.value.begin() + ElementHex8::value_k);
   const std::size_t at = ElementHex8::value_k + stiffness.size();
-  if (input.precision == Precision::in_single) {
-    put(at, b.first(6));
-  } else {
-    put(at, X.first(3));
-    c.value[at + 9] = 1 / (64 * shape.volume);
-  }
+  put(at, X.subspan(3, 4));
+  put(at + 12, X.first(3));
+  c.value[at + 21] = 1 / (64 * shape.volume);
   c.omega2 = combined_bound(shape.bound, k, c.volume, hourglass_norms(shape.b, shape.X), input);
   return c;
 }

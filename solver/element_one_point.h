@@ -2,8 +2,9 @@
 // stash (stash.h), forces out of it. For elements with one stress point: Element has strain(value,
 // u, kept) that returns the mean gradient H and keeps what else it needs, forces(value, kept, V P,
 // f), and where something is kept, prepare(value, kept), before u is known, and
-// hourglass_energy(value, kept). values_added_in_single and kept_spared_in_single if numbers
-// differ.
+// hourglass_energy(value, kept). Where Element::reads_positions of a pack, prepare(X, kept) instead
+// takes reference positions of the corners; values_spared_in_single and kept_added_in_single say by
+// how much the numbers of single precision differ.
 #pragma once
 
 #include "solver/block_data.h"
@@ -21,15 +22,20 @@ struct OnePoint {
   static constexpr int n_values = Element::n_values;
   static constexpr int n_points = 1;
   static constexpr int n_kept = Element::n_kept;
-  static constexpr int values_added_in_single = [] {
-    if constexpr (requires { Element::values_added_in_single; })
-      return Element::values_added_in_single;
+  static constexpr int values_spared_in_single = [] {
+    if constexpr (requires { Element::values_spared_in_single; })
+      return Element::values_spared_in_single;
     return 0;
   }();
-  static constexpr int kept_spared_in_single = [] {
-    if constexpr (requires { Element::kept_spared_in_single; })
-      return Element::kept_spared_in_single;
+  static constexpr int kept_added_in_single = [] {
+    if constexpr (requires { Element::kept_added_in_single; }) return Element::kept_added_in_single;
     return 0;
+  }();
+  template <class Pack>
+  static constexpr bool reads_positions = [] {
+    if constexpr (requires { Element::template reads_positions<Pack>; })
+      return Element::template reads_positions<Pack>;
+    return false;
   }();
 
   template <class Pack>
@@ -40,6 +46,12 @@ struct OnePoint {
       // Read again where it is used: kept in registers, it would push out the displacements.
       asm volatile("" ::: "memory");
     }
+  }
+
+  template <class Pack>
+  [[gnu::always_inline]] static void prepare(Pack (&X)[n_corners][3], const Stash<Pack>& stash) {
+    Element::prepare(X, kept(stash));
+    asm volatile("" ::: "memory");  // likewise
   }
 
   template <class Pack>

@@ -22,12 +22,11 @@ constexpr ElementType shape_of(Formulation formulation) {
 }
 
 struct ElementInput {
-  std::span<const Vec3> X;                     // (n_corners) [m]
-  double lambda = 0, mu = 0;                   // [Pa]
-  double density = 0;                          // [kg/m^3]
-  double hourglass = 0;                        // c_mu, hex8_one_point
-  double thickness = 0;                        // [m], tri3
-  Precision precision = Precision::in_double;  // hex8 holds other constants in single
+  std::span<const Vec3> X;    // (n_corners) [m]
+  double lambda = 0, mu = 0;  // [Pa]
+  double density = 0;         // [kg/m^3]
+  double hourglass = 0;       // c_mu, hex8_one_point
+  double thickness = 0;       // [m], tri3
 };
 
 inline constexpr int max_element_values = 80;  // hex8_full

@@ -22,7 +22,7 @@ enum class Formulation : std::uint8_t {
 enum class LawKind : std::uint8_t { local, plane_stress, averaged_pressure };
 inline constexpr int n_law_kinds = 3;
 
-// Numbers that elements compute with; nodes are in double always.
+// Numbers that elements compute with and add up; the motion of nodes is in double always.
 enum class Precision : std::uint8_t { in_double, in_single };
 inline constexpr int n_precisions = 2;
 

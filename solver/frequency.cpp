@@ -51,7 +51,7 @@ void apply_stiffness(Search& s, const Vector& x, Vector& Kx) {
 void divide_by_mass(Search& s, Vector& f) {
   add_cluster_force(s.model, {}, f, s.room);
   for (std::size_t k = 0; k < f.size(); ++k)
-    f[k] = s.is_fixed(k) ? 0 : f[k] / s.model.inertia[k / 3];
+    f[k] = s.is_fixed(k) ? 0 : f[k] / inertia_of(s.model)[k / 3];
 }
 
 // Within +-1 by the global number alone, so that every mode of vibration has a share.

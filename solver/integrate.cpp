@@ -58,7 +58,7 @@ void add_reaction(const Model& model, const Coefficients& c, double dt, const St
     const double v = state.v[3 * i + j];
     const double v_next = (prescribed.u_next[j] - state.u[3 * i + j]) / dt;
     const double R =
-        model.inertia[i] * given_acceleration(model, c, v, v_next) - scratch.force[3 * i + j];
+        inertia_of(model)[i] * given_acceleration(model, c, v, v_next) - scratch.force[3 * i + j];
     prescribed.reaction[j] = R;
     scratch.force[3 * i + j] += R;
   }
@@ -68,8 +68,9 @@ void add_reaction(const Model& model, const Coefficients& c, double dt, const St
 double next_velocity(const Model& model, const Coefficients& c, const Scratch& scratch,
                      const State& state, std::int64_t i, int j) {
   const std::int64_t k = 3 * i + j;
-  return is_fixed(model, i, j) ? 0
-                               : c.keep * state.v[k] + c.gain / model.inertia[i] * scratch.force[k];
+  return is_fixed(model, i, j)
+             ? 0
+             : c.keep * state.v[k] + c.gain / inertia_of(model)[i] * scratch.force[k];
 }
 
 void integrate_nodes(const Model& model, const Coefficients& c, double dt, const Scratch& scratch,
@@ -77,7 +78,7 @@ void integrate_nodes(const Model& model, const Coefficients& c, double dt, const
   const NodeMotion task{.keep = c.keep,
                         .gain = c.gain,
                         .dt = dt,
-                        .inertia = model.inertia.data(),
+                        .inertia = inertia_of(model).data(),
                         .fixed = model.fixed.data(),
                         .force = scratch.force.data(),
                         .v = state.v.data(),

@@ -4,6 +4,7 @@
 #include "solver/corner_gather.h"
 #include "solver/corner_scatter.h"
 #include "solver/kernel_groups.h"
+#include "solver/position_gather.h"
 
 namespace trocar {
 
@@ -27,9 +28,16 @@ template <class Pack, int n>
 template <class Pack, class Element>
 inline constexpr int n_values_of = [] {
   if constexpr (sizeof(RealOf<Pack>) == sizeof(float) &&
-                requires { Element::values_added_in_single; })
-    return Element::n_values + Element::values_added_in_single;
+                requires { Element::values_spared_in_single; })
+    return Element::n_values - Element::values_spared_in_single;
   return Element::n_values;
+}();
+
+template <class Pack, class Element>
+inline constexpr bool reads_positions_v = [] {
+  if constexpr (requires { Element::template reads_positions<Pack>; })
+    return Element::template reads_positions<Pack>;
+  return false;
 }();
 
 template <class Pack, class Element>
@@ -43,8 +51,12 @@ struct ElementLoops {
                   int lane) __attribute__((always_inline)) {
           const std::int32_t* corner = corners(task, block, lane);
           Pack u[n][3];
-          if constexpr (requires { Element::prepare(value, stash); })
+          if constexpr (reads_positions_v<Pack, Element>) {
+            gather_positions(task.position, corner, rows(task, block, lane), u);
+            Element::prepare(u, stash);
+          } else if constexpr (requires { Element::prepare(value, stash); }) {
             Element::prepare(value, stash);
+          }
           gather_corners(task.u, corner, rows(task, block, lane), u);
           Element::strain(value, u, stash);
           if constexpr (averages_volume_v<Element>)
@@ -52,14 +64,15 @@ struct ElementLoops {
         });
   }
 
-  static void force(const BlockTask& task, const std::int32_t* target, double* sum) {
+  static void force(const BlockTask& task, const std::int32_t* target, void* sum) {
+    RealOf<Pack>* const to = static_cast<RealOf<Pack>*>(sum);
     for_elements(
         task, [&](const auto& value, const auto& stash, std::int64_t block, int lane)
                   __attribute__((always_inline)) {
                     if (lane == 0) fetch(task, block + task.n_blocks);
                     Pack f[n][3];
                     Element::force(value, stash, f);
-                    add_corners(f, target + block * n * lanes + lane, rows(task, block, lane), sum);
+                    add_corners(f, target + block * n * lanes + lane, rows(task, block, lane), to);
                   });
   }
 
@@ -116,13 +129,14 @@ ElementKernels element_kernels() {
   using Loops = ElementLoops<Pack, Element>;
   int n_kept = Element::n_kept;
   constexpr bool is_single = sizeof(RealOf<Pack>) == sizeof(float);
-  if constexpr (is_single && requires { Element::kept_spared_in_single; })
-    n_kept -= Element::kept_spared_in_single;
+  if constexpr (is_single && requires { Element::kept_added_in_single; })
+    n_kept += Element::kept_added_in_single;
   ElementKernels kernels{.n_corners = Element::n_corners,
                          .n_points = Element::n_points,
                          .n_values = n_values_of<Pack, Element>,
                          .n_stash = tensor_values * Element::n_points + n_kept,
                          .law = Element::law,
+                         .reads_positions = reads_positions_v<Pack, Element>,
                          .strain = Loops::strain,
                          .force = Loops::force,
                          .hourglass = Loops::hourglass};

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "solver/in_double.h"
 #include "solver/kernels.h"
-#include "solver/pack.h"
 
 namespace trocar {
 
@@ -16,8 +16,9 @@ struct NodeLoops {
   static constexpr int width = pack_width<Pack>;
 
   // What is constant is copied: memory could change with every store.
-  static void force(const NodeForces& given, const std::int32_t* node, std::int64_t n) {
-    const NodeForces task = given;
+  template <class Real>
+  static void force(const NodeForces<Real>& given, const std::int32_t* node, std::int64_t n) {
+    const NodeForces<Real> task = given;
     const Pack gravity[3] = {gravity_of<0>(task), gravity_of<1>(task), gravity_of<2>(task)};
     std::int64_t k = 0;
     while (k < n) {
@@ -52,13 +53,14 @@ struct NodeLoops {
     return {task.inertia + i, task.fixed + i, task.force + 3 * i, task.v + 3 * i, task.u + 3 * i};
   }
 
-  [[gnu::always_inline]] static void force_of_node(const NodeForces& task, double mass, double* sum,
-                                                   double* force) {
+  template <class Real>
+  [[gnu::always_inline]] static void force_of_node(const NodeForces<Real>& task, double mass,
+                                                   Real* sum, double* force) {
     if constexpr (width >= 4) {
       using Quad = PackOf<double, 4>;
-      const Quad f = mass * load<Quad>(task.gravity) - load<Quad>(sum);
+      const Quad f = mass * load<Quad>(task.gravity) - load_in_double<Quad>(sum);
       _mm256_maskstore_pd(force, __builtin_bit_cast(__m256i, Quad{0, 0, 0, 1} == Quad{}), f);
-      store(sum, Quad{});
+      store(sum, PackOf<Real, 4>{});
     } else {
       for (int j = 0; j < 3; ++j) force[j] = mass * task.gravity[j] - sum[j];
       for (int j = 0; j < 4; ++j) sum[j] = 0;
@@ -73,8 +75,8 @@ struct NodeLoops {
   }
 
   // Of the components in the r-th register of three.
-  template <int r>
-  [[gnu::always_inline]] static Pack gravity_of(const NodeForces& task) {
+  template <int r, class Real>
+  [[gnu::always_inline]] static Pack gravity_of(const NodeForces<Real>& task) {
     Pack g{};
     if constexpr (width == 8) {
       const double x = task.gravity[width * r % 3], y = task.gravity[(width * r + 1) % 3],
@@ -92,18 +94,20 @@ struct NodeLoops {
   }
 
   // force_of_node of nodes that follow each other, by whole registers.
+  template <class Real>
   [[gnu::always_inline]] static void force_of_eight(const Pack (&gravity)[3], const double* mass,
-                                                    double* sum, double* force) {
+                                                    Real* sum, double* force) {
     const Pack m = load<Pack>(mass);
     Pack s[4];  // two nodes each, x y z 0
-    for (int k = 0; k < 4; ++k) s[k] = load<Pack>(sum + k * width);
+    for (int k = 0; k < 4; ++k) s[k] = load_in_double<Pack>(sum + k * width);
     store_force<0>(gravity[0], m, __builtin_shufflevector(s[0], s[1], 0, 1, 2, 4, 5, 6, 8, 9),
                    force);
     store_force<1>(gravity[1], m, __builtin_shufflevector(s[1], s[2], 2, 4, 5, 6, 8, 9, 10, 12),
                    force);
     store_force<2>(gravity[2], m, __builtin_shufflevector(s[2], s[3], 5, 6, 8, 9, 10, 12, 13, 14),
                    force);
-    for (int k = 0; k < 4; ++k) store(sum + k * width, Pack{});
+    using Part = PackOf<Real, lanes_of_block<Real>>;
+    for (int k = 0; k < 4 * width; k += lanes_of_block<Real>) store(sum + k, Part{});
   }
 
   // Of `width` nodes, the factor of each component in the r-th register of three.
@@ -172,7 +176,8 @@ struct NodeLoops {
 
 template <class Pack>
 NodeKernels node_kernels() {
-  return {NodeLoops<Pack>::force, NodeLoops<Pack>::motion};
+  using Loops = NodeLoops<Pack>;
+  return {Loops::template force<double>, Loops::template force<float>, Loops::motion};
 }
 
 }  // namespace trocar

@@ -16,6 +16,7 @@ namespace trocar {
 // list's precision.
 struct BlockTask {
   const double* u = nullptr;             // (n_local * 3) [m]
+  const float* position = nullptr;       // (n_local * 4) of Model::position [m]
   const std::int32_t* corner = nullptr;  // [block][corner][lane] local node
   const std::uint32_t* row = nullptr;    // [eight lanes] of row_order.h
   const void* data = nullptr;            // [block][value][lane]: the material's, the element's
@@ -36,8 +37,8 @@ struct BlockTask {
 
 using ElementKernel = void (*)(const BlockTask& task);
 // Adds corner forces [N] to sum[4 * target + (x, y, z)], element after element; target [block]
-// [corner][lane].
-using ForceKernel = void (*)(const BlockTask& task, const std::int32_t* target, double* sum);
+// [corner][lane]; sums are of the list's precision.
+using ForceKernel = void (*)(const BlockTask& task, const std::int32_t* target, void* sum);
 // K V (J - 1) or an energy [J] to [block][lane].
 using ValueKernel = void (*)(const BlockTask& task, double* to);
 
@@ -46,6 +47,7 @@ struct ElementKernels {
   int n_values;  // behind those of the material
   int n_stash;   // values of a lane in the stash
   LawKind law;
+  bool reads_positions;       // BlockTask::position
   int share, share_stride;    // as in BlockTask, without the material's values
   ElementKernel strain;       // to the stash
   ForceKernel force;          // from the stash
@@ -73,10 +75,11 @@ struct KernelsOfPrecision {
 };
 
 // force[3 i + j] = mass[i] gravity[j] - sum[4 i + j], and zero in place of the sum.
+template <class Real>
 struct NodeForces {
   const double* mass;  // [kg]
   double gravity[4];   // and a zero [m/s^2]
-  double* sum;         // [N]
+  Real* sum;           // [N]
   double* force;       // [N]
 };
 
@@ -89,9 +92,14 @@ struct NodeMotion {
   double *v, *u;              // [m/s], [m]
 };
 
+template <class Real>
+using NodeForceKernel = void (*)(const NodeForces<Real>& task, const std::int32_t* node,
+                                 std::int64_t n);
+
 // The nodes' part of a step.
 struct NodeKernels {
-  void (*force)(const NodeForces& task, const std::int32_t* node, std::int64_t n);
+  NodeForceKernel<double> force;
+  NodeForceKernel<float> force_of_singles;
   void (*motion)(const NodeMotion& task, std::int64_t begin, std::int64_t end);
 };
 

@@ -59,8 +59,9 @@ void add_cluster_force(const Model& model, std::span<const GivenAcceleration> gi
 }
 
 void multiply_by_mass(const Model& model, std::span<const double> x, std::vector<double>& Mx) {
-  Mx.resize(3 * model.inertia.size());
-  for (std::size_t k = 0; k < Mx.size(); ++k) Mx[k] = model.inertia[k / 3] * x[k];
+  const std::vector<double>& inertia = inertia_of(model);
+  Mx.resize(3 * model.mass.size());
+  for (std::size_t k = 0; k < Mx.size(); ++k) Mx[k] = inertia[k / 3] * x[k];
   const MassClusters& clusters = model.clusters;
   for (std::size_t c = 0; c < clusters.total.size(); ++c) {
     const Vec3 mean =

@@ -77,6 +77,7 @@ void keep_clusters_whole(const MassScaling& scaling, std::span<std::int32_t> nod
 void scale_mass(const MassScaling& scaling, const Part& part, Model& model) {
   CHECK(model.clusters.node.empty());
   take_clusters(scaling, part, model);
+  if (!model.clusters.node.empty()) model.inertia = model.mass;
   for (std::size_t k = 0; k < model.clusters.node.size(); ++k)
     model.inertia[model.clusters.node[k]] += model.clusters.added[k];
   for (std::size_t k = 0; k < model.element_step.size(); ++k)

@@ -134,8 +134,7 @@ ElementConstants constants_of(const Source& source, std::int32_t e) {
                             .mu = lame_mu(material),
                             .density = material.density * source.mesh.density_factor[e],
                             .hourglass = source.options.hourglass,
-                            .thickness = source.options.thickness,
-                            .precision = source.options.precision});
+                            .thickness = source.options.thickness});
 }
 
 // Unit vector.
@@ -217,7 +216,6 @@ void take_node(const ModelSource& source, std::int32_t i, FixedMask plane, Model
     throw InputError("node " + std::to_string(global) +
                      " has no mass: each node must belong to an element");
   model.mass[i] = mass;
-  model.inertia[i] = mass;
   model.fixed[i] = static_cast<FixedMask>(source.fixed[global] | plane);
 }
 
@@ -226,11 +224,27 @@ void resize_nodes(const Part& part, Model& model) {
   model.n_local = part.n_local();
   model.n_owned = part.n_owned;
   model.mass.resize(n_owned);
-  model.inertia.resize(n_owned);
   model.fixed.resize(n_owned);
 }
 
+// Rounded alike on all ranks and for any numbering, so that all elements at a node see it at the
+// same place. After an edit all are taken anew: the least of the coordinates may have changed.
+void take_positions(const Source& source, Model& model) {
+  const auto is_reader = [](const ElementBlocks& blocks) {
+    return kernels_for(kernels_of(Simd::scalar), blocks).element.reads_positions;
+  };
+  if (std::none_of(model.blocks.begin(), model.blocks.end(), is_reader)) return;
+  Vec3 least = source.mesh.X[0];
+  for (const Vec3& X : source.mesh.X) least = least.cwiseMin(X);
+  model.position.resize(static_cast<std::size_t>(model.n_local) * 4);
+  for (std::int64_t i = 0; i < model.n_local; ++i) {
+    const Vec3 X = source.mesh.X[source.part.node_global[i]] - least;
+    for (int j = 0; j < 3; ++j) model.position[4 * i + j] = static_cast<float>(X[j]);
+  }
+}
+
 void link_nodes(const Source& source, Model& model) {
+  take_positions(source, model);
   order_sums(model);
   link_volume_averages(source.mesh, source.materials, model);
 }
@@ -336,7 +350,8 @@ State make_state(const Model& model) {
 
 Scratch make_scratch(const Model& model) {
   Scratch scratch;
-  scratch.sum.resize(static_cast<std::size_t>(model.sums.n_places) * 4);
+  with_sums(model, scratch,
+            [&](auto& sum) { sum.resize(static_cast<std::size_t>(model.sums.n_places) * 4); });
   scratch.volume_change.resize(static_cast<std::size_t>(model.averages.n_lanes));
   scratch.force.resize(static_cast<std::size_t>(model.n_owned) * 3);
   scratch.viscous.resize(model.blocks.size());

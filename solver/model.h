@@ -108,9 +108,12 @@ struct MassClusters {
 struct Model {
   std::int32_t n_local = 0, n_owned = 0;
   std::vector<double> mass;     // (n_owned) what gravity acts on [kg]
-  std::vector<double> inertia;  // (n_owned) mass, and d where it is scaled [kg]
+  std::vector<double> inertia;  // (n_owned) mass and d of clusters; empty without, see inertia_of
   MassClusters clusters;
   std::vector<FixedMask> fixed;  // (n_owned)
+  // (n_local * 4) reference positions less the least of the mesh, and a zero, for elements
+  // that make their gradients of them (element_hex8.h); empty if there are none. [m]
+  AlignedVector<float> position;
   // One a (reads_halo, region, formulation), in this order.
   std::vector<ElementBlocks> blocks;
   SumOrder sums;
@@ -123,6 +126,11 @@ struct Model {
 
 inline bool is_fixed(const Model& model, std::int64_t owned, int direction) {
   return (model.fixed[owned] >> direction & 1) != 0;
+}
+
+// (n_owned) what a node resists acceleration with [kg]
+inline const std::vector<double>& inertia_of(const Model& model) {
+  return model.inertia.empty() ? model.mass : model.inertia;
 }
 
 // materials (n_regions of the mesh); fixed (n_nodes, global); mass (n_nodes, global) from
@@ -164,8 +172,10 @@ State make_state(const Model& model);
 
 // Neither saved nor shown. Allocated once a model.
 struct Scratch {
-  AlignedVector<double> sum;          // (n_places * 4) corner forces of each place of SumOrder;
-                                      // all zero between steps [N]
+  // (n_places * 4) corner forces of each place of SumOrder, all zero between steps; the one of the
+  // model's precision, the other is empty. [N]
+  AlignedVector<double> sum;
+  AlignedVector<float> sum_single;
   std::vector<double> volume_change;  // K V (J - 1) of lanes, see VolumeAverages [J]
   std::vector<double> force;          // (n_owned * 3) external - internal force [N]
   // Empty, or (n_owned): energy that mass damping takes from each node, added up by integrate [J].

@@ -1,6 +1,6 @@
 // A model after an edit that left every element its place in the lists: the numbers of edited
 // elements and nodes are made anew, the others stay. What is left in proportion to the model is the
-// order of sums, whole numbers only.
+// order of sums, whole numbers only, and positions in single precision.
 #pragma once
 
 #include <cstdint>

@@ -103,7 +103,7 @@ void advance(const MultiRateStep& step, int k, const Scratch& whole, MultiRate& 
       for (std::int64_t j = 0; j < 3; ++j) {
         const std::int64_t at = 3 * i + j;
         const double change = m.scratch.force[at] - m.start_force[at];
-        const double a = (whole.force[3 * w + j] + change) / step.model.inertia[w];
+        const double a = (whole.force[3 * w + j] + change) / inertia_of(step.model)[w];
         const double z = m.z[at];
         m.z[at] = (1 + back) * z - back * m.z_before[at] + gain * a;
         m.z_before[at] = z;
@@ -126,7 +126,7 @@ void give_force(const MultiRateStep& step, const MultiRate& m, Scratch& scratch)
   for (std::int64_t i = 0; i < m.part.n_owned; ++i)
     for (std::int64_t j = 0; j < 3; ++j)
       scratch.force[3 * std::int64_t{m.whole[i]} + j] =
-          step.model.inertia[m.whole[i]] * (scale * m.z[3 * i + j]);
+          inertia_of(step.model)[m.whole[i]] * (scale * m.z[3 * i + j]);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ std::vector<double> scaled_mass(const Model& model) {
       if (node < model.n_owned) least[node] = std::max(least[node], 1 / (step * step));
     }
   }
-  for (std::size_t i = 0; i < least.size(); ++i) least[i] *= model.inertia[i];
+  for (std::size_t i = 0; i < least.size(); ++i) least[i] *= inertia_of(model)[i];
   return least;
 }
 

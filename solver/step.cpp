@@ -33,16 +33,10 @@ void add_list(const Model& model, const ElementBlocks& blocks, std::int64_t firs
           kernels.law.viscous_stress(task, scratch.viscous[&blocks - model.blocks.data()],
                                      history_at(blocks, block, state));
         const std::int64_t corner = block * kernels.element.n_corners * blocks.lanes;
-        kernels.element.force(task, targets(blocks).data() + corner, scratch.sum.data());
+        with_sums(model, scratch, [&](auto& sum) {
+          kernels.element.force(task, targets(blocks).data() + corner, sum.data());
+        });
       });
-}
-
-NodeForces node_forces(const Model& model, Scratch& scratch) {
-  const Vec3& g = model.options.gravity;
-  return {.mass = model.mass.data(),
-          .gravity = {g.x(), g.y(), g.z(), 0},
-          .sum = scratch.sum.data(),
-          .force = scratch.force.data()};
 }
 
 // Calls body(begin, end) for the runs of blocks within [begin, end) that don't sleep.
@@ -62,7 +56,6 @@ void for_awake_blocks(const Scratch& scratch, std::int64_t begin, std::int64_t e
 void compute_run(const Model& model, std::int64_t run, State& state, Scratch& scratch) {
   const SumOrder& sums = model.sums;
   const std::int64_t end = sums.run_block[run + 1];
-  const NodeForces nodes = node_forces(model, scratch);
   std::int32_t k = sums.run_first[run];
   for (std::int64_t block = sums.run_block[run]; block < end; block += stride_blocks) {
     const std::int64_t next = std::min(end, block + stride_blocks);
@@ -77,28 +70,33 @@ void compute_run(const Model& model, std::int64_t run, State& state, Scratch& sc
     k = static_cast<std::int32_t>(
         std::lower_bound(last_block + first, last_block + sums.run_first[run + 1], next) -
         last_block);
-    active_kernels().nodes.force(nodes, sums.node.data() + first, k - first);
+    finish_nodes(model, {sums.node.begin() + first, sums.node.begin() + k}, scratch);
   }
 }
 
 void finish_shared_nodes(const Model& model, Scratch& scratch) {
   const std::vector<std::int32_t>& node = model.sums.shared_node;
-  double* const sum = scratch.sum.data();
-  std::int64_t place = model.n_local;
-  for (std::size_t k = 0; k < node.size(); ++k)
-    for (; place < model.sums.shared_end[k]; ++place)
-      for (int j = 0; j < 3; ++j)
-        sum[4 * std::int64_t{node[k]} + j] += std::exchange(sum[4 * place + j], 0.0);
-  active_kernels().nodes.force(node_forces(model, scratch), node.data(), std::ssize(node));
+  with_sums(model, scratch, [&](auto& sum) {
+    // As where one run meets a node alone.
+    const FlushSubnormals flush(model.options.precision == Precision::in_single);
+    std::int64_t place = model.n_local;
+    for (std::size_t k = 0; k < node.size(); ++k)
+      for (; place < model.sums.shared_end[k]; ++place)
+        for (int j = 0; j < 3; ++j)
+          sum[4 * std::int64_t{node[k]} + j] += std::exchange(sum[4 * place + j], {});
+  });
+  finish_nodes(model, node, scratch);
 }
 
 // Nodes of other ranks have sums that nobody takes.
 void clear_halo(const Model& model, Scratch& scratch) {
   const SumOrder& sums = model.sums;
-  const auto at = [&](std::int64_t place) { return scratch.sum.begin() + 4 * place; };
-  std::fill(at(model.n_owned), at(model.n_local), 0.0);
-  std::fill(at(sums.shared_end.empty() ? model.n_local : sums.shared_end.back()), at(sums.n_places),
-            0.0);
+  const std::int64_t last = sums.shared_end.empty() ? model.n_local : sums.shared_end.back();
+  with_sums(model, scratch, [&](auto& sum) {
+    const auto at = [&](std::int64_t place) { return sum.begin() + 4 * place; };
+    std::fill(at(model.n_owned), at(model.n_local), 0);
+    std::fill(at(last), at(sums.n_places), 0);
+  });
 }
 
 }  // namespace
@@ -107,7 +105,8 @@ void compute_inside_force(const Model& model, State& state, Scratch& scratch) {
   CHECK_OP(std::ssize(state.u), ==, 3 * std::int64_t{model.n_local});
   CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
   CHECK_OP(std::ssize(scratch.force), ==, 3 * std::int64_t{model.n_owned});
-  CHECK_OP(std::ssize(scratch.sum), ==, 4 * model.sums.n_places);
+  with_sums(model, scratch,
+            [&](const auto& sum) { CHECK_OP(std::ssize(sum), ==, 4 * model.sums.n_places); });
   CHECK_OP(std::ssize(state.history), ==, model.n_history);
   for (std::size_t k = 0; k < model.blocks.size(); ++k)
     if (!model.blocks[k].prony.empty())
@@ -132,12 +131,12 @@ void compute_force(const Model& model, State& state, Scratch& scratch) {
 
 std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
   const auto bytes = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
-  std::size_t sum = bytes(model.mass) + bytes(model.inertia) + bytes(model.fixed) +
-                    bytes(model.sums.node) + bytes(model.sums.last_block) +
-                    bytes(model.sums.shared_node) + bytes(model.sums.shared_end) +
-                    bytes(model.element_step) + bytes(model.averages.offset) +
-                    bytes(model.averages.lane) + bytes(model.averages.stiffness) +
-                    bytes(scratch.volume_change) + bytes(scratch.sum) + bytes(scratch.force);
+  std::size_t sum =
+      bytes(model.mass) + bytes(model.inertia) + bytes(model.fixed) + bytes(model.position) +
+      bytes(model.sums.node) + bytes(model.sums.last_block) + bytes(model.sums.shared_node) +
+      bytes(model.sums.shared_end) + bytes(model.element_step) + bytes(model.averages.offset) +
+      bytes(model.averages.lane) + bytes(model.averages.stiffness) + bytes(scratch.volume_change) +
+      bytes(scratch.sum) + bytes(scratch.sum_single) + bytes(scratch.force);
   for (const ElementBlocks& blocks : model.blocks)
     sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.target) +
            bytes(blocks.row) + bytes(blocks.data) + bytes(blocks.data_single);

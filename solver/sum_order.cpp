@@ -142,6 +142,13 @@ void find_rows(Model& model) {
   }
 }
 
+void finish(const NodeForces<double>& task, std::span<const std::int32_t> node) {
+  active_kernels().nodes.force(task, node.data(), std::ssize(node));
+}
+void finish(const NodeForces<float>& task, std::span<const std::int32_t> node) {
+  active_kernels().nodes.force_of_singles(task, node.data(), std::ssize(node));
+}
+
 // As many as there are threads now.
 void add_runs(std::int64_t n_blocks, SumOrder& sums) {
   if (n_blocks == 0) return;
@@ -177,6 +184,17 @@ void order_sums(Model& model) {
   order_own_nodes(use, model);
   place_shared_corners(use, model);
   find_rows(model);
+}
+
+void finish_nodes(const Model& model, std::span<const std::int32_t> node, Scratch& scratch) {
+  const Vec3& g = model.options.gravity;
+  with_sums(model, scratch, [&](auto& sum) {
+    finish(NodeForces{.mass = model.mass.data(),
+                      .gravity = {g.x(), g.y(), g.z(), 0},
+                      .sum = sum.data(),
+                      .force = scratch.force.data()},
+           node);
+  });
 }
 
 }  // namespace trocar

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "solver/model.h"
@@ -17,6 +18,18 @@ void order_sums(Model& model);
 inline const std::vector<std::int32_t>& targets(const ElementBlocks& blocks) {
   return blocks.target.empty() ? blocks.corner : blocks.target;
 }
+
+// Calls body(the sums of the model's precision).
+template <class Body>
+void with_sums(const Model& model, Scratch& scratch, const Body& body) {
+  if (model.options.precision == Precision::in_single)
+    body(scratch.sum_single);
+  else
+    body(scratch.sum);
+}
+
+// scratch.force of nodes whose sums are complete; the sums become zero.
+void finish_nodes(const Model& model, std::span<const std::int32_t> node, Scratch& scratch);
 
 // Lists of the same region and formulation are one behind the other, in the order of the sums; the
 // one that reads halo nodes second.

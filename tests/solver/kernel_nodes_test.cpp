@@ -81,13 +81,23 @@ TEST(NodeKernels, a_node_moves_by_the_same_bits_whatever_part_it_is_in) {
   });
 }
 
-TEST(NodeKernels, a_force_is_the_weight_less_the_sum_which_becomes_zero) {
+// Whose sums are of this kind.
+static NodeForceKernel<double> force_kernel(const NodeKernels& kernels, double) {
+  return kernels.force;
+}
+static NodeForceKernel<float> force_kernel(const NodeKernels& kernels, float) {
+  return kernels.force_of_singles;
+}
+
+template <class Real>
+static void check_weight_less_sum() {
   for_each_simd([](const NodeKernels& kernels) {
     const std::vector<double> mass = {1, 2, 3, 4};
-    std::vector<double> sum, force(12, -1.0);
-    for (int k = 0; k < 16; ++k) sum.push_back(k % 4 == 3 ? 77 : k);
+    std::vector<Real> sum;
+    std::vector<double> force(12, -1.0);
+    for (int k = 0; k < 16; ++k) sum.push_back(static_cast<Real>(k % 4 == 3 ? 77 : k));
     const std::vector<std::int32_t> node = {3, 1};
-    kernels.force(
+    force_kernel(kernels, Real{})(
         {.mass = mass.data(), .gravity = {.5, 0, -8, 0}, .sum = sum.data(), .force = force.data()},
         node.data(), 2);
     // 4 (0.5, 0, -8) - (12, 13, 14) and 2 (0.5, 0, -8) - (4, 5, 6): exact.
@@ -98,28 +108,42 @@ TEST(NodeKernels, a_force_is_the_weight_less_the_sum_which_becomes_zero) {
   });
 }
 
-TEST(NodeKernels, a_nodes_force_has_the_same_bits_whatever_stands_beside_it_in_the_list) {
+TEST(NodeKernels, a_force_is_the_weight_less_the_sum_which_becomes_zero) {
+  check_weight_less_sum<double>();
+  check_weight_less_sum<float>();
+}
+
+template <class Real>
+static void check_bits_beside_others() {
   // Nodes in a row; eight whose first and last are as far apart as in a row; the rest.
   std::vector<std::int32_t> node = {2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14,
                                     15, 16, 17, 18, 21, 22, 30, 31, 24, 25, 27, 28};
   for (const std::int32_t i : {0, 1, 19, 20, 23, 26, 29, 32, 33, 34, 35, 36}) node.push_back(i);
   ASSERT_EQ(std::ssize(node), n_nodes);
   Noise noise(8);
-  std::vector<double> mass(n_nodes, 2.0), sum(4 * n_nodes);
+  std::vector<double> mass(n_nodes, 2.0);
+  AlignedVector<Real> sum(4 * n_nodes);
   for (double& m : mass) m += noise();
-  for (double& s : sum) s = noise();
+  for (Real& s : sum) s = static_cast<Real>(noise());
   for_each_simd([&](const NodeKernels& kernels) {
-    std::vector<double> sum_alone = sum, sum_together = sum, alone(3 * n_nodes), together = alone;
-    NodeForces task{.mass = mass.data(), .gravity = {.3, .7, -9.81, 0}};
+    AlignedVector<Real> sum_alone = sum, sum_together = sum;
+    std::vector<double> alone(3 * n_nodes), together = alone;
+    const NodeForceKernel<Real> find_force = force_kernel(kernels, Real{});
+    NodeForces<Real> task{.mass = mass.data(), .gravity = {.3, .7, -9.81, 0}};
     task.sum = sum_together.data();
     task.force = together.data();
-    kernels.force(task, node.data(), n_nodes);
+    find_force(task, node.data(), n_nodes);
     task.sum = sum_alone.data();
     task.force = alone.data();
-    for (const std::int32_t& i : node) kernels.force(task, &i, 1);
+    for (const std::int32_t& i : node) find_force(task, &i, 1);
     EXPECT_EQ(together, alone);
-    EXPECT_EQ(sum_together, std::vector<double>(4 * n_nodes, 0.0));
+    EXPECT_TRUE(sum_together == AlignedVector<Real>(4 * n_nodes));
     for (std::size_t k = 0; k < alone.size(); ++k)  // two roundings of numbers below 32
       EXPECT_NEAR(together[k], mass[k / 3] * task.gravity[k % 3] - sum[k / 3 * 4 + k % 3], 1e-14);
   });
+}
+
+TEST(NodeKernels, a_nodes_force_has_the_same_bits_whatever_stands_beside_it_in_the_list) {
+  check_bits_beside_others<double>();
+  check_bits_beside_others<float>();
 }

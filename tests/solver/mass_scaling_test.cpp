@@ -108,7 +108,7 @@ TEST(MassScaling, adds_what_the_steps_of_the_elements_ask_for) {
   EXPECT_NEAR(sum(scaling.added), expected, 1e-12 * expected);
   // In the model it is inertia on top of the mass; two slivers' surroundings, two clusters.
   const Model model = scaled(body).model;
-  EXPECT_NEAR(sum(model.inertia) - sum(model.mass), expected, 1e-12 * sum(model.inertia));
+  EXPECT_NEAR(sum(inertia_of(model)) - sum(model.mass), expected, 1e-12 * sum(inertia_of(model)));
   EXPECT_EQ(model.mass, body.model.mass);
   EXPECT_EQ(scaling.n_clusters(), 2);
 }
@@ -228,7 +228,7 @@ TEST(MassScaling, is_inverted_in_closed_form_with_fixed_and_given_nodes) {
   for (std::size_t k = 0; k < f.size(); ++k)
     if (!is_given(k / 3) && (model.fixed[k / 3] >> k % 3 & 1) == 0) {
       // The nodes with 77 N enter and leave the sums: their rounding over the masses of 1e-4 kg.
-      EXPECT_NEAR(f[k] / model.inertia[k / 3], a[k], 1e-9) << k;
+      EXPECT_NEAR(f[k] / inertia_of(model)[k / 3], a[k], 1e-9) << k;
     }
 }
 
@@ -275,7 +275,7 @@ TEST(MassScaling, gives_each_cluster_one_owner_and_a_rank_the_same_bits) {
     Body part = make_body(mesh, {}, owner, rank);
     scale_mass(scaling, part.part, part.model);
     for (std::int32_t i = 0; i < part.model.n_owned; ++i)
-      EXPECT_EQ(part.model.inertia[i], whole.model.inertia[part.part.node_global[i]]);
+      EXPECT_EQ(inertia_of(part.model)[i], inertia_of(whole.model)[part.part.node_global[i]]);
     for (std::size_t k = 0; k < part.part.element_global.size(); ++k)
       EXPECT_EQ(part.model.element_step[k], whole.model.element_step[part.part.element_global[k]]);
   }

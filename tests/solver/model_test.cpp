@@ -116,6 +116,23 @@ TEST(BuildModel, rows_of_a_regular_numbering_have_the_same_bits_as_single_nodes)
   }
 }
 
+// Positions rounded where they stand would be off by 8e-6 m here, 2e-4 of a cell.
+TEST(BuildModel, forces_in_single_precision_are_the_same_far_from_the_origin) {
+  Mesh near = make_box(Vec3(0, 0, 0), Vec3(.1, .1, .1), {3, 3, 3}, BoxElements::hex8), far = near;
+  Noise noise(5);
+  for (std::size_t i = 0; i < near.X.size(); ++i) {
+    near.X[i] += .002 * Vec3(noise(), noise(), noise());
+    far.X[i] = near.X[i] + Vec3(200, -150, 130);
+  }
+  const BodyOptions options{.solver = {.precision = Precision::in_single}};
+  Body a = make_body(near, options), b = make_body(far, options);
+  shake(a.state.u, 1e-3, 4);
+  b.state.u = a.state.u;
+  const std::vector<double>&f = force(a), &g = force(b);
+  // Rounding alone: some tens of terms of 6e-8 each.
+  for (std::size_t k = 0; k < f.size(); ++k) EXPECT_NEAR(f[k], g[k], 3e-6 * largest(f));
+}
+
 // Behind the last node's displacement nothing may be read.
 TEST(BuildModel, lanes_outside_rows_that_meet_the_last_node_say_so) {
   for (const Precision precision : {Precision::in_double, Precision::in_single}) {
@@ -196,11 +213,26 @@ TEST(MemoryBytes, counts_what_a_tetrahedron_needs) {
   const Body body =
       make_body(make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {8, 8, 8}, BoxElements::tet4_kuhn));
   // 3072 tetrahedra in full blocks: 11 constants and a step of 8 bytes, 4 corners and a place of 4,
-  // and 4 for a block of 8; 729 nodes: mass, inertia, 3 forces and 4 sums of 8, order and last
-  // block of 4, a mark of 1; 4 for where the first of no clusters would begin.
-  const std::size_t n_bytes = 8 * (11 + 1) + 4 * 5, n_node_bytes = 8 * 9 + 4 * 2 + 1;
+  // and 4 for a block of 8; 729 nodes: mass, 3 forces and 4 sums of 8, order and last block
+  // of 4, a mark of 1; 4 for where the first of no clusters would begin.
+  const std::size_t n_bytes = 8 * (11 + 1) + 4 * 5, n_node_bytes = 8 * 8 + 4 * 2 + 1;
   const std::size_t expected = 3072 * n_bytes + 3072 / 8 * 4 + 729 * n_node_bytes + 4;
   EXPECT_EQ(memory_bytes(body.model, body.scratch), expected);
+}
+
+// A general mesh: no element of it is a parallelepiped.
+static double bytes_of_hexahedron(Precision precision) {
+  Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {20, 20, 20}, BoxElements::hex8);
+  Noise noise(3);
+  for (Vec3& X : mesh.X) X += .005 * Vec3(noise(), noise(), noise());
+  const Body body = make_body(mesh, {.solver = {.precision = precision}});
+  const std::size_t state = (body.state.u.size() + body.state.v.size()) * sizeof(double);
+  return static_cast<double>(memory_bytes(body.model, body.scratch) + state) / mesh.n_elements();
+}
+
+TEST(MemoryBytes, of_a_hexahedron_are_at_most_400_in_double_and_220_in_single) {
+  EXPECT_LE(bytes_of_hexahedron(Precision::in_double), 400);
+  EXPECT_LE(bytes_of_hexahedron(Precision::in_single), 220);
 }
 
 TEST(MemoryBytes, counts_the_clusters_of_scaled_mass) {

@@ -22,7 +22,7 @@ Eigen::MatrixXd operator_of(Refined& refined, double dt) {
   Body& body = refined.body;
   const auto n = static_cast<Eigen::Index>(body.state.u.size());
   const auto mass = [&](Eigen::Index k) {
-    return body.model.inertia[static_cast<std::size_t>(k / 3)];
+    return inertia_of(body.model)[static_cast<std::size_t>(k / 3)];
   };
   const double h = 1e-7;
   Eigen::MatrixXd A(n, n);

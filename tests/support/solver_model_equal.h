@@ -50,6 +50,7 @@ inline void expect_equal(const Model& a, const Model& b) {
   EXPECT_EQ(a.mass, b.mass);
   EXPECT_EQ(a.inertia, b.inertia);
   EXPECT_EQ(a.fixed, b.fixed);
+  EXPECT_TRUE(a.position == b.position);
   EXPECT_EQ(a.element_step, b.element_step);
   EXPECT_EQ(a.n_history, b.n_history);
   ASSERT_EQ(a.blocks.size(), b.blocks.size());
