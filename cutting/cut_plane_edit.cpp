@@ -141,25 +141,33 @@ void measure_deviation(const PlanePatch& patch, std::span<const CutChain> chains
 
 }  // namespace
 
+// Takes element e if p is farther inside; true if p is inside.
+static bool try_host(const PlanePatch& patch, int e, const Vec2& p, double& best_inside,
+                     Host& best) {
+  const std::array<double, 3> weight = barycentric(patch, e, p);
+  const double inside = std::min({weight[0], weight[1], weight[2]});
+  if (inside > best_inside) {
+    best_inside = inside;
+    best = {e, weight};
+  }
+  return inside >= -inside_tolerance;
+}
+
 Host find_host(const PlanePatch& patch, int node, const Vec2& p) {
   Host best;
   double best_inside = -std::numeric_limits<double>::max();
   std::vector<int> visited;
   visited.reserve(max_visited);
+  bool is_found = false;
   visit_star(patch, node, [&](int e, int) {
     visited.push_back(e);
-    return true;
+    is_found = try_host(patch, e, p, best_inside, best);
+    return !is_found;
   });
-  for (std::size_t k = 0; k < visited.size() && visited.size() < max_visited; ++k) {
-    const int e = visited[k];
-    const std::array<double, 3> weight = barycentric(patch, e, p);
-    const double inside = std::min({weight[0], weight[1], weight[2]});
-    if (inside > best_inside) {
-      best_inside = inside;
-      best = {e, weight};
-    }
-    if (inside >= -inside_tolerance) break;
-    for (const int g : patch.across[e])
+  const std::size_t n_star = visited.size();
+  for (std::size_t k = 0; k < visited.size() && visited.size() < max_visited && !is_found; ++k) {
+    if (k >= n_star && try_host(patch, visited[k], p, best_inside, best)) break;
+    for (const int g : patch.across[visited[k]])
       if (g >= 0 && std::find(visited.begin(), visited.end(), g) == visited.end())
         visited.push_back(g);
   }

@@ -25,9 +25,11 @@ Vec2 plane(const Vec3& X) {
 // Does the segment come nearer to the triangle than the triangle's own size (by bounding boxes)?
 bool is_near(const Mesh& mesh, std::int32_t e, const Vec2& p, const Vec2& q) {
   const std::span<const std::int32_t> node = mesh.corners(e);
-  const Vec2 a = plane(mesh.X[node[0]]), b = plane(mesh.X[node[1]]), c = plane(mesh.X[node[2]]);
-  const Vec2 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-  if ((p.cwiseMax(q).array() < low.array()).any() || (p.cwiseMin(q).array() > high.array()).any())
+  const Vec3 &a = mesh.X[node[0]], &b = mesh.X[node[1]], &c = mesh.X[node[2]];
+  const Vec2 low(std::min({a.x(), b.x(), c.x()}), std::min({a.y(), b.y(), c.y()}));
+  const Vec2 high(std::max({a.x(), b.x(), c.x()}), std::max({a.y(), b.y(), c.y()}));
+  if (std::max(p.x(), q.x()) < low.x() || std::max(p.y(), q.y()) < low.y() ||
+      std::min(p.x(), q.x()) > high.x() || std::min(p.y(), q.y()) > high.y())
     return false;
   const Vec2 d = q - p, normal(-d.y(), d.x());
   const double reach = 0.5 * (high - low).cwiseProduct(normal.cwiseAbs()).sum();

@@ -14,18 +14,23 @@ using namespace pair_forces;
 
 constexpr double least_area = 0.1;  // of the area before the cut
 
-// Both ends feel a pair; what nodes that stay feel is not used.
-struct PlanePair {
-  int j;          // the other node
-  double length;  // spring: l; particles: r0^2
-};
-// Pairs of node i, each pair once: pair[k] for end of the node before <= k < end.
-struct NodePairs {
-  int i, end;
-};
+using Two = Eigen::Array2d;  // a number of each of two pairs
+
+// Pairs of nodes; both ends feel one, but what nodes that stay feel is not used. Those of the k-th
+// movable node are first[k] <= p < first[k + 1], each pair once.
 struct Pairs {
-  std::vector<PlanePair> pair;
-  std::vector<NodePairs> node;
+  std::vector<int> first{0};
+  std::vector<int> other;
+  std::vector<double> length;  // springs: l; particles: r0^2
+  int size() const { return static_cast<int>(other.size()); }
+  void add(int node, double l) {
+    other.push_back(node);
+    length.push_back(l);
+  }
+  void reserve(std::size_t n) {
+    other.reserve(n);
+    length.reserve(n + 1);
+  }
 };
 struct Network {
   Pairs springs, particles;
@@ -54,64 +59,76 @@ std::vector<double> mean_edges(const PlanePatch& patch, const PlaneNeighbours& a
   return mean;
 }
 
-void end_node(int i, Pairs& pairs) {
-  pairs.node.push_back({i, static_cast<int>(pairs.pair.size())});
-}
-
 Network make_network(const PlanePatch& patch, std::span<const Movable> movable) {
   const PlaneNeighbours around = all_neighbours(patch);
   const std::vector<double> mean = mean_edges(patch, around);
   std::vector<int> last(patch.node.size(), -1);
   std::vector<std::uint8_t> is_done(patch.node.size(), 0);  // all its pairs are there
   Network network;
-  network.springs.pair.reserve(4 * movable.size());
-  network.particles.pair.reserve(14 * movable.size());
+  network.springs.reserve(5 * movable.size());
+  network.particles.reserve(16 * movable.size());
   for (const auto& [i, side] : movable) {
     for (const int j : around.of(i))
-      if (is_done[j] == 0) network.springs.pair.push_back({j, (patch.X[j] - patch.X[i]).norm()});
+      if (is_done[j] == 0) network.springs.add(j, (patch.X[j] - patch.X[i]).norm());
     visit_two_rings(around, i, last, [&](int j) {
+      if (is_done[j] != 0) return;
       const double r0 = 0.5 * (mean[i] + mean[j]);
-      if (is_done[j] == 0) network.particles.pair.push_back({j, r0 * r0});
+      network.particles.add(j, r0 * r0);
     });
     is_done[i] = 1;
-    end_node(i, network.springs);
-    end_node(i, network.particles);
+    for (Pairs* pairs : {&network.springs, &network.particles})
+      pairs->first.push_back(pairs->size());
   }
+  for (Pairs* pairs : {&network.springs, &network.particles})
+    pairs->length.push_back(1);  // beside the last one
   return network;
 }
 
-// Adds factor(d, length) d to the first node's force and takes it from the other's, d from the
-// other node to the first.
+// Adds factor(r^2, length) d to the force of each movable node and takes it from the other one's, d
+// from the other node.
 template <typename Factor>
-void add_forces(const PlanePatch& patch, const Pairs& pairs, std::vector<Vec2>& force,
-                Factor factor) {
-  int k = 0;
-  for (const auto& [i, end] : pairs.node) {
-    const Vec2 x = patch.x[i];
-    Vec2 sum = force[i];
-    for (; k < end; ++k) {
-      const auto& [j, length] = pairs.pair[k];
-      const Vec2 d = x - patch.x[j], f = factor(d.squaredNorm(), length) * d;
+void add_forces(const PlanePatch& patch, std::span<const Movable> movable, const Pairs& pairs,
+                Factor factor, std::vector<Vec2>& force) {
+  for (std::size_t slot = 0; slot < movable.size(); ++slot) {
+    const Vec2 x = patch.x[movable[slot].node];
+    Vec2 sum = force[movable[slot].node];
+    const int end = pairs.first[slot + 1];
+    for (int p = pairs.first[slot]; p < end; p += 2) {
+      const int j = pairs.other[p], k = pairs.other[p + 1 < end ? p + 1 : p];
+      const Vec2 d = x - patch.x[j], e = x - patch.x[k];
+      const Two dx(d.x(), e.x()), dy(d.y(), e.y());
+      const Two c = factor(Two(dx * dx + dy * dy), Two(Eigen::Map<const Two>(&pairs.length[p])));
+      const Vec2 f = c[0] * d;
       sum += f;
       force[j] -= f;
+      if (p + 1 == end) continue;
+      const Vec2 g = c[1] * e;
+      sum += g;
+      force[k] -= g;
     }
-    force[i] = sum;
+    force[movable[slot].node] = sum;
   }
 }
 
-void add_springs(const PlanePatch& patch, const Pairs& springs, double scale,
-                 std::vector<Vec2>& force) {
-  add_forces(patch, springs, force, [scale](double r2, double length) {
-    const double r = std::sqrt(r2);
-    return r > 0 ? -spring(scale, r, length) : 0;
-  });
-}
+// As pair_forces::spring.
+struct Springs {
+  double scale;
+  Two operator()(const Two& r2, const Two& length) const {
+    const Two r = r2.sqrt(), c = -(scale * (1 - length / r));
+    return (r > 0).select(c, Two::Zero());
+  }
+};
 
-void add_particles(const PlanePatch& patch, const Pairs& particles, const CutPlaneOptions& options,
-                   std::vector<Vec2>& force) {
-  add_forces(patch, particles, force,
-             LennardJones{options.repulsion, options.attraction, options.particle});
-}
+// As pair_forces::LennardJones, whose usual exponents are computed for two pairs at once.
+struct Particles {
+  LennardJones one;
+  Two operator()(const Two& r2, const Two& r0_squared) const {
+    if (one.n != 12 || one.m != 6) return {one(r2[0], r0_squared[0]), one(r2[1], r0_squared[1])};
+    const Two rho = (r0_squared / r2).min(largest_rho), cube = rho * (rho * rho);
+    const Two c = one.scale / 6 * ((rho * rho) * (rho * rho)) * (cube - 1);
+    return (r2 > cut_off_squared * r0_squared).select(Two::Zero(), c);
+  }
+};
 
 // Moves a node by at most `longest_step` h, along its side if it is bound to one.
 void move_node(PlanePatch& patch, const Movable& m, const Vec2& force) {
@@ -172,11 +189,12 @@ void homogenise(PlanePatch& patch, std::span<const Movable> movable,
                 const CutPlaneOptions& options) {
   if (options.most_steps < 1) return;
   const Network network = make_network(patch, movable);
+  const Particles particles{{options.repulsion, options.attraction, options.particle}};
   std::vector<Vec2> force;
   for (int step = 0; step < options.most_steps; ++step) {
     force.assign(patch.node.size(), Vec2::Zero());
-    add_springs(patch, network.springs, options.spring, force);
-    if (options.particle > 0) add_particles(patch, network.particles, options, force);
+    add_forces(patch, movable, network.springs, Springs{options.spring}, force);
+    if (options.particle > 0) add_forces(patch, movable, network.particles, particles, force);
     if (take_step(patch, movable, force) < options.threshold * patch.h) return;
   }
 }

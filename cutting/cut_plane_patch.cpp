@@ -5,17 +5,6 @@
 
 namespace trocar {
 
-std::vector<int> neighbours(const PlanePatch& patch, int node) {
-  std::vector<int> result;
-  result.reserve(8);
-  visit_star(patch, node, [&](int e, int a) {
-    for (const int j : {patch.corner[e][(a + 1) % 3], patch.corner[e][(a + 2) % 3]})
-      if (std::find(result.begin(), result.end(), j) == result.end()) result.push_back(j);
-    return true;
-  });
-  return result;
-}
-
 // Each edge once for each of its ends: by the element to its left, or, where that is none, by the
 // one to its right.
 template <typename Visit>

@@ -96,9 +96,7 @@ void visit_star(const PlanePatch& patch, int node, Visit visit) {
   }
 }
 
-// Nodes that share an edge with a node.
-std::vector<int> neighbours(const PlanePatch& patch, int node);
-// The same of all nodes at once.
+// Nodes that share an edge with a node, of all nodes at once.
 struct PlaneNeighbours {
   std::vector<int> offset, node;  // (n_nodes + 1), (offset.back())
   std::span<const int> of(int i) const {

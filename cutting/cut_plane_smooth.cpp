@@ -86,23 +86,28 @@ void flip_and_wake(PlanePatch& patch, PatchFacet facet, Smoothing& smoothing) {
 std::vector<Movable> movable_nodes(const PlanePatch& patch, std::span<const CutChain> chains,
                                    int rings, bool is_sliding) {
   std::vector<int> ring(patch.node.size(), -1), front;
+  front.reserve(patch.node.size());
   for (const CutChain& chain : chains)
     for (const int i : chain.node) {
       ring[i] = 0;
       front.push_back(i);
     }
-  std::vector<Movable> result;
   for (std::size_t k = 0; k < front.size() && ring[front[k]] < rings; ++k)
-    for (const int j : neighbours(patch, front[k])) {
-      if (ring[j] >= 0) continue;
-      ring[j] = ring[front[k]] + 1;
-      front.push_back(j);
-      if (patch.is_held[j] != 0 || patch.is_anchored[j] != 0) continue;
-      if (patch.is_boundary[j] == 0 || (is_sliding && patch.side[j].squaredNorm() > 0))
-        result.push_back({j, patch.side[j]});
-    }
-  std::sort(result.begin(), result.end(),
-            [](const Movable& a, const Movable& b) { return a.node < b.node; });
+    visit_star(patch, front[k], [&](int e, int) {
+      for (const int j : patch.corner[e]) {
+        if (ring[j] >= 0) continue;
+        ring[j] = ring[front[k]] + 1;
+        front.push_back(j);
+      }
+      return true;
+    });
+  std::vector<Movable> result;
+  result.reserve(front.size());
+  for (int i = 0; i < patch.n_nodes(); ++i) {
+    if (ring[i] < 1 || patch.is_held[i] != 0 || patch.is_anchored[i] != 0) continue;
+    if (patch.is_boundary[i] == 0 || (is_sliding && patch.side[i].squaredNorm() > 0))
+      result.push_back({i, patch.side[i]});
+  }
   return result;
 }
 
@@ -126,7 +131,8 @@ void area_step(PlanePatch& patch, int n_sweeps, Smoothing& smoothing) {
       if (star.n == 0) find_star(patch, m.node, star);
       is_awake[m.node] = 0;
       if (relax(patch, m, star) < asleep_below * patch.h) continue;
-      for (int k = 0; k < star.n; ++k) is_awake[star.b[k]] = is_awake[star.c[k]] = 1;
+      for (int k = 0; k < star.n; ++k) is_awake[star.b[k]] = 1;
+      for (int k = 0; k < star.n && !star.is_ring; ++k) is_awake[star.c[k]] = 1;
       is_awake[m.node] = 1;
     }
 }
