@@ -187,15 +187,20 @@ static std::string least_and_median(const std::vector<After>& cuts, const Value&
   return text("%.2f, %.2f", v[0], v[v.size() / 2]);
 }
 
-// Median, 99th percentile and largest of what edits changed of the energy, in percent.
+// Median, 99th percentile and largest of what edits changed of the energy, and the most that one
+// added, in percent.
 static std::string jumps(const std::vector<After>& cuts) {
   std::vector<double> size;
+  double most = 0;
   for (const After& cut : cuts)
-    for (const double jump : cut.jump) size.push_back(100 * std::abs(jump));
+    for (const double jump : cut.jump) {
+      size.push_back(100 * std::abs(jump));
+      most = std::max(most, 100 * jump);
+    }
   if (size.empty()) return "-";
   std::sort(size.begin(), size.end());
-  return text("%.2g, %.2f, %.2f", size[size.size() / 2], size[(size.size() - 1) * 99 / 100],
-              size.back());
+  return text("%.2f, %.2f, %.2f; %+.2f", size[size.size() / 2], size[(size.size() - 1) * 99 / 100],
+              size.back(), most);
 }
 
 static void print_family(const std::string& name, const std::vector<After>& cuts, std::FILE* file) {
@@ -223,9 +228,10 @@ static void print_family(const std::string& name, const std::vector<After>& cuts
 }
 
 static void print_head(int n_steps, std::FILE* file) {
-  std::fprintf(file,
-               "| mesh | cuts | edits | bound after / before: least, median | 2 / omega | "
-               "energy changed by an edit, %%: median, p99, max | largest energy while cut |");
+  std::fprintf(
+      file,
+      "| mesh | cuts | edits | bound after / before: least, median | 2 / omega | "
+      "energy changed by an edit, %%: median, p99, max; most added | largest energy while cut |");
   for (const Rule& rule : rules) std::fprintf(file, " %s |", rule.name);
   std::fprintf(file, "\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   std::fprintf(stderr,
