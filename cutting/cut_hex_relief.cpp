@@ -24,14 +24,14 @@ struct Corner {
   Vec3 residual = Vec3::Zero();  // present position off the affine map
 };
 
-// The affine map that fits values at the corners best, as the weight of each corner at a point.
+// The affine map that fits the corners' reference positions: weight of corner b at corner a.
 struct AffineFit {
-  Vec3 centre = Vec3::Zero();
   std::array<Vec3, 8> R;  // from the centre
   Mat3 inverse;
 
   AffineFit(const Mesh& mesh, std::int32_t hex) {
     const std::span<const std::int32_t> corner = mesh.corners(hex);
+    Vec3 centre = Vec3::Zero();
     for (const std::int32_t i : corner) centre += mesh.X[i] / 8;
     Mat3 squares = Mat3::Zero();
     for (std::size_t a = 0; a < 8; ++a) {
@@ -40,9 +40,7 @@ struct AffineFit {
     }
     inverse = squares.inverse();
   }
-  double weight(const Vec3& X, std::size_t b) const {
-    return 0.125 + (X - centre).dot(inverse * R[b]);
-  }
+  double weight(std::size_t a, std::size_t b) const { return 0.125 + R[a].dot(inverse * R[b]); }
 };
 
 // A node on its way to be relieved.
@@ -59,8 +57,7 @@ std::vector<Corner> residuals(const Mesh& body, std::span<const Vec3> x, const M
     const std::span<const std::int32_t> node = body.corners(split.element);
     for (std::size_t a = 0; a < 8; ++a) {
       Corner corner{node[a], split.element, x[node[a]]};
-      for (std::size_t b = 0; b < 8; ++b)
-        corner.residual -= fit.weight(body.X[node[a]], b) * x[node[b]];
+      for (std::size_t b = 0; b < 8; ++b) corner.residual -= fit.weight(a, b) * x[node[b]];
       if (corner.residual.squaredNorm() < least_residual * fit.R[a].squaredNorm())
         corner.residual.setZero();
       result.push_back(corner);
@@ -79,11 +76,16 @@ const NodeMove* find_move(const MeshEdit& edit, std::int32_t node) {
   return at != edit.moves.end() && at->node == node ? &*at : nullptr;
 }
 
-// The hexahedron that the node takes its values from: the first of the largest residual.
-const Corner& choose_host(std::span<const Corner> around) {
-  return *std::max_element(around.begin(), around.end(), [](const Corner& a, const Corner& b) {
-    return a.residual.squaredNorm() < b.residual.squaredNorm();
-  });
+// The hexahedron that the node takes its values from: where its move has them from, else the one
+// with the largest residual, the first of equal ones. Null if the move's is none of them.
+const Corner* choose_host(std::span<const Corner> around, const NodeMove* move) {
+  const Corner* host = nullptr;
+  for (const Corner& corner : around) {
+    if (move != nullptr && move->host != corner.hex) continue;
+    if (host == nullptr || corner.residual.squaredNorm() > host->residual.squaredNorm())
+      host = &corner;
+  }
+  return host;
 }
 
 // The part of the host's residual that all hexahedra around have in the mean.
@@ -101,16 +103,24 @@ Vec3 position(const Mesh& body, std::span<const Vec3> x, const NodeMove& move) {
   return result;
 }
 
-// The host's affine field at X, and its residual but for `part`.
-NodeMove relieved_move(const Mesh& body, const Corner& host, const Vec3& X, double part) {
-  NodeMove move{host.node, X, host.hex, {}};
-  const AffineFit fit(body, host.hex);
-  const std::span<const std::int32_t> corner = body.corners(host.hex);
-  for (std::size_t b = 0; b < 8; ++b) {
-    const double own = corner[b] == host.node ? 1 : 0;
-    move.weight[b] = fit.weight(X, b) + (1 - part) * (own - fit.weight(body.X[host.node], b));
-  }
+NodeMove stay(const Mesh& body, const Corner& at) {
+  NodeMove move{at.node, body.X[at.node], at.hex, {}};
+  const std::span<const std::int32_t> corner = body.corners(at.hex);
+  move.weight[static_cast<std::size_t>(std::find(corner.begin(), corner.end(), at.node) -
+                                       corner.begin())] = 1;
   return move;
+}
+
+Relief relieve(const Mesh& body, std::span<const Vec3> x, const NodeMove& move, double part) {
+  Relief relief{move, position(body, x, move), {}};
+  const AffineFit fit(body, move.host);
+  for (std::size_t b = 0; b < 8; ++b) {
+    double affine = 0;
+    for (std::size_t a = 0; a < 8; ++a) affine += move.weight[a] * fit.weight(a, b);
+    relief.move.weight[b] += part * (affine - move.weight[b]);
+  }
+  relief.after = position(body, x, relief.move);
+  return relief;
 }
 
 std::vector<Relief> find_reliefs(const Mesh& body, std::span<const Vec3> x,
@@ -120,14 +130,12 @@ std::vector<Relief> find_reliefs(const Mesh& body, std::span<const Vec3> x,
   for (std::size_t k = 0, end = 0; k < all.size(); k = end) {
     while (end < all.size() && all[end].node == all[k].node) ++end;
     const std::span<const Corner> around(&all[k], end - k);
-    const Corner& host = choose_host(around);
-    const double part = left_out * agreement(around, host);
-    if (part <= 0 || is_held[host.node] != 0) continue;
-    const NodeMove* move = find_move(edit, host.node);
-    const Vec3& X = move != nullptr ? move->X : body.X[host.node];
-    const NodeMove relieved = relieved_move(body, host, X, part);
-    result.push_back({relieved, move != nullptr ? position(body, x, *move) : x[host.node],
-                      position(body, x, relieved)});
+    const NodeMove* move = find_move(edit, all[k].node);
+    const Corner* host = choose_host(around, move);
+    if (host == nullptr || is_held[host->node] != 0) continue;
+    const double part = left_out * agreement(around, *host);
+    if (part > 0)
+      result.push_back(relieve(body, x, move != nullptr ? *move : stay(body, *host), part));
   }
   return result;
 }
