@@ -1,20 +1,28 @@
 // Random cuts of meshes by displaced nodes, beside subdivision of the same cuts: what
 // comes out right, what the stable step and the shapes of the elements become, and what it costs.
-// bench_cut [--count N] [--seed S] [--family NAME] [--kind NAME] [--mesh FILE]... [--json FILE]
-// [--markdown FILE]; bench_cut --cuts N [--seed S] [--minutes M]: N cuts of bent bodies, the
-// invariants alone; bench_cut --after N [--steps M]: N cuts of moving bodies and M steps after
-// each; bench_cut --stages springs|springs_then_barrier|barrier ...; bench_cut scaling [N]...: the
-// same incision in boxes of N x N x N cells (default: 6,000 to 1,000,000 tetrahedra).
+// bench_cut --help says how to ask.
 #include <cstdlib>
 #include <cstring>
 
 #include "base/error.h"
+#include "bench/usage.h"
 #include "cut_result.h"
 
 using namespace trocar;
 using namespace trocar::cut_bench;
 
 namespace {
+
+constexpr const char* usage =
+    R"(bench_cut [--count N] [--seed S] [--family NAME] [--kind NAME] [--mesh FILE]... [--json FILE]
+          [--markdown FILE] [--stages springs|springs_then_barrier|barrier]
+         N random cuts of each mesh and kind (default 20) beside the subdivision of the same cuts
+       bench_cut --cuts N [--seed S] [--minutes M]
+         N cuts of bent bodies, the invariants alone
+       bench_cut --after N [--steps M] [--seed S] [--family NAME]
+         N cuts of moving bodies, and M steps after each (default 10000)
+       bench_cut scaling [N]...
+         the same incision in boxes of N x N x N cells (default: 6,000 to 1,000,000 tetrahedra))";
 
 struct Arguments {
   int count = 20, cuts = 0, after = 0, steps = 10000;
@@ -31,22 +39,50 @@ CutStages stages_named(const std::string& name) {
   return CutStages::barrier;
 }
 
+bool read_number(const std::string& name, const char* value, Arguments& a) {
+  if (name == "--count")
+    a.count = std::atoi(value);
+  else if (name == "--cuts")
+    a.cuts = std::atoi(value);
+  else if (name == "--after")
+    a.after = std::atoi(value);
+  else if (name == "--steps")
+    a.steps = std::atoi(value);
+  else if (name == "--minutes")
+    a.minutes = std::atof(value);
+  else if (name == "--seed")
+    a.seed = unsigned(std::atoi(value));
+  else
+    return false;
+  return true;
+}
+
+bool read_name(const std::string& name, const char* value, Arguments& a) {
+  if (name == "--stages")
+    a.options.stages = stages_named(value);
+  else if (name == "--family")
+    a.family = value;
+  else if (name == "--kind")
+    a.kind = value;
+  else if (name == "--json")
+    a.json = value;
+  else if (name == "--markdown")
+    a.markdown = value;
+  else if (name == "--mesh")
+    a.mesh.emplace_back(value);
+  else
+    return false;
+  return true;
+}
+
+// Throws InputError.
 Arguments read_arguments(int argc, char** argv) {
   Arguments a;
-  for (int k = 1; k + 1 < argc; k += 2) {
-    const std::string name = argv[k], value = argv[k + 1];
-    if (name == "--count") a.count = std::atoi(value.c_str());
-    if (name == "--cuts") a.cuts = std::atoi(value.c_str());
-    if (name == "--after") a.after = std::atoi(value.c_str());
-    if (name == "--steps") a.steps = std::atoi(value.c_str());
-    if (name == "--stages") a.options.stages = stages_named(value);
-    if (name == "--minutes") a.minutes = std::atof(value.c_str());
-    if (name == "--seed") a.seed = unsigned(std::atoi(value.c_str()));
-    if (name == "--family") a.family = value;
-    if (name == "--kind") a.kind = value;
-    if (name == "--json") a.json = value;
-    if (name == "--markdown") a.markdown = value;
-    if (name == "--mesh") a.mesh.push_back(value);
+  for (int k = 1; k < argc; k += 2) {
+    const std::string name = argv[k];
+    if (k + 1 == argc) throw InputError(name + " is unknown or lacks a value");
+    if (!read_number(name, argv[k + 1], a) && !read_name(name, argv[k + 1], a))
+      throw InputError("unknown option " + name);
   }
   return a;
 }
@@ -100,10 +136,11 @@ int run_all(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (is_help_asked(argc, argv)) return print_usage(usage, stdout);
   try {
     return run_all(argc, argv);
   } catch (const InputError& error) {
-    std::fprintf(stderr, "bench_cut: %s\n", error.what());
+    std::fprintf(stderr, "bench_cut: %s; see bench_cut --help\n", error.what());
     return 2;
   }
 }

@@ -9,6 +9,7 @@
 
 #include "base/log.h"
 #include "bench/machine.h"
+#include "bench/usage.h"
 #include "engine/build.h"
 #include "engine/equilibrium.h"
 #include "engine/frame.h"
@@ -70,6 +71,10 @@ void report(int n, const std::string& stable_step, bool is_at_rest) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (const int code =
+          answer_options(argc, argv, "bench_frame [cells along an edge (default 20)] [threads]");
+      code >= 0)
+    return code;
   start_log(0, true);
   const int n = argc > 1 ? std::atoi(argv[1]) : 20;
   set_thread_count(argc > 2 ? std::atoi(argv[2]) : 1);

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "bench/machine.h"
+#include "bench/usage.h"
 #include "render/renderer.h"
 #include "render_scene.h"
 
@@ -48,6 +49,10 @@ void report(int n, int width, int height, bool is_first) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (const int code =
+          answer_options(argc, argv, "bench_render [width] [height] (default 1280 720)");
+      code >= 0)
+    return code;
   const int width = argc > 1 ? std::atoi(argv[1]) : 1280;
   const int height = argc > 2 ? std::atoi(argv[2]) : 720;
   std::printf("{\"width\": %d, \"height\": %d, \"cores\": %d, \"triad_gbytes\": %.1f, ", width,

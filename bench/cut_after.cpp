@@ -34,7 +34,7 @@ struct After {
   double energy = 0;                        // before the first edit
   double most = 1;                          // energy while it was cut, over the first
   std::array<double, rules.size()> growth{}, uncut{};  // of the energy, less 1; of the uncut body
-  int n_edits = 0;
+  std::vector<double> jump;  // at each edit: of strain and kinetic energy, over what it was
 };
 
 BodyOptions tissue() {
@@ -76,6 +76,10 @@ static void apply(const MeshEdit& edit, trocar::Body& body) {
   body.state.last_dt = last_dt;
 }
 
+static double present_energy(trocar::Body& body) {
+  return stored_energy(body) + kinetic(body);
+}
+
 // What central differences conserve has the velocities of half a step before and behind. Of two
 // steps of different lengths their product is off by the square of both: so in the second of two.
 static double two_steps(trocar::Body& body, double dt) {
@@ -94,8 +98,9 @@ static void cut_in_motion(const Stroke& stroke, double dt, TetCutter& cutter, tr
     CutFigures figures;
     const MeshEdit edit =
         cutter.advance(body.mesh, present(body), is_held, sweep, k + 1 == stroke.n_steps, figures);
+    const double energy = present_energy(body);
     apply(edit, body);
-    after.n_edits += edit.is_empty() ? 0 : 1;
+    if (!edit.is_empty()) after.jump.push_back(present_energy(body) / energy - 1);
     for (int n = 2; n < steps_an_advance; ++n) step(body, dt);
     after.most = std::max(after.most, two_steps(body, dt) / after.energy);
   }
@@ -180,17 +185,33 @@ static std::string least_and_median(const std::vector<After>& cuts, const Value&
   return text("%.2f, %.2f", v[0], v[v.size() / 2]);
 }
 
+// Median, 99th percentile and largest of what edits changed of the energy, and the most that one
+// added, in percent.
+static std::string jumps(const std::vector<After>& cuts) {
+  std::vector<double> size;
+  double most = 0;
+  for (const After& cut : cuts)
+    for (const double jump : cut.jump) {
+      size.push_back(100 * std::abs(jump));
+      most = std::max(most, 100 * jump);
+    }
+  if (size.empty()) return "-";
+  std::sort(size.begin(), size.end());
+  return text("%.2f, %.2f, %.2f; %+.2f", size[size.size() / 2], size[(size.size() - 1) * 99 / 100],
+              size.back(), most);
+}
+
 static void print_family(const std::string& name, const std::vector<After>& cuts, std::FILE* file) {
-  int n_edits = 0;
+  std::size_t n_edits = 0;
   double most_in_cut = 0;
   for (const After& cut : cuts) {
-    n_edits += cut.n_edits;
+    n_edits += cut.jump.size();
     most_in_cut = std::max(most_in_cut, cut.most);
   }
-  std::fprintf(file, "| %s | %zu | %d | %s | %s | %.3f |", name.c_str(), cuts.size(), n_edits,
+  std::fprintf(file, "| %s | %zu | %zu | %s | %s | %s | %.3f |", name.c_str(), cuts.size(), n_edits,
                least_and_median(cuts, [](const After& c) { return c.bound_ratio; }).c_str(),
                least_and_median(cuts, [](const After& c) { return c.limit_ratio; }).c_str(),
-               most_in_cut);
+               jumps(cuts).c_str(), most_in_cut);
   for (std::size_t k = 0; k < rules.size(); ++k) {
     double most = 0;
     int n_blown = 0, n_uncut = 0;
@@ -205,11 +226,12 @@ static void print_family(const std::string& name, const std::vector<After>& cuts
 }
 
 static void print_head(int n_steps, std::FILE* file) {
-  std::fprintf(file,
-               "| mesh | cuts | edits | bound after / before: least, median | 2 / omega | "
-               "largest energy while cut |");
+  std::fprintf(
+      file,
+      "| mesh | cuts | edits | bound after / before: least, median | 2 / omega | "
+      "energy changed by an edit, %%: median, p99, max; most added | largest energy while cut |");
   for (const Rule& rule : rules) std::fprintf(file, " %s |", rule.name);
-  std::fprintf(file, "\n|---|---|---|---|---|---|---|---|---|---|\n");
+  std::fprintf(file, "\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   std::fprintf(stderr,
                "last columns: bodies that blew up in %d steps (uncut ones), largest energy "
                "of the others over that at the cut\n",

@@ -55,7 +55,7 @@ int local_node(const PlanePatch& patch, std::int32_t node) {
 double smallest_altitude(const PlanePatch& patch, const std::vector<Vec2>& x) {
   double least = 1e300;
   for (const auto& [a, b, c] : patch.corner)
-    least = std::min(least, least_altitude(std::array<Vec2, 3>{x[a], x[b], x[c]}));
+    least = std::min(least, least_altitude(x[a], x[b], x[c]));
   return least;
 }
 
@@ -86,12 +86,12 @@ bool remesh_around(Attempt& attempt, const CutPlaneOptions& options) {
       movable_nodes(patch, attempt.chains, options.rings, options.is_robust);
   if (!displace_onto_cut(patch, attempt.chains, movable, is_cut)) return false;
   homogenise(patch, movable, options);
-  std::vector<std::uint8_t> is_awake(patch.node.size(), 1);
+  Smoothing smoothing = start_smoothing(patch, movable);
   for (int round = 0; round < 3 && options.is_robust; ++round) {
-    area_step(patch, movable, options.area_sweeps, is_awake);
-    if (quality_flips(patch, movable, is_cut, is_awake) == 0) break;
+    area_step(patch, options.area_sweeps, smoothing);
+    if (quality_flips(patch, is_cut, smoothing) == 0) break;
   }
-  area_step(patch, movable, options.area_sweeps, is_awake);
+  area_step(patch, options.area_sweeps, smoothing);
   return true;
 }
 

@@ -69,9 +69,9 @@ bool displace_onto_cut(PlanePatch& patch, std::span<const CutChain> chains,
   for (int round = 0; round < max_rounds; ++round) {
     flip_doomed_elements(patch, is_cut_node);
     if (approach_all(patch, chains)) return true;
-    std::vector<std::uint8_t> is_awake(patch.node.size(), 1);
-    quality_flips(patch, neighbours, is_cut_node, is_awake);
-    area_step(patch, neighbours, 2, is_awake);
+    Smoothing smoothing = start_smoothing(patch, neighbours);
+    quality_flips(patch, is_cut_node, smoothing);
+    area_step(patch, 2, smoothing);
   }
   return false;
 }

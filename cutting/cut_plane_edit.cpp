@@ -42,29 +42,40 @@ void add_moves(const Mesh& mesh, const PlanePatch& before, const PlanePatch& aft
 // The patch with its flips as a mesh that knows topology only.
 Mesh topology(const PlanePatch& patch) {
   Mesh mesh;
-  mesh.X.assign(patch.node.size(), Vec3::Zero());
-  for (const std::array<int, 3>& corner : patch.corner)
-    add_element(mesh, ElementType::tri3, corner);
+  mesh.X.resize(patch.node.size());
+  mesh.element_type.assign(patch.element.size(), ElementType::tri3);
+  mesh.corner_node.reserve(3 * patch.element.size());
+  mesh.corner_offset.resize(patch.element.size() + 1);
+  for (int e = 0; e < patch.n_elements(); ++e) {
+    mesh.corner_node.insert(mesh.corner_node.end(), patch.corner[e].begin(), patch.corner[e].end());
+    mesh.corner_offset[e + 1] = 3 * (e + 1);
+  }
   mesh.cut_facets = patch.opened;
   return mesh;
 }
 
-Duplication duplicate(const PlanePatch& patch, std::span<const CutChain> chains) {
-  const Mesh mesh = topology(patch);
+FacetNeighbours facet_neighbours(const PlanePatch& patch) {
   FacetNeighbours across;
-  std::vector<std::array<std::int32_t, 2>> opened;
+  across.offset.reserve(patch.element.size() + 1);
+  across.neighbour.reserve(3 * patch.element.size());
   for (int e = 0; e < patch.n_elements(); ++e) {
     across.offset.push_back(3 * e);
-    for (int f = 0; f < 3; ++f) {
-      across.neighbour.push_back(std::max(patch.across[e][f], -1));
-      if ((patch.chain[e] >> f & 1) != 0) opened.push_back({e, f});
-    }
+    for (const int g : patch.across[e]) across.neighbour.push_back(std::max(g, -1));
   }
   across.offset.push_back(3 * patch.n_elements());
+  return across;
+}
+
+Duplication duplicate(const PlanePatch& patch, std::span<const CutChain> chains) {
+  const Mesh mesh = topology(patch);
+  std::vector<std::array<std::int32_t, 2>> opened;
+  for (int e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; f < 3 && patch.chain[e] != 0; ++f)
+      if ((patch.chain[e] >> f & 1) != 0) opened.push_back({e, f});
   std::vector<std::int32_t> nodes;
   for (const CutChain& chain : chains)
     nodes.insert(nodes.end(), chain.node.begin(), chain.node.end());
-  return duplicate_nodes(mesh, opened, nodes, node_elements(mesh), across);
+  return duplicate_nodes(mesh, opened, nodes, node_elements(mesh), facet_neighbours(patch));
 }
 
 // Corners after flips and duplication where they differ from the mesh.
@@ -130,25 +141,33 @@ void measure_deviation(const PlanePatch& patch, std::span<const CutChain> chains
 
 }  // namespace
 
+// Takes element e if p is farther inside; true if p is inside.
+static bool try_host(const PlanePatch& patch, int e, const Vec2& p, double& best_inside,
+                     Host& best) {
+  const std::array<double, 3> weight = barycentric(patch, e, p);
+  const double inside = std::min({weight[0], weight[1], weight[2]});
+  if (inside > best_inside) {
+    best_inside = inside;
+    best = {e, weight};
+  }
+  return inside >= -inside_tolerance;
+}
+
 Host find_host(const PlanePatch& patch, int node, const Vec2& p) {
   Host best;
   double best_inside = -std::numeric_limits<double>::max();
   std::vector<int> visited;
   visited.reserve(max_visited);
+  bool is_found = false;
   visit_star(patch, node, [&](int e, int) {
     visited.push_back(e);
-    return true;
+    is_found = try_host(patch, e, p, best_inside, best);
+    return !is_found;
   });
-  for (std::size_t k = 0; k < visited.size() && visited.size() < max_visited; ++k) {
-    const int e = visited[k];
-    const std::array<double, 3> weight = barycentric(patch, e, p);
-    const double inside = std::min({weight[0], weight[1], weight[2]});
-    if (inside > best_inside) {
-      best_inside = inside;
-      best = {e, weight};
-    }
-    if (inside >= -inside_tolerance) break;
-    for (const int g : patch.across[e])
+  const std::size_t n_star = visited.size();
+  for (std::size_t k = 0; k < visited.size() && visited.size() < max_visited && !is_found; ++k) {
+    if (k >= n_star && try_host(patch, visited[k], p, best_inside, best)) break;
+    for (const int g : patch.across[visited[k]])
       if (g >= 0 && std::find(visited.begin(), visited.end(), g) == visited.end())
         visited.push_back(g);
   }

@@ -25,9 +25,11 @@ Vec2 plane(const Vec3& X) {
 // Does the segment come nearer to the triangle than the triangle's own size (by bounding boxes)?
 bool is_near(const Mesh& mesh, std::int32_t e, const Vec2& p, const Vec2& q) {
   const std::span<const std::int32_t> node = mesh.corners(e);
-  const Vec2 a = plane(mesh.X[node[0]]), b = plane(mesh.X[node[1]]), c = plane(mesh.X[node[2]]);
-  const Vec2 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-  if ((p.cwiseMax(q).array() < low.array()).any() || (p.cwiseMin(q).array() > high.array()).any())
+  const Vec3 &a = mesh.X[node[0]], &b = mesh.X[node[1]], &c = mesh.X[node[2]];
+  const Vec2 low(std::min({a.x(), b.x(), c.x()}), std::min({a.y(), b.y(), c.y()}));
+  const Vec2 high(std::max({a.x(), b.x(), c.x()}), std::max({a.y(), b.y(), c.y()}));
+  if (std::max(p.x(), q.x()) < low.x() || std::max(p.y(), q.y()) < low.y() ||
+      std::min(p.x(), q.x()) > high.x() || std::min(p.y(), q.y()) > high.y())
     return false;
   const Vec2 d = q - p, normal(-d.y(), d.x());
   const double reach = 0.5 * (high - low).cwiseProduct(normal.cwiseAbs()).sum();
@@ -73,34 +75,59 @@ void number_nodes(Extraction& extraction, PlanePatch& patch) {
   patch.x = patch.X;
 }
 
+bool contains(std::span<const std::int32_t> node, std::int32_t i) {
+  return node[0] == i || node[1] == i || node[2] == i;
+}
+
 int across_edge(const Extraction& extraction, std::int32_t e, std::int32_t a, std::int32_t b) {
   for (const std::int32_t g : extraction.around.of(a)) {
-    const std::span<const std::int32_t> node = extraction.mesh.corners(g);
-    if (g == e || std::find(node.begin(), node.end(), b) == node.end()) continue;
+    if (g == e || !contains(extraction.mesh.corners(g), b)) continue;
     return extraction.local_element[g] >= 0 ? extraction.local_element[g] : across_rim;
   }
   return across_boundary;
 }
 
+// The facet of element e that lies on the edge from a to b or from b to a.
+int facet_on(const PlanePatch& patch, int e, int a, int b) {
+  const std::array<int, 3>& corner = patch.corner[e];
+  return corner[0] != a && corner[0] != b ? 0 : corner[1] != a && corner[1] != b ? 1 : 2;
+}
+
+// Each edge is looked for from one of its elements.
+void connect_facets(const Extraction& extraction, PlanePatch& patch) {
+  constexpr int unknown = -3;
+  patch.across.assign(patch.element.size(), {unknown, unknown, unknown});
+  for (int e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; f < 3; ++f) {
+      if (patch.across[e][f] != unknown) continue;
+      const int a = patch.corner[e][(f + 1) % 3], b = patch.corner[e][(f + 2) % 3];
+      const int g = across_edge(extraction, patch.element[e], patch.node[a], patch.node[b]);
+      patch.across[e][f] = g;
+      if (g >= 0) patch.across[g][facet_on(patch, g, a, b)] = e;
+    }
+}
+
 void connect(const Extraction& extraction, PlanePatch& patch) {
   const Mesh& mesh = extraction.mesh;
+  const std::size_t n = patch.element.size();
   patch.star.assign(patch.node.size(), 0);
-  patch.chain.assign(patch.element.size(), 0);
+  patch.chain.assign(n, 0);
+  patch.corner.resize(n);
+  patch.opened.resize(n);
+  patch.region.resize(n);
+  patch.area.resize(n);
   for (int e = 0; e < patch.n_elements(); ++e) {
     const std::int32_t global = patch.element[e];
     const std::span<const std::int32_t> node = mesh.corners(global);
-    std::array<int, 3> corner{}, across{};
-    for (int a = 0; a < 3; ++a) {
-      corner[a] = extraction.local_node[node[a]];
-      across[a] = across_edge(extraction, global, node[(a + 1) % 3], node[(a + 2) % 3]);
-      patch.star[corner[a]] = e;
+    for (std::size_t a = 0; a < 3; ++a) {
+      patch.corner[e][a] = extraction.local_node[node[a]];
+      patch.star[patch.corner[e][a]] = e;
     }
-    patch.corner.push_back(corner);
-    patch.across.push_back(across);
-    patch.opened.push_back(mesh.cut_facets[global]);
-    patch.region.push_back(mesh.element_region[global]);
-    patch.area.push_back(area(patch, e));
+    patch.opened[e] = mesh.cut_facets[global];
+    patch.region[e] = mesh.element_region[global];
+    patch.area[e] = area(patch, e);
   }
+  connect_facets(extraction, patch);
 }
 
 void measure_edges(PlanePatch& patch) {

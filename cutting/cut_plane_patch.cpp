@@ -2,47 +2,8 @@
 #include "cutting/cut_plane_patch.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace trocar {
-
-double area(const PlanePatch& patch, int e) {
-  const auto& [a, b, c] = patch.corner[e];
-  return triangle_area(patch.x[a], patch.x[b], patch.x[c]);
-}
-
-double quality(const Vec2& a, const Vec2& b, const Vec2& c) {
-  const double four_sqrt_3 = 6.928203230275509;
-  const double sum = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
-  return four_sqrt_3 * triangle_area(a, b, c) / sum;
-}
-
-double quality(const PlanePatch& patch, int e) {
-  const auto& [a, b, c] = patch.corner[e];
-  return quality(patch.x[a], patch.x[b], patch.x[c]);
-}
-
-double least_altitude(const std::array<Vec2, 3>& x) {
-  const double longest = std::max(
-      {(x[1] - x[0]).squaredNorm(), (x[2] - x[1]).squaredNorm(), (x[0] - x[2]).squaredNorm()});
-  return 2 * triangle_area(x[0], x[1], x[2]) / std::sqrt(longest);
-}
-
-int corner_of(const PlanePatch& patch, int e, int node) {
-  const std::array<int, 3>& corner = patch.corner[e];
-  return corner[0] == node ? 0 : corner[1] == node ? 1 : 2;
-}
-
-std::vector<int> neighbours(const PlanePatch& patch, int node) {
-  std::vector<int> result;
-  result.reserve(8);
-  visit_star(patch, node, [&](int e, int a) {
-    for (const int j : {patch.corner[e][(a + 1) % 3], patch.corner[e][(a + 2) % 3]})
-      if (std::find(result.begin(), result.end(), j) == result.end()) result.push_back(j);
-    return true;
-  });
-  return result;
-}
 
 // Each edge once for each of its ends: by the element to its left, or, where that is none, by the
 // one to its right.

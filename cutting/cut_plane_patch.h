@@ -2,7 +2,9 @@
 // freely: the mesh itself stays untouched until a whole valid edit has been found.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -51,12 +53,29 @@ inline double cross(const Vec2& a, const Vec2& b) {
 inline double triangle_area(const Vec2& a, const Vec2& b, const Vec2& c) {
   return 0.5 * cross(b - a, c - a);
 }
-double area(const PlanePatch& patch, int e);
+inline double area(const PlanePatch& patch, int e) {
+  const auto& [a, b, c] = patch.corner[e];
+  return triangle_area(patch.x[a], patch.x[b], patch.x[c]);
+}
 // 4 sqrt(3) A / sum l^2: 1 for equilateral, <= 0 for inverted triangles.
-double quality(const Vec2& a, const Vec2& b, const Vec2& c);
-double quality(const PlanePatch& patch, int e);
-double least_altitude(const std::array<Vec2, 3>& x);
-int corner_of(const PlanePatch& patch, int e, int node);
+inline double quality(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const double four_sqrt_3 = 6.928203230275509;
+  const double sum = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
+  return four_sqrt_3 * triangle_area(a, b, c) / sum;
+}
+inline double quality(const PlanePatch& patch, int e) {
+  const auto& [a, b, c] = patch.corner[e];
+  return quality(patch.x[a], patch.x[b], patch.x[c]);
+}
+inline double least_altitude(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const double longest =
+      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return 2 * triangle_area(a, b, c) / std::sqrt(longest);
+}
+inline int corner_of(const PlanePatch& patch, int e, int node) {
+  const std::array<int, 3>& corner = patch.corner[e];
+  return corner[0] == node ? 0 : corner[1] == node ? 1 : 2;
+}
 
 // Calls visit(e, a) for all elements e around a node, where it is corner a; false stops.
 template <typename Visit>
@@ -77,9 +96,7 @@ void visit_star(const PlanePatch& patch, int node, Visit visit) {
   }
 }
 
-// Nodes that share an edge with a node.
-std::vector<int> neighbours(const PlanePatch& patch, int node);
-// The same of all nodes at once.
+// Nodes that share an edge with a node, of all nodes at once.
 struct PlaneNeighbours {
   std::vector<int> offset, node;  // (n_nodes + 1), (offset.back())
   std::span<const int> of(int i) const {

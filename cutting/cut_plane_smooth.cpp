@@ -10,72 +10,9 @@ namespace {
 
 constexpr double asleep_below = 1e-2;  // h: a smaller step does not wake the neighbours
 constexpr double not_worth = 1e-3;     // h: a smaller step is not taken
-constexpr double shape_weight = 0.1 / 6.928203230275509;  // 1 / quality = S / (4 sqrt(3) A)
-constexpr double good_quality = 0.8;                      // elements as good are not flipped
-constexpr double least_smooth_area = 1e-3;                // of the area before the cut
-constexpr int max_star = 24;  // nodes of more elements stay where they are
+constexpr double good_quality = 0.8;   // elements as good are not flipped
 
-// Elements around a node by their opposite edges, valid until the next flip.
-struct Star {
-  Star() {}   // leaves the arrays as they are: zeroing them took 4 % of a cut
-  int n = 0;  // 0: not yet found
-  std::array<int, max_star> b, c;
-  std::array<double, max_star> per_A0;
-};
-
-Star find_star(const PlanePatch& patch, int node) {
-  Star star;
-  visit_star(patch, node, [&](int e, int a) {
-    star.b[star.n] = patch.corner[e][(a + 1) % 3];
-    star.c[star.n] = patch.corner[e][(a + 2) % 3];
-    star.per_A0[star.n++] = 1 / patch.area[e];
-    return star.n < max_star;
-  });
-  return star;
-}
-
-// sum_e (A/A0 - 1)^2 + w S/A with S the sum of squared edges; infinite if an element is inverted.
-double energy(const PlanePatch& patch, const Star& star, const Vec2& x) {
-  double E = 0;
-  for (int k = 0; k < star.n; ++k) {
-    const Vec2 b = patch.x[star.b[k]] - x, c = patch.x[star.c[k]] - x;
-    const double A = 0.5 * cross(b, c);
-    if (A * star.per_A0[k] <= least_smooth_area) return std::numeric_limits<double>::infinity();
-    const double S = b.squaredNorm() + c.squaredNorm() + (c - b).squaredNorm();
-    const double strain = A * star.per_A0[k] - 1;
-    E += strain * strain + shape_weight * S / A;
-  }
-  return E;
-}
-
-struct Expansion {
-  double E = 0;
-  Vec2 g = Vec2::Zero();
-  double Hxx = 0, Hxy = 0, Hyy = 0;
-};
-
-// dA/dx = gA is constant, dS/dx = gS, d2S/dx2 = 4 I:
-// H = (2 / A0^2 + 2 w S / A^3) gA gA^T + 4 w / A I - w / A^2 (gS gA^T + gA gS^T).
-Expansion expand(const PlanePatch& patch, const Star& star, const Vec2& x) {
-  Expansion result;
-  for (int k = 0; k < star.n; ++k) {
-    const Vec2 b = patch.x[star.b[k]] - x, c = patch.x[star.c[k]] - x, bc = c - b;
-    const Vec2 gA = 0.5 * Vec2(-bc.y(), bc.x()), gS = -2 * (b + c);
-    const double A = 0.5 * cross(b, c), per_A = 1 / A, per_A0 = star.per_A0[k];
-    const double S = b.squaredNorm() + c.squaredNorm() + bc.squaredNorm();
-    const double strain = A * per_A0 - 1, shape = shape_weight * per_A, mixed = shape * per_A;
-    if (A * per_A0 <= least_smooth_area) result.E = std::numeric_limits<double>::infinity();
-    result.E += strain * strain + shape * S;
-    result.g += (2 * strain * per_A0 - mixed * S) * gA + shape * gS;
-    const double outer = 2 * per_A0 * per_A0 + 2 * mixed * S * per_A;
-    result.Hxx += outer * gA.x() * gA.x() + 4 * shape - 2 * mixed * gS.x() * gA.x();
-    result.Hxy += outer * gA.x() * gA.y() - mixed * (gS.x() * gA.y() + gA.x() * gS.y());
-    result.Hyy += outer * gA.y() * gA.y() + 4 * shape - 2 * mixed * gS.y() * gA.y();
-  }
-  return result;
-}
-
-Vec2 newton_step(const Expansion& at, const Vec2& side) {
+Vec2 newton_step(const StarExpansion& at, const Vec2& side) {
   if (side.squaredNorm() > 0) {
     const double curvature = at.Hxx * side.x() * side.x() + 2 * at.Hxy * side.x() * side.y() +
                              at.Hyy * side.y() * side.y();
@@ -87,36 +24,20 @@ Vec2 newton_step(const Expansion& at, const Vec2& side) {
 }
 
 // Moves one node downhill by a damped Newton step; returns the distance.
-double relax(PlanePatch& patch, const Movable& movable, const Star& star) {
+double relax(PlanePatch& patch, const Movable& movable, const PlaneStar& star) {
   const Vec2 x = patch.x[movable.node], side = movable.side;
-  const Expansion at_x = expand(patch, star, x);
+  const StarExpansion at_x = expand_energy(patch, star, x);
   if (!std::isfinite(at_x.E) || star.n == max_star) return 0;
   const Vec2 step = newton_step(at_x, side);
   if (step.norm() < not_worth * patch.h) return 0;
   for (double fraction = 1; fraction > 0.05; fraction *= 0.4) {
     const Vec2 trial = x + fraction * step;
-    if (!(energy(patch, star, trial) < at_x.E)) continue;
+    if (!(star_energy(patch, star, trial) < at_x.E)) continue;
     patch.x[movable.node] = trial;
     return (trial - x).norm();
   }
   return 0;
 }
-
-// Qualities of elements, each computed when it is first asked for.
-class Qualities {
- public:
-  explicit Qualities(const PlanePatch& patch) : patch_(patch), known_(patch.element.size(), none) {}
-  double of(int e) {
-    if (known_[e] == none) known_[e] = quality(patch_, e);
-    return known_[e];
-  }
-  void forget(int e) { known_[e] = none; }
-
- private:
-  static constexpr double none = -2;
-  const PlanePatch& patch_;
-  std::vector<double> known_;
-};
 
 // The lesser quality of the two triangles that a flip would make.
 double flipped_quality(const PlanePatch& patch, PatchFacet facet, PatchFacet other) {
@@ -127,21 +48,37 @@ double flipped_quality(const PlanePatch& patch, PatchFacet facet, PatchFacet oth
   return std::min(quality(w, u, z), quality(z, v, w));
 }
 
-bool flip_if_better(PlanePatch& patch, PatchFacet facet, Qualities& qualities,
-                    const std::vector<std::uint8_t>& is_cut_node) {
-  if (!is_flippable(patch, facet)) return false;
-  const int g = patch.across[facet.element][facet.facet];
-  const double now = std::min(qualities.of(facet.element), qualities.of(g));
-  if (now >= good_quality || patch.region[facet.element] != patch.region[g]) return false;
+// Asked from the other side of the facet before, with the same answer.
+bool is_asked_before(const Smoothing& smoothing, int e, int g) {
+  return g < e && smoothing.is_near[g] != 0 && smoothing.is_turned[e] == 0 &&
+         smoothing.is_turned[g] == 0;
+}
+
+bool is_better_flipped(const PlanePatch& patch, PatchFacet facet, const Smoothing& smoothing,
+                       const std::vector<std::uint8_t>& is_cut_node) {
+  const int e = facet.element, g = patch.across[e][facet.facet];
+  if (g < 0) return false;
+  const double now = std::min(smoothing.quality[e], smoothing.quality[g]);
+  if (now >= good_quality || is_asked_before(smoothing, e, g) || !is_flippable(patch, facet) ||
+      patch.region[e] != patch.region[g])
+    return false;
   const PatchFacet other = opposite(patch, facet);
-  const int w = patch.corner[facet.element][facet.facet];
-  const int z = patch.corner[other.element][other.facet];
+  const int w = patch.corner[e][facet.facet], z = patch.corner[g][other.facet];
   if (is_cut_node[w] != 0 && is_cut_node[z] != 0) return false;
-  if (flipped_quality(patch, facet, other) <= 1.02 * std::max(now, 0.0) + 1e-3) return false;
+  return flipped_quality(patch, facet, other) > 1.02 * std::max(now, 0.0) + 1e-3;
+}
+
+void flip_and_wake(PlanePatch& patch, PatchFacet facet, Smoothing& smoothing) {
+  const int e = facet.element, g = patch.across[e][facet.facet];
   flip(patch, facet);
-  qualities.forget(facet.element);
-  qualities.forget(g);
-  return true;
+  for (const int turned : {e, g}) {
+    smoothing.is_turned[turned] = 1;
+    smoothing.quality[turned] = quality(patch, turned);
+    for (const int i : patch.corner[turned]) {
+      smoothing.is_awake[i] = 1;
+      if (smoothing.slot[i] >= 0) smoothing.star[smoothing.slot[i]].n = 0;
+    }
+  }
 }
 
 }  // namespace
@@ -149,59 +86,75 @@ bool flip_if_better(PlanePatch& patch, PatchFacet facet, Qualities& qualities,
 std::vector<Movable> movable_nodes(const PlanePatch& patch, std::span<const CutChain> chains,
                                    int rings, bool is_sliding) {
   std::vector<int> ring(patch.node.size(), -1), front;
+  front.reserve(patch.node.size());
   for (const CutChain& chain : chains)
     for (const int i : chain.node) {
       ring[i] = 0;
       front.push_back(i);
     }
-  std::vector<Movable> result;
   for (std::size_t k = 0; k < front.size() && ring[front[k]] < rings; ++k)
-    for (const int j : neighbours(patch, front[k])) {
-      if (ring[j] >= 0) continue;
-      ring[j] = ring[front[k]] + 1;
-      front.push_back(j);
-      if (patch.is_held[j] != 0 || patch.is_anchored[j] != 0) continue;
-      if (patch.is_boundary[j] == 0 || (is_sliding && patch.side[j].squaredNorm() > 0))
-        result.push_back({j, patch.side[j]});
-    }
-  std::sort(result.begin(), result.end(),
-            [](const Movable& a, const Movable& b) { return a.node < b.node; });
+    visit_star(patch, front[k], [&](int e, int) {
+      for (const int j : patch.corner[e]) {
+        if (ring[j] >= 0) continue;
+        ring[j] = ring[front[k]] + 1;
+        front.push_back(j);
+      }
+      return true;
+    });
+  std::vector<Movable> result;
+  result.reserve(front.size());
+  for (int i = 0; i < patch.n_nodes(); ++i) {
+    if (ring[i] < 1 || patch.is_held[i] != 0 || patch.is_anchored[i] != 0) continue;
+    if (patch.is_boundary[i] == 0 || (is_sliding && patch.side[i].squaredNorm() > 0))
+      result.push_back({i, patch.side[i]});
+  }
   return result;
 }
 
-void area_step(PlanePatch& patch, std::span<const Movable> movable, int n_sweeps,
-               std::vector<std::uint8_t>& is_awake) {
-  std::vector<Star> stars(movable.size());
+Smoothing start_smoothing(const PlanePatch& patch, std::span<const Movable> movable) {
+  Smoothing smoothing{movable, {}, {}, {}, {}, {}, {}};
+  smoothing.slot.assign(patch.node.size(), -1);
+  for (std::size_t k = 0; k < movable.size(); ++k)
+    smoothing.slot[movable[k].node] = static_cast<int>(k);
+  smoothing.star.resize(movable.size());
+  smoothing.is_awake.assign(patch.node.size(), 1);
+  return smoothing;
+}
+
+void area_step(PlanePatch& patch, int n_sweeps, Smoothing& smoothing) {
+  std::vector<std::uint8_t>& is_awake = smoothing.is_awake;
   for (int sweep = 0; sweep < n_sweeps; ++sweep)
-    for (std::size_t slot = 0; slot < movable.size(); ++slot) {
-      const Movable& m = movable[slot];
+    for (std::size_t slot = 0; slot < smoothing.movable.size(); ++slot) {
+      const Movable& m = smoothing.movable[slot];
       if (is_awake[m.node] == 0) continue;
-      Star& star = stars[slot];
-      if (star.n == 0) star = find_star(patch, m.node);
+      PlaneStar& star = smoothing.star[slot];
+      if (star.n == 0) find_star(patch, m.node, star);
       is_awake[m.node] = 0;
       if (relax(patch, m, star) < asleep_below * patch.h) continue;
-      for (int k = 0; k < star.n; ++k) is_awake[star.b[k]] = is_awake[star.c[k]] = 1;
+      for (int k = 0; k < star.n; ++k) is_awake[star.b[k]] = 1;
+      for (int k = 0; k < star.n && !star.is_ring; ++k) is_awake[star.c[k]] = 1;
       is_awake[m.node] = 1;
     }
 }
 
-int quality_flips(PlanePatch& patch, std::span<const Movable> movable,
-                  const std::vector<std::uint8_t>& is_cut_node,
-                  std::vector<std::uint8_t>& is_awake) {
-  std::vector<std::uint8_t> is_near(patch.element.size(), 0);
-  for (const Movable& m : movable)
-    visit_star(patch, m.node, [&](int e, int) {
-      is_near[e] = 1;
-      return true;
-    });
-  Qualities qualities(patch);
+int quality_flips(PlanePatch& patch, const std::vector<std::uint8_t>& is_cut_node,
+                  Smoothing& smoothing) {
+  const std::size_t n = patch.element.size();
+  smoothing.quality.resize(n);
+  smoothing.is_near.resize(n);
+  smoothing.is_turned.assign(n, 0);
+  for (int e = 0; e < patch.n_elements(); ++e) {
+    const auto& [a, b, c] = patch.corner[e];
+    // Of numbers that are -1 or not negative the conjunction is negative if all are.
+    smoothing.is_near[e] = (smoothing.slot[a] & smoothing.slot[b] & smoothing.slot[c]) >= 0 ? 1 : 0;
+    smoothing.quality[e] = quality(patch, e);
+  }
   int n_flips = 0;
   for (int e = 0; e < patch.n_elements(); ++e)
-    for (int f = 0; f < 3 && is_near[e] != 0; ++f) {
-      if (!flip_if_better(patch, {e, f}, qualities, is_cut_node)) continue;
+    for (int f = 0; f < 3 && smoothing.is_near[e] != 0; ++f) {
+      if (!is_better_flipped(patch, {e, f}, smoothing, is_cut_node)) continue;
+      flip_and_wake(patch, {e, f}, smoothing);
       ++n_flips;
-      for (const int g : {e, patch.across[e][(f + 1) % 3]})  // the two elements of the flip
-        for (const int i : patch.corner[g]) is_awake[i] = 1;
     }
   return n_flips;
 }
