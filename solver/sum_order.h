@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "solver/model.h"
@@ -12,6 +13,17 @@ namespace trocar {
 // Fills model.sums and the lists' targets; the model has its blocks and nodes. As many runs inside
 // and at the border as there are threads now.
 void order_sums(Model& model);
+
+struct BlockPlace {
+  std::size_t list = 0;
+  std::int32_t block = 0;  // of the list
+};
+// The same after an edit of a model whose sums were in order before it, in time of the edit's and
+// of whole numbers of its nodes and rows where one run does all and no list reads halo nodes.
+// nodes: local numbers of owned ones that meet other elements than before, ascending; blocks: all
+// those with elements at these nodes.
+void edit_sums(std::span<const std::int32_t> nodes, std::span<const BlockPlace> blocks,
+               Model& model);
 
 // Where the corner forces of a list are added.
 inline const std::vector<std::int32_t>& targets(const ElementBlocks& blocks) {
