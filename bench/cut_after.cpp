@@ -101,9 +101,8 @@ static void cut_in_motion(const Stroke& stroke, double dt, TetCutter& cutter, tr
   }
 }
 
-// As engine finds it: 2 / omega, or the elements' bound where that is larger. `mode` is where the
-// search starts.
-static double limit_in_scene(trocar::Body& body, std::vector<double>& mode) {
+// As engine finds it: 2 / omega, or the elements' bound where that is larger.
+static double limit_in_scene(trocar::Body& body) {
   const double bound = look(body).stable_step;
   if (!(bound > 0)) return 0;
   const auto forces = [&](std::vector<double>& u, std::vector<double>& f) {
@@ -113,13 +112,13 @@ static double limit_in_scene(trocar::Body& body, std::vector<double>& mode) {
     f = body.scratch.force;
   };
   const HighestFrequency found = find_highest_frequency(body.model, body.part, body.state, forces,
-                                                        {.amplitude = 1e-8}, Communicator(), mode);
+                                                        {.amplitude = 1e-8}, Communicator());
   return std::max(bound, 2 / (frequency_margin * found.omega));
 }
 
-static double limit_for(const Rule& rule, trocar::Body& body, std::vector<double>& mode) {
+static double limit_for(const Rule& rule, trocar::Body& body) {
   if (!is_finite(body)) return 0;
-  return rule.is_sharp ? limit_in_scene(body, mode) : look(body).stable_step;
+  return rule.is_sharp ? limit_in_scene(body) : look(body).stable_step;
 }
 
 // Steps by dt; the energy at its beginning.
@@ -132,16 +131,15 @@ static double one_frame(trocar::Body& body, double dt) {
 // Largest energy over the first one, less 1; infinite if the body is not finite any more. A frame
 // whose step was too long for its end is stepped again, as in a scene.
 static double growth(trocar::Body body, const Rule& rule, int n_steps) {
-  std::vector<double> mode;
   double first = 0, most = 0, dt = std::numeric_limits<double>::infinity();
-  double limit = limit_for(rule, body, mode);
+  double limit = limit_for(rule, body);
   for (int done = 0; done < n_steps; done += steps_a_frame) {
     const State good = body.state;
     double energy = 0;
     dt = std::min(dt * (1 + steps_a_frame * rule.rise), rule.part * limit);
     for (bool is_done = false; !is_done;) {
       energy = one_frame(body, dt);
-      limit = limit_for(rule, body, mode);
+      limit = limit_for(rule, body);
       if (!(limit > 0)) return std::numeric_limits<double>::infinity();
       is_done = dt <= limit;
       if (is_done) continue;

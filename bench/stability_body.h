@@ -41,7 +41,6 @@ constexpr BoxElements both[] = {BoxElements::hex8, BoxElements::tet4_kuhn};
 // 2 / omega of the present deformation.
 inline double limit_of(Body& body, double tolerance = 1e-3) {
   const bool is_single = body.model.options.precision == Precision::in_single;
-  std::vector<double> mode;
   const auto forces = [&](std::vector<double>& u, std::vector<double>& f) {
     State state = body.state;
     state.u = u;
@@ -53,7 +52,7 @@ inline double limit_of(Body& body, double tolerance = 1e-3) {
                              {.amplitude = (is_single ? 1e-2 : 1e-6) * edge,
                               .tolerance = tolerance,
                               .most_iterations = 300},
-                             Communicator(), mode);
+                             Communicator());
   return 2 / found.omega;
 }
 

@@ -91,48 +91,13 @@ void find_parents(const Mesh& after, const EditedElements& edited, HistorySource
 struct Known {
   Watch watch;
   bool is_looked_at = false;
-  std::vector<double> mode, looked_at;  // (n_owned * 3), or (n_nodes * 3) if they are of all nodes
-  bool is_of_all = false;
+  std::int64_t at_step = 0;
 };
 
-Known take_known(Simulation& s, bool may_move_owners) {
-  Known known{s.watch, s.look.is_done, std::move(s.fastest_mode), std::move(s.look.u),
-              may_move_owners};
-  if (!may_move_owners) return known;
-  known.mode = gather_owned(s, known.mode);
-  known.looked_at = gather_owned(s, known.looked_at);
-  return known;
-}
-
-// Duplicates, which have the highest numbers, are like their parents. No owner has changed.
-void append_duplicates(const MeshEdit& edit, const Part& part, std::vector<double>& owned) {
-  const auto first = std::ssize(part.node_local) - std::ssize(edit.duplicate_parent);
-  for (auto i = std::ssize(owned) / 3; i < part.n_owned; ++i) {
-    const std::int32_t parent = edit.duplicate_parent[part.node_global[i] - first];
-    const Vec3 value = Vec3::Map(&owned[3 * part.node_local[parent]]);
-    owned.insert(owned.end(), value.begin(), value.end());
-  }
-}
-
-// The same of a field of all nodes; what is left is that of owned ones.
-void take_owned(const MeshEdit& edit, const Part& part, std::vector<double>& whole) {
-  for (const std::int32_t parent : edit.duplicate_parent) {
-    const Vec3 value = Vec3::Map(&whole[3 * parent]);
-    whole.insert(whole.end(), value.begin(), value.end());
-  }
-  whole = of_owned(whole, part);
-}
-
-void restore_known(const MeshEdit& edit, std::span<const std::int32_t> element_parent, Known known,
+void restore_known(std::span<const std::int32_t> element_parent, const Known& known,
                    Simulation& s) {
-  for (std::vector<double>* field : {&known.mode, &known.looked_at})
-    if (known.is_of_all && !field->empty())
-      take_owned(edit, s.part, *field);
-    else if (!field->empty())
-      append_duplicates(edit, s.part, *field);
-  s.fastest_mode = std::move(known.mode);
-  s.look.u = std::move(known.looked_at);
   s.look.is_done = known.is_looked_at;
+  s.look.at_step = known.at_step;
   s.watch = known.watch;
   for (std::int32_t* element : {&s.watch.stable_element, &s.watch.least_J_element})
     if (*element >= 0 && !element_parent.empty())
@@ -328,8 +293,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   const double energy = energy_around(s, is_energy_local, old_nodes(s.mesh, nodes, edit), global);
   HistorySource history{.copies =
                             s.communicator->all_gather(copy_history(s.model, s.part, s.state))};
-  Known known;
-  if (is_step_local) known = take_known(s, s.added_mass || !edit.splits.empty());
+  const Known known{s.watch, s.look.is_done, s.look.at_step};
 
   const auto n_kept = static_cast<std::size_t>(s.part.n_owned);
   const bool is_local = edit_whole(edit, global, s);
@@ -346,7 +310,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   find_parents(s.mesh, edited, history);
   restore_history(s.model, s.part, history.copies, history.parent, history.scale, s.state);
   if (is_step_local) {
-    restore_known(edit, edited.parent, std::move(known), s);
+    restore_known(edited.parent, known, s);
     watch_edit(s, edited.after, {global, history.copies, history.parent, history.scale});
     if (s.energy) update_volume_change(s.model, s.neighbours, s.state, s.scratch);
   } else {

@@ -14,8 +14,6 @@ namespace trocar {
 
 namespace {
 
-constexpr double share_of_slower_mode = 0.1;
-
 std::vector<std::int32_t> free_nodes(const Simulation& s, std::span<const std::int32_t> edited,
                                      int n_rings) {
   std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited);
@@ -73,18 +71,6 @@ void set_state(const Simulation& s, const PatchState& state, Patch& patch) {
   average_volume_change(patch.model, patch.state, patch.scratch);
 }
 
-// Of owned nodes (n_owned * 3): mode * of_whole + patch_mode (n_nodes of the patch * 3) * of_patch.
-void add_patch_mode(const Patch& patch, const Part& part, double of_whole, double of_patch,
-                    std::span<const double> patch_mode, std::vector<double>& mode) {
-  for (double& value : mode) value *= of_whole;
-  for (std::size_t i = 0; i < patch.sub.node.size(); ++i) {
-    const std::int32_t local = part.node_local[patch.sub.node[i]];
-    if (local < 0 || local >= part.n_owned) continue;
-    for (std::size_t k = 0; k < 3; ++k)
-      mode[3 * static_cast<std::size_t>(local) + k] += of_patch * patch_mode[3 * i + k];
-  }
-}
-
 std::unique_ptr<Patch> make_patch_of_nodes(const Simulation& s, std::span<const std::int32_t> free,
                                            const PatchState& state) {
   auto made = std::make_unique<Patch>();
@@ -128,11 +114,12 @@ double patch_energy(const Simulation& s, std::span<const std::int32_t> nodes,
   return sum_of({terms.strain, terms.volumetric, terms.hourglass, kinetic, gravity});
 }
 
-Watch watch_patch(const Simulation& s, Patch& patch, std::vector<double>& mode) {
+Watch watch_patch(const Simulation& s, Patch& patch) {
   Watch w = watch(patch.model, patch.part, patch.state);
-  if (s.scene.solver.stable_step == StableStep::frequency && w.least_J > 0)
+  const bool by_frequency = s.scene.solver.stable_step == StableStep::frequency;
+  if (by_frequency && w.least_J > 0 && w.stable_step < s.watch.stable_step)
     w.stable_step =
-        std::max(w.stable_step, search_step(patch, search_amplitude(s), Communicator(), mode));
+        std::max(w.stable_step, search_step(patch, search_amplitude(s), Communicator()));
   for (std::int32_t* element : {&w.stable_element, &w.least_J_element})
     if (*element >= 0) *element = patch.sub.element[static_cast<std::size_t>(*element)];
   return w;
@@ -141,13 +128,8 @@ Watch watch_patch(const Simulation& s, Patch& patch, std::vector<double>& mode) 
 void watch_edit(Simulation& s, std::span<const std::int32_t> edited, const PatchState& state) {
   const PhaseScope scope(s.timers, phase_watch);
   const std::unique_ptr<Patch> patch = make_patch(s, edited, state);
-  std::vector<double> mode;
-  const Watch w = watch_patch(s, *patch, mode);
-  const bool is_faster = w.stable_step < s.watch.stable_step;
-  if (!mode.empty())
-    add_patch_mode(*patch, s.part, is_faster ? share_of_slower_mode : 1,
-                   is_faster ? 1 : share_of_slower_mode, mode, s.fastest_mode);
-  if (is_faster) {
+  const Watch w = watch_patch(s, *patch);
+  if (w.stable_step < s.watch.stable_step) {
     s.watch.stable_step = w.stable_step;
     s.watch.stable_element = w.stable_element;
   }
@@ -155,6 +137,9 @@ void watch_edit(Simulation& s, std::span<const std::int32_t> edited, const Patch
     s.watch.least_J = w.least_J;
     s.watch.least_J_element = w.least_J_element;
   }
+  s.look.step = s.watch.stable_step;
+  s.look.u.assign(s.state.u.begin(), s.state.u.begin() + 3 * std::ptrdiff_t{s.part.n_owned});
+  s.look.stiffening.reset();
 }
 
 }  // namespace trocar

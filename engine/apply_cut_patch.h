@@ -40,13 +40,13 @@ std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int3
 double patch_energy(const Simulation& s, std::span<const std::int32_t> nodes,
                     const PatchState& state);
 
-// Least bounds of its elements and, if the scene's step is a frequency's, the step of its highest
-// frequency with the mode (n_nodes of the patch * 3); elements by their numbers in the mesh.
-Watch watch_patch(const Simulation& s, Patch& patch, std::vector<double>& mode);
+// Least bounds of its elements and, if the scene's step is a frequency's and they are below that of
+// s.watch, the step of its highest frequency; elements by their numbers in the mesh.
+Watch watch_patch(const Simulation& s, Patch& patch);
 
-// The body's watch and fastest mode, where they are of before the edit, as they are after it: the
-// slower of both steps is stable (by the margin of the search), and the next search starts from
-// both modes. The scene has no multirate, whose step does not follow from its elements alone.
+// The body's watch, where it is of before the edit, as it is after it: the smaller of both steps is
+// stable (by the margin of the search), and from here on what the elements stiffen counts. The
+// scene has no multirate, whose step does not follow from its elements alone.
 void watch_edit(Simulation& s, std::span<const std::int32_t> edited, const PatchState& state);
 
 }  // namespace trocar

@@ -234,8 +234,6 @@ void rebuild_topology(Simulation& s) {
   s.surface = boundary_surface(s.mesh);
   s.n_pieces = count_pieces(s.mesh);
   s.altitude = least_altitudes(s);
-  s.fastest_mode.clear();
-  s.slow_mode.clear();
   s.boxes = {};
   follow_model(s);
 }

@@ -7,6 +7,7 @@
 #include "base/log.h"
 #include "engine/apply_cut.h"
 #include "engine/frame_report.h"
+#include "engine/frame_watch.h"
 #include "engine/mesh_measures.h"
 #include "engine/version.h"
 #include "solver/history.h"
@@ -33,8 +34,6 @@ void check_fit(const Checkpoint& c, const Simulation& s) {
         "file has changed; put the old one back, or start without --resume");
   const std::size_t n = c.mesh.X.size();
   if (c.u.size() != 3 * n || c.v.size() != 3 * n || c.fixed.size() != n ||
-      (!c.fastest_mode.empty() && c.fastest_mode.size() != 3 * n) ||
-      (!c.slow_mode.empty() && c.slow_mode.size() != 3 * n) ||
       (!c.looked_at.empty() && c.looked_at.size() != 3 * n) ||
       c.sleep.size() != (s.sleep ? 7 * n : 0) || c.cuts.size() != s.cuts.size() ||
       c.is_open.size() != s.tools.size())
@@ -52,11 +51,13 @@ void check_machine(const Checkpoint& c) {
 // What the next watch starts from, and the energy ledger; one that the checkpoint lacks starts
 // here.
 void restore_searches(const Checkpoint& c, Simulation& s) {
-  s.fastest_mode = of_owned(c.fastest_mode, s.part);
-  s.slow_mode = of_owned(c.slow_mode, s.part);
   s.look.u = of_owned(c.looked_at, s.part);
   s.look.is_done = !c.looked_at.empty();
-  if (s.look.is_done && c.slow_mode.empty()) s.multirate.reset();  // it was given up
+  s.look.step = c.look_step;
+  s.look.at_step = c.look_at_step;
+  s.look.stiffening.reset();
+  if (c.has_stiffening) find_stiffening_at_look(s);
+  if (!c.has_local_steps) s.multirate.reset();  // it was given up
   if (s.energy && c.has_energies)
     s.energy->memory = c.energy;
   else if (s.energy)
@@ -93,9 +94,11 @@ Checkpoint take_checkpoint(Simulation& s) {
                .history_time = s.state.history_time,
                .has_energies = s.energy != nullptr};
   if (s.energy) c.energy = s.energy->memory;
-  c.fastest_mode = gather_owned(s, s.fastest_mode);
-  c.slow_mode = gather_owned(s, s.slow_mode);
   if (s.look.is_done) c.looked_at = gather_owned(s, s.look.u);
+  c.look_step = s.look.step;
+  c.look_at_step = s.look.at_step;
+  c.has_stiffening = s.look.is_done && s.look.stiffening;
+  c.has_local_steps = s.multirate != nullptr;
   if (s.sleep) c.sleep = gather_sleep(s);
   for (const CutStage& stage : s.cuts) c.cuts.push_back(memory_of(stage));
   return c;
@@ -142,8 +145,6 @@ FrameStart start_of_frame(const Simulation& s) {
           .step_scale = s.step_scale,
           .holds = s.holds.holds,
           .is_open = s.holds.is_open,
-          .fastest_mode = s.fastest_mode,
-          .slow_mode = s.slow_mode,
           .look = s.look,
           .sleep = s.sleep,
           .n_events = s.log.events.size(),
@@ -151,8 +152,6 @@ FrameStart start_of_frame(const Simulation& s) {
 }
 
 Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start) {
-  s.fastest_mode = start.fastest_mode;
-  s.slow_mode = start.slow_mode;
   s.look = start.look;
   s.sleep = start.sleep;
   Checkpoint c = take_checkpoint(s);

@@ -44,10 +44,13 @@ struct Checkpoint {
   FrameLog log;                       // without new_edits, which outputs have taken
   std::vector<double> history;        // of viscoelastic elements, see solver/history.h
   double history_time = 0;
-  std::vector<double> fastest_mode, slow_mode;  // (n_nodes * 3), empty: not searched for
-  std::vector<double> looked_at;                // (n_nodes * 3) ElementLook::u, empty: none
-  std::vector<double> sleep;                    // gather_sleep, empty: nothing ever sleeps
-  bool has_energies = false;                    // in the rows of the log
+  // ElementLook: u (n_nodes * 3) or empty, and the rest.
+  std::vector<double> looked_at;
+  double look_step = 0;
+  std::int64_t look_at_step = 0;
+  bool has_stiffening = false, has_local_steps = false;
+  std::vector<double> sleep;  // gather_sleep, empty: nothing ever sleeps
+  bool has_energies = false;  // in the rows of the log
   EnergyMemory energy;
   std::vector<RecordingMark> recordings;
 };
@@ -65,7 +68,6 @@ struct FrameStart {
   double step_scale = 1;
   std::vector<Hold> holds;
   std::vector<std::uint8_t> is_open;
-  std::vector<double> fastest_mode, slow_mode;
   ElementLook look;
   std::optional<Sleep> sleep;
   std::size_t n_events = 0;

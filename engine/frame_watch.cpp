@@ -33,8 +33,8 @@ void force_of(RankBody& body, State& probe, std::vector<double>& u, std::vector<
   probe.u.swap(u);
 }
 
-double search_step(Simulation& s, std::vector<double>& mode) {
-  return search_step(s, search_amplitude(s), *s.communicator, mode);
+double search_step(Simulation& s) {
+  return search_step(s, search_amplitude(s), *s.communicator);
 }
 
 // The body with its fine nodes at rest sets the step unless the fine ones do, in spite of their
@@ -44,19 +44,18 @@ double step_with_local_steps(Simulation& s, double step_without) {
   constexpr double least_gain = 1.2;
   const MultiRate& m = *s.multirate;
   s.model.fixed.swap(s.multirate->coarse_fixed);
-  const double coarse = search_step(s, s.slow_mode);
+  const double coarse = search_step(s);
   s.model.fixed.swap(s.multirate->coarse_fixed);
   const double step = std::min(coarse, step_without * m.steps.limit / 2);
   const double cost = 1 + static_cast<double>(m.steps.gain.size()) * m.share;
   if (s.look.is_done || step > least_gain * cost * step_without) return step;
   s.multirate.reset();
-  s.slow_mode.clear();
   return step_without;
 }
 
 double step_of_frequency(Simulation& s) {
   if (s.sleep) show_awake(s);  // the step must do when they wake
-  double step = search_step(s, s.fastest_mode);
+  double step = search_step(s);
   if (s.multirate) step = step_with_local_steps(s, step);
   if (s.sleep) show_asleep(s);
   return step;
@@ -76,7 +75,7 @@ bool watch_nodes(Simulation& s) {
 bool may_look_different(const Simulation& s) {
   const ElementLook& look = s.look;
   const double reach = look.reach * std::min(1.0, s.watch.least_J);
-  int has_moved = look.is_done ? 0 : 1;
+  int has_moved = look.is_done && look.stiffening ? 0 : 1;
   for (std::size_t k = 0; k < look.u.size(); ++k)
     has_moved |= std::abs(s.state.u[k] - look.u[k]) > reach ? 1 : 0;
   return s.communicator->all_max(has_moved) > 0;
@@ -88,18 +87,44 @@ void take_least(Simulation& s, Watch w) {
   s.watch = w;
 }
 
-// The elements' own bounds take as long as several steps. They are at most what they were at rest,
-// so that they matter at the first look, where they name an element, and where omega allows less.
+void note_look(Simulation& s, double step, std::vector<double> stiffening) {
+  ElementLook& look = s.look;
+  look.is_done = true;
+  look.at_step = s.state.step;
+  look.step = step;
+  look.u.assign(s.state.u.begin(), s.state.u.begin() + 3 * std::ptrdiff_t{s.model.n_owned});
+  look.stiffening = std::move(stiffening);
+}
+
+// By how much omega^2 of the most stiffened element has grown since the last look.
+double largest_growth(Simulation& s, const std::vector<double>& stiffening) {
+  if (!s.look.stiffening) find_stiffening_at_look(s);
+  double most = 1;
+  for (std::size_t k = 0; k < stiffening.size(); ++k)
+    most = std::max(most, stiffening[k] / (*s.look.stiffening)[k]);
+  return s.communicator->all_max(most);
+}
+
+// The step of the last search, less by what any element has stiffened since; a new search where
+// that is much, or where the last one was long ago and the tissue may have softened again.
+double step_by_frequency(Simulation& s, std::vector<double> stiffening) {
+  if (s.look.is_done && s.state.step - s.look.at_step < most_steps_of_search) {
+    const double growth = largest_growth(s, stiffening);
+    if (growth <= most_growth) return s.look.step / std::sqrt(growth);
+  }
+  const double step = step_of_frequency(s);
+  note_look(s, step, std::move(stiffening));
+  return step;
+}
+
 void watch_elements(Simulation& s) {
-  const bool by_frequency = s.scene.solver.stable_step == StableStep::frequency;
-  const bool has_bounds = !by_frequency || !s.look.is_done;
-  take_least(
-      s, has_bounds ? watch(s.model, s.part, s.state) : watch_volumes(s.model, s.part, s.state));
-  const double step = by_frequency && s.watch.least_J > 0 ? step_of_frequency(s) : 0;
-  if (!has_bounds && step < s.rest_step) take_least(s, watch(s.model, s.part, s.state));
-  s.watch.stable_step = std::max(s.watch.stable_step, step);
-  s.look.u.assign(s.state.u.begin(), s.state.u.begin() + 3 * std::ptrdiff_t{s.model.n_owned});
-  s.look.is_done = true;
+  std::vector<double> stiffening(s.part.element_global.size());
+  take_least(s, watch(s.model, s.part, s.state, stiffening));
+  if (s.scene.solver.stable_step == StableStep::frequency && s.watch.least_J > 0)
+    s.watch.stable_step =
+        std::max(s.watch.stable_step, step_by_frequency(s, std::move(stiffening)));
+  else
+    note_look(s, 0, std::move(stiffening));
 }
 
 }  // namespace
@@ -109,15 +134,23 @@ double search_amplitude(const Simulation& s) {
   return (is_single ? 1e-2 : 1e-6) * s.edge_length;
 }
 
-double search_step(RankBody& body, double amplitude, const Communicator& communicator,
-                   std::vector<double>& mode) {
+double search_step(RankBody& body, double amplitude, const Communicator& communicator) {
   State probe = body.state;
   const auto forces = [&](std::vector<double>& u, std::vector<double>& force) {
     force_of(body, probe, u, force);
   };
-  const HighestFrequency found = find_highest_frequency(
-      body.model, body.part, body.state, forces, {.amplitude = amplitude}, communicator, mode);
+  const HighestFrequency found = find_highest_frequency(body.model, body.part, body.state, forces,
+                                                        {.amplitude = amplitude}, communicator);
   return found.is_converged ? 2 / (frequency_margin * found.omega) : 0;
+}
+
+void find_stiffening_at_look(Simulation& s) {
+  State there = s.state;
+  std::copy(s.look.u.begin(), s.look.u.end(), there.u.begin());
+  start_exchange(s.neighbours, there);
+  update_volume_change(s.model, s.neighbours, there, s.scratch);
+  s.look.stiffening.emplace(s.part.element_global.size());
+  watch(s.model, s.part, there, *s.look.stiffening);
 }
 
 void refine_forces(Simulation& s, double dt) {

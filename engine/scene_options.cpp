@@ -113,7 +113,7 @@ Options<SceneSolver> solver_options() {
            "Time step / computed stable step; from 0.866 on the scheme has a resonance.");
   s.choice("stable_step", &SceneSolver::stable_step,
            {{"element-bound", StableStep::element_bound}, {"frequency", StableStep::frequency}},
-           "From the body's highest frequency, searched for once a frame and less 2 %, or from "
+           "From the body's highest frequency, less 2 %, as it grows with the deformation, or from "
            "bounds of "
            "each element, which need no search and are 1.4 to 3 times smaller.");
   s.number("mass_scaling_step", &SceneSolver::mass_scaling_step, dim::time, not_negative,

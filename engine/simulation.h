@@ -66,11 +66,16 @@ struct Equilibrium {
   double seconds = 0;
 };
 
-// Where the elements were last looked at (frame_watch.h).
+// Where the stable step of the body was last found, from which it follows (frame_watch.h).
 struct ElementLook {
   bool is_done = false;
-  std::vector<double> u;  // (n_owned * 3) [m]
-  double reach = 0;       // of a node that strains its elements by less than unseen_strain [m]
+  std::int64_t at_step = 0;  // State::step of the last search for the highest frequency
+  double step = 0;           // stable there; 0 without a search, or where it did not end [s]
+  std::vector<double> u;     // (n_owned * 3) there [m]
+  // (n local elements) growth of their omega^2 there; none until it is needed, and the elements are
+  // looked at in any case.
+  std::optional<std::vector<double>> stiffening;
+  double reach = 0;  // of a node that strains its elements by less than unseen_strain [m]
 };
 
 // The base is this rank's share.
@@ -114,9 +119,6 @@ struct Simulation : RankBody {
   std::vector<double> altitude;  // (n local elements) least one, undeformed [m]
   double rest_step = 0;          // least element bound of the undeformed mesh, over all ranks [s]
   double edge_length = 0;        // mean of the mesh at time zero [m]
-  // Only with stable_step = "frequency": the mode (n_owned * 3) found last, where the next search
-  // starts. With multirate, slow_mode is that of coarse nodes.
-  std::vector<double> fastest_mode, slow_mode;
   double stable_step_before_cut = 0;
   std::optional<AddedMass> added_mass;     // only with mass scaling
   std::optional<Equilibrium> equilibrium;  // only if this process looked for one

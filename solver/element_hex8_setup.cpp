@@ -6,7 +6,7 @@
 #include "solver/element_hex8.h"
 #include "solver/element_setup.h"
 #include "solver/hex8_reference.h"
-#include "solver/largest_eigenvalue.h"
+#include "solver/symmetric_eigenvalues.h"
 
 namespace trocar {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "solver/element_list.h"
-#include "solver/largest_eigenvalue.h"
+#include "solver/symmetric_eigenvalues.h"
 
 namespace trocar {
 

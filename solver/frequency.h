@@ -1,7 +1,7 @@
 // The highest frequency of a body in its present deformation, whatever its elements and materials:
-// the largest eigenvalue of M^-1 K from differences of the forces, by the locally optimal
-// three-term iteration (Knyazev 2001, LOBPCG for one vector). It comes from below; the element
-// bounds (numerics 1.5) come from above and lie 1.4 to 3 times higher.
+// the largest eigenvalue of M^-1 K from differences of the forces, by the iteration of Lanczos
+// (1950). It comes from below; the element bounds (numerics 1.5) come from above and lie 1.4 to 3
+// times higher.
 #pragma once
 
 #include <functional>
@@ -20,9 +20,9 @@ struct FrequencyOptions {
 };
 
 struct HighestFrequency {
-  double omega = 0;     // root of the Rayleigh quotient w2 of the mode x found [1/s]
-  double residual = 0;  // |M^-1 K x - w2 x| / w2: an eigenvalue lies within w2 (1 +- residual)
-  int n_iterations = 0;
+  double omega = 0;      // root of the Rayleigh quotient w2 of the mode x found [1/s]
+  double residual = 0;   // |M^-1 K x - w2 x| / w2: an eigenvalue lies within w2 (1 +- residual)
+  int n_iterations = 0;  // forces computed, less those at rest
   bool is_converged = false;
 };
 
@@ -34,12 +34,10 @@ inline constexpr double frequency_margin = 1.02;
 // Collective.
 using ForceOfDisplacement = std::function<void(std::vector<double>& u, std::vector<double>& force)>;
 
-// mode (n_owned * 3): where the search starts, empty for a start from the node numbers alone; what
-// it found, of norm 1 in M. The result does not depend on ranks and threads. Collective.
+// Starts from node numbers alone. The result does not depend on ranks and threads. Collective.
 HighestFrequency find_highest_frequency(const Model& model, const Part& part, const State& state,
                                         const ForceOfDisplacement& forces,
                                         const FrequencyOptions& options,
-                                        const Communicator& communicator,
-                                        std::vector<double>& mode);
+                                        const Communicator& communicator);
 
 }  // namespace trocar

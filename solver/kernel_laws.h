@@ -56,19 +56,6 @@ struct LawLoops {
     });
   }
 
-  static void least_volume(const BlockTask& task, double* J) {
-    for_groups<Pack>(task, [&](const Group<Pack>& group, std::int64_t block, int lane) {
-      const auto law = law_of_kind<kind>(Law<Material, Pack>{group.value}, task, group);
-      Pack least = zero_of(group.value(0));
-      for (std::int64_t k = 0; k < task.n_points; ++k) {
-        const Tensor<Pack> H = law.full_strain(group.stash.get_tensor(k));
-        const Pack j = volume_change(H, cofactor(H));
-        least = k == 0 ? j : (least < j ? least : j);
-      }
-      store_in_double(J + block * lanes + lane, Pack(1.0 + least));
-    });
-  }
-
   // The bound of elements with several points grows at most as at the worst one.
   static void watch(const BlockTask& task, double* J, double* stiffening) {
     for_groups<Pack>(task, [&](const Group<Pack>& group, std::int64_t block, int lane) {
@@ -103,7 +90,6 @@ LawKernels law_kernels() {
     kernels = {.stress = Loops::stress,
                .viscous_stress = Loops::viscous_stress,
                .energy = Loops::energy,
-               .least_volume = Loops::least_volume,
                .watch = Loops::watch};
   }
   return kernels;

@@ -56,8 +56,6 @@ struct ElementKernels {
 // Viscoelastic elements have a history, [block][point][number][lane] of doubles (viscosity.h).
 struct ViscousStep;
 using ViscousKernel = void (*)(const BlockTask& task, const ViscousStep& step, double* history);
-// Least det F to [block][lane].
-using VolumeKernel = void (*)(const BlockTask& task, double* J);
 // Least det F and growth of the bound of omega^2 (stiffening.h) to [block][lane].
 using WatchKernel = void (*)(const BlockTask& task, double* J, double* stiffening);
 
@@ -66,7 +64,6 @@ struct LawKernels {
   ElementKernel stress;          // in place of strain, in the stash
   ViscousKernel viscous_stress;  // null: viscosity is not available
   ValueKernel energy;
-  VolumeKernel least_volume;
   WatchKernel watch;
 };
 

@@ -7,6 +7,7 @@
 #include "solver/deformation.h"
 #include "solver/elementary.h"
 #include "solver/material_model.h"
+#include "solver/symmetric_eigen.h"
 #include "solver/tangent_bound_below_floor.h"
 
 namespace trocar {

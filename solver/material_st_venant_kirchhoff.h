@@ -3,9 +3,9 @@
 #pragma once
 
 #include "solver/block_data.h"
-#include "solver/largest_eigenvalue.h"
 #include "solver/material_model.h"
 #include "solver/stiffening.h"
+#include "solver/symmetric_eigenvalues.h"
 
 namespace trocar {
 

@@ -246,6 +246,7 @@ Place place_of(std::int32_t k, const Model& model) {
   return {0, 0};
 }
 
+// Elements ascend, so that those of a block mostly follow each other.
 std::vector<BlockPlace> blocks_of(const Part& part, std::span<const std::int32_t> elements,
                                   const Model& model) {
   std::vector<BlockPlace> blocks;
@@ -253,9 +254,10 @@ std::vector<BlockPlace> blocks_of(const Part& part, std::span<const std::int32_t
     const std::int64_t k = part.place_of(e);
     if (k < 0) continue;
     const Place place = place_of(static_cast<std::int32_t>(k), model);
-    blocks.push_back(
-        {.list = place.list,
-         .block = static_cast<std::int32_t>(place.lane / model.blocks[place.list].lanes)});
+    const BlockPlace block{
+        .list = place.list,
+        .block = static_cast<std::int32_t>(place.lane / model.blocks[place.list].lanes)};
+    if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
   }
   return blocks;
 }

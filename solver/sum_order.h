@@ -17,6 +17,7 @@ void order_sums(Model& model);
 struct BlockPlace {
   std::size_t list = 0;
   std::int32_t block = 0;  // of the list
+  bool operator==(const BlockPlace&) const = default;
 };
 // The same after an edit of a model whose sums were in order before it, in time of the edit's and
 // of whole numbers of its nodes and rows where one run does all and no list reads halo nodes.

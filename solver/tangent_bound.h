@@ -13,7 +13,7 @@
 
 #include "solver/deformation.h"
 #include "solver/stiffening.h"
-#include "solver/symmetric_eigen.h"
+#include "solver/symmetric_eigenvalues.h"
 
 namespace trocar {
 
@@ -27,12 +27,12 @@ struct Stretches {
 
 template <class Pack>
 [[gnu::noinline]] void find_stretches(const Deformation<Pack>& d, Stretches<Pack>& stretches) {
-  SymmetricEigen<Pack> eigen;
-  find_eigen(d.twice_E, eigen);
+  Pack strain[3];
+  find_eigenvalues(d.twice_E, strain);
   Stretches<Pack>& x = stretches;
   const Pack tiny = zero_of(d.iso.q) + real<Pack>(1e-30);
   for (int i = 0; i < 3; ++i) {
-    const Pack s2 = 1.0 + eigen.value[i];
+    const Pack s2 = 1.0 + strain[i];
     x.s[i] = square_root(Pack(s2 < tiny ? tiny : s2));
     x.inverse[i] = 1.0 / x.s[i];
     x.square[i] = (1.0 + d.iso.q) * x.s[i] * x.s[i];

@@ -54,22 +54,9 @@ void for_elements(const ElementBlocks& blocks, std::int64_t first, std::int64_t 
     body(lane, blocks.element_local[first * blocks.lanes + lane]);
 }
 
-void take_volumes(const Model& model, const Part& part, const State& state,
-                  const ElementBlocks& blocks, std::int64_t first, std::int64_t n,
-                  LeastOfElements& least) {
-  std::array<double, batch_blocks * lanes_of_block<float>> J;
-  for_strained_blocks(model, blocks, state, first, n,
-                      [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
-                        kernels.law.least_volume(task, J.data() + (block - first) * blocks.lanes);
-                      });
-  for_elements(blocks, first, n, [&](std::int64_t lane, std::int32_t k) {
-    least.J.take(std::isfinite(J[lane]) ? J[lane] : -infinity, part.element_global[k]);
-  });
-}
-
 void take_blocks(const Model& model, const Part& part, const State& state,
                  const ElementBlocks& blocks, std::int64_t first, std::int64_t n,
-                 LeastOfElements& least) {
+                 std::span<double> growths, LeastOfElements& least) {
   std::array<double, batch_blocks * lanes_of_block<float>> J, stiffening;
   for_strained_blocks(model, blocks, state, first, n,
                       [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
@@ -78,14 +65,13 @@ void take_blocks(const Model& model, const Part& part, const State& state,
                       });
   for_elements(blocks, first, n, [&](std::int64_t lane, std::int32_t k) {
     const double growth = std::max(1.0, stiffening[lane] / blocks.stiffening_at_rest);
+    if (!growths.empty()) growths[static_cast<std::size_t>(k)] = growth;
     take_element(model.element_step[k], J[lane], growth, part.element_global[k], least);
   });
 }
 
-// take: take_blocks or take_volumes.
-template <class Take>
 LeastOfElements least_of_elements(const Model& model, const Part& part, const State& state,
-                                  const Take& take) {
+                                  std::span<double> growths) {
   LeastOfElements all;
   std::mutex mutex;
   parallel_for(count_blocks(model), [&](std::int64_t begin, std::int64_t end) {
@@ -93,7 +79,7 @@ LeastOfElements least_of_elements(const Model& model, const Part& part, const St
     for (std::int64_t at = begin; at < end; at += batch_blocks)
       for_block_range(model, at, std::min(end, at + batch_blocks),
                       [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
-                        take(model, part, state, blocks, first, n, least);
+                        take_blocks(model, part, state, blocks, first, n, growths, least);
                       });
     const std::scoped_lock lock(mutex);
     all.step.take(least.step.value, least.step.number);
@@ -109,11 +95,13 @@ bool is_sane(double x) {
   return std::abs(x) < limit;  // false for NaN
 }
 
-template <class Take>
-Watch watch_with(const Model& model, const Part& part, const State& state, const Take& take) {
+}  // namespace
+
+Watch watch(const Model& model, const Part& part, const State& state,
+            std::span<double> stiffening) {
   CHECK_OP(part.n_local(), ==, model.n_local);
   CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
-  const LeastOfElements least = least_of_elements(model, part, state, take);
+  const LeastOfElements least = least_of_elements(model, part, state, stiffening);
   Watch w;
   w.stable_step = least.step.value;
   w.stable_element = least.step.number;
@@ -121,18 +109,6 @@ Watch watch_with(const Model& model, const Part& part, const State& state, const
   w.least_J_element = least.J.number;
   w.bad_node = first_bad_node(model, part, state);
   w.is_finite = w.bad_node < 0;
-  return w;
-}
-
-}  // namespace
-
-Watch watch(const Model& model, const Part& part, const State& state) {
-  return watch_with(model, part, state, take_blocks);
-}
-
-Watch watch_volumes(const Model& model, const Part& part, const State& state) {
-  Watch w = watch_with(model, part, state, take_volumes);
-  w.stable_step = 0;
   return w;
 }
 

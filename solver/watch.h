@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mesh/partition.h"
@@ -22,10 +23,10 @@ struct Watch {
   std::int32_t bad_node = -1;  // global number of the first that is not
 };
 // Of state.theta and state.u, see average_volume_change. Ties go to the lower global element
-// number.
-Watch watch(const Model& model, const Part& part, const State& state);
-// The same without the stable step (0, element -1), which is most of the work.
-Watch watch_volumes(const Model& model, const Part& part, const State& state);
+// number. Unless empty, `stiffening` (elements of the part) gets by how much the bound of each
+// one's omega^2 has grown over that at rest, at least 1.
+Watch watch(const Model& model, const Part& part, const State& state,
+            std::span<double> stiffening = {});
 // Global number of the first owned node with a value that is not finite or too large, -1 if none.
 std::int32_t first_bad_node(const Model& model, const Part& part, const State& state);
 

@@ -29,7 +29,7 @@ HighestFrequency search(StudyBody& body) {
         force = scratch.force;
         probe.u.swap(u);
       },
-      options, alone, body.fastest_mode);
+      options, alone);
 }
 
 void run_steps(StudyBody& body, std::int64_t n, double dt,

@@ -20,8 +20,7 @@ struct StudyBody {
   Model model;
   State state;
   Scratch scratch;
-  std::vector<double> fastest_mode;  // of the last search
-  double h = 0;                      // edge of a cell [m]
+  double h = 0;  // edge of a cell [m]
 };
 
 // `fixed` tells the supported components of the node at X; empty: none.

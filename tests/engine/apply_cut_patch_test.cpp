@@ -44,7 +44,6 @@ std::string scene_of(const Kind& kind) {
 
 double highest_frequency(RankBody& body, double amplitude, double tolerance) {
   State probe = body.state;
-  std::vector<double> mode;
   const auto forces = [&](std::vector<double>& u, std::vector<double>& force) {
     probe.u = u;
     find_force(body.model, body.neighbours, probe, body.scratch);
@@ -52,8 +51,7 @@ double highest_frequency(RankBody& body, double amplitude, double tolerance) {
   };
   const HighestFrequency found = find_highest_frequency(
       body.model, body.part, body.state, forces,
-      {.amplitude = amplitude, .tolerance = tolerance, .most_iterations = 1000}, Communicator(),
-      mode);
+      {.amplitude = amplitude, .tolerance = tolerance, .most_iterations = 1000}, Communicator());
   EXPECT_TRUE(found.is_converged);
   return found.omega;
 }
@@ -125,8 +123,7 @@ TEST(Patch, never_gives_a_longer_step_than_a_search_of_the_whole_body) {
       run_frame(s, outputs);
       if (s.cuts[0].strokes.empty() || s.cuts[0].strokes[0].n_edits == n_edits) continue;
       n_edits = s.cuts[0].strokes[0].n_edits;
-      std::vector<double> mode;
-      const double whole = search_step(s, search_amplitude(s), Communicator(), mode);
+      const double whole = search_step(s, search_amplitude(s), Communicator());
       ASSERT_GT(whole, 0);
       EXPECT_LT(s.watch.stable_step / whole, frequency_margin) << kind.elements;
     }

@@ -166,7 +166,6 @@ TEST(ApplyCut, does_not_miss_a_mode_that_is_faster_after_the_edit) {
       if (s.cuts[0].strokes.empty() || s.cuts[0].strokes[0].n_edits == n_edits) continue;
       n_edits = s.cuts[0].strokes[0].n_edits;
       const double step = s.watch.stable_step;
-      s.fastest_mode.clear();
       s.look.is_done = false;
       watch_state(s);
       EXPECT_LT(step / s.watch.stable_step, frequency_margin) << elements << s.frame;

@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/error.h"
 #include "base/log.h"
 #include "engine_files.h"
 #include "engine_started.h"
+#include "solver/frequency.h"
 #include "solver_body.h"
 
 namespace trocar {
@@ -65,20 +68,59 @@ TEST(WatchState, looks_at_elements_again_once_a_node_has_left) {
   s.state.u[0] = 1.01 * s.look.reach;
   watch_state(s);
   EXPECT_NE(s.watch.least_J_element, 4711);
-  EXPECT_EQ(s.look.u[0], s.state.u[0]);
 }
 
-// As if the body had stiffened: bounds are read, which name an element, once omega allows less than
-// they did at rest, and else they aren't.
-TEST(WatchState, reads_the_elements_bounds_only_where_they_may_be_needed) {
+// Stretches the layers of the block above the middle by `strain` along z.
+void stretch_upper_half(Simulation& s, double strain) {
+  double low = 1e300, high = -1e300;
+  for (const Vec3& X : s.mesh.X) low = std::min(low, X.z()), high = std::max(high, X.z());
+  const double middle = (low + high) / 2;
+  for (std::size_t i = 0; i < s.mesh.X.size(); ++i)
+    s.state.u[3 * i + 2] = strain * std::max(0.0, s.mesh.X[i].z() - middle);
+}
+
+// One that starts where the fastest mode was before, in the half at rest, would not see that one of
+// the other half has become faster.
+TEST(WatchState, never_gives_a_longer_step_than_a_search_of_the_body_as_it_is) {
+  for (const std::string elements : {"hex8", "tet4-kuhn"}) {
+    const auto run = block_of(elements);
+    Simulation& s = *run->s;
+    const double at_rest = s.watch.stable_step;
+    int n_searches = 0;
+    for (int k = 1; k <= 40; ++k) {
+      stretch_upper_half(s, 0.01 * k);
+      s.state.step += 10;
+      watch_state(s);
+      n_searches += s.look.at_step == s.state.step ? 1 : 0;
+      const double whole = search_step(s, search_amplitude(s), Communicator());
+      EXPECT_LT(s.watch.stable_step / whole, frequency_margin) << elements << ' ' << k;
+      EXPECT_GT(s.watch.stable_step / whole, 1 / std::sqrt(most_growth) / frequency_margin);
+    }
+    EXPECT_LT(s.watch.stable_step, 0.75 * at_rest);
+    EXPECT_GT(n_searches, 2);
+    EXPECT_LT(n_searches, 30);
+  }
+}
+
+TEST(WatchState, takes_the_growth_of_elements_for_that_of_the_body_between_two_searches) {
   const auto run = block_of("tet4-kuhn");
   Simulation& s = *run->s;
-  for (const double stiffer : {1., 1e3}) {
-    s.rest_step *= stiffer;
-    s.state.u[0] += 2 * s.look.reach;
-    watch_state(s);
-    EXPECT_EQ(s.watch.stable_element >= 0, stiffer > 1);
-  }
+  const double searched = s.look.step;
+  stretch_upper_half(s, 0.01);
+  s.state.step = 10;
+  watch_state(s);
+  EXPECT_EQ(s.look.at_step, 0);
+  std::vector<double> stiffening(s.part.element_global.size());
+  watch(s.model, s.part, s.state, stiffening);  // of a body that was at rest, where all are 1
+  const double growth = std::ranges::max(stiffening);
+  EXPECT_GT(growth, 1.005);
+  EXPECT_EQ(s.watch.stable_step, searched / std::sqrt(growth));
+  // Long after, what may have softened is looked for.
+  stretch_upper_half(s, 0.005);
+  s.state.step = most_steps_of_search;
+  watch_state(s);
+  EXPECT_EQ(s.look.at_step, most_steps_of_search);
+  EXPECT_EQ(s.watch.stable_step, search_step(s, search_amplitude(s), Communicator()));
 }
 
 TEST(FindTrouble, is_silent_while_all_is_well) {
