@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <vector>
 
 namespace trocar {
@@ -10,6 +12,26 @@ template <class T>
 void sort_unique(std::vector<T>& values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+// Numbers of nodes or elements around one place mostly lie close together: then by a bit for each
+// number between the least and the greatest.
+inline void sort_unique(std::vector<std::int32_t>& values) {
+  constexpr std::uint64_t bits = 64;
+  if (values.size() < bits) return sort_unique<std::int32_t>(values);
+  const auto [least, greatest] = std::ranges::minmax(values);
+  const auto place = [&](std::int32_t value) {
+    return static_cast<std::uint64_t>(std::int64_t{value} - least);
+  };
+  const std::uint64_t n_words = place(greatest) / bits + 1;
+  if (n_words > values.size()) return sort_unique<std::int32_t>(values);
+  std::vector<std::uint64_t> words(n_words, 0);
+  for (const std::int32_t value : values)
+    words[place(value) / bits] |= std::uint64_t{1} << place(value) % bits;
+  values.clear();
+  for (std::uint64_t k = 0; k < n_words; ++k)
+    for (std::uint64_t word = words[k]; word != 0; word &= word - 1)
+      values.push_back(least + static_cast<std::int32_t>(k * bits) + std::countr_zero(word));
 }
 
 }  // namespace trocar

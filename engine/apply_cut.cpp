@@ -6,6 +6,8 @@
 #include <numeric>
 
 #include "base/log.h"
+#include "base/sort_unique.h"
+#include "engine/apply_cut_momentum.h"
 #include "engine/apply_cut_patch.h"
 #include "engine/apply_cut_topology.h"
 #include "engine/frame_watch.h"
@@ -16,65 +18,6 @@
 namespace trocar {
 
 namespace {
-
-// Mass, momentum and angular momentum about `centre` of some nodes.
-struct Motion {
-  double mass = 0, scale = 0, kinetic = 0;  // scale = sum |m v|
-  Vec3 centre = Vec3::Zero(), momentum = Vec3::Zero(), angular = Vec3::Zero();
-  Mat3 inertia = Mat3::Zero();
-};
-
-Motion motion_of(std::span<const std::int32_t> nodes, std::span<const double> mass,
-                 const GlobalState& state, const Vec3& about) {
-  Motion motion;
-  for (const std::int32_t node : nodes) {
-    const auto i = static_cast<std::size_t>(node);
-    const Vec3 v(state.v[3 * i], state.v[3 * i + 1], state.v[3 * i + 2]);
-    const Vec3 r = state.x[i] - about;
-    motion.mass += mass[i];
-    motion.centre += mass[i] * state.x[i];
-    motion.momentum += mass[i] * v;
-    motion.angular += mass[i] * r.cross(v);
-    motion.scale += mass[i] * std::sqrt(v.dot(v));
-    motion.kinetic += 0.5 * mass[i] * v.dot(v);
-    motion.inertia += mass[i] * (r.dot(r) * Mat3::Identity() - r * r.transpose());
-  }
-  if (motion.mass > 0) motion.centre /= motion.mass;
-  return motion;
-}
-
-// Gives the nodes the rigid increment a + w x (x - centre) that makes momentum and angular momentum
-// what they were.
-void restore_momentum(std::span<const std::int32_t> nodes, std::span<const double> mass,
-                      const Motion& before, GlobalState& state, CutRecord& record) {
-  const Vec3 about = before.centre;
-  Motion after = motion_of(nodes, mass, state, about);
-  const double kinetic_before = before.kinetic;
-  // Two unknown vectors: m a + w x m d = dP and m d x a + I w = dL with d = centre after - about.
-  const Vec3 d = after.centre - about;
-  Mat3 cross;
-  cross << 0, -d.z(), d.y(), d.z(), 0, -d.x(), -d.y(), d.x(), 0;
-  Eigen::Matrix<double, 6, 6> A;
-  A.block<3, 3>(0, 0) = after.mass * Mat3::Identity();
-  A.block<3, 3>(0, 3) = -after.mass * cross;
-  A.block<3, 3>(3, 0) = after.mass * cross;
-  A.block<3, 3>(3, 3) = after.inertia;
-  Eigen::Matrix<double, 6, 1> b;
-  b << before.momentum - after.momentum, before.angular - after.angular;
-  const Eigen::Matrix<double, 6, 1> increment = A.partialPivLu().solve(b);
-  const Vec3 a = increment.head<3>(), w = increment.tail<3>();
-  if (!increment.allFinite()) return;
-  for (const std::int32_t node : nodes) {
-    const auto i = static_cast<std::size_t>(node);
-    const Vec3 dv = a + w.cross(state.x[i] - about);
-    for (std::size_t k = 0; k < 3; ++k) state.v[3 * i + k] += dv[static_cast<Eigen::Index>(k)];
-  }
-  after = motion_of(nodes, mass, state, about);
-  const double scale = std::max(before.scale, 1e-300);
-  record.momentum_change =
-      std::max(record.momentum_change, (after.momentum - before.momentum).norm() / scale);
-  record.kinetic_energy_change += after.kinetic - kinetic_before;
-}
 
 double least_element_step(const Simulation& s, std::span<const std::int32_t> elements) {
   double least = 1e300;
@@ -168,6 +111,13 @@ bool keeps_step(const Simulation& s) {
   return s.look.is_done && s.watch.is_finite && s.watch.least_J > 0 && !s.scene.solver.is_multirate;
 }
 
+// Whether an edit changes no energies but those around it.
+bool keeps_energy(const Simulation& s) {
+  const auto has_history = [](const Material& material) { return !material.prony.empty(); };
+  return !s.scene.solver.is_multirate && !s.added_mass &&
+         std::none_of(s.materials.begin(), s.materials.end(), has_history);
+}
+
 // Supports and partner pairs go with the nodes.
 void inherit_by_duplicates(Simulation& s, const MeshEdit& edit, std::int32_t n_before) {
   for (std::size_t d = 0; d < edit.duplicate_parent.size(); ++d) {
@@ -190,6 +140,15 @@ void rebalance(Simulation& s) {
            " % more work than the mean: parts are chosen anew");
 }
 
+// mesh: after the edit.
+void move_positions(const MeshEdit& edit, const Mesh& mesh, GlobalState& global) {
+  const std::size_t n_before = global.x.size();
+  global.x.resize(mesh.X.size());
+  const auto place = [&](std::size_t i) { global.x[i] = mesh.X[i] + Vec3::Map(&global.u[3 * i]); };
+  for (const NodeMove& move : edit.moves) place(static_cast<std::size_t>(move.node));
+  for (std::size_t i = n_before; i < global.x.size(); ++i) place(i);
+}
+
 // All that every rank holds of the whole body; returns keeps_places.
 bool edit_whole(const MeshEdit& edit, GlobalState& global, Simulation& s) {
   const std::int32_t n_before = s.mesh.n_nodes();
@@ -205,28 +164,44 @@ bool edit_whole(const MeshEdit& edit, GlobalState& global, Simulation& s) {
     s.corners = node_corners(s.mesh);
     rebalance(s);
   }
-  global.x = present_positions(s.mesh.X, global.u);
+  move_positions(edit, s.mesh, global);
   return is_local;
 }
 
-// Of the edited elements and their nodes; the energy is the body's.
+// Of the edited elements and their nodes.
 struct Before {
   Motion motion;
-  double least_step = 0, mass = 0, energy = 0;
+  double least_step = 0, mass = 0;
 };
 
-Before measure_before(Simulation& s, std::span<const std::int32_t> elements,
+// All nodes that the edited elements have before the edit, and those that they will get of them.
+std::vector<std::int32_t> old_nodes(const Mesh& mesh, std::span<const std::int32_t> nodes,
+                                    const MeshEdit& edit) {
+  std::vector<std::int32_t> all(nodes.begin(), nodes.end());
+  for (const CornerChange& change : edit.corners)
+    if (change.node < mesh.n_nodes()) all.push_back(change.node);
+  sort_unique(all);
+  return all;
+}
+
+Before measure_before(const Simulation& s, std::span<const std::int32_t> elements,
                       std::span<const std::int32_t> nodes, const GlobalState& global) {
   const Vec3 centre = motion_of(nodes, s.mass, global, Vec3::Zero()).centre;
   return {.motion = motion_of(nodes, s.mass, global, centre),
           .least_step = least_element_step(s, elements),
-          .mass = mass_of(nodes, s.mass),
-          .energy = s.energy ? mechanical_energy(s).sum() : 0};
+          .mass = mass_of(nodes, s.mass)};
 }
 
-void add_to_record(Simulation& s, const Before& before, std::span<const std::int32_t> elements,
-                   std::span<const std::int32_t> nodes, CutRecord& record) {
-  if (s.energy) s.energy->memory.works.cut += mechanical_energy(s).sum() - before.energy;
+// Up to what an edit leaves as it is. Collective.
+double energy_around(Simulation& s, bool is_local, std::span<const std::int32_t> nodes,
+                     const GlobalState& global) {
+  if (!s.energy) return 0;
+  return is_local ? patch_energy(s, nodes, {.global = global}) : mechanical_energy(s).sum();
+}
+
+void add_to_record(const Simulation& s, const Before& before,
+                   std::span<const std::int32_t> elements, std::span<const std::int32_t> nodes,
+                   CutRecord& record) {
   for (const std::int32_t e : elements)
     record.least_quality = std::min(record.least_quality, element_quality(s.mesh, e, s.mesh.X));
   record.stable_step_ratio =
@@ -252,12 +227,22 @@ std::vector<double> of_owned(std::span<const double> field, const Part& part) {
   return mine;
 }
 
-GlobalState gather_state(Simulation& s) {
+GlobalState gather_positions(Simulation& s) {
   const PhaseScope scope(s.timers, phase_gather);
   GlobalState global;
   global.u = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.state.u, *s.communicator);
-  global.v = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.state.v, *s.communicator);
   global.x = present_positions(s.mesh.X, global.u);
+  return global;
+}
+
+static void gather_velocities(Simulation& s, GlobalState& global) {
+  const PhaseScope scope(s.timers, phase_gather);
+  global.v = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.state.v, *s.communicator);
+}
+
+GlobalState gather_state(Simulation& s) {
+  GlobalState global = gather_positions(s);
+  gather_velocities(s, global);
   return global;
 }
 
@@ -277,24 +262,51 @@ void scatter_state(Simulation& s, const GlobalState& global) {
   s.state = std::move(state);
 }
 
+// The same where the first `n_kept` owned nodes kept their numbers, and all but `nodes` of these
+// what they are.
+static void scatter_edited(Simulation& s, std::size_t n_kept, std::span<const std::int32_t> nodes,
+                           const GlobalState& global) {
+  State& state = s.state;
+  state.u.resize(3 * s.part.node_global.size());
+  state.v.resize(3 * s.part.node_global.size());
+  const auto take = [&](std::size_t local) {
+    const auto from = 3 * static_cast<std::size_t>(s.part.node_global[local]);
+    std::copy_n(&global.u[from], 3, &state.u[3 * local]);
+    std::copy_n(&global.v[from], 3, &state.v[3 * local]);
+  };
+  for (const std::int32_t i : nodes)
+    if (const std::int32_t local = s.part.node_local[static_cast<std::size_t>(i)]; local >= 0)
+      take(static_cast<std::size_t>(local));
+  for (std::size_t local = n_kept; local < s.part.node_global.size(); ++local) take(local);
+  const auto n_fields = static_cast<std::size_t>(s.model.averages.n_fields);
+  state.theta.assign(s.part.node_global.size() * n_fields, 0.0);
+  state.history.assign(state.history.size(), 0.0);
+}
+
 void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutRecord& record) {
   if (s.corners.first.empty()) s.corners = node_corners(s.mesh);
+  if (global.v.empty()) gather_velocities(s, global);
   const EditedElements edited = find_edited(s.mesh, s.corners, edit);
   std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited.before);
   const Before before = measure_before(s, edited.before, nodes, global);
+  const bool is_step_local = keeps_step(s), is_energy_local = keeps_energy(s);
+  const double energy = energy_around(s, is_energy_local, old_nodes(s.mesh, nodes, edit), global);
   HistorySource history{.copies =
                             s.communicator->all_gather(copy_history(s.model, s.part, s.state))};
   const Known known{s.watch, s.look.is_done, s.look.at_step};
-  const bool is_step_local = keeps_step(s);
 
+  const auto n_kept = static_cast<std::size_t>(s.part.n_owned);
   const bool is_local = edit_whole(edit, global, s);
   nodes = united(nodes, nodes_of(s.mesh, edited.after));
   if (is_local)
-    update_topology(s, edited.after, nodes);
+    update_topology(s, edited.after, nodes, global.x);
   else
     rebuild_topology(s);
   restore_momentum(nodes, s.mass, before.motion, global, record);
-  scatter_state(s, global);
+  if (is_local)
+    scatter_edited(s, n_kept, nodes, global);
+  else
+    scatter_state(s, global);
   find_parents(s.mesh, edited, history);
   restore_history(s.model, s.part, history.copies, history.parent, history.scale, s.state);
   if (is_step_local) {
@@ -304,6 +316,8 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   } else {
     watch_state(s);
   }
+  if (s.energy)
+    s.energy->memory.works.cut += energy_around(s, is_energy_local, nodes, global) - energy;
   add_to_record(s, before, edited.after, nodes, record);
   s.log.new_edits.push_back({.frame = s.frame, .edit = edit});
 }

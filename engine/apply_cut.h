@@ -15,6 +15,8 @@ struct GlobalState {
 };
 // Collective.
 GlobalState gather_state(Simulation& s);
+// Without velocities. Collective.
+GlobalState gather_positions(Simulation& s);
 // This rank's part of it; time, step and last dt stay.
 void scatter_state(Simulation& s, const GlobalState& global);
 
@@ -25,8 +27,8 @@ std::vector<double> gather_owned(const Simulation& s, std::span<const double> ow
 std::vector<double> of_owned(std::span<const double> field, const Part& part);
 
 // Mesh, mass, owners, part, model, state, surface, holds, contact; linear and angular momentum of
-// the patch are restored by a rigid velocity increment. `global` is carried along. Collective. Adds
-// what it measured to `record`.
+// the patch are restored by a rigid velocity increment. `global` is carried along, with velocities
+// then. Collective. Adds what it measured to `record`.
 void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutRecord& record);
 
 }  // namespace trocar

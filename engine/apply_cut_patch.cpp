@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/exact_sum.h"
+#include "engine/energy_ledger.h"
 #include "engine/frame_watch.h"
 #include "solver/history.h"
 #include "solver/step.h"
+#include "solver/watch.h"
 
 namespace trocar {
 
@@ -55,9 +58,12 @@ std::vector<FixedMask> fixed_in_patch(const Simulation& s, std::span<const std::
 void set_state(const Simulation& s, const PatchState& state, Patch& patch) {
   patch.state = make_state(patch.model);
   patch.state.time = patch.state.history_time = s.state.time;
-  for (std::size_t i = 0; i < patch.sub.node.size(); ++i)
-    std::copy_n(&state.global.u[3 * static_cast<std::size_t>(patch.sub.node[i])], 3,
-                &patch.state.u[3 * i]);
+  patch.state.last_dt = s.state.last_dt;
+  for (std::size_t i = 0; i < patch.sub.node.size(); ++i) {
+    const std::size_t from = 3 * static_cast<std::size_t>(patch.sub.node[i]);
+    std::copy_n(&state.global.u[from], 3, &patch.state.u[3 * i]);
+    std::copy_n(&state.global.v[from], 3, &patch.state.v[3 * i]);
+  }
   if (!state.history.empty())
     restore_history(patch.model, patch.part, state.history,
                     values_of(state.parent, patch.sub.element),
@@ -65,13 +71,10 @@ void set_state(const Simulation& s, const PatchState& state, Patch& patch) {
   average_volume_change(patch.model, patch.state, patch.scratch);
 }
 
-}  // namespace
-
-std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
-                                  const PatchState& state) {
+std::unique_ptr<Patch> make_patch_of_nodes(const Simulation& s, std::span<const std::int32_t> free,
+                                           const PatchState& state) {
   auto made = std::make_unique<Patch>();
   Patch& patch = *made;
-  const std::vector<std::int32_t> free = free_nodes(s, edited, state.n_rings);
   patch.sub = make_sub_mesh(s.mesh, elements_of_forces(s, free));
   MassScaling scaling;
   if (s.added_mass) scaling = take_in_clusters(s, patch.sub);
@@ -85,9 +88,36 @@ std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int3
   return made;
 }
 
+double sum_of(std::initializer_list<std::span<const double>> lists) {
+  ExactSum sum;
+  for (const std::span<const double> list : lists)
+    for (const double term : list) sum.add(term);
+  return sum.value();
+}
+
+}  // namespace
+
+std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
+                                  const PatchState& state) {
+  return make_patch_of_nodes(s, free_nodes(s, edited, state.n_rings), state);
+}
+
+// Terms of what lies beyond the nodes are the same before and after, to the last bit.
+double patch_energy(const Simulation& s, std::span<const std::int32_t> nodes,
+                    const PatchState& state) {
+  const std::unique_ptr<Patch> patch = make_patch_of_nodes(s, nodes, state);
+  compute_force(patch->model, patch->state, patch->scratch);
+  EnergyTerms terms;
+  energy_terms(patch->model, patch->part, patch->state, terms);
+  std::vector<double> kinetic, gravity;
+  add_nodal_energies(*patch, kinetic, gravity);
+  return sum_of({terms.strain, terms.volumetric, terms.hourglass, kinetic, gravity});
+}
+
 Watch watch_patch(const Simulation& s, Patch& patch) {
   Watch w = watch(patch.model, patch.part, patch.state);
-  if (s.scene.solver.stable_step == StableStep::frequency && w.least_J > 0)
+  const bool by_frequency = s.scene.solver.stable_step == StableStep::frequency;
+  if (by_frequency && w.least_J > 0 && w.stable_step < s.watch.stable_step)
     w.stable_step =
         std::max(w.stable_step, search_step(patch, search_amplitude(s), Communicator()));
   for (std::int32_t* element : {&w.stable_element, &w.least_J_element})

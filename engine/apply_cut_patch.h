@@ -33,8 +33,15 @@ struct PatchState {
 std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
                                   const PatchState& state);
 
-// Least bounds of its elements and, if the scene's step is a frequency's, the step of its highest
-// frequency; elements by their numbers in the mesh.
+// Of all elements that the nodes' forces depend on, everything but these nodes held, with the
+// velocities of `state`: what an edit changes of the body's energy it changes of this one, for the
+// same nodes before and after (all corners of edited elements, before and after). Without history
+// and scaled masses. [J]
+double patch_energy(const Simulation& s, std::span<const std::int32_t> nodes,
+                    const PatchState& state);
+
+// Least bounds of its elements and, if the scene's step is a frequency's and they are below that of
+// s.watch, the step of its highest frequency; elements by their numbers in the mesh.
 Watch watch_patch(const Simulation& s, Patch& patch);
 
 // The body's watch, where it is of before the edit, as it is after it: the smaller of both steps is

@@ -27,18 +27,15 @@ void update_pieces(const SubMesh& around, Simulation& s) {
   if (count_pieces(around.mesh) > 1) s.n_pieces = count_pieces(s.mesh);
 }
 
-void update_part_and_model(Simulation& s, std::span<const std::int32_t> elements,
-                           std::span<const std::int32_t> nodes) {
-  const int rank = s.communicator->rank();
-  update_part(s.mesh, s.corners, s.node_owner, nodes, s.part);
-  s.halo = make_halo(s.mesh, s.node_owner, s.part, rank);
+void update_part_and_model(Simulation& s, const ModelEdit& edit) {
+  update_part(s.mesh, s.corners, s.node_owner, edit.nodes, s.part);
+  s.halo = make_halo(s.mesh, s.corners, s.node_owner, s.part);
   edit_model(
       {.mesh = s.mesh, .part = s.part, .materials = s.materials, .fixed = s.fixed, .mass = s.mass},
-      elements, nodes, s.model);
+      edit, s.model);
   s.neighbours = make_neighbours(s.halo, s.model, s.contact != nullptr, *s.communicator);
-  s.scratch = make_scratch(s.model);
-  if (s.energy) s.scratch.damping_work.assign(static_cast<std::size_t>(s.model.n_owned), 0.0);
-  for (const std::int32_t e : elements)
+  fit_scratch(s.model, s.scratch);
+  for (const std::int32_t e : edit.elements)
     if (const std::int64_t k = s.part.place_of(e); k >= 0)
       s.altitude[static_cast<std::size_t>(k)] = least_altitude(s.mesh, e, s.mesh.X);
 }
@@ -63,15 +60,16 @@ bool keeps_places(const Simulation& s, const MeshEdit& edit) {
 }
 
 void update_topology(Simulation& s, std::span<const std::int32_t> elements,
-                     std::span<const std::int32_t> nodes) {
+                     std::span<const std::int32_t> nodes, std::span<const Vec3> x) {
   const std::vector<std::int32_t> touching = elements_around(s.corners, nodes);
   const SubMesh around =
       make_sub_mesh(s.mesh, elements_around(s.corners, nodes_of(s.mesh, touching)));
   update_mass(around, nodes, s);
   update_surface(s.mesh, {nodes, touching, around}, s.surface);
   update_pieces(around, s);
+  if (!s.boxes.is_empty()) update_element_boxes(s.mesh, x, nodes, touching, s.boxes);
   if (holds_one(s.part, elements))
-    update_part_and_model(s, elements, nodes);
+    update_part_and_model(s, {elements, nodes, touching});
   else
     s.part.node_local.resize(s.mesh.X.size(), -1);
   follow_model(s);

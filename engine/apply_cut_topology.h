@@ -16,8 +16,9 @@ namespace trocar {
 bool keeps_places(const Simulation& s, const MeshEdit& edit);
 
 // elements: edited ones; nodes: all their corners, before and after the edit; both ascending.
-// Collective. The result is rebuild_topology's, but for the state that this one forgets.
+// x (n_nodes) present positions [m]. Collective. The result is rebuild_topology's, but for the
+// state and the boxes of elements that this one forgets.
 void update_topology(Simulation& s, std::span<const std::int32_t> elements,
-                     std::span<const std::int32_t> nodes);
+                     std::span<const std::int32_t> nodes, std::span<const Vec3> x);
 
 }  // namespace trocar

@@ -170,6 +170,12 @@ std::vector<double> least_altitudes(const Simulation& s) {
   return altitude;
 }
 
+// Looks at the whole mesh, so that the first frame with a blade in the tissue need not.
+void prepare_first_cut(Simulation& s) {
+  s.corners = node_corners(s.mesh);
+  s.boxes = make_element_boxes(s.mesh, s.mesh.X);
+}
+
 double least_of_ranks(const std::vector<double>& values, const Communicator& communicator) {
   double least = std::numeric_limits<double>::max();
   for (const double value : values) least = std::min(least, value);
@@ -228,6 +234,7 @@ void rebuild_topology(Simulation& s) {
   s.surface = boundary_surface(s.mesh);
   s.n_pieces = count_pieces(s.mesh);
   s.altitude = least_altitudes(s);
+  s.boxes = {};
   follow_model(s);
 }
 
@@ -256,6 +263,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   build_instruments(loaded, s);
   s.body_crc = crc_of_body(s);
   rebuild_topology(s);
+  if (!s.cuts.empty()) prepare_first_cut(s);
   s.state = make_state(s.model);
   refresh_surface(s);
   watch_state(s);

@@ -26,12 +26,13 @@ Box surface_box(const Simulation& s) {
 }
 
 // Where the blade's edge is inside the tissue; for a plane body its tip alone.
-void locate_edge(const Simulation& s, const GlobalState& global, std::span<const Vec3> edge,
+void locate_edge(Simulation& s, const GlobalState& global, std::span<const Vec3> edge,
                  CutStage& stage) {
   stage.engaged.clear();
   const bool is_plane = s.mesh.dimension() == 2;
   const std::size_t n = is_plane ? 1 : edge.size();
-  for (const Location& location : locate_points(s.mesh, global.x, edge.first(n)))
+  if (s.boxes.is_empty()) s.boxes = make_element_boxes(s.mesh, global.x);
+  for (const Location& location : locate_points(s.mesh, global.x, edge.first(n), s.boxes))
     if (location.element >= 0) stage.engaged.push_back(location);
   const double spacing = n > 1 ? (edge[1] - edge[0]).norm() : s.scene.tissue.thickness;
   stage.engaged_length = spacing * static_cast<double>(stage.engaged.size());
@@ -171,7 +172,7 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
   if (!is_near && !stage.is_in_stroke) return;
 
   const double start = monotonic_seconds();
-  if (!global) global = gather_state(s);
+  if (!global) global = gather_positions(s);
   locate_edge(s, *global, sweep.after, stage);
   if (!stage.is_in_stroke) {
     if (stage.engaged.empty()) return;

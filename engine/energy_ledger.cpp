@@ -27,25 +27,25 @@ Vec3 velocity_of(const State& state, std::int32_t local) {
   return {v[0], v[1], v[2]};
 }
 
-// 1/2 m v- · v- + dt/2 v- · f and -m g · u of each owned node.
-void take_nodes(const Simulation& s, std::vector<double>& kinetic, std::vector<double>& gravity) {
-  const double half_dt = s.state.last_dt / 2;
-  for (std::int64_t i = 0; i < s.model.n_owned; ++i) {
+}  // namespace
+
+void add_nodal_energies(const RankBody& body, std::vector<double>& kinetic,
+                        std::vector<double>& gravity) {
+  const double half_dt = body.state.last_dt / 2;
+  for (std::int64_t i = 0; i < body.model.n_owned; ++i) {
     double v2 = 0, vf = 0, gu = 0;
     for (std::int64_t j = 0; j < 3; ++j) {
       const auto k = static_cast<std::size_t>(3 * i + j);
-      v2 += s.state.v[k] * s.state.v[k];
-      vf += s.state.v[k] * s.scratch.force[k];
-      gu += s.model.options.gravity[j] * s.state.u[k];
+      v2 += body.state.v[k] * body.state.v[k];
+      vf += body.state.v[k] * body.scratch.force[k];
+      gu += body.model.options.gravity[j] * body.state.u[k];
     }
-    const double m = s.model.mass[static_cast<std::size_t>(i)];
+    const double m = body.model.mass[static_cast<std::size_t>(i)];
     kinetic.push_back(0.5 * m * v2 + half_dt * vf);
     gravity.push_back(-m * gu);
   }
-  add_cluster_kinetic(s.model, s.state.v, kinetic);
+  add_cluster_kinetic(body.model, body.state.v, kinetic);
 }
-
-}  // namespace
 
 void open_energy_ledger(Simulation& s) {
   s.energy = std::make_unique<EnergyLedger>();
@@ -62,7 +62,7 @@ EnergyState mechanical_energy(Simulation& s) {
   energy_terms(s.model, s.part, s.state, terms);
   terms.strain.insert(terms.strain.end(), terms.volumetric.begin(), terms.volumetric.end());
   std::vector<double> kinetic, gravity;
-  take_nodes(s, kinetic, gravity);
+  add_nodal_energies(s, kinetic, gravity);
   const Communicator& communicator = *s.communicator;
   return {.kinetic = sum_over_ranks(kinetic, communicator),
           .strain = sum_over_ranks(terms.strain, communicator),

@@ -13,6 +13,7 @@
 #include "base/exact_sum.h"
 #include "base/vec.h"
 #include "engine/frame_log.h"
+#include "solver/rank_body.h"
 
 namespace trocar {
 
@@ -41,6 +42,10 @@ void open_energy_ledger(Simulation& s);
 
 // Kinetic, strain and hourglass energy and that in the field of gravity. Collective.
 EnergyState mechanical_energy(Simulation& s);
+// Appends 1/2 m v- · v- + dt/2 v- · f and -m g · u of each owned node; forces are those of the
+// present displacement.
+void add_nodal_energies(const RankBody& body, std::vector<double>& kinetic,
+                        std::vector<double>& gravity);
 
 // Empties the sums of the frame; call when its contacts are known.
 void begin_frame_work(Simulation& s);

@@ -1,6 +1,7 @@
 #include "engine/locate.h"
 
 #include <algorithm>
+#include <ranges>
 
 #include "base/box.h"
 #include "mesh/hex_split.h"
@@ -71,15 +72,14 @@ Box box_of(std::span<const std::int32_t> corner, std::span<const Vec3> x) {
   return box;
 }
 
-}  // namespace
-
-std::vector<Location> locate_points(const Mesh& mesh, std::span<const Vec3> x,
-                                    std::span<const Vec3> points) {
+// `elements`: ascending numbers.
+template <class Elements>
+std::vector<Location> locate_in(const Mesh& mesh, std::span<const Vec3> x,
+                                std::span<const Vec3> points, const Elements& elements) {
   std::vector<Location> location(points.size());
-  if (points.empty()) return location;
   Box all;
   for (const Vec3& point : points) all.add(point);
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+  for (const std::int32_t e : elements) {
     const Box box = box_of(mesh.corners(e), x);
     if (!box.overlaps(all, margin)) continue;
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -89,6 +89,21 @@ std::vector<Location> locate_points(const Mesh& mesh, std::span<const Vec3> x,
     }
   }
   return location;
+}
+
+}  // namespace
+
+std::vector<Location> locate_points(const Mesh& mesh, std::span<const Vec3> x,
+                                    std::span<const Vec3> points) {
+  return locate_in(mesh, x, points, std::views::iota(0, mesh.n_elements()));
+}
+
+std::vector<Location> locate_points(const Mesh& mesh, std::span<const Vec3> x,
+                                    std::span<const Vec3> points, ElementBoxes& boxes) {
+  Box all;
+  for (const Vec3& point : points)
+    for (const double way : {-2 * margin, 2 * margin}) all.add((point.array() + way).matrix());
+  return locate_in(mesh, x, points, elements_near(mesh, x, all, boxes));
 }
 
 Location locate_nearest(const Mesh& mesh, std::span<const Vec3> x, const Vec3& point) {

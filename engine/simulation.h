@@ -21,6 +21,7 @@
 #include "engine/sleep.h"
 #include "engine/surface_view.h"
 #include "engine/tool.h"
+#include "mesh/element_boxes.h"
 #include "mesh/facets.h"
 #include "mesh/node_corners.h"
 #include "mesh/partition.h"
@@ -84,7 +85,8 @@ struct Simulation : RankBody {
 
   // Replicated on every rank.
   Mesh mesh;
-  NodeCorners corners;                   // empty before the first cut
+  NodeCorners corners;                   // empty before the first cut, unless prepared for it
+  ElementBoxes boxes;                    // the same; of positions at some time
   std::vector<Material> materials;       // (n_regions)
   std::vector<double> mass;              // (n_nodes) [kg]
   std::vector<FixedMask> fixed;          // (n_nodes)

@@ -82,11 +82,12 @@ void update_part(const Mesh& mesh, const NodeCorners& corners,
 // global numbers: so both sides of an exchange list the same nodes in the same order.
 using RankNode = std::pair<std::int32_t, std::int32_t>;
 
-static std::vector<RankNode> nodes_to_send(const Mesh& mesh,
+// elements: at least those of the part that have a halo node.
+static std::vector<RankNode> nodes_to_send(const Mesh& mesh, std::span<const std::int32_t> elements,
                                            std::span<const std::int32_t> node_owner,
                                            const Part& part, int rank) {
   std::vector<RankNode> pairs;
-  for (const std::int32_t e : part.element_global)
+  for (const std::int32_t e : elements)
     for (const std::int32_t other : mesh.corners(e)) {
       if (node_owner[other] == rank) continue;
       for (const std::int32_t own : mesh.corners(e))
@@ -105,8 +106,8 @@ static std::vector<RankNode> nodes_to_receive(std::span<const std::int32_t> node
   return pairs;
 }
 
-Halo make_halo(const Mesh& mesh, std::span<const std::int32_t> node_owner, const Part& part,
-               int rank) {
+static Halo make_halo(const Mesh& mesh, std::span<const std::int32_t> elements,
+                      std::span<const std::int32_t> node_owner, const Part& part, int rank) {
   // Whoever sends to this rank also receives from it: an element on the border is on both sides.
   Halo halo;
   for (const auto& [other, local] : nodes_to_receive(node_owner, part)) {
@@ -115,11 +116,23 @@ Halo make_halo(const Mesh& mesh, std::span<const std::int32_t> node_owner, const
     halo.neighbours.back().receive.push_back(local);
   }
   auto neighbour = halo.neighbours.begin();
-  for (const auto& [other, local] : nodes_to_send(mesh, node_owner, part, rank)) {
+  for (const auto& [other, local] : nodes_to_send(mesh, elements, node_owner, part, rank)) {
     while (neighbour->rank != other) ++neighbour;
     neighbour->send.push_back(local);
   }
   return halo;
+}
+
+Halo make_halo(const Mesh& mesh, std::span<const std::int32_t> node_owner, const Part& part,
+               int rank) {
+  return make_halo(mesh, part.element_global, node_owner, part, rank);
+}
+
+Halo make_halo(const Mesh& mesh, const NodeCorners& corners,
+               std::span<const std::int32_t> node_owner, const Part& part) {
+  const auto halo_nodes =
+      std::span(part.node_global).subspan(static_cast<std::size_t>(part.n_owned));
+  return make_halo(mesh, elements_around(corners, halo_nodes), node_owner, part, part.rank);
 }
 
 HaloExchange::HaloExchange(const Halo& halo, int width) : halo_(&halo), width_(width) {
@@ -172,6 +185,13 @@ std::vector<double> all_gather_field(const Part& part, std::int32_t n_nodes, int
                                      std::span<const double> local, Communicator& communicator) {
   const auto n = static_cast<std::size_t>(width);
   CHECK_OP(local.size(), >=, static_cast<std::size_t>(part.n_owned) * n);
+  if (communicator.size() == 1) {
+    CHECK_OP(part.n_owned, ==, n_nodes);
+    std::vector<double> field(static_cast<std::size_t>(n_nodes) * n);
+    for (std::int32_t k = 0; k < part.n_owned; ++k)
+      std::copy_n(local.data() + n * k, n, field.data() + n * part.node_global[k]);
+    return field;
+  }
   // Each node travels as its global number (exact in a double) and its values.
   std::vector<double> records;
   records.reserve(static_cast<std::size_t>(part.n_owned) * (n + 1));

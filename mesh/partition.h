@@ -56,6 +56,9 @@ struct Halo {
 };
 Halo make_halo(const Mesh& mesh, std::span<const std::int32_t> node_owner, const Part& part,
                int rank);
+// The same in time of the halo's.
+Halo make_halo(const Mesh& mesh, const NodeCorners& corners,
+               std::span<const std::int32_t> node_owner, const Part& part);
 
 // `width` doubles of each local node.
 struct NodalField {

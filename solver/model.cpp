@@ -243,31 +243,50 @@ void take_positions(const Source& source, Model& model) {
   }
 }
 
-void link_nodes(const Source& source, Model& model) {
-  take_positions(source, model);
-  order_sums(model);
-  link_volume_averages(source.mesh, source.materials, model);
-}
-
 // Where element k of the part is.
 struct Place {
-  ElementBlocks& blocks;
+  std::size_t list;
   std::int64_t lane;
 };
-Place place_of(std::int32_t k, Model& model) {
-  for (ElementBlocks& blocks : model.blocks) {
+Place place_of(std::int32_t k, const Model& model) {
+  for (std::size_t list = 0; list < model.blocks.size(); ++list) {
+    const ElementBlocks& blocks = model.blocks[list];
     const auto end = blocks.element_local.begin() + blocks.n_elements;
     const auto at = std::lower_bound(blocks.element_local.begin(), end, k);
-    if (at != end && *at == k) return {blocks, at - blocks.element_local.begin()};
+    if (at != end && *at == k) return {list, at - blocks.element_local.begin()};
   }
   CHECK(false);
-  return {model.blocks.front(), 0};
+  return {0, 0};
+}
+
+// Elements ascend, so that those of a block mostly follow each other.
+std::vector<BlockPlace> blocks_of(const Part& part, std::span<const std::int32_t> elements,
+                                  const Model& model) {
+  std::vector<BlockPlace> blocks;
+  for (const std::int32_t e : elements) {
+    const std::int64_t k = part.place_of(e);
+    if (k < 0) continue;
+    const Place place = place_of(static_cast<std::int32_t>(k), model);
+    const BlockPlace block{
+        .list = place.list,
+        .block = static_cast<std::int32_t>(place.lane / model.blocks[place.list].lanes)};
+    if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
+  }
+  return blocks;
+}
+
+std::vector<std::int32_t> owned_of(const Part& part, std::span<const std::int32_t> nodes) {
+  std::vector<std::int32_t> owned;
+  for (const std::int32_t node : nodes)
+    if (const std::int32_t i = part.node_local[node]; i >= 0 && i < part.n_owned)
+      owned.push_back(i);
+  return owned;
 }
 
 // With the padding that repeats its corners.
 void refill(const Source& source, std::int32_t k, Model& model) {
   const Place place = place_of(k, model);
-  ElementBlocks& blocks = place.blocks;
+  ElementBlocks& blocks = model.blocks[place.list];
   fill_lane(source, place.lane, blocks, model.element_step);
   check_step(source, static_cast<std::size_t>(k), model);
   if (place.lane + 1 < blocks.n_elements) return;
@@ -292,31 +311,30 @@ Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> 
   make_lists(source, model);
   fill_blocks(source, model);
   model.n_history = place_history(model.blocks);
-  link_nodes(source, model);
+  take_positions(source, model);
+  order_sums(model);
+  link_volume_averages(mesh, materials, model);
   return model;
 }
 
-void edit_model(const ModelSource& from, std::span<const std::int32_t> elements,
-                std::span<const std::int32_t> nodes, Model& model) {
+void edit_model(const ModelSource& from, const ModelEdit& edit, Model& model) {
   CHECK(model.clusters.node.empty());
   const Source source{from.mesh, from.part, from.materials, model.options};
   resize_nodes(from.part, model);
   const FixedMask plane = held_by_plane(from.mesh);
-  for (const std::int32_t node : nodes)
-    if (const std::int32_t i = from.part.node_local[node]; i >= 0 && i < model.n_owned)
-      take_node(from, i, plane, model);
-  for (const std::int32_t e : elements)
+  const std::vector<std::int32_t> owned = owned_of(from.part, edit.nodes);
+  for (const std::int32_t i : owned) take_node(from, i, plane, model);
+  for (const std::int32_t e : edit.elements)
     if (const std::int64_t k = from.part.place_of(e); k >= 0)
       refill(source, static_cast<std::int32_t>(k), model);
-  for (ElementBlocks& blocks : model.blocks) {
-    blocks.target.clear();
+  for (ElementBlocks& blocks : model.blocks)
     for (std::int64_t lane = 0; blocks.reads_halo && lane < std::ssize(blocks.element_local);
          ++lane)  // numbers of halo nodes have moved up
       fill_corners(source, lane, blocks);
-  }
-  model.sums = {};
+  take_positions(source, model);
+  edit_sums(owned, blocks_of(from.part, edit.touching, model), model);
   model.averages = {};
-  link_nodes(source, model);
+  link_volume_averages(from.mesh, from.materials, model);
 }
 
 std::vector<RestingElement> resting_elements(const Mesh& mesh, std::span<const Material> materials,
@@ -350,12 +368,18 @@ State make_state(const Model& model) {
 
 Scratch make_scratch(const Model& model) {
   Scratch scratch;
+  fit_scratch(model, scratch);
+  return scratch;
+}
+
+void fit_scratch(const Model& model, Scratch& scratch) {
+  const auto n_owned = static_cast<std::size_t>(model.n_owned);
   with_sums(model, scratch,
             [&](auto& sum) { sum.resize(static_cast<std::size_t>(model.sums.n_places) * 4); });
   scratch.volume_change.resize(static_cast<std::size_t>(model.averages.n_lanes));
-  scratch.force.resize(static_cast<std::size_t>(model.n_owned) * 3);
+  scratch.force.resize(3 * n_owned);
+  if (!scratch.damping_work.empty()) scratch.damping_work.resize(n_owned);
   scratch.viscous.resize(model.blocks.size());
-  return scratch;
 }
 
 }  // namespace trocar

@@ -190,5 +190,7 @@ struct Scratch {
   std::vector<std::uint8_t> is_asleep;
 };
 Scratch make_scratch(const Model& model);
+// After an edit: what the next step reads of places that are new is zero.
+void fit_scratch(const Model& model, Scratch& scratch);
 
 }  // namespace trocar

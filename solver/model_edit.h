@@ -1,6 +1,7 @@
 // A model after an edit that left every element its place in the lists: the numbers of edited
 // elements and nodes are made anew, the others stay. What is left in proportion to the model is the
-// order of sums, whole numbers only, and positions in single precision.
+// order of sums, whole numbers only (a pass over nodes on one thread of one rank, over elements
+// else), and positions in single precision.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +19,14 @@ struct ModelSource {
   std::span<const FixedMask> fixed;
   std::span<const double> mass;
 };
-// The part has the elements that it had, in lists that read halo nodes or don't as before.
-// elements: global numbers of those with other corners, positions or densities; nodes: all corners
-// of these, before and after. Without mass scaling. The result is build_model's.
-void edit_model(const ModelSource& source, std::span<const std::int32_t> elements,
-                std::span<const std::int32_t> nodes, Model& model);
+// Global numbers, ascending.
+struct ModelEdit {
+  std::span<const std::int32_t> elements;  // those with other corners, positions or densities
+  std::span<const std::int32_t> nodes;     // all corners of these, before and after
+  std::span<const std::int32_t> touching;  // all elements that touch the nodes now
+};
+// The part has the elements that it had, in lists that read halo nodes or don't as before. Without
+// mass scaling. The result is build_model's.
+void edit_model(const ModelSource& source, const ModelEdit& edit, Model& model);
 
 }  // namespace trocar

@@ -149,6 +149,62 @@ void finish(const NodeForces<float>& task, std::span<const std::int32_t> node) {
   active_kernels().nodes.force_of_singles(task, node.data(), std::ssize(node));
 }
 
+// Of each of the nodes, counted through all lists.
+std::vector<std::int32_t> last_blocks(std::span<const std::int32_t> nodes,
+                                      std::span<const BlockPlace> places, const Model& model) {
+  std::vector<std::int32_t> first{0}, last(nodes.size(), -1);
+  for (const ElementBlocks& blocks : model.blocks) first.push_back(first.back() + blocks.n_blocks);
+  for (const BlockPlace& place : places) {
+    const ElementBlocks& blocks = model.blocks[place.list];
+    const std::int64_t n = corners_of_block(blocks);
+    for (std::int64_t k = place.block * n; k < (place.block + 1) * n; ++k) {
+      const auto node = std::lower_bound(nodes.begin(), nodes.end(), blocks.corner[k]);
+      if (node == nodes.end() || *node != blocks.corner[k]) continue;
+      std::int32_t& block = last[static_cast<std::size_t>(node - nodes.begin())];
+      block = std::max(block, first[place.list] + place.block);
+    }
+  }
+  return last;
+}
+
+// Own nodes of the one run: the others keep their order.
+void edit_own_nodes(std::span<const std::int32_t> nodes, std::span<const std::int32_t> last_block,
+                    SumOrder& sums) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> changed, all;  // last block, node
+  for (std::size_t k = 0; k < nodes.size(); ++k) changed.emplace_back(last_block[k], nodes[k]);
+  std::sort(changed.begin(), changed.end());
+  std::vector<std::uint8_t> is_changed(sums.node.size() + nodes.size(), 0);
+  for (const std::int32_t i : nodes) is_changed[i] = 1;
+  all.reserve(is_changed.size());
+  auto next = changed.begin();
+  for (std::size_t k = 0; k < sums.node.size(); ++k) {
+    if (is_changed[sums.node[k]] != 0) continue;
+    const std::pair own(sums.last_block[k], sums.node[k]);
+    while (next != changed.end() && *next < own) all.push_back(*next++);
+    all.push_back(own);
+  }
+  all.insert(all.end(), next, changed.end());
+  sums.node.resize(all.size());
+  sums.last_block.resize(all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) std::tie(sums.last_block[k], sums.node[k]) = all[k];
+  sums.run_first = {0, static_cast<std::int32_t>(all.size())};
+}
+
+// Of these blocks, and of those that had the last node or have it now.
+void edit_rows(std::span<const BlockPlace> places, Model& model) {
+  const auto find = [&](ElementBlocks& blocks, std::size_t k) {
+    blocks.row[k] = row_of(model, blocks, static_cast<std::int64_t>(k) * row_lanes);
+  };
+  for (ElementBlocks& blocks : model.blocks)
+    for (std::size_t k = 0; k < blocks.row.size(); ++k)
+      if (blocks.row[k] == no_row_at_end) find(blocks, k);
+  for (const BlockPlace& place : places) {
+    ElementBlocks& blocks = model.blocks[place.list];
+    const auto n = static_cast<std::size_t>(blocks.lanes / row_lanes);
+    for (std::size_t k = 0; k < n; ++k) find(blocks, static_cast<std::size_t>(place.block) * n + k);
+  }
+}
+
 // As many as there are threads now.
 void add_runs(std::int64_t n_blocks, SumOrder& sums) {
   if (n_blocks == 0) return;
@@ -195,6 +251,20 @@ void finish_nodes(const Model& model, std::span<const std::int32_t> node, Scratc
                       .force = scratch.force.data()},
            node);
   });
+}
+
+void edit_sums(std::span<const std::int32_t> nodes, std::span<const BlockPlace> blocks,
+               Model& model) {
+  for (ElementBlocks& list : model.blocks) list.target.clear();
+  const bool is_one_run = model.sums.n_runs == 1 && model.sums.n_inside_runs == 1;
+  if (is_one_run && chunk_count(count_blocks(model)) == 1) {
+    edit_own_nodes(nodes, last_blocks(nodes, blocks, model), model.sums);
+    model.sums.n_places = model.n_local;
+    edit_rows(blocks, model);
+  } else {
+    model.sums = {};
+    order_sums(model);
+  }
 }
 
 }  // namespace trocar

@@ -14,6 +14,18 @@ namespace trocar {
 // and at the border as there are threads now.
 void order_sums(Model& model);
 
+struct BlockPlace {
+  std::size_t list = 0;
+  std::int32_t block = 0;  // of the list
+  bool operator==(const BlockPlace&) const = default;
+};
+// The same after an edit of a model whose sums were in order before it, in time of the edit's and
+// of whole numbers of its nodes and rows where one run does all and no list reads halo nodes.
+// nodes: local numbers of owned ones that meet other elements than before, ascending; blocks: all
+// those with elements at these nodes.
+void edit_sums(std::span<const std::int32_t> nodes, std::span<const BlockPlace> blocks,
+               Model& model);
+
 // Where the corner forces of a list are added.
 inline const std::vector<std::int32_t>& targets(const ElementBlocks& blocks) {
   return blocks.target.empty() ? blocks.corner : blocks.target;

@@ -81,6 +81,32 @@ TEST(Locate, looks_in_the_positions_that_it_is_given) {
   EXPECT_EQ(found[1].element, locate(mesh, Vec3(0.03, 0.02, 0)).element);
 }
 
+// Within the reach of the boxes and far beyond it.
+TEST(Locate, finds_the_same_by_boxes_as_without_them) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-0.1, 0.2);
+  for (const NamedMesh& named : all_meshes()) {
+    const Mesh& mesh = named.mesh;
+    ElementBoxes boxes = make_element_boxes(mesh, mesh.X);
+    for (const double strain : {0.0, 0.1, -0.05, 3.0}) {
+      std::vector<Vec3> x = mesh.X, points = mesh.X;
+      for (Vec3& point : x) point += strain * Vec3(point.y(), point.x(), 0);
+      points.insert(points.end(), x.begin(), x.end());
+      for (int k = 0; k < 100; ++k) points.emplace_back(place(random), place(random), 0);
+      for (std::size_t k = 0; k < points.size(); k += 7) {
+        const std::span some =
+            std::span(points).subspan(k, std::min<std::size_t>(3, points.size() - k));
+        const std::vector<Location> expected = locate_points(mesh, x, some);
+        const std::vector<Location> found = locate_points(mesh, x, some, boxes);
+        for (std::size_t j = 0; j < some.size(); ++j) {
+          EXPECT_EQ(found[j].element, expected[j].element) << named.name;
+          EXPECT_EQ(found[j].weight, expected[j].weight) << named.name;
+        }
+      }
+    }
+  }
+}
+
 TEST(LocateNearest, agrees_with_locate_inside) {
   std::mt19937 random(2);
   for (const NamedMesh& named : simplex_meshes())

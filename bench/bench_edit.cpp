@@ -1,0 +1,122 @@
+// What an edit of a running scene costs: the same incision as in bench_cut scaling, 6 cells long
+// and 3 deep, in ever larger boxes of tetrahedra at rest, through the whole of cut_along_blades
+// (bench_cut times the cut alone). Markdown to stdout.
+// bench_edit [--energy] [--once] [N]...: boxes of N cells a side (default 15, 30); --energy: with
+// the ledger that a metrics output keeps; --once: one run in place of the quickest of five
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "base/timers.h"
+#include "bench/machine.h"
+#include "engine/cut_stage.h"
+#include "engine/energy_ledger.h"
+#include "engine/frame_report.h"
+#include "engine_started.h"
+
+using namespace trocar;
+
+namespace {
+
+constexpr double cell = 4e-3, frame_rate = 250, blade_depth = 3.1;
+
+std::string number(double value) {
+  return std::to_string(value);
+}
+
+// The blade comes down, runs along x in half cells a frame and goes up again.
+// `shift`: of the middle between nodes [cells].
+std::string path_of(double top, double shift) {
+  const auto key = [&](double time, double x, double y, double z) {
+    return "{ time = " + number(time) + ", position = [" + number(cell * (x + shift)) + ", " +
+           number(cell * (y + shift)) + ", " + number(z) +
+           "], direction = [0, 0, -1], forward = [1, 0.2, 0] },\n";
+  };
+  const double high = top + cell, low = top - blade_depth * cell;
+  return "path = [\n" + key(0, -3.2, 0.3, high) + key(0.033, -3.2, 0.3, low) +
+         key(0.085, 3.3, 1.6, low) + key(0.118, 3.3, 1.6, high) + "]\n";
+}
+
+std::string scene_of(int n) {
+  const double side = cell * n / 2;
+  const std::string s = number(side), top = number(2 * side), cells = std::to_string(n);
+  return "[time]\nduration = 1\nframe_rate = " + number(frame_rate) +
+         "\n[tissue.shape]\nkind = \"box\"\nelements = \"tet4-kuhn\"\nlow = [-" + s + ", -" + s +
+         ", 0]\nhigh = [" + s + ", " + s + ", " + top + "]\ncells = [" + cells + ", " + cells +
+         ", " + cells +
+         "]\n[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\ndensity = 1000\n"
+         "[[support]]\nregion = \"z-\"\nfix = \"xyz\"\n"
+         "[[instrument]]\nkind = \"scalpel\"\nblade_length = \"16 mm\"\n" +
+         path_of(2 * side, n % 2 == 1 ? 0.5 : 0);
+}
+
+struct Cost {
+  int n_elements = 0;
+  std::vector<double> edits, others;  // frames that edit, others with the blade in the body [s]
+};
+
+Cost cut_box(int n, bool has_energy) {
+  const auto started = built(scene_of(n));
+  Simulation& s = *started->s;
+  if (has_energy) open_energy_ledger(s);
+  Cost cost{.n_elements = s.mesh.n_elements()};
+  const CutStage& stage = s.cuts.front();
+  for (; s.frame < 31; ++s.frame) {
+    const double t0 = static_cast<double>(s.frame) / frame_rate;
+    const std::int64_t before = stage.strokes.empty() ? 0 : stage.strokes.back().n_edits;
+    const double start = bench_seconds();
+    cut_along_blades(s, {.t0 = t0, .t1 = t0 + 1 / frame_rate});
+    const double seconds = bench_seconds() - start;
+    refresh_surface(s);
+    if (stage.strokes.empty()) continue;
+    const bool has_edit = stage.strokes.back().n_edits > before;
+    if (has_edit || stage.is_in_stroke) (has_edit ? cost.edits : cost.others).push_back(seconds);
+  }
+  return cost;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 0 : values[values.size() / 2];
+}
+
+// Frame by frame the quickest of some runs: others may use the machine.
+Cost least_cost(int n, bool has_energy, int n_runs) {
+  Cost best = cut_box(n, has_energy);
+  for (int run = 1; run < n_runs; ++run) {
+    const Cost cost = cut_box(n, has_energy);
+    for (std::size_t k = 0; k < best.edits.size(); ++k)
+      best.edits[k] = std::min(best.edits[k], cost.edits[k]);
+    for (std::size_t k = 0; k < best.others.size(); ++k)
+      best.others[k] = std::min(best.others[k], cost.others[k]);
+  }
+  return best;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<int> cells;
+  bool has_energy = false;
+  int n_runs = 5;
+  for (int k = 1; k < argc; ++k)
+    if (std::strcmp(argv[k], "--energy") == 0)
+      has_energy = true;
+    else if (std::strcmp(argv[k], "--once") == 0)
+      n_runs = 1;
+    else
+      cells.push_back(std::atoi(argv[k]));
+  if (cells.empty()) cells = {15, 30};
+  std::printf(
+      "| tetrahedra | edits | median, longest frame with an edit [ms] | median without |\n"
+      "|---|---|---|---|\n");
+  for (const int n : cells) {
+    const Cost cost = least_cost(n, has_energy, n_runs);
+    std::printf("| %d | %zu | %.2f, %.2f | %.2f |\n", cost.n_elements, cost.edits.size(),
+                1e3 * median(cost.edits),
+                1e3 * *std::max_element(cost.edits.begin(), cost.edits.end()),
+                1e3 * median(cost.others));
+    std::fflush(stdout);
+  }
+}

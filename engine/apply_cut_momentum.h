@@ -1,0 +1,26 @@
+// Linear and angular momentum of the nodes around an edit, kept through it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "engine/apply_cut.h"
+
+namespace trocar {
+
+// Mass, momentum and angular momentum about `centre` of some nodes.
+struct Motion {
+  double mass = 0, scale = 0, kinetic = 0;  // scale = sum |m v|
+  Vec3 centre = Vec3::Zero(), momentum = Vec3::Zero(), angular = Vec3::Zero();
+  Mat3 inertia = Mat3::Zero();
+};
+
+Motion motion_of(std::span<const std::int32_t> nodes, std::span<const double> mass,
+                 const GlobalState& state, const Vec3& about);
+
+// Gives the nodes the rigid increment a + w x (x - centre) that makes momentum and angular momentum
+// what they were.
+void restore_momentum(std::span<const std::int32_t> nodes, std::span<const double> mass,
+                      const Motion& before, GlobalState& state, CutRecord& record);
+
+}  // namespace trocar

@@ -1,0 +1,147 @@
+#include "mesh/element_boxes.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "base/check.h"
+#include "base/sort_unique.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr std::size_t leaf_size = 16;
+
+Box box_of(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
+  Box box;
+  for (const std::int32_t i : mesh.corners(e)) box.add(x[static_cast<std::size_t>(i)]);
+  return box;
+}
+
+// Leaves [begin, end) get the elements from first[begin] to first[end].
+void split(std::span<const Vec3> middle, std::size_t begin, std::size_t end, ElementBoxes& boxes) {
+  if (end - begin == 1) return;
+  const std::size_t half = begin + (end - begin) / 2;
+  const auto at = [&](std::size_t leaf) { return boxes.order.begin() + boxes.first[leaf]; };
+  Box box;
+  for (auto e = at(begin); e != at(end); ++e) box.add(middle[static_cast<std::size_t>(*e)]);
+  Eigen::Index axis = 0;
+  (box.high - box.low).maxCoeff(&axis);
+  std::nth_element(at(begin), at(half), at(end), [&](std::int32_t a, std::int32_t b) {
+    return middle[static_cast<std::size_t>(a)][axis] < middle[static_cast<std::size_t>(b)][axis];
+  });
+  split(middle, begin, half, boxes);
+  split(middle, half, end, boxes);
+}
+
+void fit_leaf(const Mesh& mesh, std::size_t leaf, ElementBoxes& boxes) {
+  Box& box = boxes.box[boxes.first.size() - 1 + leaf];
+  box = {};
+  for (std::int32_t k = boxes.first[leaf]; k < boxes.first[leaf + 1]; ++k)
+    box.add(box_of(mesh, boxes.order[static_cast<std::size_t>(k)], boxes.x));
+}
+
+void fit_parent(std::size_t k, ElementBoxes& boxes) {
+  boxes.box[k] = boxes.box[2 * k];
+  boxes.box[k].add(boxes.box[2 * k + 1]);
+}
+
+void fit_all(const Mesh& mesh, std::span<const Vec3> x, ElementBoxes& boxes) {
+  boxes.x.assign(x.begin(), x.end());
+  const std::size_t n_leaves = boxes.first.size() - 1;
+  for (std::size_t leaf = 0; leaf < n_leaves; ++leaf) fit_leaf(mesh, leaf, boxes);
+  for (std::size_t k = n_leaves; --k > 0;) fit_parent(k, boxes);
+}
+
+// Largest component of a node's way since the boxes were fitted.
+double largest_way(std::span<const Vec3> x, const ElementBoxes& boxes) {
+  Eigen::Array3d largest = Eigen::Array3d::Zero();
+  for (std::size_t i = 0; i < x.size(); ++i)
+    largest = largest.max((x[i] - boxes.x[i]).array().abs());
+  return largest.maxCoeff();
+}
+
+double mean_size(const Mesh& mesh, std::span<const Vec3> x) {
+  double sum = 0;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    const Box box = box_of(mesh, e, x);
+    sum += (box.high - box.low).maxCoeff();
+  }
+  return sum / std::max(1, mesh.n_elements());
+}
+
+}  // namespace
+
+ElementBoxes make_element_boxes(const Mesh& mesh, std::span<const Vec3> x) {
+  const auto n = static_cast<std::size_t>(mesh.n_elements());
+  const std::size_t n_leaves = std::bit_ceil(n / leaf_size + 1);
+  ElementBoxes boxes{.order = std::vector<std::int32_t>(n),
+                     .first = std::vector<std::int32_t>(n_leaves + 1),
+                     .leaf = std::vector<std::int32_t>(n),
+                     .box = std::vector<Box>(2 * n_leaves),
+                     .size = mean_size(mesh, x)};
+  std::iota(boxes.order.begin(), boxes.order.end(), 0);
+  for (std::size_t k = 0; k <= n_leaves; ++k)
+    boxes.first[k] = static_cast<std::int32_t>(n * k / n_leaves);
+  std::vector<Vec3> middle(n);
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    const Box box = box_of(mesh, e, x);
+    middle[static_cast<std::size_t>(e)] = 0.5 * (box.low + box.high);
+  }
+  split(middle, 0, n_leaves, boxes);
+  for (std::size_t leaf = 0; leaf < n_leaves; ++leaf)
+    for (std::int32_t k = boxes.first[leaf]; k < boxes.first[leaf + 1]; ++k)
+      boxes.leaf[static_cast<std::size_t>(boxes.order[static_cast<std::size_t>(k)])] =
+          static_cast<std::int32_t>(leaf);
+  fit_all(mesh, x, boxes);
+  return boxes;
+}
+
+void update_element_boxes(const Mesh& mesh, std::span<const Vec3> x,
+                          std::span<const std::int32_t> nodes,
+                          std::span<const std::int32_t> elements, ElementBoxes& boxes) {
+  CHECK_OP(boxes.leaf.size(), ==, mesh.element_type.size());
+  boxes.x.resize(x.size());
+  for (const std::int32_t i : nodes)
+    boxes.x[static_cast<std::size_t>(i)] = x[static_cast<std::size_t>(i)];
+  std::vector<std::int32_t> changed;  // places in the tree
+  for (const std::int32_t e : elements) changed.push_back(boxes.leaf[static_cast<std::size_t>(e)]);
+  sort_unique(changed);
+  for (const std::int32_t leaf : changed) fit_leaf(mesh, static_cast<std::size_t>(leaf), boxes);
+  for (std::int32_t& k : changed) k += static_cast<std::int32_t>(boxes.first.size()) - 1;
+  while (!changed.empty() && changed.front() > 1) {  // all of one level
+    for (std::int32_t& k : changed) k /= 2;
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    for (const std::int32_t k : changed) fit_parent(static_cast<std::size_t>(k), boxes);
+  }
+}
+
+std::vector<std::int32_t> elements_near(const Mesh& mesh, std::span<const Vec3> x, const Box& box,
+                                        ElementBoxes& boxes) {
+  CHECK_OP(boxes.x.size(), ==, x.size());
+  double way = largest_way(x, boxes);
+  if (way > 0.5 * boxes.size) {
+    fit_all(mesh, x, boxes);
+    way = 0;
+  }
+  const double margin = way * (1 + 1e-12);  // its own rounding
+  std::vector<std::int32_t> near;
+  std::vector<std::size_t> stack{1};
+  const std::size_t n_leaves = boxes.first.size() - 1;
+  while (!stack.empty()) {
+    const std::size_t k = stack.back();
+    stack.pop_back();
+    if (!boxes.box[k].overlaps(box, margin)) continue;
+    if (k < n_leaves) {
+      stack.insert(stack.end(), {2 * k, 2 * k + 1});
+      continue;
+    }
+    near.insert(near.end(), boxes.order.begin() + boxes.first[k - n_leaves],
+                boxes.order.begin() + boxes.first[k - n_leaves + 1]);
+  }
+  sort_unique(near);
+  return near;
+}
+
+}  // namespace trocar

@@ -1,0 +1,40 @@
+// Boxes of elements in a binary tree over them, for positions that move little between two
+// questions: what moved is asked for by a margin, so that a question costs a look at the nodes and
+// what is near. Topology may change as long as every element keeps its number.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/box.h"
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+struct ElementBoxes {
+  std::vector<Vec3> x;              // (n_nodes) positions that the boxes are of [m]
+  std::vector<std::int32_t> order;  // elements, leaf by leaf
+  std::vector<std::int32_t> first;  // (n_leaves + 1) into order
+  std::vector<std::int32_t> leaf;   // (n_elements)
+  std::vector<Box> box;             // (2 n_leaves) root 1, children 2 k and 2 k + 1, leaves last
+  double size = 0;                  // mean longest side of an element's box, when made [m]
+
+  bool is_empty() const { return leaf.empty(); }
+};
+
+// Splits at the median middle along the longest side.
+ElementBoxes make_element_boxes(const Mesh& mesh, std::span<const Vec3> x);
+
+// After an edit that split no hexahedron. nodes: those that moved or are new; elements: all that
+// touch them.
+void update_element_boxes(const Mesh& mesh, std::span<const Vec3> x,
+                          std::span<const std::int32_t> nodes,
+                          std::span<const std::int32_t> elements, ElementBoxes& boxes);
+
+// All elements whose boxes at x overlap `box`, and perhaps some that are near, ascending. Fits the
+// boxes anew where nodes have moved by more than half an element since.
+std::vector<std::int32_t> elements_near(const Mesh& mesh, std::span<const Vec3> x, const Box& box,
+                                        ElementBoxes& boxes);
+
+}  // namespace trocar

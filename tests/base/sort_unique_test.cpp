@@ -1,0 +1,45 @@
+#include "base/sort_unique.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <set>
+
+namespace trocar {
+namespace {
+
+// Of `count` numbers within [least, greatest].
+std::vector<std::int32_t> some_numbers(std::size_t count, std::int32_t least,
+                                       std::int32_t greatest) {
+  std::mt19937 random(1);
+  std::uniform_int_distribution<std::int32_t> number(least, greatest);
+  std::vector<std::int32_t> values(count);
+  for (std::int32_t& value : values) value = number(random);
+  return values;
+}
+
+constexpr std::int32_t lowest = std::numeric_limits<std::int32_t>::min(),
+                       highest = std::numeric_limits<std::int32_t>::max();
+
+// Few and many numbers, close together (by bits) and far apart (by sorting).
+TEST(SortUnique, leaves_each_number_once_and_ascending) {
+  for (const std::size_t count : {0U, 1U, 63U, 64U, 65U, 5000U})
+    for (const auto& [least, greatest] : std::vector<std::pair<std::int32_t, std::int32_t>>{
+             {7, 7}, {0, 63}, {0, 64}, {-100, 1000}, {1000000, 1200000}, {lowest, highest}}) {
+      std::vector<std::int32_t> values = some_numbers(count, least, greatest);
+      const std::set<std::int32_t> expected(values.begin(), values.end());
+      sort_unique(values);
+      EXPECT_EQ(values, std::vector<std::int32_t>(expected.begin(), expected.end()));
+    }
+}
+
+TEST(SortUnique, keeps_the_ends_of_a_full_range) {
+  std::vector<std::int32_t> values(1000, highest - 1000);
+  values.push_back(highest);
+  sort_unique(values);
+  EXPECT_EQ(values, (std::vector<std::int32_t>{highest - 1000, highest}));
+}
+
+}  // namespace
+}  // namespace trocar
