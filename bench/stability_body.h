@@ -49,7 +49,7 @@ inline double limit_of(Body& body, double tolerance = 1e-3) {
   };
   const HighestFrequency found =
       find_highest_frequency(body.model, body.part, body.state, forces,
-                             {.amplitude = (is_single ? 1e-2 : 1e-6) * edge,
+                             {.amplitude = (is_single ? 1e-3 : 1e-6) * edge,
                               .tolerance = tolerance,
                               .most_iterations = 300},
                              Communicator());

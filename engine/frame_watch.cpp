@@ -131,7 +131,7 @@ void watch_elements(Simulation& s) {
 
 double search_amplitude(const Simulation& s) {
   const bool is_single = s.model.options.precision == Precision::in_single;
-  return (is_single ? 1e-2 : 1e-6) * s.edge_length;
+  return (is_single ? 1e-3 : 1e-6) * s.edge_length;
 }
 
 double search_step(RankBody& body, double amplitude, const Communicator& communicator) {
