@@ -10,6 +10,7 @@
 
 #include "base/timers.h"
 #include "bench/machine.h"
+#include "bench/usage.h"
 #include "engine/cut_stage.h"
 #include "engine/energy_ledger.h"
 #include "engine/frame_report.h"
@@ -97,6 +98,8 @@ Cost least_cost(int n, bool has_energy, int n_runs) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  constexpr const char* usage = "bench_edit [--energy] [--once] [N]...";
+  if (is_help_asked(argc, argv)) return print_usage(usage, stdout);
   std::vector<int> cells;
   bool has_energy = false;
   int n_runs = 5;
@@ -105,8 +108,10 @@ int main(int argc, char** argv) {
       has_energy = true;
     else if (std::strcmp(argv[k], "--once") == 0)
       n_runs = 1;
+    else if (const int n = std::atoi(argv[k]); n > 0)
+      cells.push_back(n);
     else
-      cells.push_back(std::atoi(argv[k]));
+      return print_usage(usage, stderr);
   if (cells.empty()) cells = {15, 30};
   std::printf(
       "| tetrahedra | edits | median, longest frame with an edit [ms] | median without |\n"

@@ -62,6 +62,21 @@ void expect_equal(const Surface& a, const Surface& b) {
   EXPECT_EQ(a.node, b.node);
 }
 
+// Calls body(the state, the edit that it is to apply) for each; returns how many there were.
+template <class Body>
+int for_edits(Simulation& s, const Body& body) {
+  TetCutter cutter{CutTetOptions{}};
+  int n_edits = 0;
+  for (int k = 0; k < n_bands; ++k) {
+    GlobalState global = gather_state(s);
+    const MeshEdit edit = next_edit(s, global, cutter, k);
+    if (edit.is_empty()) continue;
+    ++n_edits;
+    body(global, edit);
+  }
+  return n_edits;
+}
+
 const std::vector<std::pair<std::string, std::string>> kinds = {
     {"tet4-kuhn", ""},
     {"tet4-five", "precision = \"single\"\n"},
@@ -74,13 +89,7 @@ TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
       set_thread_count(n_threads);
       Simulation& s = *started->s;
       rebuild_topology(s);
-      TetCutter cutter{CutTetOptions{}};
-      int n_edits = 0;
-      for (int k = 0; k < n_bands; ++k) {
-        GlobalState global = gather_state(s);
-        const MeshEdit edit = next_edit(s, global, cutter, k);
-        if (edit.is_empty()) continue;
-        ++n_edits;
+      const int n_edits = for_edits(s, [&](GlobalState& global, const MeshEdit& edit) {
         const std::vector<std::int32_t> owner = s.node_owner;
         apply_edit_to_owners(edit.duplicate_parent, s.node_owner);
         EXPECT_TRUE(keeps_places(s, edit));
@@ -103,7 +112,7 @@ TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
         EXPECT_EQ(reach, s.look.reach);
         EXPECT_EQ(n_pieces, s.n_pieces);
         watch_state(s);
-      }
+      });
       EXPECT_GE(n_edits, 4);
       EXPECT_EQ(s.n_pieces, 2);
     }
@@ -128,13 +137,7 @@ TEST(Topology, of_an_edit_changes_the_ledger_by_what_the_whole_body_gains) {
     Simulation& s = *started->s;
     open_energy_ledger(s);
     bend_and_move(s);
-    TetCutter cutter{CutTetOptions{}};
-    int n_edits = 0;
-    for (int k = 0; k < n_bands; ++k) {
-      GlobalState global = gather_state(s);
-      const MeshEdit edit = next_edit(s, global, cutter, k);
-      if (edit.is_empty()) continue;
-      ++n_edits;
+    const int n_edits = for_edits(s, [&](GlobalState& global, const MeshEdit& edit) {
       const EnergyState before = mechanical_energy(s);
       const double cut_before = s.energy->memory.works.cut;
       CutRecord record;
@@ -145,7 +148,7 @@ TEST(Topology, of_an_edit_changes_the_ledger_by_what_the_whole_body_gains) {
       // precision, which are the same numbers in both, not at all.
       const double size = before.kinetic + before.strain + std::abs(before.gravity);
       EXPECT_NEAR(s.energy->memory.works.cut - cut_before, change, 1e-14 * size) << elements;
-    }
+    });
     EXPECT_GE(n_edits, 4);
   }
 }
