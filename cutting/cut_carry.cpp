@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "base/box.h"
+#include "mesh/element_boxes.h"
 
 namespace trocar {
 
@@ -41,13 +41,6 @@ struct Place {
 
 }  // namespace
 
-// Cheaper to ask than barycentric coordinates, and rarely holds a point.
-static Box box_of(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
-  Box box;
-  for (const std::int32_t i : mesh.corners(e)) box.add(x[i]);
-  return box;
-}
-
 static void try_element(const Mesh& mesh, std::span<const Vec3> x, std::int32_t e, Place& place) {
   const std::array<double, 4> b = barycentric(mesh, e, x, place.point.x);
   const double least = *std::min_element(b.begin(), b.end());
@@ -62,7 +55,7 @@ static std::vector<Place> find_places(const Mesh& mesh, std::span<const Vec3> x,
   std::vector<Place> places;
   for (const Vec3& point : points) places.push_back({.point = {.x = point}});
   for (const std::int32_t e : near) {
-    const Box box = box_of(mesh, e, x);
+    const Box box = element_box(mesh, e, x);  // cheaper to ask, and rarely holds a point
     for (Place& place : places)
       if (place.most < 0 && box.holds(place.point.x, margin)) try_element(mesh, x, e, place);
   }
@@ -82,7 +75,7 @@ static std::vector<Vec3> refined(const std::vector<Vec3>& line) {
 
 static bool holds_some(const Mesh& mesh, std::span<const Vec3> x, std::int32_t e,
                        const std::vector<Vec3>& points) {
-  const Box box = box_of(mesh, e, x);
+  const Box box = element_box(mesh, e, x);
   return std::ranges::any_of(points, [&](const Vec3& point) {
     return box.holds(point, 0) && std::ranges::min(barycentric(mesh, e, x, point)) >= 0;
   });

@@ -24,13 +24,16 @@ struct Spokes {
 
 Spokes::Spokes(const PlanePatch& patch, const PlaneStar& star, const Vec2& x) {
   const auto n = static_cast<std::size_t>(star.n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 d = patch.x[star.b[k]] - x;
-    bx[k] = d.x();
-    by[k] = d.y();
-  }
-  bx[n] = bx[0];
-  by[n] = by[0];
+  const auto fill = [&](const std::array<int, max_star>& node, Row& to_x, Row& to_y) {
+    for (std::size_t k = 0; k < n; ++k) {
+      const Vec2 d = patch.x[node[k]] - x;
+      to_x[k] = d.x();
+      to_y[k] = d.y();
+    }
+    to_x[n] = to_x[0];
+    to_y[n] = to_y[0];
+  };
+  fill(star.b, bx, by);
   if (star.is_ring) {
     bx[n + 1] = bx[1];
     by[n + 1] = by[1];
@@ -38,13 +41,7 @@ Spokes::Spokes(const PlanePatch& patch, const PlaneStar& star, const Vec2& x) {
     cy = by.data() + 1;
     return;
   }
-  for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 d = patch.x[star.c[k]] - x;
-    own_cx[k] = d.x();
-    own_cy[k] = d.y();
-  }
-  own_cx[n] = own_cx[0];
-  own_cy[n] = own_cy[0];
+  fill(star.c, own_cx, own_cy);
   cx = own_cx.data();
   cy = own_cy.data();
 }

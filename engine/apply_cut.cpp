@@ -90,13 +90,11 @@ void find_parents(const Mesh& after, const EditedElements& edited, HistorySource
 // What is known of the body before an edit and holds for most of it behind it.
 struct Known {
   Watch watch;
-  bool is_looked_at = false;
-  std::int64_t at_step = 0;
+  std::int64_t at_step = 0;  // of the last search
 };
 
 void restore_known(std::span<const std::int32_t> element_parent, const Known& known,
                    Simulation& s) {
-  s.look.is_done = known.is_looked_at;
   s.look.at_step = known.at_step;
   s.watch = known.watch;
   for (std::int32_t* element : {&s.watch.stable_element, &s.watch.least_J_element})
@@ -213,20 +211,6 @@ void add_to_record(const Simulation& s, const Before& before,
 
 }  // namespace
 
-std::vector<double> gather_owned(const Simulation& s, std::span<const double> owned) {
-  if (s.communicator->all_max(owned.empty() ? 0 : 1) == 0) return {};
-  return all_gather_field(s.part, s.mesh.n_nodes(), 3, owned, *s.communicator);
-}
-
-std::vector<double> of_owned(std::span<const double> field, const Part& part) {
-  std::vector<double> mine;
-  for (std::int32_t i = 0; i < part.n_owned && !field.empty(); ++i) {
-    const auto at = field.subspan(3 * static_cast<std::size_t>(part.node_global[i]), 3);
-    mine.insert(mine.end(), at.begin(), at.end());
-  }
-  return mine;
-}
-
 GlobalState gather_positions(Simulation& s) {
   const PhaseScope scope(s.timers, phase_gather);
   GlobalState global;
@@ -293,7 +277,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   const double energy = energy_around(s, is_energy_local, old_nodes(s.mesh, nodes, edit), global);
   HistorySource history{.copies =
                             s.communicator->all_gather(copy_history(s.model, s.part, s.state))};
-  const Known known{s.watch, s.look.is_done, s.look.at_step};
+  const Known known{s.watch, s.look.at_step};
 
   const auto n_kept = static_cast<std::size_t>(s.part.n_owned);
   const bool is_local = edit_whole(edit, global, s);

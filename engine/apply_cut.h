@@ -20,12 +20,6 @@ GlobalState gather_positions(Simulation& s);
 // This rank's part of it; time, step and last dt stay.
 void scatter_state(Simulation& s, const GlobalState& global);
 
-// A field of owned nodes (n_owned * 3) as one of all nodes on every rank; empty where no rank has
-// one (a rank may own no node). Collective.
-std::vector<double> gather_owned(const Simulation& s, std::span<const double> owned);
-// Back again.
-std::vector<double> of_owned(std::span<const double> field, const Part& part);
-
 // Mesh, mass, owners, part, model, state, surface, holds, contact; linear and angular momentum of
 // the patch are restored by a rigid velocity increment. `global` is carried along, with velocities
 // then. Collective. Adds what it measured to `record`.

@@ -137,9 +137,7 @@ void watch_edit(Simulation& s, std::span<const std::int32_t> edited, const Patch
     s.watch.least_J = w.least_J;
     s.watch.least_J_element = w.least_J_element;
   }
-  s.look.step = s.watch.stable_step;
-  s.look.u.assign(s.state.u.begin(), s.state.u.begin() + 3 * std::ptrdiff_t{s.part.n_owned});
-  s.look.stiffening.reset();
+  follow_from_here(s, s.watch.stable_step);
 }
 
 }  // namespace trocar

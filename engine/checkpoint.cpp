@@ -26,6 +26,21 @@ void remember(const CutMemory& memory, CutStage& stage) {
   stage.tet.set_stroke(memory.stroke);
 }
 
+// A field of owned nodes (n_owned * 3) as one of all nodes on every rank. Collective.
+std::vector<double> gather_owned(const Simulation& s, std::span<const double> owned) {
+  return all_gather_field(s.part, s.mesh.n_nodes(), 3, owned, *s.communicator);
+}
+
+// Back again; empty if the field is.
+std::vector<double> of_owned(std::span<const double> field, const Part& part) {
+  std::vector<double> mine;
+  for (std::int32_t i = 0; i < part.n_owned && !field.empty(); ++i) {
+    const auto at = field.subspan(3 * static_cast<std::size_t>(part.node_global[i]), 3);
+    mine.insert(mine.end(), at.begin(), at.end());
+  }
+  return mine;
+}
+
 void check_fit(const Checkpoint& c, const Simulation& s) {
   if (c.body_crc != s.body_crc)
     throw InputError(

@@ -88,12 +88,9 @@ void take_least(Simulation& s, Watch w) {
 }
 
 void note_look(Simulation& s, double step, std::vector<double> stiffening) {
-  ElementLook& look = s.look;
-  look.is_done = true;
-  look.at_step = s.state.step;
-  look.step = step;
-  look.u.assign(s.state.u.begin(), s.state.u.begin() + 3 * std::ptrdiff_t{s.model.n_owned});
-  look.stiffening = std::move(stiffening);
+  follow_from_here(s, step);
+  s.look.at_step = s.state.step;
+  s.look.stiffening = std::move(stiffening);
 }
 
 // By how much omega^2 of the most stiffened element has grown since the last look.
@@ -142,6 +139,14 @@ double search_step(RankBody& body, double amplitude, const Communicator& communi
   const HighestFrequency found = find_highest_frequency(body.model, body.part, body.state, forces,
                                                         {.amplitude = amplitude}, communicator);
   return found.is_converged ? 2 / (frequency_margin * found.omega) : 0;
+}
+
+void follow_from_here(Simulation& s, double step) {
+  ElementLook& look = s.look;
+  look.is_done = true;
+  look.step = step;
+  look.u.assign(s.state.u.begin(), s.state.u.begin() + 3 * std::ptrdiff_t{s.model.n_owned});
+  look.stiffening.reset();
 }
 
 void find_stiffening_at_look(Simulation& s) {

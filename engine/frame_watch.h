@@ -34,8 +34,10 @@ void watch_state(Simulation& s);
 double search_amplitude(const Simulation& s);
 // 2 / omega of the body's highest frequency less the search's margin; 0 if the search doesn't end.
 // It starts from nothing: modes are local, and a search that starts where the fastest one was does
-// not see another that has overtaken it (the liver under a probe: 4869 for 5542 1/s). Collective.
+// not see another that has overtaken it elsewhere (docs/architecture.md). Collective.
 double search_step(RankBody& body, double amplitude, const Communicator& communicator);
+// Takes the present state, where `step` is stable [s], for the one that the step follows from.
+void follow_from_here(Simulation& s, double step);
 // s.look.stiffening, from s.look.u. Collective.
 void find_stiffening_at_look(Simulation& s);
 // Forces of a step dt in place of those at this moment, with solver.multirate. Collective.

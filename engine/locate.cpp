@@ -66,12 +66,6 @@ Weights weights_of(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x, co
 
 constexpr double margin = 1e-12;
 
-Box box_of(std::span<const std::int32_t> corner, std::span<const Vec3> x) {
-  Box box;
-  for (const std::int32_t node : corner) box.add(x[static_cast<std::size_t>(node)]);
-  return box;
-}
-
 // `elements`: ascending numbers.
 template <class Elements>
 std::vector<Location> locate_in(const Mesh& mesh, std::span<const Vec3> x,
@@ -80,7 +74,7 @@ std::vector<Location> locate_in(const Mesh& mesh, std::span<const Vec3> x,
   Box all;
   for (const Vec3& point : points) all.add(point);
   for (const std::int32_t e : elements) {
-    const Box box = box_of(mesh.corners(e), x);
+    const Box box = element_box(mesh, e, x);
     if (!box.overlaps(all, margin)) continue;
     for (std::size_t k = 0; k < points.size(); ++k) {
       if (location[k].element >= 0 || !box.holds(points[k], margin)) continue;

@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::size_t leaf_size = 16;
 
-Box box_of(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
-  Box box;
-  for (const std::int32_t i : mesh.corners(e)) box.add(x[static_cast<std::size_t>(i)]);
-  return box;
-}
-
 // Leaves [begin, end) get the elements from first[begin] to first[end].
 void split(std::span<const Vec3> middle, std::size_t begin, std::size_t end, ElementBoxes& boxes) {
   if (end - begin == 1) return;
@@ -39,7 +33,7 @@ void fit_leaf(const Mesh& mesh, std::size_t leaf, ElementBoxes& boxes) {
   Box& box = boxes.box[boxes.first.size() - 1 + leaf];
   box = {};
   for (std::int32_t k = boxes.first[leaf]; k < boxes.first[leaf + 1]; ++k)
-    box.add(box_of(mesh, boxes.order[static_cast<std::size_t>(k)], boxes.x));
+    box.add(element_box(mesh, boxes.order[static_cast<std::size_t>(k)], boxes.x));
 }
 
 void fit_parent(std::size_t k, ElementBoxes& boxes) {
@@ -65,13 +59,19 @@ double largest_way(std::span<const Vec3> x, const ElementBoxes& boxes) {
 double mean_size(const Mesh& mesh, std::span<const Vec3> x) {
   double sum = 0;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    const Box box = box_of(mesh, e, x);
+    const Box box = element_box(mesh, e, x);
     sum += (box.high - box.low).maxCoeff();
   }
   return sum / std::max(1, mesh.n_elements());
 }
 
 }  // namespace
+
+Box element_box(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
+  Box box;
+  for (const std::int32_t i : mesh.corners(e)) box.add(x[static_cast<std::size_t>(i)]);
+  return box;
+}
 
 ElementBoxes make_element_boxes(const Mesh& mesh, std::span<const Vec3> x) {
   const auto n = static_cast<std::size_t>(mesh.n_elements());
@@ -86,7 +86,7 @@ ElementBoxes make_element_boxes(const Mesh& mesh, std::span<const Vec3> x) {
     boxes.first[k] = static_cast<std::int32_t>(n * k / n_leaves);
   std::vector<Vec3> middle(n);
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    const Box box = box_of(mesh, e, x);
+    const Box box = element_box(mesh, e, x);
     middle[static_cast<std::size_t>(e)] = 0.5 * (box.low + box.high);
   }
   split(middle, 0, n_leaves, boxes);

@@ -12,6 +12,9 @@
 
 namespace trocar {
 
+// Of its corners at x.
+Box element_box(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x);
+
 struct ElementBoxes {
   std::vector<Vec3> x;              // (n_nodes) positions that the boxes are of [m]
   std::vector<std::int32_t> order;  // elements, leaf by leaf

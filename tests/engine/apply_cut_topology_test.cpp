@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "base/sort_unique.h"
 #include "base/threads.h"
 #include "engine/apply_cut.h"
 #include "engine/energy_ledger.h"
@@ -166,12 +167,8 @@ TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
       models.push_back(
           build_model(s.mesh, parts.back(), s.materials, s.fixed, s.mass, solver_options(s.scene)));
     }
-    TetCutter cutter{CutTetOptions{}};
     int n_edits = 0;
-    for (int k = 0; k < n_bands; ++k) {
-      GlobalState global = gather_state(s);
-      const MeshEdit edit = next_edit(s, global, cutter, k);
-      if (edit.is_empty()) continue;
+    for_edits(s, [&](GlobalState& global, const MeshEdit& edit) {
       apply_edit_to_owners(edit.duplicate_parent, owner);
       std::swap(owner, s.node_owner);
       const bool is_local = keeps_places(s, edit);
@@ -181,8 +178,7 @@ TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
       CutRecord record;
       apply_cut(s, edit, global, record);
       for (const std::int32_t i : nodes_of(s.mesh, edited)) nodes.push_back(i);
-      std::sort(nodes.begin(), nodes.end());
-      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      sort_unique(nodes);
       n_edits += is_local ? 1 : 0;
       for (std::size_t rank = 0; rank < 3; ++rank) {
         const Part part = make_part(s.mesh, owner, static_cast<int>(rank));
@@ -202,7 +198,7 @@ TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
         parts[rank] = part;
         models[rank] = model;
       }
-    }
+    });
     EXPECT_GE(n_edits, 3);
   }
 }
