@@ -1,15 +1,21 @@
-// Threads of this rank. The only OpenMP pragma of the program is here.
+// Threads of this rank: one team, made when it is first needed. The steps of a body are a few
+// hundred microseconds long, so that threads hand over to each other by looking, not by sleeping;
+// but they look politely, so that whoever else wants the core gets it (docs/performance.md).
 #pragma once
 
 #include <cstdint>
 
 namespace trocar {
 
-// Number of threads of parallel_for from now on (>= 1).
+// Number of threads of this thread's parallel_for from now on (>= 1; 1 until it is set).
 void set_thread_count(int n_threads);
 int thread_count();
 // Cores that this process may run on (affinity mask).
 int available_cores();
+
+// Calls call(body, chunk) for each of n_chunks on as many threads, the caller's among them; on the
+// caller's alone if another thread has the team, or from within such a call.
+void run_chunks(int n_chunks, void (*call)(const void* body, int chunk), const void* body);
 
 // Chunks that parallel_for makes of n items.
 inline int chunk_count(std::int64_t n) {
@@ -18,8 +24,11 @@ inline int chunk_count(std::int64_t n) {
 // Calls body(chunk) for each of n_chunks, one per thread. No exception may leave `body`.
 template <class Body>
 void parallel_for_chunks(int n_chunks, const Body& body) {
-#pragma omp parallel for schedule(static, 1) num_threads(n_chunks) if (n_chunks > 1)
-  for (int chunk = 0; chunk < n_chunks; ++chunk) body(chunk);
+  if (n_chunks > 1)
+    run_chunks(
+        n_chunks, [](const void* it, int chunk) { (*static_cast<const Body*>(it))(chunk); }, &body);
+  else if (n_chunks == 1)
+    body(0);
 }
 
 // Calls body(begin, end) for consecutive chunks of [0, n), one per thread. Which thread runs a

@@ -1,7 +1,7 @@
 # What nearly every file includes, compiled once: half of a build's time. Files still include what they use, which
 # -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows.
 add_library(common_headers OBJECT ${CMAKE_SOURCE_DIR}/cmake/empty.cpp)
-target_link_libraries(common_headers PRIVATE Eigen3::Eigen OpenMP::OpenMP_CXX)
+target_link_libraries(common_headers PRIVATE Eigen3::Eigen)
 target_precompile_headers(common_headers PRIVATE <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <memory>
   <optional> <span> <string> <vector> <Eigen/Core>)
 

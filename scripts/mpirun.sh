@@ -2,6 +2,6 @@
 run_on_ranks() {
   local n=$1
   shift
-  OMP_WAIT_POLICY=passive OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 \
+  OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 \
     mpirun --oversubscribe --bind-to none --mca btl_base_warn_component_unused 0 -np "$n" "$@"
 }

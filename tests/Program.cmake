@@ -10,7 +10,7 @@ target_precompile_headers(test_program PRIVATE <gtest/gtest.h> <cmath> <filesyst
 # These keep all cores of the machine busy themselves; they come first, so that no core waits for their turn. The others start the
 # program alone, or wait.
 set(many_ranks "StateDigest.*:Traffic.*:Resume.in_*:Resume.of_*:Signals.*:BlockHex*")
-set(properties TIMEOUT 600 ENVIRONMENT OMP_WAIT_POLICY=passive)
+set(properties TIMEOUT 600)
 set(many_ranks_properties ${properties} PROCESSORS 4 COST 100)
 foreach(folder scenes invariance faults)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*_test.cpp)

@@ -4,6 +4,7 @@
 #include <sched.h>
 
 #include <atomic>
+#include <chrono>
 #include <thread>
 #include <vector>
 
@@ -34,6 +35,38 @@ TEST(ParallelFor, runs_as_many_threads_as_asked_for) {
       std::this_thread::yield();
   });
   EXPECT_EQ(n_inside, 3);
+}
+
+TEST(ParallelFor, hands_over_all_that_was_written_however_often_and_long_threads_wait) {
+  set_thread_count(3);
+  std::vector<int> value(3, 0), sum(3, 0);  // no atomics: who reads must wait for who wrote
+  for (int k = 1; k <= 3000; ++k) {
+    parallel_for_chunks(3, [&](int chunk) { value[chunk] = k; });
+    parallel_for_chunks(3, [&](int chunk) { sum[chunk] = value[0] + value[1] + value[2]; });
+    for (const int x : sum) ASSERT_EQ(x, 3 * k);
+    if (k % 300 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
+TEST(ParallelFor, within_itself_and_beside_another_thread_runs_on_one) {
+  set_thread_count(2);
+  std::atomic<int> n_calls = 0;
+  parallel_for_chunks(2, [&](int) {
+    const auto outer = std::this_thread::get_id();
+    parallel_for_chunks(2, [&](int) {
+      ++n_calls;
+      EXPECT_EQ(std::this_thread::get_id(), outer);
+    });
+    std::thread([&] {
+      const auto other = std::this_thread::get_id();
+      EXPECT_EQ(thread_count(), 1);
+      parallel_for_chunks(2, [&](int) {
+        ++n_calls;
+        EXPECT_EQ(std::this_thread::get_id(), other);
+      });
+    }).join();
+  });
+  EXPECT_EQ(n_calls, 8);
 }
 
 TEST(ThreadCount, is_what_was_set) {
