@@ -13,7 +13,7 @@ struct Cut2dCommand {
   std::string mesh_file, mesh_scale = "1 mm";
   std::vector<std::string> paths, arcs;
   std::string mode = "robust";
-  int repetitions = 1;
+  int repetitions = 0;
   bool is_table = false, is_sweep = false, is_json = false;
   int n_cuts = 100;
   std::string svg_folder, markdown_file, docs_folder;

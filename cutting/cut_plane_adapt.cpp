@@ -105,6 +105,9 @@ bool adapt_cut_points(const PlanePatch& patch, const AdaptOptions& options,
   ChainEnds ends;
   if (!choose_ends(patch, is_taken, options.at_corner, chain, ends)) return false;
   const std::vector<int> among = candidates(patch, chain.path, is_taken);
+  // Which nodes are nearest to the ends does not depend on the number of points.
+  if (ends.start < 0) ends.start = nearest(patch, among, chain.path.point.front());
+  if (ends.end < 0) ends.end = nearest(patch, among, chain.path.point.back());
   // More points than nodes can't have different nearest nodes.
   for (int n = std::min(options.most, static_cast<int>(among.size()) + 1); n >= 1; --n) {
     if (!assign_nodes(patch, among, ends, n, chain)) continue;

@@ -39,43 +39,50 @@ void add_moves(const Mesh& mesh, const PlanePatch& before, const PlanePatch& aft
   }
 }
 
-// The patch with its flips as a mesh that knows topology only.
-Mesh topology(const PlanePatch& patch) {
+// The elements around the nodes of the cut, with their flips, as a mesh that knows topology only.
+struct CutStars {
+  std::vector<int> element;  // of the patch, ascending
   Mesh mesh;
-  mesh.X.resize(patch.node.size());
-  mesh.element_type.assign(patch.element.size(), ElementType::tri3);
-  mesh.corner_node.reserve(3 * patch.element.size());
-  mesh.corner_offset.resize(patch.element.size() + 1);
-  for (int e = 0; e < patch.n_elements(); ++e) {
-    mesh.corner_node.insert(mesh.corner_node.end(), patch.corner[e].begin(), patch.corner[e].end());
-    mesh.corner_offset[e + 1] = 3 * (e + 1);
-  }
-  mesh.cut_facets = patch.opened;
-  return mesh;
-}
-
-FacetNeighbours facet_neighbours(const PlanePatch& patch) {
   FacetNeighbours across;
-  across.offset.reserve(patch.element.size() + 1);
-  across.neighbour.reserve(3 * patch.element.size());
+};
+
+CutStars cut_stars(const PlanePatch& patch, std::span<const int> nodes) {
+  std::vector<int> place(patch.element.size(), -1);
+  for (const int i : nodes)
+    visit_star(patch, i, [&](int e, int) {
+      place[e] = 0;
+      return true;
+    });
+  CutStars stars;
   for (int e = 0; e < patch.n_elements(); ++e) {
-    across.offset.push_back(3 * e);
-    for (const int g : patch.across[e]) across.neighbour.push_back(std::max(g, -1));
+    if (place[e] < 0) continue;
+    place[e] = static_cast<int>(stars.element.size());
+    stars.element.push_back(e);
   }
-  across.offset.push_back(3 * patch.n_elements());
-  return across;
+  stars.mesh.X.resize(patch.node.size());
+  for (const int e : stars.element) {
+    add_element(stars.mesh, ElementType::tri3, patch.corner[e]);
+    stars.mesh.cut_facets.back() = patch.opened[e];
+    stars.across.offset.push_back(static_cast<std::int32_t>(stars.across.neighbour.size()));
+    for (const int g : patch.across[e]) stars.across.neighbour.push_back(g >= 0 ? place[g] : -1);
+  }
+  stars.across.offset.push_back(static_cast<std::int32_t>(stars.across.neighbour.size()));
+  return stars;
 }
 
 Duplication duplicate(const PlanePatch& patch, std::span<const CutChain> chains) {
-  const Mesh mesh = topology(patch);
-  std::vector<std::array<std::int32_t, 2>> opened;
-  for (int e = 0; e < patch.n_elements(); ++e)
-    for (int f = 0; f < 3 && patch.chain[e] != 0; ++f)
-      if ((patch.chain[e] >> f & 1) != 0) opened.push_back({e, f});
   std::vector<std::int32_t> nodes;
   for (const CutChain& chain : chains)
     nodes.insert(nodes.end(), chain.node.begin(), chain.node.end());
-  return duplicate_nodes(mesh, opened, nodes, node_elements(mesh), facet_neighbours(patch));
+  const CutStars stars = cut_stars(patch, nodes);
+  std::vector<std::array<std::int32_t, 2>> opened;
+  for (int k = 0; k < stars.mesh.n_elements(); ++k)
+    for (int f = 0; f < 3; ++f)
+      if ((patch.chain[stars.element[k]] >> f & 1) != 0) opened.push_back({k, f});
+  Duplication result =
+      duplicate_nodes(stars.mesh, opened, nodes, node_elements(stars.mesh), stars.across);
+  for (CornerChange& change : result.corners) change.element = stars.element[change.element];
+  return result;
 }
 
 // Corners after flips and duplication where they differ from the mesh.
@@ -156,20 +163,20 @@ static bool try_host(const PlanePatch& patch, int e, const Vec2& p, double& best
 Host find_host(const PlanePatch& patch, int node, const Vec2& p) {
   Host best;
   double best_inside = -std::numeric_limits<double>::max();
-  std::vector<int> visited;
-  visited.reserve(max_visited);
+  std::array<int, max_visited> visited;
+  std::size_t n = 0;
   bool is_found = false;
   visit_star(patch, node, [&](int e, int) {
-    visited.push_back(e);
+    visited[n++] = e;
     is_found = try_host(patch, e, p, best_inside, best);
-    return !is_found;
+    return !is_found && n < max_visited;
   });
-  const std::size_t n_star = visited.size();
-  for (std::size_t k = 0; k < visited.size() && visited.size() < max_visited && !is_found; ++k) {
+  const std::size_t n_star = n;
+  for (std::size_t k = 0; k < n && !is_found; ++k) {
     if (k >= n_star && try_host(patch, visited[k], p, best_inside, best)) break;
+    const auto end = visited.begin() + static_cast<std::ptrdiff_t>(n);
     for (const int g : patch.across[visited[k]])
-      if (g >= 0 && std::find(visited.begin(), visited.end(), g) == visited.end())
-        visited.push_back(g);
+      if (g >= 0 && n < max_visited && std::find(visited.begin(), end, g) == end) visited[n++] = g;
   }
   return best;
 }

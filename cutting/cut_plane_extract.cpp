@@ -1,6 +1,7 @@
 // Cutting the patch out of the mesh: one cheap pass over all elements, everything else local.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cutting/cut_plane_patch.h"
 #include "mesh/facets.h"
@@ -36,42 +37,47 @@ bool is_near(const Mesh& mesh, std::int32_t e, const Vec2& p, const Vec2& q) {
   return std::abs(normal.dot(0.5 * (low + high) - p)) <= reach;
 }
 
-void add(Extraction& extraction, PlanePatch& patch, std::int32_t e) {
-  if (extraction.local_element[e] >= 0) return;
-  extraction.local_element[e] = 0;
-  patch.element.push_back(e);
+// Adds the elements around a node that were not there.
+void add_around(Extraction& extraction, std::int32_t i, std::vector<std::int32_t>& element) {
+  extraction.local_node[i] = 0;
+  for (const std::int32_t e : extraction.around.of(i))
+    if (std::exchange(extraction.local_element[e], 0) < 0) element.push_back(e);
 }
 
-void choose_elements(Extraction& extraction, std::span<const Vec2> path, int rings,
-                     PlanePatch& patch) {
+void choose_elements(Extraction& extraction, std::span<const Vec2> path, int rings) {
   const Mesh& mesh = extraction.mesh;
+  std::vector<std::int32_t> element;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-    for (std::size_t k = 0; k + 1 < path.size(); ++k)
-      if (is_near(mesh, e, path[k], path[k + 1])) add(extraction, patch, e);
+    for (std::size_t k = 0; k + 1 < path.size() && extraction.local_element[e] < 0; ++k)
+      if (is_near(mesh, e, path[k], path[k + 1])) {
+        extraction.local_element[e] = 0;
+        element.push_back(e);
+      }
   std::size_t begin = 0;
   for (int ring = 0; ring < rings; ++ring) {
-    const std::size_t end = patch.element.size();
+    const std::size_t end = element.size();
     for (; begin < end; ++begin)
-      for (const std::int32_t i : mesh.corners(patch.element[begin]))
-        for (const std::int32_t e : extraction.around.of(i)) add(extraction, patch, e);
+      for (const std::int32_t i : mesh.corners(element[begin]))
+        if (extraction.local_node[i] < 0) add_around(extraction, i, element);
   }
-  std::sort(patch.element.begin(), patch.element.end());
-  for (int e = 0; e < patch.n_elements(); ++e) extraction.local_element[patch.element[e]] = e;
+  for (; begin < element.size(); ++begin)
+    for (const std::int32_t i : mesh.corners(element[begin])) extraction.local_node[i] = 0;
 }
 
-void number_nodes(Extraction& extraction, PlanePatch& patch) {
-  const Mesh& mesh = extraction.mesh;
-  for (const std::int32_t e : patch.element)
-    for (const std::int32_t i : mesh.corners(e)) {
-      if (extraction.local_node[i] >= 0) continue;
-      extraction.local_node[i] = 0;
-      patch.node.push_back(i);
-    }
-  std::sort(patch.node.begin(), patch.node.end());
-  for (int i = 0; i < patch.n_nodes(); ++i) {
-    extraction.local_node[patch.node[i]] = i;
-    patch.X.push_back(plane(mesh.X[patch.node[i]]));
+// Gives those that are marked with 0 numbers in their order.
+void number(std::vector<int>& local, std::vector<std::int32_t>& global) {
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    if (local[i] < 0) continue;
+    local[i] = static_cast<int>(global.size());
+    global.push_back(static_cast<std::int32_t>(i));
   }
+}
+
+void number_all(Extraction& extraction, PlanePatch& patch) {
+  number(extraction.local_element, patch.element);
+  number(extraction.local_node, patch.node);
+  patch.X.reserve(patch.node.size());
+  for (const std::int32_t i : patch.node) patch.X.push_back(plane(extraction.mesh.X[i]));
   patch.x = patch.X;
 }
 
@@ -200,8 +206,8 @@ PlanePatch make_patch(const Mesh& mesh, std::span<const Vec2> path,
   Extraction extraction{mesh, node_elements(mesh), std::vector<int>(mesh.element_type.size(), -1),
                         std::vector<int>(mesh.X.size(), -1)};
   PlanePatch patch;
-  choose_elements(extraction, path, rings, patch);
-  number_nodes(extraction, patch);
+  choose_elements(extraction, path, rings);
+  number_all(extraction, patch);
   connect(extraction, patch);
   measure_edges(patch);
   classify_nodes(extraction, is_held, patch);

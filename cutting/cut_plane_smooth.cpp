@@ -9,35 +9,7 @@ namespace trocar {
 namespace {
 
 constexpr double asleep_below = 1e-2;  // h: a smaller step does not wake the neighbours
-constexpr double not_worth = 1e-3;     // h: a smaller step is not taken
 constexpr double good_quality = 0.8;   // elements as good are not flipped
-
-Vec2 newton_step(const StarExpansion& at, const Vec2& side) {
-  if (side.squaredNorm() > 0) {
-    const double curvature = at.Hxx * side.x() * side.x() + 2 * at.Hxy * side.x() * side.y() +
-                             at.Hyy * side.y() * side.y();
-    return -side.dot(at.g) / curvature * side;
-  }
-  const double per_determinant = 1 / (at.Hxx * at.Hyy - at.Hxy * at.Hxy);
-  return per_determinant *
-         Vec2(at.Hxy * at.g.y() - at.Hyy * at.g.x(), at.Hxy * at.g.x() - at.Hxx * at.g.y());
-}
-
-// Moves one node downhill by a damped Newton step; returns the distance.
-double relax(PlanePatch& patch, const Movable& movable, const PlaneStar& star) {
-  const Vec2 x = patch.x[movable.node], side = movable.side;
-  const StarExpansion at_x = expand_energy(patch, star, x);
-  if (!std::isfinite(at_x.E) || star.n == max_star) return 0;
-  const Vec2 step = newton_step(at_x, side);
-  if (step.norm() < not_worth * patch.h) return 0;
-  for (double fraction = 1; fraction > 0.05; fraction *= 0.4) {
-    const Vec2 trial = x + fraction * step;
-    if (!(star_energy(patch, star, trial) < at_x.E)) continue;
-    patch.x[movable.node] = trial;
-    return (trial - x).norm();
-  }
-  return 0;
-}
 
 // The lesser quality of the two triangles that a flip would make.
 double flipped_quality(const PlanePatch& patch, PatchFacet facet, PatchFacet other) {
@@ -130,9 +102,10 @@ void area_step(PlanePatch& patch, int n_sweeps, Smoothing& smoothing) {
       PlaneStar& star = smoothing.star[slot];
       if (star.n == 0) find_star(patch, m.node, star);
       is_awake[m.node] = 0;
-      if (relax(patch, m, star) < asleep_below * patch.h) continue;
+      if (relax(patch, m.node, m.side, star) < asleep_below * patch.h) continue;
       for (int k = 0; k < star.n; ++k) is_awake[star.b[k]] = 1;
-      for (int k = 0; k < star.n && !star.is_ring; ++k) is_awake[star.c[k]] = 1;
+      if (patch.is_boundary[m.node] != 0)
+        for (int k = 0; k < star.n; ++k) is_awake[star.c[k]] = 1;
       is_awake[m.node] = 1;
     }
 }

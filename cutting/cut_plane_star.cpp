@@ -8,134 +8,169 @@ namespace {
 
 constexpr double shape_weight = 0.1 / 6.928203230275509;  // 1 / quality = S / (4 sqrt(3) A)
 constexpr double least_smooth_area = 1e-3;                // of the area before the cut
+constexpr double not_worth = 1e-3;                        // h: a smaller step is not taken
+constexpr double no_energy = std::numeric_limits<double>::infinity();
 
-using Pair = Eigen::Array2d;  // a number of each of two elements
-using Row = std::array<double, max_star + 2>;
-
-// From the node to both ends of the opposite edges. One element more than there are, so that all
-// come in pairs: the first one again.
-struct Spokes {
-  Spokes(const PlanePatch& patch, const PlaneStar& star, const Vec2& x);
-  Row bx, by, own_cx, own_cy;
-  const double *cx, *cy;
-
-  static Pair pair(const double* row, int k) { return Eigen::Map<const Pair>(row + k); }
+// Half of each edge opposite the node, e, and its middle.
+struct Edges {
+  [[gnu::always_inline]] Edges(const PlanePatch& patch, const PlaneStar& star) {
+    for (int k = 0; k < star.n; k += 4) {
+      const auto b = [&](int a) { return patch.x[star.b[k + a]]; };
+      const auto c = [&](int a) { return patch.x[star.c[k + a]]; };
+      const FourPoints from(b(0), b(1), b(2), b(3)), to(c(0), c(1), c(2), c(3));
+      mx[k / 4] = 0.5 * (from.x + to.x);
+      my[k / 4] = 0.5 * (from.y + to.y);
+      ex[k / 4] = to.x - mx[k / 4];
+      ey[k / 4] = to.y - my[k / 4];
+    }
+  }
+  Four ex[max_star / 4], ey[max_star / 4], mx[max_star / 4], my[max_star / 4];
 };
 
-Spokes::Spokes(const PlanePatch& patch, const PlaneStar& star, const Vec2& x) {
-  const auto n = static_cast<std::size_t>(star.n);
-  const auto fill = [&](const std::array<int, max_star>& node, Row& to_x, Row& to_y) {
-    for (std::size_t k = 0; k < n; ++k) {
-      const Vec2 d = patch.x[node[k]] - x;
-      to_x[k] = d.x();
-      to_y[k] = d.y();
-    }
-    to_x[n] = to_x[0];
-    to_y[n] = to_y[0];
-  };
-  fill(star.b, bx, by);
-  if (star.is_ring) {
-    bx[n + 1] = bx[1];
-    by[n + 1] = by[1];
-    cx = bx.data() + 1;
-    cy = by.data() + 1;
-    return;
-  }
-  fill(star.c, own_cx, own_cy);
-  cx = own_cx.data();
-  cy = own_cy.data();
+// Four elements; m goes from the node to the middle: A = m x e, S = 4 T with T = (m^2 + 3 e^2) / 2.
+struct Shapes {
+  [[gnu::always_inline]] Shapes(const PlaneStar& star, const Edges& edges, const Vec2& x, int k)
+      : ex(edges.ex[k / 4]),
+        ey(edges.ey[k / 4]),
+        mx(edges.mx[k / 4] - x.x()),
+        my(edges.my[k / 4] - x.y()),
+        A(mx * ey - my * ex),
+        T(0.5 * (mx * mx + my * my) + 1.5 * (ex * ex + ey * ey)),
+        per_A(1 / A),
+        per_A0(star.per_A0[k / 4]),
+        strain(A * per_A0 - 1),
+        v(star.weight[k / 4]) {}
+  Four ex, ey, mx, my, A, T, per_A, per_A0, strain, v;
+};
+
+[[gnu::always_inline]] inline void take_lesser(const Four& a, Four& least) {
+  least = a < least ? a : least;
 }
 
-// Two elements.
-struct Shapes {
-  Shapes(const Spokes& spokes, const PlaneStar& star, int k)
-      : bx(Spokes::pair(spokes.bx.data(), k)),
-        by(Spokes::pair(spokes.by.data(), k)),
-        cx(Spokes::pair(spokes.cx, k)),
-        cy(Spokes::pair(spokes.cy, k)),
-        dx(cx - bx),
-        dy(cy - by),
-        A(0.5 * (bx * cy - by * cx)),
-        S((bx * bx + by * by) + (cx * cx + cy * cy) + (dx * dx + dy * dy)),
-        per_A0(Spokes::pair(star.per_A0.data(), k)),
-        strain(A * per_A0 - 1) {}
-  Pair bx, by, cx, cy, dx, dy, A, S, per_A0, strain;
-};
-
-struct Sums {
-  Pair gradient = Pair::Zero(), Hxx_Hxy = Pair::Zero(), Hyy_E = Pair::Zero();
-};
-
-// dA/dx = gA is constant, dS/dx = gS, d2S/dx2 = 4 I:
-// H = (2 / A0^2 + 2 w S / A^3) gA gA^T + 4 w / A I - w / A^2 (gS gA^T + gA gS^T).
-struct Terms {
-  explicit Terms(const Shapes& e) {
-    const Pair gAx = 0.5 * -e.dy, gAy = 0.5 * e.dx;
-    const Pair gSx = -2 * (e.bx + e.cx), gSy = -2 * (e.by + e.cy);
-    const Pair per_A = 1 / e.A, shape = shape_weight * per_A, mixed = shape * per_A;
-    const Pair along_A = 2 * e.strain * e.per_A0 - mixed * e.S;
-    const Pair outer = 2 * e.per_A0 * e.per_A0 + 2 * mixed * e.S * per_A;
-    E = e.strain * e.strain + shape * e.S;
-    gx = along_A * gAx + shape * gSx;
-    gy = along_A * gAy + shape * gSy;
-    Hxx = outer * gAx * gAx + 4 * shape - 2 * mixed * gSx * gAx;
-    Hxy = outer * gAx * gAy - mixed * (gSx * gAy + gAx * gSy);
-    Hyy = outer * gAy * gAy + 4 * shape - 2 * mixed * gSy * gAy;
+// Halves of the derivatives: dA = (-ey, ex) is constant, dT = -m, d2T = I:
+// g = (strain / A0 - v T / A) dA + v dT, v = 2 w / A
+// H = (1 / A0^2 + 2 v T / A^2) dA dA^T + v I - v / A (dT dA^T + dA dT^T).
+struct Expansion {
+  [[gnu::always_inline]] Expansion(const PlaneStar& star, const Edges& edges, const Vec2& x) {
+    for (int k = 0; k < star.n; k += 4) {
+      const Shapes e(star, edges, x, k);
+      add(e);
+      area[k / 4] = e.A;
+      take_lesser(e.A - star.least_area[k / 4], room);
+    }
   }
-  Pair E, gx, gy, Hxx, Hxy, Hyy;
-
-  template <int k>
-  void add_to(Sums& sums) const {
-    sums.gradient += Pair(gx[k], gy[k]);
-    sums.Hxx_Hxy += Pair(Hxx[k], Hxy[k]);
-    sums.Hyy_E += Pair(Hyy[k], E[k]);
+  [[gnu::always_inline]] void add(const Shapes& e) {
+    const Four square = e.per_A * e.per_A, per_A2 = e.v * square, tension = e.v * e.T * square;
+    const Four along_A = e.strain * e.per_A0 - tension;
+    const Four outer = e.per_A0 * e.per_A0 + 2 * (tension * e.per_A);
+    const Four kx = per_A2 * e.mx, ky = per_A2 * e.my, outer_y = outer * e.ey;
+    const Four weight = e.v * e.per_A;
+    gx -= along_A * e.ey + weight * e.mx;
+    gy += along_A * e.ex - weight * e.my;
+    round += weight;
+    Hxx += (outer_y - 2 * kx) * e.ey;
+    Hxy += (kx - outer_y) * e.ex - ky * e.ey;
+    Hyy += (outer * e.ex + 2 * ky) * e.ex;
   }
+  Four gx{}, gy{}, round{}, Hxx{}, Hxy{}, Hyy{}, room = Four{} + 1;
+  Four area[max_star / 4];
 };
+
+// sum_e (A / A0 - 1)^2 + w S / A up to a constant; infinite if an element is invalid.
+[[gnu::always_inline]] inline double star_energy(const PlaneStar& star, const Edges& edges,
+                                                 const Vec2& x) {
+  Four E{}, room = Four{} + 1;
+  for (int k = 0; k < star.n; k += 4) {
+    const Shapes e(star, edges, x, k);
+    E += e.strain * e.strain + 2 * (e.v * e.per_A * e.T);
+    take_lesser(e.A - star.least_area[k / 4], room);
+  }
+  return is_positive(room) ? sum(E) : no_energy;
+}
+
+[[gnu::always_inline]] inline Vec2 newton_step(const Expansion& at_x, const Vec2& side) {
+  const double round = sum(at_x.round), gx = sum(at_x.gx), gy = sum(at_x.gy);
+  const double Hxx = sum(at_x.Hxx) + round, Hxy = sum(at_x.Hxy), Hyy = sum(at_x.Hyy) + round;
+  if (side.squaredNorm() > 0) {
+    const double curvature =
+        Hxx * side.x() * side.x() + 2 * Hxy * side.x() * side.y() + Hyy * side.y() * side.y();
+    return -(side.x() * gx + side.y() * gy) / curvature * side;
+  }
+  const double per_determinant = 1 / (Hxx * Hyy - Hxy * Hxy);
+  return per_determinant * Vec2(Hxy * gy - Hyy * gx, Hxy * gx - Hxx * gy);
+}
+
+// A full Newton step lowers the energy if no element loses a fifth of its area: along the step T =
+// (affine function) A + constant, so that the second derivative of T / A grows as A^-3, and 0.8^3 >
+// 1/2.
+[[gnu::always_inline]] inline bool is_sure(const PlaneStar& star, const Edges& edges,
+                                           const Expansion& at_x, const Vec2& step) {
+  Four room = Four{} + 1;
+  for (int k = 0; k < star.n; k += 4) {
+    const Four& A = at_x.area[k / 4];
+    const Four growth = edges.ex[k / 4] * step.y() - edges.ey[k / 4] * step.x();
+    take_lesser(growth + 0.2 * A, room);
+    take_lesser(growth + (A - star.least_area[k / 4]), room);
+  }
+  return is_positive(room);
+}
+
+// Of the step; 0 if there is none.
+[[gnu::always_inline]] inline double lowering_fraction(const PlaneStar& star, const Edges& edges,
+                                                       const Vec2& x, const Vec2& step) {
+  const double E = star_energy(star, edges, x);
+  for (double fraction = 1; fraction > 0.05; fraction *= 0.4)
+    if (star_energy(star, edges, x + fraction * step) < E) return fraction;
+  return 0;
+}
+
+[[gnu::always_inline]] inline double relax_node(PlanePatch& patch, int node, const Vec2& side,
+                                                const PlaneStar& star) {
+  if (star.n == max_star) return 0;
+  const Vec2 x = patch.x[node];
+  const Edges edges(patch, star);
+  const Expansion at_x(star, edges, x);
+  if (!is_positive(at_x.room)) return 0;
+  const Vec2 step = newton_step(at_x, side);
+  if (step.norm() < not_worth * patch.h) return 0;
+  const double fraction =
+      is_sure(star, edges, at_x, step) ? 1 : lowering_fraction(star, edges, x, step);
+  patch.x[node] = x + fraction * step;
+  return fraction * step.norm();
+}
 
 }  // namespace
 
+double relax_plain(PlanePatch& patch, int node, const Vec2& side, const PlaneStar& star) {
+  return relax_node(patch, node, side, star);
+}
+[[gnu::target("avx2")]] double relax_avx2(PlanePatch& patch, int node, const Vec2& side,
+                                          const PlaneStar& star) {
+  return relax_node(patch, node, side, star);
+}
+
 void find_star(const PlanePatch& patch, int node, PlaneStar& star) {
-  star.n = 0;
+  int n = 0;
+  const auto add = [&](int e, int a, double weight) {
+    star.b[n] = patch.corner[e][(a + 1) % 3];
+    star.c[n] = patch.corner[e][(a + 2) % 3];
+    star.per_A0[n / 4][n % 4] = weight / patch.area[e];
+    star.weight[n / 4][n % 4] = weight * 2 * shape_weight;
+    star.least_area[n / 4][n % 4] = least_smooth_area * patch.area[e];
+    ++n;
+  };
   visit_star(patch, node, [&](int e, int a) {
-    star.b[star.n] = patch.corner[e][(a + 1) % 3];
-    star.c[star.n] = patch.corner[e][(a + 2) % 3];
-    star.per_A0[star.n++] = 1 / patch.area[e];
-    return star.n < max_star;
+    add(e, a, 1);
+    return n < max_star;
   });
-  star.per_A0[star.n] = star.per_A0[0];
-  star.is_ring = patch.is_boundary[node] == 0 && star.n < max_star && star.n > 1;
-  for (int k = 0; k < star.n && star.is_ring; ++k)
-    star.is_ring = star.c[k] == star.b[k + 1 < star.n ? k + 1 : 0];
+  star.n = n;
+  const int first = patch.star[node];
+  while (n % 4 != 0) add(first, corner_of(patch, first, node), 0);
 }
 
-double star_energy(const PlanePatch& patch, const PlaneStar& star, const Vec2& x) {
-  const Spokes spokes(patch, star, x);
-  double E = 0;
-  for (int k = 0; k < star.n; k += 2) {
-    const Shapes e(spokes, star, k);
-    if ((e.A * e.per_A0).minCoeff() <= least_smooth_area)
-      return std::numeric_limits<double>::infinity();
-    const Pair term = e.strain * e.strain + shape_weight * e.S / e.A;
-    E += term[0];
-    if (k + 1 < star.n) E += term[1];
-  }
-  return E;
-}
-
-StarExpansion expand_energy(const PlanePatch& patch, const PlaneStar& star, const Vec2& x) {
-  const Spokes spokes(patch, star, x);
-  Sums sums;
-  Pair least = Pair::Ones();
-  for (int k = 0; k < star.n; k += 2) {
-    const Shapes e(spokes, star, k);
-    const Terms terms(e);
-    least = least.min(e.A * e.per_A0);
-    terms.add_to<0>(sums);
-    if (k + 1 < star.n) terms.add_to<1>(sums);
-  }
-  const bool is_valid = least.minCoeff() > least_smooth_area;
-  return {is_valid ? sums.Hyy_E[1] : std::numeric_limits<double>::infinity(),
-          sums.gradient.matrix(), sums.Hxx_Hxy[0], sums.Hxx_Hxy[1], sums.Hyy_E[0]};
+double relax(PlanePatch& patch, int node, const Vec2& side, const PlaneStar& star) {
+  static const auto chosen = has_avx2() ? relax_avx2 : relax_plain;
+  return chosen(patch, node, side, star);
 }
 
 }  // namespace trocar

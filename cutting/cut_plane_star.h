@@ -1,34 +1,31 @@
 // The elements around a node, and the energy of the area step as a function of the node's position.
-// Two elements are computed at a time; sums go over the elements in their order.
 #pragma once
 
 #include <array>
 
+#include "cutting/cut_plane_four.h"
 #include "cutting/cut_plane_patch.h"
 
 namespace trocar {
 
 inline constexpr int max_star = 24;  // nodes of as many elements stay where they are
 
-// Elements around a node by their opposite edges, b to c, valid until one of them is flipped.
+// Elements around a node by their opposite edges, b to c, valid until one of them is flipped. They
+// come in fours: the first one follows the last, without weight.
 struct PlaneStar {
   PlaneStar() {}  // leaves the arrays as they are: zeroing them took 4 % of a cut
   int n = 0;      // 0: not yet found
-  bool is_ring;   // c of each element is b of the next one: the node is an inner one
   std::array<int, max_star> b, c;
-  std::array<double, max_star + 1> per_A0;  // and the first once more
+  // Of sum_e (A / A0 - 1)^2 + w S / A, S the sum of squared edges: 1 / A0, 2 w, and the area below
+  // which an element is invalid.
+  Four per_A0[max_star / 4], weight[max_star / 4], least_area[max_star / 4];
 };
 void find_star(const PlanePatch& patch, int node, PlaneStar& star);
 
-// sum_e (A/A0 - 1)^2 + w S/A with S the sum of squared edges; infinite if an element is inverted.
-double star_energy(const PlanePatch& patch, const PlaneStar& star, const Vec2& x);
-
-struct StarExpansion {
-  double E = 0;
-  Vec2 g = Vec2::Zero();
-  double Hxx = 0, Hxy = 0, Hyy = 0;
-};
-// The same with its derivatives.
-StarExpansion expand_energy(const PlanePatch& patch, const PlaneStar& star, const Vec2& x);
+// Moves a node downhill by a damped Newton step, along `side` unless that is zero; returns the
+// distance. With AVX2 where the machine has it, to the same bits.
+double relax(PlanePatch& patch, int node, const Vec2& side, const PlaneStar& star);
+double relax_plain(PlanePatch& patch, int node, const Vec2& side, const PlaneStar& star);
+double relax_avx2(PlanePatch& patch, int node, const Vec2& side, const PlaneStar& star);
 
 }  // namespace trocar

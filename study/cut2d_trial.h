@@ -28,7 +28,7 @@ struct Cut2dTrial {
 struct Cut2dOptions {
   Cut2dMode mode = Cut2dMode::robust;
   CutPlaneOptions plane;  // of the other modes; set by options_of
-  int repetitions = 1;
+  int repetitions = 1;    // 0: as many as begin within 0.25 s
 };
 Cut2dOptions options_of(Cut2dMode mode, int repetitions);
 

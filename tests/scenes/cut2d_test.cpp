@@ -52,8 +52,9 @@ TEST(Cut2d, curved_cut_from_side_to_side_opens_all_its_edges) {
 
 TEST(Cut2d, table_and_pictures_are_written) {
   const std::string folder = test_folder("cut2d-table");
-  const Finished table = run_trocar(
-      {"cut2d", "--table1", "--markdown", folder + "/table1.md", "--svg", folder + "/svg"}, folder);
+  const Finished table = run_trocar({"cut2d", "--table1", "--repeat", "2", "--markdown",
+                                     folder + "/table1.md", "--svg", folder + "/svg"},
+                                    folder);
   ASSERT_EQ(table.exit_code, 0) << table.err;
   EXPECT_NE(table.out.find("robust mode"), std::string::npos);
   EXPECT_NE(read_text(folder + "/table1.md").find("| robust mode |"), std::string::npos);

@@ -1,6 +1,7 @@
 // What `trocar cut2d` reads, measures, prints and draws.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -98,6 +99,19 @@ TEST(Cut2dTable, marks_digits_that_differ_from_the_printed_ones) {
   EXPECT_EQ(n_found(rows_text({first, second}), "22.22#"), 0u);
   second.statistics.n_nodes = 81;
   EXPECT_EQ(n_found(rows_text({first, second}), "81#"), 1u);
+}
+
+TEST(Cut2dTrial, repeats_for_a_quarter_of_a_second_if_not_told_how_often) {
+  const auto trial = [](int repetitions) {
+    return run_trial(paper_mesh(1), {paper_cut(1)}, options_of(Cut2dMode::robust, repetitions));
+  };
+  const auto start = std::chrono::steady_clock::now();
+  const Cut2dTrial open = trial(0), one = trial(1);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  EXPECT_GE(seconds.count(), 0.25);
+  EXPECT_LT(open.best_seconds, open.median_seconds);  // of more than one
+  EXPECT_EQ(one.best_seconds, one.median_seconds);
+  EXPECT_EQ(open.after.X, one.after.X);
 }
 
 TEST(Cut2dJson, says_what_the_cut_did) {
