@@ -22,7 +22,7 @@ namespace {
 
 volatile double sink = 0;
 
-void work(int n) {
+[[gnu::noinline]] void work(int n) {
   double x = 1;
   for (int k = 0; k < n; ++k) x = x * 0.999 + 1e-3;
   sink = x;

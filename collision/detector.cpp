@@ -202,8 +202,13 @@ ContactDetector::ContactDetector(ContactDetector&&) noexcept = default;
 ContactDetector& ContactDetector::operator=(ContactDetector&&) noexcept = default;
 
 void ContactDetector::set_surface(const Surface& surface) {
-  state_->triangle = surface.triangle;
+  set_closed_surface(surface);
   state_->plane = boundary_edges(surface);
+}
+
+void ContactDetector::set_closed_surface(const Surface& surface) {
+  state_->triangle = surface.triangle;
+  state_->plane = {};
   state_->tree.reset();
 }
 

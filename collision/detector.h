@@ -48,6 +48,8 @@ class ContactDetector {
   // edges is that of a plane mesh (tri3 in z = 0): then tools touch its boundary edges with the
   // section that z = 0 cuts out of them (plane_contact.h).
   void set_surface(const Surface& surface);
+  // The same of a body's surface, which has no such edges to look for.
+  void set_closed_surface(const Surface& surface);
 
   // All (tool piece, triangle) pairs nearer than margin[tool], in ascending (tool, piece,
   // triangle): the same on every rank. x (n_nodes) global positions, valid at surface nodes; pose

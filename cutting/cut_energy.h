@@ -27,8 +27,15 @@ double stability_bound(const TetShape& shape, double h);
 // f of one tetrahedron; infinite if it has no volume.
 double stability_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner,
                        double h);
-// Adds f^2 and its derivatives by the position of corner a. The tetrahedron must have volume.
-void add_squared_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner, int a,
-                       double h, NodeEnergy& energy);
+
+// A tetrahedron by its shape, which must have volume, and the node p at one of its corners with the
+// others, q, in the order of the facet across (tet_facets).
+struct TetAtNode {
+  TetShape shape;
+  std::array<const Vec3*, 3> q;
+};
+// Adds their f^2 and its derivatives by p, in this order.
+void add_squared_bounds(const Vec3& p, std::span<const TetAtNode> tets, double h,
+                        NodeEnergy& energy);
 
 }  // namespace trocar

@@ -11,6 +11,11 @@
 
 namespace trocar {
 
+// A facet that looks for the element across, at its lowest node.
+struct WaitingFacet {
+  std::int32_t middle, high, element, facet;
+};
+
 struct CutIndex {
   std::vector<std::int32_t> star_begin, star_size;  // (n_nodes) into star_element
   std::vector<std::int32_t> star_element;           // ascending in each star
@@ -22,6 +27,7 @@ struct CutIndex {
   // Scratch of searches and patches (n_nodes), the same value everywhere between two uses.
   std::vector<std::uint8_t> ring;
   std::vector<std::int32_t> local;
+  std::vector<WaitingFacet> waiting;          // scratch of patches, anything between two uses
   const std::int32_t* corner_node = nullptr;  // of the mesh that it belongs to
   std::size_t n_elements = 0;
 

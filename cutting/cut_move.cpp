@@ -23,6 +23,9 @@ struct Descent {
   const std::vector<NodeRole>& role;
   MoveLimits limits;
   std::vector<Vec3>& X;
+  std::vector<TetShape> shape;  // (n_elements) as the nodes lie
+  std::vector<TetShape> tried;  // of a node's star, where it is tried
+  std::vector<TetAtNode> star;  // of a node
 };
 
 struct SurfaceTerm {
@@ -49,17 +52,21 @@ static double term_value(const Descent& d, const SurfaceTerm& term, const Vec3& 
   return term.weight * phi * phi;
 }
 
-static NodeEnergy node_energy(const Descent& d, std::int32_t i, const SurfaceTerm& term) {
+static NodeEnergy node_energy(Descent& d, std::int32_t i, const SurfaceTerm& term) {
   NodeEnergy energy;
   const double h = d.around.h, phi = term.plane.distance(d.X[i]) / h;
   energy.value = term.weight * phi * phi;
   energy.gradient = 2 * term.weight * phi / h * term.plane.N;
   energy.hessian = 2 * term.weight / (h * h) * term.plane.N * term.plane.N.transpose();
+  d.star.clear();
   for (const std::int32_t e : d.around.patch.star(i)) {
     const std::array<std::int32_t, 4>& corner = d.around.patch.corner[e];
     const auto a = std::find(corner.begin(), corner.end(), i) - corner.begin();
-    add_squared_bound(d.X, corner, static_cast<int>(a), h, energy);
+    const std::array<int, 3>& across = tet_facets[static_cast<std::size_t>(a)];
+    d.star.push_back(
+        {d.shape[e], {&d.X[corner[across[0]]], &d.X[corner[across[1]]], &d.X[corner[across[2]]]}});
   }
+  add_squared_bounds(d.X[i], d.star, h, energy);
   return energy;
 }
 
@@ -93,18 +100,39 @@ static bool try_position(Descent& d, std::int32_t i, const Vec3& to, const IsBet
 }
 
 // Whether node i is valid and better where it stands: no step bound below `step`, energy below
-// `least`.
-static bool is_better(const Descent& d, std::int32_t i, const SurfaceTerm& term, double step,
+// `least`. Leaves the shapes of its star in `tried`.
+static bool is_better(Descent& d, std::int32_t i, const SurfaceTerm& term, double step,
                       double least) {
   double value = term_value(d, term, d.X[i]);
+  d.tried.clear();
   for (const std::int32_t e : d.around.patch.star(i)) {
     const TetShape shape = tet_shape(d.X, d.around.patch.corner[e]);
     if (!(shape.V > 0) || shape.V * shape.V < step * step * shape.S) return false;
     const double f = stability_bound(shape, d.around.h);
     value += f * f;
     if (!(value < least)) return false;
+    d.tried.push_back(shape);
   }
   return true;
+}
+
+// The lesser of the floor and the least step bound of the star: most lie far above the floor, which
+// their shapes tell without roots.
+static double least_step(const Descent& d, std::int32_t i) {
+  constexpr double rounding = 1e-3;
+  const double floor = d.limits.floor, clear = (1 + rounding) * floor * floor;
+  double least = floor;
+  for (const std::int32_t e : d.around.patch.star(i)) {
+    const auto& [V, S] = d.shape[e];
+    if (V > 0 && V * V > clear * S) continue;
+    least = std::min(least, step_bound(d.X, d.around.patch.corner[e]));
+  }
+  return least;
+}
+
+static void keep_tried(Descent& d, std::int32_t i) {
+  const std::span<const std::int32_t> star = d.around.patch.star(i);
+  for (std::size_t k = 0; k < star.size(); ++k) d.shape[star[k]] = d.tried[k];
 }
 
 // Returns how far the node has gone.
@@ -112,13 +140,16 @@ static double descend(Descent& d, std::int32_t i) {
   const SurfaceTerm term = surface_term(d, i);
   const NodeEnergy energy = node_energy(d, i, term);
   if (!std::isfinite(energy.value)) return 0;
-  const double least_step = std::min(d.limits.floor, star_step(d.around.patch, d.X, i));
+  const double step_floor = least_step(d, i);
   const Vec3 from = d.X[i];
   Vec3 step = newton_step(energy, d.around.boundary[i], d.around.h);
-  for (int trial = 0; trial < 5; ++trial, step *= 0.5)
-    if (try_position(d, i, from + step,
-                     [&] { return is_better(d, i, term, least_step, energy.value); }))
-      return (d.X[i] - from).norm();
+  for (int trial = 0; trial < 5; ++trial, step *= 0.5) {
+    if (!try_position(d, i, from + step,
+                      [&] { return is_better(d, i, term, step_floor, energy.value); }))
+      continue;
+    keep_tried(d, i);
+    return (d.X[i] - from).norm();
+  }
   return 0;
 }
 
@@ -149,7 +180,8 @@ static void snap(Descent& d, std::int32_t i) {
 
 void move_nodes(const CutSurroundings& around, const std::vector<NodeRole>& role,
                 const MoveLimits& limits, std::vector<Vec3>& X) {
-  Descent d{around, role, limits, X};
+  Descent d{around, role, limits, X, {}, {}, {}};
+  for (const auto& corner : around.patch.corner) d.shape.push_back(tet_shape(X, corner));
   std::vector<std::int32_t> movable;
   for (std::int32_t i = 0; i < around.patch.n_nodes(); ++i)
     if (role[i] != NodeRole::stays && around.boundary[i].freedom != NodeFreedom::fixed)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace trocar {
 
@@ -109,24 +110,27 @@ static void set_stars(CutPatch& patch) {
     for (const std::int32_t i : patch.corner[e]) patch.star_element[next[i]++] = e;
 }
 
+static void sort3(std::array<std::int32_t, 3>& v) {
+  if (v[0] > v[1]) std::swap(v[0], v[1]);
+  if (v[1] > v[2]) std::swap(v[1], v[2]);
+  if (v[0] > v[1]) std::swap(v[0], v[1]);
+}
+
 // Pairs the facets of equal nodes: each waits at its lowest node for the other one.
-static void set_neighbours(CutPatch& patch) {
-  struct Waiting {
-    std::int32_t middle, high, element;
-    int facet;
-  };
+static void set_neighbours(CutPatch& patch, std::vector<WaitingFacet>& waiting) {
   patch.across.assign(patch.corner.size(), {-1, -1, -1, -1});
   // As many places at a node as its star may need: three facets an element.
-  std::vector<Waiting> waiting(patch.star_element.size() * 3);
+  if (waiting.size() < patch.star_element.size() * 3) waiting.resize(patch.star_element.size() * 3);
   std::vector<std::int32_t> n_waiting(patch.node.size(), 0);
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     for (int f = 0; f < 4; ++f) {
       std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);
-      std::sort(node.begin(), node.end());
-      Waiting* const begin = waiting.data() + 3 * patch.star_offset[node[0]];
-      Waiting* const end = begin + n_waiting[node[0]];
-      Waiting* const other = std::find_if(
-          begin, end, [&](const Waiting& w) { return w.middle == node[1] && w.high == node[2]; });
+      sort3(node);
+      WaitingFacet* const begin = waiting.data() + 3 * patch.star_offset[node[0]];
+      WaitingFacet* const end = begin + n_waiting[node[0]];
+      WaitingFacet* const other = std::find_if(begin, end, [&](const WaitingFacet& w) {
+        return w.middle == node[1] && w.high == node[2];
+      });
       if (other == end) {
         *end = {node[1], node[2], e, f};
         ++n_waiting[node[0]];
@@ -170,7 +174,7 @@ CutPatch make_patch(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
   }
   number_nodes(patch, mesh, reached, index);
   set_stars(patch);
-  set_neighbours(patch);
+  set_neighbours(patch, index.waiting);
   patch.is_joined.assign(patch.node.size(), 0);
   for (const std::int32_t i : joined)
     if (index.local[i] >= 0) patch.is_joined[index.local[i]] = 1;

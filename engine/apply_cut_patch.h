@@ -19,7 +19,7 @@ struct Patch : RankBody {
 
 // Rings of nodes around the edited elements that move in a patch; apply_cut_patch_test.cpp prints
 // what others give.
-inline constexpr int patch_rings = 3;
+inline constexpr int patch_rings = 1;
 
 // After the edit: the state of all nodes, and copies of the history (history.h) of the elements
 // that `parent` names, times `scale`.

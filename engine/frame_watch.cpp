@@ -131,13 +131,16 @@ double search_amplitude(const Simulation& s) {
   return (is_single ? 1e-3 : 1e-6) * s.edge_length;
 }
 
-double search_step(RankBody& body, double amplitude, const Communicator& communicator) {
+double search_step(RankBody& body, double amplitude, const Communicator& communicator,
+                   double enough) {
   State probe = body.state;
   const auto forces = [&](std::vector<double>& u, std::vector<double>& force) {
     force_of(body, probe, u, force);
   };
-  const HighestFrequency found = find_highest_frequency(body.model, body.part, body.state, forces,
-                                                        {.amplitude = amplitude}, communicator);
+  const FrequencyOptions options{.amplitude = amplitude,
+                                 .of_interest = 2 / (frequency_margin * enough)};
+  const HighestFrequency found =
+      find_highest_frequency(body.model, body.part, body.state, forces, options, communicator);
   return found.is_converged ? 2 / (frequency_margin * found.omega) : 0;
 }
 

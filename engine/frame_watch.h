@@ -1,6 +1,7 @@
 // What is looked at after the substeps of a frame, and what is done about trouble.
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "engine/simulation.h"
@@ -34,8 +35,10 @@ void watch_state(Simulation& s);
 double search_amplitude(const Simulation& s);
 // 2 / omega of the body's highest frequency less the search's margin; 0 if the search doesn't end.
 // It starts from nothing: modes are local, and a search that starts where the fastest one was does
-// not see another that has overtaken it elsewhere (docs/architecture.md). Collective.
-double search_step(RankBody& body, double amplitude, const Communicator& communicator);
+// not see another that has overtaken it elsewhere (docs/architecture.md). One that clearly gives
+// more than `enough` ends early, with some step above it. Collective. [s]
+double search_step(RankBody& body, double amplitude, const Communicator& communicator,
+                   double enough = std::numeric_limits<double>::infinity());
 // Takes the present state, where `step` is stable [s], for the one that the step follows from.
 void follow_from_here(Simulation& s, double step);
 // s.look.stiffening, from s.look.u. Collective.

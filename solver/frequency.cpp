@@ -88,6 +88,16 @@ void take_ritz_value(const Vector& diagonal, const Vector& beside, double next,
   found.residual = next * std::abs(solver.eigenvectors()(n - 1, n - 1)) / std::abs(omega2);
 }
 
+// No mode can be much above what a few directions of all modes have found where the residual is
+// small beside the distance: each direction more has a faster one's share grow several times.
+bool is_below_interest(const HighestFrequency& found, const FrequencyOptions& options) {
+  constexpr int least_directions = 5;
+  constexpr double residuals = 4;
+  return found.n_iterations >= least_directions &&
+         found.omega * found.omega * (1 + residuals * found.residual) <
+             options.of_interest * options.of_interest;
+}
+
 }  // namespace
 
 HighestFrequency find_highest_frequency(const Model& model, const Part& part, const State& state,
@@ -119,8 +129,10 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
       next[k] -= diagonal.back() * x[k] + back * last[k];
     const bool goes_on = normalise(s, next, Mx, length);
     take_ritz_value(diagonal, beside, length, found);
-    found.is_converged = !goes_on || (found.n_iterations >= options.least_iterations &&
-                                      found.residual <= options.tolerance);
+    found.is_converged =
+        !goes_on ||
+        (found.n_iterations >= options.least_iterations && found.residual <= options.tolerance) ||
+        is_below_interest(found, options);
     beside.push_back(length);
     last.swap(x);
     x.swap(next);

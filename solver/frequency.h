@@ -17,6 +17,8 @@ struct FrequencyOptions {
   double amplitude = 1e-9;  // largest displacement of the difference [m]: well below an edge
   double tolerance = 0.01;  // residual that ends the search
   int least_iterations = 2, most_iterations = 100;
+  // A search that is clearly below this ends: nobody needs to know by how much. [1/s]
+  double of_interest = 0;
 };
 
 struct HighestFrequency {

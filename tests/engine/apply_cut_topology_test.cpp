@@ -8,6 +8,7 @@
 
 #include "base/sort_unique.h"
 #include "base/threads.h"
+#include "collision/plane_contact.h"
 #include "engine/apply_cut.h"
 #include "engine/energy_ledger.h"
 #include "engine/frame_watch.h"
@@ -107,6 +108,7 @@ TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
         expect_equal(part, s.part);
         expect_equal(model, s.model);
         expect_equal(surface, s.surface);
+        EXPECT_TRUE(boundary_edges(s.surface).node.empty());  // closed, as follow_model takes it
         EXPECT_EQ(mass, s.mass);
         EXPECT_EQ(altitude, s.altitude);
         EXPECT_EQ(rest_step, s.rest_step);
