@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cutting/cut_flow.h"
+#include "cutting/cut_slice.h"
 
 namespace trocar {
 
@@ -99,7 +100,7 @@ static void part_front(const CutSurroundings& around, std::vector<ElementSides>&
   }
 }
 
-static bool is_unknown(const CutLabels& labels, std::int32_t e) {
+bool is_unknown(const CutLabels& labels, std::int32_t e) {
   return labels.kind[e] == CutKind::separated && labels.side[e] == 0;
 }
 
@@ -135,7 +136,7 @@ static void set_terminals(const CutSurroundings& around, const std::vector<Eleme
   }
 }
 
-static void cut_graph(const CutSurroundings& around, CutLabels& labels) {
+static void cut_graph(const CutSurroundings& around, const CutStroke& stroke, CutLabels& labels) {
   const CutPatch& patch = around.patch;
   constexpr std::int32_t source = 0, sink = 1;
   std::vector<std::int32_t> vertex(patch.element.size(), -1);
@@ -150,6 +151,9 @@ static void cut_graph(const CutSurroundings& around, CutLabels& labels) {
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     for (int f = 0; f < 4; ++f) {
       const std::int32_t u = patch.across[e][f];
+      if (const int side = slice_side(around, stroke, labels, e, f); side != 0)
+        arcs.push_back({vertex[e], side > 0 ? source : sink,
+                        1 + std::llround(capacity_unit * facet_cost(around, e, f))});
       if (u < e || vertex[e] < 0 || vertex[u] < 0 || vertex[e] == vertex[u] ||
           (vertex[e] <= sink && vertex[u] <= sink))
         continue;
@@ -197,6 +201,7 @@ bool part_bridges(const CutSurroundings& around, const CutStroke& stroke, CutLab
   std::vector<std::int32_t> found = bridges(around.patch, labels);
   if (found.empty()) return false;
   const std::vector<ElementSides> sides = element_sides(around, stroke);
+  const std::vector<const std::int8_t*> known = find_elements(stroke.side, around.patch.element);
   bool is_changed = false;
   for (bool is_going_on = true; is_going_on; found = bridges(around.patch, labels)) {
     is_going_on = false;
@@ -206,7 +211,11 @@ bool part_bridges(const CutSurroundings& around, const CutStroke& stroke, CutLab
       set_geometric_side(extent, around.h, e, labels);
       is_going_on = true;
     }
-    if (is_going_on) cut_graph(around, labels);
+    if (is_going_on) {  // the minimum cut knew too little of these before
+      for (std::int32_t e = 0; e < around.patch.n_elements(); ++e)
+        if (known[e] == nullptr && labels.kind[e] == CutKind::separated) labels.side[e] = 0;
+      cut_graph(around, stroke, labels);
+    }
     is_changed = is_changed || is_going_on;
   }
   return is_changed;
@@ -223,7 +232,7 @@ CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke,
     labels.side.push_back(known[e] != nullptr ? *known[e] : std::int8_t{0});
   }
   set_terminals(around, sides, stroke.unfinished, labels);
-  cut_graph(around, labels);
+  cut_graph(around, stroke, labels);
   labels.is_front_node.assign(around.patch.node.size(), 0);
   for (std::int32_t e = 0; e < around.patch.n_elements(); ++e)
     if (labels.kind[e] == CutKind::front ||

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 
-namespace trocar {
+#include "cutting/cut_slice.h"
 
-// A slice of the body thinner than this (over h) may stay with the other side.
-static constexpr double shaving = 0.35;
+namespace trocar {
 
 namespace {
 
@@ -59,7 +58,7 @@ static bool is_crossed_clearly(const CutSurroundings& around, std::int32_t e,
   return std::ranges::any_of(hits, [&](const CutHit& hit) {
     return std::ranges::all_of(tet_edges[static_cast<std::size_t>(hit.edge)], [&](int c) {
       const std::int32_t i = around.patch.corner[e][static_cast<std::size_t>(c)];
-      return surface_distance(around, i, around.patch.X[i]) > shaving * around.h;
+      return surface_distance(around, i, around.patch.X[i]) > thinnest_slice * around.h;
     });
   });
 }

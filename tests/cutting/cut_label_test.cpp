@@ -60,6 +60,17 @@ TEST(PartBridges, gives_sides_to_all_that_holds_both_together_around_an_edge) {
   EXPECT_EQ(labels.side, expected);
 }
 
+// The minimum cut gave element 1 to the only side that it knew of there.
+TEST(PartBridges, lets_the_minimum_cut_decide_again_once_it_knows_both_sides) {
+  const CutSurroundings around = turn_around_edge(n_in_turn);
+  CutLabels labels = labels_of({0, -1, -1, -1, -1, -1, 1, 1});
+  CutStroke stroke;
+  for (const std::int32_t e : {2, 3, 4, 5, 6, 7}) stroke.side.push_back({e, labels.side[e]});
+  EXPECT_TRUE(part_bridges(around, stroke, labels));
+  const std::vector<std::int8_t> expected{1, 1, -1, -1, -1, -1, 1, 1};  // of x
+  EXPECT_EQ(labels.side, expected);
+}
+
 TEST(PartBridges, leaves_alone_what_holds_to_one_side_only) {
   const CutSurroundings around = turn_around_edge(n_in_turn / 2);  // the edge is an outer one
   const std::vector<std::int8_t> side{0, 1, -1, 0};

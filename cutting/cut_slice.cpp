@@ -1,0 +1,38 @@
+// Outer facets that lie on one side of the surface, and nodes whose elements are all crossed.
+#include "cutting/cut_slice.h"
+
+#include <algorithm>
+
+namespace trocar {
+
+// Side that all three nodes of a facet lie on, clear of the surface; 0: none.
+static int clear_side(const CutSurroundings& around, const std::array<std::int32_t, 3>& node) {
+  int sum = 0;
+  for (const std::int32_t i : node) {
+    const Vec3& X = around.patch.X[i];
+    const std::span<const SurfacePoint> points = around.points.of(i);
+    if (points.empty()) return 0;
+    const double phi = fit_surface(points, X, around.h).distance(X) / around.h;
+    sum += (phi > thinnest_slice ? 1 : 0) - (phi < -thinnest_slice ? 1 : 0);
+  }
+  return sum / 3;
+}
+
+int slice_side(const CutSurroundings& around, const CutStroke& stroke, const CutLabels& labels,
+               std::int32_t e, int f) {
+  const CutPatch& patch = around.patch;
+  if (patch.across[e][f] >= 0 || !is_unknown(labels, e)) return 0;
+  const std::uint8_t* opened = find_element(stroke.opened, patch.element[e]);
+  if (opened != nullptr && (*opened >> f & 1) != 0) return 0;
+  const std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);
+  const int side = clear_side(around, node);
+  const auto is_mute = [&](std::int32_t u) {
+    return is_unknown(labels, u) || labels.side[u] == -side;
+  };
+  const auto is_unspoken = [&](std::int32_t i) {
+    return patch.is_whole(i) && std::ranges::all_of(patch.star(i), is_mute);
+  };
+  return side != 0 && std::ranges::any_of(node, is_unspoken) ? side : 0;
+}
+
+}  // namespace trocar
