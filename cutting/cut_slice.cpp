@@ -8,20 +8,15 @@ namespace trocar {
 // Side that all three nodes of a facet lie on, clear of the surface; 0: none.
 static int clear_side(const CutSurroundings& around, const std::array<std::int32_t, 3>& node) {
   int sum = 0;
-  for (const std::int32_t i : node) {
-    const Vec3& X = around.patch.X[i];
-    const std::span<const SurfacePoint> points = around.points.of(i);
-    if (points.empty()) return 0;
-    const double phi = fit_surface(points, X, around.h).distance(X) / around.h;
-    sum += (phi > thinnest_slice ? 1 : 0) - (phi < -thinnest_slice ? 1 : 0);
-  }
+  const double clear = thinnest_slice * around.h;
+  for (const std::int32_t i : node)
+    sum += (around.distance[i] > clear ? 1 : 0) - (around.distance[i] < -clear ? 1 : 0);
   return sum / 3;
 }
 
 int slice_side(const CutSurroundings& around, const CutStroke& stroke, const CutLabels& labels,
                std::int32_t e, int f) {
   const CutPatch& patch = around.patch;
-  if (patch.across[e][f] >= 0 || !is_unknown(labels, e)) return 0;
   const std::uint8_t* opened = find_element(stroke.opened, patch.element[e]);
   if (opened != nullptr && (*opened >> f & 1) != 0) return 0;
   const std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);

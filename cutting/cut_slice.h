@@ -12,8 +12,9 @@ namespace trocar {
 // Slices thinner than this (over h) may stay with the other side.
 inline constexpr double thinnest_slice = 0.35;
 
-// Side of the slice under facet f of element e, which is to be decided: that of the body's outer
-// surface there, clear of the swept surface. 0 where other elements speak for that side.
+// Side of the slice under f, an outer facet of an element e whose side is to be decided: the one
+// that f lies on, clear of the swept surface. 0 where other elements speak for that side, and where
+// this stroke opened f.
 int slice_side(const CutSurroundings& around, const CutStroke& stroke, const CutLabels& labels,
                std::int32_t e, int f);
 

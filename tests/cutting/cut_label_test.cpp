@@ -39,7 +39,10 @@ CutSurroundings turn_around_edge(int n_tets) {
   std::iota(around.points.offset.begin(), around.points.offset.end(), 0);
   around.points.point.assign(n_nodes, {.X = Vec3::Zero(), .N = Vec3::UnitX()});
   around.boundary.resize(n_nodes);
-  for (const Vec3& X : around.patch.X) around.surface_cost.push_back(X.x() * X.x());
+  for (const Vec3& X : around.patch.X) {
+    around.distance.push_back(X.x());
+    around.surface_cost.push_back(X.x() * X.x());
+  }
   return around;
 }
 
