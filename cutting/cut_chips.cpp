@@ -37,19 +37,19 @@ static bool is_chip(const CutSurroundings& around, const std::vector<std::int32_
   return six_V < 6 * chip_volume * around.h * around.h * around.h;
 }
 
-std::vector<Vec3> attach_chips(const CutSurroundings& around, const CutOpening& opening,
-                               CutLabels& labels) {
-  std::vector<Vec3> centre;
-  if (opening.duplication.duplicate_parent.empty()) return centre;
+std::vector<CutChip> attach_chips(const CutSurroundings& around, const CutOpening& opening,
+                                  CutLabels& labels) {
+  std::vector<CutChip> chips;
+  if (opening.duplication.duplicate_parent.empty()) return chips;
   std::vector<std::uint8_t> is_seen(around.patch.element.size(), 0);
   for (const auto& [first, f] : opening.facet) {
     if (is_seen[first] != 0) continue;
-    const std::vector<std::int32_t> piece = piece_of(around.patch, opening, first, is_seen);
+    std::vector<std::int32_t> piece = piece_of(around.patch, opening, first, is_seen);
     if (!is_chip(around, piece)) continue;
-    centre.push_back(centre_of(around.patch, piece));
     for (const std::int32_t e : piece) labels.side[e] = static_cast<std::int8_t>(-labels.side[e]);
+    chips.push_back({centre_of(around.patch, piece), std::move(piece)});
   }
-  return centre;
+  return chips;
 }
 
 }  // namespace trocar

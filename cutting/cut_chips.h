@@ -6,9 +6,14 @@
 
 namespace trocar {
 
+struct CutChip {
+  Vec3 centre = Vec3::Zero();         // reference configuration [m]
+  std::vector<std::int32_t> element;  // local
+};
+
 // Gives the elements of pieces below half a mean edge cubed, which `opening` would free, the other
-// side; returns the pieces' centres.
-std::vector<Vec3> attach_chips(const CutSurroundings& around, const CutOpening& opening,
-                               CutLabels& labels);
+// side; returns the pieces.
+std::vector<CutChip> attach_chips(const CutSurroundings& around, const CutOpening& opening,
+                                  CutLabels& labels);
 
 }  // namespace trocar

@@ -91,7 +91,7 @@ static double least_quality(const TetCut& cut) {
 
 static std::vector<CutRefusal> refusals(const TetCut& cut, bool is_last) {
   std::vector<CutRefusal> list;
-  for (const Vec3& X : cut.chips) list.push_back({X, CutRefusal::chip});
+  for (const CutChip& chip : cut.chips) list.push_back({chip.centre, CutRefusal::chip});
   if (!is_last) return list;
   for (const auto& [e, f] : cut.opening.refused) {
     const std::array<std::int32_t, 3> node = facet_nodes(cut.around.patch, e, f);
@@ -126,12 +126,15 @@ CutFigures make_figures(const TetCut& cut, bool is_last) {
   return figures;
 }
 
-// Sides are kept where something is open: there they can't be taken back. Elsewhere the next edit
-// knows more.
+// Sides are kept where something is open: there they can't be taken back. So are those of chips:
+// measured by the mean edge around the blade, one may be none when the blade is elsewhere.
+// Elsewhere the next edit knows more.
 static void remember_sides(const TetCut& cut, CutStroke& stroke) {
   const CutPatch& patch = cut.around.patch;
-  std::vector<std::uint8_t> has_opened(patch.element.size(), 0);
-  for (const auto& [e, f] : cut.opening.facet) has_opened[e] = 1;
+  std::vector<std::uint8_t> is_kept(patch.element.size(), 0);
+  for (const auto& [e, f] : cut.opening.facet) is_kept[e] = 1;
+  for (const CutChip& chip : cut.chips)
+    for (const std::int32_t e : chip.element) is_kept[e] = 1;
   std::vector<OfElement<std::int8_t>> side;
   const std::vector<std::span<const CutHit>> hits = hits_of(stroke, patch.element);
   for (std::int32_t e = 0; e < patch.n_elements(); ++e) {
@@ -141,7 +144,7 @@ static void remember_sides(const TetCut& cut, CutStroke& stroke) {
     const auto& corner = patch.corner[e];
     const bool is_at_opening = std::any_of(corner.begin(), corner.end(),
                                            [&](std::int32_t i) { return cut.is_cut[i] != 0; });
-    if (has_opened[e] != 0 || (cut.labels.kind[e] == CutKind::separated && is_at_opening))
+    if (is_kept[e] != 0 || (cut.labels.kind[e] == CutKind::separated && is_at_opening))
       side.push_back({patch.element[e], cut.labels.side[e]});
     else if (cut.labels.kind[e] == CutKind::separated)
       stroke.unfinished.push_back(patch.element[e]);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cutting/cut_flow.h"
+#include "cutting/cut_slice.h"
 
 namespace trocar {
 
@@ -37,13 +38,15 @@ static int implied_side(const ElementSides& sides, int f) {
   return (plus > 0 ? 1 : 0) - (minus > 0 ? 1 : 0);
 }
 
-// Crossing points near corner c of an element: its own, or those of another corner.
-static std::span<const SurfacePoint> points_at(const CutSurroundings& around, std::int32_t e,
-                                               std::size_t c) {
+// Distance of corner c of an element from the surface by the crossing points near it, else by those
+// near another corner; 0 if there are none.
+static double distance_at(const CutSurroundings& around, std::int32_t e, std::size_t c) {
   const std::array<std::int32_t, 4>& corner = around.patch.corner[e];
   std::span<const SurfacePoint> points = around.points.of(corner[c]);
+  if (!points.empty()) return around.distance[corner[c]];
   for (std::size_t k = 0; k < 4 && points.empty(); ++k) points = around.points.of(corner[k]);
-  return points;
+  const Vec3& X = around.patch.X[corner[c]];
+  return points.empty() ? 0 : fit_surface(points, X, around.h).distance(X);
 }
 
 namespace {
@@ -61,10 +64,7 @@ struct Extent {
 static Extent extent_of(const CutSurroundings& around, const ElementSides& sides, std::int32_t e) {
   Extent extent;
   for (std::size_t c = 0; c < 4; ++c) {
-    const std::int32_t i = around.patch.corner[e][c];
-    const std::span<const SurfacePoint> points = points_at(around, e, c);
-    if (sides.is_neutral[c] || points.empty()) continue;
-    const double phi = fit_surface(points, around.patch.X[i], around.h).distance(around.patch.X[i]);
+    const double phi = sides.is_neutral[c] ? 0 : distance_at(around, e, c);
     extent.low = std::min(extent.low, phi);
     extent.high = std::max(extent.high, phi);
   }
@@ -90,16 +90,14 @@ static void part_front(const CutSurroundings& around, std::vector<ElementSides>&
     if (sides[e].kind != CutKind::front) continue;
     sides[e].kind = CutKind::separated;
     for (std::size_t c = 0; c < 4; ++c) {
-      const Vec3& X = around.patch.X[around.patch.corner[e][c]];
-      const std::span<const SurfacePoint> points = points_at(around, e, c);
-      const double phi = points.empty() ? 0 : fit_surface(points, X, around.h).distance(X);
+      const double phi = distance_at(around, e, c);
       const int side = (phi > 0 ? 1 : 0) - (phi < 0 ? 1 : 0);
       sides[e].corner[c] = static_cast<std::int8_t>(sides[e].is_neutral[c] ? 0 : side);
     }
   }
 }
 
-static bool is_unknown(const CutLabels& labels, std::int32_t e) {
+bool is_unknown(const CutLabels& labels, std::int32_t e) {
   return labels.kind[e] == CutKind::separated && labels.side[e] == 0;
 }
 
@@ -135,7 +133,7 @@ static void set_terminals(const CutSurroundings& around, const std::vector<Eleme
   }
 }
 
-static void cut_graph(const CutSurroundings& around, CutLabels& labels) {
+static void cut_graph(const CutSurroundings& around, const CutStroke& stroke, CutLabels& labels) {
   const CutPatch& patch = around.patch;
   constexpr std::int32_t source = 0, sink = 1;
   std::vector<std::int32_t> vertex(patch.element.size(), -1);
@@ -150,6 +148,10 @@ static void cut_graph(const CutSurroundings& around, CutLabels& labels) {
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     for (int f = 0; f < 4; ++f) {
       const std::int32_t u = patch.across[e][f];
+      if (u < 0 && vertex[e] > sink)
+        if (const int side = slice_side(around, stroke, labels, e, f); side != 0)
+          arcs.push_back({vertex[e], side > 0 ? source : sink,
+                          1 + std::llround(capacity_unit * facet_cost(around, e, f))});
       if (u < e || vertex[e] < 0 || vertex[u] < 0 || vertex[e] == vertex[u] ||
           (vertex[e] <= sink && vertex[u] <= sink))
         continue;
@@ -197,6 +199,7 @@ bool part_bridges(const CutSurroundings& around, const CutStroke& stroke, CutLab
   std::vector<std::int32_t> found = bridges(around.patch, labels);
   if (found.empty()) return false;
   const std::vector<ElementSides> sides = element_sides(around, stroke);
+  const std::vector<const std::int8_t*> known = find_elements(stroke.side, around.patch.element);
   bool is_changed = false;
   for (bool is_going_on = true; is_going_on; found = bridges(around.patch, labels)) {
     is_going_on = false;
@@ -206,7 +209,11 @@ bool part_bridges(const CutSurroundings& around, const CutStroke& stroke, CutLab
       set_geometric_side(extent, around.h, e, labels);
       is_going_on = true;
     }
-    if (is_going_on) cut_graph(around, labels);
+    if (is_going_on) {  // the minimum cut knew too little of these before
+      for (std::int32_t e = 0; e < around.patch.n_elements(); ++e)
+        if (known[e] == nullptr && labels.kind[e] == CutKind::separated) labels.side[e] = 0;
+      cut_graph(around, stroke, labels);
+    }
     is_changed = is_changed || is_going_on;
   }
   return is_changed;
@@ -223,7 +230,7 @@ CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke,
     labels.side.push_back(known[e] != nullptr ? *known[e] : std::int8_t{0});
   }
   set_terminals(around, sides, stroke.unfinished, labels);
-  cut_graph(around, labels);
+  cut_graph(around, stroke, labels);
   labels.is_front_node.assign(around.patch.node.size(), 0);
   for (std::int32_t e = 0; e < around.patch.n_elements(); ++e)
     if (labels.kind[e] == CutKind::front ||

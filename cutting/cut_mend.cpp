@@ -1,5 +1,5 @@
-// Greedy: the change of one side, or of two neighbours' sides, that leaves the
-// fewest pinched nodes, again and again.
+// Greedy: the change of one side, of two neighbours' sides, or of those of all that hangs together
+// at a node, that leaves the fewest pinched nodes, again and again.
 #include "cutting/cut_mend.h"
 
 #include <algorithm>
@@ -32,14 +32,15 @@ static void turn(CutLabels& labels, std::span<const std::int32_t> element) {
   for (const std::int32_t e : element) labels.side[e] = static_cast<std::int8_t>(-labels.side[e]);
 }
 
+static bool may_turn(const Mending& m, std::int32_t e) {
+  return m.labels.side[e] != 0 && m.labels.kind[e] != CutKind::front &&
+         find_element(m.stroke.opened, m.around.patch.element[e]) == nullptr;
+}
+
 static bool may_change(const Mending& m, std::int32_t e) {
-  const CutLabels& labels = m.labels;
-  if (labels.side[e] == 0 || labels.kind[e] == CutKind::front ||
-      find_element(m.stroke.opened, m.around.patch.element[e]) != nullptr)
-    return false;
-  const auto& across = m.around.patch.across[e];
-  return std::any_of(across.begin(), across.end(),
-                     [&](std::int32_t u) { return u >= 0 && labels.side[u] == -labels.side[e]; });
+  const std::vector<std::int8_t>& side = m.labels.side;
+  const auto is_other = [&](std::int32_t u) { return u >= 0 && side[u] == -side[e]; };
+  return may_turn(m, e) && std::ranges::any_of(m.around.patch.across[e], is_other);
 }
 
 static void try_change(Mending& m, const std::vector<std::int32_t>& element, Change& best) {
@@ -62,6 +63,32 @@ static void try_pairs(Mending& m, std::int32_t e, Change& best) {
   }
 }
 
+// The elements around `node` that hang together with e, across facets at the node, on its side.
+static std::vector<std::int32_t> star_part(const Mending& m, std::int32_t node, std::int32_t e) {
+  const CutPatch& patch = m.around.patch;
+  std::vector<std::int32_t> part{e};
+  for (std::size_t k = 0; k < part.size(); ++k)
+    for (std::size_t f = 0; f < 4; ++f) {
+      const std::int32_t u = patch.across[part[k]][f];
+      if (u < 0 || patch.corner[part[k]][f] == node || m.labels.side[u] != m.labels.side[e] ||
+          std::ranges::find(part, u) != part.end())
+        continue;
+      part.push_back(u);
+    }
+  return part;
+}
+
+// What pinches the node may be a tent: elements that reach up to it from the other side.
+static void try_parts(Mending& m, std::int32_t node, Change& best) {
+  for (const std::int32_t e : m.around.patch.star(node)) {
+    if (m.labels.side[e] == 0) continue;
+    const std::vector<std::int32_t> part = star_part(m, node, e);
+    const auto is_free = [&](std::int32_t u) { return may_turn(m, u); };
+    if (e == std::ranges::min(part) && std::ranges::all_of(part, is_free))
+      try_change(m, part, best);
+  }
+}
+
 // The change at the first pinched node that helps most.
 static Change best_change(Mending& m) {
   Change best{{}, m.pinched};
@@ -71,6 +98,7 @@ static Change best_change(Mending& m) {
   if (!best.element.empty()) return best;
   for (const std::int32_t e : star)
     if (may_change(m, e)) try_pairs(m, e, best);
+  if (best.element.empty()) try_parts(m, m.pinched.front(), best);
   return best;
 }
 

@@ -2,11 +2,11 @@
 #include "cutting/cut_missed.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "cutting/cut_slice.h"
 
 namespace trocar {
-
-// A slice of the body thinner than this (over h) may stay with the other side.
-static constexpr double shaving = 0.35;
 
 namespace {
 
@@ -59,7 +59,7 @@ static bool is_crossed_clearly(const CutSurroundings& around, std::int32_t e,
   return std::ranges::any_of(hits, [&](const CutHit& hit) {
     return std::ranges::all_of(tet_edges[static_cast<std::size_t>(hit.edge)], [&](int c) {
       const std::int32_t i = around.patch.corner[e][static_cast<std::size_t>(c)];
-      return surface_distance(around, i, around.patch.X[i]) > shaving * around.h;
+      return std::abs(around.distance[i]) > thinnest_slice * around.h;
     });
   });
 }

@@ -77,9 +77,7 @@ static std::vector<bool> neutral_nodes(const CutSurroundings& around, const CutS
     if (const std::int32_t i = patch.local_node(node); i >= 0) is_neutral[i] = true;
   for (std::int32_t i = 0; i < patch.n_nodes(); ++i) {
     if (votes[i] != 3 || around.points.of(i).empty()) continue;
-    const SurfacePlane plane = fit_surface(around.points.of(i), patch.X[i], around.h);
-    if (std::abs(plane.distance(patch.X[i])) < contradiction_distance * around.h)
-      is_neutral[i] = true;
+    if (std::abs(around.distance[i]) < contradiction_distance * around.h) is_neutral[i] = true;
   }
   return is_neutral;
 }

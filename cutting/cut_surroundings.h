@@ -16,6 +16,8 @@ struct CutSurroundings {
   std::vector<NodeBoundary> boundary;  // (n_nodes)
   std::vector<double> surface_cost;  // (n_nodes) squared distance to the surface over h, as far as
                                      // the node can go there
+  std::vector<double> distance;      // (n_nodes) from the surface, > 0 on the + side; 0 where no
+                                     // crossing is near [m]
   double h = 0;                      // mean edge length [m]
 };
 

@@ -26,15 +26,19 @@ static std::vector<std::int32_t> seed_elements(const CutStroke& stroke, bool is_
   return seed;
 }
 
-static double surface_cost(const CutSurroundings& around, std::int32_t i) {
+// Adds distance and cost of node i.
+static void add_distance(CutSurroundings& around, std::int32_t i) {
   const std::span<const SurfacePoint> points = around.points.of(i);
-  if (points.empty()) return 0;
+  around.distance.push_back(0);
+  around.surface_cost.push_back(0);
+  if (points.empty()) return;
   const SurfacePlane plane = fit_surface(points, around.patch.X[i], around.h);
-  const double distance = plane.distance(around.patch.X[i]) / around.h;
-  const double d2 = distance * distance;
+  around.distance[i] = plane.distance(around.patch.X[i]);
+  const double distance = around.distance[i] / around.h, d2 = distance * distance;
   const double slope2 = allowed_part(around.boundary[i], plane.N).squaredNorm();
-  if (d2 <= tolerated_distance * tolerated_distance) return d2;
-  return std::min(d2 / std::max(slope2, 1e-6), immovable_cost);
+  around.surface_cost[i] = d2 <= tolerated_distance * tolerated_distance
+                               ? d2
+                               : std::min(d2 / std::max(slope2, 1e-6), immovable_cost);
 }
 
 CutSurroundings survey(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
@@ -52,7 +56,7 @@ CutSurroundings survey(const Mesh& mesh, CutIndex& index, std::span<const Vec3> 
     if (around.patch.node_ring[i] <= 1)
       boundary = node_boundary(around.patch, stroke, mesh.cut_facets, i);
     around.boundary.push_back(std::move(boundary));
-    around.surface_cost.push_back(surface_cost(around, i));
+    add_distance(around, i);
   }
   return around;
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "cutting/cut_chips.h"
 #include "cutting/cut_label.h"
 #include "cutting/cut_move.h"
 #include "cutting/cut_open.h"
@@ -24,7 +25,7 @@ struct TetCut {
   std::vector<std::uint8_t> is_cut;  // (n_nodes) on a facet that this stroke opened, now or before
   std::vector<Vec3> X;               // (n_nodes) reference positions afterwards
   std::vector<NodeTransfer> transfer;  // of the moved nodes
-  std::vector<Vec3> chips;             // centres of those that stay with the other side
+  std::vector<CutChip> chips;          // that stay with the other side
   CutRungs rungs;
 };
 

@@ -39,7 +39,10 @@ CutSurroundings turn_around_edge(int n_tets) {
   std::iota(around.points.offset.begin(), around.points.offset.end(), 0);
   around.points.point.assign(n_nodes, {.X = Vec3::Zero(), .N = Vec3::UnitX()});
   around.boundary.resize(n_nodes);
-  for (const Vec3& X : around.patch.X) around.surface_cost.push_back(X.x() * X.x());
+  for (const Vec3& X : around.patch.X) {
+    around.distance.push_back(X.x());
+    around.surface_cost.push_back(X.x() * X.x());
+  }
   return around;
 }
 
@@ -56,6 +59,17 @@ TEST(PartBridges, gives_sides_to_all_that_holds_both_together_around_an_edge) {
   const CutSurroundings around = turn_around_edge(n_in_turn);
   CutLabels labels = labels_of({1, 0, 0, 0, -1, 0, 0, 0});
   EXPECT_TRUE(part_bridges(around, {}, labels));
+  const std::vector<std::int8_t> expected{1, 1, -1, -1, -1, -1, 1, 1};  // of x
+  EXPECT_EQ(labels.side, expected);
+}
+
+// The minimum cut gave element 1 to the only side that it knew of there.
+TEST(PartBridges, lets_the_minimum_cut_decide_again_once_it_knows_both_sides) {
+  const CutSurroundings around = turn_around_edge(n_in_turn);
+  CutLabels labels = labels_of({0, -1, -1, -1, -1, -1, 1, 1});
+  CutStroke stroke;
+  for (const std::int32_t e : {2, 3, 4, 5, 6, 7}) stroke.side.push_back({e, labels.side[e]});
+  EXPECT_TRUE(part_bridges(around, stroke, labels));
   const std::vector<std::int8_t> expected{1, 1, -1, -1, -1, -1, 1, 1};  // of x
   EXPECT_EQ(labels.side, expected);
 }
