@@ -2,6 +2,7 @@
 #include <map>
 
 #include "cut_case.h"
+#include "engine/apply_cut.h"
 #include "stability_body.h"
 
 namespace trocar::cut_bench {
@@ -62,18 +63,26 @@ static std::vector<Vec3> present(const trocar::Body& body) {
   return x;
 }
 
+// As a running scene does.
 static void apply(const MeshEdit& edit, trocar::Body& body) {
   if (edit.is_empty()) return;
-  Mesh mesh = body.mesh;
-  std::vector<double> u = body.state.u, v = body.state.v;
-  apply_edit(edit, mesh, 3, u);
-  apply_edit(edit, mesh, 3, v);
-  apply_edit(edit, mesh);
-  const double last_dt = body.state.last_dt;
-  body = make_body(std::move(mesh), tissue());
-  body.state.u = std::move(u);
-  body.state.v = std::move(v);  // of the middle of the last step
-  body.state.last_dt = last_dt;
+  Communicator alone;
+  Simulation s;
+  s.communicator = &alone;
+  for (const char* name : phase_names) s.timers.phase(name);
+  s.mesh = body.mesh;
+  s.materials = body.materials;
+  s.fixed.assign(s.mesh.X.size(), 0);
+  s.node_owner.assign(s.mesh.X.size(), 0);
+  rebuild_topology(s);
+  s.state = body.state;  // v is of the middle of the last step
+  GlobalState global = gather_state(s);
+  CutRecord record;
+  apply_cut(s, edit, global, record);
+  body = make_body(std::move(s.mesh), tissue());
+  body.state.u = s.state.u;
+  body.state.v = s.state.v;
+  body.state.last_dt = s.state.last_dt;
 }
 
 static double present_energy(trocar::Body& body) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "base/exact_sum.h"
 #include "engine/energy_ledger.h"
@@ -71,18 +72,17 @@ void set_state(const Simulation& s, const PatchState& state, Patch& patch) {
   average_volume_change(patch.model, patch.state, patch.scratch);
 }
 
-std::unique_ptr<Patch> make_patch_of_nodes(const Simulation& s, std::span<const std::int32_t> free,
-                                           const PatchState& state) {
+// Of the elements of `sub`; only `free` nodes move.
+std::unique_ptr<Patch> make_patch_of(const Simulation& s, SubMesh sub, const MassScaling& scaling,
+                                     std::span<const std::int32_t> free, const PatchState& state) {
   auto made = std::make_unique<Patch>();
   Patch& patch = *made;
-  patch.sub = make_sub_mesh(s.mesh, elements_of_forces(s, free));
-  MassScaling scaling;
-  if (s.added_mass) scaling = take_in_clusters(s, patch.sub);
+  patch.sub = std::move(sub);
   const std::vector<std::int32_t>& node = patch.sub.node;
   patch.part = make_part(patch.sub.mesh, std::vector<std::int32_t>(node.size(), 0), 0);
   patch.model = build_model(patch.sub.mesh, patch.part, s.materials, fixed_in_patch(s, node, free),
                             values_of<double>(s.mass, node), s.model.options);
-  if (s.added_mass) scale_mass(scaling, patch.part, patch.model);
+  if (!scaling.node.empty()) scale_mass(scaling, patch.part, patch.model);
   patch.scratch = make_scratch(patch.model);
   set_state(s, state, patch);
   return made;
@@ -99,18 +99,33 @@ double sum_of(std::initializer_list<std::span<const double>> lists) {
 
 std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
                                   const PatchState& state) {
-  return make_patch_of_nodes(s, free_nodes(s, edited, state.n_rings), state);
+  const std::vector<std::int32_t> free = free_nodes(s, edited, state.n_rings);
+  SubMesh sub = make_sub_mesh(s.mesh, elements_of_forces(s, free));
+  MassScaling scaling;
+  if (s.added_mass) scaling = take_in_clusters(s, sub);
+  return make_patch_of(s, std::move(sub), scaling, free, state);
+}
+
+std::unique_ptr<Patch> make_patch_around(const Simulation& s, std::span<const std::int32_t> nodes,
+                                         const PatchState& state) {
+  return make_patch_of(s, make_sub_mesh(s.mesh, elements_of_forces(s, nodes)), {}, nodes, state);
+}
+
+double strain_energy(RankBody& body) {
+  average_volume_change(body.model, body.state, body.scratch);
+  EnergyTerms terms;
+  energy_terms(body.model, body.part, body.state, terms);
+  return sum_of({terms.strain, terms.volumetric, terms.hourglass});
 }
 
 // Terms of what lies beyond the nodes are the same before and after, to the last bit.
-double patch_energy(const Simulation& s, std::span<const std::int32_t> nodes,
-                    const PatchState& state) {
-  const std::unique_ptr<Patch> patch = make_patch_of_nodes(s, nodes, state);
-  compute_force(patch->model, patch->state, patch->scratch);
+double patch_energy(Patch& patch) {
+  average_volume_change(patch.model, patch.state, patch.scratch);
+  compute_force(patch.model, patch.state, patch.scratch);
   EnergyTerms terms;
-  energy_terms(patch->model, patch->part, patch->state, terms);
+  energy_terms(patch.model, patch.part, patch.state, terms);
   std::vector<double> kinetic, gravity;
-  add_nodal_energies(*patch, kinetic, gravity);
+  add_nodal_energies(patch, kinetic, gravity);
   return sum_of({terms.strain, terms.volumetric, terms.hourglass, kinetic, gravity});
 }
 

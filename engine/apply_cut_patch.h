@@ -33,12 +33,15 @@ struct PatchState {
 std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
                                   const PatchState& state);
 
-// Of all elements that the nodes' forces depend on, everything but these nodes held, with the
-// velocities of `state`: what an edit changes of the body's energy it changes of this one, for the
-// same nodes before and after (all corners of edited elements, before and after). Without history
-// and scaled masses. [J]
-double patch_energy(const Simulation& s, std::span<const std::int32_t> nodes,
-                    const PatchState& state);
+// All elements that the nodes' forces depend on, everything but these nodes held, with the velocities
+// of `state` and without scaled masses: what an edit changes of the body's energy it changes of this
+// one, for the same nodes before and after (all corners of edited elements, before and after).
+std::unique_ptr<Patch> make_patch_around(const Simulation& s, std::span<const std::int32_t> nodes,
+                                         const PatchState& state);
+// Strain and hourglass energy of the present displacement. [J]
+double strain_energy(RankBody& body);
+// All that an energy ledger counts, less overstress of viscous elements. [J]
+double patch_energy(Patch& patch);
 
 // Least bounds of its elements and, if the scene's step is a frequency's and they are below that of
 // s.watch, the step of its highest frequency; elements by their numbers in the mesh.
