@@ -294,7 +294,9 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited.before);
   const Before before = measure_before(s, edited.before, nodes, global);
   const bool is_step_local = keeps_step(s), is_energy_local = keeps_energy(s);
-  auto around = make_patch_around(s, old_nodes(s.mesh, nodes, edit), {.global = global});
+  auto around = make_patch_of(
+      s, elements_of_energy(s, edit, edited.before, old_nodes(s.mesh, nodes, edit)),
+      {.global = global});
   const double strain = strain_energy(*around);
   const double energy = ledger_energy(s, is_energy_local, global, *around);
   HistorySource history{.copies =
@@ -309,7 +311,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
     update_topology(s, edited.after, nodes, global.x);
   else
     rebuild_topology(s);
-  around = make_patch_around(s, nodes, {.global = global});
+  around = make_patch_of(s, elements_of_energy(s, edit, edited.after, nodes), {.global = global});
   restore_strain(adjustable, strain, s.mesh, *around, global);
   restore_momentum(nodes, s.mass, before.motion, global, record);
   const double kinetic = motion_of(nodes, s.mass, global, before.motion.centre).kinetic;

@@ -72,15 +72,14 @@ void set_state(const Simulation& s, const PatchState& state, Patch& patch) {
   average_volume_change(patch.model, patch.state, patch.scratch);
 }
 
-// Of the elements of `sub`; only `free` nodes move.
-std::unique_ptr<Patch> make_patch_of(const Simulation& s, SubMesh sub, const MassScaling& scaling,
-                                     std::span<const std::int32_t> free, const PatchState& state) {
+std::unique_ptr<Patch> assemble(const Simulation& s, SubMesh sub, const MassScaling& scaling,
+                                std::span<const FixedMask> fixed, const PatchState& state) {
   auto made = std::make_unique<Patch>();
   Patch& patch = *made;
   patch.sub = std::move(sub);
   const std::vector<std::int32_t>& node = patch.sub.node;
   patch.part = make_part(patch.sub.mesh, std::vector<std::int32_t>(node.size(), 0), 0);
-  patch.model = build_model(patch.sub.mesh, patch.part, s.materials, fixed_in_patch(s, node, free),
+  patch.model = build_model(patch.sub.mesh, patch.part, s.materials, fixed,
                             values_of<double>(s.mass, node), s.model.options);
   if (!scaling.node.empty()) scale_mass(scaling, patch.part, patch.model);
   patch.scratch = make_scratch(patch.model);
@@ -103,12 +102,24 @@ std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int3
   SubMesh sub = make_sub_mesh(s.mesh, elements_of_forces(s, free));
   MassScaling scaling;
   if (s.added_mass) scaling = take_in_clusters(s, sub);
-  return make_patch_of(s, std::move(sub), scaling, free, state);
+  const std::vector<FixedMask> fixed = fixed_in_patch(s, sub.node, free);
+  return assemble(s, std::move(sub), scaling, fixed, state);
 }
 
-std::unique_ptr<Patch> make_patch_around(const Simulation& s, std::span<const std::int32_t> nodes,
-                                         const PatchState& state) {
-  return make_patch_of(s, make_sub_mesh(s.mesh, elements_of_forces(s, nodes)), {}, nodes, state);
+std::vector<std::int32_t> elements_of_energy(const Simulation& s, const MeshEdit& edit,
+                                             std::span<const std::int32_t> edited,
+                                             std::span<const std::int32_t> nodes) {
+  if (s.energy) return elements_of_forces(s, nodes);
+  if (!edit.splits.empty() || s.model.options.tet4 == Formulation::tet4_nodal_pressure)
+    return elements_around(s.corners, nodes);
+  return {edited.begin(), edited.end()};
+}
+
+std::unique_ptr<Patch> make_patch_of(const Simulation& s, std::span<const std::int32_t> elements,
+                                     const PatchState& state) {
+  SubMesh sub = make_sub_mesh(s.mesh, elements);
+  const std::vector<FixedMask> fixed = values_of<FixedMask>(s.fixed, sub.node);
+  return assemble(s, std::move(sub), {}, fixed, state);
 }
 
 double strain_energy(RankBody& body) {
