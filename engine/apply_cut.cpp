@@ -294,9 +294,9 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited.before);
   const Before before = measure_before(s, edited.before, nodes, global);
   const bool is_step_local = keeps_step(s), is_energy_local = keeps_energy(s);
-  auto around = make_patch_of(
-      s, elements_of_energy(s, edit, edited.before, old_nodes(s.mesh, nodes, edit)),
-      {.global = global});
+  auto around =
+      make_patch_of(s, elements_of_energy(s, edit, edited.before, old_nodes(s.mesh, nodes, edit)),
+                    {.global = global});
   const double strain = strain_energy(*around);
   const double energy = ledger_energy(s, is_energy_local, global, *around);
   HistorySource history{.copies =

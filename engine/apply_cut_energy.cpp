@@ -37,10 +37,10 @@ Line find_line(std::span<const std::int32_t> nodes, std::span<const double> stif
     for (int j = 0; j < 3; ++j) {
       const auto k = static_cast<std::size_t>(3 * i + j);
       const auto node = static_cast<std::size_t>(i);
-      const double gradient = is_fixed(body.model, i, j)
-                                  ? 0
-                                  : body.model.mass[node] * body.model.options.gravity[j] -
-                                        body.scratch.force[k];
+      const double gradient =
+          is_fixed(body.model, i, j)
+              ? 0
+              : body.model.mass[node] * body.model.options.gravity[j] - body.scratch.force[k];
       line.u0.push_back(body.state.u[k]);
       line.d.push_back(gradient / stiffness[node]);
       line.slope += gradient * line.d.back();
