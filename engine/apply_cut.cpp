@@ -191,30 +191,11 @@ Before measure_before(const Simulation& s, std::span<const std::int32_t> element
           .mass = mass_of(nodes, s.mass)};
 }
 
-// `around` the edit with velocities of now. Up to what the edit leaves as it is. Collective.
-double ledger_energy(Simulation& s, bool is_local, const GlobalState& global, Patch& around) {
+// Up to what an edit leaves as it is. Collective.
+double energy_around(Simulation& s, bool is_local, std::span<const std::int32_t> nodes,
+                     const GlobalState& global) {
   if (!s.energy) return 0;
-  if (!is_local) return mechanical_energy(s).sum();
-  for (std::size_t k = 0; k < around.sub.node.size(); ++k)
-    std::copy_n(&global.v[3 * static_cast<std::size_t>(around.sub.node[k])], 3,
-                &around.state.v[3 * k]);
-  return patch_energy(around);
-}
-
-// Moves `nodes` of the body, in `around` too.
-void restore_strain(std::span<const std::int32_t> nodes, double wanted, const Mesh& mesh,
-                    Patch& around, GlobalState& global) {
-  std::vector<std::int32_t> local;
-  const std::vector<std::int32_t>& all = around.sub.node;
-  for (const std::int32_t i : nodes)
-    local.push_back(
-        static_cast<std::int32_t>(std::lower_bound(all.begin(), all.end(), i) - all.begin()));
-  restore_strain_energy(local, wanted, around);
-  for (std::size_t k = 0; k < local.size(); ++k) {
-    const auto i = static_cast<std::size_t>(nodes[k]);
-    std::copy_n(&around.state.u[3 * static_cast<std::size_t>(local[k])], 3, &global.u[3 * i]);
-    global.x[i] = mesh.X[i] + Vec3::Map(&global.u[3 * i]);
-  }
+  return is_local ? patch_energy(s, nodes, {.global = global}) : mechanical_energy(s).sum();
 }
 
 void add_to_record(const Simulation& s, const Before& before,
@@ -294,11 +275,10 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited.before);
   const Before before = measure_before(s, edited.before, nodes, global);
   const bool is_step_local = keeps_step(s), is_energy_local = keeps_energy(s);
-  auto around =
-      make_patch_of(s, elements_of_energy(s, edit, edited.before, old_nodes(s.mesh, nodes, edit)),
-                    {.global = global});
-  const double strain = strain_energy(*around);
-  const double energy = ledger_energy(s, is_energy_local, global, *around);
+  const std::vector<std::int32_t> of_before = old_nodes(s.mesh, nodes, edit);
+  const double energy = energy_around(s, is_energy_local, of_before, global);
+  const double strain =
+      strain_energy(*make_strained_patch(s, edit, edited.before, of_before, global));
   HistorySource history{.copies =
                             s.communicator->all_gather(copy_history(s.model, s.part, s.state))};
   const Known known{s.watch, s.look.at_step};
@@ -311,8 +291,8 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
     update_topology(s, edited.after, nodes, global.x);
   else
     rebuild_topology(s);
-  around = make_patch_of(s, elements_of_energy(s, edit, edited.after, nodes), {.global = global});
-  restore_strain(adjustable, strain, s.mesh, *around, global);
+  restore_strain_energy(adjustable, strain, s.mesh,
+                        *make_strained_patch(s, edit, edited.after, nodes, global), global);
   restore_momentum(nodes, s.mass, before.motion, global, record);
   const double kinetic = motion_of(nodes, s.mass, global, before.motion.centre).kinetic;
   add_kinetic_energy(adjustable, s.mass, before.motion.kinetic - kinetic, global, record);
@@ -330,7 +310,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
     watch_state(s);
   }
   if (s.energy)
-    s.energy->memory.works.cut += ledger_energy(s, is_energy_local, global, *around) - energy;
+    s.energy->memory.works.cut += energy_around(s, is_energy_local, nodes, global) - energy;
   add_to_record(s, before, edited.after, nodes, record);
   s.log.new_edits.push_back({.frame = s.frame, .edit = edit});
 }

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/sort_unique.h"
-#include "engine/apply_cut_patch.h"
 #include "solver/relax.h"
 #include "solver/step.h"
 #include "solver/watch.h"
@@ -81,6 +81,16 @@ double step_towards(double wanted, double least_J, double W, std::span<const std
 
 }  // namespace
 
+double strain_energy(RankBody& body) {
+  average_volume_change(body.model, body.state, body.scratch);
+  EnergyTerms terms;
+  energy_terms(body.model, body.part, body.state, terms);
+  double sum = 0;
+  for (const std::vector<double>* list : {&terms.strain, &terms.volumetric, &terms.hourglass})
+    sum = std::accumulate(list->begin(), list->end(), sum);
+  return sum;
+}
+
 std::vector<std::int32_t> adjustable_nodes(const Simulation& s, const MeshEdit& edit) {
   const std::int32_t n = s.mesh.n_nodes();
   std::vector<std::int32_t> nodes;
@@ -98,6 +108,17 @@ std::vector<std::int32_t> adjustable_nodes(const Simulation& s, const MeshEdit& 
   return nodes;
 }
 
+std::unique_ptr<Patch> make_strained_patch(const Simulation& s, const MeshEdit& edit,
+                                           std::span<const std::int32_t> edited,
+                                           std::span<const std::int32_t> nodes,
+                                           const GlobalState& global) {
+  const bool averages = s.model.options.tet4 == Formulation::tet4_nodal_pressure;
+  if (edit.splits.empty() && !averages) return make_patch_of(s, edited, {.global = global});
+  std::vector<std::int32_t> elements = elements_around(s.corners, nodes);
+  if (averages) elements = elements_around(s.corners, nodes_of(s.mesh, elements));
+  return make_patch_of(s, elements, {.global = global});
+}
+
 void restore_strain_energy(std::span<const std::int32_t> nodes, double wanted, RankBody& body) {
   double W = strain_energy(body);
   if (std::abs(W - wanted) <= tolerated * wanted) return;
@@ -108,6 +129,21 @@ void restore_strain_energy(std::span<const std::int32_t> nodes, double wanted, R
     const double before = W;
     W = step_towards(wanted, least_J, W, nodes, stiffness, body);
     if (W == before) return;
+  }
+}
+
+void restore_strain_energy(std::span<const std::int32_t> nodes, double wanted, const Mesh& mesh,
+                           Patch& patch, GlobalState& global) {
+  std::vector<std::int32_t> local;
+  const std::vector<std::int32_t>& all = patch.sub.node;
+  for (const std::int32_t i : nodes)
+    local.push_back(
+        static_cast<std::int32_t>(std::lower_bound(all.begin(), all.end(), i) - all.begin()));
+  restore_strain_energy(local, wanted, patch);
+  for (std::size_t k = 0; k < local.size(); ++k) {
+    const auto i = static_cast<std::size_t>(nodes[k]);
+    std::copy_n(&patch.state.u[3 * static_cast<std::size_t>(local[k])], 3, &global.u[3 * i]);
+    global.x[i] = mesh.X[i] + Vec3::Map(&global.u[3 * i]);
   }
 }
 

@@ -87,6 +87,15 @@ std::unique_ptr<Patch> assemble(const Simulation& s, SubMesh sub, const MassScal
   return made;
 }
 
+std::unique_ptr<Patch> make_patch_of_nodes(const Simulation& s, std::span<const std::int32_t> free,
+                                           const PatchState& state) {
+  SubMesh sub = make_sub_mesh(s.mesh, elements_of_forces(s, free));
+  MassScaling scaling;
+  if (s.added_mass) scaling = take_in_clusters(s, sub);
+  const std::vector<FixedMask> fixed = fixed_in_patch(s, sub.node, free);
+  return assemble(s, std::move(sub), scaling, fixed, state);
+}
+
 double sum_of(std::initializer_list<std::span<const double>> lists) {
   ExactSum sum;
   for (const std::span<const double> list : lists)
@@ -98,21 +107,7 @@ double sum_of(std::initializer_list<std::span<const double>> lists) {
 
 std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
                                   const PatchState& state) {
-  const std::vector<std::int32_t> free = free_nodes(s, edited, state.n_rings);
-  SubMesh sub = make_sub_mesh(s.mesh, elements_of_forces(s, free));
-  MassScaling scaling;
-  if (s.added_mass) scaling = take_in_clusters(s, sub);
-  const std::vector<FixedMask> fixed = fixed_in_patch(s, sub.node, free);
-  return assemble(s, std::move(sub), scaling, fixed, state);
-}
-
-std::vector<std::int32_t> elements_of_energy(const Simulation& s, const MeshEdit& edit,
-                                             std::span<const std::int32_t> edited,
-                                             std::span<const std::int32_t> nodes) {
-  if (s.energy) return elements_of_forces(s, nodes);
-  if (!edit.splits.empty() || s.model.options.tet4 == Formulation::tet4_nodal_pressure)
-    return elements_around(s.corners, nodes);
-  return {edited.begin(), edited.end()};
+  return make_patch_of_nodes(s, free_nodes(s, edited, state.n_rings), state);
 }
 
 std::unique_ptr<Patch> make_patch_of(const Simulation& s, std::span<const std::int32_t> elements,
@@ -122,21 +117,15 @@ std::unique_ptr<Patch> make_patch_of(const Simulation& s, std::span<const std::i
   return assemble(s, std::move(sub), {}, fixed, state);
 }
 
-double strain_energy(RankBody& body) {
-  average_volume_change(body.model, body.state, body.scratch);
-  EnergyTerms terms;
-  energy_terms(body.model, body.part, body.state, terms);
-  return sum_of({terms.strain, terms.volumetric, terms.hourglass});
-}
-
 // Terms of what lies beyond the nodes are the same before and after, to the last bit.
-double patch_energy(Patch& patch) {
-  average_volume_change(patch.model, patch.state, patch.scratch);
-  compute_force(patch.model, patch.state, patch.scratch);
+double patch_energy(const Simulation& s, std::span<const std::int32_t> nodes,
+                    const PatchState& state) {
+  const std::unique_ptr<Patch> patch = make_patch_of_nodes(s, nodes, state);
+  compute_force(patch->model, patch->state, patch->scratch);
   EnergyTerms terms;
-  energy_terms(patch.model, patch.part, patch.state, terms);
+  energy_terms(patch->model, patch->part, patch->state, terms);
   std::vector<double> kinetic, gravity;
-  add_nodal_energies(patch, kinetic, gravity);
+  add_nodal_energies(*patch, kinetic, gravity);
   return sum_of({terms.strain, terms.volumetric, terms.hourglass, kinetic, gravity});
 }
 

@@ -33,20 +33,16 @@ struct PatchState {
 std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
                                   const PatchState& state);
 
-// Where the energies that an edit changes are: the edited elements, with those around them if they
-// share nodes of split hexahedra or averaged pressures. With a ledger, all that the forces of their
-// corners depend on. Before the edit or after it; nodes: the corners of both, ascending.
-std::vector<std::int32_t> elements_of_energy(const Simulation& s, const MeshEdit& edit,
-                                             std::span<const std::int32_t> edited,
-                                             std::span<const std::int32_t> nodes);
-// Of these elements, with the velocities of `state`, without scaled masses, supports alone held:
-// what an edit changes of the body's energy it changes of this one.
+// Of all elements that the nodes' forces depend on, everything but these nodes held, with the
+// velocities of `state`: what an edit changes of the body's energy it changes of this one, for the
+// same nodes before and after (all corners of edited elements, before and after). Without history
+// and scaled masses. [J]
+double patch_energy(const Simulation& s, std::span<const std::int32_t> nodes,
+                    const PatchState& state);
+
+// These elements alone, without scaled masses; nothing but supports is held.
 std::unique_ptr<Patch> make_patch_of(const Simulation& s, std::span<const std::int32_t> elements,
                                      const PatchState& state);
-// Strain and hourglass energy of the present displacement. [J]
-double strain_energy(RankBody& body);
-// All that an energy ledger counts, less overstress of viscous elements. [J]
-double patch_energy(Patch& patch);
 
 // Least bounds of its elements and, if the scene's step is a frequency's and they are below that of
 // s.watch, the step of its highest frequency; elements by their numbers in the mesh.

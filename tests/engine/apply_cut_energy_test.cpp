@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "engine/apply_cut_momentum.h"
-#include "engine/apply_cut_patch.h"
 #include "engine_started.h"
 #include "solver/watch.h"
 
