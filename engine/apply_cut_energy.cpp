@@ -16,7 +16,7 @@ namespace trocar {
 namespace {
 
 constexpr double tolerated = 0.005;  // of the energy that is wanted
-constexpr int most_rounds = 10;
+constexpr int most_rounds = 30;
 constexpr int most_halvings = 5;
 constexpr double farthest_up = 1, farthest_down = 3;  // t of a round
 constexpr double least_J_ratio = 0.5;
