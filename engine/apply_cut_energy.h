@@ -27,8 +27,8 @@ std::unique_ptr<Patch> make_strained_patch(const Simulation& s, const MeshEdit& 
                                            const GlobalState& global);
 
 // Moves `nodes` of the body (local, their elements complete) until its strain energy is `wanted` up
-// to 0.5 %, or as near as thirty rounds come to it. None leaves an element with less than half of the
-// least det F that it met. The same bits on any number of threads.
+// to 0.5 %, or as near as thirty rounds come to it. None leaves an element with less than half of
+// the least det F that it met. The same bits on any number of threads.
 void restore_strain_energy(std::span<const std::int32_t> nodes, double wanted, RankBody& body);
 // The same with numbers of the whole mesh, after the edit; u and x follow.
 void restore_strain_energy(std::span<const std::int32_t> nodes, double wanted, const Mesh& mesh,
