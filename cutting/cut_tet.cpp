@@ -9,7 +9,6 @@
 #include "cutting/cut_chips.h"
 #include "cutting/cut_edit.h"
 #include "cutting/cut_hex.h"
-#include "cutting/cut_hex_relief.h"
 #include "cutting/cut_hits.h"
 #include "cutting/cut_homogenise.h"
 #include "cutting/cut_index.h"
@@ -145,9 +144,7 @@ MeshEdit TetCutter::advance(const Mesh& mesh, std::span<const Vec3> x,
   if (f.tets.mesh.X.empty()) return f.advance(mesh, x, is_held, sweep, is_last, figures);
   const MeshEdit edit = f.advance(f.tets.mesh, x, is_held, sweep, is_last, figures);
   if (edit.is_empty()) return edit;
-  MeshEdit of_body = edit_of_body(mesh, x, f.index, edit, f.tets, figures);
-  relieve_hourglass(mesh, x, is_held, f.tets.mesh, f.index, of_body);
-  return of_body;
+  return edit_of_body(mesh, x, f.index, edit, f.tets, figures);
 }
 
 }  // namespace trocar

@@ -7,6 +7,7 @@
 
 #include "base/log.h"
 #include "base/sort_unique.h"
+#include "engine/apply_cut_energy.h"
 #include "engine/apply_cut_momentum.h"
 #include "engine/apply_cut_patch.h"
 #include "engine/apply_cut_topology.h"
@@ -274,19 +275,27 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited.before);
   const Before before = measure_before(s, edited.before, nodes, global);
   const bool is_step_local = keeps_step(s), is_energy_local = keeps_energy(s);
-  const double energy = energy_around(s, is_energy_local, old_nodes(s.mesh, nodes, edit), global);
+  const std::vector<std::int32_t> of_before = old_nodes(s.mesh, nodes, edit);
+  const double energy = energy_around(s, is_energy_local, of_before, global);
+  const double strain =
+      strain_energy(*make_strained_patch(s, edit, edited.before, of_before, global));
   HistorySource history{.copies =
                             s.communicator->all_gather(copy_history(s.model, s.part, s.state))};
   const Known known{s.watch, s.look.at_step};
 
   const auto n_kept = static_cast<std::size_t>(s.part.n_owned);
+  const std::vector<std::int32_t> adjustable = adjustable_nodes(s, edit);
   const bool is_local = edit_whole(edit, global, s);
   nodes = united(nodes, nodes_of(s.mesh, edited.after));
   if (is_local)
     update_topology(s, edited.after, nodes, global.x);
   else
     rebuild_topology(s);
+  restore_strain_energy(adjustable, strain, s.mesh,
+                        *make_strained_patch(s, edit, edited.after, nodes, global), global);
   restore_momentum(nodes, s.mass, before.motion, global, record);
+  const double kinetic = motion_of(nodes, s.mass, global, before.motion.centre).kinetic;
+  add_kinetic_energy(adjustable, s.mass, before.motion.kinetic - kinetic, global, record);
   if (is_local)
     scatter_edited(s, n_kept, nodes, global);
   else

@@ -55,4 +55,26 @@ void restore_momentum(std::span<const std::int32_t> nodes, std::span<const doubl
   record.kinetic_energy_change += after.kinetic - kinetic_before;
 }
 
+void add_kinetic_energy(std::span<const std::int32_t> nodes, std::span<const double> mass,
+                        double energy, GlobalState& state, CutRecord& record) {
+  constexpr double most = 1.5;
+  const Vec3 about = motion_of(nodes, mass, state, Vec3::Zero()).centre;
+  const Motion motion = motion_of(nodes, mass, state, about);
+  // Nodes on a line have no inertia around it, nor angular momentum.
+  const Vec3 w = motion.inertia.completeOrthogonalDecomposition().solve(motion.angular);
+  const double rigid = 0.5 * (motion.momentum.squaredNorm() / motion.mass + motion.angular.dot(w));
+  const double square = 1 + energy / (motion.kinetic - rigid);
+  if (!std::isfinite(square)) return;
+  const double factor = std::clamp(std::sqrt(std::max(square, 0.0)), 1 / most, most);
+  for (const std::int32_t node : nodes) {
+    const auto i = static_cast<std::size_t>(node);
+    const Vec3 of_rigid = motion.momentum / motion.mass + w.cross(state.x[i] - about);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double v = of_rigid[static_cast<Eigen::Index>(k)];
+      state.v[3 * i + k] = v + factor * (state.v[3 * i + k] - v);
+    }
+  }
+  record.kinetic_energy_change += motion_of(nodes, mass, state, about).kinetic - motion.kinetic;
+}
+
 }  // namespace trocar

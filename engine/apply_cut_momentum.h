@@ -23,4 +23,10 @@ Motion motion_of(std::span<const std::int32_t> nodes, std::span<const double> ma
 void restore_momentum(std::span<const std::int32_t> nodes, std::span<const double> mass,
                       const Motion& before, GlobalState& state, CutRecord& record);
 
+// Gives `nodes` so much more kinetic energy [J], or less, where their motion apart from that of a
+// rigid body allows it: that part is scaled, by a factor of 1.5 at most. Momentum and angular
+// momentum stay.
+void add_kinetic_energy(std::span<const std::int32_t> nodes, std::span<const double> mass,
+                        double energy, GlobalState& state, CutRecord& record);
+
 }  // namespace trocar

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "base/exact_sum.h"
 #include "engine/energy_ledger.h"
@@ -71,21 +72,28 @@ void set_state(const Simulation& s, const PatchState& state, Patch& patch) {
   average_volume_change(patch.model, patch.state, patch.scratch);
 }
 
-std::unique_ptr<Patch> make_patch_of_nodes(const Simulation& s, std::span<const std::int32_t> free,
-                                           const PatchState& state) {
+std::unique_ptr<Patch> assemble(const Simulation& s, SubMesh sub, const MassScaling& scaling,
+                                std::span<const FixedMask> fixed, const PatchState& state) {
   auto made = std::make_unique<Patch>();
   Patch& patch = *made;
-  patch.sub = make_sub_mesh(s.mesh, elements_of_forces(s, free));
-  MassScaling scaling;
-  if (s.added_mass) scaling = take_in_clusters(s, patch.sub);
+  patch.sub = std::move(sub);
   const std::vector<std::int32_t>& node = patch.sub.node;
   patch.part = make_part(patch.sub.mesh, std::vector<std::int32_t>(node.size(), 0), 0);
-  patch.model = build_model(patch.sub.mesh, patch.part, s.materials, fixed_in_patch(s, node, free),
+  patch.model = build_model(patch.sub.mesh, patch.part, s.materials, fixed,
                             values_of<double>(s.mass, node), s.model.options);
-  if (s.added_mass) scale_mass(scaling, patch.part, patch.model);
+  if (!scaling.node.empty()) scale_mass(scaling, patch.part, patch.model);
   patch.scratch = make_scratch(patch.model);
   set_state(s, state, patch);
   return made;
+}
+
+std::unique_ptr<Patch> make_patch_of_nodes(const Simulation& s, std::span<const std::int32_t> free,
+                                           const PatchState& state) {
+  SubMesh sub = make_sub_mesh(s.mesh, elements_of_forces(s, free));
+  MassScaling scaling;
+  if (s.added_mass) scaling = take_in_clusters(s, sub);
+  const std::vector<FixedMask> fixed = fixed_in_patch(s, sub.node, free);
+  return assemble(s, std::move(sub), scaling, fixed, state);
 }
 
 double sum_of(std::initializer_list<std::span<const double>> lists) {
@@ -100,6 +108,13 @@ double sum_of(std::initializer_list<std::span<const double>> lists) {
 std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
                                   const PatchState& state) {
   return make_patch_of_nodes(s, free_nodes(s, edited, state.n_rings), state);
+}
+
+std::unique_ptr<Patch> make_patch_of(const Simulation& s, std::span<const std::int32_t> elements,
+                                     const PatchState& state) {
+  SubMesh sub = make_sub_mesh(s.mesh, elements);
+  const std::vector<FixedMask> fixed = values_of<FixedMask>(s.fixed, sub.node);
+  return assemble(s, std::move(sub), {}, fixed, state);
 }
 
 // Terms of what lies beyond the nodes are the same before and after, to the last bit.

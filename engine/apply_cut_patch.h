@@ -40,6 +40,10 @@ std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int3
 double patch_energy(const Simulation& s, std::span<const std::int32_t> nodes,
                     const PatchState& state);
 
+// These elements alone, without scaled masses; nothing but supports is held.
+std::unique_ptr<Patch> make_patch_of(const Simulation& s, std::span<const std::int32_t> elements,
+                                     const PatchState& state);
+
 // Least bounds of its elements and, if the scene's step is a frequency's and they are below that of
 // s.watch, the step of its highest frequency; elements by their numbers in the mesh.
 Watch watch_patch(const Simulation& s, Patch& patch);

@@ -1,0 +1,228 @@
+// What an edit leaves of strain and kinetic energy, and whom it moves for that.
+#include "engine/apply_cut_energy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/apply_cut_momentum.h"
+#include "engine_started.h"
+#include "solver/watch.h"
+
+namespace trocar {
+namespace {
+
+struct Kind {
+  std::string elements, material, solver;
+};
+
+const std::vector<Kind> kinds = {{"tet4-kuhn", "", ""},
+                                 {"tet4-five", "", "precision = \"single\"\n"},
+                                 {"tet4-kuhn", "", "tetrahedron = \"nodal-pressure\"\n"},
+                                 {"tet4-kuhn", "prony = [ { share = 0.4, time = 0.5 } ]\n", ""},
+                                 {"tet4-kuhn", "", "mass_scaling_step = \"0.4 ms\"\n"},
+                                 {"hex8", "", ""},
+                                 {"hex8", "", "hexahedron = \"full\"\n"}};
+
+// 20 x 20 x 30 mm in cells of 5 mm, held at one end.
+std::unique_ptr<Started> block(const Kind& kind) {
+  return built(
+      "[time]\nduration = \"1 s\"\nframe_rate = 100\n[tissue.shape]\nkind = \"box\"\n"
+      "low = [-0.01, -0.01, 0]\nhigh = [0.01, 0.01, 0.03]\ncells = [4, 4, 6]\nelements = \"" +
+      kind.elements +
+      "\"\n[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\ndensity = 1000\n" +
+      kind.material + "[solver]\n" + kind.solver + "[[support]]\nregion = \"z+\"\nfix = \"xyz\"\n");
+}
+
+// A wave of an eighth of its length 30 mm; nothing happens to supported nodes. The velocities are
+// those of a wave too.
+void shake(Simulation& s) {
+  for (std::size_t i = 0; i < s.mesh.X.size(); ++i) {
+    const Vec3& X = s.mesh.X[i];
+    const double phase = 2 * std::numbers::pi * (X.x() + X.z()) / 0.03;
+    const double a = s.fixed[i] != 0 ? 0 : 6e-4;
+    const Vec3 u = a * Vec3(std::sin(phase), 2 * std::cos(phase), std::sin(2 * phase));
+    for (std::size_t k = 0; k < 3; ++k) {
+      s.state.u[3 * i + k] = u[Eigen::Index(k)];
+      s.state.v[3 * i + k] = 300 * u[Eigen::Index(2 - k)];
+    }
+  }
+}
+
+std::vector<std::int32_t> inner_nodes(const Simulation& s) {
+  std::vector<std::int32_t> nodes;
+  for (std::int32_t i = 0; i < s.mesh.n_nodes(); i += 2)
+    if (s.mesh.X[std::size_t(i)].cwiseAbs().maxCoeff() < 0.02) nodes.push_back(i);
+  return nodes;
+}
+
+double kinetic_energy(const Simulation& s) {
+  double sum = 0;
+  for (std::size_t k = 0; k < s.state.v.size(); ++k)
+    sum += 0.5 * s.mass[k / 3] * s.state.v[k] * s.state.v[k];
+  return sum;
+}
+
+MeshEdit find_cut(Simulation& s, GlobalState& global) {
+  BladeSweep sweep;
+  sweep.normal = Vec3(-0.3, 0, 1).normalized();
+  for (int k = 0; k <= 10; ++k) {
+    const double y = -0.02 + 0.004 * k;
+    sweep.before.emplace_back(-0.03, y, 0.006);
+    sweep.after.emplace_back(0.03, y, 0.024);
+  }
+  TetCutter cutter{CutTetOptions{}};
+  global = gather_state(s);
+  CutFigures figures;
+  return cutter.advance(s.mesh, global.x, held_nodes(s.holds, s.fixed), sweep, true, figures);
+}
+
+TEST(StrainEnergy, is_raised_or_lowered_by_the_nodes_that_may_move_alone) {
+  for (const Kind& kind : kinds)
+    for (const double ratio : {0.9, 1.05}) {
+      const auto started = block(kind);
+      Simulation& s = *started->s;
+      shake(s);
+      const std::vector<std::int32_t> nodes = inner_nodes(s);
+      const std::vector<double> before = s.state.u;
+      const double wanted = ratio * strain_energy(s);
+      restore_strain_energy(nodes, wanted, s);
+      EXPECT_NEAR(strain_energy(s), wanted, 0.005 * wanted) << kind.elements << kind.solver;
+      for (std::size_t k = 0; k < before.size(); ++k) {
+        const auto i = static_cast<std::int32_t>(k / 3);
+        if (std::binary_search(nodes.begin(), nodes.end(), i) && s.fixed[k / 3] == 0) continue;
+        ASSERT_EQ(s.state.u[k], before[k]);
+      }
+    }
+}
+
+TEST(StrainEnergy, that_is_near_what_it_was_moves_nothing) {
+  const auto started = block(kinds[0]);
+  Simulation& s = *started->s;
+  shake(s);
+  const std::vector<double> before = s.state.u;
+  restore_strain_energy(inner_nodes(s), 1.004 * strain_energy(s), s);
+  EXPECT_EQ(s.state.u, before);
+}
+
+TEST(StrainEnergy, out_of_reach_crushes_no_element) {
+  const auto started = block(kinds[0]);
+  Simulation& s = *started->s;
+  shake(s);
+  const double W = strain_energy(s), J = watch(s.model, s.part, s.state).least_J;
+  ASSERT_GT(J, 0);
+  restore_strain_energy(inner_nodes(s), 1000 * W, s);
+  EXPECT_GT(strain_energy(s), W);
+  EXPECT_GE(watch(s.model, s.part, s.state).least_J, 0.5 * J);
+}
+
+// Promised: 1 %. Each half of it, so that they don't cancel each other. Without what is adjusted it
+// is more.
+TEST(EditEnergy, is_that_of_before_to_one_percent) {
+  for (const Kind& kind : kinds) {
+    const auto started = block(kind);
+    Simulation& s = *started->s;
+    shake(s);
+    EXPECT_EQ(s.added_mass.has_value(), kind.solver.find("mass_scaling") != std::string::npos);
+    const double strain = strain_energy(s), kinetic = kinetic_energy(s);
+    GlobalState global;
+    const MeshEdit edit = find_cut(s, global);
+    std::vector<double> u = global.u;
+    const Mesh before = s.mesh;
+    CutRecord record;
+    apply_cut(s, edit, global, record);
+    ASSERT_EQ(s.n_pieces, 2);
+    EXPECT_NEAR(strain_energy(s), strain, 0.01 * strain) << kind.elements << kind.solver;
+    EXPECT_NEAR(kinetic_energy(s), kinetic, 0.01 * kinetic) << kind.elements << kind.solver;
+    EXPECT_GT(watch(s.model, s.part, s.state).least_J, 0);
+    EXPECT_NEAR(record.kinetic_energy_change, kinetic_energy(s) - kinetic, 1e-9 * kinetic);
+    apply_edit(edit, before, 3, u);
+    std::swap(u, s.state.u);
+    EXPECT_GT(std::abs(strain_energy(s) / strain - 1), 0.01) << kind.elements << kind.solver;
+  }
+}
+
+// u = A X is carried exactly by interpolation: nobody has to move.
+TEST(EditEnergy, leaves_a_uniform_strain_as_it_is) {
+  for (const Kind& kind : {kinds[0], kinds[5]}) {
+    const auto started = block(kind);
+    Simulation& s = *started->s;
+    std::fill(s.fixed.begin(), s.fixed.end(), FixedMask{0});
+    const auto displacement = [](const Vec3& X) {
+      return Vec3(0.1 * X.x() + 0.05 * X.z(), -0.04 * X.y(), 0.08 * X.x());
+    };
+    for (std::size_t i = 0; i < s.mesh.X.size(); ++i)
+      Vec3::Map(&s.state.u[3 * i]) = displacement(s.mesh.X[i]);
+    GlobalState global;
+    const MeshEdit edit = find_cut(s, global);
+    CutRecord record;
+    apply_cut(s, edit, global, record);
+    for (std::size_t i = 0; i < s.mesh.X.size(); ++i)  // rounding of 30 mm
+      EXPECT_LT((Vec3::Map(&s.state.u[3 * i]) - displacement(s.mesh.X[i])).norm(), 1e-15);
+  }
+}
+
+TEST(EditEnergy, is_not_restored_by_held_or_supported_nodes) {
+  const auto started = block(kinds[5]);
+  Simulation& s = *started->s;
+  s.holds.holds = {{.node = 7, .tool = 0}};
+  const std::int32_t n = s.mesh.n_nodes(), supported = n - 1;
+  ASSERT_NE(s.fixed[std::size_t(supported)], 0);
+  MeshEdit edit;
+  for (const std::int32_t i : {3, 7, supported}) edit.moves.push_back({.node = i});
+  edit.duplicate_parent = {7, 8, n, supported};  // the third one of a held node's copy
+  EXPECT_EQ(adjustable_nodes(s, edit), (std::vector<std::int32_t>{3, n + 1}));
+  edit.splits = {{.element = 0, .corner = {}}};
+  std::vector<std::int32_t> expected(s.mesh.corners(0).begin(), s.mesh.corners(0).end());
+  expected.insert(expected.end(), {3, n + 1});
+  std::sort(expected.begin(), expected.end());
+  expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+  std::erase(expected, 7);
+  EXPECT_EQ(adjustable_nodes(s, edit), expected);
+}
+
+TEST(KineticEnergy, is_added_without_momentum) {
+  const auto started = block(kinds[0]);
+  Simulation& s = *started->s;
+  shake(s);
+  GlobalState global = gather_state(s);
+  for (std::size_t k = 0; k < global.v.size(); k += 3) global.v[k] += 0.3;
+  const std::vector<std::int32_t> nodes = inner_nodes(s);
+  const GlobalState start = global;
+  const Motion before = motion_of(nodes, s.mass, global, Vec3::Zero());
+  for (const double added : {0.05, -0.05, 100.0}) {  // of what there is; 100: out of reach
+    global = start;
+    CutRecord record;
+    add_kinetic_energy(nodes, s.mass, added * before.kinetic, global, record);
+    const Motion after = motion_of(nodes, s.mass, global, Vec3::Zero());
+    EXPECT_LT((after.momentum - before.momentum).norm(), 1e-13 * before.scale);  // rounding
+    EXPECT_LT((after.angular - before.angular).norm(), 1e-13 * before.scale * 0.03);
+    const double gained = after.kinetic / before.kinetic - 1;
+    if (added < 1) {
+      EXPECT_NEAR(gained, added, 1e-12);
+    }
+    EXPECT_LT(gained, 1.5 * 1.5 - 1);
+    EXPECT_GT(gained * added, 0);
+    EXPECT_NEAR(record.kinetic_energy_change, gained * before.kinetic, 1e-12 * before.kinetic);
+  }
+}
+
+TEST(KineticEnergy, of_a_rigid_motion_stays_what_it_is) {
+  const auto started = block(kinds[0]);
+  Simulation& s = *started->s;
+  GlobalState global = gather_state(s);
+  for (std::size_t i = 0; i < s.mesh.X.size(); ++i)
+    Vec3::Map(&global.v[3 * i]) = Vec3(1, 2, 3) + Vec3(30, -20, 10).cross(s.mesh.X[i]);
+  const GlobalState start = global;
+  CutRecord record;
+  for (const std::vector<std::int32_t>& nodes :
+       {inner_nodes(s), {0, 1, 2, 3}, {5}, std::vector<std::int32_t>{}}) {  // a line, a point
+    add_kinetic_energy(nodes, s.mass, 1e-3, global, record);
+    for (std::size_t k = 0; k < global.v.size(); ++k)  // rounding of some 3 m/s
+      ASSERT_NEAR(global.v[k], start.v[k], 1e-14) << nodes.size();
+  }
+}
+
+}  // namespace
+}  // namespace trocar
