@@ -27,13 +27,13 @@ double stability_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4
 }
 
 // Two tetrahedra at a time, each with the bits that it has alone.
-using Pair = double __attribute__((vector_size(16)));
-using PairVec = std::array<Pair, 3>;
+using TwoDoubles = double __attribute__((vector_size(16)));
+using PairVec = std::array<TwoDoubles, 3>;
 
 static PairVec difference(const PairVec& a, const PairVec& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
-static Pair dot(const PairVec& a, const PairVec& b) {
+static TwoDoubles dot(const PairVec& a, const PairVec& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 static PairVec cross(const PairVec& a, const PairVec& b) {
@@ -43,7 +43,7 @@ static PairVec cross(const PairVec& a, const PairVec& b) {
 namespace {
 
 struct PairTerms {
-  Pair value;
+  TwoDoubles value;
   PairVec gradient;
   std::array<PairVec, 3> hessian;
 };
@@ -53,7 +53,7 @@ struct PairTerms {
 // For an edge d of the facet across and u from its end to p: S grows by |d x u|^2.
 static void add_edge(const PairVec& d, const PairVec& u, PairVec& half_dS,
                      std::array<PairVec, 3>& half_ddS) {
-  const Pair dd = dot(d, d), du = dot(d, u);
+  const TwoDoubles dd = dot(d, d), du = dot(d, u);
   for (std::size_t i = 0; i < 3; ++i) {
     half_dS[i] += dd * u[i] - du * d[i];
     half_ddS[i][i] += dd - d[i] * d[i];
@@ -61,14 +61,14 @@ static void add_edge(const PairVec& d, const PairVec& u, PairVec& half_dS,
   }
 }
 
-static PairTerms squared_bounds(const PairVec& p, const std::array<PairVec, 3>& q, Pair V, Pair S,
-                                double h) {
+static PairTerms squared_bounds(const PairVec& p, const std::array<PairVec, 3>& q, TwoDoubles V,
+                                TwoDoubles S, double h) {
   PairVec dS{};
   std::array<PairVec, 3> half_ddS{};
   for (std::size_t k = 0; k < 3; ++k)
     add_edge(difference(q[k], q[(k + 1) % 3]), difference(p, q[(k + 1) % 3]), dS, half_ddS);
   const PairVec minus_dV = cross(difference(q[1], q[0]), difference(q[2], q[0]));
-  const Pair c = h * h / 6 * S / (V * V), g = c * c;
+  const TwoDoubles c = h * h / 6 * S / (V * V), g = c * c;
   PairTerms terms{.value = g, .gradient = {}, .hessian = {}};
   PairVec log_gradient;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -76,7 +76,7 @@ static PairTerms squared_bounds(const PairVec& p, const std::array<PairVec, 3>& 
     log_gradient[i] = 2 / S * dS[i] + 4 / V * minus_dV[i];
     terms.gradient[i] = g * log_gradient[i];
   }
-  const Pair by_S = 2 / S, by_S2 = 2 / (S * S), by_V2 = 4 / (V * V);
+  const TwoDoubles by_S = 2 / S, by_S2 = 2 / (S * S), by_V2 = 4 / (V * V);
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       terms.hessian[i][j] = g * (log_gradient[i] * log_gradient[j] +
@@ -97,15 +97,15 @@ static void add_lane(const PairTerms& terms, int lane, NodeEnergy& energy) {
 
 void add_squared_bounds(const Vec3& p, std::span<const TetAtNode> tets, double h,
                         NodeEnergy& energy) {
-  const PairVec at = {Pair{p[0], p[0]}, Pair{p[1], p[1]}, Pair{p[2], p[2]}};
+  const PairVec at = {TwoDoubles{p[0], p[0]}, TwoDoubles{p[1], p[1]}, TwoDoubles{p[2], p[2]}};
   for (std::size_t k = 0; k < tets.size(); k += 2) {
     const TetAtNode &a = tets[k], &b = tets[std::min(k + 1, tets.size() - 1)];
     std::array<PairVec, 3> q;
     for (std::size_t n = 0; n < 3; ++n)
       for (int j = 0; j < 3; ++j)
-        q[n][static_cast<std::size_t>(j)] = Pair{(*a.q[n])[j], (*b.q[n])[j]};
-    const PairTerms terms =
-        squared_bounds(at, q, Pair{a.shape.V, b.shape.V}, Pair{a.shape.S, b.shape.S}, h);
+        q[n][static_cast<std::size_t>(j)] = TwoDoubles{(*a.q[n])[j], (*b.q[n])[j]};
+    const PairTerms terms = squared_bounds(at, q, TwoDoubles{a.shape.V, b.shape.V},
+                                           TwoDoubles{a.shape.S, b.shape.S}, h);
     add_lane(terms, 0, energy);
     if (k + 1 < tets.size()) add_lane(terms, 1, energy);
   }
