@@ -78,9 +78,10 @@ struct VolumeAverages {
 };
 
 // Where corner forces are added up: at their node in the order of the elements. Threads take runs
-// of blocks (counted through all lists); corners at a node that several runs meet get a place each
-// behind the nodes, and are added up afterwards, in the same order. So the bits don't depend on the
-// number of runs, nor on which elements wait for the halo.
+// of blocks (counted through all lists). At a node that several runs meet, the first corners of the
+// order are added at the node as long as they are of one run; the others get a place each behind
+// the nodes, and are added up afterwards, in the same order. So the bits don't depend on the number
+// of runs, nor on which elements wait for the halo.
 struct SumOrder {
   std::int32_t n_runs = 0;              // those of blocks that read no halo nodes first
   std::int32_t n_inside_runs = 0;       // that many

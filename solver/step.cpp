@@ -75,17 +75,19 @@ void compute_run(const Model& model, std::int64_t run, State& state, Scratch& sc
 }
 
 void finish_shared_nodes(const Model& model, Scratch& scratch) {
-  const std::vector<std::int32_t>& node = model.sums.shared_node;
-  with_sums(model, scratch, [&](auto& sum) {
-    // As where one run meets a node alone.
-    const FlushSubnormals flush(model.options.precision == Precision::in_single);
-    std::int64_t place = model.n_local;
-    for (std::size_t k = 0; k < node.size(); ++k)
-      for (; place < model.sums.shared_end[k]; ++place)
-        for (int j = 0; j < 3; ++j)
-          sum[4 * std::int64_t{node[k]} + j] += std::exchange(sum[4 * place + j], {});
+  const std::vector<std::int32_t>&node = model.sums.shared_node, &end = model.sums.shared_end;
+  parallel_for(std::ssize(node), [&](std::int64_t first, std::int64_t last) {
+    with_sums(model, scratch, [&](auto& sum) {
+      // As where one run meets a node alone.
+      const FlushSubnormals flush(model.options.precision == Precision::in_single);
+      std::int64_t place = first > 0 ? end[first - 1] : model.n_local;
+      for (std::int64_t k = first; k < last; ++k)
+        for (; place < end[k]; ++place)
+          for (int j = 0; j < 3; ++j)
+            sum[4 * std::int64_t{node[k]} + j] += std::exchange(sum[4 * place + j], {});
+    });
+    finish_nodes(model, {node.begin() + first, node.begin() + last}, scratch);
   });
-  finish_nodes(model, node, scratch);
 }
 
 // Nodes of other ranks have sums that nobody takes.

@@ -29,14 +29,13 @@ void for_corners_of_lane(const ElementBlocks& blocks, std::int64_t lane, const B
 }
 
 struct NodeUse {
-  std::vector<std::int32_t> run, last_block, n_corners;  // (n_local)
+  std::vector<std::int32_t> run, last_block;  // (n_local)
 };
 
 // Blocks are counted through all lists.
 NodeUse use_of_nodes(const Model& model) {
   const auto n = static_cast<std::size_t>(model.n_local);
-  NodeUse use{std::vector<std::int32_t>(n, no_run), std::vector<std::int32_t>(n),
-              std::vector<std::int32_t>(n)};
+  NodeUse use{std::vector<std::int32_t>(n, no_run), std::vector<std::int32_t>(n)};
   std::int32_t block = 0, run = 0;
   for (const ElementBlocks& blocks : model.blocks) {
     const std::int64_t n_corners = corners_of_block(blocks);
@@ -46,7 +45,6 @@ NodeUse use_of_nodes(const Model& model) {
         const std::int32_t i = blocks.corner[k];
         use.run[i] = use.run[i] == no_run || use.run[i] == run ? run : several_runs;
         use.last_block[i] = block;
-        ++use.n_corners[i];
       }
     }
   }
@@ -75,29 +73,61 @@ void order_own_nodes(const NodeUse& use, Model& model) {
   }
 }
 
-// A place for each corner at a shared node; those of owned nodes are added up later.
+// A corner of a list.
+struct CornerPlace {
+  std::size_t list;
+  std::int64_t at;
+};
+
+// Corners at shared nodes, in the order of the sums, but for those that a node meets first and in
+// one run, which adds them at the node itself.
+std::vector<CornerPlace> later_corners(const NodeUse& use, const Model& model) {
+  const std::vector<std::int64_t>& first_block = model.sums.run_block;
+  std::vector<std::int64_t> block_of_list{0};
+  for (const ElementBlocks& blocks : model.blocks)
+    block_of_list.push_back(block_of_list.back() + blocks.n_blocks);
+  std::vector<std::int32_t> run_of_first(static_cast<std::size_t>(model.n_local), no_run);
+  std::vector<CornerPlace> later;
+  for_lanes_in_order(model.blocks, [&](std::size_t list, std::int64_t lane) {
+    const ElementBlocks& blocks = model.blocks[list];
+    const std::int64_t block = block_of_list[list] + lane / blocks.lanes;
+    const auto run = static_cast<std::int32_t>(
+        std::upper_bound(first_block.begin(), first_block.end(), block) - first_block.begin() - 1);
+    for_corners_of_lane(blocks, lane, [&](std::int64_t at) {
+      const std::int32_t i = blocks.corner[at];
+      if (use.run[i] != several_runs) return;
+      std::int32_t& first = run_of_first[i];
+      if (first == no_run) first = run;
+      if (first == run) return;
+      first = several_runs;
+      later.push_back({list, at});
+    });
+  });
+  return later;
+}
+
+// A place for each corner that is added up later.
 void place_shared_corners(const NodeUse& use, Model& model) {
   SumOrder& sums = model.sums;
+  sums.n_places = model.n_local;
+  if (sums.n_runs < 2) return;
+  const std::vector<CornerPlace> later = later_corners(use, model);
+  if (later.empty()) return;
+  const auto node_of = [&](const CornerPlace& c) { return model.blocks[c.list].corner[c.at]; };
   std::vector<std::int32_t> next(static_cast<std::size_t>(model.n_local), 0);
+  for (const CornerPlace& corner : later) ++next[node_of(corner)];
   std::int32_t place = model.n_local;
   for (std::int32_t i = 0; i < model.n_local; ++i) {
     if (use.run[i] != several_runs) continue;
-    next[i] = place;
-    place += use.n_corners[i];
+    place += std::exchange(next[i], place);
     if (i >= model.n_owned) continue;
     sums.shared_node.push_back(i);
     sums.shared_end.push_back(place);
   }
   sums.n_places = place;
-  if (place == model.n_local) return;
   for (ElementBlocks& blocks : model.blocks) blocks.target = blocks.corner;
-  for_lanes_in_order(model.blocks, [&](std::size_t list, std::int64_t lane) {
-    ElementBlocks& blocks = model.blocks[list];
-    for_corners_of_lane(blocks, lane, [&](std::int64_t at) {
-      const std::int32_t i = blocks.corner[at];
-      if (use.run[i] == several_runs) blocks.target[at] = next[i]++;
-    });
-  });
+  for (const CornerPlace& corner : later)
+    model.blocks[corner.list].target[corner.at] = next[node_of(corner)]++;
 }
 
 bool are_consecutive(const std::int32_t* number) {
