@@ -84,10 +84,7 @@ int main(int argc, char** argv) {
   if (const int code = answer_options(argc, argv, usage); code >= 0) return code;
   const int n_threads = argc > 1 ? std::atoi(argv[1]) : 2;
   const int n = argc > 2 ? std::atoi(argv[2]) : 2000;
-  if (n_threads < 1 || n < 1) {
-    std::fprintf(stderr, "usage: %s\n", usage);
-    return 2;
-  }
+  if (n_threads < 1 || n < 1) return print_usage(usage, stderr);
   set_thread_count(n_threads);
   const int length = calibrate();
   std::printf("{\"threads\": %d, \"pieces\": %d, \"shared\": [", n_threads, n);

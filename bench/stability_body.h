@@ -40,7 +40,6 @@ constexpr BoxElements both[] = {BoxElements::hex8, BoxElements::tet4_kuhn};
 
 // 2 / omega of the present deformation.
 inline double limit_of(Body& body, double tolerance = 1e-3) {
-  const bool is_single = body.model.options.precision == Precision::in_single;
   const auto forces = [&](std::vector<double>& u, std::vector<double>& f) {
     State state = body.state;
     state.u = u;
@@ -49,7 +48,7 @@ inline double limit_of(Body& body, double tolerance = 1e-3) {
   };
   const HighestFrequency found =
       find_highest_frequency(body.model, body.part, body.state, forces,
-                             {.amplitude = (is_single ? 1e-3 : 1e-6) * edge,
+                             {.amplitude = search_amplitude(body.model, edge),
                               .tolerance = tolerance,
                               .most_iterations = 300},
                              Communicator());

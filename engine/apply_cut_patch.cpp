@@ -133,8 +133,9 @@ Watch watch_patch(const Simulation& s, Patch& patch) {
   Watch w = watch(patch.model, patch.part, patch.state);
   const bool by_frequency = s.scene.solver.stable_step == StableStep::frequency;
   if (by_frequency && w.least_J > 0 && w.stable_step < s.watch.stable_step)
-    w.stable_step = std::max(w.stable_step, search_step(patch, search_amplitude(s), Communicator(),
-                                                        s.watch.stable_step));
+    w.stable_step =
+        std::max(w.stable_step, search_step(patch, search_amplitude(s.model, s.edge_length),
+                                            Communicator(), s.watch.stable_step));
   for (std::int32_t* element : {&w.stable_element, &w.least_J_element})
     if (*element >= 0) *element = patch.sub.element[static_cast<std::size_t>(*element)];
   return w;

@@ -34,7 +34,7 @@ void force_of(RankBody& body, State& probe, std::vector<double>& u, std::vector<
 }
 
 double search_step(Simulation& s) {
-  return search_step(s, search_amplitude(s), *s.communicator);
+  return search_step(s, search_amplitude(s.model, s.edge_length), *s.communicator);
 }
 
 // The body with its fine nodes at rest sets the step unless the fine ones do, in spite of their
@@ -125,11 +125,6 @@ void watch_elements(Simulation& s) {
 }
 
 }  // namespace
-
-double search_amplitude(const Simulation& s) {
-  const bool is_single = s.model.options.precision == Precision::in_single;
-  return (is_single ? 1e-3 : 1e-6) * s.edge_length;
-}
 
 double search_step(RankBody& body, double amplitude, const Communicator& communicator,
                    double enough) {

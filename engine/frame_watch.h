@@ -30,9 +30,6 @@ inline constexpr std::int64_t most_steps_of_search = 3000;
 // the last step's exchange; with an energy ledger, volume changes averaged at nodes become those of
 // the present displacement. Collective.
 void watch_state(Simulation& s);
-// Largest displacement of the differences that find a frequency: small beside an element, large
-// beside the rounding of the elements' numbers. [m]
-double search_amplitude(const Simulation& s);
 // 2 / omega of the body's highest frequency less the search's margin; 0 if the search doesn't end.
 // It starts from nothing: modes are local, and a search that starts where the fastest one was does
 // not see another that has overtaken it elsewhere (docs/architecture.md). One that clearly gives

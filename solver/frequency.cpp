@@ -100,6 +100,10 @@ bool is_below_interest(const HighestFrequency& found, const FrequencyOptions& op
 
 }  // namespace
 
+double search_amplitude(const Model& model, double edge) {
+  return (model.options.precision == Precision::in_single ? 1e-3 : 1e-6) * edge;
+}
+
 HighestFrequency find_highest_frequency(const Model& model, const Part& part, const State& state,
                                         const ForceOfDisplacement& forces,
                                         const FrequencyOptions& options,

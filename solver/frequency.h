@@ -13,8 +13,12 @@
 
 namespace trocar {
 
+// Largest displacement of the differences of a search: small beside an element, large beside the
+// rounding of the elements' numbers. [m]
+double search_amplitude(const Model& model, double edge);
+
 struct FrequencyOptions {
-  double amplitude = 1e-9;  // largest displacement of the difference [m]: well below an edge
+  double amplitude = 1e-9;  // see search_amplitude [m]
   double tolerance = 0.01;  // residual that ends the search
   int least_iterations = 2, most_iterations = 100;
   // A search that is clearly below this ends: nobody needs to know by how much. [1/s]

@@ -17,8 +17,7 @@ HighestFrequency search(StudyBody& body) {
   State probe = body.state;
   Scratch scratch = make_scratch(body.model);
   FrequencyOptions options;
-  const bool is_single = body.model.options.precision == Precision::in_single;
-  options.amplitude = (is_single ? 1e-3 : 1e-6) * body.h;
+  options.amplitude = search_amplitude(body.model, body.h);
   const Communicator alone;
   Neighbours none;
   return find_highest_frequency(

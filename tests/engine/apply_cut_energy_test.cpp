@@ -64,20 +64,6 @@ double kinetic_energy(const Simulation& s) {
   return sum;
 }
 
-MeshEdit find_cut(Simulation& s, GlobalState& global) {
-  BladeSweep sweep;
-  sweep.normal = Vec3(-0.3, 0, 1).normalized();
-  for (int k = 0; k <= 10; ++k) {
-    const double y = -0.02 + 0.004 * k;
-    sweep.before.emplace_back(-0.03, y, 0.006);
-    sweep.after.emplace_back(0.03, y, 0.024);
-  }
-  TetCutter cutter{CutTetOptions{}};
-  global = gather_state(s);
-  CutFigures figures;
-  return cutter.advance(s.mesh, global.x, held_nodes(s.holds, s.fixed), sweep, true, figures);
-}
-
 TEST(StrainEnergy, is_raised_or_lowered_by_the_nodes_that_may_move_alone) {
   for (const Kind& kind : kinds)
     for (const double ratio : {0.9, 1.05}) {
@@ -126,8 +112,9 @@ TEST(EditEnergy, is_that_of_before_to_one_percent) {
     shake(s);
     EXPECT_EQ(s.added_mass.has_value(), kind.solver.find("mass_scaling") != std::string::npos);
     const double strain = strain_energy(s), kinetic = kinetic_energy(s);
-    GlobalState global;
-    const MeshEdit edit = find_cut(s, global);
+    GlobalState global = gather_state(s);
+    CutFigures figures;
+    const MeshEdit edit = cut_across(s, global, figures);
     std::vector<double> u = global.u;
     const Mesh before = s.mesh;
     CutRecord record;
@@ -154,8 +141,9 @@ TEST(EditEnergy, leaves_a_uniform_strain_as_it_is) {
     };
     for (std::size_t i = 0; i < s.mesh.X.size(); ++i)
       Vec3::Map(&s.state.u[3 * i]) = displacement(s.mesh.X[i]);
-    GlobalState global;
-    const MeshEdit edit = find_cut(s, global);
+    GlobalState global = gather_state(s);
+    CutFigures figures;
+    const MeshEdit edit = cut_across(s, global, figures);
     CutRecord record;
     apply_cut(s, edit, global, record);
     for (std::size_t i = 0; i < s.mesh.X.size(); ++i)  // rounding of 30 mm

@@ -109,7 +109,7 @@ bool cut_at_rest(Simulation& s) {
 }
 
 void expect_modes_in_patch(Simulation& s, const std::vector<Vec3>& X_before, double before) {
-  const double h = search_amplitude(s), after = highest_frequency(s, h, 1e-3);
+  const double h = search_amplitude(s.model, s.edge_length), after = highest_frequency(s, h, 1e-3);
   const std::vector<std::int32_t> edited = edited_nodes(X_before, s.mesh);
   for (int n_rings = 0; n_rings <= 2; ++n_rings) {
     const auto patch = patch_of(s, edited, n_rings);
@@ -139,7 +139,7 @@ TEST(Patch, has_the_mode_that_an_edit_made_the_fastest) {
       std::printf("%s, shear %.2f, noise %.1e m\n", kind.elements.c_str(), shear, noise);
       while (s.frame < 12) {
         const std::vector<Vec3> X_before = s.mesh.X;
-        const double before = highest_frequency(s, search_amplitude(s), 1e-3);
+        const double before = highest_frequency(s, search_amplitude(s.model, s.edge_length), 1e-3);
         if (!cut_at_rest(s)) continue;
         ++n_edits;
         expect_modes_in_patch(s, X_before, before);
@@ -160,7 +160,7 @@ TEST(Patch, never_gives_a_longer_step_than_a_search_of_the_whole_body) {
       run_frame(s, outputs);
       if (s.cuts[0].strokes.empty() || s.cuts[0].strokes[0].n_edits == n_edits) continue;
       n_edits = s.cuts[0].strokes[0].n_edits;
-      const double whole = search_step(s, search_amplitude(s), Communicator());
+      const double whole = search_step(s, search_amplitude(s.model, s.edge_length), Communicator());
       ASSERT_GT(whole, 0);
       EXPECT_LT(s.watch.stable_step / whole, frequency_margin) << kind.elements;
     }

@@ -135,18 +135,9 @@ void set_in_motion(Simulation& s) {
 
 // One cut by a blade that sweeps the whole block at once; returns its record.
 CutRecord cut_at_once(Simulation& s) {
-  BladeSweep sweep;
-  sweep.normal = Vec3(-0.3, 0, 1).normalized();
-  for (int k = 0; k <= 10; ++k) {
-    const double y = -0.02 + 0.004 * k;
-    sweep.before.emplace_back(-0.03, y, 0.006);
-    sweep.after.emplace_back(0.03, y, 0.024);
-  }
-  TetCutter cutter{CutTetOptions{}};
   GlobalState global = gather_state(s);
   CutFigures figures;
-  const MeshEdit edit =
-      cutter.advance(s.mesh, global.x, held_nodes(s.holds, s.fixed), sweep, true, figures);
+  const MeshEdit edit = cut_across(s, global, figures);
   CutRecord record;
   apply_cut(s, edit, global, record);
   record.n_converted = figures.n_converted;

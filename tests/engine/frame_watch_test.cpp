@@ -92,7 +92,7 @@ TEST(WatchState, never_gives_a_longer_step_than_a_search_of_the_body_as_it_is) {
       s.state.step += 10;
       watch_state(s);
       n_searches += s.look.at_step == s.state.step ? 1 : 0;
-      const double whole = search_step(s, search_amplitude(s), Communicator());
+      const double whole = search_step(s, search_amplitude(s.model, s.edge_length), Communicator());
       EXPECT_LT(s.watch.stable_step / whole, frequency_margin) << elements << ' ' << k;
       EXPECT_GT(s.watch.stable_step / whole, 1 / std::sqrt(most_growth) / frequency_margin);
     }
@@ -120,7 +120,8 @@ TEST(WatchState, takes_the_growth_of_elements_for_that_of_the_body_between_two_s
   s.state.step = most_steps_of_search;
   watch_state(s);
   EXPECT_EQ(s.look.at_step, most_steps_of_search);
-  EXPECT_EQ(s.watch.stable_step, search_step(s, search_amplitude(s), Communicator()));
+  EXPECT_EQ(s.watch.stable_step,
+            search_step(s, search_amplitude(s.model, s.edge_length), Communicator()));
 }
 
 TEST(FindTrouble, is_silent_while_all_is_well) {

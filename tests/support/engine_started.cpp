@@ -18,4 +18,16 @@ std::unique_ptr<Started> built(const std::string& text, const std::vector<std::s
   return started;
 }
 
+MeshEdit cut_across(const Simulation& s, const GlobalState& global, CutFigures& figures) {
+  BladeSweep sweep;
+  sweep.normal = Vec3(-0.3, 0, 1).normalized();
+  for (int k = 0; k <= 10; ++k) {
+    const double y = -0.02 + 0.004 * k;
+    sweep.before.emplace_back(-0.03, y, 0.006);
+    sweep.after.emplace_back(0.03, y, 0.024);
+  }
+  TetCutter cutter{CutTetOptions{}};
+  return cutter.advance(s.mesh, global.x, held_nodes(s.holds, s.fixed), sweep, true, figures);
+}
+
 }  // namespace trocar

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/apply_cut.h"
 #include "engine/build.h"
 #include "engine/frame.h"
 #include "engine_files.h"
@@ -22,5 +23,9 @@ struct Started {
 
 std::unique_ptr<Started> built(const std::string& text,
                                const std::vector<std::string>& overrides = {});
+
+// What a blade would do to the body, not done: it goes at once through all of a body within 2 cm of
+// the z axis, 18 degrees off the level, at z = 15 mm.
+MeshEdit cut_across(const Simulation& s, const GlobalState& global, CutFigures& figures);
 
 }  // namespace trocar
