@@ -7,6 +7,7 @@
 #include "base/exact_sum.h"
 #include "engine/energy_ledger.h"
 #include "engine/frame_watch.h"
+#include "solver/frequency.h"
 #include "solver/history.h"
 #include "solver/step.h"
 #include "solver/watch.h"
