@@ -39,10 +39,12 @@ template <class Pack>
 // Of nodes anywhere, the first number of each at u + first[lane]. Reads a double behind each node:
 // masked loads cost 6 to 9 % of a step.
 template <class Pack>
-[[gnu::always_inline]] inline void gather_nodes(const double* u, const std::uint32_t* first,
+[[gnu::always_inline]] inline void gather_nodes(const double* u, const std::int32_t* node,
                                                 Pack (&x)[3]) {
   constexpr int width = pack_width<Pack>;
-  const auto at = [&](int lane) { return u + first[lane]; };
+  const auto at = [&](int lane) {
+    return u + 3 * std::size_t{static_cast<std::uint32_t>(node[lane])};
+  };
   if constexpr (width == 1) {
     for (int i = 0; i < 3; ++i) x[i] = at(0)[i];
   } else if constexpr (width == 2) {
@@ -79,8 +81,8 @@ template <class Pack>
 template <class Pack, int n, int lanes>
 struct NodeCopies {
   static constexpr auto first = [] {
-    std::array<std::uint32_t, n * lanes> number{};
-    for (int k = 0; k < n * lanes; ++k) number[k] = static_cast<std::uint32_t>(3 * k);
+    std::array<std::int32_t, n * lanes> number{};
+    for (int k = 0; k < n * lanes; ++k) number[k] = k;
     return number;
   }();
   double u[3 * n * lanes + 1];
@@ -112,13 +114,8 @@ template <int lanes, class Pack, int n>
       return;
     }
   }
-  constexpr int width = pack_width<Pack>;
-  std::uint32_t at[n][width];
-  for (int a = 0; a < n; ++a) multiply(corner + a * lanes, 3, at[a]);
-  // Read back lane by lane: taken out of registers, each would take a shuffle.
-  asm volatile("" ::: "memory");
 #pragma GCC unroll 8
-  for (int a = 0; a < n; ++a) gather_nodes(u, at[a], x[a]);
+  for (int a = 0; a < n; ++a) gather_nodes(u, corner + a * lanes, x[a]);
 }
 
 // Lanes of two registers as one, the first one's first.

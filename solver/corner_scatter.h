@@ -237,16 +237,14 @@ template <class Pack, int n>
                                              int first, const std::int32_t* target,
                                              RealOf<Pack>* sum) {
   constexpr int width = pack_width < Pack >> row_lanes ? row_lanes : pack_width<Pack>;
-  std::uint32_t at[n][width];
-  for (int a = 0; a < n; ++a) multiply(target + a * block_lanes<Pack>, 4, at[a]);
-  // Read back lane by lane: taken out of registers, each would take a shuffle.
-  asm volatile("" ::: "memory");
 #pragma GCC unroll 8
   for (int lane = 0; lane < width; ++lane)
 #pragma GCC unroll 8
-    for (int a = 0; a < n; ++a)
+    for (int a = 0; a < n; ++a) {
+      const auto at = static_cast<std::uint32_t>(target[a * block_lanes<Pack> + lane]);
       add_numbers<(pack_width<Pack> < 4 ? pack_width<Pack> : 4), 4>(force[a][first + lane],
-                                                                    sum + at[a][lane]);
+                                                                    sum + 4 * std::size_t{at});
+    }
 }
 
 // Adds the forces of a group's corners to sum[4 * target].
