@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "solver/in_double.h"
-#include "solver/node_offsets.h"
 #include "solver/row_order.h"
 
 namespace trocar {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "solver/block_data.h"
-#include "solver/node_offsets.h"
 #include "solver/row_order.h"
 
 namespace trocar {
@@ -86,6 +85,24 @@ template <class Pack>
   } else {
     store_singles(to, f, std::make_integer_sequence<int, 4>{});
   }
+}
+
+// The rows [x y z and anything] of all lanes, as many as fit into a register.
+template <class Pack>
+[[gnu::always_inline]] inline void rows_of_corner(const Pack (&f)[3], Pack (&row)[4]) {
+  if constexpr (sizeof(RealOf<Pack>) == sizeof(double)) {
+    all_rows(f, row);
+  } else {
+    row[0] = rows_of_four<0>(f, std::make_index_sequence<16>{});
+    row[1] = rows_of_four<1>(f, std::make_index_sequence<16>{});
+    row[2] = rows_of_four<2>(f, std::make_index_sequence<16>{});
+    row[3] = rows_of_four<3>(f, std::make_index_sequence<16>{});
+  }
+}
+// Four numbers of a register, the k-th.
+template <int k, class Pack>
+[[gnu::always_inline]] inline auto quarter(const Pack& x) {
+  return __builtin_shufflevector(x, x, 4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 3);
 }
 
 // sum[0 … n) += from[0 … n), width of them in one go.
@@ -247,6 +264,30 @@ template <class Pack, int n>
     }
 }
 
+// The same from registers: stores to be read back soon are what a step waits for most.
+template <class Pack, int n, int... r>
+[[gnu::always_inline]] inline void add_lanes_of(const Pack (&f)[n][3], const std::int32_t* target,
+                                                RealOf<Pack>* sum,
+                                                std::integer_sequence<int, r...>) {
+  constexpr int width = pack_width<Pack>, in_row = width / 4;
+  Pack row[n][4];
+#pragma GCC unroll 8
+  for (int a = 0; a < n; ++a) rows_of_corner(f[a], row[a]);
+  const auto add = [&](int a, int lane, const auto& x) __attribute__((always_inline)) {
+    const auto at = static_cast<std::uint32_t>(target[a * block_lanes<Pack> + lane]);
+    RealOf<Pack>* const to = sum + 4 * std::size_t{at};
+    using Quad = PackOf<RealOf<Pack>, 4>;
+    store(to, Quad(load<Quad>(to) + x));
+  };
+  const auto add_row = [&]<int k>(std::integral_constant<int, k>, int first)
+      __attribute__((always_inline)) {
+#pragma GCC unroll 4
+    for (int a = 0; a < n; ++a) add(a, in_row * first + k, quarter<k>(row[a][first]));
+  };
+#pragma GCC unroll 4
+  for (int first = 0; first < 4; ++first) (add_row(std::integral_constant<int, r>{}, first), ...);
+}
+
 // Adds the forces of a group's corners to sum[4 * target].
 template <class Pack, int n>
 [[gnu::always_inline]] inline void add_corners(const Pack (&f)[n][3], const std::int32_t* target,
@@ -256,6 +297,11 @@ template <class Pack, int n>
     if (are_box_rows<Pack>(target, row)) {
       add_box_row<0>(f, target, sum);
       if constexpr (width > row_lanes) add_box_row<1>(f, target, sum);
+      return;
+    }
+  if constexpr (n <= 4 && sizeof(Pack) == 64)
+    if (!is_row(row[0]) && !is_row(row[width / row_lanes - 1])) {
+      add_lanes_of(f, target, sum, std::make_integer_sequence<int, width / 4>{});
       return;
     }
   alignas(64) RealOf<Pack> force[n][width][4];

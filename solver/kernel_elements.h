@@ -13,13 +13,10 @@ template <class Pack, int n>
 [[gnu::always_inline]] inline Pack mean_of_corners(const double* x, std::int64_t stride,
                                                    const std::int32_t* corner) {
   constexpr int width = pack_width<Pack>;
-  std::uint32_t at[n][width];
-  for (int a = 0; a < n; ++a)
-    multiply(corner + a * block_lanes<Pack>, static_cast<std::uint32_t>(stride), at[a]);
   RealOf<Pack> mean[width];
   for (int lane = 0; lane < width; ++lane) {
     double sum = 0;
-    for (int a = 0; a < n; ++a) sum += x[at[a][lane]];
+    for (int a = 0; a < n; ++a) sum += x[corner[a * block_lanes<Pack> + lane] * stride];
     mean[lane] = static_cast<RealOf<Pack>>(sum * (1.0 / n));
   }
   return load<Pack>(mean);

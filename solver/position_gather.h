@@ -5,30 +5,32 @@
 #include <cstdint>
 
 #include "solver/block_data.h"
-#include "solver/node_offsets.h"
 #include "solver/row_order.h"
 
 namespace trocar {
 
-// [x y z 0] of the lanes k, k + 4, ... of a pack, node i at X + at[lane].
+[[gnu::always_inline]] inline PackOf<float, 4> load_position(const float* X, std::int32_t node) {
+  return load<PackOf<float, 4>>(X + 4 * std::int64_t{node});
+}
+
+// [x y z 0] of the lanes k, k + 4, ... of a pack.
 template <class Pack>
-[[gnu::always_inline]] inline Pack load_every_fourth(const float* X, const std::uint32_t* at) {
-  using Quad = PackOf<float, 4>;
+[[gnu::always_inline]] inline Pack load_every_fourth(const float* X, const std::int32_t* node) {
   if constexpr (pack_width<Pack> == 4) {
-    return load<Quad>(X + at[0]);
+    return load_position(X, node[0]);
   } else {
     static_assert(pack_width<Pack> == 8);
-    return __builtin_shufflevector(load<Quad>(X + at[0]), load<Quad>(X + at[4]), 0, 1, 2, 3, 4, 5,
-                                   6, 7);
+    return __builtin_shufflevector(load_position(X, node[0]), load_position(X, node[4]), 0, 1, 2, 3,
+                                   4, 5, 6, 7);
   }
 }
 
 // Of nodes anywhere, as many as the pack has lanes.
 template <class Pack>
-[[gnu::always_inline]] inline void gather_positions_of(const float* X, const std::uint32_t* at,
+[[gnu::always_inline]] inline void gather_positions_of(const float* X, const std::int32_t* node,
                                                        Pack (&x)[3]) {
   Pack row[4];
-  for (int k = 0; k < 4; ++k) row[k] = load_every_fourth<Pack>(X, at + k);
+  for (int k = 0; k < 4; ++k) row[k] = load_every_fourth<Pack>(X, node + k);
   if constexpr (pack_width<Pack> == 4) {
     const Pack xy0 = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
     const Pack xy2 = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
@@ -50,12 +52,11 @@ template <class Pack>
 
 // Four nodes one behind the other, of sixteen numbers.
 template <class Pack>
-[[gnu::always_inline]] inline Pack load_four(const float* X, const std::uint32_t* at) {
-  using Quad = PackOf<float, 4>;
-  Pack x = _mm512_castps128_ps512(load<Quad>(X + at[0]));
-  x = _mm512_mask_insertf32x4(x, 0xFFFF, x, load<Quad>(X + at[1]), 1);
-  x = _mm512_mask_insertf32x4(x, 0xFFFF, x, load<Quad>(X + at[2]), 2);
-  return _mm512_mask_insertf32x4(x, 0xFFFF, x, load<Quad>(X + at[3]), 3);
+[[gnu::always_inline]] inline Pack load_four(const float* X, const std::int32_t* node) {
+  Pack x = _mm512_castps128_ps512(load_position(X, node[0]));
+  x = _mm512_mask_insertf32x4(x, 0xFFFF, x, load_position(X, node[1]), 1);
+  x = _mm512_mask_insertf32x4(x, 0xFFFF, x, load_position(X, node[2]), 2);
+  return _mm512_mask_insertf32x4(x, 0xFFFF, x, load_position(X, node[3]), 3);
 }
 
 // Half of the lanes of sixteen: [x of eight, y of eight], [z of eight, twice].
@@ -100,12 +101,11 @@ template <class Pack, int n>
     for (int a = 0; a < n; ++a) x[a].take_row(X + 4 * std::int64_t{corner[a * lanes]});
     return;
   }
-  std::uint32_t at[n][row_lanes];
-  for (int a = 0; a < n; ++a) multiply(corner + a * lanes, 4, at[a]);
-  // Read back lane by lane, as in corner_gather.h.
-  asm volatile("" ::: "memory");
 #pragma GCC unroll 8
-  for (int a = 0; a < n; ++a) x[a].take(load_four<Pack>(X, at[a]), load_four<Pack>(X, at[a] + 4));
+  for (int a = 0; a < n; ++a) {
+    const std::int32_t* const node = corner + a * lanes;
+    x[a].take(load_four<Pack>(X, node), load_four<Pack>(X, node + 4));
+  }
 }
 
 // Positions of all corners of a group; corner[corner][lane], row of its lanes.
@@ -132,11 +132,8 @@ template <class Pack, int n>
 #pragma GCC unroll 8
     for (int a = 0; a < n; ++a) join_positions(low[a], high[a], x[a]);
   } else {
-    std::uint32_t at[n][width];
-    for (int a = 0; a < n; ++a) multiply(corner + a * lanes, 4, at[a]);
-    asm volatile("" ::: "memory");
 #pragma GCC unroll 8
-    for (int a = 0; a < n; ++a) gather_positions_of(X, at[a], x[a]);
+    for (int a = 0; a < n; ++a) gather_positions_of(X, corner + a * lanes, x[a]);
   }
 }
 
