@@ -2,8 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
+#include <random>
 
+#include "mesh/renumber.h"
 #include "solver_body.h"
 
 namespace trocar {
@@ -29,17 +33,34 @@ inline Mesh jittered_body(Formulation formulation, int n_elements) {
   return mesh;
 }
 
-// Its elements in another order, each some ten places from where it was, so that none stand in rows
-// (solver/row_order.h), as in a mesh that is no box.
-inline void disorder_elements(Mesh& mesh) {
+// How nodes and elements are numbered: as in a box; elements some ten places from where they were,
+// so that none stand in rows (solver/row_order.h); anyhow, as in a bad file; and that renumbered.
+enum class Numbering { box, near_box, any, renumbered };
+inline constexpr std::array<const char*, 4> numbering_name = {"box", "near box", "any",
+                                                              "renumbered"};
+
+// For benches alone: what belongs to single elements stays behind.
+inline void exchange_elements(Mesh& mesh, std::size_t a, std::size_t b) {
   const auto n = static_cast<std::size_t>(n_corners(mesh.element_type.front()));
-  std::uint64_t seed = 1;
-  for (std::size_t e = 0; e + 1 < mesh.element_type.size(); ++e) {
-    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
-    const std::size_t other = std::min(e + (seed >> 60), mesh.element_type.size() - 1);
-    std::swap_ranges(&mesh.corner_node[n * e], &mesh.corner_node[n * e] + n,
-                     &mesh.corner_node[n * other]);
-  }
+  std::swap_ranges(&mesh.corner_node[n * a], &mesh.corner_node[n * a] + n,
+                   &mesh.corner_node[n * b]);
+}
+
+inline Mesh in_numbering(Numbering numbering, Mesh mesh) {
+  if (numbering == Numbering::box) return mesh;
+  std::mt19937_64 random(1);
+  const std::size_t n = mesh.element_type.size();
+  const std::size_t reach = numbering == Numbering::near_box ? 16 : n;
+  for (std::size_t e = 0; e < n; ++e)
+    exchange_elements(mesh, e, std::min(e + random() % reach, n - 1));
+  if (numbering == Numbering::near_box) return mesh;
+  std::vector<std::int32_t> number(mesh.X.size());
+  std::iota(number.begin(), number.end(), 0);
+  std::shuffle(number.begin(), number.end(), random);
+  const std::vector<Vec3> X = mesh.X;
+  for (std::size_t i = 0; i < X.size(); ++i) mesh.X[std::size_t(number[i])] = X[i];
+  for (std::int32_t& i : mesh.corner_node) i = number[std::size_t(i)];
+  return numbering == Numbering::any ? mesh : renumbered(mesh);
 }
 
 }  // namespace trocar

@@ -49,7 +49,7 @@ inline std::array<std::function<void()>, n_step_parts> parts_of_step(Body& body)
 
 struct PartsCase {
   Formulation formulation = Formulation::tet4;
-  bool has_rows = false;  // elements are numbered as in a box
+  Numbering numbering = Numbering::box;
   Precision precision = Precision::in_double;
 };
 
@@ -60,8 +60,8 @@ inline void print_parts(const PartsCase& c, int n_elements,
       "\n  {\"element\": \"%s\", \"numbering\": \"%s\", \"precision\": \"%s\", \"elements\": %d, "
       "\"strain\": %.2f, "
       "\"law\": %.2f, \"force\": %.2f, \"nodes\": %.2f, \"motion\": %.2f, \"step\": %.2f}",
-      name_of(c.formulation), c.has_rows ? "rows" : "any", name_of(c.precision), n_elements, of[0],
-      of[1] - of[0], of[2] - of[1], of[3], of[4], of[5]);
+      name_of(c.formulation), numbering_name[static_cast<int>(c.numbering)], name_of(c.precision),
+      n_elements, of[0], of[1] - of[0], of[2] - of[1], of[3], of[4], of[5]);
 }
 
 inline Body sheared_body(const Mesh& mesh, Formulation formulation, Precision precision) {
@@ -75,17 +75,18 @@ inline Body sheared_body(const Mesh& mesh, Formulation formulation, Precision pr
 template <class Measure>
 void report_parts(int n_elements, const Measure& measure) {
   const char* separator = "";
-  for (const auto& [formulation, has_rows] :
-       {std::pair(Formulation::hex8_one_point, true), std::pair(Formulation::hex8_one_point, false),
-        std::pair(Formulation::tet4, false)})
+  for (const auto& [formulation, numbering] :
+       {std::pair(Formulation::hex8_one_point, Numbering::box),
+        std::pair(Formulation::hex8_one_point, Numbering::near_box),
+        std::pair(Formulation::tet4, Numbering::box), std::pair(Formulation::tet4, Numbering::any),
+        std::pair(Formulation::tet4, Numbering::renumbered)})
     for (const Precision precision : precisions) {
-      Mesh mesh = jittered_body(formulation, n_elements);
-      if (!has_rows) disorder_elements(mesh);
+      const Mesh mesh = in_numbering(numbering, jittered_body(formulation, n_elements));
       Body body = sheared_body(mesh, formulation, precision);
       std::array<double, n_step_parts> of = measure(parts_of_step(body));
       for (double& value : of) value /= mesh.n_elements();
       std::printf("%s", separator);
-      print_parts({formulation, has_rows, precision}, mesh.n_elements(), of);
+      print_parts({formulation, numbering, precision}, mesh.n_elements(), of);
       separator = ",";
     }
 }

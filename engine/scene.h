@@ -54,6 +54,7 @@ struct SceneLook {
 struct SceneTissue {
   std::string mesh;
   double scale = 1;
+  bool is_renumbered = true;
   double longest_side = 0;  // 0: as in the file
   bool is_centred = false;
   Vec3 translate = Vec3::Zero();

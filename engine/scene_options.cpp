@@ -70,6 +70,9 @@ Options<SceneTissue> tissue_options() {
   t.text("mesh", &SceneTissue::mesh, "Mesh file (.msh, .vtk, .vtu), relative to the scene file.");
   t.number("scale", &SceneTissue::scale, dim::length, positive,
            "Length of one unit of the mesh file, \"1 mm\" for a mesh in millimetres.");
+  t.boolean("renumber", &SceneTissue::is_renumbered,
+            "Numbers nodes and elements of a mesh file anew where that brings an element's nodes "
+            "closer together in memory, so that steps are faster; false: the order of the file.");
   t.number("longest_side", &SceneTissue::longest_side, dim::length, not_negative,
            "Scales the mesh so that the longest side of its bounding box has this length; 0: not.");
   t.boolean("centred", &SceneTissue::is_centred,

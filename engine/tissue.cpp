@@ -7,6 +7,7 @@
 #include "mesh/generate.h"
 #include "mesh/mesh_file.h"
 #include "mesh/quality.h"
+#include "mesh/renumber.h"
 
 namespace trocar {
 
@@ -90,6 +91,7 @@ Mesh read_tissue(const LoadedScene& loaded) {
   } else {
     try {
       mesh = read_mesh(scene_path(loaded, tissue.mesh), tissue.scale);
+      if (tissue.is_renumbered) mesh = in_near_order(std::move(mesh));
     } catch (const InputError& trouble) {
       loaded.where.fail("tissue.mesh", trouble.what());
     }

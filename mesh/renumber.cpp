@@ -1,0 +1,153 @@
+#include "mesh/renumber.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "base/check.h"
+#include "mesh/facets.h"
+
+namespace trocar {
+
+namespace {
+
+// Nodes that share an edge of the mesh with each node; those with few neighbours first, then the
+// lower number.
+struct Neighbourhood {
+  std::vector<std::int32_t> offset, node;
+
+  std::span<const std::int32_t> of(std::int32_t i) const {
+    return {node.data() + offset[i], static_cast<std::size_t>(offset[i + 1] - offset[i])};
+  }
+  std::int32_t degree(std::int32_t i) const { return offset[i + 1] - offset[i]; }
+};
+
+Neighbourhood neighbourhood_of(const Mesh& mesh) {
+  Neighbourhood all;
+  all.offset.assign(mesh.X.size() + 1, 0);
+  const auto edges = mesh_edges(mesh);
+  for (const auto& [a, b] : edges) ++all.offset[a + 1], ++all.offset[b + 1];
+  std::partial_sum(all.offset.begin(), all.offset.end(), all.offset.begin());
+  all.node.resize(2 * edges.size());
+  std::vector<std::int32_t> next(all.offset.begin(), all.offset.end() - 1);
+  for (const auto& [a, b] : edges) {
+    all.node[next[a]++] = b;
+    all.node[next[b]++] = a;
+  }
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
+    std::sort(all.node.begin() + all.offset[i], all.node.begin() + all.offset[i + 1],
+              [&](std::int32_t a, std::int32_t b) {
+                return std::pair(all.degree(a), a) < std::pair(all.degree(b), b);
+              });
+  return all;
+}
+
+// Appends all nodes that hang together with `first` to `order`, breadth first; marks them.
+void visit(const Neighbourhood& neighbours, std::int32_t first, std::vector<std::uint8_t>& is_seen,
+           std::vector<std::int32_t>& order) {
+  std::size_t at = order.size();
+  order.push_back(first);
+  is_seen[first] = 1;
+  for (; at < order.size(); ++at)
+    for (const std::int32_t i : neighbours.of(order[at]))
+      if (std::exchange(is_seen[i], 1) == 0) order.push_back(i);
+}
+
+// A node far from the others of its piece: the last one of a search, again and again.
+std::int32_t node_at_rim(const Neighbourhood& neighbours, std::int32_t first,
+                         std::vector<std::uint8_t>& is_seen) {
+  constexpr int n_searches = 3;
+  std::vector<std::int32_t> order;
+  for (int k = 0; k < n_searches; ++k) {
+    order.clear();
+    visit(neighbours, first, is_seen, order);
+    for (const std::int32_t i : order) is_seen[i] = 0;
+    first = order.back();
+  }
+  return first;
+}
+
+// Number of the node that comes k-th.
+std::vector<std::int32_t> near_order(const Mesh& mesh) {
+  const Neighbourhood neighbours = neighbourhood_of(mesh);
+  std::vector<std::uint8_t> is_seen(mesh.X.size(), 0);
+  std::vector<std::int32_t> order;
+  order.reserve(mesh.X.size());
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
+    if (is_seen[i] == 0) visit(neighbours, node_at_rim(neighbours, i, is_seen), is_seen, order);
+  std::reverse(order.begin(), order.end());
+  return order;
+}
+
+// Ascending by the elements' nodes, lowest first.
+std::vector<std::int32_t> element_order(const Mesh& mesh,
+                                        std::span<const std::int32_t> new_number) {
+  std::vector<std::array<std::int32_t, max_corners>> key(mesh.element_type.size());
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    const auto corners = mesh.corners(e);
+    key[e].fill(-1);
+    for (std::size_t a = 0; a < corners.size(); ++a) key[e][a] = new_number[corners[a]];
+    std::sort(key[e].begin(), key[e].begin() + std::ssize(corners));
+  }
+  std::vector<std::int32_t> order(key.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+    return std::tie(key[a], a) < std::tie(key[b], b);
+  });
+  return order;
+}
+
+template <class T>
+std::vector<T> permuted(const std::vector<T>& x, std::span<const std::int32_t> order) {
+  std::vector<T> result;
+  result.reserve(x.size());
+  for (const std::int32_t i : order) result.push_back(x[i]);
+  return result;
+}
+
+}  // namespace
+
+double mean_node_span(const Mesh& mesh) {
+  double sum = 0;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    const auto [low, high] = std::ranges::minmax(mesh.corners(e));
+    sum += high - low;
+  }
+  return sum / std::max(1, mesh.n_elements());
+}
+
+Mesh renumbered(const Mesh& mesh) {
+  CHECK_OP(mesh.copied_node.size(), ==, 0U);
+  const std::vector<std::int32_t> nodes = near_order(mesh);
+  std::vector<std::int32_t> new_number(nodes.size());
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    new_number[nodes[k]] = static_cast<std::int32_t>(k);
+  const std::vector<std::int32_t> elements = element_order(mesh, new_number);
+  Mesh result;
+  result.X = permuted(mesh.X, nodes);
+  result.element_type = permuted(mesh.element_type, elements);
+  for (const std::int32_t e : elements) {
+    for (const std::int32_t i : mesh.corners(e)) result.corner_node.push_back(new_number[i]);
+    result.corner_offset.push_back(static_cast<std::int32_t>(result.corner_node.size()));
+  }
+  result.element_region = permuted(mesh.element_region, elements);
+  result.region_name = mesh.region_name;
+  result.density_factor = permuted(mesh.density_factor, elements);
+  result.cut_facets = permuted(mesh.cut_facets, elements);
+  if (!mesh.fibre.empty()) result.fibre = permuted(mesh.fibre, elements);
+  result.node_sets = mesh.node_sets;
+  for (NodeSet& set : result.node_sets) {
+    for (std::int32_t& i : set.node) i = new_number[i];
+    std::sort(set.node.begin(), set.node.end());
+  }
+  return result;
+}
+
+Mesh in_near_order(Mesh mesh) {
+  constexpr double worth = 0.75;
+  Mesh near = renumbered(mesh);
+  return mean_node_span(near) < worth * mean_node_span(mesh) ? near : mesh;
+}
+
+}  // namespace trocar

@@ -1,0 +1,120 @@
+// A mesh in another order is the same mesh.
+#include "mesh/renumber.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <random>
+
+#include "mesh/generate.h"
+#include "mesh/quality.h"
+#include "mesh_equal.h"
+
+namespace trocar {
+namespace {
+
+// Two regions with fibres of their own, a node set, and numbers that differ from element to
+// element.
+Mesh body(BoxElements elements) {
+  Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(3, 2, 1), {9, 6, 4}, elements);
+  mesh.region_name = {"soft", "stiff"};
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    mesh.element_region[e] = mesh.X[mesh.corners(e)[0]].x() > 1.5 ? 1 : 0;
+    mesh.density_factor[e] = 1 + 1e-3 * e;
+    mesh.cut_facets[e] = static_cast<std::uint8_t>(e % 16);
+    mesh.fibre.push_back(Vec3(1, e, 0).normalized());
+  }
+  NodeSet low{"low", {}};
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
+    if (mesh.X[i].z() == 0) low.node.push_back(i);
+  mesh.node_sets = {low};
+  return mesh;
+}
+
+// The same body as a mesher may write it: nodes and elements in any order.
+Mesh shuffled(const Mesh& mesh) {
+  std::mt19937 random(7);
+  std::vector<std::int32_t> number(mesh.X.size()), order(mesh.element_type.size());
+  std::iota(number.begin(), number.end(), 0);
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(number.begin(), number.end(), random);
+  std::shuffle(order.begin(), order.end(), random);
+  Mesh result = mesh;
+  for (std::size_t i = 0; i < number.size(); ++i) result.X[number[i]] = mesh.X[i];
+  result.corner_node.clear();
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::int32_t e = order[k];
+    for (const std::int32_t i : mesh.corners(e)) result.corner_node.push_back(number[i]);
+    result.element_region[k] = mesh.element_region[e];
+    result.density_factor[k] = mesh.density_factor[e];
+    result.cut_facets[k] = mesh.cut_facets[e];
+    result.fibre[k] = mesh.fibre[e];
+  }
+  for (std::int32_t& i : result.node_sets[0].node) i = number[i];
+  std::sort(result.node_sets[0].node.begin(), result.node_sets[0].node.end());
+  return result;
+}
+
+// All of an element, by its own numbers, which differ from element to element.
+std::map<double, std::vector<double>> elements_of(const Mesh& mesh) {
+  std::map<double, std::vector<double>> elements;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    std::vector<double>& x = elements[mesh.density_factor[e]];
+    x = {double(mesh.element_region[e]), double(mesh.cut_facets[e]), mesh.fibre[e].x(),
+         mesh.fibre[e].y()};
+    for (const std::int32_t i : mesh.corners(e))
+      x.insert(x.end(), {mesh.X[i].x(), mesh.X[i].y(), mesh.X[i].z()});
+  }
+  return elements;
+}
+
+TEST(Renumber, leaves_the_body_what_it_is) {
+  for (const BoxElements elements : {BoxElements::tet4_five, BoxElements::hex8}) {
+    const Mesh mesh = shuffled(body(elements)), near = renumbered(mesh);
+    EXPECT_EQ(elements_of(near), elements_of(mesh));
+    EXPECT_TRUE(validate(near).empty());
+    EXPECT_EQ(near.region_name, mesh.region_name);
+    ASSERT_EQ(near.node_sets.size(), 1U);
+    EXPECT_EQ(near.node_sets[0].node.size(), mesh.node_sets[0].node.size());
+    for (const std::int32_t i : near.node_sets[0].node) EXPECT_EQ(near.X[i].z(), 0);
+    EXPECT_TRUE(std::ranges::is_sorted(near.node_sets[0].node));
+  }
+}
+
+// A layer of the box across its longest side has 7 x 5 nodes; nobody's nodes need be further apart
+// than two layers, and the elements come as their nodes do.
+TEST(Renumber, brings_the_nodes_of_an_element_together) {
+  const Mesh mesh = shuffled(body(BoxElements::tet4_five)), near = renumbered(mesh);
+  EXPECT_GT(mean_node_span(mesh), 150);
+  EXPECT_LT(mean_node_span(near), 70);
+  for (std::int32_t e = 1; e < near.n_elements(); ++e)
+    EXPECT_LE(std::ranges::min(near.corners(e - 1)), std::ranges::min(near.corners(e)));
+  test::expect_equal(in_near_order(mesh), near);
+}
+
+TEST(Renumber, keeps_an_order_that_is_good) {
+  const Mesh mesh = body(BoxElements::hex8), near = renumbered(shuffled(mesh));
+  test::expect_equal(in_near_order(mesh), mesh);
+  test::expect_equal(in_near_order(near), near);
+}
+
+TEST(Renumber, takes_pieces_one_after_the_other) {
+  Mesh mesh = body(BoxElements::tet4_kuhn);
+  const std::int32_t n = mesh.n_nodes();
+  const Mesh one = mesh;
+  for (const Vec3& X : one.X) mesh.X.push_back(X + Vec3(10, 0, 0));
+  for (std::int32_t e = 0; e < one.n_elements(); ++e) {
+    std::array<std::int32_t, 4> corner{};
+    for (int a = 0; a < 4; ++a) corner[std::size_t(a)] = one.corners(e)[std::size_t(a)] + n;
+    add_element(mesh, ElementType::tet4, corner);
+    mesh.fibre.emplace_back(1, 0, 0);
+  }
+  const Mesh near = renumbered(mesh);
+  for (std::int32_t i = 0; i < 2 * n; ++i)
+    EXPECT_EQ(near.X[std::size_t(i)].x() < 5, (near.X[0].x() < 5) == (i < n));
+}
+
+}  // namespace
+}  // namespace trocar
