@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "apps/read_scale.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/threads.h"
@@ -128,12 +129,7 @@ ExitCode command_replay(const ReplayOptions& options) {
 }
 
 ExitCode command_mesh(const std::string& file, const std::string& scale) {
-  double metres = 1;
-  try {
-    metres = parse_quantity(scale, dim::length);
-  } catch (const std::invalid_argument& trouble) {
-    throw InputError("--scale: " + std::string(trouble.what()));
-  }
+  const double metres = read_scale(scale);
   if (is_surface_file(file)) {
     print_surface(file, metres);
     return ExitCode::done;
