@@ -25,10 +25,11 @@ const char* const examples_check =
     "solver.step_factor=0.5\n";
 const char* const examples_replay =
     "\nexamples:\n"
-    "  trocar replay out/liver/liver.trocar --list\n"
-    "  trocar replay out/liver/liver.trocar --video again.mp4 --eye 0.1 -0.2 0.2 -o again\n"
-    "  trocar replay out/liver/liver.trocar --vtu -o vtu      then open vtu/recording.pvd in "
-    "ParaView\n";
+    "  trocar replay out/liver/liver_incision.trocar --list\n"
+    "  trocar replay out/liver/liver_incision.trocar --video again.mp4 --eye 0.1 -0.2 0.2 -o "
+    "again\n"
+    "  trocar replay out/liver/liver_incision.trocar --vtu -o vtu      then open vtu/recording.pvd "
+    "in ParaView\n";
 const char* const examples_study =
     "\nexamples:\n"
     "  trocar study --list\n"
