@@ -1,11 +1,10 @@
 #include "apps/command_cut2d.h"
 
 #include <cstdio>
-#include <stdexcept>
 
+#include "apps/read_scale.h"
 #include "apps/write_file.h"
 #include "base/log.h"
-#include "base/units.h"
 #include "cutting/cut_plane_paper.h"
 #include "mesh/mesh_file.h"
 #include "study/cut2d_json.h"
@@ -26,13 +25,7 @@ Cut2dMode mode_of(const std::string& name) {
 
 Mesh mesh_of(const Cut2dCommand& command) {
   if (command.configuration > 0) return paper_mesh(command.configuration);
-  double metres = 1;
-  try {
-    metres = parse_quantity(command.mesh_scale, dim::length);
-  } catch (const std::invalid_argument& trouble) {
-    throw InputError("--scale: " + std::string(trouble.what()));
-  }
-  Mesh mesh = read_mesh(command.mesh_file, metres);
+  Mesh mesh = read_mesh(command.mesh_file, read_scale(command.mesh_scale));
   if (mesh.dimension() != 2)
     throw InputError(command.mesh_file +
                      ": cut2d needs a mesh of triangles in a plane z = const, nothing else");
@@ -69,10 +62,26 @@ void print_trial(const Cut2dTrial& trial) {
       trial.altitude_ratio, 1e3 * trial.largest_deviation);
 }
 
+std::string nothing_cut_text(const Mesh& mesh) {
+  Vec3 low = mesh.X.front(), high = low;
+  for (const Vec3& X : mesh.X) {
+    low = low.cwiseMin(X);
+    high = high.cwiseMax(X);
+  }
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "nothing was cut: the path misses the mesh, which lies from %.4g,%.4g to %.4g,%.4g mm, or "
+      "is too short for it",
+      1e3 * low.x(), 1e3 * low.y(), 1e3 * high.x(), 1e3 * high.y());
+  return text;
+}
+
 ExitCode cut_one(const Cut2dCommand& command) {
   const Cut2dTrial trial = run_trial(mesh_of(command), paths_of(command),
                                      options_of(mode_of(command.mode), command.repetitions));
   draw_trial(command, "", trial);
+  if (trial.n_opened_edges == 0) log_warning(nothing_cut_text(trial.before));
   if (command.is_json)
     std::fputs(trial_json(trial, command.mode).c_str(), stdout);
   else

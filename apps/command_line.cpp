@@ -25,10 +25,11 @@ const char* const examples_check =
     "solver.step_factor=0.5\n";
 const char* const examples_replay =
     "\nexamples:\n"
-    "  trocar replay out/liver/liver.trocar --list\n"
-    "  trocar replay out/liver/liver.trocar --video again.mp4 --eye 0.1 -0.2 0.2 -o again\n"
-    "  trocar replay out/liver/liver.trocar --vtu -o vtu      then open vtu/recording.pvd in "
-    "ParaView\n";
+    "  trocar replay out/liver/liver_incision.trocar --list\n"
+    "  trocar replay out/liver/liver_incision.trocar --video again.mp4 --eye 0.1 -0.2 0.2 -o "
+    "again\n"
+    "  trocar replay out/liver/liver_incision.trocar --vtu -o vtu      then open vtu/recording.pvd "
+    "in ParaView\n";
 const char* const examples_study =
     "\nexamples:\n"
     "  trocar study --list\n"
@@ -56,9 +57,9 @@ void add_machine_options(CLI::App& app, MachineOptions& machine) {
   app.add_option("--threads", machine.threads,
                  "Threads a rank; 0: the host's cores divided among its ranks")
       ->check(CLI::Range(0, 1024));
-  app.add_option(
-      "--simd", machine.simd,
-      "Instruction set of the kernels: auto, sse2, avx2, avx512 (bits are promised per set)");
+  app.add_option("--simd", machine.simd,
+                 "Instruction set of the kernels: auto, scalar, sse2, avx2, avx512 (bits are "
+                 "promised per set)");
   app.add_flag("-q,--quiet", machine.is_quiet, "Errors only");
 }
 
@@ -240,14 +241,19 @@ void add_others(CLI::App& app, CommandLine& line) {
   });
 }
 
-// "trocar rnu": the word that was probably meant.
-std::string suggestion(const CLI::App& app, int argc, char** argv) {
+// What is wrong, the word that was probably meant ("trocar rnu"), and where help is.
+std::string complaint(const CLI::App& app, const std::string& trouble, int argc, char** argv) {
   std::vector<std::string> known;
   for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
     known.push_back(sub->get_name());
-  if (argc < 2 || std::find(known.begin(), known.end(), argv[1]) != known.end()) return "";
-  const std::string nearest = nearest_name(argv[1], known);
-  return nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?";
+  const std::string word = argc < 2 ? "" : argv[1];
+  if (std::find(known.begin(), known.end(), word) != known.end())
+    return trouble + "\nrun \"trocar " + word + " --help\" for what there is";
+  const std::string end = "\nrun \"trocar --help\" for what there is";
+  if (word.empty() || word[0] == '-') return trouble + end;
+  const std::string nearest = nearest_name(word, known);
+  return "there is no sub-command " + in_quotes(word) +
+         (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") + end;
 }
 
 // The rank that mpirun gave this process, before MPI is started: only rank 0 prints.
@@ -279,8 +285,7 @@ bool parse_command_line(int argc, char** argv, CommandLine& line, ExitCode& code
     code = ExitCode::done;
   } catch (const CLI::ParseError& trouble) {
     if (is_first_process())
-      std::fprintf(stderr, "trocar: %s%s\nrun \"trocar --help\" for what there is\n",
-                   trouble.what(), suggestion(app, argc, argv).c_str());
+      std::fprintf(stderr, "trocar: %s\n", complaint(app, trouble.what(), argc, argv).c_str());
     code = ExitCode::input;
   }
   return false;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "apps/read_scale.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/threads.h"
@@ -96,8 +97,10 @@ void print_mesh(const std::string& file, const Mesh& mesh) {
                 sliver_quality);
   for (const NodeSet& set : mesh.node_sets)
     std::printf("  region            \"%s\", %zu nodes\n", set.name.c_str(), set.node.size());
-  std::printf("  stable step       %.4g ms with the default material (3 kPa, 0.45, 1060 kg/m^3)\n",
-              1e3 * default_stable_step(mesh));
+  std::printf(
+      "  stable step       %.4g ms with the default material (3 kPa, 0.45, 1060 kg/m^3), by the "
+      "bounds of single elements; \"trocar check\" searches for a scene's own\n",
+      1e3 * default_stable_step(mesh));
 }
 
 }  // namespace
@@ -128,12 +131,7 @@ ExitCode command_replay(const ReplayOptions& options) {
 }
 
 ExitCode command_mesh(const std::string& file, const std::string& scale) {
-  double metres = 1;
-  try {
-    metres = parse_quantity(scale, dim::length);
-  } catch (const std::invalid_argument& trouble) {
-    throw InputError("--scale: " + std::string(trouble.what()));
-  }
+  const double metres = read_scale(scale);
   if (is_surface_file(file)) {
     print_surface(file, metres);
     return ExitCode::done;

@@ -76,7 +76,8 @@ std::vector<double> read_vector_text(const OptionNode& node, const Dimension& di
   const std::vector<std::string> pieces = split_vector(node.text, n);
   std::vector<double> values;
   for (std::size_t i = 0; i < n; ++i) {
-    if (pieces[i].empty()) refuse_kind(node, std::to_string(n) + " numbers and a unit");
+    if (pieces[i].find_first_of("0123456789+-.") != 0)
+      refuse_kind(node, std::to_string(n) + " numbers and a unit");
     const double value = parsed(node, pieces[i] + " " + pieces[n], dimension);
     values.push_back(checked(node, value, dimension, range));
   }

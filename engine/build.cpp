@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "base/digest.h"
@@ -156,11 +157,15 @@ void check_slow_element(const Simulation& s) {
   constexpr double many_substeps = 20000, too_many_substeps = 1e6;
   const double n = 1 / (s.scene.time.frame_rate * s.scene.solver.step_factor * s.watch.stable_step);
   if (n < many_substeps) return;
-  const std::string sentence = "a frame needs " + number_text(std::ceil(n)) +
-                               " steps, because element " + std::to_string(s.watch.stable_element) +
-                               " allows only " + number_text(s.watch.stable_step) +
-                               " s a step: \"trocar mesh\" shows the mesh's quality";
-  if (n > too_many_substeps) throw InputError(sentence + "; without such slivers it can be run");
+  char figures[120];
+  std::snprintf(figures, sizeof figures,
+                "a frame needs %.3g steps, because element %d allows only %.3g s", n,
+                static_cast<int>(s.watch.stable_element), s.watch.stable_step);
+  const std::string sentence =
+      figures + std::string(
+                    " a step: it is a sliver (\"trocar mesh\" shows the mesh's quality), or "
+                    "its material is too stiff, too light or too near poisson_ratio = 0.5");
+  if (n > too_many_substeps) throw InputError(sentence);
   log_warning(sentence);
 }
 

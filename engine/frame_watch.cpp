@@ -201,8 +201,8 @@ std::string go_back(Simulation& s, const std::string& trouble, int tries) {
   if (tries >= most_roll_backs)
     throw SimulationError("in the frame after " + number_text(time) + " s: " + trouble + "; " +
                           std::to_string(tries) +
-                          " roll-backs with smaller steps did not help: slower instruments, a "
-                          "finer mesh or a lower poisson_ratio may");
+                          " roll-backs with smaller steps did not help: slower instruments, "
+                          "smaller loads, a finer mesh or a lower poisson_ratio may");
   forget_hold_reactions(s.holds);
   s.look.is_done = false;  // it was of a state that is gone
   return "rolled back: " + trouble;

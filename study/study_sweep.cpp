@@ -127,6 +127,9 @@ void rate_scene(Study& study) {
     study.notes.push_back("the reference's own error is unknown: it needs a second, coarser size");
   const std::vector<Vec3> rest(finest->outcome.samples.size(), Vec3::Zero());
   problem.length = problem.reference = largest_difference(finest->outcome.samples, rest);
+  if (problem.length == 0)
+    throw InputError(problem.name +
+                     ": nothing moves in this scene, so that its runs can't be compared");
   problem.reference_error = std::min(1., own_error(study.runs, *finest) / problem.length);
   for (Run& run : study.runs)
     if (is_sound(run))

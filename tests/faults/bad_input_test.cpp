@@ -134,6 +134,35 @@ TEST(BadInput, an_unknown_command_suggests_the_nearest) {
   EXPECT_NE(run.err.find("\"run\""), std::string::npos) << run.err;
 }
 
+TEST(BadInput, a_command_that_is_like_no_other_is_named) {
+  const Finished run = run_trocar({"bogus-words"}, test_folder("bogus"));
+  EXPECT_EQ(run.exit_code, input_wrong);
+  EXPECT_NE(run.err.find("\"bogus-words\""), std::string::npos) << run.err;
+}
+
+TEST(BadInput, a_scale_that_is_not_above_zero_is_refused) {
+  const std::string folder = test_folder("scale");
+  for (const std::string scale : {"0", "-1 mm"}) {
+    const Finished run =
+        run_trocar({"mesh", config("meshes/liver.msh"), "--scale=" + scale}, folder);
+    EXPECT_EQ(run.exit_code, input_wrong) << run.err;
+    EXPECT_NE(run.err.find("--scale: \"" + scale + "\" is out of range"), std::string::npos)
+        << run.err;
+  }
+}
+
+TEST(BadInput, a_frame_of_too_many_steps_names_the_material_as_a_cause) {
+  const std::string folder = test_folder("stiff");
+  expect_refusal(config("block_hex.toml"), folder, input_wrong, "too near poisson_ratio = 0.5",
+                 {"--set", "tissue.material.poisson_ratio=0.4999999999999"});
+}
+
+TEST(BadInput, one_number_for_a_vector_is_refused_with_what_it_needs) {
+  const std::string folder = test_folder("vector");
+  expect_refusal(config("block_hex.toml"), folder, input_wrong, "needs 3 numbers and a unit",
+                 {"--set", "solver.gravity='9.81 m/s^2'"});
+}
+
 TEST(BadInput, a_region_that_is_not_there_lists_those_that_are) {
   const std::string folder = test_folder("region");
   const std::string scene =

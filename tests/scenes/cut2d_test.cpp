@@ -75,6 +75,7 @@ TEST(Cut2d, wrong_command_lines_are_explained_in_one_sentence) {
       {"--config", "1", "--mode", "best"},
       {"--config", "1", "--mode", "or", "--path", "1,2 3,4 5,4"},
       {"--mesh", folder + "/missing.msh", "--path", "1,2 3,4"},
+      {"--mesh", config("meshes/liver.msh"), "--scale", "0", "--path", "1,2 3,4"},
       {"--table1", "--config", "1"},
       {"--config", "1", "--docs", folder}};
   for (std::vector<std::string> words : wrong) {
@@ -83,6 +84,13 @@ TEST(Cut2d, wrong_command_lines_are_explained_in_one_sentence) {
     EXPECT_EQ(cut.exit_code, 2) << cut.err;
     EXPECT_FALSE(cut.err.empty());
   }
+}
+
+TEST(Cut2d, a_path_beside_the_mesh_is_told_where_the_mesh_lies) {
+  const std::string folder = test_folder("cut2d-beside");
+  const Finished cut = run_trocar({"cut2d", "--config", "2", "--path", "500,500 600,600"}, folder);
+  EXPECT_EQ(cut.exit_code, 0);
+  EXPECT_NE(cut.err.find("lies from 0,0 to 70,40 mm"), std::string::npos) << cut.err;
 }
 
 TEST(Cut2d, help_has_examples) {

@@ -85,6 +85,17 @@ TEST(StudySweep, a_scenes_reference_is_its_finest_run_with_the_error_that_refine
   EXPECT_NEAR(study.runs[1].error_length, .25 - .125, 1e-14);
 }
 
+TEST(StudySweep, a_scene_in_which_nothing_moves_is_refused) {
+  Problem problem = made_up_problem(0);
+  problem.source.clear();
+  problem.solve = [](const Case& c) {
+    Outcome outcome = solve_made_up(c);
+    outcome.samples = {Vec3::Zero()};
+    return outcome;
+  };
+  EXPECT_THROW(sweep(problem, {}), InputError);
+}
+
 TEST(StudySweep, the_reference_of_a_scene_is_not_the_method_that_is_still_moving) {
   Problem problem = made_up_problem(0);
   problem.source.clear();
