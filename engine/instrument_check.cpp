@@ -1,24 +1,61 @@
 #include "engine/instrument_check.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <vector>
 
+#include "collision/closest_point.h"
 #include "engine/frame_report.h"
 
 namespace trocar {
 
+namespace {
+
+// Of a triangle seen from the origin, positive from behind (Van Oosterom and Strackee 1983).
+double solid_angle(const Triangle& triangle) {
+  const auto& [a, b, c] = triangle;
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return 2 * std::atan2(a.dot(b.cross(c)),
+                        la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
+// How deep a point lies in the body: its distance from the surface, 0 outside of it.
+double depth_in_body(const Surface& surface, std::span<const Vec3> x, const Vec3& point) {
+  double angle = 0, distance = std::numeric_limits<double>::infinity();
+  for (const auto& node : surface.triangle) {
+    const Triangle triangle{x[node[0]] - point, x[node[1]] - point, x[node[2]] - point};
+    angle += solid_angle(triangle);
+    distance = std::min(distance, closest_point_triangle(Vec3::Zero(), triangle).point.norm());
+  }
+  return angle > 2 * std::numbers::pi ? distance : 0;
+}
+
+}  // namespace
+
+// Contacts are sought at the surface: a tip that is well inside meets none, so it is looked for.
 void check_instruments_outside(const LoadedScene& loaded, double allowed, const std::string& what,
                                Simulation& s) {
+  std::vector<double> depth(s.tools.size(), 0);
   detect_contacts(*s.contact, s.tools, s.holds, s.view, FrameSpan{}, 0);
-  const Contact* deepest = nullptr;
-  for (const Contact& contact : s.contact->contacts)
-    if (contact.gap < -allowed && (deepest == nullptr || contact.gap < deepest->gap))
-      deepest = &contact;
-  if (deepest == nullptr) return;
-  char depth[40];
-  std::snprintf(depth, sizeof depth, "%.3g m", -deepest->gap);
-  const auto tool = static_cast<std::size_t>(deepest->tool);
-  loaded.where.fail("instrument[" + std::to_string(tool) + "].path[0].position",
-                    "\"" + s.tools[tool].name + "\" reaches " + depth + " into " + what);
+  for (const Contact& contact : s.contact->contacts) {
+    double& deepest = depth[static_cast<std::size_t>(contact.tool)];
+    deepest = std::max(deepest, -contact.gap);
+  }
+  for (std::size_t k = 0; k < s.tools.size(); ++k) {
+    const Tool& tool = s.tools[k];
+    if (s.mesh.dimension() == 3 && tool.edge.empty())
+      depth[k] =
+          std::max(depth[k], depth_in_body(s.surface, s.view.x, tool.path.at(0).translation));
+    if (depth[k] <= allowed) continue;
+    char text[40];
+    std::snprintf(text, sizeof text, "%.3g m", depth[k]);
+    loaded.where.fail("instrument[" + std::to_string(k) + "].path[0].position",
+                      "\"" + tool.name + "\" reaches " + text + " into " + what);
+  }
 }
 
 }  // namespace trocar

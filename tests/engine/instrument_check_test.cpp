@@ -1,0 +1,51 @@
+// An instrument begins outside of the body, however deep it would be inside.
+#include "engine/instrument_check.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "engine_started.h"
+
+namespace trocar {
+namespace {
+
+// 40 x 40 x 40 mm in cells of 5 mm, an instrument whose tip stands `height` above the bottom.
+std::string block_text(const std::string& kind, double height) {
+  return "[time]\nduration = \"1 s\"\n[tissue.shape]\nkind = \"box\"\nlow = [-0.02, -0.02, 0]\n"
+         "high = [0.02, 0.02, 0.04]\ncells = [8, 8, 8]\nelements = \"tet4-five\"\n"
+         "[tissue.material]\nyoung_modulus = 6000\n[[support]]\nregion = \"z-\"\nfix = \"xyz\"\n"
+         "[[instrument]]\nkind = \"" +
+         kind + "\"\npath = [ { time = 0, position = [0.001, 0.002, " + std::to_string(height) +
+         "] } ]\n";
+}
+
+std::string refusal(const std::string& kind, double height) {
+  try {
+    built(block_text(kind, height));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(InstrumentCheck, refuses_a_tip_at_any_depth_and_says_which) {
+  for (const double depth : {0.005, 0.01, 0.015, 0.018})
+    for (const std::string kind : {"probe", "grasper"}) {
+      const std::string sentence = refusal(kind, 0.04 - depth);
+      EXPECT_NE(sentence.find("instrument[0].path[0].position"), std::string::npos)
+          << kind << depth << sentence;
+    }
+  // The shaft, with a radius of its own, counts for less than the tip.
+  EXPECT_NE(refusal("probe", 0.022).find("reaches 0.018 m into the body"), std::string::npos)
+      << refusal("probe", 0.022);
+}
+
+TEST(InstrumentCheck, lets_instruments_begin_outside_and_blades_anywhere) {
+  EXPECT_EQ(refusal("probe", 0.05), "");
+  EXPECT_EQ(refusal("grasper", 0.05), "");
+  EXPECT_EQ(refusal("scalpel", 0.05), "");
+  EXPECT_EQ(refusal("scalpel", 0.035), "");
+}
+
+}  // namespace
+}  // namespace trocar
