@@ -120,11 +120,10 @@ struct NodeLoops {
   }
 
   template <int r>
-  [[gnu::always_inline]] static void accelerate(const NodeMotion& task, const Nodes& nodes,
-                                                const Pack& gain) {
+  [[gnu::always_inline]] static Pack next_velocity(const NodeMotion& task, const Nodes& nodes,
+                                                   const Pack& gain) {
     const Pack g = of_components<r>(gain, std::make_index_sequence<width>{});
-    const Pack v = load<Pack>(nodes.v + r * width), f = load<Pack>(nodes.force + r * width);
-    store(nodes.v + r * width, Pack(task.keep * v + g * f));
+    return task.keep * load<Pack>(nodes.v + r * width) + g * load<Pack>(nodes.force + r * width);
   }
 
   [[gnu::always_inline]] static void hold(const Nodes& nodes) {
@@ -142,14 +141,20 @@ struct NodeLoops {
     return any != 0;
   }
 
+  // All is read before anything is written: where arrays lie a multiple of 4096 bytes apart, a read
+  // behind a write to the other one waits for it (8.3 in place of 3.5 us for 4,600 nodes).
   [[gnu::always_inline]] static void move(const NodeMotion& task, const Nodes& nodes) {
     const Pack gain = task.gain / load<Pack>(nodes.inertia);
-    accelerate<0>(task, nodes, gain);
-    accelerate<1>(task, nodes, gain);
-    accelerate<2>(task, nodes, gain);
-    if (is_any_fixed(nodes)) hold(nodes);
-    for (int k = 0; k < 3 * width; k += width)
-      store(nodes.u + k, Pack(load<Pack>(nodes.u + k) + task.dt * load<Pack>(nodes.v + k)));
+    Pack v[3] = {next_velocity<0>(task, nodes, gain), next_velocity<1>(task, nodes, gain),
+                 next_velocity<2>(task, nodes, gain)};
+    Pack u[3];
+    for (int r = 0; r < 3; ++r) u[r] = load<Pack>(nodes.u + r * width);
+    for (int r = 0; r < 3; ++r) store(nodes.v + r * width, v[r]);
+    if (is_any_fixed(nodes)) {
+      hold(nodes);
+      for (int r = 0; r < 3; ++r) v[r] = load<Pack>(nodes.v + r * width);
+    }
+    for (int r = 0; r < 3; ++r) store(nodes.u + r * width, Pack(u[r] + task.dt * v[r]));
   }
 
   // std::copy would be a function that other instruction sets have, too.
