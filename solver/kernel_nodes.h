@@ -34,6 +34,22 @@ struct NodeLoops {
     }
   }
 
+  template <class Real>
+  static void add_places(Real* sum, std::int64_t place, const std::int32_t* node, std::int64_t n) {
+    Real* from = sum + 4 * place;
+    for (std::int64_t k = 0; k < n; ++k, from += 4) {
+      Real* const to = sum + 4 * std::int64_t{node[k]};
+      if constexpr (width >= 4) {
+        using Quad = PackOf<Real, 4>;
+        store(to, Quad(load<Quad>(to) + load<Quad>(from)));
+        store(from, Quad{});
+      } else {
+        for (int j = 0; j < 4; ++j) to[j] += from[j];
+        for (int j = 0; j < 4; ++j) from[j] = 0;
+      }
+    }
+  }
+
   static void motion(const NodeMotion& given, std::int64_t begin, std::int64_t end) {
     const NodeMotion task = given;
     std::int64_t i = begin;
@@ -182,7 +198,8 @@ struct NodeLoops {
 template <class Pack>
 NodeKernels node_kernels() {
   using Loops = NodeLoops<Pack>;
-  return {Loops::template force<double>, Loops::template force<float>, Loops::motion};
+  return {Loops::template force<double>, Loops::template force<float>,
+          Loops::template add_places<double>, Loops::template add_places<float>, Loops::motion};
 }
 
 }  // namespace trocar
