@@ -124,6 +124,25 @@ TEST(BuildModel, rows_of_a_regular_numbering_have_the_same_bits_as_single_nodes)
   }
 }
 
+// Whole rows of 16: border nodes have their numbers behind the others, and later corners places
+// elsewhere, but all of them in the order of the rows.
+TEST(BuildModel, rows_stay_rows_on_any_ranks_and_threads) {
+  const Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {16, 6, 6}, BoxElements::hex8);
+  for (const int n_ranks : {1, 2, 3})
+    for (const int n_threads : {1, 2}) {
+      set_thread_count(n_threads);
+      const std::vector<std::int32_t> owner = partition_nodes(mesh, n_ranks);
+      for (int rank = 0; rank < n_ranks; ++rank) {
+        const Body body = make_body(mesh, {}, owner, rank);
+        EXPECT_EQ(body.model.blocks.size(), n_ranks > 1 ? 2U : 1U);
+        EXPECT_EQ(body.model.sums.shared_node.empty(), n_ranks * n_threads == 1);
+        for (const ElementBlocks& blocks : body.model.blocks)
+          EXPECT_TRUE(std::ranges::all_of(blocks.row, [](auto row) { return row == box_row; }));
+      }
+    }
+  set_thread_count(1);
+}
+
 // Positions rounded where they stand would be off by 8e-6 m here, 2e-4 of a cell.
 TEST(BuildModel, forces_in_single_precision_are_the_same_far_from_the_origin) {
   Mesh near = make_box(Vec3(0, 0, 0), Vec3(.1, .1, .1), {3, 3, 3}, BoxElements::hex8), far = near;
