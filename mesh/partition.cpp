@@ -62,27 +62,44 @@ struct Graph {
   std::vector<idx_t> neighbour, n_edges;
 };
 
-static Graph graph_of(const Groups& groups, const Edges& edges) {
-  Edges joined;
-  for (const auto& [i, j] : edges) {
-    const std::int32_t a = groups.of_node[i], b = groups.of_node[j];
-    if (a == b) continue;
-    joined.push_back({a, b});
-    joined.push_back({b, a});
-  }
-  std::sort(joined.begin(), joined.end());
+// The groups that each edge joins, from either side.
+static Graph with_each_edge(const Groups& groups, const Edges& edges) {
   Graph graph;
   graph.offset.assign(groups.work.size() + 1, 0);
-  for (std::size_t k = 0; k < joined.size(); ++k) {
-    if (k > 0 && joined[k] == joined[k - 1]) {
-      ++graph.n_edges.back();
-      continue;
-    }
-    graph.neighbour.push_back(joined[k][1]);
-    graph.n_edges.push_back(1);
-    ++graph.offset[joined[k][0] + 1];
-  }
+  const auto for_joined = [&](const auto& body) {
+    for (const auto& [i, j] : edges)
+      if (const std::int32_t a = groups.of_node[i], b = groups.of_node[j]; a != b) body(a, b);
+  };
+  for_joined([&](std::int32_t a, std::int32_t b) {
+    ++graph.offset[a + 1];
+    ++graph.offset[b + 1];
+  });
   std::partial_sum(graph.offset.begin(), graph.offset.end(), graph.offset.begin());
+  graph.neighbour.resize(static_cast<std::size_t>(graph.offset.back()));
+  std::vector<idx_t> next(graph.offset.begin(), graph.offset.end() - 1);
+  for_joined([&](std::int32_t a, std::int32_t b) {
+    graph.neighbour[next[a]++] = b;
+    graph.neighbour[next[b]++] = a;
+  });
+  return graph;
+}
+
+static Graph graph_of(const Groups& groups, const Edges& edges) {
+  Graph graph = with_each_edge(groups, edges);
+  idx_t n = 0, begin = 0;
+  for (std::size_t group = 0; group < groups.work.size(); ++group) {
+    const idx_t end = graph.offset[group + 1], first = n;
+    std::sort(graph.neighbour.begin() + begin, graph.neighbour.begin() + end);
+    for (idx_t k = begin; k < end; ++k) {
+      if (n == first || graph.neighbour[k] != graph.neighbour[n - 1]) {
+        graph.neighbour[n++] = graph.neighbour[k];
+        graph.n_edges.push_back(0);
+      }
+      ++graph.n_edges.back();
+    }
+    graph.offset[group + 1] = n;
+    begin = end;
+  }
   return graph;
 }
 
