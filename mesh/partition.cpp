@@ -164,7 +164,8 @@ static std::vector<std::int32_t> least_work(const Mesh& mesh,
   std::vector<double> work;
   for (const std::vector<std::int32_t>& owner : owners)
     work.push_back(most_work(mesh, owner, n_parts));
-  return owners[static_cast<std::size_t>(std::min_element(work.begin(), work.end()) - work.begin())];
+  return owners[static_cast<std::size_t>(std::min_element(work.begin(), work.end()) -
+                                         work.begin())];
 }
 
 std::vector<std::int32_t> partition_nodes(const Mesh& mesh, int n_parts) {
@@ -175,7 +176,8 @@ std::vector<std::int32_t> partition_nodes(const Mesh& mesh, int n_parts) {
   if (n_parts == 1) return std::vector<std::int32_t>(mesh.X.size(), 0);
   const Edges edges = mesh_edges(mesh);
   const Groups rows = rows_of_nodes(mesh, edges);
-  std::vector<std::vector<std::int32_t>> owners = {metis_owners(single_nodes(mesh), edges, n_parts)};
+  std::vector<std::vector<std::int32_t>> owners = {
+      metis_owners(single_nodes(mesh), edges, n_parts)};
   if (n_parts <= std::ssize(rows.work)) {
     owners.push_back(metis_owners(rows, edges, n_parts));
     owners.push_back(owners_in_order(rows, n_parts));

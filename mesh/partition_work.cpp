@@ -58,7 +58,8 @@ class WorkCount {
   void finish(std::int32_t part, Lanes& lanes) {
     if (lanes.n == 0) return;
     const ElementType type = mesh_.element_type[lanes.element[0]];
-    const auto one = static_cast<double>(corner_work(type) * std::ssize(mesh_.corners(lanes.element[0])));
+    const auto one =
+        static_cast<double>(corner_work(type) * std::ssize(mesh_.corners(lanes.element[0])));
     const bool is_slow = type == ElementType::hex8 && !is_row(part, lanes);
     work_[part] += row_lanes * one * (is_slow ? outside_row : 1);  // padding takes its time, too
     lanes.n = 0;
@@ -71,8 +72,7 @@ class WorkCount {
     for (std::int32_t lane = 1; lane < row_lanes; ++lane) {
       const std::span<const std::int32_t> node = mesh_.corners(lanes.element[lane]);
       for (std::size_t a = 0; a < node.size(); ++a)
-        if (node[a] != first[a] + lane ||
-            (owner_[node[a]] == part) != (owner_[first[a]] == part))
+        if (node[a] != first[a] + lane || (owner_[node[a]] == part) != (owner_[first[a]] == part))
           return false;
     }
     return true;

@@ -1,5 +1,5 @@
-// What a partition costs in each step: kernels take eight elements at a time, and are quickest where
-// these stand in a row, their nodes one behind the other at each corner.
+// What a partition costs in each step: kernels take eight elements at a time, and are quickest
+// where these stand in a row, their nodes one behind the other at each corner.
 #pragma once
 
 #include <cstdint>

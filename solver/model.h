@@ -90,7 +90,7 @@ struct SumOrder {
   // Owned nodes that one run alone meets, run by run, ascending by the last block that touches
   // them: they are finished while they are in the cache.
   std::vector<std::int32_t> node, last_block;
-  std::vector<std::int32_t> run_first;  // (n_runs + 1) into node
+  std::vector<std::int32_t> run_first;    // (n_runs + 1) into node
   std::vector<std::int32_t> shared_node;  // owned nodes that several runs meet
   // (n_places - n_local) nodes of the places behind the nodes, in slots that are added up one after
   // the other: n_slots of owned nodes, then those of halo nodes, ascending in each. Nodes that

@@ -20,8 +20,8 @@ struct LaterCorner {
   std::int32_t slot;
 };
 
-// Looks at corners in the order of the sums and gives those slots that a node doesn't meet first and
-// in one run, which adds them at the node itself.
+// Looks at corners in the order of the sums and gives those slots that a node doesn't meet first
+// and in one run, which adds them at the node itself.
 class LaterCorners {
  public:
   std::vector<LaterCorner> corners;
