@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <chrono>
 #include <cstdio>
@@ -13,19 +14,31 @@
 #include <exception>
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include "base/check.h"
 
 namespace trocar {
 
+// MPI is done with a message only when the other rank has looked, so that a wait for it would hold
+// up whoever is ahead: what is sent has a copy until the exchange after the next. By then a
+// neighbour has answered, and so has looked.
 struct Communicator::Handle {
+  struct Sends {
+    std::vector<double> values;
+    std::vector<MPI_Request> requests;
+  };
   MPI_Comm group = MPI_COMM_NULL;
-  std::vector<MPI_Request> requests;
+  std::vector<MPI_Request> receives;
+  std::array<Sends, 2> sends;  // of the exchange before the last, and the last
 };
 
 namespace {
 
 constexpr int exchange_tag = 1;
+// Up to here a message's bytes go at once, in place of an offer that is answered: between ranks
+// that share memory 8 kB take 1.4 in place of 3.0 us both ways; at 32 kB it makes no difference.
+constexpr const char* bytes_at_once = "32768";
 
 // MPI counts with int.
 int count_of(std::size_t n) {
@@ -182,23 +195,6 @@ static void exchange_with_self(std::span<const ExchangeMessage> messages) {
   }
 }
 
-void Communicator::start_exchange(std::span<const ExchangeMessage> messages) {
-  ++traffic_.n_exchanges;
-  traffic_.n_messages += messages.size();
-  for (const ExchangeMessage& message : messages) traffic_.n_bytes += message.send.size_bytes();
-  if (!handle_) return exchange_with_self(messages);
-  std::vector<MPI_Request>& requests = handle_->requests;
-  CHECK(requests.empty());  // the exchange before this one is finished
-  requests.resize(2 * messages.size());
-  MPI_Request* request = requests.data();
-  for (const ExchangeMessage& message : messages)
-    MPI_Irecv(message.receive.data(), count_of(message.receive.size()), MPI_DOUBLE, message.rank,
-              exchange_tag, handle_->group, request++);
-  for (const ExchangeMessage& message : messages)
-    MPI_Isend(message.send.data(), count_of(message.send.size()), MPI_DOUBLE, message.rank,
-              exchange_tag, handle_->group, request++);
-}
-
 namespace {
 
 // MPI_Waitall spins for ever: with fewer free cores than ranks and picture threads it takes the
@@ -213,21 +209,54 @@ void wait_politely(std::vector<MPI_Request>& requests) {
     std::this_thread::sleep_for(std::chrono::microseconds(10));
     MPI_Testall(count_of(requests.size()), requests.data(), &is_done, MPI_STATUSES_IGNORE);
   }
+  requests.clear();  // keeps its memory
+}
+
+void receive(MPI_Comm group, std::span<const ExchangeMessage> messages,
+             std::vector<MPI_Request>& requests) {
+  for (const ExchangeMessage& message : messages)
+    MPI_Irecv(message.receive.data(), count_of(message.receive.size()), MPI_DOUBLE, message.rank,
+              exchange_tag, group, &requests.emplace_back());
+}
+
+// From copies in `values`, once those that it had are no longer needed.
+void send(MPI_Comm group, std::span<const ExchangeMessage> messages, std::vector<double>& values,
+          std::vector<MPI_Request>& requests) {
+  wait_politely(requests);
+  values.clear();
+  for (const ExchangeMessage& message : messages)
+    values.insert(values.end(), message.send.begin(), message.send.end());
+  const double* first = values.data();
+  for (const ExchangeMessage& message : messages) {
+    MPI_Isend(first, count_of(message.send.size()), MPI_DOUBLE, message.rank, exchange_tag, group,
+              &requests.emplace_back());
+    first += message.send.size();
+  }
 }
 
 }  // namespace
 
+void Communicator::start_exchange(std::span<const ExchangeMessage> messages) {
+  ++traffic_.n_exchanges;
+  traffic_.n_messages += messages.size();
+  for (const ExchangeMessage& message : messages) traffic_.n_bytes += message.send.size_bytes();
+  if (!handle_) return exchange_with_self(messages);
+  CHECK(handle_->receives.empty());  // the exchange before this one is finished
+  receive(handle_->group, messages, handle_->receives);
+  std::swap(handle_->sends[0], handle_->sends[1]);
+  send(handle_->group, messages, handle_->sends[1].values, handle_->sends[1].requests);
+}
+
 void Communicator::finish_exchange() {
-  if (!handle_) return;
-  std::vector<MPI_Request>& requests = handle_->requests;
-  wait_politely(requests);
-  requests.clear();  // keeps its memory
+  if (handle_) wait_politely(handle_->receives);
 }
 
 MpiSession::MpiSession(int* argc, char*** argv) {
   // hwloc, which Open MPI asks about the machine, looks for X displays by name: five seconds each
   // where no name service answers.
   setenv("HWLOC_COMPONENTS", "-gl", 0);
+  for (const char* transport : {"OMPI_MCA_btl_vader_eager_limit", "OMPI_MCA_btl_sm_eager_limit"})
+    setenv(transport, bytes_at_once, 0);  // of Open MPI up to 4, and from 5 on
   int provided = MPI_THREAD_SINGLE;
   MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
   CHECK_OP(provided, >=, static_cast<int>(MPI_THREAD_FUNNELED));
@@ -241,6 +270,7 @@ MpiSession::~MpiSession() {
   // MPI_Finalize waits for all ranks: where an error drives this rank out alone, it would wait for
   // ever.
   CHECK(world_.size() == 1 || std::uncaught_exceptions() == 0);
+  for (Communicator::Handle::Sends& sends : world_.handle_->sends) wait_politely(sends.requests);
   MPI_Finalize();
 }
 

@@ -11,7 +11,7 @@
 
 namespace trocar {
 
-// One neighbour's part of an exchange; both spans live until finish().
+// One neighbour's part of an exchange; what is received lives until finish_exchange.
 struct ExchangeMessage {
   int rank = 0;
   std::span<const double> send;
@@ -54,8 +54,7 @@ class Communicator {
   // are empty.
   std::string first_text(const std::string& text) const;
 
-  // Non-blocking neighbour exchange, one at a time; no allocation after the first call with as many
-  // messages.
+  // Non-blocking neighbour exchange, one at a time; no allocation after the first two of a size.
   void start_exchange(std::span<const ExchangeMessage> messages);
   void finish_exchange();
 

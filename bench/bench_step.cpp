@@ -35,18 +35,19 @@ void run_steps(Body& body, Neighbours& neighbours, int n) {
   }
 }
 
-// Best of many short rounds: others may use the machine, but not all the time.
+// Best of many rounds, each shorter than a slice of a core's time: others may use the machine, but
+// not all the time.
 Timing measure(Body& body, Neighbours& neighbours, const Communicator& ranks) {
   Timing best{.step = 1e300};
   int n = 1;
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < 600; ++round) {
     ranks.barrier();
     const double start = monotonic_seconds(), waited = neighbours.waited;
     run_steps(body, neighbours, n);
     const double elapsed = ranks.all_max(monotonic_seconds() - start);
     const double wait = ranks.all_max(neighbours.waited - waited);
     if (elapsed / n < best.step) best = {elapsed / n, wait / n};
-    n = static_cast<int>(std::ceil(.02 / best.step));
+    n = static_cast<int>(std::ceil(.002 / best.step));
   }
   return best;
 }

@@ -7,32 +7,15 @@
 #include <cstring>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "mesh/facets.h"
+#include "mesh/partition_work.h"
 
 namespace trocar {
 
-// Nodes joined by an element's edge, as METIS wants them.
-struct NodalGraph {
-  std::vector<idx_t> offset;  // (n_nodes + 1)
-  std::vector<idx_t> neighbour;
-  std::vector<idx_t> work;  // (n_nodes)
-};
-
-// A corner's share of its element's step, in the ratio of docs/performance.md: a one-point
-// hexahedron takes some 2.7 times as long as a tetrahedron, a triangle 1.25 times.
-static int corner_work(ElementType type) {
-  switch (type) {
-    case ElementType::hex8:
-      return 4;
-    case ElementType::tet4:
-      return 3;
-    case ElementType::tri3:
-      return 5;
-  }
-  return 1;
-}
+using Edges = std::vector<std::array<std::int32_t, 2>>;
 
 static std::vector<idx_t> node_work(const Mesh& mesh) {
   std::vector<idx_t> work(mesh.X.size(), 0);
@@ -42,41 +25,123 @@ static std::vector<idx_t> node_work(const Mesh& mesh) {
   return work;
 }
 
-static NodalGraph nodal_graph(const Mesh& mesh) {
-  const std::vector<std::array<std::int32_t, 2>> edges = mesh_edges(mesh);
-  NodalGraph graph;
-  graph.offset.assign(mesh.X.size() + 1, 0);
-  graph.neighbour.resize(2 * edges.size());
-  for (const auto& [i, j] : edges) {
-    ++graph.offset[i + 1];
-    ++graph.offset[j + 1];
-  }
-  for (std::size_t i = 1; i < graph.offset.size(); ++i) graph.offset[i] += graph.offset[i - 1];
+// Groups of nodes that stay together: numbered as their nodes are.
+struct Groups {
+  std::vector<std::int32_t> of_node;  // ascending
+  std::vector<idx_t> work;
+};
+
+static Groups make_groups(std::vector<std::int32_t> of_node, const Mesh& mesh) {
+  Groups groups{std::move(of_node), {}};
+  groups.work.assign(static_cast<std::size_t>(groups.of_node.back()) + 1, 0);
+  const std::vector<idx_t> work = node_work(mesh);
+  for (std::size_t i = 0; i < work.size(); ++i) groups.work[groups.of_node[i]] += work[i];
+  return groups;
+}
+
+// Each node on its own.
+static Groups single_nodes(const Mesh& mesh) {
+  std::vector<std::int32_t> number(mesh.X.size());
+  std::iota(number.begin(), number.end(), 0);
+  return make_groups(std::move(number), mesh);
+}
+
+// Nodes that follow each other and are joined by an edge: rows of a regular numbering.
+static Groups rows_of_nodes(const Mesh& mesh, const Edges& edges) {
+  std::vector<std::int32_t> row(mesh.X.size(), 1);
+  row[0] = 0;
+  for (const auto& [i, j] : edges)
+    if (j == i + 1) row[j] = 0;
+  std::partial_sum(row.begin(), row.end(), row.begin());
+  return make_groups(std::move(row), mesh);
+}
+
+// Groups joined by their nodes' edges, as METIS wants them.
+struct Graph {
+  std::vector<idx_t> offset;  // (groups + 1)
+  std::vector<idx_t> neighbour, n_edges;
+};
+
+// The groups that each edge joins, from either side.
+static Graph with_each_edge(const Groups& groups, const Edges& edges) {
+  Graph graph;
+  graph.offset.assign(groups.work.size() + 1, 0);
+  const auto for_joined = [&](const auto& body) {
+    for (const auto& [i, j] : edges)
+      if (const std::int32_t a = groups.of_node[i], b = groups.of_node[j]; a != b) body(a, b);
+  };
+  for_joined([&](std::int32_t a, std::int32_t b) {
+    ++graph.offset[a + 1];
+    ++graph.offset[b + 1];
+  });
+  std::partial_sum(graph.offset.begin(), graph.offset.end(), graph.offset.begin());
+  graph.neighbour.resize(static_cast<std::size_t>(graph.offset.back()));
   std::vector<idx_t> next(graph.offset.begin(), graph.offset.end() - 1);
-  for (const auto& [i, j] : edges) {
-    graph.neighbour[next[i]++] = j;
-    graph.neighbour[next[j]++] = i;
-  }
-  graph.work = node_work(mesh);
+  for_joined([&](std::int32_t a, std::int32_t b) {
+    graph.neighbour[next[a]++] = b;
+    graph.neighbour[next[b]++] = a;
+  });
   return graph;
 }
 
-static std::vector<std::int32_t> metis_owners(NodalGraph graph, int n_parts) {
-  idx_t n_nodes = static_cast<idx_t>(graph.offset.size()) - 1, n_constraints = 1;
-  idx_t n_owners = n_parts, cut = 0;
+static Graph graph_of(const Groups& groups, const Edges& edges) {
+  Graph graph = with_each_edge(groups, edges);
+  idx_t n = 0, begin = 0;
+  for (std::size_t group = 0; group < groups.work.size(); ++group) {
+    const idx_t end = graph.offset[group + 1], first = n;
+    std::sort(graph.neighbour.begin() + begin, graph.neighbour.begin() + end);
+    for (idx_t k = begin; k < end; ++k) {
+      if (n == first || graph.neighbour[k] != graph.neighbour[n - 1]) {
+        graph.neighbour[n++] = graph.neighbour[k];
+        graph.n_edges.push_back(0);
+      }
+      ++graph.n_edges.back();
+    }
+    graph.offset[group + 1] = n;
+    begin = end;
+  }
+  return graph;
+}
+
+static std::vector<std::int32_t> owners_of_nodes(const Groups& groups,
+                                                 std::span<const idx_t> owner_of_group) {
+  std::vector<std::int32_t> owner(groups.of_node.size());
+  for (std::size_t i = 0; i < owner.size(); ++i)
+    owner[i] = static_cast<std::int32_t>(owner_of_group[groups.of_node[i]]);
+  return owner;
+}
+
+static std::vector<std::int32_t> metis_owners(Groups groups, const Edges& edges, int n_parts) {
+  Graph graph = graph_of(groups, edges);
+  auto n_groups = static_cast<idx_t>(groups.work.size());
+  idx_t n_constraints = 1, n_owners = n_parts, cut = 0;
   std::array<idx_t, METIS_NOPTIONS> options{};
   METIS_SetDefaultOptions(options.data());
   options[METIS_OPTION_SEED] = 1;
   options[METIS_OPTION_NUMBERING] = 0;
-  std::vector<idx_t> owner(static_cast<std::size_t>(n_nodes));
-  const int status = METIS_PartGraphKway(
-      &n_nodes, &n_constraints, graph.offset.data(), graph.neighbour.data(), graph.work.data(),
-      nullptr, nullptr, &n_owners, nullptr, nullptr, options.data(), &cut, owner.data());
+  std::vector<idx_t> owner(groups.work.size());
+  const int status =
+      METIS_PartGraphKway(&n_groups, &n_constraints, graph.offset.data(), graph.neighbour.data(),
+                          groups.work.data(), nullptr, graph.n_edges.data(), &n_owners, nullptr,
+                          nullptr, options.data(), &cut, owner.data());
   if (status == METIS_ERROR_MEMORY)
     throw MachineError("not enough memory to partition the mesh with METIS");
   if (status != METIS_OK)
     throw MachineError("METIS failed to partition the mesh, status " + std::to_string(status));
-  return {owner.begin(), owner.end()};
+  return owners_of_nodes(groups, owner);
+}
+
+// Equal work in the order of the numbers.
+static std::vector<std::int32_t> owners_in_order(const Groups& groups, int n_parts) {
+  const double sum = std::accumulate(groups.work.begin(), groups.work.end(), 0.0);
+  std::vector<idx_t> owner;
+  double before = 0;
+  for (const idx_t work : groups.work) {
+    const double middle = before + static_cast<double>(work) / 2;
+    owner.push_back(std::min(static_cast<idx_t>(middle / sum * n_parts), idx_t{n_parts} - 1));
+    before += static_cast<double>(work);
+  }
+  return owners_of_nodes(groups, owner);
 }
 
 // On tiny meshes METIS may leave a part empty: it gets the last node of the largest part.
@@ -93,15 +158,32 @@ static void fill_empty_parts(std::vector<std::int32_t>& owner, int n_parts) {
   }
 }
 
+static std::vector<std::int32_t> least_work(const Mesh& mesh,
+                                            std::span<const std::vector<std::int32_t>> owners,
+                                            int n_parts) {
+  std::vector<double> work;
+  for (const std::vector<std::int32_t>& owner : owners)
+    work.push_back(most_work(mesh, owner, n_parts));
+  return owners[static_cast<std::size_t>(std::min_element(work.begin(), work.end()) -
+                                         work.begin())];
+}
+
 std::vector<std::int32_t> partition_nodes(const Mesh& mesh, int n_parts) {
   if (mesh.n_nodes() < n_parts)
     throw InputError("the mesh has " + std::to_string(mesh.n_nodes()) + " nodes, too few for " +
                      std::to_string(n_parts) + " ranks: use at most " +
                      std::to_string(mesh.n_nodes()));
   if (n_parts == 1) return std::vector<std::int32_t>(mesh.X.size(), 0);
-  std::vector<std::int32_t> owner = metis_owners(nodal_graph(mesh), n_parts);
-  fill_empty_parts(owner, n_parts);
-  return owner;
+  const Edges edges = mesh_edges(mesh);
+  const Groups rows = rows_of_nodes(mesh, edges);
+  std::vector<std::vector<std::int32_t>> owners = {
+      metis_owners(single_nodes(mesh), edges, n_parts)};
+  if (n_parts <= std::ssize(rows.work)) {
+    owners.push_back(metis_owners(rows, edges, n_parts));
+    owners.push_back(owners_in_order(rows, n_parts));
+  }
+  for (std::vector<std::int32_t>& owner : owners) fill_empty_parts(owner, n_parts);
+  return least_work(mesh, owners, n_parts);
 }
 
 // What rank 0 found wrong, so that the others don't wait for its broadcast.

@@ -34,6 +34,22 @@ struct NodeLoops {
     }
   }
 
+  template <class Real>
+  static void add_places(Real* sum, std::int64_t place, const std::int32_t* node, std::int64_t n) {
+    Real* from = sum + 4 * place;
+    for (std::int64_t k = 0; k < n; ++k, from += 4) {
+      Real* const to = sum + 4 * std::int64_t{node[k]};
+      if constexpr (width >= 4) {
+        using Quad = PackOf<Real, 4>;
+        store(to, Quad(load<Quad>(to) + load<Quad>(from)));
+        store(from, Quad{});
+      } else {
+        for (int j = 0; j < 4; ++j) to[j] += from[j];
+        for (int j = 0; j < 4; ++j) from[j] = 0;
+      }
+    }
+  }
+
   static void motion(const NodeMotion& given, std::int64_t begin, std::int64_t end) {
     const NodeMotion task = given;
     std::int64_t i = begin;
@@ -122,11 +138,10 @@ struct NodeLoops {
   }
 
   template <int r>
-  [[gnu::always_inline]] static void accelerate(const NodeMotion& task, const Nodes& nodes,
-                                                const Pack& gain) {
+  [[gnu::always_inline]] static Pack next_velocity(const NodeMotion& task, const Nodes& nodes,
+                                                   const Pack& gain) {
     const Pack g = of_components<r>(gain, std::make_index_sequence<width>{});
-    const Pack v = load<Pack>(nodes.v + r * width), f = load<Pack>(nodes.force + r * width);
-    store(nodes.v + r * width, Pack(task.keep * v + g * f));
+    return task.keep * load<Pack>(nodes.v + r * width) + g * load<Pack>(nodes.force + r * width);
   }
 
   [[gnu::always_inline]] static void hold(const Nodes& nodes) {
@@ -144,14 +159,20 @@ struct NodeLoops {
     return any != 0;
   }
 
+  // All is read before anything is written: where arrays lie a multiple of 4096 bytes apart, a read
+  // behind a write to the other one waits for it (8.3 in place of 3.5 us for 4,600 nodes).
   [[gnu::always_inline]] static void move(const NodeMotion& task, const Nodes& nodes) {
     const Pack gain = task.gain / load<Pack>(nodes.inertia);
-    accelerate<0>(task, nodes, gain);
-    accelerate<1>(task, nodes, gain);
-    accelerate<2>(task, nodes, gain);
-    if (is_any_fixed(nodes)) hold(nodes);
-    for (int k = 0; k < 3 * width; k += width)
-      store(nodes.u + k, Pack(load<Pack>(nodes.u + k) + task.dt * load<Pack>(nodes.v + k)));
+    Pack v[3] = {next_velocity<0>(task, nodes, gain), next_velocity<1>(task, nodes, gain),
+                 next_velocity<2>(task, nodes, gain)};
+    Pack u[3];
+    for (int r = 0; r < 3; ++r) u[r] = load<Pack>(nodes.u + r * width);
+    for (int r = 0; r < 3; ++r) store(nodes.v + r * width, v[r]);
+    if (is_any_fixed(nodes)) {
+      hold(nodes);
+      for (int r = 0; r < 3; ++r) v[r] = load<Pack>(nodes.v + r * width);
+    }
+    for (int r = 0; r < 3; ++r) store(nodes.u + r * width, Pack(u[r] + task.dt * v[r]));
   }
 
   // std::copy would be a function that other instruction sets have, too.
@@ -179,7 +200,8 @@ struct NodeLoops {
 template <class Pack>
 NodeKernels node_kernels() {
   using Loops = NodeLoops<Pack>;
-  return {Loops::template force<double>, Loops::template force<float>, Loops::motion};
+  return {Loops::template force<double>, Loops::template force<float>,
+          Loops::template add_places<double>, Loops::template add_places<float>, Loops::motion};
 }
 
 }  // namespace trocar

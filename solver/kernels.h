@@ -96,10 +96,17 @@ template <class Real>
 using NodeForceKernel = void (*)(const NodeForces<Real>& task, const std::int32_t* node,
                                  std::int64_t n);
 
+// sum[4 node[k] …] += sum[4 (place + k) …], which becomes zero; no node is among the places.
+template <class Real>
+using PlaceKernel = void (*)(Real* sum, std::int64_t place, const std::int32_t* node,
+                             std::int64_t n);
+
 // The nodes' part of a step.
 struct NodeKernels {
   NodeForceKernel<double> force;
   NodeForceKernel<float> force_of_singles;
+  PlaceKernel<double> add_places;
+  PlaceKernel<float> add_places_of_singles;
   void (*motion)(const NodeMotion& task, std::int64_t begin, std::int64_t end);
 };
 

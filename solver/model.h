@@ -90,10 +90,14 @@ struct SumOrder {
   // Owned nodes that one run alone meets, run by run, ascending by the last block that touches
   // them: they are finished while they are in the cache.
   std::vector<std::int32_t> node, last_block;
-  std::vector<std::int32_t> run_first;  // (n_runs + 1) into node
-  // Owned nodes that several runs meet, and the end of their places: the first one's begin at
-  // n_local, the next one's where those end.
-  std::vector<std::int32_t> shared_node, shared_end;
+  std::vector<std::int32_t> run_first;    // (n_runs + 1) into node
+  std::vector<std::int32_t> shared_node;  // owned nodes that several runs meet
+  // (n_places - n_local) nodes of the places behind the nodes, in slots that are added up one after
+  // the other: n_slots of owned nodes, then those of halo nodes, ascending in each. Nodes that
+  // follow each other so have places that do, for the rows of row_order.h.
+  std::vector<std::int32_t> place_node;
+  std::int32_t n_slots = 0;
+  std::vector<std::int32_t> slot_first;  // into place_node, and its end
 };
 
 // Nodes of elements whose mass is scaled, in groups that hang together (mass_scaling.h). Each group

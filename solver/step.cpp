@@ -4,7 +4,6 @@
 #include "solver/step.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "base/check.h"
 #include "solver/block_ranges.h"
@@ -74,18 +73,34 @@ void compute_run(const Model& model, std::int64_t run, State& state, Scratch& sc
   }
 }
 
+void add_places(double* sum, std::int64_t place, std::span<const std::int32_t> node) {
+  active_kernels().nodes.add_places(sum, place, node.data(), std::ssize(node));
+}
+void add_places(float* sum, std::int64_t place, std::span<const std::int32_t> node) {
+  active_kernels().nodes.add_places_of_singles(sum, place, node.data(), std::ssize(node));
+}
+
+// Slot by slot, of the nodes from `first` to `last`.
+void add_slots(const Model& model, std::int32_t first, std::int32_t last, Scratch& scratch) {
+  const SumOrder& sums = model.sums;
+  with_sums(model, scratch, [&](auto& sum) {
+    // As where one run meets a node alone.
+    const FlushSubnormals flush(model.options.precision == Precision::in_single);
+    for (std::int32_t slot = 0; slot < sums.n_slots; ++slot) {
+      const auto slot_begin = sums.place_node.begin() + sums.slot_first[slot];
+      const auto slot_end = sums.place_node.begin() + sums.slot_first[slot + 1];
+      const auto begin = std::lower_bound(slot_begin, slot_end, first);
+      const auto end = std::upper_bound(begin, slot_end, last);
+      add_places(sum.data(), model.n_local + (begin - sums.place_node.begin()), {begin, end});
+    }
+  });
+}
+
 void finish_shared_nodes(const Model& model, Scratch& scratch) {
-  const std::vector<std::int32_t>&node = model.sums.shared_node, &end = model.sums.shared_end;
+  const std::vector<std::int32_t>& node = model.sums.shared_node;
+  if (node.empty()) return;
   parallel_for(std::ssize(node), [&](std::int64_t first, std::int64_t last) {
-    with_sums(model, scratch, [&](auto& sum) {
-      // As where one run meets a node alone.
-      const FlushSubnormals flush(model.options.precision == Precision::in_single);
-      std::int64_t place = first > 0 ? end[first - 1] : model.n_local;
-      for (std::int64_t k = first; k < last; ++k)
-        for (; place < end[k]; ++place)
-          for (int j = 0; j < 3; ++j)
-            sum[4 * std::int64_t{node[k]} + j] += std::exchange(sum[4 * place + j], {});
-    });
+    add_slots(model, node[first], node[last - 1], scratch);
     finish_nodes(model, {node.begin() + first, node.begin() + last}, scratch);
   });
 }
@@ -93,11 +108,11 @@ void finish_shared_nodes(const Model& model, Scratch& scratch) {
 // Nodes of other ranks have sums that nobody takes.
 void clear_halo(const Model& model, Scratch& scratch) {
   const SumOrder& sums = model.sums;
-  const std::int64_t last = sums.shared_end.empty() ? model.n_local : sums.shared_end.back();
+  const std::int64_t of_owned = sums.slot_first.empty() ? 0 : sums.slot_first[sums.n_slots];
   with_sums(model, scratch, [&](auto& sum) {
     const auto at = [&](std::int64_t place) { return sum.begin() + 4 * place; };
     std::fill(at(model.n_owned), at(model.n_local), 0);
-    std::fill(at(last), at(sums.n_places), 0);
+    std::fill(at(model.n_local + of_owned), at(sums.n_places), 0);
   });
 }
 
@@ -136,7 +151,7 @@ std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
   std::size_t sum =
       bytes(model.mass) + bytes(model.inertia) + bytes(model.fixed) + bytes(model.position) +
       bytes(model.sums.node) + bytes(model.sums.last_block) + bytes(model.sums.shared_node) +
-      bytes(model.sums.shared_end) + bytes(model.element_step) + bytes(model.averages.offset) +
+      bytes(model.sums.place_node) + bytes(model.element_step) + bytes(model.averages.offset) +
       bytes(model.averages.lane) + bytes(model.averages.stiffness) + bytes(scratch.volume_change) +
       bytes(scratch.sum) + bytes(scratch.sum_single) + bytes(scratch.force);
   for (const ElementBlocks& blocks : model.blocks)

@@ -1,6 +1,7 @@
 #include "solver/sum_order.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <numeric>
 #include <tuple>
@@ -10,23 +11,11 @@
 #include "base/threads.h"
 #include "solver/block_ranges.h"
 #include "solver/row_order.h"
+#include "solver/sum_places.h"
 
 namespace trocar {
 
 namespace {
-
-constexpr std::int32_t no_run = -1, several_runs = -2;
-
-std::int64_t corners_of_block(const ElementBlocks& blocks) {
-  return std::ssize(blocks.corner) / blocks.n_blocks;
-}
-
-// Calls body(corner) for the corners of a lane: their places in the list's arrays.
-template <class Body>
-void for_corners_of_lane(const ElementBlocks& blocks, std::int64_t lane, const Body& body) {
-  const std::int64_t n = corners_of_block(blocks), first = lane / blocks.lanes * n;
-  for (std::int64_t k = lane % blocks.lanes; k < n; k += blocks.lanes) body(first + k);
-}
 
 struct NodeUse {
   std::vector<std::int32_t> run, last_block;  // (n_local)
@@ -73,69 +62,6 @@ void order_own_nodes(const NodeUse& use, Model& model) {
   }
 }
 
-// A corner of a list.
-struct CornerPlace {
-  std::size_t list;
-  std::int64_t at;
-};
-
-// Corners at shared nodes, in the order of the sums, but for those that a node meets first and in
-// one run, which adds them at the node itself.
-std::vector<CornerPlace> later_corners(const NodeUse& use, const Model& model) {
-  const std::vector<std::int64_t>& first_block = model.sums.run_block;
-  std::vector<std::int64_t> block_of_list{0};
-  for (const ElementBlocks& blocks : model.blocks)
-    block_of_list.push_back(block_of_list.back() + blocks.n_blocks);
-  std::vector<std::int32_t> run_of_first(static_cast<std::size_t>(model.n_local), no_run);
-  std::vector<CornerPlace> later;
-  for_lanes_in_order(model.blocks, [&](std::size_t list, std::int64_t lane) {
-    const ElementBlocks& blocks = model.blocks[list];
-    const std::int64_t block = block_of_list[list] + lane / blocks.lanes;
-    const auto run = static_cast<std::int32_t>(
-        std::upper_bound(first_block.begin(), first_block.end(), block) - first_block.begin() - 1);
-    for_corners_of_lane(blocks, lane, [&](std::int64_t at) {
-      const std::int32_t i = blocks.corner[at];
-      if (use.run[i] != several_runs) return;
-      std::int32_t& first = run_of_first[i];
-      if (first == no_run) first = run;
-      if (first == run) return;
-      first = several_runs;
-      later.push_back({list, at});
-    });
-  });
-  return later;
-}
-
-// A place for each corner that is added up later.
-void place_shared_corners(const NodeUse& use, Model& model) {
-  SumOrder& sums = model.sums;
-  sums.n_places = model.n_local;
-  if (sums.n_runs < 2) return;
-  const std::vector<CornerPlace> later = later_corners(use, model);
-  if (later.empty()) return;
-  const auto node_of = [&](const CornerPlace& c) { return model.blocks[c.list].corner[c.at]; };
-  std::vector<std::int32_t> next(static_cast<std::size_t>(model.n_local), 0);
-  for (const CornerPlace& corner : later) ++next[node_of(corner)];
-  std::int32_t place = model.n_local;
-  for (std::int32_t i = 0; i < model.n_local; ++i) {
-    if (use.run[i] != several_runs) continue;
-    place += std::exchange(next[i], place);
-    if (i >= model.n_owned) continue;
-    sums.shared_node.push_back(i);
-    sums.shared_end.push_back(place);
-  }
-  sums.n_places = place;
-  for (ElementBlocks& blocks : model.blocks) blocks.target = blocks.corner;
-  for (const CornerPlace& corner : later)
-    model.blocks[corner.list].target[corner.at] = next[node_of(corner)]++;
-}
-
-bool are_consecutive(const std::int32_t* number) {
-  for (int lane = 1; lane < row_lanes; ++lane)
-    if (number[lane] != number[0] + lane) return false;
-  return true;
-}
-
 bool has_node(const std::int32_t* corner, int n_corners, int lanes, std::int32_t node) {
   for (int a = 0; a < n_corners; ++a)
     if (std::find(corner + a * lanes, corner + a * lanes + row_lanes, node) !=
@@ -144,12 +70,27 @@ bool has_node(const std::int32_t* corner, int n_corners, int lanes, std::int32_t
   return false;
 }
 
+// Where corners' places start, and the corners.
+using Starts = std::vector<std::pair<std::int32_t, std::uint32_t>>;
+
+// Whether corners that meet a place in different lanes come in the order of these: starts descend.
+bool is_order(std::uint32_t row, const Starts& descending) {
+  std::array<std::int32_t, 8> start{};
+  for (const auto& [first, a] : descending) start[a] = first;
+  for (int k = 0; k < 8; ++k)
+    for (int l = k + 1; l < 8; ++l) {
+      const std::int32_t ahead = start[corner_of_row(row, l)] - start[corner_of_row(row, k)];
+      if (0 < ahead && ahead < row_lanes) return false;
+    }
+  return true;
+}
+
 // Of the lanes from `lane` on.
 std::uint32_t row_of(const Model& model, const ElementBlocks& blocks, std::int64_t lane) {
   const std::int64_t block = lane / blocks.lanes, n = corners_of_block(blocks);
   const std::int64_t first = block * n + lane % blocks.lanes;
   const auto n_corners = static_cast<int>(n / blocks.lanes);
-  std::vector<std::pair<std::int32_t, std::uint32_t>> start;
+  Starts start;
   for (int a = 0; a < n_corners; ++a) {
     const std::int64_t at = first + a * blocks.lanes;
     if (!are_consecutive(&blocks.corner[at]) || !are_consecutive(&targets(blocks)[at]))
@@ -159,6 +100,7 @@ std::uint32_t row_of(const Model& model, const ElementBlocks& blocks, std::int64
     start.emplace_back(targets(blocks)[at], static_cast<std::uint32_t>(a));
   }
   std::sort(start.begin(), start.end(), std::greater<>());
+  if (start.size() == 8 && is_order(box_row, start)) return box_row;
   std::uint32_t row = 0;
   for (std::size_t k = 0; k < start.size(); ++k) row |= start[k].second << (4 * k);
   return row;
@@ -268,7 +210,7 @@ void order_sums(Model& model) {
   add_runs(count_blocks(model) - n_inside, sums);
   const NodeUse use = use_of_nodes(model);
   order_own_nodes(use, model);
-  place_shared_corners(use, model);
+  place_shared_corners(use.run, model);
   find_rows(model);
 }
 

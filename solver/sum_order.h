@@ -26,6 +26,10 @@ struct BlockPlace {
 void edit_sums(std::span<const std::int32_t> nodes, std::span<const BlockPlace> blocks,
                Model& model);
 
+inline std::int64_t corners_of_block(const ElementBlocks& blocks) {
+  return std::ssize(blocks.corner) / blocks.n_blocks;
+}
+
 // Where the corner forces of a list are added.
 inline const std::vector<std::int32_t>& targets(const ElementBlocks& blocks) {
   return blocks.target.empty() ? blocks.corner : blocks.target;

@@ -35,3 +35,8 @@ add_executable(scene_digests invariance/scene_digests.cpp)
 target_link_libraries(scene_digests PRIVATE engine test_options)
 add_dependencies(test_invariance scene_digests)
 target_compile_definitions(test_invariance PRIVATE TROCAR_SCENE_DIGESTS="$<TARGET_FILE:scene_digests>")
+
+add_executable(slow_rank invariance/slow_rank.cpp)
+target_link_libraries(slow_rank PRIVATE base test_options)
+add_test(NAME invariance/a_rank_exchanges_while_the_other_is_busy COMMAND ${TROCAR_MPIRUN} -np 2 $<TARGET_FILE:slow_rank>)
+set_tests_properties(invariance/a_rank_exchanges_while_the_other_is_busy PROPERTIES TIMEOUT 60)

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "mesh/partition_work.h"
 #include "mesh_fixtures.h"
 
 using namespace trocar;
@@ -50,6 +51,34 @@ TEST(Imbalance, is_the_largest_share_of_the_work_over_the_mean) {
   std::vector<std::int32_t> owner;
   for (const Vec3& X : mesh.X) owner.push_back(X.x() < 1.5 ? 0 : 1);
   EXPECT_DOUBLE_EQ(imbalance(mesh, owner, 2), 2 * 208 / 256.0);
+}
+
+// Rows of nodes along x have one owner each, where that makes no border longer.
+TEST(PartitionNodes, keeps_the_rows_of_a_box_whole) {
+  const Mesh mesh = make_box(Vec3::Zero(), Vec3::Ones(), {16, 12, 12}, BoxElements::hex8);
+  for (const int n_parts : {2, 3, 4}) {
+    const std::vector<std::int32_t> owner = partition_nodes(mesh, n_parts);
+    for (std::size_t i = 0; i < owner.size(); ++i)
+      EXPECT_EQ(owner[i], owner[i - i % 17]) << n_parts;
+    EXPECT_LT(imbalance(mesh, owner, n_parts), 1.1) << n_parts;
+  }
+}
+
+// Of a long box, of which rows are the longest side.
+TEST(PartitionNodes, breaks_rows_where_their_border_would_be_long) {
+  const Mesh mesh = make_box(Vec3::Zero(), Vec3(96, 6, 6), {96, 6, 6}, BoxElements::hex8);
+  const std::vector<std::int32_t> owner = partition_nodes(mesh, 2);
+  EXPECT_NE(owner[0], owner[96]);
+}
+
+// Eight elements with the same owner at each corner are a row, others take 1.4 times as long, and
+// fewer than eight as long as eight: part 1 has 7 inside and one on the border.
+TEST(MostWork, counts_elements_by_eights_those_of_rows_less) {
+  const Mesh mesh = make_box(Vec3::Zero(), Vec3(16, 1, 1), {16, 1, 1}, BoxElements::hex8);
+  std::vector<std::int32_t> owner(mesh.X.size(), 0);
+  EXPECT_DOUBLE_EQ(most_work(mesh, owner, 2), 16 * 8 * 4);
+  for (std::size_t i = 0; i < owner.size(); ++i) owner[i] = mesh.X[i].x() < 8.5 ? 0 : 1;
+  EXPECT_DOUBLE_EQ(most_work(mesh, owner, 2), 2 * 1.4 * 8 * 8 * 4);
 }
 
 TEST(PartitionNodes, cuts_few_edges) {

@@ -41,6 +41,15 @@ TEST(Invariance, averaged_pressures_and_the_other_hexahedra_give_the_same_bits_t
           {.precision = precision, .tet4 = Formulation::tet4_nodal_pressure, .hex8 = hex8});
 }
 
+// Rows of 21: some of eight lanes, some across two rows; parted between rows and within.
+TEST(Invariance, rows_of_hexahedra_give_the_same_bits_too) {
+  Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(.07, .02, .02), {21, 6, 6}, BoxElements::hex8);
+  mesh.region_name = {"a", "b", "c"};
+  jitter(mesh, .2, 3);
+  for (const Precision precision : precisions)
+    check_ranks_and_threads(mesh, {.precision = precision});
+}
+
 TEST(Invariance, triangles_in_plane_stress_give_the_same_bits_too) {
   Mesh mesh = make_rectangle(.06, .03, 9, 6);
   mesh.region_name = {"a", "b", "c"};

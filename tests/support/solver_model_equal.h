@@ -32,7 +32,9 @@ inline void expect_equal(const SumOrder& a, const SumOrder& b) {
   EXPECT_EQ(a.last_block, b.last_block);
   EXPECT_EQ(a.run_first, b.run_first);
   EXPECT_EQ(a.shared_node, b.shared_node);
-  EXPECT_EQ(a.shared_end, b.shared_end);
+  EXPECT_EQ(a.place_node, b.place_node);
+  EXPECT_EQ(a.n_slots, b.n_slots);
+  EXPECT_EQ(a.slot_first, b.slot_first);
 }
 
 inline void expect_equal(const VolumeAverages& a, const VolumeAverages& b) {
