@@ -23,9 +23,8 @@ struct Descent {
   const std::vector<NodeRole>& role;
   MoveLimits limits;
   std::vector<Vec3>& X;
-  std::vector<TetShape> shape;  // (n_elements) as the nodes lie
-  std::vector<TetShape> tried;  // of a node's star, where it is tried
-  std::vector<TetAtNode> star;  // of a node
+  std::vector<WidePoint> at;  // the same as X
+  TetStar star;               // of a node
 };
 
 struct SurfaceTerm {
@@ -58,15 +57,7 @@ static NodeEnergy node_energy(Descent& d, std::int32_t i, const SurfaceTerm& ter
   energy.value = term.weight * phi * phi;
   energy.gradient = 2 * term.weight * phi / h * term.plane.N;
   energy.hessian = 2 * term.weight / (h * h) * term.plane.N * term.plane.N.transpose();
-  d.star.clear();
-  for (const std::int32_t e : d.around.patch.star(i)) {
-    const std::array<std::int32_t, 4>& corner = d.around.patch.corner[e];
-    const auto a = std::find(corner.begin(), corner.end(), i) - corner.begin();
-    const std::array<int, 3>& across = tet_facets[static_cast<std::size_t>(a)];
-    d.star.push_back(
-        {d.shape[e], {&d.X[corner[across[0]]], &d.X[corner[across[1]]], &d.X[corner[across[2]]]}});
-  }
-  add_squared_bounds(d.X[i], d.star, h, energy);
+  expand_star({d.at, d.around.patch.corner, d.around.patch.star(i), i}, h, d.star, energy);
   return energy;
 }
 
@@ -99,40 +90,16 @@ static bool try_position(Descent& d, std::int32_t i, const Vec3& to, const IsBet
   return false;
 }
 
-// Whether node i is valid and better where it stands: no step bound below `step`, energy below
-// `least`. Leaves the shapes of its star in `tried`.
-static bool is_better(Descent& d, std::int32_t i, const SurfaceTerm& term, double step,
-                      double least) {
-  double value = term_value(d, term, d.X[i]);
-  d.tried.clear();
-  for (const std::int32_t e : d.around.patch.star(i)) {
-    const TetShape shape = tet_shape(d.X, d.around.patch.corner[e]);
-    if (!(shape.V > 0) || shape.V * shape.V < step * step * shape.S) return false;
-    const double f = stability_bound(shape, d.around.h);
-    value += f * f;
-    if (!(value < least)) return false;
-    d.tried.push_back(shape);
-  }
-  return true;
-}
-
 // The lesser of the floor and the least step bound of the star: most lie far above the floor, which
 // their shapes tell without roots.
 static double least_step(const Descent& d, std::int32_t i) {
   constexpr double rounding = 1e-3;
   const double floor = d.limits.floor, clear = (1 + rounding) * floor * floor;
-  double least = floor;
-  for (const std::int32_t e : d.around.patch.star(i)) {
-    const auto& [V, S] = d.shape[e];
-    if (V > 0 && V * V > clear * S) continue;
-    least = std::min(least, step_bound(d.X, d.around.patch.corner[e]));
-  }
-  return least;
-}
-
-static void keep_tried(Descent& d, std::int32_t i) {
-  const std::span<const std::int32_t> star = d.around.patch.star(i);
-  for (std::size_t k = 0; k < star.size(); ++k) d.shape[star[k]] = d.tried[k];
+  for (const FourTets& t : d.star.tets)
+    for (int lane = 0; lane < 4; ++lane)
+      if (!(t.V[lane] > 0 && t.V[lane] * t.V[lane] > clear * t.S[lane]))
+        return std::min(floor, star_step(d.around.patch, d.X, i));
+  return floor;
 }
 
 // Returns how far the node has gone.
@@ -140,15 +107,15 @@ static double descend(Descent& d, std::int32_t i) {
   const SurfaceTerm term = surface_term(d, i);
   const NodeEnergy energy = node_energy(d, i, term);
   if (!std::isfinite(energy.value)) return 0;
-  const double step_floor = least_step(d, i);
+  const TrialLimits limits{d.around.h, least_step(d, i), energy.value};
   const Vec3 from = d.X[i];
   Vec3 step = newton_step(energy, d.around.boundary[i], d.around.h);
   for (int trial = 0; trial < 5; ++trial, step *= 0.5) {
-    if (!try_position(d, i, from + step,
-                      [&] { return is_better(d, i, term, step_floor, energy.value); }))
-      continue;
-    keep_tried(d, i);
-    return (d.X[i] - from).norm();
+    const Vec3 to = project_to_boundary(d.around.boundary[i], from + step);
+    if (!(try_star(d.star, to, limits, term_value(d, term, to)) < energy.value)) continue;
+    d.X[i] = to;
+    d.at[i] = WidePoint(to);
+    return (to - from).norm();
   }
   return 0;
 }
@@ -180,8 +147,7 @@ static void snap(Descent& d, std::int32_t i) {
 
 void move_nodes(const CutSurroundings& around, const std::vector<NodeRole>& role,
                 const MoveLimits& limits, std::vector<Vec3>& X) {
-  Descent d{around, role, limits, X, {}, {}, {}};
-  for (const auto& corner : around.patch.corner) d.shape.push_back(tet_shape(X, corner));
+  Descent d{around, role, limits, X, {X.begin(), X.end()}, {}};
   std::vector<std::int32_t> movable;
   for (std::int32_t i = 0; i < around.patch.n_nodes(); ++i)
     if (role[i] != NodeRole::stays && around.boundary[i].freedom != NodeFreedom::fixed)
