@@ -63,11 +63,13 @@ static NodeEnergy node_energy(Descent& d, std::int32_t i, const SurfaceTerm& ter
 
 // Newton's step within what the boundary allows; downhill also where the Hessian is not definite.
 static Vec3 newton_step(const NodeEnergy& energy, const NodeBoundary& boundary, double h) {
-  Mat3 P;
-  for (int k = 0; k < 3; ++k) P.col(k) = allowed_part(boundary, Vec3(Vec3::Unit(k)));
-  const Vec3 g = P * energy.gradient;
   const double size = energy.hessian.cwiseAbs().maxCoeff();
-  const Mat3 K = P * energy.hessian * P + size * (Mat3::Identity() - P);
+  Mat3 P = Mat3::Identity(), K = energy.hessian;
+  if (boundary.freedom != NodeFreedom::free) {
+    for (int k = 0; k < 3; ++k) P.col(k) = allowed_part(boundary, Vec3(Vec3::Unit(k)));
+    K = P * energy.hessian * P + size * (Mat3::Identity() - P);
+  }
+  const Vec3 g = P * energy.gradient;
   Vec3 step = Vec3::Zero();
   for (double shift = 1e-6; shift < 10; shift *= 30) {
     const Eigen::LDLT<Mat3> factor(Mat3(K + shift * size * Mat3::Identity()));
