@@ -25,9 +25,9 @@ static std::vector<OuterFacet> outer_facets(const CutPatch& patch, const CutStro
                                             std::int32_t i) {
   std::vector<OuterFacet> outer;
   for (const std::int32_t e : patch.star(i)) {
-    const std::uint8_t* opened = find_element(stroke.opened, patch.element[e]);
     for (int f = 0; f < 4; ++f) {
       if (patch.across[e][f] >= 0 || patch.corner[e][f] == i) continue;
+      const std::uint8_t* opened = find_element(stroke.opened, patch.element[e]);
       if (opened != nullptr && (*opened >> f & 1) != 0) continue;
       const std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);
       const Vec3& o = patch.X[node[0]];

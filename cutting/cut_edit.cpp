@@ -16,12 +16,7 @@ static constexpr double neutral_distance = 0.05;
 static constexpr double beside_distance = 0.1;
 
 static std::vector<std::int32_t> moved_elements(const TetCut& cut) {
-  const CutPatch& patch = cut.around.patch;
-  std::vector<std::int32_t> element;
-  for (const NodeTransfer& t : cut.transfer)
-    element.insert(element.end(), patch.star(t.node).begin(), patch.star(t.node).end());
-  sort_unique(element);
-  return element;
+  return elements_around(cut.around.patch, cut.transfer);
 }
 
 // Scales the density of the touched elements of each region so that their mass is what it was.
