@@ -1,145 +1,142 @@
-// f^2 = (h^2/6)^2 S^2 / V^4 with S = sum of |2 area|^2 and V = 6 volumes. Each element has the bits
-// that it has alone, and they are added in their order.
+// f^2 = (h^2/6)^2 S^2 / V^4 with S = sum of |2 area|^2 and V = 6 volumes.
 #include "cutting/cut_energy.h"
 
 #include <algorithm>
 #include <limits>
 
+#include "cutting/cut_patch.h"
+
 namespace trocar {
 
 namespace {
 
-[[gnu::always_inline]] inline void set_shape(const FourVectors& o, const FourVectors& p,
-                                             const FourVectors& q, const FourVectors& r, Four& V,
-                                             Four& S) {
-  const FourVectors a = p - o, b = q - o, c = r - o;
-  const FourVectors n = cross(a, b), m = cross(b, c), k = cross(c, a), sum = n + m + k;
-  V = dot(n, c);
-  S = dot(n, n) + dot(m, m) + dot(k, k) + dot(sum, sum);
+[[gnu::always_inline]] inline FourVectors product(const FourForms& M, const FourVectors& a) {
+  return {M.xx * a.x + M.yx * a.y + M.zx * a.z, M.yx * a.x + M.yy * a.y + M.zy * a.z,
+          M.zx * a.x + M.zy * a.y + M.zz * a.z};
+}
+
+// Sum of dd I - d d^T over three edges: |d x u|^2 = u.(dd I - d d^T) u.
+[[gnu::always_inline]] inline FourForms edge_form(const FourVectors& a, const FourVectors& b,
+                                                  const FourVectors& c) {
+  const Four xx = a.x * a.x + b.x * b.x + c.x * c.x, yy = a.y * a.y + b.y * b.y + c.y * c.y,
+             zz = a.z * a.z + b.z * b.z + c.z * c.z;
+  return {yy + zz,
+          xx + zz,
+          xx + yy,
+          -(a.y * a.x + b.y * b.x + c.y * c.x),
+          -(a.z * a.x + b.z * b.x + c.z * c.x),
+          -(a.z * a.y + b.z * b.y + c.z * c.y)};
+}
+
+// Of nodes at p with the facets q across: the edges of these, d, make S = |n|^2 + sum of |d x u|^2
+// with u from the edge to p; of the one opposite q0, u = (p - q0) + (q0 - q1).
+[[gnu::always_inline]] inline void set_shape(const FourVectors& p, const FourVectors (&q)[3],
+                                             FourTets& t) {
+  const FourVectors d0 = q[0] - q[1], d1 = q[1] - q[2], d2 = q[2] - q[0], u = p - q[0];
+  const FourVectors n = cross(d0, d1), w = cross(d1, n);
+  t.M = edge_form(d0, d1, d2);
+  t.half_dS = product(t.M, u) + w;
+  t.dV = {-n.x, -n.y, -n.z};
+  t.V = dot(t.dV, u);
+  t.S = dot(u, t.half_dS + w) + 2 * dot(n, n);
 }
 
 // Four elements of the star from the k-th on.
 [[gnu::always_inline]] inline void load(const StarNodes& nodes, std::size_t k, FourTets& tets) {
   const std::size_t last = nodes.element.size() - 1;
-  const auto corners = [&](std::size_t lane) {
-    return nodes.corner[nodes.element[std::min(k + lane, last)]].data();
-  };
-  const std::int32_t* corner[4] = {corners(0), corners(1), corners(2), corners(3)};
-  for (std::size_t c = 0; c < 4; ++c) {
-    const std::int32_t i[4] = {corner[0][c], corner[1][c], corner[2][c], corner[3][c]};
-    const FourColumns X(nodes.X[i[0]].x, nodes.X[i[1]].x, nodes.X[i[2]].x, nodes.X[i[3]].x);
-    tets.X[c] = {X.column[0], X.column[1], X.column[2]};
-    tets.is_node[c] = FourMask{i[0], i[1], i[2], i[3]} == FourMask{} + nodes.node;
+  const std::int32_t* corner[4];
+  const int* facet[4];
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    corner[lane] = nodes.corner[nodes.element[std::min(k + lane, last)]].data();
+    const auto is_at = [&](int c) { return corner[lane][c] == nodes.node ? c : 0; };
+    facet[lane] = tet_facets[static_cast<std::size_t>(is_at(1) + is_at(2) + is_at(3))].data();
   }
-  set_shape(tets.X[0], tets.X[1], tets.X[2], tets.X[3], tets.V, tets.S);
+  const auto X = [&](std::size_t lane, int c) -> const Four& {
+    return nodes.X[corner[lane][facet[lane][c]]].x;
+  };
+  FourVectors q[3];
+  for (int c = 0; c < 3; ++c) {
+    const FourColumns of(X(0, c), X(1, c), X(2, c), X(3, c));
+    q[c] = {of.column[0], of.column[1], of.column[2]};
+  }
+  const Four& p = nodes.X[nodes.node].x;
+  set_shape({Four{} + p[0], Four{} + p[1], Four{} + p[2]}, q, tets);
 }
 
-// Derivatives of S by the node at p, by halves: for an edge d of the facet across and u from its
-// end to p, S grows by |d x u|^2.
-struct HalfSlopes {
-  [[gnu::always_inline]] void add_edge(const FourVectors& d, const FourVectors& u) {
-    const Four dd = dot(d, d), du = dot(d, u);
-    S = S + (dd * u - du * d);
-    xx += dd - d.x * d.x;
-    yy += dd - d.y * d.y;
-    zz += dd - d.z * d.z;
-    yx -= d.y * d.x;
-    zx -= d.z * d.x;
-    zy -= d.z * d.y;
-  }
-  FourVectors S{};
-  Four xx{}, yy{}, zz{}, yx{}, zx{}, zy{};
+// Lanes that hold one of `left` elements.
+struct Lanes {
+  [[gnu::always_inline]] explicit Lanes(int left)
+      : mask(FourMask{0, 1, 2, 3} < FourMask{} + left) {}
+  [[gnu::always_inline]] void keep(Four& a) const { a = mask ? a : Four{}; }
+  FourMask mask;
 };
 
-// Sums of 13 numbers of elements, element by element.
+// f^2 = g and, with a = dS / S and b = dV / V, its derivatives g (2 a - 4 b) and
+// g (2 a a^T - 8 (a b^T + b a^T) + 20 b b^T + 4 M / S).
 struct Sums {
-  [[gnu::always_inline]] explicit Sums(const NodeEnergy& e)
-      : value{e.value, e.gradient[0], e.gradient[1], e.gradient[2]},
-        row{{e.hessian(0, 0), e.hessian(0, 1), e.hessian(0, 2), 0},
-            {e.hessian(1, 0), e.hessian(1, 1), e.hessian(1, 2), 0},
-            {e.hessian(2, 0), e.hessian(2, 1), e.hessian(2, 2), 0}} {}
-  [[gnu::always_inline]] void store(NodeEnergy& e) const {
-    e.value = value[0];
-    for (int i = 0; i < 3; ++i) {
-      e.gradient[i] = value[i + 1];
-      for (int j = 0; j < 3; ++j) e.hessian(i, j) = row[i][j];
-    }
+  [[gnu::always_inline]] void add(const FourTets& t, double h, int left) {
+    const Four by_V = 1 / t.V, by_S = 1 / t.S, f = h * h / 6 * t.S * by_V * by_V;
+    Four g = f * f;
+    Lanes(left).keep(g);
+    const FourVectors a = (2 * by_S) * t.half_dS, b = by_V * t.dV;
+    const FourVectors ga = g * a, gb = g * b, ga2 = ga + ga, gb4 = (Four{} + 4) * gb;
+    const FourVectors slope = ga2 - gb4, p = slope - gb4,
+                      r = (Four{} + 20) * gb - (Four{} + 8) * ga;
+    const Four m = 4 * g * by_S;
+    value += g;
+    gradient = gradient + slope;
+    H.xx += a.x * p.x + b.x * r.x + m * t.M.xx;
+    H.yy += a.y * p.y + b.y * r.y + m * t.M.yy;
+    H.zz += a.z * p.z + b.z * r.z + m * t.M.zz;
+    H.yx += a.y * p.x + b.y * r.x + m * t.M.yx;
+    H.zx += a.z * p.x + b.z * r.x + m * t.M.zx;
+    H.zy += a.z * p.y + b.z * r.y + m * t.M.zy;
   }
-  // The first n of the four.
-  [[gnu::always_inline]] static void add(const FourColumns& of, int n, Four& sum) {
-    sum += of.column[0];
-    if (n > 1) sum += of.column[1];
-    if (n > 2) sum += of.column[2];
-    if (n > 3) sum += of.column[3];
+  [[gnu::always_inline]] void add_to(NodeEnergy& e) const {
+    e.value += sum(value);
+    e.gradient += Vec3(sum(gradient.x), sum(gradient.y), sum(gradient.z));
+    const double yx = sum(H.yx), zx = sum(H.zx), zy = sum(H.zy);
+    Mat3 matrix;
+    matrix << sum(H.xx), yx, zx, yx, sum(H.yy), zy, zx, zy, sum(H.zz);
+    e.hessian += matrix;
   }
-  Four value, row[3];
+  Four value{};
+  FourVectors gradient{};
+  FourForms H{};
 };
-
-[[gnu::always_inline]] inline void add_squared_bounds(const FourTets& tets, int n, double h,
-                                                      Sums& sums) {
-  const FourMask is_1 = tets.is_node[1], is_2 = tets.is_node[2], is_3 = tets.is_node[3];
-  const FourVectors *X = tets.X, p0 = choose(tets.is_node[0], X[1], X[0]);
-  const FourVectors p1 = choose(is_1, X[3], choose(is_2, X[1], X[2]));
-  const FourVectors p2 = choose(is_1, X[2], choose(is_3, X[1], X[3]));
-  const FourVectors p = choose(is_1, X[1], choose(is_2, X[2], choose(is_3, X[3], X[0])));
-  HalfSlopes half;
-  half.add_edge(p0 - p1, p - p1);
-  half.add_edge(p1 - p2, p - p2);
-  half.add_edge(p2 - p0, p - p0);
-  const FourVectors minus_dV = cross(p1 - p0, p2 - p0);
-  const Four &V = tets.V, &S = tets.S;
-  const Four c = h * h / 6 * S / (V * V), g = c * c;
-  const Four two = Four{} + 2;
-  const FourVectors dS = two * half.S;
-  const Four by_S = 2 / S, by_S2 = 2 / (S * S), by_V2 = 4 / (V * V), by_V = 4 / V;
-  const FourVectors l = by_S * dS + by_V * minus_dV, s = by_S2 * dS, v = by_V2 * minus_dV;
-  // Row i of the second derivatives.
-  const auto row = [&](const Four& l_i, const FourVectors& ddS, const Four& s_i, const Four& v_i)
-      __attribute__((always_inline)) {
-    return g * (l_i * l + by_S * (two * ddS) - s_i * dS + v_i * minus_dV);
-  };
-  const FourVectors rows[3] = {row(l.x, {half.xx, half.yx, half.zx}, s.x, v.x),
-                               row(l.y, {half.yx, half.yy, half.zy}, s.y, v.y),
-                               row(l.z, {half.zx, half.zy, half.zz}, s.z, v.z)};
-  Sums::add(FourColumns(g, g * l.x, g * l.y, g * l.z), n, sums.value);
-  for (int i = 0; i < 3; ++i)
-    Sums::add(FourColumns(rows[i].x, rows[i].y, rows[i].z, Four{}), n, sums.row[i]);
-}
 
 [[gnu::always_inline]] inline void expand(const StarNodes& nodes, double h, TetStar& star,
                                           NodeEnergy& energy) {
   star.n = static_cast<int>(nodes.element.size());
   star.tets.resize((nodes.element.size() + 3) / 4);
-  Sums sums(energy);
-  for (std::size_t k = 0; k < star.tets.size(); ++k) {
+  Sums sums;
+  int left = star.n;
+  for (std::size_t k = 0; k < star.tets.size(); ++k, left -= 4) {
     load(nodes, 4 * k, star.tets[k]);
-    add_squared_bounds(star.tets[k], std::min(4, star.n - 4 * static_cast<int>(k)), h, sums);
+    sums.add(star.tets[k], h, left);
   }
-  sums.store(energy);
+  sums.add_to(energy);
 }
 
-[[gnu::always_inline]] inline double value_at(const TetStar& star, const Vec3& p,
-                                              const TrialLimits& limits, double value) {
-  constexpr double broken = std::numeric_limits<double>::infinity();
-  const FourVectors at{Four{} + p.x(), Four{} + p.y(), Four{} + p.z()};
+[[gnu::always_inline]] inline double value_after(const TetStar& star, const Vec3& way,
+                                                 const TrialLimits& limits, double value) {
+  const FourVectors s{Four{} + way.x(), Four{} + way.y(), Four{} + way.z()};
+  Four added{};
+  FourMask is_bad{};
   int left = star.n;
   for (const FourTets& t : star.tets) {
-    const auto X = [&](int c) __attribute__((always_inline)) {
-      return choose(t.is_node[c], at, t.X[c]);
-    };
-    Four V, S;
-    set_shape(X(0), X(1), X(2), X(3), V, S);
-    const FourMask is_bad = (V > 0 ? V * V < limits.step * limits.step * S : ~FourMask{});
-    if ((is_bad[0] | is_bad[1] | is_bad[2] | is_bad[3]) != 0) return broken;
-    const Four f = limits.h * limits.h / 6 * S / (V * V), f2 = f * f;
-    value += f2[0];
-    if (left > 1) value += f2[1];
-    if (left > 2) value += f2[2];
-    if (left > 3) value += f2[3];
+    const Four V = t.V + dot(t.dV, s);
+    const Four S = t.S + dot(s, (t.half_dS + t.half_dS) + product(t.M, s));
+    is_bad |= V > 0 ? V * V < limits.step * limits.step * S : ~FourMask{};
+    const Four by_V = 1 / V, f = limits.h * limits.h / 6 * S * by_V * by_V;
+    Four g = f * f;
+    Lanes(left).keep(g);
+    added += g;
     left -= 4;
-    if (!(value < limits.least)) return broken;
   }
-  return value;
+  value += sum(added);
+  const bool is_broken = (is_bad[0] | is_bad[1] | is_bad[2] | is_bad[3]) != 0;
+  return !is_broken && value < limits.least ? value : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -151,21 +148,21 @@ void expand_star_plain(const StarNodes& nodes, double h, TetStar& star, NodeEner
                                               NodeEnergy& energy) {
   expand(nodes, h, star, energy);
 }
-double try_star_plain(const TetStar& star, const Vec3& p, const TrialLimits& limits, double value) {
-  return value_at(star, p, limits, value);
+double try_star_plain(const TetStar& star, const Vec3& s, const TrialLimits& limits, double value) {
+  return value_after(star, s, limits, value);
 }
-[[gnu::target("avx2")]] double try_star_avx2(const TetStar& star, const Vec3& p,
+[[gnu::target("avx2")]] double try_star_avx2(const TetStar& star, const Vec3& s,
                                              const TrialLimits& limits, double value) {
-  return value_at(star, p, limits, value);
+  return value_after(star, s, limits, value);
 }
 
 void expand_star(const StarNodes& nodes, double h, TetStar& star, NodeEnergy& energy) {
   static const auto chosen = has_avx2() ? expand_star_avx2 : expand_star_plain;
   chosen(nodes, h, star, energy);
 }
-double try_star(const TetStar& star, const Vec3& p, const TrialLimits& limits, double value) {
+double try_star(const TetStar& star, const Vec3& s, const TrialLimits& limits, double value) {
   static const auto chosen = has_avx2() ? try_star_avx2 : try_star_plain;
-  return chosen(star, p, limits, value);
+  return chosen(star, s, limits, value);
 }
 
 }  // namespace trocar

@@ -26,14 +26,20 @@ struct WidePoint {
   Four x;
 };
 
-// Four tetrahedra with a node in common.
-struct FourTets {
-  FourVectors X[4];     // corners
-  FourMask is_node[4];  // whether the corner is the node
-  Four V, S;  // six times the volume, and the sum of the squared double areas of the facets
+// Four symmetric matrices.
+struct FourForms {
+  Four xx, yy, zz, yx, zx, zy;
 };
 
-// The elements around a node; what fills up the last four follows from the last one.
+// Four tetrahedra as functions of the way s that the node at one of their corners goes.
+struct FourTets {
+  Four V;  // six times the volume: V + dV.s
+  Four S;  // the sum of the squared double areas of the facets: S + 2 half_dS.s + s.M s
+  FourVectors dV, half_dS;
+  FourForms M;
+};
+
+// The elements around a node; the last one fills up the last four.
 struct TetStar {
   int n = 0;
   std::vector<FourTets> tets;
@@ -48,8 +54,7 @@ struct StarNodes {
 };
 
 // Takes up the star and adds the f^2 of its tetrahedra, which must have volume, and their
-// derivatives by the node's position, in this order. With AVX2 where the machine has it, to the
-// same bits.
+// derivatives by the node's position. With AVX2 where the machine has it, to the same bits.
 void expand_star(const StarNodes& nodes, double h, TetStar& star, NodeEnergy& energy);
 void expand_star_plain(const StarNodes& nodes, double h, TetStar& star, NodeEnergy& energy);
 void expand_star_avx2(const StarNodes& nodes, double h, TetStar& star, NodeEnergy& energy);
@@ -60,9 +65,10 @@ struct TrialLimits {
   double step = 0;   // no step bound may sink below this [m]
   double least = 0;  // nor may the energy get here
 };
-// `value` and the f^2 of the star with the node at p; infinite where that breaks a limit.
-double try_star(const TetStar& star, const Vec3& p, const TrialLimits& limits, double value);
-double try_star_plain(const TetStar& star, const Vec3& p, const TrialLimits& limits, double value);
-double try_star_avx2(const TetStar& star, const Vec3& p, const TrialLimits& limits, double value);
+// `value` and the f^2 of the star once the node has gone the way s; infinite where that breaks a
+// limit.
+double try_star(const TetStar& star, const Vec3& s, const TrialLimits& limits, double value);
+double try_star_plain(const TetStar& star, const Vec3& s, const TrialLimits& limits, double value);
+double try_star_avx2(const TetStar& star, const Vec3& s, const TrialLimits& limits, double value);
 
 }  // namespace trocar

@@ -66,9 +66,5 @@ struct FourVectors {
 [[gnu::always_inline]] inline Four dot(const FourVectors& a, const FourVectors& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-[[gnu::always_inline]] inline FourVectors choose(const FourMask& from_a, const FourVectors& a,
-                                                 const FourVectors& b) {
-  return {from_a ? a.x : b.x, from_a ? a.y : b.y, from_a ? a.z : b.z};
-}
 
 }  // namespace trocar

@@ -114,7 +114,7 @@ static double descend(Descent& d, std::int32_t i) {
   Vec3 step = newton_step(energy, d.around.boundary[i], d.around.h);
   for (int trial = 0; trial < 5; ++trial, step *= 0.5) {
     const Vec3 to = project_to_boundary(d.around.boundary[i], from + step);
-    if (!(try_star(d.star, to, limits, term_value(d, term, to)) < energy.value)) continue;
+    if (!(try_star(d.star, to - from, limits, term_value(d, term, to)) < energy.value)) continue;
     d.X[i] = to;
     d.at[i] = WidePoint(to);
     return (to - from).norm();
