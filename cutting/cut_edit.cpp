@@ -76,6 +76,7 @@ static double least_quality(const TetCut& cut) {
   std::vector<std::int32_t> element = moved_elements(cut);
   for (const CornerChange& change : cut.opening.duplication.corners)
     element.push_back(change.element);
+  sort_unique(element);
   Mesh mesh;
   for (const std::int32_t e : element) add_element(mesh, ElementType::tet4, patch.corner[e]);
   double least = 1;
