@@ -2,7 +2,6 @@
 // stars.
 #include "cutting/cut_move.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -61,6 +60,19 @@ static NodeEnergy node_energy(Descent& d, std::int32_t i, const SurfaceTerm& ter
   return energy;
 }
 
+// x with K x = r, by K = L D L^T; false if K is not positive definite.
+static bool solve(const Mat3& K, const Vec3& r, Vec3& x) {
+  const double d0 = K(0, 0), l10 = K(1, 0) / d0, l20 = K(2, 0) / d0;
+  const double d1 = K(1, 1) - l10 * K(1, 0), k21 = K(2, 1) - l20 * K(1, 0), l21 = k21 / d1;
+  const double d2 = K(2, 2) - l20 * K(2, 0) - l21 * k21;
+  if (!(d0 > 0 && d1 > 0 && d2 > 0)) return false;
+  const double y1 = r[1] - l10 * r[0], y2 = r[2] - l20 * r[0] - l21 * y1;
+  x[2] = y2 / d2;
+  x[1] = y1 / d1 - l21 * x[2];
+  x[0] = r[0] / d0 - l10 * x[1] - l20 * x[2];
+  return true;
+}
+
 // Newton's step within what the boundary allows; downhill also where the Hessian is not definite.
 static Vec3 newton_step(const NodeEnergy& energy, const NodeBoundary& boundary, double h) {
   const double size = energy.hessian.cwiseAbs().maxCoeff();
@@ -72,9 +84,8 @@ static Vec3 newton_step(const NodeEnergy& energy, const NodeBoundary& boundary, 
   const Vec3 g = P * energy.gradient;
   Vec3 step = Vec3::Zero();
   for (double shift = 1e-6; shift < 10; shift *= 30) {
-    const Eigen::LDLT<Mat3> factor(Mat3(K + shift * size * Mat3::Identity()));
-    if (!(factor.vectorD().minCoeff() > 0)) continue;
-    step = P * factor.solve(-g);
+    if (!solve(K + shift * size * Mat3::Identity(), -g, step)) continue;
+    step = P * step;
     break;
   }
   const double length = step.norm();

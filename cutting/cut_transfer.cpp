@@ -10,6 +10,8 @@ namespace trocar {
 // A host may be this far outside (barycentric): where the outer surface is curved, or between the
 // halves of an opened facet.
 static constexpr double farthest_outside = 0.5;
+// Barycentric: no other element holds such a point.
+static constexpr double clearly_inside = 1e-6;
 // Present volume over reference volume after the move, against the least around before it.
 static constexpr double least_volume_ratio = 0.2;
 
@@ -32,6 +34,7 @@ static NodeTransfer find_host(const CutPatch& patch, std::int32_t i, const Vec3&
   for (const std::int32_t e : patch.star(i)) {
     const std::array<double, 4> b = barycentric(patch, e, X);
     if (best.host < 0 || least(b) > least(best.weight)) best = {i, e, b};
+    if (least(best.weight) > clearly_inside) return best;
   }
   for (int step = 0; step < 8 && least(best.weight) < 0; ++step) {
     const auto f = std::min_element(best.weight.begin(), best.weight.end()) - best.weight.begin();
