@@ -33,7 +33,7 @@ struct CutIndex {
   // uses.
   std::vector<std::uint8_t> ring;
   std::vector<std::int32_t> local, local_element;
-  std::vector<WaitingFacet> waiting;  // scratch of patches, anything between two uses
+  std::vector<WaitingFacet> waiting;          // scratch of patches, anything between two uses
   const std::int32_t* corner_node = nullptr;  // of the mesh that it belongs to
   std::size_t n_elements = 0;
 
@@ -44,7 +44,6 @@ struct CutIndex {
 
 inline constexpr std::uint8_t no_ring = 255;
 inline constexpr std::int32_t not_known = -2;
-
 
 bool is_index_of(const CutIndex& index, const Mesh& mesh);
 // Builds the index anew if it isn't that of `mesh`: another mesh, or one that somebody else has cut

@@ -39,12 +39,11 @@ double six_volumes(std::span<const Vec3> X, const std::array<std::int32_t, 4>& c
 }
 
 double step_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner) {
-  double sum = 0;  // of (2 area)^2
-  for (const std::array<int, 3>& facet : tet_facets) {
-    const Vec3& o = X[corner[facet[0]]];
-    sum += (X[corner[facet[1]]] - o).cross(X[corner[facet[2]]] - o).squaredNorm();
-  }
-  return six_volumes(X, corner) / std::sqrt(sum);
+  const Vec3& o = X[corner[0]];
+  const Vec3 a = X[corner[1]] - o, b = X[corner[2]] - o, c = X[corner[3]] - o;
+  const Vec3 n = a.cross(b), m = b.cross(c), k = c.cross(a);  // of length 2 area
+  const double S = n.squaredNorm() + m.squaredNorm() + k.squaredNorm() + (n + m + k).squaredNorm();
+  return n.dot(c) / std::sqrt(S);
 }
 
 double star_step(const CutPatch& patch, std::span<const Vec3> X, std::int32_t i) {
