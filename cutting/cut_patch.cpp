@@ -116,12 +116,16 @@ static void sort3(std::array<std::int32_t, 3>& v) {
   if (v[0] > v[1]) std::swap(v[0], v[1]);
 }
 
+namespace {
+
 // Facets whose neighbours no patch has found yet, in a list at their lowest node.
 struct Pairing {
   CutPatch& patch;
   CutIndex& index;
   std::vector<std::int32_t> first;  // (n_nodes of the patch) in index.waiting, -1: none
 };
+
+}  // namespace
 
 // Pairs facet f of element e with the one that waits for it, or lets it wait.
 static void pair_facet(Pairing& p, std::int32_t e, int f) {
@@ -142,8 +146,8 @@ static void pair_facet(Pairing& p, std::int32_t e, int f) {
   p.first[node[0]] = static_cast<std::int32_t>(waiting.size()) - 1;
 }
 
-// Facets that still wait at node i have no neighbour if all elements of one of their nodes were
-// asked.
+// Facets that still wait at node i have no neighbour if all elements of one of their nodes are
+// in the patch.
 static void end_waiting(Pairing& p, std::int32_t i) {
   for (std::int32_t at = p.first[i]; at >= 0; at = p.index.waiting[at].next) {
     const WaitingFacet& w = p.index.waiting[at];
