@@ -24,7 +24,7 @@ inline void sort_unique(std::vector<std::int32_t>& values) {
     return static_cast<std::uint64_t>(std::int64_t{value} - least);
   };
   const std::uint64_t n_words = place(greatest) / bits + 1;
-  if (n_words > values.size()) return sort_unique<std::int32_t>(values);
+  if (n_words > 4 * values.size()) return sort_unique<std::int32_t>(values);
   std::vector<std::uint64_t> words(n_words, 0);
   for (const std::int32_t value : values)
     words[place(value) / bits] |= std::uint64_t{1} << place(value) % bits;

@@ -25,9 +25,9 @@ static std::vector<OuterFacet> outer_facets(const CutPatch& patch, const CutStro
                                             std::int32_t i) {
   std::vector<OuterFacet> outer;
   for (const std::int32_t e : patch.star(i)) {
-    const std::uint8_t* opened = find_element(stroke.opened, patch.element[e]);
     for (int f = 0; f < 4; ++f) {
       if (patch.across[e][f] >= 0 || patch.corner[e][f] == i) continue;
+      const std::uint8_t* opened = find_element(stroke.opened, patch.element[e]);
       if (opened != nullptr && (*opened >> f & 1) != 0) continue;
       const std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);
       const Vec3& o = patch.X[node[0]];
@@ -107,15 +107,17 @@ static Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& X) {
 static Vec3 nearest_on_triangle(const std::array<Vec3, 3>& t, const Vec3& X) {
   const Vec3 n = (t[1] - t[0]).cross(t[2] - t[0]);
   const double n2 = n.squaredNorm();
-  bool is_inside = n2 > 0;
+  const auto is_within = [&](const Vec3& a, const Vec3& b) {
+    return (b - a).cross(X - a).dot(n) >= 0;
+  };
+  if (n2 > 0 && is_within(t[0], t[1]) && is_within(t[1], t[2]) && is_within(t[2], t[0]))
+    return X - n * (n.dot(X - t[0]) / n2);
   Vec3 nearest = nearest_on_segment(t[0], t[1], X);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 &a = t[k], &b = t[(k + 1) % 3];
-    is_inside = is_inside && (b - a).cross(X - a).dot(n) >= 0;
-    const Vec3 candidate = nearest_on_segment(a, b, X);
+  for (std::size_t k = 1; k < 3; ++k) {
+    const Vec3 candidate = nearest_on_segment(t[k], t[(k + 1) % 3], X);
     if ((candidate - X).squaredNorm() < (nearest - X).squaredNorm()) nearest = candidate;
   }
-  return is_inside ? Vec3(X - n * (n.dot(X - t[0]) / n2)) : nearest;
+  return nearest;
 }
 
 Vec3 project_to_boundary(const NodeBoundary& boundary, const Vec3& X) {

@@ -16,9 +16,13 @@ struct Separation {
   const FacetNeighbours& across;
   std::vector<ElementFacet> opened;  // ascending
 
-  bool is_opened(std::int32_t e, int f) const {
-    return (mesh.cut_facets[e] >> f & 1) != 0 ||
-           std::binary_search(opened.begin(), opened.end(), ElementFacet{e, f});
+  // Bit f: facet f of element e is open.
+  unsigned open_facets(std::int32_t e) const {
+    unsigned mask = mesh.cut_facets[e];
+    for (auto at = std::lower_bound(opened.begin(), opened.end(), ElementFacet{e, 0});
+         at != opened.end() && (*at)[0] == e; ++at)
+      mask |= 1U << (*at)[1];
+    return mask;
   }
 };
 
@@ -28,6 +32,7 @@ int corner_of(const Mesh& mesh, std::int32_t e, std::int32_t node) {
 }
 
 bool contains_corner(ElementType type, int f, int corner) {
+  if (type != ElementType::hex8) return f != corner;
   const std::array<int, 4> corners = facet_corners(type, f);
   return std::find(corners.begin(), corners.end(), corner) != corners.end();
 }
@@ -41,15 +46,18 @@ void flood(const Separation& separation, std::int32_t node, std::span<const std:
     const std::size_t k = open.back();
     open.pop_back();
     const std::int32_t e = star[k];
-    const int corner = corner_of(mesh, e, node);
-    for (int f = 0; f < n_facets(mesh.element_type[e]); ++f) {
-      if (!contains_corner(mesh.element_type[e], f, corner) || separation.is_opened(e, f)) continue;
-      const auto next = std::lower_bound(star.begin(), star.end(), separation.across.of(e, f));
-      if (next == star.end() || *next != separation.across.of(e, f)) continue;
-      const auto n = static_cast<std::size_t>(next - star.begin());
-      if (component[n] >= 0) continue;
-      component[n] = component[first];
-      open.push_back(n);
+    const ElementType type = mesh.element_type[e];
+    const int corner = corner_of(mesh, e, node), n = n_facets(type);
+    const unsigned is_open = separation.open_facets(e);
+    for (int f = 0; f < n; ++f) {
+      if (!contains_corner(type, f, corner) || (is_open >> f & 1) != 0) continue;
+      const std::int32_t u = separation.across.of(e, f);
+      const auto next = std::lower_bound(star.begin(), star.end(), u);
+      if (next == star.end() || *next != u) continue;
+      const auto at = static_cast<std::size_t>(next - star.begin());
+      if (component[at] >= 0) continue;
+      component[at] = component[first];
+      open.push_back(at);
     }
   }
 }

@@ -16,12 +16,7 @@ static constexpr double neutral_distance = 0.05;
 static constexpr double beside_distance = 0.1;
 
 static std::vector<std::int32_t> moved_elements(const TetCut& cut) {
-  const CutPatch& patch = cut.around.patch;
-  std::vector<std::int32_t> element;
-  for (const NodeTransfer& t : cut.transfer)
-    element.insert(element.end(), patch.star(t.node).begin(), patch.star(t.node).end());
-  sort_unique(element);
-  return element;
+  return elements_around(cut.around.patch, cut.transfer);
 }
 
 // Scales the density of the touched elements of each region so that their mass is what it was.
@@ -81,6 +76,7 @@ static double least_quality(const TetCut& cut) {
   std::vector<std::int32_t> element = moved_elements(cut);
   for (const CornerChange& change : cut.opening.duplication.corners)
     element.push_back(change.element);
+  sort_unique(element);
   Mesh mesh;
   for (const std::int32_t e : element) add_element(mesh, ElementType::tet4, patch.corner[e]);
   double least = 1;

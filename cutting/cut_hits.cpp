@@ -43,7 +43,10 @@ struct Crossing {
 // An edge a < b of the mesh as local edge of an element.
 struct EdgeUse {
   std::int32_t a, b, element, edge;
-  auto operator<=>(const EdgeUse&) const = default;
+  std::int64_t nodes() const { return std::int64_t{a} << 32 | b; }
+  bool operator<(const EdgeUse& other) const {
+    return nodes() != other.nodes() ? nodes() < other.nodes() : element < other.element;
+  }
 };
 
 }  // namespace

@@ -83,11 +83,21 @@ void update_index(const Mesh& mesh, CutIndex& index) {
   index.longest_edge = longest_edge(mesh);
   index.ring.assign(mesh.X.size(), no_ring);
   index.local.assign(mesh.X.size(), -1);
+  index.across.assign(mesh.element_type.size(), {not_known, not_known, not_known, not_known});
+  index.local_element.assign(mesh.element_type.size(), -1);
   index.corner_node = mesh.corner_node.data();
   index.n_elements = mesh.element_type.size();
   for (auto* values : {&index.star_begin, &index.star_size, &index.local, &index.star_element})
     leave_room(*values);
   for (auto* values : {&index.ring, &index.is_surface}) leave_room(*values);
+}
+
+// What lies across the facets of element e will be looked for again.
+static void forget_across(CutIndex& index, std::int32_t e) {
+  for (std::int32_t& u : index.across[e]) {
+    if (u >= 0) std::ranges::replace(index.across[u], e, not_known);
+    u = not_known;
+  }
 }
 
 static void remove_from_star(CutIndex& index, std::int32_t node, std::int32_t element) {
@@ -131,6 +141,7 @@ void edit_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {
   index.is_surface.resize(n_nodes, 0);
   add_opened_facets(mesh, edit, index);
   for (const CornerChange& c : change) {
+    forget_across(index, c.element);
     remove_from_star(index, mesh.corners(c.element)[static_cast<std::size_t>(c.corner)], c.element);
     if (index.star_size[c.node]++ == 0)
       index.star_begin[c.node] = static_cast<std::int32_t>(index.star_element.size());

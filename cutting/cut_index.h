@@ -2,6 +2,7 @@
 // It only saves time: what is found with it is the same however old it is.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,9 +12,10 @@
 
 namespace trocar {
 
-// A facet that looks for the element across, at its lowest node.
+// A facet that looks for the element across: its nodes but the lowest, where it waits, its local
+// element, and who waits there after it.
 struct WaitingFacet {
-  std::int32_t middle, high, element, facet;
+  std::int32_t middle, high, element, facet, next;
 };
 
 struct CutIndex {
@@ -24,9 +26,13 @@ struct CutIndex {
   // tetrahedra lie on the quads of a hexahedron, these quads' nodes count too.
   std::vector<std::int32_t> surface_node;
   std::vector<std::uint8_t> is_surface;
-  // Scratch of searches and patches (n_nodes), the same value everywhere between two uses.
+  // The tetrahedron across each facet of a tetrahedron, -1 if there is none, as far as patches have
+  // found them. (n_elements)
+  std::vector<std::array<std::int32_t, 4>> across;
+  // Scratch of searches and patches (n_nodes; n_elements), the same value everywhere between two
+  // uses.
   std::vector<std::uint8_t> ring;
-  std::vector<std::int32_t> local;
+  std::vector<std::int32_t> local, local_element;
   std::vector<WaitingFacet> waiting;          // scratch of patches, anything between two uses
   const std::int32_t* corner_node = nullptr;  // of the mesh that it belongs to
   std::size_t n_elements = 0;
@@ -37,6 +43,7 @@ struct CutIndex {
 };
 
 inline constexpr std::uint8_t no_ring = 255;
+inline constexpr std::int32_t not_known = -2;
 
 bool is_index_of(const CutIndex& index, const Mesh& mesh);
 // Builds the index anew if it isn't that of `mesh`: another mesh, or one that somebody else has cut

@@ -2,7 +2,6 @@
 // stars.
 #include "cutting/cut_move.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -23,9 +22,8 @@ struct Descent {
   const std::vector<NodeRole>& role;
   MoveLimits limits;
   std::vector<Vec3>& X;
-  std::vector<TetShape> shape;  // (n_elements) as the nodes lie
-  std::vector<TetShape> tried;  // of a node's star, where it is tried
-  std::vector<TetAtNode> star;  // of a node
+  std::vector<WidePoint> at;  // the same as X
+  TetStar star;               // of a node
 };
 
 struct SurfaceTerm {
@@ -58,30 +56,36 @@ static NodeEnergy node_energy(Descent& d, std::int32_t i, const SurfaceTerm& ter
   energy.value = term.weight * phi * phi;
   energy.gradient = 2 * term.weight * phi / h * term.plane.N;
   energy.hessian = 2 * term.weight / (h * h) * term.plane.N * term.plane.N.transpose();
-  d.star.clear();
-  for (const std::int32_t e : d.around.patch.star(i)) {
-    const std::array<std::int32_t, 4>& corner = d.around.patch.corner[e];
-    const auto a = std::find(corner.begin(), corner.end(), i) - corner.begin();
-    const std::array<int, 3>& across = tet_facets[static_cast<std::size_t>(a)];
-    d.star.push_back(
-        {d.shape[e], {&d.X[corner[across[0]]], &d.X[corner[across[1]]], &d.X[corner[across[2]]]}});
-  }
-  add_squared_bounds(d.X[i], d.star, h, energy);
+  expand_star({d.at, d.around.patch.corner, d.around.patch.star(i), i}, h, d.star, energy);
   return energy;
+}
+
+// x with K x = r, by K = L D L^T; false if K is not positive definite.
+static bool solve(const Mat3& K, const Vec3& r, Vec3& x) {
+  const double d0 = K(0, 0), l10 = K(1, 0) / d0, l20 = K(2, 0) / d0;
+  const double d1 = K(1, 1) - l10 * K(1, 0), k21 = K(2, 1) - l20 * K(1, 0), l21 = k21 / d1;
+  const double d2 = K(2, 2) - l20 * K(2, 0) - l21 * k21;
+  if (!(d0 > 0 && d1 > 0 && d2 > 0)) return false;
+  const double y1 = r[1] - l10 * r[0], y2 = r[2] - l20 * r[0] - l21 * y1;
+  x[2] = y2 / d2;
+  x[1] = y1 / d1 - l21 * x[2];
+  x[0] = r[0] / d0 - l10 * x[1] - l20 * x[2];
+  return true;
 }
 
 // Newton's step within what the boundary allows; downhill also where the Hessian is not definite.
 static Vec3 newton_step(const NodeEnergy& energy, const NodeBoundary& boundary, double h) {
-  Mat3 P;
-  for (int k = 0; k < 3; ++k) P.col(k) = allowed_part(boundary, Vec3(Vec3::Unit(k)));
-  const Vec3 g = P * energy.gradient;
   const double size = energy.hessian.cwiseAbs().maxCoeff();
-  const Mat3 K = P * energy.hessian * P + size * (Mat3::Identity() - P);
+  Mat3 P = Mat3::Identity(), K = energy.hessian;
+  if (boundary.freedom != NodeFreedom::free) {
+    for (int k = 0; k < 3; ++k) P.col(k) = allowed_part(boundary, Vec3(Vec3::Unit(k)));
+    K = P * energy.hessian * P + size * (Mat3::Identity() - P);
+  }
+  const Vec3 g = P * energy.gradient;
   Vec3 step = Vec3::Zero();
   for (double shift = 1e-6; shift < 10; shift *= 30) {
-    const Eigen::LDLT<Mat3> factor(Mat3(K + shift * size * Mat3::Identity()));
-    if (!(factor.vectorD().minCoeff() > 0)) continue;
-    step = P * factor.solve(-g);
+    if (!solve(K + shift * size * Mat3::Identity(), -g, step)) continue;
+    step = P * step;
     break;
   }
   const double length = step.norm();
@@ -99,40 +103,16 @@ static bool try_position(Descent& d, std::int32_t i, const Vec3& to, const IsBet
   return false;
 }
 
-// Whether node i is valid and better where it stands: no step bound below `step`, energy below
-// `least`. Leaves the shapes of its star in `tried`.
-static bool is_better(Descent& d, std::int32_t i, const SurfaceTerm& term, double step,
-                      double least) {
-  double value = term_value(d, term, d.X[i]);
-  d.tried.clear();
-  for (const std::int32_t e : d.around.patch.star(i)) {
-    const TetShape shape = tet_shape(d.X, d.around.patch.corner[e]);
-    if (!(shape.V > 0) || shape.V * shape.V < step * step * shape.S) return false;
-    const double f = stability_bound(shape, d.around.h);
-    value += f * f;
-    if (!(value < least)) return false;
-    d.tried.push_back(shape);
-  }
-  return true;
-}
-
 // The lesser of the floor and the least step bound of the star: most lie far above the floor, which
 // their shapes tell without roots.
 static double least_step(const Descent& d, std::int32_t i) {
   constexpr double rounding = 1e-3;
   const double floor = d.limits.floor, clear = (1 + rounding) * floor * floor;
-  double least = floor;
-  for (const std::int32_t e : d.around.patch.star(i)) {
-    const auto& [V, S] = d.shape[e];
-    if (V > 0 && V * V > clear * S) continue;
-    least = std::min(least, step_bound(d.X, d.around.patch.corner[e]));
-  }
-  return least;
-}
-
-static void keep_tried(Descent& d, std::int32_t i) {
-  const std::span<const std::int32_t> star = d.around.patch.star(i);
-  for (std::size_t k = 0; k < star.size(); ++k) d.shape[star[k]] = d.tried[k];
+  for (const FourTets& t : d.star.tets)
+    for (int lane = 0; lane < 4; ++lane)
+      if (!(t.V[lane] > 0 && t.V[lane] * t.V[lane] > clear * t.S[lane]))
+        return std::min(floor, star_step(d.around.patch, d.X, i));
+  return floor;
 }
 
 // Returns how far the node has gone.
@@ -140,15 +120,15 @@ static double descend(Descent& d, std::int32_t i) {
   const SurfaceTerm term = surface_term(d, i);
   const NodeEnergy energy = node_energy(d, i, term);
   if (!std::isfinite(energy.value)) return 0;
-  const double step_floor = least_step(d, i);
+  const TrialLimits limits{d.around.h, least_step(d, i), energy.value};
   const Vec3 from = d.X[i];
   Vec3 step = newton_step(energy, d.around.boundary[i], d.around.h);
   for (int trial = 0; trial < 5; ++trial, step *= 0.5) {
-    if (!try_position(d, i, from + step,
-                      [&] { return is_better(d, i, term, step_floor, energy.value); }))
-      continue;
-    keep_tried(d, i);
-    return (d.X[i] - from).norm();
+    const Vec3 to = project_to_boundary(d.around.boundary[i], from + step);
+    if (!(try_star(d.star, to - from, limits, term_value(d, term, to)) < energy.value)) continue;
+    d.X[i] = to;
+    d.at[i] = WidePoint(to);
+    return (to - from).norm();
   }
   return 0;
 }
@@ -180,8 +160,7 @@ static void snap(Descent& d, std::int32_t i) {
 
 void move_nodes(const CutSurroundings& around, const std::vector<NodeRole>& role,
                 const MoveLimits& limits, std::vector<Vec3>& X) {
-  Descent d{around, role, limits, X, {}, {}, {}};
-  for (const auto& corner : around.patch.corner) d.shape.push_back(tet_shape(X, corner));
+  Descent d{around, role, limits, X, {X.begin(), X.end()}, {}};
   std::vector<std::int32_t> movable;
   for (std::int32_t i = 0; i < around.patch.n_nodes(); ++i)
     if (role[i] != NodeRole::stays && around.boundary[i].freedom != NodeFreedom::fixed)

@@ -1,11 +1,12 @@
-// Extraction of the patch around a cut: rings over the stars of nodes, facets by
-// their lowest node.
+// Extraction of the patch around a cut: rings over the stars of nodes.
 #include "cutting/cut_patch.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "base/sort_unique.h"
 
 namespace trocar {
 
@@ -38,12 +39,11 @@ double six_volumes(std::span<const Vec3> X, const std::array<std::int32_t, 4>& c
 }
 
 double step_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner) {
-  double sum = 0;  // of (2 area)^2
-  for (const std::array<int, 3>& facet : tet_facets) {
-    const Vec3& o = X[corner[facet[0]]];
-    sum += (X[corner[facet[1]]] - o).cross(X[corner[facet[2]]] - o).squaredNorm();
-  }
-  return six_volumes(X, corner) / std::sqrt(sum);
+  const Vec3& o = X[corner[0]];
+  const Vec3 a = X[corner[1]] - o, b = X[corner[2]] - o, c = X[corner[3]] - o;
+  const Vec3 n = a.cross(b), m = b.cross(c), k = c.cross(a);  // of length 2 area
+  const double S = n.squaredNorm() + m.squaredNorm() + k.squaredNorm() + (n + m + k).squaredNorm();
+  return n.dot(c) / std::sqrt(S);
 }
 
 double star_step(const CutPatch& patch, std::span<const Vec3> X, std::int32_t i) {
@@ -78,7 +78,7 @@ static std::vector<std::int32_t> mark_rings(const Mesh& mesh, std::span<const st
     for (; begin < end; ++begin)
       for (const std::int32_t e : index.star(reached[begin])) reach(e, ring);
   }
-  std::sort(reached.begin(), reached.end());
+  sort_unique(reached);
   return reached;
 }
 
@@ -94,7 +94,7 @@ static std::vector<std::int32_t> elements_of(const Mesh& mesh, const CutIndex& i
       if (*std::find_if(c.begin(), c.end(), is_inner) == i) element.push_back(e);
     }
   }
-  std::sort(element.begin(), element.end());
+  sort_unique(element);
   return element;
 }
 
@@ -116,31 +116,61 @@ static void sort3(std::array<std::int32_t, 3>& v) {
   if (v[0] > v[1]) std::swap(v[0], v[1]);
 }
 
-// Pairs the facets of equal nodes: each waits at its lowest node for the other one.
-static void set_neighbours(CutPatch& patch, std::vector<WaitingFacet>& waiting) {
+namespace {
+
+// Facets whose neighbours no patch has found yet, in a list at their lowest node.
+struct Pairing {
+  CutPatch& patch;
+  CutIndex& index;
+  std::vector<std::int32_t> first;  // (n_nodes of the patch) in index.waiting, -1: none
+};
+
+}  // namespace
+
+// Pairs facet f of element e with the one that waits for it, or lets it wait.
+static void pair_facet(Pairing& p, std::int32_t e, int f) {
+  std::array<std::int32_t, 3> node = facet_nodes(p.patch, e, f);
+  sort3(node);
+  std::vector<WaitingFacet>& waiting = p.index.waiting;
+  for (std::int32_t* at = &p.first[node[0]]; *at >= 0; at = &waiting[*at].next) {
+    const WaitingFacet other = waiting[*at];
+    if (other.middle != node[1] || other.high != node[2]) continue;
+    p.patch.across[e][f] = other.element;
+    p.patch.across[other.element][other.facet] = e;
+    p.index.across[p.patch.element[e]][f] = p.patch.element[other.element];
+    p.index.across[p.patch.element[other.element]][other.facet] = p.patch.element[e];
+    *at = other.next;
+    return;
+  }
+  waiting.push_back({node[1], node[2], e, f, p.first[node[0]]});
+  p.first[node[0]] = static_cast<std::int32_t>(waiting.size()) - 1;
+}
+
+// Facets that still wait at node i have no neighbour if all elements of one of their nodes are
+// in the patch.
+static void end_waiting(Pairing& p, std::int32_t i) {
+  for (std::int32_t at = p.first[i]; at >= 0; at = p.index.waiting[at].next) {
+    const WaitingFacet& w = p.index.waiting[at];
+    if (p.patch.is_whole(i) || p.patch.is_whole(w.middle) || p.patch.is_whole(w.high))
+      p.index.across[p.patch.element[w.element]][w.facet] = -1;
+  }
+}
+
+static void set_neighbours(CutPatch& patch, CutIndex& index) {
   patch.across.assign(patch.corner.size(), {-1, -1, -1, -1});
-  // As many places at a node as its star may need: three facets an element.
-  if (waiting.size() < patch.star_element.size() * 3) waiting.resize(patch.star_element.size() * 3);
-  std::vector<std::int32_t> n_waiting(patch.node.size(), 0);
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e) index.local_element[patch.element[e]] = e;
+  Pairing pairing{patch, index, std::vector<std::int32_t>(patch.node.size(), -1)};
+  index.waiting.clear();
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     for (int f = 0; f < 4; ++f) {
-      std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);
-      sort3(node);
-      WaitingFacet* const begin = waiting.data() + 3 * patch.star_offset[node[0]];
-      WaitingFacet* const end = begin + n_waiting[node[0]];
-      WaitingFacet* const other = std::find_if(begin, end, [&](const WaitingFacet& w) {
-        return w.middle == node[1] && w.high == node[2];
-      });
-      if (other == end) {
-        *end = {node[1], node[2], e, f};
-        ++n_waiting[node[0]];
-        continue;
-      }
-      patch.across[e][f] = other->element;
-      patch.across[other->element][other->facet] = e;
-      *other = *(end - 1);
-      --n_waiting[node[0]];
+      const std::int32_t u = index.across[patch.element[e]][f];
+      if (u == not_known)
+        pair_facet(pairing, e, f);
+      else if (u >= 0)
+        patch.across[e][f] = index.local_element[u];
     }
+  for (std::int32_t i = 0; i < patch.n_nodes(); ++i) end_waiting(pairing, i);
+  for (const std::int32_t e : patch.element) index.local_element[e] = -1;
 }
 
 // Nodes that the patch's tetrahedra use, in ascending order, and the elements in these numbers.
@@ -174,7 +204,7 @@ CutPatch make_patch(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
   }
   number_nodes(patch, mesh, reached, index);
   set_stars(patch);
-  set_neighbours(patch, index.waiting);
+  set_neighbours(patch, index);
   patch.is_joined.assign(patch.node.size(), 0);
   for (const std::int32_t i : joined)
     if (index.local[i] >= 0) patch.is_joined[index.local[i]] = 1;

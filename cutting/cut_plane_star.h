@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "cutting/cut_plane_four.h"
+#include "cutting/cut_four.h"
 #include "cutting/cut_plane_patch.h"
 
 namespace trocar {

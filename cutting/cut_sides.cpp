@@ -1,6 +1,7 @@
 // Groups of corners by union of uncrossed edges.
 #include "cutting/cut_sides.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trocar {
@@ -24,6 +25,7 @@ static int group_of(const std::array<int, 4>& parent, int a) {
 
 static ElementSides sides_of(const CrossedEdges& crossed, const std::array<bool, 4>& is_neutral) {
   ElementSides sides;
+  if (std::ranges::all_of(crossed.first_side, [](std::int8_t s) { return s == 0; })) return sides;
   std::array<int, 4> parent{0, 1, 2, 3};
   std::array<std::int8_t, 4> group_side{};
   for (std::size_t k = 0; k < 6; ++k) {

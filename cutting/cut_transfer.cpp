@@ -3,11 +3,15 @@
 
 #include <algorithm>
 
+#include "base/sort_unique.h"
+
 namespace trocar {
 
 // A host may be this far outside (barycentric): where the outer surface is curved, or between the
 // halves of an opened facet.
 static constexpr double farthest_outside = 0.5;
+// Barycentric: no other element holds such a point.
+static constexpr double clearly_inside = 1e-6;
 // Present volume over reference volume after the move, against the least around before it.
 static constexpr double least_volume_ratio = 0.2;
 
@@ -30,6 +34,7 @@ static NodeTransfer find_host(const CutPatch& patch, std::int32_t i, const Vec3&
   for (const std::int32_t e : patch.star(i)) {
     const std::array<double, 4> b = barycentric(patch, e, X);
     if (best.host < 0 || least(b) > least(best.weight)) best = {i, e, b};
+    if (least(best.weight) > clearly_inside) return best;
   }
   for (int step = 0; step < 8 && least(best.weight) < 0; ++step) {
     const auto f = std::min_element(best.weight.begin(), best.weight.end()) - best.weight.begin();
@@ -59,6 +64,15 @@ static bool is_valid(const CutPatch& patch, std::int32_t e, const std::vector<Ve
   return v > 0 && v * V0 >= least_volume_ratio * std::min(v0, V0) * V;
 }
 
+std::vector<std::int32_t> elements_around(const CutPatch& patch,
+                                          std::span<const NodeTransfer> transfer) {
+  std::vector<std::int32_t> element;
+  for (const NodeTransfer& t : transfer)
+    element.insert(element.end(), patch.star(t.node).begin(), patch.star(t.node).end());
+  sort_unique(element);
+  return element;
+}
+
 std::vector<NodeTransfer> transfer_moves(const CutPatch& patch, std::vector<Vec3>& X) {
   std::vector<NodeTransfer> transfer;
   std::vector<Vec3> x = patch.x;
@@ -74,10 +88,9 @@ std::vector<NodeTransfer> transfer_moves(const CutPatch& patch, std::vector<Vec3
       x[i] = present_position(patch, transfer.back());
       if (least(transfer.back().weight) < -farthest_outside) is_halved[i] = 1;
     }
-    for (const NodeTransfer& t : transfer)
-      for (const std::int32_t e : patch.star(t.node))
-        if (!is_valid(patch, e, X, x))
-          for (const std::int32_t j : patch.corner[e]) is_halved[j] = 1;
+    for (const std::int32_t e : elements_around(patch, transfer))
+      if (!is_valid(patch, e, X, x))
+        for (const std::int32_t j : patch.corner[e]) is_halved[j] = 1;
     bool is_done = true;
     for (const NodeTransfer& t : transfer) {
       if (is_halved[t.node] == 0) continue;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cutting/cut_patch.h"
@@ -20,5 +21,9 @@ struct NodeTransfer {
 // without volume, in X or in the present configuration, or that no element hosts, are halved until
 // they don't; X is set to what is left.
 std::vector<NodeTransfer> transfer_moves(const CutPatch& patch, std::vector<Vec3>& X);
+
+// Local elements around the nodes of `transfer`, ascending.
+std::vector<std::int32_t> elements_around(const CutPatch& patch,
+                                          std::span<const NodeTransfer> transfer);
 
 }  // namespace trocar

@@ -31,6 +31,35 @@ TEST(CutIndex, that_was_edited_is_the_index_of_the_edited_mesh) {
   EXPECT_EQ(index.surface_node.size(), fresh.surface_node.size());
 }
 
+// Found patch by patch, and forgotten where an edit parts elements.
+TEST(CutIndex, that_was_edited_knows_no_neighbours_but_those_of_the_edited_mesh) {
+  Body body(make_box({0, 0, 0}, {1, 1, 1}, {5, 5, 5}, BoxElements::tet4_five));
+  CutIndex index = index_of(body.mesh);
+  TetCutter cutter{CutTetOptions{}};
+  Ledger ledger;
+  const Vec3 normal = Vec3(1, 0.5, 0.2).normalized();
+  const Blade blade = plane_blade({0.5, 0.5, 0.5}, normal, 1);
+  for (int k = 0; k < 20; ++k) {
+    std::vector<std::int32_t> seeds;
+    for (std::int32_t e = k % 3; e < body.mesh.n_elements(); e += 100) seeds.push_back(e);
+    make_patch(body.mesh, index, body.x, body.is_held, seeds);
+    const BladeSweep sweep{blade(k / 20.0), blade((k + 1) / 20.0), normal};
+    const Mesh before = body.mesh;
+    edit_index(before, advance(cutter, body, sweep, k == 19, ledger), index);
+    const FacetNeighbours expected = facet_neighbours(body.mesh);
+    std::ptrdiff_t n_known = 0;
+    for (std::int32_t e = 0; e < body.mesh.n_elements(); ++e)
+      for (int f = 0; f < 4; ++f) {
+        const std::int32_t u = index.across[e][f];
+        if (u == not_known) continue;
+        ++n_known;
+        ASSERT_EQ(u, expected.of(e, f)) << e << ", facet " << f;
+      }
+    EXPECT_GT(n_known, body.mesh.n_elements());
+  }
+  EXPECT_GT(ledger.n_edits, 3);
+}
+
 TEST(CutIndex, knows_the_nodes_of_the_surface) {
   for (const BoxElements elements : {BoxElements::tet4_kuhn, BoxElements::hex8}) {
     const Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {4, 5, 3}, elements);
