@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cutting/cut_flow.h"
+#include "cutting/cut_neck.h"
 #include "cutting/cut_slice.h"
 
 namespace trocar {
@@ -163,6 +164,21 @@ static void cut_graph(const CutSurroundings& around, const CutStroke& stroke, Cu
     if (is_unknown(labels, e)) labels.side[e] = is_plus[vertex[e]] != 0 ? 1 : -1;
 }
 
+// Sides of the unknown elements: cuts again until no slice is parted at a neck.
+static void decide_sides(const CutSurroundings& around, const CutStroke& stroke,
+                         CutLabels& labels) {
+  std::vector<std::int32_t> open;
+  for (std::int32_t e = 0; e < around.patch.n_elements(); ++e)
+    if (is_unknown(labels, e)) open.push_back(e);
+  for (;;) {
+    cut_graph(around, stroke, labels);
+    const std::vector<std::int32_t> joined = join_necks(around, open, labels);
+    if (joined.empty()) return;
+    std::erase_if(open, [&](std::int32_t e) { return std::ranges::binary_search(joined, e); });
+    for (const std::int32_t e : open) labels.side[e] = 0;
+  }
+}
+
 // The elements without a side that a walk around edge (a, b) from element e into u meets before it
 // comes to the - side; empty if it doesn't.
 static std::vector<std::int32_t> walk_around(const CutPatch& patch, const CutLabels& labels,
@@ -212,7 +228,7 @@ bool part_bridges(const CutSurroundings& around, const CutStroke& stroke, CutLab
     if (is_going_on) {  // the minimum cut knew too little of these before
       for (std::int32_t e = 0; e < around.patch.n_elements(); ++e)
         if (known[e] == nullptr && labels.kind[e] == CutKind::separated) labels.side[e] = 0;
-      cut_graph(around, stroke, labels);
+      decide_sides(around, stroke, labels);
     }
     is_changed = is_changed || is_going_on;
   }
@@ -230,7 +246,7 @@ CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke,
     labels.side.push_back(known[e] != nullptr ? *known[e] : std::int8_t{0});
   }
   set_terminals(around, sides, stroke.unfinished, labels);
-  cut_graph(around, stroke, labels);
+  decide_sides(around, stroke, labels);
   labels.is_front_node.assign(around.patch.node.size(), 0);
   for (std::int32_t e = 0; e < around.patch.n_elements(); ++e)
     if (labels.kind[e] == CutKind::front ||
