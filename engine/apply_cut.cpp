@@ -129,7 +129,7 @@ void inherit_by_duplicates(Simulation& s, const MeshEdit& edit, std::int32_t n_b
 
 // Hexahedra that became tetrahedra take longer: beyond this, owners are chosen anew. Choosing takes
 // as long as 75 steps, and pays after 600 to 2,000 (docs/scaling.md), a second or so; at 1.05 it
-// would after 1,300 to 4,400.
+// would after 1,300 to 2,800.
 constexpr double tolerated_imbalance = 1.1;
 
 void rebalance(Simulation& s) {
