@@ -2,19 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "cutting_tet.h"
 
 namespace trocar {
 namespace {
-
-CutPatch whole_box(const Mesh& mesh) {
-  std::vector<std::int32_t> all(mesh.element_type.size());
-  std::iota(all.begin(), all.end(), 0);
-  CutIndex index = cutting_test::index_of(mesh);
-  return make_patch(mesh, index, mesh.X, std::vector<std::uint8_t>(mesh.X.size(), 0), all);
-}
 
 int outer_planes(const Vec3& X) {
   int n = 0;
@@ -24,7 +15,7 @@ int outer_planes(const Vec3& X) {
 
 TEST(NodeBoundary, tells_inside_faces_edges_and_corners_of_a_box_apart) {
   const Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {3, 3, 3}, BoxElements::tet4_five);
-  const CutPatch patch = whole_box(mesh);
+  const CutPatch patch = cutting_test::whole_patch(cutting_test::Body(mesh));
   const std::array<NodeFreedom, 4> expected{NodeFreedom::free, NodeFreedom::surface,
                                             NodeFreedom::edge, NodeFreedom::fixed};
   for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
@@ -35,7 +26,7 @@ TEST(NodeBoundary, tells_inside_faces_edges_and_corners_of_a_box_apart) {
 
 TEST(NodeBoundary, keeps_nodes_on_their_face_and_within_their_star) {
   const Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {3, 3, 3}, BoxElements::tet4_kuhn);
-  const CutPatch patch = whole_box(mesh);
+  const CutPatch patch = cutting_test::whole_patch(cutting_test::Body(mesh));
   for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) {
     if (outer_planes(mesh.X[i]) != 1 || mesh.X[i].z() != 1) continue;
     const NodeBoundary boundary = node_boundary(patch, {}, mesh.cut_facets, i);

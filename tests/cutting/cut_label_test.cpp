@@ -27,13 +27,10 @@ CutSurroundings turn_around_edge(int n_tets) {
     const std::array<std::int32_t, 4> corner{0, 2 + k, 2 + (k + 1) % n_in_turn, 1};
     add_element(mesh, ElementType::tet4, corner);
   }
-  Body body(std::move(mesh));
-  CutIndex index = index_of(body.mesh);
-  std::vector<std::int32_t> all(body.mesh.element_type.size());
-  std::iota(all.begin(), all.end(), 0);
+  const Body body(std::move(mesh));
   CutSurroundings around;
   around.h = 1;
-  around.patch = make_patch(body.mesh, index, body.x, body.is_held, all);
+  around.patch = whole_patch(body);
   const std::size_t n_nodes = around.patch.node.size();
   around.points.offset.resize(n_nodes + 1);
   std::iota(around.points.offset.begin(), around.points.offset.end(), 0);

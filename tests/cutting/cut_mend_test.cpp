@@ -49,13 +49,10 @@ Mesh tent() {
   return mesh;
 }
 
-CutSurroundings surroundings_of(Body& body) {
-  CutIndex index = index_of(body.mesh);
-  std::vector<std::int32_t> all(body.mesh.element_type.size());
-  std::iota(all.begin(), all.end(), 0);
+CutSurroundings surroundings_of(const Body& body) {
   CutSurroundings around;
   around.h = 1;
-  around.patch = make_patch(body.mesh, index, body.x, body.is_held, all);
+  around.patch = whole_patch(body);
   around.surface_cost.assign(body.mesh.X.size(), 0.0);
   return around;
 }

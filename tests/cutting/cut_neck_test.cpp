@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "cutting_tet.h"
 
 namespace trocar {
@@ -24,15 +22,12 @@ struct Bar {
 
 Bar make_bar(int other, double distance) {
   Bar bar;
-  Body body(make_box({0, 0, 0}, {n_cells, 1, 1}, {n_cells, 1, 1}, BoxElements::tet4_kuhn));
-  CutIndex index = index_of(body.mesh);
-  std::vector<std::int32_t> all(body.mesh.element_type.size());
-  std::iota(all.begin(), all.end(), 0);
+  const Body body(make_box({0, 0, 0}, {n_cells, 1, 1}, {n_cells, 1, 1}, BoxElements::tet4_kuhn));
   bar.around.h = 1;
-  bar.around.patch = make_patch(body.mesh, index, body.x, body.is_held, all);
+  bar.around.patch = whole_patch(body);
   bar.around.distance.assign(bar.around.patch.node.size(), distance);
   const std::int8_t side = distance > 0 ? 1 : -1;
-  for (const std::int32_t e : all) {
+  for (std::int32_t e = 0; e < body.mesh.n_elements(); ++e) {
     const bool is_other = int(centre_of(bar.around.patch, {&e, 1}).x()) == other;
     if (is_other) bar.cell.push_back(e);
     bar.labels.side.push_back(is_other ? static_cast<std::int8_t>(-side) : side);

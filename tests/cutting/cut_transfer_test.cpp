@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
 #include <random>
 
 #include "cutting_tet.h"
@@ -14,11 +13,9 @@ struct Moved {
   Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {4, 4, 4}, BoxElements::tet4_five);
   CutPatch patch;
   explicit Moved(const std::vector<Vec3>* x = nullptr) {
-    std::vector<std::int32_t> all(mesh.element_type.size());
-    std::iota(all.begin(), all.end(), 0);
-    CutIndex index = cutting_test::index_of(mesh);
-    patch = make_patch(mesh, index, x != nullptr ? *x : mesh.X,
-                       std::vector<std::uint8_t>(mesh.X.size(), 0), all);
+    cutting_test::Body body(mesh);
+    if (x != nullptr) body.x = *x;
+    patch = cutting_test::whole_patch(body);
   }
   // Interior nodes moved at random, up to `amount`.
   std::vector<Vec3> moved(double amount) const {

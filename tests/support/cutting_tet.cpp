@@ -12,6 +12,13 @@ CutIndex index_of(const Mesh& mesh) {
   return index;
 }
 
+CutPatch whole_patch(const Body& body) {
+  std::vector<std::int32_t> all(body.mesh.element_type.size());
+  std::iota(all.begin(), all.end(), 0);
+  CutIndex index = index_of(body.mesh);
+  return make_patch(body.mesh, index, body.x, body.is_held, all);
+}
+
 void apply(const MeshEdit& edit, const CutFigures& figures, Body& body, Ledger& ledger) {
   ledger.total.n_refused += figures.n_refused;
   if (edit.is_empty()) return;

@@ -39,6 +39,9 @@ struct Body {
   }
 };
 
+// Of all of its elements, in their order.
+CutPatch whole_patch(const Body& body);
+
 // What was done to a body, summed over its edits.
 struct Ledger {
   CutFigures total;
