@@ -72,7 +72,8 @@ Options<SceneTissue> tissue_options() {
            "Length of one unit of the mesh file, \"1 mm\" for a mesh in millimetres.");
   t.boolean("renumber", &SceneTissue::is_renumbered,
             "Numbers nodes and elements of a mesh file anew where that brings an element's nodes "
-            "closer together in memory, so that steps are faster; false: the order of the file.");
+            "closer together in memory, so that steps are faster; messages and recordings count in "
+            "the new order. false: the order of the file.");
   t.number("longest_side", &SceneTissue::longest_side, dim::length, not_negative,
            "Scales the mesh so that the longest side of its bounding box has this length; 0: not.");
   t.boolean("centred", &SceneTissue::is_centred,
