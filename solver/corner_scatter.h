@@ -121,9 +121,12 @@ template <class Part, std::size_t... k>
   return __builtin_shufflevector(before, after, (sizeof...(k) - 4 + k)...);
 }
 // A register whose last four numbers are these.
-template <class Part, class Quad, std::size_t... k>
-[[gnu::always_inline]] inline Part last_in(const Quad& x, std::index_sequence<k...>) {
-  return __builtin_shufflevector(x, x, (k % 4)...);
+template <class Part>
+[[gnu::always_inline]] inline Part last_in(const PackOf<RealOf<Part>, 4>& x) {
+  if constexpr (pack_width<Part> == 16)
+    return _mm512_maskz_broadcast_f32x4(0xFFFF, x);  // a shuffle of GCC's goes over the stack
+  else
+    return _mm512_maskz_broadcast_f64x4(0xFF, x);
 }
 // The last four numbers.
 template <class Part, std::size_t... k>
@@ -139,8 +142,7 @@ template <class Part, int n, class First, class Second>
                                                   RealOf<Part>* sum) {
   constexpr int width = pack_width<Part>;
   using Quad = PackOf<RealOf<Part>, 4>;
-  const Quad low = load<Quad>(sum);
-  Part before = last_in<Part>(low, std::make_index_sequence<width>{});
+  Part before = last_in<Part>(load<Quad>(sum));
 #pragma GCC unroll 8
   for (int j = 0; j < n; j += width) {
     const Part added = load<Part>(sum + 4 + j) + first(j);
