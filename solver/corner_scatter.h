@@ -17,15 +17,14 @@ template <int l, class Pack>
   return __builtin_shufflevector(xy, z, at, at + 1, 8 + l, 8 + l, at + 2, at + 3, 9 + l, 9 + l);
 }
 
-// Those of eight lanes.
-template <class Pack>
-[[gnu::always_inline]] inline void all_rows(const Pack (&f)[3], Pack (&row)[4]) {
-  const Pack xy0 = __builtin_shufflevector(f[0], f[1], 0, 8, 1, 9, 2, 10, 3, 11);
-  const Pack xy4 = __builtin_shufflevector(f[0], f[1], 4, 12, 5, 13, 6, 14, 7, 15);
-  row[0] = two_rows<0>(xy0, f[2]);
-  row[1] = two_rows<2>(xy0, f[2]);
-  row[2] = two_rows<4>(xy4, f[2]);
-  row[3] = two_rows<6>(xy4, f[2]);
+// Those of half of eight lanes.
+template <int half, class Pack>
+[[gnu::always_inline]] inline void rows_of_four_doubles(const Pack (&f)[3], Pack (&row)[2]) {
+  constexpr int k = 4 * half;
+  const Pack xy =
+      __builtin_shufflevector(f[0], f[1], k, 8 + k, k + 1, 9 + k, k + 2, 10 + k, k + 3, 11 + k);
+  row[0] = two_rows<k>(xy, f[2]);
+  row[1] = two_rows<k + 2>(xy, f[2]);
 }
 
 // To [lane][x y z and anything].
@@ -52,9 +51,11 @@ template <class Pack>
     store(to + 8, __builtin_shufflevector(xy0, z0, 2, 3, 6, 7));
     store(to + 12, __builtin_shufflevector(xy1, z1, 2, 3, 6, 7));
   } else {
-    Pack row[4];
-    all_rows(f, row);
-    for (int k = 0; k < 4; ++k) store(to + k * width, row[k]);
+    Pack low[2], high[2];
+    rows_of_four_doubles<0>(f, low);
+    rows_of_four_doubles<1>(f, high);
+    for (int k = 0; k < 2; ++k) store(to + k * width, low[k]);
+    for (int k = 0; k < 2; ++k) store(to + (k + 2) * width, high[k]);
   }
 }
 
@@ -87,18 +88,17 @@ template <class Pack>
   }
 }
 
-// The rows [x y z and anything] of all lanes, as many as fit into a register.
-template <class Pack>
-[[gnu::always_inline]] inline void rows_of_corner(const Pack (&f)[3], Pack (&row)[4]) {
+// The rows [x y z and anything] of half of the lanes, as many as fit into a register.
+template <int half, class Pack>
+[[gnu::always_inline]] inline void rows_of_half(const Pack (&f)[3], Pack (&row)[2]) {
   if constexpr (sizeof(RealOf<Pack>) == sizeof(double)) {
-    all_rows(f, row);
+    rows_of_four_doubles<half>(f, row);
   } else {
-    row[0] = rows_of_four<0>(f, std::make_index_sequence<16>{});
-    row[1] = rows_of_four<1>(f, std::make_index_sequence<16>{});
-    row[2] = rows_of_four<2>(f, std::make_index_sequence<16>{});
-    row[3] = rows_of_four<3>(f, std::make_index_sequence<16>{});
+    row[0] = rows_of_four<2 * half>(f, std::make_index_sequence<16>{});
+    row[1] = rows_of_four<2 * half + 1>(f, std::make_index_sequence<16>{});
   }
 }
+
 // Four numbers of a register, the k-th.
 template <int k, class Pack>
 [[gnu::always_inline]] inline auto quarter(const Pack& x) {
@@ -120,13 +120,16 @@ template <class Part, std::size_t... k>
                                                 std::index_sequence<k...>) {
   return __builtin_shufflevector(before, after, (sizeof...(k) - 4 + k)...);
 }
-// A register whose last four numbers are these.
-template <class Part>
-[[gnu::always_inline]] inline Part last_in(const PackOf<RealOf<Part>, 4>& x) {
-  if constexpr (pack_width<Part> == 16)
-    return _mm512_maskz_broadcast_f32x4(0xFFFF, x);  // a shuffle of GCC's goes over the stack
-  else
+// A register whose last four numbers are these; GCC shuffles to the widest ones over the stack.
+template <class Part, std::size_t... k>
+[[gnu::always_inline]] inline Part last_in(const PackOf<RealOf<Part>, 4>& x,
+                                           std::index_sequence<k...>) {
+  if constexpr (sizeof...(k) == 16)
+    return _mm512_maskz_broadcast_f32x4(0xFFFF, x);
+  else if constexpr (sizeof(Part) == 64)
     return _mm512_maskz_broadcast_f64x4(0xFF, x);
+  else
+    return __builtin_shufflevector(x, x, (k % 4)...);
 }
 // The last four numbers.
 template <class Part, std::size_t... k>
@@ -142,7 +145,7 @@ template <class Part, int n, class First, class Second>
                                                   RealOf<Part>* sum) {
   constexpr int width = pack_width<Part>;
   using Quad = PackOf<RealOf<Part>, 4>;
-  Part before = last_in<Part>(load<Quad>(sum));
+  Part before = last_in<Part>(load<Quad>(sum), std::make_index_sequence<width>{});
 #pragma GCC unroll 8
   for (int j = 0; j < n; j += width) {
     const Part added = load<Part>(sum + 4 + j) + first(j);
@@ -202,51 +205,39 @@ template <class Pack>
                   sum);
 }
 
-// Rows [x y z and anything] of the lanes of a half, or of all eight.
-template <int half>
-[[gnu::always_inline]] inline void rows_of_eight(const PackOf<double, 8> (&f)[3],
-                                                 PackOf<double, 8> (&row)[4]) {
-  all_rows(f, row);
-}
-template <int half>
-[[gnu::always_inline]] inline void rows_of_eight(const PackOf<float, 16> (&f)[3],
-                                                 PackOf<float, 16> (&row)[2]) {
-  row[0] = rows_of_four<2 * half>(f, std::make_index_sequence<16>{});
-  row[1] = rows_of_four<2 * half + 1>(f, std::make_index_sequence<16>{});
-}
-
-// The same of eight lanes that are still in registers, without a detour through memory, where
-// neighbours follow each other.
-template <int half, class Pack>
+// The same of the k-th eight lanes, which are still in registers, without a detour through memory,
+// where neighbours follow each other.
+template <int k, class Pack>
 [[gnu::always_inline]] inline void add_box_row(const Pack (&f)[8][3], const std::int32_t* target,
                                                RealOf<Pack>* sum) {
-  constexpr int width = pack_width<Pack>;
+  constexpr int width = pack_width<Pack>, n_registers = row_numbers<Pack> / width;
+  const auto rows = [](const Pack(&of)[3], Pack(&row)[4]) __attribute__((always_inline)) {
+    Pack half[2][2];
+    rows_of_half<k>(of, half[0]);
+    if constexpr (n_registers > 2) rows_of_half<1>(of, half[1]);
+    for (int j = 0; j < n_registers; ++j) row[j] = half[j / 2][j % 2];
+  };
 #pragma GCC unroll 4
-  for (int k = 0; k < 8; k += 2) {
-    const int a = corner_of_row(box_row, k), b = corner_of_row(box_row, k + 1);
-    Pack first[row_numbers<Pack> / width], second[row_numbers<Pack> / width];
-    rows_of_eight<half>(f[a], first);
-    rows_of_eight<half>(f[b], second);
+  for (int pair = 0; pair < 8; pair += 2) {
+    const int a = corner_of_row(box_row, pair), b = corner_of_row(box_row, pair + 1);
+    Pack first[4], second[4];
+    rows(f[a], first);
+    rows(f[b], second);
     add_neighbours<Pack, row_numbers<Pack>>(
         [&](int j) __attribute__((always_inline)) { return first[j / width]; },
         [&](int j) __attribute__((always_inline)) { return second[j / width]; },
-        sum + 4 * std::int64_t{target[b * block_lanes<Pack> + half * row_lanes]});
+        sum + 4 * std::int64_t{target[b * block_lanes<Pack> + k * row_lanes]});
   }
 }
 
-// Whether it may: all lanes stand in rows of a box.
+// Whether it may, of lanes that stand in a row of a box.
 template <class Pack>
-[[gnu::always_inline]] inline bool are_box_rows(const std::int32_t* target,
-                                                const std::uint32_t* row) {
+[[gnu::always_inline]] inline bool follow_each_other(const std::int32_t* target) {
   std::int32_t apart = 0;
-#pragma GCC unroll 2
-  for (int first = 0; first < pack_width<Pack>; first += row_lanes) {
-    if (row[first / row_lanes] != box_row) return false;
 #pragma GCC unroll 4
-    for (int k = 0; k < 8; k += 2)
-      apart |= target[corner_of_row(box_row, k) * block_lanes<Pack> + first] -
-               target[corner_of_row(box_row, k + 1) * block_lanes<Pack> + first] - 1;
-  }
+  for (int k = 0; k < 8; k += 2)
+    apart |= target[corner_of_row(box_row, k) * block_lanes<Pack>] -
+             target[corner_of_row(box_row, k + 1) * block_lanes<Pack>] - 1;
   return apart == 0;
 }
 
@@ -266,15 +257,16 @@ template <class Pack, int n>
     }
 }
 
-// The same from registers: stores to be read back soon are what a step waits for most.
-template <class Pack, int n, int... r>
+// The same of half a register's lanes, from registers: stores to be read back soon are what a step
+// waits for most.
+template <int half, class Pack, int n, int... r>
 [[gnu::always_inline]] inline void add_lanes_of(const Pack (&f)[n][3], const std::int32_t* target,
                                                 RealOf<Pack>* sum,
                                                 std::integer_sequence<int, r...>) {
   constexpr int width = pack_width<Pack>, in_row = width / 4;
-  Pack row[n][4];
+  Pack row[n][2];
 #pragma GCC unroll 8
-  for (int a = 0; a < n; ++a) rows_of_corner(f[a], row[a]);
+  for (int a = 0; a < n; ++a) rows_of_half<half>(f[a], row[a]);
   const auto add = [&](int a, int lane, const auto& x) __attribute__((always_inline)) {
     const auto at = static_cast<std::uint32_t>(target[a * block_lanes<Pack> + lane]);
     RealOf<Pack>* const to = sum + 4 * std::size_t{at};
@@ -283,11 +275,37 @@ template <class Pack, int n, int... r>
   };
   const auto add_row = [&]<int k>(std::integral_constant<int, k>, int first)
       __attribute__((always_inline)) {
-#pragma GCC unroll 4
-    for (int a = 0; a < n; ++a) add(a, in_row * first + k, quarter<k>(row[a][first]));
+#pragma GCC unroll 8
+    for (int a = 0; a < n; ++a)
+      add(a, half * width / 2 + in_row * first + k, quarter<k>(row[a][first]));
   };
-#pragma GCC unroll 4
-  for (int first = 0; first < 4; ++first) (add_row(std::integral_constant<int, r>{}, first), ...);
+#pragma GCC unroll 2
+  for (int first = 0; first < 2; ++first) (add_row(std::integral_constant<int, r>{}, first), ...);
+}
+
+// The k-th eight lanes: a row of a box or anywhere.
+template <int k, class Pack, int n>
+[[gnu::always_inline]] inline void add_eight(const Pack (&f)[n][3], const std::int32_t* target,
+                                             std::uint32_t row, RealOf<Pack>* sum) {
+  using Quarters = std::make_integer_sequence<int, pack_width<Pack> / 4>;
+  if constexpr (n == 8)
+    if (row == box_row) {
+      add_box_row<k>(f, target, sum);
+      return;
+    }
+  add_lanes_of<k>(f, target, sum, Quarters{});
+  if constexpr (pack_width<Pack> == row_lanes) add_lanes_of<1>(f, target, sum, Quarters{});
+}
+
+template <class Pack, int n>
+[[gnu::always_inline]] inline bool may_stay_in_registers(const std::int32_t* target,
+                                                         const std::uint32_t* row) {
+#pragma GCC unroll 2
+  for (int k = 0; k < pack_width<Pack> / row_lanes; ++k)
+    if (is_row(row[k]) &&
+        (n != 8 || row[k] != box_row || !follow_each_other<Pack>(target + k * row_lanes)))
+      return false;
+  return true;
 }
 
 // Adds the forces of a group's corners to sum[4 * target].
@@ -295,15 +313,10 @@ template <class Pack, int n>
 [[gnu::always_inline]] inline void add_corners(const Pack (&f)[n][3], const std::int32_t* target,
                                                const std::uint32_t* row, RealOf<Pack>* sum) {
   constexpr int width = pack_width<Pack>;
-  if constexpr (n == 8 && sizeof(Pack) == 64)
-    if (are_box_rows<Pack>(target, row)) {
-      add_box_row<0>(f, target, sum);
-      if constexpr (width > row_lanes) add_box_row<1>(f, target, sum);
-      return;
-    }
-  if constexpr (n <= 4 && sizeof(Pack) == 64)
-    if (!is_row(row[0]) && !is_row(row[width / row_lanes - 1])) {
-      add_lanes_of(f, target, sum, std::make_integer_sequence<int, width / 4>{});
+  if constexpr (sizeof(Pack) == 64)
+    if (may_stay_in_registers<Pack, n>(target, row)) {
+      add_eight<0>(f, target, row[0], sum);
+      if constexpr (width > row_lanes) add_eight<1>(f, target, row[1], sum);
       return;
     }
   alignas(64) RealOf<Pack> force[n][width][4];
