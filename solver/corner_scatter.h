@@ -10,21 +10,39 @@
 
 namespace trocar {
 
-// Rows [x y z z] of the lanes l and l + 1 of eight, from [x y] of four lanes.
-template <int l, class Pack>
-[[gnu::always_inline]] inline Pack two_rows(const Pack& xy, const Pack& z) {
-  constexpr int at = 2 * (l % 4);
-  return __builtin_shufflevector(xy, z, at, at + 1, 8 + l, 8 + l, at + 2, at + 3, 9 + l, 9 + l);
+// x and y of half of the lanes in turn.
+template <int half, class Pack, std::size_t... k>
+[[gnu::always_inline]] inline Pack x_and_y(const Pack& x, const Pack& y,
+                                           std::index_sequence<k...>) {
+  constexpr std::size_t width = sizeof...(k), first = half * width / 2;
+  return __builtin_shufflevector(x, y, (first + k / 2 + (k % 2) * width)...);
+}
+// Rows [x y z z] of a quarter of the lanes, from [x y] of the half that it is in.
+template <int part, class Pack, std::size_t... k>
+[[gnu::always_inline]] inline Pack rows_of_quarter(const Pack& xy, const Pack& z,
+                                                   std::index_sequence<k...>) {
+  constexpr std::size_t width = sizeof...(k), lane = part * width / 4;
+  return __builtin_shufflevector(
+      xy, z, (k % 4 < 2 ? (part % 2) * width / 2 + 2 * (k / 4) + k % 4 : width + lane + k / 4)...);
 }
 
-// Those of half of eight lanes.
+// The rows [x y z and anything] of half of the lanes.
 template <int half, class Pack>
-[[gnu::always_inline]] inline void rows_of_four_doubles(const Pack (&f)[3], Pack (&row)[2]) {
-  constexpr int k = 4 * half;
-  const Pack xy =
-      __builtin_shufflevector(f[0], f[1], k, 8 + k, k + 1, 9 + k, k + 2, 10 + k, k + 3, 11 + k);
-  row[0] = two_rows<k>(xy, f[2]);
-  row[1] = two_rows<k + 2>(xy, f[2]);
+[[gnu::always_inline]] inline void rows_of_half(const Pack (&f)[3], Pack (&row)[2]) {
+  using Numbers = std::make_index_sequence<pack_width<Pack>>;
+  const Pack xy = x_and_y<half>(f[0], f[1], Numbers{});
+  row[0] = rows_of_quarter<2 * half>(xy, f[2], Numbers{});
+  row[1] = rows_of_quarter<2 * half + 1>(xy, f[2], Numbers{});
+}
+
+template <class Pack>
+[[gnu::always_inline]] inline void store_rows(RealOf<Pack>* to, const Pack (&f)[3]) {
+  constexpr int width = pack_width<Pack>;
+  Pack low[2], high[2];
+  rows_of_half<0>(f, low);
+  rows_of_half<1>(f, high);
+  for (int k = 0; k < 2; ++k) store(to + k * width, low[k]);
+  for (int k = 0; k < 2; ++k) store(to + (k + 2) * width, high[k]);
 }
 
 // To [lane][x y z and anything].
@@ -51,28 +69,8 @@ template <class Pack>
     store(to + 8, __builtin_shufflevector(xy0, z0, 2, 3, 6, 7));
     store(to + 12, __builtin_shufflevector(xy1, z1, 2, 3, 6, 7));
   } else {
-    Pack low[2], high[2];
-    rows_of_four_doubles<0>(f, low);
-    rows_of_four_doubles<1>(f, high);
-    for (int k = 0; k < 2; ++k) store(to + k * width, low[k]);
-    for (int k = 0; k < 2; ++k) store(to + (k + 2) * width, high[k]);
+    store_rows(to, f);
   }
-}
-
-// Lanes 4 r / width … of [lane][x y z 0], as many as fit into the r-th register.
-template <int r, class Pack, std::size_t... k>
-[[gnu::always_inline]] inline Pack rows_of_four(const Pack (&f)[3], std::index_sequence<k...>) {
-  constexpr std::size_t width = sizeof...(k), first = r * width / 4;
-  const Pack xy = __builtin_shufflevector(f[0], f[1], (first + k / 4 + (k % 2) * width)...);
-  const Pack z0 = __builtin_shufflevector(f[2], Pack{}, (first + k / 4 + (k % 2) * width)...);
-  return __builtin_shufflevector(xy, z0, (k % 4 < 2 ? k : width + k - 2)...);
-}
-
-template <class Pack, int... r>
-[[gnu::always_inline]] inline void store_singles(float* to, const Pack (&f)[3],
-                                                 std::integer_sequence<int, r...>) {
-  constexpr int width = pack_width<Pack>;
-  (store(to + r * width, rows_of_four<r>(f, std::make_index_sequence<width>{})), ...);
 }
 
 // To [lane][x y z and anything].
@@ -84,18 +82,7 @@ template <class Pack>
     for (int i = 0; i < 3; ++i) to[i] = f[i][0];
     to[3] = 0;
   } else {
-    store_singles(to, f, std::make_integer_sequence<int, 4>{});
-  }
-}
-
-// The rows [x y z and anything] of half of the lanes, as many as fit into a register.
-template <int half, class Pack>
-[[gnu::always_inline]] inline void rows_of_half(const Pack (&f)[3], Pack (&row)[2]) {
-  if constexpr (sizeof(RealOf<Pack>) == sizeof(double)) {
-    rows_of_four_doubles<half>(f, row);
-  } else {
-    row[0] = rows_of_four<2 * half>(f, std::make_index_sequence<16>{});
-    row[1] = rows_of_four<2 * half + 1>(f, std::make_index_sequence<16>{});
+    store_rows(to, f);
   }
 }
 
