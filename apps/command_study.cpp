@@ -61,6 +61,11 @@ void check_sizes(const StudyOptions& options, const Problem& problem) {
           std::to_string(n));
 }
 
+// Before the runs, which take minutes.
+void check_target(const StudyOptions& options, const Problem& problem) {
+  if (!options.target.empty()) require_fits(read_target(options.target), problem);
+}
+
 Target target_of(const StudyOptions& options, const Study& study) {
   return options.target.empty() ? median_target(study) : read_target(options.target);
 }
@@ -79,6 +84,7 @@ void report(const StudyOptions& options, const Study& study) {
 }
 
 void study_all(const StudyOptions& options) {
+  for (const Problem& problem : built_in_problems()) check_target(options, problem);
   std::vector<Study> studies;
   for (const Problem& problem : built_in_problems()) {
     log_info(problem.title);
@@ -110,6 +116,7 @@ ExitCode command_study(const StudyOptions& options, Communicator& communicator) 
   } else {
     const Problem problem = find_problem(options, communicator);
     check_sizes(options, problem);
+    check_target(options, problem);
     report(options, sweep(problem, options.sweep));
   }
   return ExitCode::done;

@@ -30,6 +30,14 @@ bool is_inside(double value, const Range& range) {
   return !is_low && !is_high;
 }
 
+// Products of a few of them are numbers still; a scene that needs others has a wrong unit.
+constexpr double least_magnitude = 1e-24, greatest_magnitude = 1e24;
+
+bool is_usable(double value) {
+  const double magnitude = std::abs(value);
+  return value == 0 || (magnitude >= least_magnitude && magnitude <= greatest_magnitude);
+}
+
 [[noreturn]] void refuse_kind(const OptionNode& node, const std::string& needed) {
   refuse(node, "needs " + needed + ", found " + description(node));
 }
@@ -43,9 +51,13 @@ std::string number_needed(const Dimension& dimension) {
 double checked(const OptionNode& node, double value, const Dimension& dimension,
                const Range& range) {
   if (!std::isfinite(value)) refuse(node, shown(value) + " is not a finite number");
-  if (is_inside(value, range)) return value;
-  refuse(node,
-         shown(value, dimension) + " is out of range; allowed: " + range_text(range, dimension));
+  const std::string found = shown(value, dimension);
+  if (!is_inside(value, range))
+    refuse(node, found + " is out of range; allowed: " + range_text(range, dimension));
+  if (!is_usable(value))
+    refuse(node, found + " is out of range; allowed: 0 and magnitudes from " +
+                     shown(least_magnitude) + " to " + shown(greatest_magnitude));
+  return value;
 }
 
 double parsed(const OptionNode& node, std::string_view text, const Dimension& dimension) {

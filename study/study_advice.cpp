@@ -66,6 +66,12 @@ Target read_target(const std::string& text) {
   }
 }
 
+void require_fits(const Target& target, const Problem& problem) {
+  if (target.is_length && problem.length == 0)
+    throw InputError("--target: the result of " + problem.name + ", its " + problem.quantity +
+                     ", is no length; give a share such as \"1 %\"");
+}
+
 Target median_target(const Study& study) {
   std::vector<double> errors;
   for (const Run* run : pareto_front(study)) errors.push_back(run->error);
@@ -111,9 +117,7 @@ std::vector<const Run*> pareto_front(const Study& study) {
 }
 
 std::string advice(const Study& study, const Target& target) {
-  if (target.is_length && study.problem.length == 0)
-    throw InputError("--target: the result of " + study.problem.name + ", its " +
-                     study.problem.quantity + ", is no length; give a share such as \"1 %\"");
+  require_fits(target, study.problem);
   const Run* best = cheapest_within(study, target);
   const Run* nearest = nearest_run(study);
   if (nearest == nullptr) return "No run of this sweep can be rated.";

@@ -15,6 +15,8 @@ struct Target {
 
 // "1 mm", "2 %"; "" is no target. Throws InputError.
 Target read_target(const std::string& text);
+// Throws InputError for a length where the problem's result is none.
+void require_fits(const Target& target, const Problem& problem);
 // 1.1 times the median of the errors on the Pareto front: elements that lock would make it a
 // useless one.
 Target median_target(const Study& study);

@@ -85,6 +85,12 @@ const BadLine bad_lines[] = {
      "list of 0 values\n"},
     {"duration = 0", "s.toml:1:12: duration: 0 s is out of range; allowed: > 0 s\n"},
     {"duration = '-5 ms'", "s.toml:1:12: duration: -0.005 s is out of range; allowed: > 0 s\n"},
+    {"duration = 1e300",
+     "s.toml:1:12: duration: 1e+300 s is out of range; allowed: 0 and magnitudes from 1e-24 to "
+     "1e+24\n"},
+    {"duration = '1e-300 s'",
+     "s.toml:1:12: duration: 1e-300 s is out of range; allowed: 0 and magnitudes from 1e-24 to "
+     "1e+24\n"},
     {"duration = nan", "s.toml:1:12: duration: nan is not a finite number\n"},
     {"duration = -inf", "s.toml:1:12: duration: -inf is not a finite number\n"},
     {"duration = '3 mm'",
