@@ -107,18 +107,18 @@ TEST(IsFlake, across_facets_that_this_stroke_opened_but_no_older_one) {
 // A block whose top sinks in the middle to `depth` above the blade: one end came off apart from the
 // other although the blade left them joined.
 int pieces_of_sunk_block(double depth) {
-  Mesh mesh = make_box({0, 0, 0}, {6, 2, 2}, {6, 2, 2}, BoxElements::tet4_kuhn);
+  Mesh mesh = make_box({0, 0, 0}, {5, 2, 2}, {5, 2, 2}, BoxElements::tet4_kuhn);
   for (Vec3& X : mesh.X)
-    if (X.z() == 2) X.z() = 1.2 + (X.x() < 2 || X.x() > 4 ? 1 : depth);
+    if (X.z() == 2) X.z() = 1.2 + (X.x() < 2 || X.x() > 3 ? 1 : depth);
   Body body(std::move(mesh));
-  const Blade blade = straight_blade({-1, -1, 1.2}, {-1, 3, 1.2}, {8, 0, 0});
+  const Blade blade = straight_blade({-1, -1, 1.2}, {-1, 3, 1.2}, {7, 0, 0});
   cut(body, blade, Vec3::UnitZ(), 12);
   EXPECT_EQ(fault(body), "");
   return n_pieces(body.mesh);
 }
 
 TEST(Flakes, stay_with_the_other_side_but_not_what_the_blade_parted) {
-  EXPECT_EQ(pieces_of_sunk_block(0.2), 2);
+  EXPECT_EQ(pieces_of_sunk_block(0.1), 2);
   EXPECT_EQ(pieces_of_sunk_block(-0.1), 3);
 }
 
