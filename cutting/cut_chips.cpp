@@ -63,8 +63,14 @@ static bool add_beyond(const Tissue& t, std::int32_t element, int f, SmallPiece&
   return local < 0 || std::ranges::find(piece.element, local) != piece.element.end();
 }
 
+// Whether an element of another shape has the node.
+static bool is_joined_node(const Tissue& t, std::int32_t i) {
+  return std::ranges::any_of(
+      t.index.star(i), [&](std::int32_t e) { return t.mesh.element_type[e] != ElementType::tet4; });
+}
+
 // Adds what hangs together with the piece outside the patch; false if that is not small, or the
-// piece hangs together with more of the patch there.
+// piece hangs together with more of the patch, or with other shapes, there.
 static bool follow_beyond(const Tissue& t, SmallPiece& piece) {
   const CutPatch& patch = t.cut.around.patch;
   const auto is_rim = [&](std::int32_t i) { return !patch.is_whole(i); };
@@ -75,7 +81,10 @@ static bool follow_beyond(const Tissue& t, SmallPiece& piece) {
   for (std::size_t k = 0; k < piece.beyond.size(); ++k) {
     const std::int32_t u = piece.beyond[k];
     const std::span<const std::int32_t> c = t.mesh.corners(u);
-    if (!add_volume(t, t.mesh.X, {c[0], c[1], c[2], c[3]}, piece)) return false;
+    const auto is_joined_here = [&](std::int32_t i) { return is_joined_node(t, i); };
+    if (!add_volume(t, t.mesh.X, {c[0], c[1], c[2], c[3]}, piece) ||
+        std::ranges::any_of(c, is_joined_here))
+      return false;
     for (int f = 0; f < 4; ++f)
       if (!add_beyond(t, u, f, piece)) return false;
   }
