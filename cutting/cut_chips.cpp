@@ -1,55 +1,156 @@
-// Pieces of the patch by flooding across the facets that stay joined.
+// Pieces by flooding across the facets that stay joined, in the patch and a little beyond.
 #include "cutting/cut_chips.h"
 
 #include <algorithm>
+
+#include "cutting/cut_flake.h"
+#include "cutting/cut_survey.h"
 
 namespace trocar {
 
 // A piece with less volume than this part of the mean edge cubed is a chip.
 static constexpr double chip_volume = 0.5;
+// Flakes are looked for below this.
+static constexpr double flake_volume = 4;
 
-// The elements that hang together with `first` after the opening; marks them.
-static std::vector<std::int32_t> piece_of(const CutPatch& patch, const CutOpening& opening,
-                                          std::int32_t first, std::vector<std::uint8_t>& is_seen) {
+namespace {
+
+struct Tissue {
+  const Mesh& mesh;
+  const CutIndex& index;
+  const CutStroke& stroke;
+  const TetCut& cut;
+};
+
+struct SmallPiece {
+  std::vector<std::int32_t> element, beyond;  // in the patch: local; outside: global
+  double V = 0;                               // over h^3
+};
+
+}  // namespace
+
+// The elements of the patch that hang together with `first` after the opening; marks them.
+static std::vector<std::int32_t> piece_of(const TetCut& cut, std::int32_t first,
+                                          std::vector<std::uint8_t>& is_seen) {
+  const CutPatch& patch = cut.around.patch;
   std::vector<std::int32_t> piece{first};
   is_seen[first] = 1;
   for (std::size_t k = 0; k < piece.size(); ++k)
     for (int f = 0; f < 4; ++f) {
       const std::int32_t u = patch.across[piece[k]][f];
-      if (u < 0 || is_seen[u] != 0 || !is_joined(patch, opening.corner, piece[k], f)) continue;
+      if (u < 0 || is_seen[u] != 0 || !is_joined(patch, cut.opening.corner, piece[k], f)) continue;
       is_seen[u] = 1;
       piece.push_back(u);
     }
   return piece;
 }
 
-// Whether all of the piece is in the patch, and small.
-static bool is_chip(const CutSurroundings& around, const std::vector<std::int32_t>& piece) {
-  double six_V = 0;
-  for (const std::int32_t e : piece) {
-    const auto& corner = around.patch.corner[e];
-    if (!std::all_of(corner.begin(), corner.end(), [&](std::int32_t i) {
-          return around.patch.is_whole(i) && around.patch.is_locked[i] == 0;
-        }))
-      return false;
-    six_V += six_volumes(around.patch.X, corner);
-  }
-  return six_V < 6 * chip_volume * around.h * around.h * around.h;
+// Adds the volume of an element; false if the piece is no small one with it.
+static bool add_volume(const Tissue& t, std::span<const Vec3> X,
+                       const std::array<std::int32_t, 4>& corner, SmallPiece& piece) {
+  const double h = t.cut.around.h;
+  piece.V += six_volumes(X, corner) / (6 * h * h * h);
+  return piece.V < flake_volume;
 }
 
-std::vector<CutChip> attach_chips(const CutSurroundings& around, const CutOpening& opening,
-                                  CutLabels& labels) {
-  std::vector<CutChip> chips;
-  if (opening.duplication.duplicate_parent.empty()) return chips;
-  std::vector<std::uint8_t> is_seen(around.patch.element.size(), 0);
-  for (const auto& [first, f] : opening.facet) {
-    if (is_seen[first] != 0) continue;
-    std::vector<std::int32_t> piece = piece_of(around.patch, opening, first, is_seen);
-    if (!is_chip(around, piece)) continue;
-    for (const std::int32_t e : piece) labels.side[e] = static_cast<std::int8_t>(-labels.side[e]);
-    chips.push_back({centre_of(around.patch, piece), std::move(piece)});
+// Adds the element across facet f of `element` (global) if it lies outside the patch; false if it
+// belongs to the patch, but not to the piece.
+static bool add_beyond(const Tissue& t, std::int32_t element, int f, SmallPiece& piece) {
+  const std::int32_t u = element_across(t.mesh, t.index, element, f);
+  if (u < 0 || std::ranges::find(piece.beyond, u) != piece.beyond.end()) return true;
+  const std::int32_t local = t.cut.around.patch.local_element(u);
+  if (local < 0) piece.beyond.push_back(u);
+  return local < 0 || std::ranges::find(piece.element, local) != piece.element.end();
+}
+
+// Whether an element of another shape has the node.
+static bool is_joined_node(const Tissue& t, std::int32_t i) {
+  return std::ranges::any_of(
+      t.index.star(i), [&](std::int32_t e) { return t.mesh.element_type[e] != ElementType::tet4; });
+}
+
+// Adds what hangs together with the piece outside the patch; false if that is not small, or the
+// piece hangs together with more of the patch, or with other shapes, there.
+static bool follow_beyond(const Tissue& t, SmallPiece& piece) {
+  const CutPatch& patch = t.cut.around.patch;
+  const auto is_rim = [&](std::int32_t i) { return !patch.is_whole(i); };
+  for (const std::int32_t e : piece.element)
+    for (int f = 0; f < 4; ++f)
+      if (patch.across[e][f] < 0 && std::ranges::all_of(facet_nodes(patch, e, f), is_rim))
+        add_beyond(t, patch.element[e], f, piece);
+  for (std::size_t k = 0; k < piece.beyond.size(); ++k) {
+    const std::int32_t u = piece.beyond[k];
+    const std::span<const std::int32_t> c = t.mesh.corners(u);
+    const auto is_joined_here = [&](std::int32_t i) { return is_joined_node(t, i); };
+    if (!add_volume(t, t.mesh.X, {c[0], c[1], c[2], c[3]}, piece) ||
+        std::ranges::any_of(c, is_joined_here))
+      return false;
+    for (int f = 0; f < 4; ++f)
+      if (!add_beyond(t, u, f, piece)) return false;
   }
-  return chips;
+  std::ranges::sort(piece.beyond);
+  return true;
+}
+
+// Whether the piece is small, and nothing holds it; adds its volume and what lies outside the
+// patch.
+static bool is_small(const Tissue& t, SmallPiece& piece) {
+  const CutPatch& patch = t.cut.around.patch;
+  for (const std::int32_t e : piece.element) {
+    const auto is_held = [&](std::int32_t i) { return patch.is_locked[i] != 0; };
+    if (!add_volume(t, patch.X, patch.corner[e], piece) ||
+        std::ranges::any_of(patch.corner[e], is_held))
+      return false;
+  }
+  return follow_beyond(t, piece);
+}
+
+// The pieces below the flakes' volume that the opening would free, the smallest first.
+static std::vector<SmallPiece> small_pieces(const Tissue& t) {
+  std::vector<SmallPiece> pieces;
+  std::vector<std::uint8_t> is_seen(t.cut.around.patch.element.size(), 0);
+  for (const auto& [first, f] : t.cut.opening.facet) {
+    if (is_seen[first] != 0) continue;
+    SmallPiece p;
+    p.element = piece_of(t.cut, first, is_seen);
+    if (is_small(t, p)) pieces.push_back(std::move(p));
+  }
+  std::ranges::stable_sort(pieces, {}, &SmallPiece::V);
+  return pieces;
+}
+
+// Sides of this advance, by global element.
+static std::vector<OfElement<std::int8_t>> given_sides(const TetCut& cut) {
+  std::vector<OfElement<std::int8_t>> side;
+  for (std::int32_t e = 0; e < cut.around.patch.n_elements(); ++e)
+    if (cut.labels.side[e] != 0) side.push_back({cut.around.patch.element[e], cut.labels.side[e]});
+  for (const CutChip& chip : cut.chips) merge_elements(side, chip.beyond);
+  return side;
+}
+
+static bool is_chip(const Tissue& t, const SmallPiece& piece) {
+  if (piece.V < chip_volume) return true;
+  std::vector<std::int32_t> element = piece.beyond;
+  for (const std::int32_t e : piece.element) element.push_back(t.cut.around.patch.element[e]);
+  std::ranges::sort(element);
+  return is_flake(t.mesh, t.index, t.stroke, element, t.cut.labels.side[piece.element.front()],
+                  given_sides(t.cut));
+}
+
+bool attach_chip(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke, TetCut& cut) {
+  if (cut.opening.duplication.duplicate_parent.empty()) return false;
+  const Tissue tissue{mesh, index, stroke, cut};
+  for (SmallPiece& piece : small_pieces(tissue)) {
+    if (!is_chip(tissue, piece)) continue;
+    for (const std::int32_t e : piece.element)
+      cut.labels.side[e] = static_cast<std::int8_t>(-cut.labels.side[e]);
+    CutChip chip{centre_of(cut.around.patch, piece.element), std::move(piece.element), {}};
+    for (const std::int32_t e : piece.beyond)
+      chip.beyond.push_back({e, cut.labels.side[chip.element.front()]});
+    cut.chips.push_back(std::move(chip));
+    return true;
+  }
+  return false;
 }
 
 }  // namespace trocar

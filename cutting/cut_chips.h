@@ -6,14 +6,17 @@
 
 namespace trocar {
 
+struct TetCut;
+
 struct CutChip {
-  Vec3 centre = Vec3::Zero();         // reference configuration [m]
+  Vec3 centre = Vec3::Zero();         // of its part in the patch, reference configuration [m]
   std::vector<std::int32_t> element;  // local
+  std::vector<OfElement<std::int8_t>> beyond;  // the rest outside the patch, with its new side
 };
 
-// Gives the elements of pieces below half a mean edge cubed, which `opening` would free, the other
-// side; returns the pieces.
-std::vector<CutChip> attach_chips(const CutSurroundings& around, const CutOpening& opening,
-                                  CutLabels& labels);
+// Gives the smallest piece that the opening should not free the other side: a chip, below half a
+// mean edge cubed, or a flake (cut_flake.h). Adds it to cut.chips; false if there is none. The
+// facets are to be opened again then: what it joins may be one, too.
+bool attach_chip(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke, TetCut& cut);
 
 }  // namespace trocar

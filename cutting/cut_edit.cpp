@@ -146,6 +146,7 @@ static void remember_sides(const TetCut& cut, CutStroke& stroke) {
       stroke.unfinished.push_back(patch.element[e]);
   }
   merge_elements(stroke.side, side);
+  for (const CutChip& chip : cut.chips) merge_elements(stroke.side, chip.beyond);
 }
 
 static void remember_nodes(const TetCut& cut, std::int32_t n_nodes, CutStroke& stroke) {

@@ -17,6 +17,9 @@
 
 namespace trocar {
 
+// Of one advance: pieces that are turned back and forth must end.
+static constexpr std::size_t most_chips = 50;
+
 struct TetCutter::Front {
   CutTetOptions options;
   CutStroke stroke;
@@ -106,8 +109,8 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, std::span<const Vec3> x,
   std::vector<std::uint8_t> stays_whole(cut.around.patch.node.size(), 0);
   if (!is_last) stays_whole = unripe_nodes(cut.around, cut.labels);
   cut.opening = open_facets(cut.around, cut.labels, stays_whole);
-  cut.chips = attach_chips(cut.around, cut.opening, cut.labels);
-  if (!cut.chips.empty()) cut.opening = open_facets(cut.around, cut.labels, stays_whole);
+  while (cut.chips.size() < most_chips && attach_chip(mesh, index, stroke, cut))
+    cut.opening = open_facets(cut.around, cut.labels, stays_whole);
   set_roles(cut, stroke, is_last);
   cut.X = moved_nodes(cut, options, move_limits(cut.around, stroke, options.least_step_ratio));
   cut.rungs.n_inverted = count_inverted(cut.around.patch, cut.X);

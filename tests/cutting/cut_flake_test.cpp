@@ -1,0 +1,126 @@
+// Pieces at the end of a neck that stays with the other side.
+#include "cutting/cut_flake.h"
+
+#include <gtest/gtest.h>
+
+#include "cutting_tet.h"
+
+namespace trocar {
+namespace {
+
+using namespace cutting_test;
+
+constexpr double height = 0.4;
+constexpr int n_cells = 5, neck = 2;
+
+// Adds cells `from` to `to` of a bar.
+void add_cells(int from, int to, Mesh& mesh) {
+  const Mesh part =
+      make_box({double(from), 0, 0}, {double(to), 1, 1}, {to - from, 1, 1}, BoxElements::tet4_kuhn);
+  const std::int32_t first = mesh.n_nodes();
+  mesh.X.insert(mesh.X.end(), part.X.begin(), part.X.end());
+  for (std::int32_t e = 0; e < part.n_elements(); ++e) {
+    std::vector<std::int32_t> node(part.corners(e).begin(), part.corners(e).end());
+    for (std::int32_t& i : node) i += first;
+    add_element(mesh, ElementType::tet4, node);
+  }
+}
+
+int cell_of(const Mesh& mesh, std::int32_t e) {
+  double x = 0;
+  for (const std::int32_t i : mesh.corners(e)) x += mesh.X[i].x() / 4;
+  return int(x);
+}
+
+// A row of cells that a blade has gone through at `height`: all are on the + side but for the cell
+// of the neck.
+struct Bar {
+  Mesh mesh;
+  CutStroke stroke;
+  std::vector<std::int32_t> piece;  // before the neck
+
+  // Marks the edges that a surface crosses.
+  void cross(const std::function<double(const Vec3&)>& phi) {
+    for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+      for (std::int32_t k = 0; k < 6; ++k) {
+        const double a = phi(mesh.X[mesh.corners(e)[tet_edges[k][0]]]),
+                     b = phi(mesh.X[mesh.corners(e)[tet_edges[k][1]]]);
+        if (a * b < 0) stroke.hit.push_back({e, k, a > 0});
+      }
+    std::ranges::sort(stroke.hit, {}, &CutHit::key);
+  }
+  bool has_flake() const { return is_flake(mesh, index_of(mesh), stroke, piece, 1, stroke.side); }
+};
+
+Bar make_bar(Mesh mesh) {
+  Bar bar{std::move(mesh), {}, {}};
+  for (std::int32_t e = 0; e < bar.mesh.n_elements(); ++e) {
+    const int cell = cell_of(bar.mesh, e);
+    bar.stroke.side.push_back({e, static_cast<std::int8_t>(cell == neck ? -1 : 1)});
+    if (cell < neck) bar.piece.push_back(e);
+  }
+  bar.cross([](const Vec3& X) { return X.z() - height; });
+  return bar;
+}
+
+Mesh whole_bar() {
+  Mesh mesh;
+  mesh.region_name = {""};
+  add_cells(0, n_cells, mesh);
+  return mesh;
+}
+
+TEST(IsFlake, a_piece_that_the_blade_left_joined_across_a_neck) {
+  EXPECT_TRUE(make_bar(whole_bar()).has_flake());
+}
+
+TEST(IsFlake, no_piece_that_the_blade_parted_from_the_rest) {
+  Bar bar = make_bar(whole_bar());
+  bar.cross([](const Vec3& X) { return neck + 0.5 - X.x(); });
+  EXPECT_FALSE(bar.has_flake());
+}
+
+TEST(IsFlake, no_piece_beside_which_none_has_its_side) {
+  Bar bar = make_bar(whole_bar());
+  for (OfElement<std::int8_t>& s : bar.stroke.side)
+    if (cell_of(bar.mesh, s.element) > neck) s.value = -1;
+  EXPECT_FALSE(bar.has_flake());
+}
+
+// The piece and the neck have nodes of their own where they meet.
+TEST(IsFlake, across_facets_that_this_stroke_opened_but_no_older_one) {
+  Mesh mesh;
+  mesh.region_name = {""};
+  add_cells(0, neck, mesh);
+  add_cells(neck, n_cells, mesh);
+  Bar bar = make_bar(std::move(mesh));
+  EXPECT_FALSE(bar.has_flake());
+  for (std::int32_t e = 0; e < bar.mesh.n_elements(); ++e)
+    for (int f = 0; f < 4; ++f)
+      if (std::ranges::all_of(tet_facets[std::size_t(f)], [&](int c) {
+            return bar.mesh.X[bar.mesh.corners(e)[std::size_t(c)]].x() == neck;
+          }))
+        bar.stroke.opened.push_back({e, static_cast<std::uint8_t>(1 << f)});
+  EXPECT_TRUE(bar.has_flake());
+}
+
+// A block whose top sinks in the middle to `depth` above the blade: one end came off apart from the
+// other although the blade left them joined.
+int pieces_of_sunk_block(double depth) {
+  Mesh mesh = make_box({0, 0, 0}, {5, 2, 2}, {5, 2, 2}, BoxElements::tet4_kuhn);
+  for (Vec3& X : mesh.X)
+    if (X.z() == 2) X.z() = 1.2 + (X.x() < 2 || X.x() > 3 ? 1 : depth);
+  Body body(std::move(mesh));
+  const Blade blade = straight_blade({-1, -1, 1.2}, {-1, 3, 1.2}, {7, 0, 0});
+  cut(body, blade, Vec3::UnitZ(), 12);
+  EXPECT_EQ(fault(body), "");
+  return n_pieces(body.mesh);
+}
+
+TEST(Flakes, stay_with_the_other_side_but_not_what_the_blade_parted) {
+  EXPECT_EQ(pieces_of_sunk_block(0.1), 2);
+  EXPECT_EQ(pieces_of_sunk_block(-0.1), 3);
+}
+
+}  // namespace
+}  // namespace trocar
