@@ -7,8 +7,8 @@
 
 namespace trocar {
 
-// Takes in what has no cluster around node `middle`. (Two edges instead of one: a third of the
-// clusters, but twice the margin around them, and five times as long to make.)
+// Takes in what has no cluster around node `middle`. (Two edges instead of one spare the cut of a
+// million tetrahedra 0.3 ms more, and cost 20 ms of set-up.)
 static void add_cluster(const Mesh& mesh, const CutIndex& index, std::int32_t middle,
                         NodeClusters& clusters) {
   const auto c = static_cast<std::int32_t>(clusters.middle.size());
