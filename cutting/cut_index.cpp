@@ -40,12 +40,6 @@ static std::uint64_t facet_key(std::span<const std::int32_t> corner, const std::
   return key;
 }
 
-static void add_surface_node(std::int32_t i, CutIndex& index) {
-  if (index.is_surface[i] != 0) return;
-  index.is_surface[i] = 1;
-  index.surface_node.push_back(i);
-}
-
 // At an inner node every facet comes twice, so that the keys of the facets around it cancel. (Ten
 // times as fast as pairing the facets; keys that cancel by chance: 2^-64 a node.)
 static void find_surface_nodes(const Mesh& mesh, CutIndex& index) {
@@ -59,10 +53,8 @@ static void find_surface_nodes(const Mesh& mesh, CutIndex& index) {
         if (c >= 0) sum[corner[static_cast<std::size_t>(c)]] ^= key;
     }
   }
-  index.surface_node.clear();
   index.is_surface.assign(mesh.X.size(), 0);
-  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
-    if (sum[i] != 0) add_surface_node(i, index);
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) index.is_surface[i] = sum[i] != 0 ? 1 : 0;
 }
 
 // For what copies add, so that no cut moves whole vectors.
@@ -80,6 +72,7 @@ void update_index(const Mesh& mesh, CutIndex& index) {
     index.star_size[i] = around.offset[i + 1] - around.offset[i];
   index.star_element = std::move(around.element);
   find_surface_nodes(mesh, index);
+  index.clusters = make_clusters(mesh, index);
   index.longest_edge = longest_edge(mesh);
   index.ring.assign(mesh.X.size(), no_ring);
   index.local.assign(mesh.X.size(), -1);
@@ -87,7 +80,8 @@ void update_index(const Mesh& mesh, CutIndex& index) {
   index.local_element.assign(mesh.element_type.size(), -1);
   index.corner_node = mesh.corner_node.data();
   index.n_elements = mesh.element_type.size();
-  for (auto* values : {&index.star_begin, &index.star_size, &index.local, &index.star_element})
+  for (auto* values : {&index.star_begin, &index.star_size, &index.local, &index.star_element,
+                       &index.clusters.of_node})
     leave_room(*values);
   for (auto* values : {&index.ring, &index.is_surface}) leave_room(*values);
 }
@@ -119,6 +113,12 @@ static std::int32_t edited_corner(const Mesh& mesh, const MeshEdit& edit, std::i
   return is_changed ? at->node : mesh.corners(e)[static_cast<std::size_t>(c)];
 }
 
+// A cluster may have no surface of its own.
+static void add_surface_node(std::int32_t i, CutIndex& index) {
+  if (index.is_surface[i] == 0) dissolve_cluster_of(i, index.clusters);
+  index.is_surface[i] = 1;
+}
+
 static void add_opened_facets(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {
   for (const CutFacets& opened : edit.cut_facets)
     for (int f = 0; f < n_facets(mesh.element_type[opened.element]); ++f) {
@@ -139,10 +139,14 @@ void edit_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {
   index.ring.resize(n_nodes, no_ring);
   index.local.resize(n_nodes, -1);
   index.is_surface.resize(n_nodes, 0);
+  add_loose_nodes(n_nodes, index.clusters);
+  for (const NodeMove& move : edit.moves) dissolve_cluster_of(move.node, index.clusters);
   add_opened_facets(mesh, edit, index);
   for (const CornerChange& c : change) {
+    const std::int32_t before = mesh.corners(c.element)[static_cast<std::size_t>(c.corner)];
+    dissolve_cluster_of(before, index.clusters);
     forget_across(index, c.element);
-    remove_from_star(index, mesh.corners(c.element)[static_cast<std::size_t>(c.corner)], c.element);
+    remove_from_star(index, before, c.element);
     if (index.star_size[c.node]++ == 0)
       index.star_begin[c.node] = static_cast<std::int32_t>(index.star_element.size());
     index.star_element.push_back(c.element);

@@ -73,10 +73,12 @@ namespace {
 
 // The box widened by 1.75 of the longest edge: a triangle that meets the box has a corner within
 // 0.58 of its longest edge of it, and edges may be stretched to three times their length.
+static constexpr double most_stretch = 3, margin_edges = 1.75;
+
 class WideBox {
  public:
   WideBox(const BandBox& box, double longest_edge) : box_(box) {
-    const Vec3 margin = Vec3::Constant(1.75 * longest_edge);
+    const Vec3 margin = Vec3::Constant(margin_edges * longest_edge);
     box_.low -= margin;
     box_.high += margin;
     const Vec3 middle = box_.axes * (0.5 * (box_.low + box_.high));
@@ -84,12 +86,12 @@ class WideBox {
     low_ = middle - reach;
     high_ = middle + reach;
   }
-  // The same box along the axes of space rejects most nodes cheaply, without branches: they are
-  // far away in no pattern.
-  bool holds(const Vec3& p) const {
-    const bool is_in_box = (p[0] >= low_[0]) & (p[0] <= high_[0]) & (p[1] >= low_[1]) &
-                           (p[1] <= high_[1]) & (p[2] >= low_[2]) & (p[2] <= high_[2]);
-    return is_in_box && outside(box_, p) == 0;
+  bool holds(const Vec3& p) const { return may_hold(p, 0) && outside(box_, p) == 0; }
+  // Points within `reach` of p, by the same box along the axes of space: cheap, and without
+  // branches, for most points are far away in no pattern.
+  bool may_hold(const Vec3& p, double reach) const {
+    return (p[0] >= low_[0] - reach) & (p[0] <= high_[0] + reach) & (p[1] >= low_[1] - reach) &
+           (p[1] <= high_[1] + reach) & (p[2] >= low_[2] - reach) & (p[2] <= high_[2] + reach);
   }
 
  private:
@@ -99,21 +101,34 @@ class WideBox {
 
 }  // namespace
 
+// Puts the nodes in the wide box into the queue: of the first clusters, and loose ones.
+template <class Wanted>
+static void search_box(Search& search, std::size_t n_clusters, const Wanted& is_wanted) {
+  const NodeClusters& clusters = search.index.clusters;
+  const WideBox wide(search.box, search.index.longest_edge);
+  const auto look_at = [&](std::int32_t i) {
+    if (is_wanted(i) && wide.holds(search.x[i])) put_in_queue(search, i);
+  };
+  for (std::size_t c = 0; c < n_clusters; ++c) {
+    const std::int32_t middle = clusters.middle[c];
+    if (middle < 0 || !wide.may_hold(search.x[middle], most_stretch * clusters.reach[c])) continue;
+    std::ranges::for_each(clusters.nodes(c), look_at);
+  }
+  std::ranges::for_each(clusters.loose, look_at);
+}
+
 std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
                                         const BandBox& box) {
-  const WideBox wide(box, index.longest_edge);
   Search search{mesh, index, x, box, {}, {}, {}};
-  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
-    if (wide.holds(x[i])) put_in_queue(search, i);
+  search_box(search, index.clusters.middle.size(), [](std::int32_t) { return true; });
   return run(search);
 }
 
 std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
                                         const BandBox& box, std::span<const std::int32_t> begin) {
-  const WideBox wide(box, index.longest_edge);
   Search search{mesh, index, x, box, {}, {}, {}};
-  for (const std::int32_t i : index.surface_node)
-    if (wide.holds(x[i])) put_in_queue(search, i);
+  search_box(search, index.clusters.n_with_surface,
+             [&](std::int32_t i) { return index.is_surface[i] != 0; });
   for (const std::int32_t e : begin)
     for (const std::int32_t i : mesh.corners(e)) put_in_queue(search, i);
   return run(search);

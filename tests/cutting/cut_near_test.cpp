@@ -88,6 +88,67 @@ TEST(NearElements, are_found_from_the_surface_or_the_begin_wherever_a_band_lies)
   EXPECT_TRUE(std::ranges::all_of(index.ring, [](int r) { return r == no_ring; }));
 }
 
+bool is_inside(const BandBox& box, const Vec3& p, double margin) {
+  const Vec3 q = box.axes.transpose() * p;
+  return ((q - box.low).array() >= -margin).all() && ((q - box.high).array() <= margin).all();
+}
+// No side of the box has all corners beyond it.
+bool may_meet(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x, const BandBox& box) {
+  Vec3 low = Vec3::Constant(1e300), high = -low;
+  for (const std::int32_t i : mesh.corners(e)) {
+    const Vec3 q = box.axes.transpose() * x[i];
+    low = low.cwiseMin(q);
+    high = high.cwiseMax(q);
+  }
+  return (high.array() >= box.low.array()).all() && (low.array() <= box.high.array()).all();
+}
+
+// Clusters of nodes leave out none, however the body lies and whatever was cut.
+TEST(NearElements, of_a_cut_and_stretched_body_are_those_that_a_look_at_all_nodes_finds) {
+  Body body(two_blocks());
+  CutIndex index = index_of(body.mesh);
+  TetCutter cutter{CutTetOptions{}};
+  Ledger ledger;
+  const Vec3 normal = Vec3(1, 0.3, 0.2).normalized();
+  const Blade blade = plane_blade({0.5, 0.5, 0.5}, normal, 1);
+  for (int k = 0; k < 20; ++k) {
+    const Mesh before = body.mesh;
+    const BladeSweep sweep{blade(k / 20.0), blade((k + 1) / 20.0), normal};
+    edit_index(before, advance(cutter, body, sweep, k == 19, ledger), index);
+  }
+  ASSERT_GT(ledger.n_edits, 3);
+  CutIndex fresh = index_of(body.mesh);
+  fresh.longest_edge = index.longest_edge;           // that of before the cut
+  for (std::size_t i = 0; i < body.x.size(); ++i) {  // the halves and the other block far apart
+    const double far = normal.dot(body.mesh.X[i] - Vec3(0.5, 0.5, 0.5)) > 0 ? 0.8 : 0;
+    body.x[i] = Vec3(2.2 * body.mesh.X[i].x() + far, 0.7 * body.mesh.X[i].y(), body.mesh.X[i].z());
+  }
+  std::mt19937 random(2);
+  std::size_t n_found = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    BandBox box = random_box(random);
+    box.low += box.axes.transpose() * Vec3(random() % 5, 0, 0);
+    box.high = box.high.cwiseMax(box.low + Vec3::Constant(0.05));
+    const auto all = near_elements(body.mesh, index, body.x, box);
+    const auto found = near_elements(body.mesh, index, body.x, box, {});
+    EXPECT_EQ(all, near_elements(body.mesh, fresh, body.x, box)) << trial;
+    EXPECT_EQ(found, near_elements(body.mesh, fresh, body.x, box, {})) << trial;
+    n_found += found.size();
+    for (std::int32_t e = 0; e < body.mesh.n_elements(); ++e) {
+      bool is_near = false, is_at_surface = false;
+      for (const std::int32_t i : body.mesh.corners(e)) {
+        const bool is_in_box = is_inside(box, body.x[i], 1.75 * index.longest_edge);
+        is_near |= is_in_box;
+        is_at_surface |= is_in_box && fresh.is_surface[i] != 0;
+      }
+      if (!may_meet(body.mesh, e, body.x, box)) continue;
+      EXPECT_TRUE(!is_near || std::ranges::binary_search(all, e)) << trial << " " << e;
+      EXPECT_TRUE(!is_at_surface || std::ranges::binary_search(found, e)) << trial << " " << e;
+    }
+  }
+  EXPECT_GT(n_found, 500U);
+}
+
 TEST(NearElements, deep_in_the_body_are_found_from_the_begin_only) {
   const Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {16, 16, 16}, BoxElements::tet4_kuhn);
   CutIndex index = index_of(mesh);
