@@ -56,8 +56,10 @@ void report(int n, const std::string& stable_step, bool is_at_rest) {
     n_steps = s->log.rows.back().n_substeps;
     const double dt = s->log.rows.back().dt;
     const State kept = s->state;
+    const Scratch kept_scratch = s->scratch;
     steps = std::min(steps, seconds_of([&] { run_steps(*s, n_steps, dt); }));
     s->state = kept;
+    s->scratch = kept_scratch;
   }
   std::printf(
       "%s\n  {\"stable_step\": \"%s\", \"state\": \"%s\", \"elements\": %d, \"steps\": %lld, "

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "engine/frame_report.h"
+#include "solver/element_watch.h"
 #include "solver/frequency.h"
 #include "solver/step.h"
 
@@ -76,8 +77,8 @@ bool may_look_different(const Simulation& s) {
   const ElementLook& look = s.look;
   const double reach = look.reach * std::min(1.0, s.watch.least_J);
   int has_moved = look.is_done && look.stiffening ? 0 : 1;
-  for (std::size_t k = 0; k < look.u.size(); ++k)
-    has_moved |= std::abs(s.state.u[k] - look.u[k]) > reach ? 1 : 0;
+  for (std::size_t k = 0; k < look.u.size() && has_moved == 0; ++k)
+    has_moved = std::abs(s.state.u[k] - look.u[k]) > reach ? 1 : 0;
   return s.communicator->all_max(has_moved) > 0;
 }
 
@@ -114,9 +115,31 @@ double step_by_frequency(Simulation& s, std::vector<double> stiffening) {
   return step;
 }
 
+// Whether those of a frame's end are those of the next one's first step: sleeping elements have
+// none, and histories keep their time.
+bool keeps_forces(const Simulation& s) {
+  return !s.sleep && std::ranges::all_of(s.materials, [](const Material& material) {
+    return material.prony.empty();
+  });
+}
+
+Watch look_at_elements(Simulation& s, std::vector<double>& stiffening) {
+  if (!keeps_forces(s)) {
+    update_volume_change(s.model, s.neighbours, s.state, s.scratch);
+    return watch(s.model, s.part, s.state, stiffening);
+  }
+  const ForceScope scope(s);
+  ElementWatch elements(s.part, stiffening);
+  find_force(s.model, s.neighbours, s.state, s.scratch, &elements);
+  s.scratch.has_force = true;
+  return elements.result();
+}
+
 void watch_elements(Simulation& s) {
   std::vector<double> stiffening(s.part.element_global.size());
-  take_least(s, watch(s.model, s.part, s.state, stiffening));
+  const Watch w = look_at_elements(s, stiffening);
+  const PhaseScope scope(s.timers, phase_watch);
+  take_least(s, w);
   if (s.scene.solver.stable_step == StableStep::frequency && s.watch.least_J > 0)
     s.watch.stable_step =
         std::max(s.watch.stable_step, step_by_frequency(s, std::move(stiffening)));
@@ -124,18 +147,45 @@ void watch_elements(Simulation& s) {
     note_look(s, 0, std::move(stiffening));
 }
 
+// Whether there is something to see.
+bool watch_motion(Simulation& s) {
+  const PhaseScope scope(s.timers, phase_watch);
+  finish_exchange(s.neighbours, s.state);
+  if (!watch_nodes(s)) return false;  // steps and J of a broken state mean nothing
+  const bool is_new = may_look_different(s);
+  if (!is_new && s.energy) update_volume_change(s.model, s.neighbours, s.state, s.scratch);
+  return is_new;
+}
+
+double waited_for_neighbours(const Simulation& s) {
+  return s.neighbours.waited + (s.multirate ? s.multirate->neighbours.waited : 0);
+}
+
 }  // namespace
+
+ForceScope::ForceScope(Simulation& s)
+    : s_(s), start_(monotonic_seconds()), waited_(waited_for_neighbours(s)) {}
+
+ForceScope::~ForceScope() {
+  const double waited = waited_for_neighbours(s_) - waited_;
+  s_.timers.add(phase_exchange, waited);
+  s_.timers.add(phase_force, monotonic_seconds() - start_ - waited);
+}
 
 double search_step(RankBody& body, double amplitude, const Communicator& communicator,
                    double enough) {
   State probe = body.state;
+  std::vector<double> here = body.scratch.force;
   const auto forces = [&](std::vector<double>& u, std::vector<double>& force) {
     force_of(body, probe, u, force);
   };
-  const FrequencyOptions options{.amplitude = amplitude,
-                                 .of_interest = 2 / (frequency_margin * enough)};
+  const FrequencyOptions options{
+      .amplitude = amplitude,
+      .of_interest = 2 / (frequency_margin * enough),
+      .force = body.scratch.has_force ? std::span<const double>(here) : std::span<const double>()};
   const HighestFrequency found =
       find_highest_frequency(body.model, body.part, body.state, forces, options, communicator);
+  body.scratch.force = std::move(here);
   return found.is_converged ? 2 / (frequency_margin * found.omega) : 0;
 }
 
@@ -170,12 +220,7 @@ double largest_speed(const Simulation& s) {
 }
 
 void watch_state(Simulation& s) {
-  const PhaseScope scope(s.timers, phase_watch);
-  finish_exchange(s.neighbours, s.state);
-  if (!watch_nodes(s)) return;  // steps and J of a broken state mean nothing
-  const bool is_new = may_look_different(s);
-  if (is_new || s.energy) update_volume_change(s.model, s.neighbours, s.state, s.scratch);
-  if (is_new) watch_elements(s);
+  if (watch_motion(s)) watch_elements(s);
 }
 
 std::string find_trouble(const Simulation& s) {

@@ -117,7 +117,8 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
            .communicator = communicator,
            .n = 3 * static_cast<std::int64_t>(communicator.all_sum(n_owned)),
            .u = state.u};
-  forces(s.u, s.force_at_rest);
+  s.force_at_rest.assign(options.force.begin(), options.force.end());
+  if (s.force_at_rest.empty()) forces(s.u, s.force_at_rest);
   Vector x = noise(s), last(s.size(), 0.0), next, Mx;
   Vector diagonal, beside;  // of the tridiagonal matrix
   HighestFrequency found;

@@ -58,6 +58,7 @@ struct MaterialNeoHookean : Decoupled<MaterialNeoHookean> {
     Pack result;
     bound_tangent(d, x, terms_of_I1bar(x, Pack(0.5 * mu), zero_of(mu)), value(value_K_V), mu,
                   result);
+    if (is_above_floor(d)) return result;
     const FloorBound<Pack> b = floor_bound(d, x);
     replace_below_floor(d, b, Pack(0.5 * mu * variation_of_I1bar(b).curvature),
                         {value(value_K_V), mu}, result);

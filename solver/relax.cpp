@@ -159,6 +159,7 @@ void find_relaxed_force(const Model& model, Neighbours& neighbours, State& state
                         Scratch& scratch) {
   start_exchange(neighbours, state);
   state.history_time = -std::numeric_limits<double>::infinity();  // all overstress has gone
+  scratch.has_force = false;
   find_force(model, neighbours, state, scratch);
 }
 
