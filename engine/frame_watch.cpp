@@ -94,23 +94,23 @@ void note_look(Simulation& s, double step, std::vector<double> stiffening) {
   s.look.stiffening = std::move(stiffening);
 }
 
-// By how much omega^2 of the most stiffened element has grown since the last look.
-double largest_growth(Simulation& s, const std::vector<double>& stiffening) {
-  if (!s.look.stiffening) find_stiffening_at_look(s);
-  double most = 1;
-  for (std::size_t k = 0; k < stiffening.size(); ++k)
-    most = std::max(most, stiffening[k] / (*s.look.stiffening)[k]);
-  return s.communicator->all_max(most);
+// Whether the step follows from the last search.
+bool follows_search(const Simulation& s) {
+  return s.scene.solver.stable_step == StableStep::frequency && s.look.is_done &&
+         s.state.step - s.look.at_step < most_steps_of_search;
 }
 
-// The step of the last search, less by what any element has stiffened since; a new search where
-// that is much, or where the last one was long ago and the tissue may have softened again.
-double step_by_frequency(Simulation& s, std::vector<double> stiffening) {
-  if (s.look.is_done && s.state.step - s.look.at_step < most_steps_of_search) {
-    const double growth = largest_growth(s, stiffening);
+// The step of the last search, less by what any element has stiffened since (`growth`, at most of
+// this rank); a new search where that is much, or where the last one was long ago and the tissue
+// may have softened again.
+double step_by_frequency(Simulation& s, double growth) {
+  if (follows_search(s)) {
+    growth = s.communicator->all_max(growth);
     if (growth <= most_growth) return s.look.step / std::sqrt(growth);
   }
   const double step = step_of_frequency(s);
+  std::vector<double> stiffening(s.part.element_global.size());
+  watch(s.model, s.part, s.state, stiffening);
   note_look(s, step, std::move(stiffening));
   return step;
 }
@@ -123,28 +123,39 @@ bool keeps_forces(const Simulation& s) {
   });
 }
 
-Watch look_at_elements(Simulation& s, std::vector<double>& stiffening) {
-  if (!keeps_forces(s)) {
-    update_volume_change(s.model, s.neighbours, s.state, s.scratch);
-    return watch(s.model, s.part, s.state, stiffening);
-  }
+void find_watched_force(Simulation& s, ElementWatch& elements) {
   const ForceScope scope(s);
-  ElementWatch elements(s.part, stiffening);
+  for (const std::int32_t e : s.look.decisive)
+    if (e >= 0) elements.begin_with(s.model, s.state, e);
   find_force(s.model, s.neighbours, s.state, s.scratch, &elements);
   s.scratch.has_force = true;
-  return elements.result();
+}
+
+// Returns the elements' largest growth since the last search, if the step follows from it.
+double look_at_elements(Simulation& s) {
+  if (follows_search(s) && !s.look.stiffening) find_stiffening_at_look(s);
+  ElementWatch elements(
+      s.part, {.earlier = follows_search(s) ? std::span<const double>(*s.look.stiffening)
+                                            : std::span<const double>()});
+  if (keeps_forces(s)) {
+    find_watched_force(s, elements);
+  } else {
+    update_volume_change(s.model, s.neighbours, s.state, s.scratch);
+    watch_elements(s.model, s.state, elements);
+  }
+  const PhaseScope scope(s.timers, phase_watch);
+  take_least(s, elements.result());
+  s.look.decisive = {elements.found().step.number, elements.found().stiffest};
+  return elements.found().growth;
 }
 
 void watch_elements(Simulation& s) {
-  std::vector<double> stiffening(s.part.element_global.size());
-  const Watch w = look_at_elements(s, stiffening);
+  const double growth = look_at_elements(s);
   const PhaseScope scope(s.timers, phase_watch);
-  take_least(s, w);
   if (s.scene.solver.stable_step == StableStep::frequency && s.watch.least_J > 0)
-    s.watch.stable_step =
-        std::max(s.watch.stable_step, step_by_frequency(s, std::move(stiffening)));
+    s.watch.stable_step = std::max(s.watch.stable_step, step_by_frequency(s, growth));
   else
-    note_look(s, 0, std::move(stiffening));
+    note_look(s, 0, {});
 }
 
 // Whether there is something to see.

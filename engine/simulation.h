@@ -2,6 +2,7 @@
 // frame.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -75,6 +76,9 @@ struct ElementLook {
   // (n local elements) growth of their omega^2 there; none until it is needed, and the elements are
   // looked at in any case.
   std::optional<std::vector<double>> stiffening;
+  // Global numbers of this rank's elements that set the step and the growth at the last look; -1:
+  // not known.
+  std::array<std::int32_t, 2> decisive = {-1, -1};
   double reach = 0;  // of a node that strains its elements by less than unseen_strain [m]
 };
 

@@ -27,28 +27,50 @@ struct Least {
 
 struct LeastOfElements {
   Least step, J;
+  // Largest growth of a bound of omega^2 since an earlier look, at least 1, and of which element.
+  double growth = 1;
+  std::int32_t stiffest = -1;
 };
 
-// The order in which elements come does not matter.
+// What one wants to know of elements.
+struct WatchWishes {
+  // (n local elements) As in watch; unless empty, all are computed exactly.
+  std::span<double> stiffening = {};
+  // (n local elements) What `stiffening` was at an earlier look; empty: never mind.
+  std::span<const double> earlier = {};
+};
+
+// The order in which elements come does not matter: elements that cannot set any of the least
+// values are told from these with less work.
 class ElementWatch {
  public:
-  // `stiffening` as in watch; both must live on.
-  ElementWatch(const Part& part, std::span<double> stiffening)
-      : part_(part), stiffening_(stiffening) {}
+  // `part` and what the wishes point to must live on.
+  ElementWatch(const Part& part, const WatchWishes& wishes) : part_(part), wishes_(wishes) {}
 
+  // Global number of an element that is likely to set a least value, so that the others need not be
+  // computed. Before all others.
+  void begin_with(const Model& model, const State& state, std::int32_t element);
+  // Where each thread starts.
+  const LeastOfElements& first() const { return first_; }
   // The blocks of the task, from `first` of the list on, into the thread's own `least`.
   void look(const Model& model, const ElementBlocks& blocks, const BlockKernels& kernels,
             const BlockTask& task, std::int64_t first, LeastOfElements& least) const;
   // What a thread has found. From any thread.
   void take(const LeastOfElements& least);
+  const LeastOfElements& found() const { return found_; }
   // Of all but the nodes, which it calls finite.
   Watch result() const;
 
  private:
+  void find_enough(const Model& model, std::span<const std::int32_t> element, double at_rest,
+                   const LeastOfElements& least, std::span<double> enough) const;
   const Part& part_;
-  std::span<double> stiffening_;
-  LeastOfElements least_;
+  WatchWishes wishes_;
+  LeastOfElements first_, found_;
   std::mutex mutex_;
 };
+
+// Shows it all elements, without forces.
+void watch_elements(const Model& model, const State& state, ElementWatch& elements);
 
 }  // namespace trocar

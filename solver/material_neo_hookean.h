@@ -5,6 +5,7 @@
 #include "solver/deformation.h"
 #include "solver/material_model.h"
 #include "solver/tangent_bound_below_floor.h"
+#include "solver/tangent_excess.h"
 
 namespace trocar {
 
@@ -63,6 +64,12 @@ struct MaterialNeoHookean : Decoupled<MaterialNeoHookean> {
     replace_below_floor(d, b, Pack(0.5 * mu * variation_of_I1bar(b).curvature),
                         {value(value_K_V), mu}, result);
     return result;
+  }
+
+  template <class Pack>
+  [[gnu::always_inline]] static Pack excess(const Tensor<Pack>& H, const BlockValues<Pack>& value,
+                                            const Pack& limit) {
+    return excess_of_I1bar(H, value(value_K_V), value(value_mu_V), limit);
   }
 };
 

@@ -63,7 +63,7 @@ void for_awake_blocks(const Scratch& scratch, std::int64_t begin, std::int64_t e
 // The blocks of one run, and the nodes that only they meet.
 void compute_run(const Model& model, std::int64_t run, State& state, Scratch& scratch,
                  ElementWatch* all) {
-  ThreadWatch watch{.all = all, .least = {}};
+  ThreadWatch watch{.all = all, .least = all != nullptr ? all->first() : LeastOfElements{}};
   const SumOrder& sums = model.sums;
   const std::int64_t end = sums.run_block[run + 1];
   std::int32_t k = sums.run_first[run];

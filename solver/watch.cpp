@@ -27,24 +27,29 @@ bool is_sane(const double* x, std::size_t n) {
 
 }  // namespace
 
-Watch watch(const Model& model, const Part& part, const State& state,
-            std::span<double> stiffening) {
-  CHECK_OP(part.n_local(), ==, model.n_local);
+void watch_elements(const Model& model, const State& state, ElementWatch& elements) {
   CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
-  ElementWatch all(part, stiffening);
   parallel_for(count_blocks(model), [&](std::int64_t begin, std::int64_t end) {
-    LeastOfElements least;
+    LeastOfElements least = elements.first();
     for_block_range(model, begin, end,
                     [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
                       for_strained_blocks(model, blocks, state, first, n,
                                           [&](const BlockKernels& kernels, const BlockTask& task,
                                               std::int64_t block) {
-                                            all.look(model, blocks, kernels, task, block, least);
+                                            elements.look(model, blocks, kernels, task, block,
+                                                          least);
                                           });
                     });
-    all.take(least);
+    elements.take(least);
   });
-  Watch w = all.result();
+}
+
+Watch watch(const Model& model, const Part& part, const State& state,
+            std::span<double> stiffening) {
+  CHECK_OP(part.n_local(), ==, model.n_local);
+  ElementWatch elements(part, {.stiffening = stiffening});
+  watch_elements(model, state, elements);
+  Watch w = elements.result();
   w.bad_node = first_bad_node(model, part, state);
   w.is_finite = w.bad_node < 0;
   return w;
