@@ -1,5 +1,7 @@
 #include "base/reproducible_dot.h"
 
+#include <emmintrin.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,10 +39,10 @@ void for_products(std::span<const double> a, std::span<const double> b, const Ta
 
 // Of the products' sizes; NaN if one is not finite.
 double largest_product(std::span<const double> a, std::span<const double> b) {
+  const Pair sign = {-0.0, -0.0};
   Lanes largest{}, poison{};
   for_products(a, b, [&](const Pair& product, std::size_t i) {
-    const Pair size = product < 0.0 ? -product : product;
-    largest[i] = largest[i] > size ? largest[i] : size;
+    largest[i] = _mm_max_pd(largest[i], _mm_andnot_pd(sign, product));
     poison[i] += product - product;
   });
   double most = 0, sum = 0;

@@ -25,6 +25,7 @@ struct Search {
   const Communicator& communicator;
   std::int64_t n = 0;         // components on all ranks
   std::vector<std::size_t> fixed;  // components that supports hold
+  Vector inertia;                  // of each component
   Vector force_at_rest, u, force, room;
 
   std::size_t size() const { return 3 * static_cast<std::size_t>(model.n_owned); }
@@ -48,6 +49,12 @@ std::vector<std::size_t> fixed_components(const Model& model) {
   return fixed;
 }
 
+Vector inertia_of_components(const Model& model) {
+  Vector inertia;
+  for (const double of_node : inertia_of(model)) inertia.insert(inertia.end(), 3, of_node);
+  return inertia;
+}
+
 double largest_of(const Vector& x) {
   double largest = 0;
   for (const double value : x) largest = std::max(largest, std::abs(value));
@@ -63,15 +70,12 @@ void apply_stiffness(Search& s, const Vector& x, Vector& Kx) {
   for (const std::size_t k : s.fixed) Kx[k] = 0;
 }
 
-// x = M^-1 f
-void divide_by_mass(Search& s, Vector& f) {
-  add_cluster_force(s.model, {}, f, s.room);
-  const std::vector<double>& inertia = inertia_of(s.model);
-  parallel_for_nodes(s.model.n_owned, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i)
-      for (std::int64_t k = 3 * i; k < 3 * i + 3; ++k) f[k] /= inertia[i];
-  });
-  for (const std::size_t k : s.fixed) f[k] = 0;
+// next = M^-1 next - (a x + b last)
+void take_away(Search& s, double a, const Vector& x, double b, const Vector& last, Vector& next) {
+  add_cluster_force(s.model, {}, next, s.room);
+  s.for_components(
+      [&](std::size_t k) { next[k] = next[k] / s.inertia[k] - (a * x[k] + b * last[k]); });
+  for (const std::size_t k : s.fixed) next[k] = 0;
 }
 
 // Within +-1 by the global number alone, so that every mode of vibration has a share.
@@ -88,7 +92,8 @@ Vector noise(const Search& s) {
 
 // A vector and its length in M; makes it of length one. False if there is nothing to divide.
 bool normalise(const Search& s, Vector& x, Vector& Mx, double& length) {
-  multiply_by_mass(s.model, x, Mx);
+  s.for_components([&](std::size_t k) { Mx[k] = s.inertia[k] * x[k]; });
+  subtract_cluster_means(s.model, x, Mx);
   const double square = s.dot(x, Mx);
   length = square > 0 ? std::sqrt(square) : 0;
   if (!(square > 0) || !std::isfinite(square)) return false;
@@ -138,10 +143,11 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
            .communicator = communicator,
            .n = 3 * static_cast<std::int64_t>(communicator.all_sum(n_owned)),
            .fixed = fixed_components(model),
+           .inertia = inertia_of_components(model),
            .u = state.u};
   s.force_at_rest.assign(options.force.begin(), options.force.end());
   if (s.force_at_rest.empty()) forces(s.u, s.force_at_rest);
-  Vector x = noise(s), last(s.size(), 0.0), next(s.size()), Mx;
+  Vector x = noise(s), last(s.size(), 0.0), next(s.size()), Mx(s.size());
   Vector diagonal, beside;  // of the tridiagonal matrix
   HighestFrequency found;
   double length = 0;
@@ -150,9 +156,7 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
     apply_stiffness(s, x, next);
     ++found.n_iterations;
     diagonal.push_back(s.dot(x, next));
-    divide_by_mass(s, next);
-    const double back = beside.empty() ? 0 : beside.back();
-    s.for_components([&, a = diagonal.back()](std::size_t k) { next[k] -= a * x[k] + back * last[k]; });
+    take_away(s, diagonal.back(), x, beside.empty() ? 0 : beside.back(), last, next);
     const bool goes_on = normalise(s, next, Mx, length);
     take_ritz_value(diagonal, beside, length, found);
     found.is_converged =

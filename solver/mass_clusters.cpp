@@ -1,7 +1,5 @@
 #include "solver/mass_clusters.h"
 
-#include "solver/block_ranges.h"
-
 namespace trocar {
 
 namespace {
@@ -63,10 +61,11 @@ void add_cluster_force(const Model& model, std::span<const GivenAcceleration> gi
 void multiply_by_mass(const Model& model, std::span<const double> x, std::vector<double>& Mx) {
   const std::vector<double>& inertia = inertia_of(model);
   Mx.resize(3 * model.mass.size());
-  parallel_for_nodes(std::ssize(inertia), [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i)
-      for (std::int64_t k = 3 * i; k < 3 * i + 3; ++k) Mx[k] = inertia[i] * x[k];
-  });
+  for (std::size_t k = 0; k < Mx.size(); ++k) Mx[k] = inertia[k / 3] * x[k];
+  subtract_cluster_means(model, x, Mx);
+}
+
+void subtract_cluster_means(const Model& model, std::span<const double> x, std::span<double> Mx) {
   const MassClusters& clusters = model.clusters;
   for (std::size_t c = 0; c < clusters.total.size(); ++c) {
     const Vec3 mean =
