@@ -112,9 +112,8 @@ double reproducible_dot(std::span<const double> a, std::span<const double> b, st
   const double coarse = rounder(n, largest);
   const double fine = rounder(n, coarse * 0x1p-52);
   Total total;
-  for_parts(a, b, [&](auto part_a, auto part_b) {
-    add_products(part_a, part_b, coarse, fine, total);
-  });
+  for_parts(a, b,
+            [&](auto part_a, auto part_b) { add_products(part_a, part_b, coarse, fine, total); });
   total.sum.all_sum(communicator);
   return total.sum.value();
 }

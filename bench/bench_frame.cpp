@@ -72,8 +72,7 @@ void report(int n, const std::string& stable_step, bool is_at_rest) {
       "\"steps_ms\": %.4f, \"frame_over_steps\": %.4f, \"search_over_step\": %.2f}",
       is_at_rest || stable_step != "element-bound" ? "," : "", stable_step.c_str(),
       is_at_rest ? "at rest" : "swinging", s->mesh.n_elements(), static_cast<long long>(n_steps),
-      1e3 * frame, 1e3 * steps, frame / steps,
-      search / steps * static_cast<double>(n_steps));
+      1e3 * frame, 1e3 * steps, frame / steps, search / steps * static_cast<double>(n_steps));
 }
 
 }  // namespace

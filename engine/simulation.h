@@ -120,7 +120,7 @@ struct Simulation : RankBody {
   double held_step = std::numeric_limits<double>::infinity();
   Watch watch;  // of the last frame, over all ranks
   ElementLook look;
-  State frame_start;  // where a frame goes back to
+  State frame_start;             // where a frame goes back to
   std::vector<double> altitude;  // (n local elements) least one, undeformed [m]
   double rest_step = 0;          // least element bound of the undeformed mesh, over all ranks [s]
   double edge_length = 0;        // mean of the mesh at time zero [m]

@@ -46,11 +46,11 @@ void ElementWatch::begin_with(const Model& model, const State& state, std::int32
     const std::span list(blocks.element_local.data(), static_cast<std::size_t>(blocks.n_elements));
     const auto lane = std::lower_bound(list.begin(), list.end(), local);
     if (lane == list.end() || *lane != local) continue;
-    for_strained_blocks(model, blocks, state, (lane - list.begin()) / blocks.lanes, 1,
-                        [&](const BlockKernels& kernels, const BlockTask& task,
-                            std::int64_t block) {
-                          look(model, blocks, kernels, task, block, first_);
-                        });
+    for_strained_blocks(
+        model, blocks, state, (lane - list.begin()) / blocks.lanes, 1,
+        [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
+          look(model, blocks, kernels, task, block, first_);
+        });
   }
   found_ = first_;
 }
@@ -75,8 +75,8 @@ void ElementWatch::look(const Model& model, const ElementBlocks& blocks,
                         const BlockKernels& kernels, const BlockTask& task, std::int64_t first,
                         LeastOfElements& least) const {
   const std::int64_t begin = first * blocks.lanes;
-  const auto n_lanes = static_cast<std::size_t>(
-      std::min(task.n_blocks * blocks.lanes, blocks.n_elements - begin));
+  const auto n_lanes =
+      static_cast<std::size_t>(std::min(task.n_blocks * blocks.lanes, blocks.n_elements - begin));
   const std::span element(blocks.element_local.data() + begin, n_lanes);
   Lanes J, growth, enough;
   find_enough(model, element, blocks.stiffening_at_rest, least, enough);

@@ -23,7 +23,7 @@ struct Search {
   const ForceOfDisplacement& forces;
   const FrequencyOptions& options;
   const Communicator& communicator;
-  std::int64_t n = 0;         // components on all ranks
+  std::int64_t n = 0;              // components on all ranks
   std::vector<std::size_t> fixed;  // components that supports hold
   Vector inertia;                  // of each component
   Vector force_at_rest, u, force, room;
@@ -36,9 +36,11 @@ struct Search {
   // Calls body(k) for all components.
   template <class Body>
   void for_components(const Body& body) const {
-    parallel_for_nodes(static_cast<std::int64_t>(size()), [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t k = begin; k < end; ++k) body(static_cast<std::size_t>(k));
-    });
+    parallel_for_nodes(static_cast<std::int64_t>(size()),
+                       [&](std::int64_t begin, std::int64_t end) {
+                         for (std::int64_t k = begin; k < end; ++k)
+                           body(static_cast<std::size_t>(k));
+                       });
   }
 };
 

@@ -33,8 +33,7 @@ void add_list(const Model& model, const ElementBlocks& blocks, std::int64_t firs
   for_strained_blocks(
       model, blocks, state, first, n,
       [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
-        if (watch.all != nullptr)
-          watch.all->look(model, blocks, kernels, task, block, watch.least);
+        if (watch.all != nullptr) watch.all->look(model, blocks, kernels, task, block, watch.least);
         if (blocks.prony.empty())
           kernels.law.stress(task);
         else
@@ -130,8 +129,7 @@ void clear_halo(const Model& model, Scratch& scratch) {
 
 }  // namespace
 
-void compute_inside_force(const Model& model, State& state, Scratch& scratch,
-                          ElementWatch* watch) {
+void compute_inside_force(const Model& model, State& state, Scratch& scratch, ElementWatch* watch) {
   CHECK_OP(std::ssize(state.u), ==, 3 * std::int64_t{model.n_local});
   CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
   CHECK_OP(std::ssize(scratch.force), ==, 3 * std::int64_t{model.n_owned});
@@ -145,8 +143,7 @@ void compute_inside_force(const Model& model, State& state, Scratch& scratch,
                       [&](int run) { compute_run(model, run, state, scratch, watch); });
 }
 
-void compute_border_force(const Model& model, State& state, Scratch& scratch,
-                          ElementWatch* watch) {
+void compute_border_force(const Model& model, State& state, Scratch& scratch, ElementWatch* watch) {
   const std::int32_t first = model.sums.n_inside_runs;
   parallel_for_chunks(model.sums.n_runs - first,
                       [&](int run) { compute_run(model, first + run, state, scratch, watch); });

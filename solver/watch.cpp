@@ -31,15 +31,14 @@ void watch_elements(const Model& model, const State& state, ElementWatch& elemen
   CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
   parallel_for(count_blocks(model), [&](std::int64_t begin, std::int64_t end) {
     LeastOfElements least = elements.first();
-    for_block_range(model, begin, end,
-                    [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
-                      for_strained_blocks(model, blocks, state, first, n,
-                                          [&](const BlockKernels& kernels, const BlockTask& task,
-                                              std::int64_t block) {
-                                            elements.look(model, blocks, kernels, task, block,
-                                                          least);
-                                          });
-                    });
+    for_block_range(
+        model, begin, end, [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
+          for_strained_blocks(
+              model, blocks, state, first, n,
+              [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
+                elements.look(model, blocks, kernels, task, block, least);
+              });
+        });
     elements.take(least);
   });
 }

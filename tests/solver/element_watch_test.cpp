@@ -14,11 +14,11 @@ Body cube(Formulation formulation, MaterialModel model, Precision precision) {
   SolverOptions options = with(formulation);
   options.precision = precision;
   const ElementType shape = shape_of(formulation);
-  Mesh mesh = shape == ElementType::tri3
-                  ? make_rectangle(.02, .02, 6, 6)
-                  : make_box(Vec3(0, 0, 0), Vec3(.02, .02, .02), {4, 4, 4},
-                             shape == ElementType::hex8 ? BoxElements::hex8
-                                                        : BoxElements::tet4_kuhn);
+  Mesh mesh =
+      shape == ElementType::tri3
+          ? make_rectangle(.02, .02, 6, 6)
+          : make_box(Vec3(0, 0, 0), Vec3(.02, .02, .02), {4, 4, 4},
+                     shape == ElementType::hex8 ? BoxElements::hex8 : BoxElements::tet4_kuhn);
   jitter(mesh, .1, 5);
   return make_body(mesh, {.materials = {material_of(model, 1000, 9000)}, .solver = options});
 }
