@@ -1,6 +1,6 @@
 // What a frame costs beyond its steps where the scene has nothing but tissue, swinging in its
 // weight and at rest: the time of run_frame against that of as many bare steps, in turn, on the
-// same body. JSON to stdout.
+// same body. Also what a search for the highest frequency takes, in steps. JSON to stdout.
 // bench_frame [cells along an edge (default 20)] [threads]
 #include <algorithm>
 #include <cstdio>
@@ -13,6 +13,8 @@
 #include "engine/build.h"
 #include "engine/equilibrium.h"
 #include "engine/frame.h"
+#include "engine/frame_watch.h"
+#include "solver/frequency.h"
 #include "solver/step.h"
 
 using namespace trocar;
@@ -49,23 +51,28 @@ void report(int n, const std::string& stable_step, bool is_at_rest) {
   const auto s = build(loaded, alone);
   if (is_at_rest) start_in_equilibrium(loaded, *s);
   Outputs outputs;
-  double frame = 1e300, steps = 1e300;
+  double frame = 1e300, steps = 1e300, search = 1e300;
   std::int64_t n_steps = 0;
   for (int round = 0; round < 15; ++round) {
     frame = std::min(frame, seconds_of([&] { run_frame(*s, outputs); }));
     n_steps = s->log.rows.back().n_substeps;
     const double dt = s->log.rows.back().dt;
     const State kept = s->state;
+    const Scratch kept_scratch = s->scratch;
     steps = std::min(steps, seconds_of([&] { run_steps(*s, n_steps, dt); }));
     s->state = kept;
+    search = std::min(search, seconds_of([&] {
+                        search_step(*s, search_amplitude(s->model, s->edge_length), alone);
+                      }));
+    s->scratch = kept_scratch;
   }
   std::printf(
       "%s\n  {\"stable_step\": \"%s\", \"state\": \"%s\", \"elements\": %d, \"steps\": %lld, "
       "\"frame_ms\": %.4f, "
-      "\"steps_ms\": %.4f, \"frame_over_steps\": %.4f}",
+      "\"steps_ms\": %.4f, \"frame_over_steps\": %.4f, \"search_over_step\": %.2f}",
       is_at_rest || stable_step != "element-bound" ? "," : "", stable_step.c_str(),
       is_at_rest ? "at rest" : "swinging", s->mesh.n_elements(), static_cast<long long>(n_steps),
-      1e3 * frame, 1e3 * steps, frame / steps);
+      1e3 * frame, 1e3 * steps, frame / steps, search / steps * static_cast<double>(n_steps));
 }
 
 }  // namespace

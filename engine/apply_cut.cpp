@@ -233,6 +233,7 @@ GlobalState gather_state(Simulation& s) {
 }
 
 void scatter_state(Simulation& s, const GlobalState& global) {
+  s.scratch.has_force = false;
   State state = make_state(s.model);
   state.time = s.state.time;
   state.last_dt = s.state.last_dt;

@@ -288,6 +288,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   if (std::any_of(s.scene.outputs.begin(), s.scene.outputs.end(),
                   [](const SceneOutput& output) { return output.kind == OutputKind::metrics; }))
     open_energy_ledger(s);
+  s.scratch.has_force = false;  // nodes may be moved before the first frame
   return simulation;
 }
 

@@ -54,7 +54,8 @@ void open_energy_ledger(Simulation& s) {
 }
 
 EnergyState mechanical_energy(Simulation& s) {
-  compute_force(s.model, s.state, s.scratch);
+  if (!s.scratch.has_force) compute_force(s.model, s.state, s.scratch);
+  if (s.multirate) s.scratch.has_force = false;  // as they are refined
   // After a cut the last step may be too long for the substeps of new small elements.
   if (s.state.last_dt > 0 && s.state.last_dt <= s.watch.stable_step)
     refine_forces(s, s.state.last_dt);

@@ -77,21 +77,12 @@ void resolve_contacts(Simulation& s, const FrameSpan& span, std::int64_t k) {
   add_contact_force(contact, s.scratch.force);
 }
 
-double waited_for_neighbours(const Simulation& s) {
-  return s.neighbours.waited + (s.multirate ? s.multirate->neighbours.waited : 0);
-}
-
-// What it waits for neighbours counts as exchange.
+// The first of a frame may be known from the look at the end of the one before.
 void update_force(Simulation& s, double dt) {
-  const double before = waited_for_neighbours(s);
-  {
-    const PhaseScope scope(s.timers, phase_force);
-    find_force(s.model, s.neighbours, s.state, s.scratch);
-    refine_forces(s, dt);
-  }
-  const double waited = waited_for_neighbours(s) - before;
-  s.timers.add(phase_exchange, waited);
-  s.timers.add(phase_force, -waited);
+  const ForceScope scope(s);
+  if (!s.scratch.has_force) find_force(s.model, s.neighbours, s.state, s.scratch);
+  s.scratch.has_force = false;  // from here on it is added to
+  refine_forces(s, dt);
 }
 
 void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
@@ -129,20 +120,21 @@ FrameSpan run_substeps(Simulation& s) {
 // with half the step, at most `most_roll_backs` times, and likewise with a smaller one if the
 // tissue stiffened beyond it.
 FrameSpan step_safely(Simulation& s) {
-  const State good = s.state;
+  s.frame_start = s.state;
   const Watch good_watch = s.watch;  // that of a failed frame holds no step to go on with
   for (int tries = 0;; ++tries) {
     FrameSpan span = run_substeps(s);
     if (s.sleep && wake_disturbed(s)) {
       finish_exchange(s.neighbours, s.state);
-      s.state = good;
+      s.state = s.frame_start;
       forget_hold_reactions(s.holds);
       span = run_substeps(s);
     }
     watch_state(s);
     const std::string trouble = find_trouble(s);
     if (trouble.empty() && span.dt <= s.watch.stable_step) return span;
-    s.state = good;
+    s.state = s.frame_start;
+    s.scratch.has_force = false;
     if (trouble.empty()) {
       repeat_frame(s, span, tries);
     } else {

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "engine/frame_report.h"
+#include "solver/element_watch.h"
 #include "solver/frequency.h"
 #include "solver/step.h"
 
@@ -76,8 +77,8 @@ bool may_look_different(const Simulation& s) {
   const ElementLook& look = s.look;
   const double reach = look.reach * std::min(1.0, s.watch.least_J);
   int has_moved = look.is_done && look.stiffening ? 0 : 1;
-  for (std::size_t k = 0; k < look.u.size(); ++k)
-    has_moved |= std::abs(s.state.u[k] - look.u[k]) > reach ? 1 : 0;
+  for (std::size_t k = 0; k < look.u.size() && has_moved == 0; ++k)
+    has_moved = std::abs(s.state.u[k] - look.u[k]) > reach ? 1 : 0;
   return s.communicator->all_max(has_moved) > 0;
 }
 
@@ -93,49 +94,109 @@ void note_look(Simulation& s, double step, std::vector<double> stiffening) {
   s.look.stiffening = std::move(stiffening);
 }
 
-// By how much omega^2 of the most stiffened element has grown since the last look.
-double largest_growth(Simulation& s, const std::vector<double>& stiffening) {
-  if (!s.look.stiffening) find_stiffening_at_look(s);
-  double most = 1;
-  for (std::size_t k = 0; k < stiffening.size(); ++k)
-    most = std::max(most, stiffening[k] / (*s.look.stiffening)[k]);
-  return s.communicator->all_max(most);
+// Whether the step follows from the last search.
+bool follows_search(const Simulation& s) {
+  return s.scene.solver.stable_step == StableStep::frequency && s.look.is_done &&
+         s.state.step - s.look.at_step < most_steps_of_search;
 }
 
-// The step of the last search, less by what any element has stiffened since; a new search where
-// that is much, or where the last one was long ago and the tissue may have softened again.
-double step_by_frequency(Simulation& s, std::vector<double> stiffening) {
-  if (s.look.is_done && s.state.step - s.look.at_step < most_steps_of_search) {
-    const double growth = largest_growth(s, stiffening);
+// The step of the last search, less by what any element has stiffened since (`growth`, at most of
+// this rank); a new search where that is much, or where the last one was long ago and the tissue
+// may have softened again.
+double step_by_frequency(Simulation& s, double growth) {
+  if (follows_search(s)) {
+    growth = s.communicator->all_max(growth);
     if (growth <= most_growth) return s.look.step / std::sqrt(growth);
   }
   const double step = step_of_frequency(s);
+  std::vector<double> stiffening(s.part.element_global.size());
+  watch(s.model, s.part, s.state, stiffening);
   note_look(s, step, std::move(stiffening));
   return step;
 }
 
+// Whether those of a frame's end are those of the next one's first step: sleeping elements have
+// none, and histories keep their time.
+bool keeps_forces(const Simulation& s) {
+  return !s.sleep && std::ranges::all_of(s.materials, [](const Material& material) {
+    return material.prony.empty();
+  });
+}
+
+void find_watched_force(Simulation& s, ElementWatch& elements) {
+  const ForceScope scope(s);
+  for (const std::int32_t e : s.look.decisive)
+    if (e >= 0) elements.begin_with(s.model, s.state, e);
+  find_force(s.model, s.neighbours, s.state, s.scratch, &elements);
+  s.scratch.has_force = true;
+}
+
+// Returns the elements' largest growth since the last search, if the step follows from it.
+double look_at_elements(Simulation& s) {
+  if (follows_search(s) && !s.look.stiffening) find_stiffening_at_look(s);
+  ElementWatch elements(s.part,
+                        {.earlier = follows_search(s) ? std::span<const double>(*s.look.stiffening)
+                                                      : std::span<const double>()});
+  if (keeps_forces(s)) {
+    find_watched_force(s, elements);
+  } else {
+    update_volume_change(s.model, s.neighbours, s.state, s.scratch);
+    watch_elements(s.model, s.state, elements);
+  }
+  const PhaseScope scope(s.timers, phase_watch);
+  take_least(s, elements.result());
+  s.look.decisive = {elements.found().step.number, elements.found().stiffest};
+  return elements.found().growth;
+}
+
 void watch_elements(Simulation& s) {
-  std::vector<double> stiffening(s.part.element_global.size());
-  take_least(s, watch(s.model, s.part, s.state, stiffening));
+  const double growth = look_at_elements(s);
+  const PhaseScope scope(s.timers, phase_watch);
   if (s.scene.solver.stable_step == StableStep::frequency && s.watch.least_J > 0)
-    s.watch.stable_step =
-        std::max(s.watch.stable_step, step_by_frequency(s, std::move(stiffening)));
+    s.watch.stable_step = std::max(s.watch.stable_step, step_by_frequency(s, growth));
   else
-    note_look(s, 0, std::move(stiffening));
+    note_look(s, 0, {});
+}
+
+// Whether there is something to see.
+bool watch_motion(Simulation& s) {
+  const PhaseScope scope(s.timers, phase_watch);
+  finish_exchange(s.neighbours, s.state);
+  if (!watch_nodes(s)) return false;  // steps and J of a broken state mean nothing
+  const bool is_new = may_look_different(s);
+  if (!is_new && s.energy) update_volume_change(s.model, s.neighbours, s.state, s.scratch);
+  return is_new;
+}
+
+double waited_for_neighbours(const Simulation& s) {
+  return s.neighbours.waited + (s.multirate ? s.multirate->neighbours.waited : 0);
 }
 
 }  // namespace
 
+ForceScope::ForceScope(Simulation& s)
+    : s_(s), start_(monotonic_seconds()), waited_(waited_for_neighbours(s)) {}
+
+ForceScope::~ForceScope() {
+  const double waited = waited_for_neighbours(s_) - waited_;
+  s_.timers.add(phase_exchange, waited);
+  s_.timers.add(phase_force, monotonic_seconds() - start_ - waited);
+}
+
 double search_step(RankBody& body, double amplitude, const Communicator& communicator,
                    double enough) {
   State probe = body.state;
+  std::vector<double> here = body.scratch.force;
   const auto forces = [&](std::vector<double>& u, std::vector<double>& force) {
     force_of(body, probe, u, force);
   };
-  const FrequencyOptions options{.amplitude = amplitude,
-                                 .of_interest = 2 / (frequency_margin * enough)};
+  const FrequencyOptions options{
+      .amplitude = amplitude,
+      .of_interest = 2 / (frequency_margin * enough),
+      .force = body.scratch.has_force ? std::span<const double>(here) : std::span<const double>()};
   const HighestFrequency found =
       find_highest_frequency(body.model, body.part, body.state, forces, options, communicator);
+  body.scratch.force = std::move(here);
   return found.is_converged ? 2 / (frequency_margin * found.omega) : 0;
 }
 
@@ -170,12 +231,7 @@ double largest_speed(const Simulation& s) {
 }
 
 void watch_state(Simulation& s) {
-  const PhaseScope scope(s.timers, phase_watch);
-  finish_exchange(s.neighbours, s.state);
-  if (!watch_nodes(s)) return;  // steps and J of a broken state mean nothing
-  const bool is_new = may_look_different(s);
-  if (is_new || s.energy) update_volume_change(s.model, s.neighbours, s.state, s.scratch);
-  if (is_new) watch_elements(s);
+  if (watch_motion(s)) watch_elements(s);
 }
 
 std::string find_trouble(const Simulation& s) {

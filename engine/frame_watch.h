@@ -22,13 +22,28 @@ inline constexpr double unseen_strain = 2e-3;
 // less by the root of the largest growth of an element's omega^2 since then: that of the body has
 // grown by no more (docs/architecture.md measures it). Beyond this growth the body is searched
 // again, as the most stiffened element may be one that does not set the step, and after so many
-// steps, as what has softened is not seen. A search takes as long as some 13 steps.
+// steps, as what has softened is not seen. A search takes as long as some 25 steps.
 inline constexpr double most_growth = 1.1;
 inline constexpr std::int64_t most_steps_of_search = 3000;
 
+// Counts the time of its own life as that of element forces, but what it waits for neighbours as
+// exchange.
+class ForceScope {
+ public:
+  explicit ForceScope(Simulation& s);
+  ~ForceScope();
+  ForceScope(const ForceScope&) = delete;
+  ForceScope& operator=(const ForceScope&) = delete;
+
+ private:
+  Simulation& s_;
+  double start_, waited_;
+};
+
 // Sets s.watch to that of all ranks: nodes always, elements if they may have been strained. Ends
 // the last step's exchange; with an energy ledger, volume changes averaged at nodes become those of
-// the present displacement. Collective.
+// the present displacement. Elements are looked at while the forces of the next step are computed.
+// Collective.
 void watch_state(Simulation& s);
 // 2 / omega of the body's highest frequency less the search's margin; 0 if the search doesn't end.
 // It starts from nothing: modes are local, and a search that starts where the fastest one was does

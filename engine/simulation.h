@@ -2,6 +2,7 @@
 // frame.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -75,6 +76,9 @@ struct ElementLook {
   // (n local elements) growth of their omega^2 there; none until it is needed, and the elements are
   // looked at in any case.
   std::optional<std::vector<double>> stiffening;
+  // Global numbers of this rank's elements that set the step and the growth at the last look; -1:
+  // not known.
+  std::array<std::int32_t, 2> decisive = {-1, -1};
   double reach = 0;  // of a node that strains its elements by less than unseen_strain [m]
 };
 
@@ -116,6 +120,7 @@ struct Simulation : RankBody {
   double held_step = std::numeric_limits<double>::infinity();
   Watch watch;  // of the last frame, over all ranks
   ElementLook look;
+  State frame_start;             // where a frame goes back to
   std::vector<double> altitude;  // (n local elements) least one, undeformed [m]
   double rest_step = 0;          // least element bound of the undeformed mesh, over all ranks [s]
   double edge_length = 0;        // mean of the mesh at time zero [m]

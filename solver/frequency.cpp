@@ -6,6 +6,7 @@
 
 #include "base/digest.h"
 #include "base/reproducible_dot.h"
+#include "solver/block_ranges.h"
 #include "solver/mass_clusters.h"
 
 namespace trocar {
@@ -22,36 +23,61 @@ struct Search {
   const ForceOfDisplacement& forces;
   const FrequencyOptions& options;
   const Communicator& communicator;
-  std::int64_t n = 0;  // components on all ranks
+  std::int64_t n = 0;              // components on all ranks
+  std::vector<std::size_t> fixed;  // components that supports hold
+  Vector inertia;                  // of each component
   Vector force_at_rest, u, force, room;
 
   std::size_t size() const { return 3 * static_cast<std::size_t>(model.n_owned); }
-  bool is_fixed(std::size_t k) const { return (model.fixed[k / 3] >> (k % 3) & 1) != 0; }
-  // The same bits on any ranks.
+  // The same bits on any ranks and threads.
   double dot(const Vector& a, const Vector& b) const {
     return reproducible_dot(a, b, n, communicator);
   }
+  // Calls body(k) for all components.
+  template <class Body>
+  void for_components(const Body& body) const {
+    parallel_for_nodes(static_cast<std::int64_t>(size()),
+                       [&](std::int64_t begin, std::int64_t end) {
+                         for (std::int64_t k = begin; k < end; ++k)
+                           body(static_cast<std::size_t>(k));
+                       });
+  }
 };
+
+std::vector<std::size_t> fixed_components(const Model& model) {
+  std::vector<std::size_t> fixed;
+  for (std::size_t k = 0; k < 3 * model.fixed.size(); ++k)
+    if ((model.fixed[k / 3] >> (k % 3) & 1) != 0) fixed.push_back(k);
+  return fixed;
+}
+
+Vector inertia_of_components(const Model& model) {
+  Vector inertia;
+  for (const double of_node : inertia_of(model)) inertia.insert(inertia.end(), 3, of_node);
+  return inertia;
+}
+
+double largest_of(const Vector& x) {
+  double largest = 0;
+  for (const double value : x) largest = std::max(largest, std::abs(value));
+  return largest;
+}
 
 // K x = -(f(u + h x) - f(u)) / h with h so that the largest displacement is the amplitude.
 void apply_stiffness(Search& s, const Vector& x, Vector& Kx) {
-  double largest = 0;
-  for (const double value : x) largest = std::max(largest, std::abs(value));
-  largest = s.communicator.all_max(largest);
-  const double h = s.options.amplitude / largest;
-  s.u = s.state.u;
-  for (std::size_t k = 0; k < s.size(); ++k) s.u[k] += h * x[k];
+  const double h = s.options.amplitude / s.communicator.all_max(largest_of(x));
+  s.for_components([&](std::size_t k) { s.u[k] = s.state.u[k] + h * x[k]; });
   s.forces(s.u, s.force);
-  Kx.resize(s.size());
-  for (std::size_t k = 0; k < s.size(); ++k)
-    Kx[k] = s.is_fixed(k) ? 0 : -(s.force[k] - s.force_at_rest[k]) / h;
+  s.for_components([&](std::size_t k) { Kx[k] = -(s.force[k] - s.force_at_rest[k]) / h; });
+  for (const std::size_t k : s.fixed) Kx[k] = 0;
 }
 
-// x = M^-1 f
-void divide_by_mass(Search& s, Vector& f) {
-  add_cluster_force(s.model, {}, f, s.room);
-  for (std::size_t k = 0; k < f.size(); ++k)
-    f[k] = s.is_fixed(k) ? 0 : f[k] / inertia_of(s.model)[k / 3];
+// next = M^-1 next - (a x + b last)
+void take_away(Search& s, double a, const Vector& x, double b, const Vector& last, Vector& next) {
+  add_cluster_force(s.model, {}, next, s.room);
+  s.for_components(
+      [&](std::size_t k) { next[k] = next[k] / s.inertia[k] - (a * x[k] + b * last[k]); });
+  for (const std::size_t k : s.fixed) next[k] = 0;
 }
 
 // Within +-1 by the global number alone, so that every mode of vibration has a share.
@@ -60,18 +86,20 @@ Vector noise(const Search& s) {
   for (std::size_t k = 0; k < x.size(); ++k) {
     const auto global = static_cast<std::uint64_t>(s.part.node_global[k / 3]);
     const auto bits = mix64(3 * global + k % 3 + 1) >> 11;
-    x[k] = s.is_fixed(k) ? 0 : static_cast<double>(bits) * 0x1p-52 - 1;
+    x[k] = static_cast<double>(bits) * 0x1p-52 - 1;
   }
+  for (const std::size_t k : s.fixed) x[k] = 0;
   return x;
 }
 
 // A vector and its length in M; makes it of length one. False if there is nothing to divide.
 bool normalise(const Search& s, Vector& x, Vector& Mx, double& length) {
-  multiply_by_mass(s.model, x, Mx);
+  s.for_components([&](std::size_t k) { Mx[k] = s.inertia[k] * x[k]; });
+  subtract_cluster_means(s.model, x, Mx);
   const double square = s.dot(x, Mx);
   length = square > 0 ? std::sqrt(square) : 0;
   if (!(square > 0) || !std::isfinite(square)) return false;
-  for (double& value : x) value /= length;
+  s.for_components([&](std::size_t k) { x[k] /= length; });
   return true;
 }
 
@@ -116,9 +144,12 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
            .options = options,
            .communicator = communicator,
            .n = 3 * static_cast<std::int64_t>(communicator.all_sum(n_owned)),
+           .fixed = fixed_components(model),
+           .inertia = inertia_of_components(model),
            .u = state.u};
-  forces(s.u, s.force_at_rest);
-  Vector x = noise(s), last(s.size(), 0.0), next, Mx;
+  s.force_at_rest.assign(options.force.begin(), options.force.end());
+  if (s.force_at_rest.empty()) forces(s.u, s.force_at_rest);
+  Vector x = noise(s), last(s.size(), 0.0), next(s.size()), Mx(s.size());
   Vector diagonal, beside;  // of the tridiagonal matrix
   HighestFrequency found;
   double length = 0;
@@ -127,10 +158,7 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
     apply_stiffness(s, x, next);
     ++found.n_iterations;
     diagonal.push_back(s.dot(x, next));
-    divide_by_mass(s, next);
-    const double back = beside.empty() ? 0 : beside.back();
-    for (std::size_t k = 0; k < next.size(); ++k)
-      next[k] -= diagonal.back() * x[k] + back * last[k];
+    take_away(s, diagonal.back(), x, beside.empty() ? 0 : beside.back(), last, next);
     const bool goes_on = normalise(s, next, Mx, length);
     take_ritz_value(diagonal, beside, length, found);
     found.is_converged =

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "base/communicator.h"
@@ -23,6 +24,7 @@ struct FrequencyOptions {
   int least_iterations = 2, most_iterations = 100;
   // A search that is clearly below this ends: nobody needs to know by how much. [1/s]
   double of_interest = 0;
+  std::span<const double> force = {};  // of the state, if known [N]
 };
 
 struct HighestFrequency {

@@ -28,6 +28,13 @@ template <class Pack>
     return __builtin_convertvector(load<PackOf<float, pack_width<Pack>>>(from), Pack);
 }
 
+template <class Pack>
+[[gnu::always_inline]] inline Pack load_rounded(const double* from) {
+  RealOf<Pack> lane[pack_width<Pack>];
+  for (int l = 0; l < pack_width<Pack>; ++l) lane[l] = static_cast<RealOf<Pack>>(from[l]);
+  return load<Pack>(lane);
+}
+
 // Doubles rounded.
 template <class Pack>
 [[gnu::always_inline]] inline PackOf<float, pack_width<Pack>> in_single(const Pack& x) {

@@ -154,6 +154,7 @@ void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> p
   for (const PrescribedNode& node : prescribed)
     for (int j = 0; j < 3; ++j)
       if (!is_fixed(model, node.node, j)) state.u[3 * std::int64_t{node.node} + j] = node.u_next[j];
+  scratch.has_force = false;
   state.time += dt;
   state.last_dt = dt;
   ++state.step;

@@ -57,13 +57,15 @@ struct LawLoops {
   }
 
   // The bound of elements with several points grows at most as at the worst one.
-  static void watch(const BlockTask& task, double* J, double* stiffening) {
+  static void watch(const BlockTask& task, const double* enough, double* J, double* stiffening) {
     for_groups<Pack>(task, [&](const Group<Pack>& group, std::int64_t block, int lane) {
       const auto law = law_of_kind<kind>(Law<Material, Pack>{group.value}, task, group);
+      const Pack limit = load_rounded<Pack>(enough + block * lanes + lane);
       Pack least = zero_of(group.value(0)), most = least;
       for (std::int64_t k = 0; k < task.n_points; ++k) {
         const Tensor<Pack> H = law.full_strain(group.stash.get_tensor(k));
-        const Pack j = volume_change(H, cofactor(H)), s = law.stiffening(H);
+        const Pack j = volume_change(H, cofactor(H));
+        const Pack s = may_exceed(H, group.value, limit) ? law.stiffening(H) : zero_of(j) + 1.0;
         // The order of the operands keeps a NaN.
         least = k == 0 ? j : (least < j ? least : j);
         most = k == 0 ? s : (most > s ? most : s);
@@ -74,6 +76,16 @@ struct LawLoops {
   }
 
  private:
+  // Whether any lane's stiffening is above the limit, for all that is known without computing it.
+  [[gnu::always_inline]] static bool may_exceed(const Tensor<Pack>& H,
+                                                const BlockValues<Pack>& value, const Pack& limit) {
+    if constexpr (kind != LawKind::averaged_pressure &&
+                  requires { Material::excess(H, value, limit); })
+      return is_any(Material::excess(H, value, limit) > 0.0);
+    else
+      return true;
+  }
+
   template <class AnyLaw>
   [[gnu::always_inline]] static void put_stress(const BlockTask& task, const Group<Pack>& group,
                                                 const AnyLaw& law) {

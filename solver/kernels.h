@@ -58,8 +58,10 @@ struct ElementKernels {
 // Viscoelastic elements have a history, [block][point][number][lane] of doubles (viscosity.h).
 struct ViscousStep;
 using ViscousKernel = void (*)(const BlockTask& task, const ViscousStep& step, double* history);
-// Least det F and growth of the bound of omega^2 (stiffening.h) to [block][lane].
-using WatchKernel = void (*)(const BlockTask& task, double* J, double* stiffening);
+// Least det F and growth of the bound of omega^2 (stiffening.h) to [block][lane]; a growth that is
+// at most `enough` of [block][lane] may come out as 1.
+using WatchKernel = void (*)(const BlockTask& task, const double* enough, double* J,
+                             double* stiffening);
 
 // All null: elements of this kind can't be of this material.
 struct LawKernels {

@@ -18,6 +18,8 @@ void add_cluster_force(const Model& model, std::span<const GivenAcceleration> gi
 
 // Mx = M x, both (n_owned * 3); x may be longer.
 void multiply_by_mass(const Model& model, std::span<const double> x, std::vector<double>& Mx);
+// The part of it that is not diagonal, from M = diag(m + d).
+void subtract_cluster_means(const Model& model, std::span<const double> x, std::span<double> Mx);
 
 // To kinetic energies m |v|^2 / 2 of owned nodes: d |v - mean v|^2 / 2.
 void add_cluster_kinetic(const Model& model, std::span<const double> v, std::span<double> kinetic);

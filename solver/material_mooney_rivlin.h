@@ -57,6 +57,7 @@ struct MaterialMooneyRivlin : Decoupled<MaterialMooneyRivlin> {
     terms.M += larger(zero, Pack(4.0 * c01 / x.least_square));
     Pack result;
     bound_tangent(d, x, terms, value(value_K_V), value(value_mu_V), result);
+    if (is_above_floor(d)) return result;
     const FloorBound<Pack> b = floor_bound(d, x);
     const Pack isochoric = absolute(c10) * variation_of_I1bar(b).curvature +
                            absolute(c01) * variation_of_I2bar(b).curvature;

@@ -5,6 +5,7 @@
 #include "solver/deformation.h"
 #include "solver/material_model.h"
 #include "solver/tangent_bound_below_floor.h"
+#include "solver/tangent_excess.h"
 
 namespace trocar {
 
@@ -58,10 +59,17 @@ struct MaterialNeoHookean : Decoupled<MaterialNeoHookean> {
     Pack result;
     bound_tangent(d, x, terms_of_I1bar(x, Pack(0.5 * mu), zero_of(mu)), value(value_K_V), mu,
                   result);
+    if (is_above_floor(d)) return result;
     const FloorBound<Pack> b = floor_bound(d, x);
     replace_below_floor(d, b, Pack(0.5 * mu * variation_of_I1bar(b).curvature),
                         {value(value_K_V), mu}, result);
     return result;
+  }
+
+  template <class Pack>
+  [[gnu::always_inline]] static Pack excess(const Tensor<Pack>& H, const BlockValues<Pack>& value,
+                                            const Pack& limit) {
+    return excess_of_I1bar(H, value(value_K_V), value(value_mu_V), limit);
   }
 };
 

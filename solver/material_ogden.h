@@ -57,6 +57,7 @@ struct MaterialOgden : Decoupled<MaterialOgden> {
     find_terms(s, value, terms);
     Pack result;
     bound_tangent(d, s, terms, value(value_K_V), value(value_mu_V), result);
+    if (is_above_floor(d)) return result;
     const FloorBound<Pack> b = floor_bound(d, s);
     Pack isochoric;
     find_curvature(b, value, isochoric);

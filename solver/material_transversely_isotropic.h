@@ -47,6 +47,7 @@ struct MaterialTransverselyIsotropic : Decoupled<MaterialTransverselyIsotropic> 
     terms.square += 4.0 * value(value_eta_V) * power * power * slope2;
     Pack result;
     bound_tangent(d, x, terms, value(value_K_V), mu, result);
+    if (is_above_floor(d)) return result;
     const FloorBound<Pack> b = floor_bound(d, x);
     const Variation<Pack> I4 = variation_of_I4bar(b, fibre.I4);
     const Pack isochoric =

@@ -37,6 +37,7 @@ struct MaterialYeoh : Decoupled<MaterialYeoh> {
     Pack result;
     bound_tangent(d, x, terms_of_I1bar(x, slope(d, value), ddW), value(value_K_V),
                   value(value_mu_V), result);
+    if (is_above_floor(d)) return result;
     const FloorBound<Pack> b = floor_bound(d, x);
     const Variation<Pack> I1 = variation_of_I1bar(b);
     const Pack isochoric =

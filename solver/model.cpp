@@ -378,6 +378,7 @@ void fit_scratch(const Model& model, Scratch& scratch) {
             [&](auto& sum) { sum.resize(static_cast<std::size_t>(model.sums.n_places) * 4); });
   scratch.volume_change.resize(static_cast<std::size_t>(model.averages.n_lanes));
   scratch.force.resize(3 * n_owned);
+  scratch.has_force = false;
   if (!scratch.damping_work.empty()) scratch.damping_work.resize(n_owned);
   scratch.viscous.resize(model.blocks.size());
 }

@@ -183,6 +183,9 @@ struct Scratch {
   AlignedVector<float> sum_single;
   std::vector<double> volume_change;  // K V (J - 1) of lanes, see VolumeAverages [J]
   std::vector<double> force;          // (n_owned * 3) external - internal force [N]
+  // Whether `force` is known to be find_force's of the present displacement, so that the next step
+  // need not compute it; whoever moves nodes or adds to `force` says no.
+  bool has_force = false;
   // Empty, or (n_owned): energy that mass damping takes from each node, added up by integrate [J].
   std::vector<double> damping_work;
   // Of held nodes in clusters, and room for sums of clusters; used by integrate.

@@ -69,11 +69,12 @@ void update_volume_change(const Model& model, Neighbours& neighbours, State& sta
   finish_exchange(neighbours, state);
 }
 
-void find_force(const Model& model, Neighbours& neighbours, State& state, Scratch& scratch) {
+void find_force(const Model& model, Neighbours& neighbours, State& state, Scratch& scratch,
+                ElementWatch* watch) {
   if (model.averages.n_fields > 0) average_and_start(model, neighbours, state, scratch);
-  compute_inside_force(model, state, scratch);
+  compute_inside_force(model, state, scratch, watch);
   finish_exchange(neighbours, state);
-  compute_border_force(model, state, scratch);
+  compute_border_force(model, state, scratch, watch);
 }
 
 }  // namespace trocar

@@ -11,6 +11,8 @@
 
 namespace trocar {
 
+class ElementWatch;
+
 // The default one is alone.
 struct Neighbours {
   Communicator* communicator = nullptr;  // null: alone
@@ -34,6 +36,7 @@ void update_volume_change(const Model& model, Neighbours& neighbours, State& sta
                           Scratch& scratch);
 // The one way to scratch.force = mass * gravity - internal force(u): ends an exchange that is under
 // way, averages volume changes and exchanges these, inside first. See compute_force.
-void find_force(const Model& model, Neighbours& neighbours, State& state, Scratch& scratch);
+void find_force(const Model& model, Neighbours& neighbours, State& state, Scratch& scratch,
+                ElementWatch* watch = nullptr);
 
 }  // namespace trocar

@@ -40,11 +40,11 @@ std::vector<double> scaled_mass(const Model& model) {
 double greatest_stiffening(const Model& model, const State& state) {
   double most = 1;
   for (const ElementBlocks& blocks : model.blocks) {
-    std::array<double, stash_blocks * lanes_of_block<float>> J{}, stiffening{};
+    std::array<double, stash_blocks * lanes_of_block<float>> none{}, J{}, stiffening{};
     for_strained_blocks(
         model, blocks, state, 0, blocks.n_blocks,
         [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
-          kernels.law.watch(task, J.data(), stiffening.data());
+          kernels.law.watch(task, none.data(), J.data(), stiffening.data());
           const std::int64_t n = std::min<std::int64_t>(task.n_blocks * blocks.lanes,
                                                         blocks.n_elements - block * blocks.lanes);
           for (std::int64_t lane = 0; lane < n; ++lane)
@@ -159,6 +159,7 @@ void find_relaxed_force(const Model& model, Neighbours& neighbours, State& state
                         Scratch& scratch) {
   start_exchange(neighbours, state);
   state.history_time = -std::numeric_limits<double>::infinity();  // all overstress has gone
+  scratch.has_force = false;
   find_force(model, neighbours, state, scratch);
 }
 

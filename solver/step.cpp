@@ -7,6 +7,7 @@
 
 #include "base/check.h"
 #include "solver/block_ranges.h"
+#include "solver/element_watch.h"
 #include "solver/history.h"
 #include "solver/sum_order.h"
 
@@ -21,11 +22,18 @@ double* history_at(const ElementBlocks& blocks, std::int64_t block, State& state
   return state.history.data() + blocks.first_history + block * blocks.lanes * history_width(blocks);
 }
 
+// A thread's part of a look.
+struct ThreadWatch {
+  ElementWatch* all = nullptr;  // null: nobody looks
+  LeastOfElements least;
+};
+
 void add_list(const Model& model, const ElementBlocks& blocks, std::int64_t first, std::int64_t n,
-              State& state, Scratch& scratch) {
+              State& state, Scratch& scratch, ThreadWatch& watch) {
   for_strained_blocks(
       model, blocks, state, first, n,
       [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
+        if (watch.all != nullptr) watch.all->look(model, blocks, kernels, task, block, watch.least);
         if (blocks.prony.empty())
           kernels.law.stress(task);
         else
@@ -52,7 +60,9 @@ void for_awake_blocks(const Scratch& scratch, std::int64_t begin, std::int64_t e
 }
 
 // The blocks of one run, and the nodes that only they meet.
-void compute_run(const Model& model, std::int64_t run, State& state, Scratch& scratch) {
+void compute_run(const Model& model, std::int64_t run, State& state, Scratch& scratch,
+                 ElementWatch* all) {
+  ThreadWatch watch{.all = all, .least = all != nullptr ? all->first() : LeastOfElements{}};
   const SumOrder& sums = model.sums;
   const std::int64_t end = sums.run_block[run + 1];
   std::int32_t k = sums.run_first[run];
@@ -61,7 +71,7 @@ void compute_run(const Model& model, std::int64_t run, State& state, Scratch& sc
     for_awake_blocks(scratch, block, next, [&](std::int64_t begin, std::int64_t awake_end) {
       for_block_range(model, begin, awake_end,
                       [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
-                        add_list(model, blocks, first, n, state, scratch);
+                        add_list(model, blocks, first, n, state, scratch, watch);
                       });
     });
     const std::int32_t first = k;
@@ -71,6 +81,7 @@ void compute_run(const Model& model, std::int64_t run, State& state, Scratch& sc
         last_block);
     finish_nodes(model, {sums.node.begin() + first, sums.node.begin() + k}, scratch);
   }
+  if (all != nullptr) all->take(watch.least);
 }
 
 void add_places(double* sum, std::int64_t place, std::span<const std::int32_t> node) {
@@ -118,7 +129,7 @@ void clear_halo(const Model& model, Scratch& scratch) {
 
 }  // namespace
 
-void compute_inside_force(const Model& model, State& state, Scratch& scratch) {
+void compute_inside_force(const Model& model, State& state, Scratch& scratch, ElementWatch* watch) {
   CHECK_OP(std::ssize(state.u), ==, 3 * std::int64_t{model.n_local});
   CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
   CHECK_OP(std::ssize(scratch.force), ==, 3 * std::int64_t{model.n_owned});
@@ -129,13 +140,13 @@ void compute_inside_force(const Model& model, State& state, Scratch& scratch) {
     if (!model.blocks[k].prony.empty())
       scratch.viscous[k] = viscous_step(model.blocks[k].prony, state.time - state.history_time);
   parallel_for_chunks(model.sums.n_inside_runs,
-                      [&](int run) { compute_run(model, run, state, scratch); });
+                      [&](int run) { compute_run(model, run, state, scratch, watch); });
 }
 
-void compute_border_force(const Model& model, State& state, Scratch& scratch) {
+void compute_border_force(const Model& model, State& state, Scratch& scratch, ElementWatch* watch) {
   const std::int32_t first = model.sums.n_inside_runs;
   parallel_for_chunks(model.sums.n_runs - first,
-                      [&](int run) { compute_run(model, first + run, state, scratch); });
+                      [&](int run) { compute_run(model, first + run, state, scratch, watch); });
   finish_shared_nodes(model, scratch);
   clear_halo(model, scratch);
   state.history_time = state.time;

@@ -10,6 +10,8 @@
 
 namespace trocar {
 
+class ElementWatch;
+
 // state.theta of owned nodes, from u: before compute_force, watch and energy_terms, which read it.
 // The caller exchanges theta (model.averages.n_fields a node) afterwards. Does nothing without
 // fields.
@@ -23,9 +25,12 @@ void average_with_border(const Model& model, State& state, Scratch& scratch);
 // of viscoelastic elements to state.time: a second call at the same time and displacement changes
 // nothing.
 void compute_force(const Model& model, State& state, Scratch& scratch);
-// The same in two halves, the first of which reads no halo nodes.
-void compute_inside_force(const Model& model, State& state, Scratch& scratch);
-void compute_border_force(const Model& model, State& state, Scratch& scratch);
+// The same in two halves, the first of which reads no halo nodes. On the way `watch` looks at the
+// elements that don't sleep.
+void compute_inside_force(const Model& model, State& state, Scratch& scratch,
+                          ElementWatch* watch = nullptr);
+void compute_border_force(const Model& model, State& state, Scratch& scratch,
+                          ElementWatch* watch = nullptr);
 
 // A node whose motion is given: an instrument holds it.
 struct PrescribedNode {

@@ -25,6 +25,12 @@ struct FloorBound {
   Pack log_slope, log_curvature, log_y, distance;  // z, y''/y, log y, |J - 1|
 };
 
+// Then there is nothing to replace, and the norms, half of a bound's work, are spared.
+template <class Pack>
+[[gnu::always_inline]] inline bool is_above_floor(const Deformation<Pack>& d) {
+  return !is_any(d.iso.extended > 0.0);
+}
+
 template <class Pack>
 [[gnu::always_inline]] inline FloorBound<Pack> floor_bound(const Deformation<Pack>& d,
                                                            const Stretches<Pack>& x) {

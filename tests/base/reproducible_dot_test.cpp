@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/exact_sum.h"
+#include "base/threads.h"
 
 namespace trocar {
 namespace {
@@ -62,6 +63,16 @@ TEST(ReproducibleDot, has_the_same_bits_in_any_order) {
   }
   EXPECT_EQ(reproducible.size(), 1U);
   EXPECT_GT(plain.size(), 1U) << "these numbers prove nothing";
+}
+
+TEST(ReproducibleDot, has_the_same_bits_on_any_threads) {
+  const std::vector<double> a = random_vector(5003, 6), b = random_vector(5003, 7);
+  const double alone_on_it = dot(a, b);
+  for (const int n_threads : {2, 3, 7}) {
+    set_thread_count(n_threads);
+    EXPECT_EQ(dot(a, b), alone_on_it);
+  }
+  set_thread_count(1);
 }
 
 TEST(ReproducibleDot, of_nothing_is_zero_and_of_infinities_not_a_number) {

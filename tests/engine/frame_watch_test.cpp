@@ -8,9 +8,11 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "engine/frame.h"
 #include "engine_files.h"
 #include "engine_started.h"
 #include "solver/frequency.h"
+#include "solver/step.h"
 #include "solver_body.h"
 
 namespace trocar {
@@ -122,6 +124,44 @@ TEST(WatchState, takes_the_growth_of_elements_for_that_of_the_body_between_two_s
   EXPECT_EQ(s.look.at_step, most_steps_of_search);
   EXPECT_EQ(s.watch.stable_step,
             search_step(s, search_amplitude(s.model, s.edge_length), Communicator()));
+}
+
+// Swings in its weight for some frames; before each, `forget` may drop what the look left.
+template <class Forget>
+State swing(const std::string& elements, const Forget& forget) {
+  const auto run = block_of(elements);
+  Simulation& s = *run->s;
+  s.state.v[2] = 0.3;
+  Outputs outputs;
+  for (int frame = 0; frame < 5; ++frame) {
+    forget(s);
+    run_frame(s, outputs);
+  }
+  return s.state;
+}
+
+TEST(WatchState, leaves_the_forces_of_the_next_step_and_searches_keep_them) {
+  for (const std::string elements : {"hex8", "tet4-kuhn"}) {
+    const State computed = swing(elements, [](Simulation& s) { s.scratch.has_force = false; });
+    int n_left = 0;
+    const State left = swing(elements, [&](Simulation& s) {
+      n_left += s.scratch.has_force ? 1 : 0;
+      search_step(s, search_amplitude(s.model, s.edge_length), Communicator());
+    });
+    EXPECT_GE(n_left, 4);
+    EXPECT_EQ(left.u, computed.u);
+    EXPECT_EQ(left.v, computed.v);
+  }
+}
+
+TEST(WatchState, leaves_no_forces_where_a_step_has_moved_the_nodes_since) {
+  const auto run = block_of("hex8");
+  Simulation& s = *run->s;
+  s.state.u[0] = 1.01 * s.look.reach;
+  watch_state(s);
+  EXPECT_TRUE(s.scratch.has_force);
+  integrate(s.model, s.scratch, {}, 1e-6, s.state);
+  EXPECT_FALSE(s.scratch.has_force);
 }
 
 TEST(FindTrouble, is_silent_while_all_is_well) {

@@ -1,0 +1,80 @@
+// Whether the bound of tangent_bound.h can exceed a limit, from above and without most of its roots
+// and quotients, which take as long as a fifth of a step: most elements are not those that set it.
+#pragma once
+
+#include "solver/deformation.h"
+#include "solver/tensor.h"
+
+namespace trocar {
+
+// y(c) of symmetric_eigenvalues.h is concave: below its tangents at c = 1, 0 and -0.9.
+template <class Pack>
+[[gnu::always_inline]] inline Pack root_at_most(const Pack& c) {
+  const Pack at_one = real<Pack>(8.0 / 9 + 1e-7) + real<Pack>(1.0 / 9) * c;
+  const Pack at_zero = real<Pack>(0.8660255) + real<Pack>(1.0 / 6) * c;
+  const Pack at_end = real<Pack>(1.162228) + real<Pack>(0.597762) * c;
+  const Pack least = at_one < at_zero ? at_one : at_zero;
+  return least < at_end ? least : at_end;
+}
+
+// Bounds of the squares of the stretches s_i.
+template <class Pack>
+struct StretchBounds {
+  Pack mean;       // of s_i^2, exactly
+  Pack above;      // max s_i^2 - mean is at most this
+  Pack above_low;  // and at least this
+  Pack below;      // mean - min s_i^2 is at most this
+};
+
+template <class Pack>
+[[gnu::always_inline]] inline StretchBounds<Pack> stretch_bounds(
+    const SymmetricTensor<Pack>& twice_E) {
+  const Pack m = trace(twice_E) * real<Pack>(1.0 / 3);
+  SymmetricTensor<Pack> D = twice_E;
+  for (int i = 0; i < 3; ++i) D.v[i] -= m;
+  const auto& d = D.v;
+  const Pack p2 =
+      (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + 2.0 * (d[3] * d[3] + d[4] * d[4] + d[5] * d[5])) *
+      real<Pack>(1.0 / 6);
+  const Pack p = square_root(p2), p3 = p2 * p;
+  const SymmetricTensor<Pack> C = cofactor(D);
+  const Pack det = d[0] * C.v[0] + d[3] * C.v[3] + d[5] * C.v[5];
+  const Pack c = p3 > 0.0 ? 0.5 * det / p3 : zero_of(m);
+  const Pack twice_p = p + p;
+  // A concave function is above its chord, too.
+  return {1.0 + m, twice_p * root_at_most(c), twice_p * (0.75 + 0.25 * c),
+          twice_p * root_at_most(Pack(-c))};
+}
+
+// Of W = mu/2 (I1bar - 3) + K/2 (J - 1)^2, in the letters of tangent_bound.h: positive where the
+// bound may exceed the limit. M = 2 mu max lbar^2, t_i = mu (lbar_i^2 - mean), and with s_i s_j =
+// J / s_k, t_i + t_j = -t_k, r <= 1 + (max s^2 / min s^2 - 1)^2 / 32 beta is at most the largest of
+//   (M - p - t_min) / min s^2,  (M r - p + t_max / 2) max s / J,  (t_max + p) max s / J.
+template <class Pack>
+[[gnu::always_inline]] inline Pack excess_of_I1bar(const Tensor<Pack>& H, const Pack& K,
+                                                   const Pack& mu, const Pack& limit) {
+  constexpr bool is_single = sizeof(RealOf<Pack>) == sizeof(float);
+  constexpr auto rounding = real<Pack>(1 + (is_single ? 1e-4 : 1e-9));
+  const Deformation<Pack> d = deformation_of(H);
+  const StretchBounds<Pack> s2 = stretch_bounds(d.twice_E);
+  const Pack zero = zero_of(mu), J = 1.0 + d.change.j, p = K * J * d.change.j;
+  const Pack most = s2.mean + s2.above, least = s2.mean - s2.below;
+  const Pack inverse = 1.0 / least, ratio = (most - least) * inverse;
+  const Pack lbar = mu * (1.0 + d.iso.q), M = 2.0 * lbar * most, t_max = lbar * s2.above;
+  const Pack of_pair = 0.5 * (1.0 + most) * d.iso.inverse;  // >= max s / J
+  const Pack r = 1.0 + ratio * ratio * real<Pack>(1.0 / 32);
+  Pack beta = larger(zero, Pack(M - p + lbar * s2.below)) * inverse;
+  beta = larger(beta, Pack((M * r - p + 0.5 * t_max) * of_pair));
+  beta = larger(beta, Pack((t_max + p) * of_pair));
+  const Pack M_low = 2.0 * lbar * (s2.mean + s2.above_low);
+  const Pack alpha =
+      larger(zero, Pack(K * J * (2.0 * J - 1.0) - M_low * real<Pack>(1.0 / 3))) * inverse;
+  const Pack lambda = larger(zero, Pack(K - real<Pack>(2.0 / 3) * mu));
+  const auto is_within = (rounding * (alpha + beta) <= limit * (lambda + 2.0 * mu)) &
+                         (rounding * (3.0 * alpha + beta) <= limit * (3.0 * lambda + 2.0 * mu)) &
+                         (limit > rounding) & (least > real<Pack>(0.05)) &
+                         (J > real<Pack>(1.01 * volume_floor));
+  return is_within ? zero : zero + 1.0;  // what is not a number is not within
+}
+
+}  // namespace trocar
