@@ -253,6 +253,7 @@ void scatter_state(Simulation& s, const GlobalState& global) {
 // what they are.
 static void scatter_edited(Simulation& s, std::size_t n_kept, std::span<const std::int32_t> nodes,
                            const GlobalState& global) {
+  s.scratch.has_force = false;  // on ranks that have nothing of the edit, too: all exchange alike
   State& state = s.state;
   state.u.resize(3 * s.part.node_global.size());
   state.v.resize(3 * s.part.node_global.size());
