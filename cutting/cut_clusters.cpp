@@ -7,23 +7,38 @@
 
 namespace trocar {
 
-// Takes in what has no cluster around node `middle`. (Two edges instead of one spare the cut of a
-// million tetrahedra 0.3 ms more, and cost 20 ms of set-up.)
-static void add_cluster(const Mesh& mesh, const CutIndex& index, std::int32_t middle,
-                        NodeClusters& clusters) {
+// Takes in what has no cluster of the nodes around `from`, `way` from the middle; returns the
+// longest way to one of them.
+static double add_around(const Mesh& mesh, const CutIndex& index, std::int32_t from, double way,
+                         NodeClusters& clusters) {
   const auto c = static_cast<std::int32_t>(clusters.middle.size());
-  double reach = 0;  // squared
-  clusters.of_node[middle] = c;
-  clusters.node.push_back(middle);
-  for (const std::int32_t e : index.star(middle))
+  double longest = 0;  // squared
+  for (const std::int32_t e : index.star(from))
     for (const std::int32_t i : mesh.corners(e)) {
       if (clusters.of_node[i] >= 0) continue;
       clusters.of_node[i] = c;
       clusters.node.push_back(i);
-      reach = std::max(reach, (mesh.X[i] - mesh.X[middle]).squaredNorm());
+      longest = std::max(longest, (mesh.X[i] - mesh.X[from]).squaredNorm());
     }
+  return way + std::sqrt(longest);
+}
+
+// Takes in what has no cluster within two edges of node `middle`. (One edge saves 10 of 120 ms of
+// set-up and costs the cut of a million tetrahedra 0.5 of 5.5 ms.)
+static void add_cluster(const Mesh& mesh, const CutIndex& index, std::int32_t middle,
+                        NodeClusters& clusters) {
+  clusters.of_node[middle] = static_cast<std::int32_t>(clusters.middle.size());
+  const std::size_t first = clusters.node.size();
+  clusters.node.push_back(middle);
+  double reach = add_around(mesh, index, middle, 0, clusters);
+  const std::size_t last = clusters.node.size();
+  for (std::size_t k = first + 1; k < last; ++k) {
+    const std::int32_t i = clusters.node[k];
+    const double way = (mesh.X[i] - mesh.X[middle]).norm();
+    reach = std::max(reach, add_around(mesh, index, i, way, clusters));
+  }
   clusters.middle.push_back(middle);
-  clusters.reach.push_back(std::sqrt(reach));
+  clusters.reach.push_back(reach);
   clusters.begin.push_back(static_cast<std::int32_t>(clusters.node.size()));
 }
 

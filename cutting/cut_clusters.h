@@ -1,5 +1,5 @@
-// Nodes in clusters around middles that they share an element with, to find those near a blade
-// without a look at each: as far as edges stretch, a node is near its middle in any deformation.
+// Nodes in clusters, two edges at most from their middles, to find those near a blade without a
+// look at each: as far as edges stretch, a node is near its middle in any deformation.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ struct CutIndex;
 
 struct NodeClusters {
   std::vector<std::int32_t> middle;  // (n_clusters) a node; -1: dissolved
-  std::vector<double> reach;         // (n_clusters) longest edge to a node of it, reference [m]
+  std::vector<double> reach;         // (n_clusters) longest way to a node of it, reference [m]
   std::vector<std::int32_t> begin;   // (n_clusters + 1) into node
   std::vector<std::int32_t> node;
   std::vector<std::int32_t> of_node;  // (n_nodes) cluster, -1: none
