@@ -51,12 +51,13 @@ std::string number_needed(const Dimension& dimension) {
 double checked(const OptionNode& node, double value, const Dimension& dimension,
                const Range& range) {
   if (!std::isfinite(value)) refuse(node, shown(value) + " is not a finite number");
-  const std::string found = shown(value, dimension);
-  if (!is_inside(value, range))
-    refuse(node, found + " is out of range; allowed: " + range_text(range, dimension));
+  const auto refuse_with = [&](const std::string& allowed) {
+    refuse(node, shown(value, dimension) + " is out of range; allowed: " + allowed);
+  };
+  if (!is_inside(value, range)) refuse_with(range_text(range, dimension));
   if (!is_usable(value))
-    refuse(node, found + " is out of range; allowed: 0 and magnitudes from " +
-                     shown(least_magnitude) + " to " + shown(greatest_magnitude));
+    refuse_with("0 and magnitudes from " + shown(least_magnitude) + " to " +
+                shown(greatest_magnitude));
   return value;
 }
 

@@ -133,13 +133,17 @@ void find_watched_force(Simulation& s, ElementWatch& elements) {
 
 // Returns the elements' largest growth since the last search, if the step follows from it.
 double look_at_elements(Simulation& s) {
-  if (follows_search(s) && !s.look.stiffening) find_stiffening_at_look(s);
+  if (follows_search(s) && !s.look.stiffening) {
+    const PhaseScope scope(s.timers, phase_watch);
+    find_stiffening_at_look(s);
+  }
   ElementWatch elements(s.part,
                         {.earlier = follows_search(s) ? std::span<const double>(*s.look.stiffening)
                                                       : std::span<const double>()});
   if (keeps_forces(s)) {
     find_watched_force(s, elements);
   } else {
+    const PhaseScope scope(s.timers, phase_watch);
     update_volume_change(s.model, s.neighbours, s.state, s.scratch);
     watch_elements(s.model, s.state, elements);
   }

@@ -10,6 +10,28 @@ namespace trocar {
 // are m + 2 p y, y the roots of 4 y^3 - 3 y = c: cosines of a third of c's angle and of that turned
 // by 120 degrees (Smith 1961, without its arc cosine).
 template <class Pack>
+struct DeviatorInvariants {
+  Pack m, p;
+  Pack c;  // but for rounding in [-1, 1]; 0 without a deviator
+};
+
+template <class Pack>
+[[gnu::always_inline]] inline DeviatorInvariants<Pack> deviator_invariants(
+    const SymmetricTensor<Pack>& A) {
+  const Pack m = trace(A) * real<Pack>(1.0 / 3);
+  SymmetricTensor<Pack> D = A;
+  for (int i = 0; i < 3; ++i) D.v[i] -= m;
+  const auto& d = D.v;
+  const Pack p2 =
+      (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + 2.0 * (d[3] * d[3] + d[4] * d[4] + d[5] * d[5])) *
+      real<Pack>(1.0 / 6);
+  const Pack p = square_root(p2), p3 = p2 * p;
+  const SymmetricTensor<Pack> C = cofactor(D);
+  const Pack det = d[0] * C.v[0] + d[3] * C.v[3] + d[5] * C.v[5];
+  return {m, p, p3 > 0.0 ? 0.5 * det / p3 : zero_of(m)};
+}
+
+template <class Pack>
 struct EigenvalueRoots {
   Pack m, p, y;  // the largest root, in [1/2, 1]
 };
@@ -19,18 +41,8 @@ struct EigenvalueRoots {
 template <class Pack>
 [[gnu::always_inline]] inline EigenvalueRoots<Pack> eigenvalue_roots(
     const SymmetricTensor<Pack>& A) {
-  const Pack m = trace(A) * real<Pack>(1.0 / 3);
-  SymmetricTensor<Pack> D = A;
-  for (int i = 0; i < 3; ++i) D.v[i] -= m;
-  const auto& d = D.v;
-  const Pack p2 =
-      (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + 2.0 * (d[3] * d[3] + d[4] * d[4] + d[5] * d[5])) *
-      real<Pack>(1.0 / 6);
-  const Pack p = square_root(p2);
-  const SymmetricTensor<Pack> C = cofactor(D);
-  const Pack det = d[0] * C.v[0] + d[3] * C.v[3] + d[5] * C.v[5];
+  const auto [m, p, ratio] = deviator_invariants(A);
   const Pack zero = m - m, one = zero + 1.0;
-  const Pack ratio = p2 * p > 0.0 ? 0.5 * det / (p2 * p) : zero;
   const Pack c = ratio > 1.0 ? one : (ratio < -1.0 ? -one : ratio);
   Pack y = 0.5 + 0.5 * square_root(Pack(0.5 * (1.0 + c)));
   for (int k = 0; k < 4; ++k) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "solver/deformation.h"
+#include "solver/symmetric_eigenvalues.h"
 #include "solver/tensor.h"
 
 namespace trocar {
@@ -29,17 +30,7 @@ struct StretchBounds {
 template <class Pack>
 [[gnu::always_inline]] inline StretchBounds<Pack> stretch_bounds(
     const SymmetricTensor<Pack>& twice_E) {
-  const Pack m = trace(twice_E) * real<Pack>(1.0 / 3);
-  SymmetricTensor<Pack> D = twice_E;
-  for (int i = 0; i < 3; ++i) D.v[i] -= m;
-  const auto& d = D.v;
-  const Pack p2 =
-      (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + 2.0 * (d[3] * d[3] + d[4] * d[4] + d[5] * d[5])) *
-      real<Pack>(1.0 / 6);
-  const Pack p = square_root(p2), p3 = p2 * p;
-  const SymmetricTensor<Pack> C = cofactor(D);
-  const Pack det = d[0] * C.v[0] + d[3] * C.v[3] + d[5] * C.v[5];
-  const Pack c = p3 > 0.0 ? 0.5 * det / p3 : zero_of(m);
+  const auto [m, p, c] = deviator_invariants(twice_E);
   const Pack twice_p = p + p;
   // A concave function is above its chord, too.
   return {1.0 + m, twice_p * root_at_most(c), twice_p * (0.75 + 0.25 * c),

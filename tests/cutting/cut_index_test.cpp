@@ -13,16 +13,7 @@ using namespace cutting_test;
 TEST(CutIndex, that_was_edited_is_the_index_of_the_edited_mesh) {
   Body body(make_box({0, 0, 0}, {1, 1, 1}, {5, 5, 5}, BoxElements::tet4_five));
   CutIndex index = index_of(body.mesh);
-  TetCutter cutter{CutTetOptions{}};
-  Ledger ledger;
-  const Vec3 normal = Vec3(1, 0.5, 0.2).normalized();
-  const Blade blade = plane_blade({0.5, 0.5, 0.5}, normal, 1);
-  for (int k = 0; k < 20; ++k) {
-    const BladeSweep sweep{blade(k / 20.0), blade((k + 1) / 20.0), normal};
-    const Mesh before = body.mesh;
-    edit_index(before, advance(cutter, body, sweep, k == 19, ledger), index);
-  }
-  ASSERT_GT(ledger.n_edits, 3);
+  ASSERT_GT(cut_with_index(Vec3(1, 0.5, 0.2), body, index).n_edits, 3);
   const CutIndex fresh = index_of(body.mesh);
   ASSERT_EQ(index.star_size, fresh.star_size);
   for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)
@@ -34,17 +25,12 @@ TEST(CutIndex, that_was_edited_is_the_index_of_the_edited_mesh) {
 TEST(CutIndex, that_was_edited_knows_no_neighbours_but_those_of_the_edited_mesh) {
   Body body(make_box({0, 0, 0}, {1, 1, 1}, {5, 5, 5}, BoxElements::tet4_five));
   CutIndex index = index_of(body.mesh);
-  TetCutter cutter{CutTetOptions{}};
-  Ledger ledger;
-  const Vec3 normal = Vec3(1, 0.5, 0.2).normalized();
-  const Blade blade = plane_blade({0.5, 0.5, 0.5}, normal, 1);
-  for (int k = 0; k < 20; ++k) {
+  const auto find_neighbours = [&](int k) {
     std::vector<std::int32_t> seeds;
     for (std::int32_t e = k % 3; e < body.mesh.n_elements(); e += 100) seeds.push_back(e);
     make_patch(body.mesh, index, body.x, body.is_held, seeds);
-    const BladeSweep sweep{blade(k / 20.0), blade((k + 1) / 20.0), normal};
-    const Mesh before = body.mesh;
-    edit_index(before, advance(cutter, body, sweep, k == 19, ledger), index);
+  };
+  const auto check = [&] {
     const FacetNeighbours expected = facet_neighbours(body.mesh);
     std::ptrdiff_t n_known = 0;
     for (std::int32_t e = 0; e < body.mesh.n_elements(); ++e)
@@ -55,7 +41,8 @@ TEST(CutIndex, that_was_edited_knows_no_neighbours_but_those_of_the_edited_mesh)
         ASSERT_EQ(u, expected.of(e, f)) << e << ", facet " << f;
       }
     EXPECT_GT(n_known, body.mesh.n_elements());
-  }
+  };
+  const Ledger ledger = cut_with_index(Vec3(1, 0.5, 0.2), body, index, find_neighbours, check);
   EXPECT_GT(ledger.n_edits, 3);
 }
 

@@ -88,6 +88,24 @@ Blade plane_blade(const Vec3& centre, const Vec3& normal, double size) {
   return straight_blade(begin - size * along, begin + size * along, 2 * size * way, 16);
 }
 
+Ledger cut_with_index(const Vec3& across, Body& body, CutIndex& index,
+                      const std::function<void(int k)>& before_advance,
+                      const std::function<void()>& after_advance) {
+  constexpr int n = 20;
+  const Vec3 normal = across.normalized();
+  const Blade blade = plane_blade(Vec3::Constant(0.5), normal, 1);
+  TetCutter cutter{CutTetOptions{}};
+  Ledger ledger;
+  for (int k = 0; k < n; ++k) {
+    before_advance(k);
+    const BladeSweep sweep{blade(double(k) / n), blade(double(k + 1) / n), normal};
+    const Mesh before = body.mesh;
+    edit_index(before, advance(cutter, body, sweep, k + 1 == n, ledger), index);
+    after_advance();
+  }
+  return ledger;
+}
+
 double mass(const Mesh& mesh) {
   double sum = 0;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)

@@ -73,6 +73,13 @@ Ledger cut(Body& body, const Blade& blade, const Vec3& normal, int n_steps);
 // The plane through `centre` with `normal`, as a blade that sweeps all of a body of size `size`.
 Blade plane_blade(const Vec3& centre, const Vec3& normal, double size);
 
+// Through the middle of the unit cube in twenty advances, each of which edits the index alike;
+// calls before_advance(k) and after_advance().
+Ledger cut_with_index(
+    const Vec3& across, Body& body, CutIndex& index,
+    const std::function<void(int k)>& before_advance = [](int) {},
+    const std::function<void()>& after_advance = [] {});
+
 double mass(const Mesh& mesh);
 
 double volume(const Mesh& mesh);
