@@ -25,19 +25,40 @@ Halo all_to_all(const ContactSet& set, std::span<const std::int32_t> node_owner,
   return halo;
 }
 
-std::vector<std::int32_t> nodes_of(std::span<const Contact> contacts) {
+std::vector<std::int32_t> nodes_of(const FoundContacts& contacts) {
   std::vector<std::int32_t> node;
-  for (const Contact& contact : contacts)
+  for (const Contact& contact : contacts.with_tools)
     node.insert(node.end(), contact.node.begin(), contact.node.end());
+  for (const TissuePair& pair : contacts.with_tissue) {
+    node.push_back(pair.node);
+    node.insert(node.end(), pair.corner.begin(), pair.corner.end());
+  }
   sort_unique(node);
   return node;
 }
 
+std::int32_t place_of(const ContactSet& set, std::int32_t node) {
+  return static_cast<std::int32_t>(std::lower_bound(set.node.begin(), set.node.end(), node) -
+                                   set.node.begin());
+}
+
+void add_items(const FoundContacts& contacts, ContactSet& set) {
+  for (const Contact& contact : contacts.with_tools) {
+    ContactSet::Item& item = set.items.emplace_back();
+    item.contact = contact;
+    for (std::size_t a = 0; a < 3; ++a) item.place[a] = place_of(set, contact.node[a]);
+  }
+  for (const TissuePair& pair : contacts.with_tissue)
+    set.tissue.push_back({.place = {place_of(set, pair.node), place_of(set, pair.corner[0]),
+                                    place_of(set, pair.corner[1]), place_of(set, pair.corner[2])},
+                          .handicap = pair.handicap});
+}
+
 }  // namespace
 
-ContactSet prepare_contacts(std::span<const Contact> contacts,
-                            std::span<const std::int32_t> node_owner, const Part& part, int rank,
-                            std::span<const double> mass, std::span<const std::uint8_t> is_held) {
+ContactSet prepare_contacts(const FoundContacts& contacts, std::span<const std::int32_t> node_owner,
+                            const Part& part, int rank, std::span<const double> mass,
+                            std::span<const std::uint8_t> is_held) {
   ContactSet set{.node = nodes_of(contacts)};
   for (const std::int32_t i : set.node) {
     if (node_owner[to_size(i)] == rank) {
@@ -47,18 +68,13 @@ ContactSet prepare_contacts(std::span<const Contact> contacts,
     set.inverse_mass.push_back(is_held[to_size(i)] != 0 ? 0 : 1 / mass[to_size(i)]);
   }
   if (set.owned.empty()) return {};
-  for (const Contact& contact : contacts) {
-    ContactSet::Item& item = set.items.emplace_back();
-    item.contact = contact;
-    for (std::size_t a = 0; a < 3; ++a)
-      item.place[a] = static_cast<std::int32_t>(
-          std::lower_bound(set.node.begin(), set.node.end(), contact.node[a]) - set.node.begin());
-  }
+  add_items(contacts, set);
   set.x_start.resize(set.node.size());
   set.x_end.resize(set.node.size());
   set.force.assign(set.node.size(), Vec3::Zero());
-  set.constraints.reserve(set.items.size() + set.node.size());
+  set.constraints.reserve(set.items.size() + 2 * set.node.size());
   set.deepest.resize(set.node.size());
+  set.impulse.resize(set.node.size());
   set.move.resize(set.node.size());
   set.halo = all_to_all(set, node_owner, rank);
   set.is_counted_here = set.halo.neighbours.empty() || rank < set.halo.neighbours[0].rank;

@@ -40,8 +40,10 @@ void look_again(const ContactDetector& detector, const ContactStep& step, Contac
 // triangle, and each node (in the piece that it is deepest in, if its triangle sees that from
 // outside). With the gap g = n·(x - y) at the end of the step and g0 at its beginning, y of the
 // tool: g >= min(0, g0 + release_speed dt) where g0 < 0, g >= 0 elsewhere. Slip of x along the
-// surface is stopped with at most mu times the normal impulse. Solved by projections, contact after
-// contact (Gauss-Seidel), at most 30 times round.
+// surface is stopped with at most mu times the normal impulse. Between tissue and tissue x - y is a
+// node less the nearest point of the nearest triangle, and n this triangle's normal: both sides'
+// nodes are kept out of the other's triangles, edges may cross. Solved by projections, contact
+// after contact (Gauss-Seidel), at most 30 times round.
 void solve_contacts(const ContactDetector& detector, const ContactStep& step,
                     const ContactOptions& options, ContactSet& set);
 

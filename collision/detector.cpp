@@ -243,6 +243,12 @@ void ContactDetector::detect(std::span<const Vec3> x, std::span<const Pose> pose
   }
 }
 
+void ContactDetector::detect_tissue(const TissueReach& reach,
+                                    std::vector<TissuePair>& pairs) const {
+  pairs.clear();
+  if (state_->tree) find_tissue_pairs(*state_->tree, reach, pairs);
+}
+
 bool ContactDetector::update(const std::array<Vec3, 3>& x, const Pose& pose, double margin,
                              Contact& contact) const {
   const PieceCore& core = state_->core_of(contact);

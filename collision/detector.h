@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "collision/tissue_pairs.h"
 #include "collision/tool_shape.h"
 #include "mesh/facets.h"
 
@@ -61,6 +62,10 @@ class ContactDetector {
   // lobe does not touch. A core deeper than depth_limit has lost the surface and touches nothing.
   void detect(std::span<const Vec3> x, std::span<const Pose> pose, std::span<const double> margin,
               std::vector<Contact>& contacts);
+
+  // The pairs of tissue and tissue at the positions of the last detect (find_tissue_pairs). Not of
+  // plane meshes, which have none.
+  void detect_tissue(const TissueReach& reach, std::vector<TissuePair>& pairs) const;
 
   // A contact found by detect, a little later: weights, point, normal and gap anew, for corners x
   // and the pose of its tool. False where the gap is `margin` or more, or only the edge of a blade

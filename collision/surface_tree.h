@@ -32,7 +32,21 @@ class SurfaceTree {
   // Nothing within `reach`: -1.
   std::int32_t nearest_exit(const Vec3& p, double reach) const;
 
+  // Nodes and triangles, ascending, that face each other: a triangle of the node's has an outward
+  // normal at more than 96 degrees to the triangle's. On the way from the positions of the last
+  // refit to `ahead` (n_nodes) the node comes nearer to the triangle's box than `reach`, and at its
+  // beginning or end it lies between `depth` below and `reach` over the triangle's plane, or passes
+  // it. On a smooth surface that is little, and found without a look at most of it: parts of the
+  // tree carry a box of their normals.
+  struct Facing {
+    std::int32_t node = 0, triangle = 0;
+    double opposition = 0;  // the least n·n of the triangle and one of the node's
+    std::int32_t own = 0;   // this one of the node's
+  };
+  std::vector<Facing> facing(std::span<const Vec3> ahead, double reach, double depth) const;
+
   Triangle corners(std::int32_t triangle) const;
+  const Vec3& position(std::int32_t node) const { return x_[index(node)]; }
   const std::array<std::int32_t, 3>& nodes(std::int32_t t) const { return triangle_[index(t)]; }
 
  private:
@@ -46,6 +60,7 @@ class SurfaceTree {
   void split(std::span<const Vec3> centroid, std::int32_t first, std::int32_t count);
   template <class Enters, class Visit>
   void walk(Enters enters, Visit visit) const;
+  friend class FacingSearch;
 
   std::vector<std::array<std::int32_t, 3>> triangle_;
   std::vector<std::int32_t> order_;  // triangles as the leaves hold them

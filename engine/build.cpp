@@ -139,13 +139,17 @@ void build_instruments(const LoadedScene& loaded, Simulation& s) {
   }
   s.holds.is_open.assign(s.tools.size(), 1);
   s.holds.poses.resize(s.tools.size());
-  if (s.tools.empty()) return;
+  const bool has_tissue = s.scene.contact.has_tissue;
+  if (has_tissue && s.mesh.dimension() == 2)
+    loaded.where.fail("contact.tissue", "this body is plane: only volumes touch themselves");
+  if (s.tools.empty() && !has_tissue) return;
   std::vector<ToolShape> shapes;
   for (const Tool& tool : s.tools) shapes.push_back(tool.shape);
   s.contact = std::make_unique<ContactStage>(
       ContactStage{.detector = ContactDetector(shapes),
                    .options = {.friction = s.scene.contact.friction,
-                               .release_speed = s.scene.contact.release_speed}});
+                               .release_speed = s.scene.contact.release_speed},
+                   .has_tissue = has_tissue});
   s.contact->motion.resize(s.tools.size());
   s.contact_reach = 0.5 * edge;
   build_cuts(s);

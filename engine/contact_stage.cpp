@@ -33,14 +33,24 @@ void detect_contacts(ContactStage& stage, std::span<const Tool> tools, const Hol
                 [&](const Contact& contact) { return is_inside_jaws(contact, holds); });
 }
 
+void detect_tissue(ContactStage& stage, const SurfaceView& view, double time, double reach) {
+  stage.ahead.resize(view.x.size());
+  for (const std::int32_t node : view.node) {
+    const auto i = static_cast<std::size_t>(node);
+    stage.ahead[i] = view.x[i] + time * view.v[i];
+  }
+  stage.detector.detect_tissue({.ahead = stage.ahead, .extra = reach, .depth = reach},
+                               stage.tissue);
+}
+
 void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds) {
   stage.set = {};
-  if (stage.contacts.empty()) return;
+  if (stage.contacts.empty() && stage.tissue.empty()) return;
   std::vector<std::uint8_t> is_held(body.mass.size(), 0);
   for (std::size_t i = 0; i < is_held.size(); ++i) is_held[i] = (body.fixed[i] & 7) == 7;
   for (const Hold& hold : holds.holds) is_held[static_cast<std::size_t>(hold.node)] = 1;
-  stage.set =
-      prepare_contacts(stage.contacts, body.node_owner, body.part, body.rank, body.mass, is_held);
+  stage.set = prepare_contacts({stage.contacts, stage.tissue}, body.node_owner, body.part,
+                               body.rank, body.mass, is_held);
   stage.u_next.resize(3 * body.part.node_global.size());
   stage.exchange.emplace(stage.set.halo, 6);
   stage.positions.resize(6 * stage.set.node.size());

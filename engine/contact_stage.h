@@ -19,9 +19,12 @@ namespace trocar {
 struct ContactStage {
   ContactDetector detector;
   ContactOptions options;
-  std::vector<Contact> contacts;  // of this frame, on every rank
-  ContactSet set;                 // those that this rank works on
-  std::vector<double> u_next;     // (n_local * 3) of its owned nodes, without contact [m]
+  bool has_tissue = false;         // tissue touches tissue, too
+  std::vector<Contact> contacts;   // of this frame, on every rank
+  std::vector<TissuePair> tissue;  // the same of tissue and tissue
+  std::vector<Vec3> ahead;         // (n_nodes) surface nodes at the end of the frame, if free [m]
+  ContactSet set;                  // those that this rank works on
+  std::vector<double> u_next;      // (n_local * 3) of its owned nodes, without contact [m]
   std::optional<HaloExchange> exchange;
   std::vector<double> positions;   // (set.node.size() * 6) that travel
   std::vector<ToolMotion> motion;  // (n_tools) at the end of the substep
@@ -37,6 +40,9 @@ struct FrameSpan {
 // frame [m].
 void detect_contacts(ContactStage& stage, std::span<const Tool> tools, const Holds& holds,
                      const SurfaceView& view, const FrameSpan& span, double reach_extra);
+// The same of tissue and tissue; time: of the frame [s], reach: how much nearer tissue may come
+// than its velocities say [m].
+void detect_tissue(ContactStage& stage, const SurfaceView& view, double time, double reach);
 // Of a rank's part of the mesh; global fields (n_nodes).
 struct ContactBody {
   const Part& part;

@@ -21,6 +21,10 @@ namespace {
 // a step.
 constexpr double step_rise = 1e-4;
 
+// Edges by which tissue may approach tissue in a frame; what comes faster is found when it is
+// inside.
+constexpr double most_approach = 2;
+
 double stable_step(const Simulation& s) {
   return std::min(s.watch.stable_step, s.held_step);
 }
@@ -49,8 +53,13 @@ void grasp(Simulation& s, const FrameSpan& span) {
 
 void detect(Simulation& s, const FrameSpan& span) {
   const PhaseScope scope(s.timers, phase_detect);
-  const double reach = s.contact_reach + largest_speed(s) * (span.t1 - span.t0);
-  detect_contacts(*s.contact, s.tools, s.holds, s.view, span, reach);
+  const double time = span.t1 - span.t0;
+  detect_contacts(*s.contact, s.tools, s.holds, s.view, span,
+                  s.contact_reach + largest_speed(s) * time);
+  if (s.contact->has_tissue) {
+    gather_velocities(s.view, s.state.v, *s.communicator);
+    detect_tissue(*s.contact, s.view, time, s.contact_reach);
+  }
   prepare_frame_contacts(*s.contact,
                          {.part = s.part,
                           .rank = s.communicator->rank(),
@@ -63,7 +72,7 @@ void detect(Simulation& s, const FrameSpan& span) {
 // Pushes tissue out of the instruments that it would be in at the end of the step.
 void resolve_contacts(Simulation& s, const FrameSpan& span, std::int64_t k) {
   ContactStage& contact = *s.contact;
-  if (contact.set.items.empty()) return;
+  if (contact.set.node.empty()) return;
   move_tools(s.tools, span.t0 + static_cast<double>(k + 1) * span.dt, span.dt, contact.motion);
   predict(s.model, s.scratch, s.holds.prescribed, contact.set.local, span.dt, s.state,
           contact.u_next);

@@ -86,6 +86,7 @@ struct SceneSolver {
 struct SceneContact {
   double friction = 0.2;
   double release_speed = 0.02;  // [m/s]
+  bool has_tissue = false;
 };
 
 struct SceneCutting {

@@ -151,6 +151,11 @@ void check_start(const Scene& scene, const SourceMap& where) {
                "with solver.precision = \"single\" the tolerance must be 3e-5 or more");
 }
 
+void check_contact(const Scene& scene, const SourceMap& where) {
+  if (scene.contact.has_tissue && scene.solver.sleep != 0)
+    where.fail("contact.tissue", "what sleeps cannot be touched by tissue: leave out solver.sleep");
+}
+
 void check_time(const Scene& scene, const SourceMap& where) {
   if (scene.time.duration * scene.time.frame_rate < 1)
     where.fail("time.duration", "the duration is shorter than one frame");
@@ -173,6 +178,7 @@ LoadedScene load_scene(const std::string& file, const std::vector<std::string>& 
   check_cameras(scene, located.where);
   check_outputs(scene, located.where);
   check_start(scene, located.where);
+  check_contact(scene, located.where);
   std::string folder = std::filesystem::path(file).parent_path().string();
   if (!folder.empty()) folder += "/";
   return {.scene = std::move(located.value),

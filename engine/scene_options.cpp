@@ -136,12 +136,15 @@ Options<SceneSolver> solver_options() {
 }
 
 Options<SceneContact> contact_options() {
-  Options<SceneContact> c("Contact between instruments and tissue.");
+  Options<SceneContact> c("Contact between instruments and tissue, and of tissue with itself.");
   c.number("friction", &SceneContact::friction, dim::none, not_negative, "Coulomb's coefficient.");
   c.number(
       "release_speed", &SceneContact::release_speed, dim::velocity, not_negative,
       "Speed at which tissue leaves an instrument that appears inside of it, as jaws that open "
       "do.");
+  c.boolean("tissue", &SceneContact::has_tissue,
+            "Tissue touches tissue: the lips of a wound, folds, pieces that were cut off. Bodies "
+            "only, and not with solver.sleep.");
   return c;
 }
 

@@ -18,17 +18,33 @@ SurfaceView make_surface_view(const Surface& surface, std::span<const Vec3> X,
   return view;
 }
 
-void gather_surface(SurfaceView& view, std::span<const Vec3> X, std::span<const double> u,
-                    Communicator& communicator) {
+namespace {
+
+// Calls use(node, value) for all surface nodes with a field's (n_local * 3) values.
+template <class Use>
+void gather(const SurfaceView& view, std::span<const double> field, Communicator& communicator,
+            const Use& use) {
   std::vector<double> mine;
   mine.reserve(view.local.size() * 3);
   for (const std::int32_t local : view.local)
-    for (std::size_t i = 0; i < 3; ++i) mine.push_back(u[static_cast<std::size_t>(local) * 3 + i]);
+    for (std::size_t i = 0; i < 3; ++i)
+      mine.push_back(field[static_cast<std::size_t>(local) * 3 + i]);
   const std::vector<double> all = communicator.all_gather(mine);
-  for (std::size_t k = 0; k < view.node.size(); ++k) {
-    const auto node = static_cast<std::size_t>(view.node[k]);
-    view.x[node] = X[node] + Vec3(all[3 * k], all[3 * k + 1], all[3 * k + 2]);
-  }
+  for (std::size_t k = 0; k < view.node.size(); ++k)
+    use(static_cast<std::size_t>(view.node[k]), Vec3(all[3 * k], all[3 * k + 1], all[3 * k + 2]));
+}
+
+}  // namespace
+
+void gather_surface(SurfaceView& view, std::span<const Vec3> X, std::span<const double> u,
+                    Communicator& communicator) {
+  gather(view, u, communicator,
+         [&](std::size_t node, const Vec3& value) { view.x[node] = X[node] + value; });
+}
+
+void gather_velocities(SurfaceView& view, std::span<const double> v, Communicator& communicator) {
+  view.v.resize(view.x.size());
+  gather(view, v, communicator, [&](std::size_t node, const Vec3& value) { view.v[node] = value; });
 }
 
 }  // namespace trocar

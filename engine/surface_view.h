@@ -14,6 +14,7 @@ namespace trocar {
 
 struct SurfaceView {
   std::vector<Vec3> x;  // (n_nodes), valid at surface nodes [m]
+  std::vector<Vec3> v;  // the same, where tissue touches tissue; else empty [m/s]
   std::vector<std::int32_t>
       node;  // surface nodes by (owner, number): the order in which they arrive
   std::vector<std::int32_t> local;  // this rank's ones, local numbers
@@ -21,8 +22,9 @@ struct SurfaceView {
 
 SurfaceView make_surface_view(const Surface& surface, std::span<const Vec3> X,
                               std::span<const std::int32_t> node_owner, const Part& part, int rank);
-// Collective.
+// Collective. u, v (n_local * 3).
 void gather_surface(SurfaceView& view, std::span<const Vec3> X, std::span<const double> u,
                     Communicator& communicator);
+void gather_velocities(SurfaceView& view, std::span<const double> v, Communicator& communicator);
 
 }  // namespace trocar

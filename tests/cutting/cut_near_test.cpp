@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cutting_tet.h"
+#include "mesh_joined.h"
 
 namespace trocar {
 namespace {
@@ -11,15 +12,8 @@ using namespace cutting_test;
 
 // Two blocks side by side with a gap: a body whose surface a band enters several times.
 Mesh two_blocks() {
-  Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {6, 6, 6}, BoxElements::tet4_kuhn);
-  const Mesh other = make_box({1.5, 0, 0}, {2.5, 1, 1}, {6, 6, 6}, BoxElements::tet4_five);
-  const std::int32_t n = mesh.n_nodes();
-  mesh.X.insert(mesh.X.end(), other.X.begin(), other.X.end());
-  for (std::int32_t e = 0; e < other.n_elements(); ++e) {
-    const auto c = other.corners(e);
-    add_element(mesh, ElementType::tet4,
-                std::vector<std::int32_t>{c[0] + n, c[1] + n, c[2] + n, c[3] + n});
-  }
+  Mesh mesh = joined(make_box({0, 0, 0}, {1, 1, 1}, {6, 6, 6}, BoxElements::tet4_kuhn),
+                     make_box({1.5, 0, 0}, {2.5, 1, 1}, {6, 6, 6}, BoxElements::tet4_five));
   jitter(mesh, 0.2, 3);
   return mesh;
 }

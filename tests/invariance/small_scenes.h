@@ -90,6 +90,12 @@ inline const std::string curved_cut = scalpel(R"(
   { time = 0.24, position = ["4 mm", "-4 mm", "12 mm"], forward = [1, 0, 0] },
   { time = 0.36, position = ["20 mm", "-12 mm", "12 mm"], forward = [0.8, -0.6, 0] },
 )");
+// Cuts off what then slides down on the rest of the block.
+inline const std::string slanted_cut = scalpel_along("60 mm", R"(
+  { time = 0.02, position = ["-45 mm", "26 mm", "2.9 mm"], direction = [0, 0.906, -0.423] },
+  { time = 0.26, position = ["45 mm", "26 mm", "2.9 mm"], direction = [0, 0.906, -0.423] },
+)");
+inline const std::string touching_tissue = "[contact]\ntissue = true\nfriction = 0.1\n";
 inline const std::string crossing_cuts = scalpel(R"(
   { time = 0.02, position = ["-34 mm", "-4 mm", "14 mm"], forward = [1, 0.1, 0] },
   { time = 0.26, position = ["34 mm", "4 mm", "14 mm"], forward = [1, 0.1, 0] },
@@ -227,6 +233,10 @@ inline std::vector<SmallScene> small_scenes() {
       {"tet4, cut in two", block(parted) + through_cut},
       {"tet4, crossing cuts", block(crossed) + crossing_cuts},
       {"hex8, curved cut", block(hexahedra()) + curved_cut},
+      {"tet4, slanted cut, one piece sliding on the other, resumed",
+       block({}) + touching_tissue + slanted_cut, "0.28 s"},
+      {"hex8, curved cut, its lips touching and pressed",
+       block(hexahedra()) + touching_tissue + curved_cut + probe},
       {"tet4 with nodal pressures, cut and pulled",
        block({.solver = "tetrahedron = \"nodal-pressure\"\n"}) + partial_cut + grasper},
       {"duct, cut by scissors", duct},

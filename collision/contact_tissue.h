@@ -1,0 +1,18 @@
+// The constraints between tissue and tissue in one step, and the impulses from which the next
+// step's solution begins: they are nearly right where tissue rests on tissue.
+#pragma once
+
+#include <cstdint>
+
+#include "collision/contact_set.h"
+
+namespace trocar {
+
+// Each node is kept out of the nearest triangle of its pairs. step: number within the frame;
+// release as of add_constraint [m].
+void add_tissue(std::int64_t step, double dt, double release, ContactSet& set);
+
+void begin_tissue(std::int64_t step, double friction, ContactSet& set);
+void end_tissue(std::int64_t step, ContactSet& set);
+
+}  // namespace trocar

@@ -1,0 +1,155 @@
+#include <algorithm>
+
+#include "collision/surface_tree.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr double least_opposite = -0.1;  // n·n of normals that face each other is less
+
+// The least a·b of all a and b in two boxes.
+double least_dot(const Box& a, const Box& b) {
+  const auto both = [](const Vec3& p, const Vec3& q) { return Vec3(p.cwiseProduct(q)); };
+  return both(a.low, b.low)
+      .cwiseMin(both(a.low, b.high))
+      .cwiseMin(both(a.high, b.low))
+      .cwiseMin(both(a.high, b.high))
+      .sum();
+}
+
+}  // namespace
+
+// Goes down the tree with itself.
+class FacingSearch {
+ public:
+  FacingSearch(const SurfaceTree& tree, std::span<const Vec3> ahead, double reach, double depth)
+      : tree_(tree), ahead_(ahead), reach_(reach), depth_(depth), parts_(tree.node_.size()) {
+    for (std::size_t t = 0; t < tree.triangle_.size(); ++t) {
+      normal_.push_back(
+          unit_normal(tree.corners(static_cast<std::int32_t>(t))).value_or(Vec3::Zero()));
+      Box& box = box_ahead_.emplace_back();
+      for (const std::int32_t node : tree.triangle_[t]) box.add(ahead[to_index(node)]);
+    }
+    for (std::size_t k = parts_.size(); k-- > 0;) {  // children stand behind their parents
+      for_triangles(k, [&](std::int32_t t) {
+        parts_[k].normals.add(normal_[to_index(t)]);
+        parts_[k].way.add(tree.box_[to_index(t)]);
+        parts_[k].way.add(box_ahead_[to_index(t)]);
+      });
+      if (is_leaf(k)) continue;
+      for (const std::size_t child : {k + 1, right_of(k)}) {
+        parts_[k].normals.add(parts_[child].normals);
+        parts_[k].way.add(parts_[child].way);
+      }
+    }
+  }
+
+  std::vector<SurfaceTree::Facing> found() {
+    if (!tree_.node_.empty()) within(0);
+    const auto key = [](const SurfaceTree::Facing& f) {
+      return std::int64_t{f.node} << 32 | f.triangle;
+    };
+    std::sort(found_.begin(), found_.end(), [&](const auto& a, const auto& b) {
+      if (key(a) != key(b)) return key(a) < key(b);
+      return a.opposition != b.opposition ? a.opposition < b.opposition : a.own < b.own;
+    });
+    const auto end = std::unique(found_.begin(), found_.end(),
+                                 [&](const auto& a, const auto& b) { return key(a) == key(b); });
+    found_.erase(end, found_.end());
+    return std::move(found_);
+  }
+
+ private:
+  static std::size_t to_index(std::int32_t i) { return static_cast<std::size_t>(i); }
+  bool is_leaf(std::size_t k) const { return tree_.node_[k].count > 0; }
+  std::size_t right_of(std::size_t k) const { return to_index(tree_.node_[k].right); }
+  template <class Visit>
+  void for_triangles(std::size_t k, Visit visit) const {
+    const SurfaceTree::Node& node = tree_.node_[k];
+    for (std::int32_t j = node.first; j < node.first + node.count; ++j)
+      visit(tree_.order_[to_index(j)]);
+  }
+
+  void within(std::size_t k) {
+    if (least_dot(parts_[k].normals, parts_[k].normals) >= least_opposite) return;
+    if (!is_leaf(k)) {
+      within(k + 1);
+      within(right_of(k));
+      between(k + 1, right_of(k));
+      return;
+    }
+    for_triangles(k, [&](std::int32_t s) {
+      for_triangles(k, [&](std::int32_t t) {
+        if (s < t) take(s, t);
+      });
+    });
+  }
+
+  void between(std::size_t a, std::size_t b) {
+    const Part &part_a = parts_[a], &part_b = parts_[b];
+    if (!part_a.way.overlaps(part_b.way, reach_) ||
+        least_dot(part_a.normals, part_b.normals) >= least_opposite)
+      return;
+    if (is_leaf(a) && is_leaf(b)) {
+      for_triangles(a,
+                    [&](std::int32_t s) { for_triangles(b, [&](std::int32_t t) { take(s, t); }); });
+      return;
+    }
+    const bool goes_into_a =
+        is_leaf(b) || (!is_leaf(a) && (part_a.way.high - part_a.way.low).squaredNorm() >=
+                                          (part_b.way.high - part_b.way.low).squaredNorm());
+    const std::size_t parent = goes_into_a ? a : b, other = goes_into_a ? b : a;
+    between(parent + 1, other);
+    between(right_of(parent), other);
+  }
+
+  void take(std::int32_t s, std::int32_t t) {
+    const double opposition = normal_[to_index(s)].dot(normal_[to_index(t)]);
+    if (opposition >= least_opposite) return;
+    take_nodes(s, t, opposition);
+    take_nodes(t, s, opposition);
+  }
+
+  void take_nodes(std::int32_t s, std::int32_t t, double opposition) {
+    const std::array<std::int32_t, 3>& own = tree_.nodes(t);
+    const Vec3& n = normal_[to_index(t)];
+    for (const std::int32_t node : tree_.nodes(s)) {
+      const Vec3 &x = tree_.position(node), &x_ahead = ahead_[to_index(node)];
+      const double now = n.dot(x - tree_.position(own[0]));
+      const double later = n.dot(x_ahead - ahead_[to_index(own[0])]);
+      if (std::max(now, later) > -depth_ && std::min(now, later) < reach_ &&
+          comes_near(x, x_ahead, t) && std::find(own.begin(), own.end(), node) == own.end())
+        found_.push_back({node, t, opposition, s});
+    }
+  }
+
+  // As seen from the triangle's box.
+  bool comes_near(const Vec3& x, const Vec3& x_ahead, std::int32_t t) const {
+    const Box &now = tree_.box_[to_index(t)], &later = box_ahead_[to_index(t)];
+    Box way;
+    for (const Vec3& d : {Vec3(x - now.low), Vec3(x - now.high), Vec3(x_ahead - later.low),
+                          Vec3(x_ahead - later.high)})
+      way.add(d);
+    return way.distance2(Vec3::Zero()) < reach_ * reach_;
+  }
+
+  struct Part {
+    Box normals, way;
+  };
+
+  const SurfaceTree& tree_;
+  std::span<const Vec3> ahead_;
+  double reach_, depth_;
+  std::vector<Vec3> normal_;    // (n_triangles)
+  std::vector<Box> box_ahead_;  // (n_triangles)
+  std::vector<Part> parts_;     // (n tree nodes)
+  std::vector<SurfaceTree::Facing> found_;
+};
+
+std::vector<SurfaceTree::Facing> SurfaceTree::facing(std::span<const Vec3> ahead, double reach,
+                                                     double depth) const {
+  return FacingSearch(*this, ahead, reach, depth).found();
+}
+
+}  // namespace trocar
