@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 
+#include "collision/tissue_pairs.h"
 #include "engine/energy_ledger.h"
 #include "engine/frame_report.h"
 #include "engine_started.h"
@@ -165,6 +167,38 @@ TEST(ContactOfTissue, lets_a_parted_block_answer_like_a_whole_one) {
   const double whole = energy_of_pressed(false), parted = energy_of_pressed(true);
   std::printf("strain energy %.6g, whole %.6g J\n", parted, whole);
   EXPECT_NEAR(parted, whole, 0.01 * whole);
+}
+
+// How many nodes of a strip's surface lie deeper than a tenth of its thickness in other parts of
+// it, once its ends have been laid onto each other and its arms hang down side by side.
+int n_deep_in_folded_strip(bool has_contact) {
+  const auto strip = built(
+      "[time]\nduration = 10\nframe_rate = 60\n[tissue.shape]\nkind = \"box\"\nlow = [-0.06, "
+      "-0.015, 0]\nhigh = [0.06, 0.015, 0.003]\ncells = [32, 8, 1]\nelements = \"hex8\"\n"
+      "[tissue.material]\nyoung_modulus = 20000\npoisson_ratio = 0.4\n[solver]\nmass_damping = 20"
+      "\ngravity = [0, 0, -2]\n[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"x+\"\n"
+      "path = [{ time = 0, displacement = [0, 0, 0] }, { time = 0.5, displacement = [-0.03, 0, "
+      "0.04] }, { time = 1.2, displacement = [-0.11, 0, 0.025] }, { time = 1.8, displacement = "
+      "[-0.11, 0, 0.0005] }]\n[contact]\ntissue = true\n",
+      {has_contact ? "contact.tissue=true" : "contact.tissue=false"});
+  Simulation& s = *strip->s;
+  run_frames(*strip, 130);
+  refresh_surface(s);
+  const SurfaceTree tree(s.surface.triangle, s.view.x);
+  std::vector<TissuePair> pairs;
+  find_tissue_pairs(tree, {.ahead = s.view.x, .extra = 0.003, .depth = 0.003}, pairs);
+  std::set<std::int32_t> deep;
+  for (const TissuePair& pair : pairs) {
+    const auto x = [&](std::int32_t i) { return s.view.x[static_cast<std::size_t>(i)]; };
+    const Triangle triangle = {x(pair.corner[0]), x(pair.corner[1]), x(pair.corner[2])};
+    if (touch_tissue(x(pair.node), triangle).height < -0.0003) deep.insert(pair.node);
+  }
+  return static_cast<int>(deep.size());
+}
+
+TEST(ContactOfTissue, keeps_the_arms_of_a_folded_strip_apart) {
+  EXPECT_EQ(n_deep_in_folded_strip(true), 0);
+  EXPECT_GT(n_deep_in_folded_strip(false), 20);
 }
 
 TEST(ContactOfTissue, is_refused_for_plane_bodies_and_for_bodies_that_sleep) {
