@@ -207,8 +207,7 @@ void add_to_record(const Simulation& s, const Before& before,
   record.stable_step_ratio =
       std::min(record.stable_step_ratio, least_element_step(s, elements) / before.least_step);
   const double mass_change = std::abs(mass_of(nodes, s.mass) - before.mass);
-  record.mass_change = std::max(record.mass_change,
-                                mass_change / std::accumulate(s.mass.begin(), s.mass.end(), 0.0));
+  record.mass_change = std::max(record.mass_change, mass_change / s.whole_mass);
 }
 
 }  // namespace

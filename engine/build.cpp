@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
+#include <numeric>
 
 #include "base/digest.h"
 #include "base/error.h"
@@ -182,15 +182,6 @@ void prepare_first_cut(Simulation& s) {
   s.boxes = make_element_boxes(s.mesh, s.mesh.X);
 }
 
-double least_of_ranks(const std::vector<double>& values, const Communicator& communicator) {
-  std::array<double, 8> least;  // of every eighth: one alone waits for the one before
-  least.fill(std::numeric_limits<double>::max());
-  for (std::size_t k = 0; k < values.size(); k += least.size())
-    for (std::size_t lane = 0; lane < std::min(least.size(), values.size() - k); ++lane)
-      least[lane] = std::min(least[lane], values[k + lane]);
-  return communicator.all_min(*std::min_element(least.begin(), least.end()));
-}
-
 // Small elements with steps of their own, if they set everyone's. Collective.
 std::unique_ptr<MultiRate> find_multirate(const Simulation& s) {
   if (!s.scene.solver.is_multirate) return nullptr;
@@ -230,6 +221,7 @@ void rebuild_topology(Simulation& s) {
   const int rank = s.communicator->rank();
   const std::optional<MassScaling> scaling = plan_mass_scaling(s);
   s.mass = lumped_mass(s.mesh, region_densities(s.materials), s.scene.tissue.thickness);
+  s.whole_mass = std::accumulate(s.mass.begin(), s.mass.end(), 0.0);
   s.part = make_part(s.mesh, s.node_owner, rank);
   s.halo = make_halo(s.mesh, s.node_owner, s.part, rank);
   s.model = build_model(s.mesh, s.part, s.materials, s.fixed, s.mass, solver_options(s.scene));
@@ -243,17 +235,19 @@ void rebuild_topology(Simulation& s) {
   s.surface = boundary_surface(s.mesh);
   s.n_pieces = count_pieces(s.mesh);
   s.altitude = least_altitudes(s);
+  s.least_altitude = LeastOfMany(s.altitude);
+  s.least_element_step = LeastOfMany(s.model.element_step);
+  s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part);
   s.boxes = {};
   follow_model(s);
 }
 
 void follow_model(Simulation& s) {
-  s.rest_step = least_of_ranks(s.model.element_step, *s.communicator);
-  s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part, s.communicator->rank());
+  s.rest_step = s.communicator->all_min(s.least_element_step.value());
   localise_holds(s.holds, s.part);
   // A component r of displacements strains tetrahedra by at most 4 sqrt(3) r / h, hexahedra at
   // their centre by 6 r / h, with the least altitude h.
-  s.look = {.reach = unseen_strain / 7 * least_of_ranks(s.altitude, *s.communicator)};
+  s.look = {.reach = unseen_strain / 7 * s.communicator->all_min(s.least_altitude.value())};
   if (!s.contact) return;
   if (s.mesh.dimension() == 3)
     s.contact->detector.set_closed_surface(s.surface);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/communicator.h"
+#include "base/least_of_many.h"
 #include "base/timers.h"
 #include "engine/added_mass.h"
 #include "engine/blade_drag.h"
@@ -93,6 +94,7 @@ struct Simulation : RankBody {
   ElementBoxes boxes;                    // the same; of positions at some time
   std::vector<Material> materials;       // (n_regions)
   std::vector<double> mass;              // (n_nodes) [kg]
+  double whole_mass = 0;                 // edits keep it [kg]
   std::vector<FixedMask> fixed;          // (n_nodes)
   std::vector<std::int32_t> node_owner;  // (n_nodes)
   Surface surface;
@@ -122,6 +124,7 @@ struct Simulation : RankBody {
   ElementLook look;
   State frame_start;             // where a frame goes back to
   std::vector<double> altitude;  // (n local elements) least one, undeformed [m]
+  LeastOfMany least_altitude, least_element_step;  // of altitude and the model's element_step
   double rest_step = 0;          // least element bound of the undeformed mesh, over all ranks [s]
   double edge_length = 0;        // mean of the mesh at time zero [m]
   double stable_step_before_cut = 0;

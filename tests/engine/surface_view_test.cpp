@@ -28,7 +28,7 @@ TEST(SurfaceView, on_one_rank_has_the_present_positions_of_all_surface_nodes) {
   Case c;
   const std::vector<std::int32_t> owner(c.mesh.X.size(), 0);
   const Part part = make_part(c.mesh, owner, 0);
-  SurfaceView view = make_surface_view(c.surface, c.mesh.X, owner, part, 0);
+  SurfaceView view = make_surface_view(c.surface, c.mesh.X, owner, part);
   Communicator alone;
   gather_surface(view, c.mesh.X, local_field(part), alone);
   EXPECT_EQ(view.node, c.surface.node);
@@ -39,7 +39,7 @@ TEST(SurfaceView, lists_each_surface_node_once_by_owner_and_number) {
   Case c;
   const std::vector<std::int32_t> owner = partition_nodes(c.mesh, 3);
   const SurfaceView view =
-      make_surface_view(c.surface, c.mesh.X, owner, make_part(c.mesh, owner, 1), 1);
+      make_surface_view(c.surface, c.mesh.X, owner, make_part(c.mesh, owner, 1));
   for (std::size_t k = 1; k < view.node.size(); ++k)
     EXPECT_LT(std::pair(owner[view.node[k - 1]], view.node[k - 1]),
               std::pair(owner[view.node[k]], view.node[k]));
@@ -56,7 +56,7 @@ TEST(SurfaceView, the_ranks_values_in_rank_order_meet_the_nodes_in_the_order_of_
   std::vector<std::int32_t> expected;
   for (int rank = 0; rank < 3; ++rank) {
     const Part part = make_part(c.mesh, owner, rank);
-    const SurfaceView view = make_surface_view(c.surface, c.mesh.X, owner, part, rank);
+    const SurfaceView view = make_surface_view(c.surface, c.mesh.X, owner, part);
     for (const std::int32_t local : view.local) {
       EXPECT_LT(local, part.n_owned);
       sent.push_back(part.node_global[local]);
