@@ -182,6 +182,23 @@ void prepare_first_cut(Simulation& s) {
   s.boxes = make_element_boxes(s.mesh, s.mesh.X);
 }
 
+// For what `n` values become by the nodes that cuts add.
+template <class T>
+void leave_room(std::size_t n, std::vector<T>& values) {
+  values.reserve(n + n / 8);
+}
+
+// So that no edit moves all that is known of the nodes.
+void leave_room_for_copies(Simulation& s) {
+  const std::size_t n = s.mesh.X.size();
+  for (auto* values : {&s.mesh.X, &s.boxes.x, &s.view.x, &s.cut_state.x}) leave_room(n, *values);
+  for (auto* values : {&s.cut_state.u, &s.cut_state.v, &s.state.u, &s.state.v, &s.look.u})
+    leave_room(3 * n, *values);
+  for (auto* values : {&s.node_owner, &s.corners.first, &s.part.node_local, &s.part.node_global})
+    leave_room(n, *values);
+  leave_room(n, s.mass);
+}
+
 // Small elements with steps of their own, if they set everyone's. Collective.
 std::unique_ptr<MultiRate> find_multirate(const Simulation& s) {
   if (!s.scene.solver.is_multirate) return nullptr;
@@ -221,7 +238,6 @@ void rebuild_topology(Simulation& s) {
   const int rank = s.communicator->rank();
   const std::optional<MassScaling> scaling = plan_mass_scaling(s);
   s.mass = lumped_mass(s.mesh, region_densities(s.materials), s.scene.tissue.thickness);
-  s.whole_mass = std::accumulate(s.mass.begin(), s.mass.end(), 0.0);
   s.part = make_part(s.mesh, s.node_owner, rank);
   s.halo = make_halo(s.mesh, s.node_owner, s.part, rank);
   s.model = build_model(s.mesh, s.part, s.materials, s.fixed, s.mass, solver_options(s.scene));
@@ -247,7 +263,10 @@ void follow_model(Simulation& s) {
   localise_holds(s.holds, s.part);
   // A component r of displacements strains tetrahedra by at most 4 sqrt(3) r / h, hexahedra at
   // their centre by 6 r / h, with the least altitude h.
-  s.look = {.reach = unseen_strain / 7 * s.communicator->all_min(s.least_altitude.value())};
+  std::vector<double> u = std::move(s.look.u);
+  u.clear();  // keeps its memory
+  s.look = {.u = std::move(u),
+            .reach = unseen_strain / 7 * s.communicator->all_min(s.least_altitude.value())};
   if (!s.contact) return;
   if (s.mesh.dimension() == 3)
     s.contact->detector.set_closed_surface(s.surface);
@@ -270,6 +289,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   build_instruments(loaded, s);
   s.body_crc = crc_of_body(s);
   rebuild_topology(s);
+  s.whole_mass = std::accumulate(s.mass.begin(), s.mass.end(), 0.0);
   if (!s.cuts.empty()) prepare_first_cut(s);
   s.state = make_state(s.model);
   refresh_surface(s);
@@ -282,6 +302,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   if (std::any_of(s.scene.outputs.begin(), s.scene.outputs.end(),
                   [](const SceneOutput& output) { return output.kind == OutputKind::metrics; }))
     open_energy_ledger(s);
+  if (!s.cuts.empty()) leave_room_for_copies(s);
   s.scratch.has_force = false;  // nodes may be moved before the first frame
   return simulation;
 }

@@ -18,6 +18,7 @@
 #include "engine/cut_stage.h"
 #include "engine/energy_ledger.h"
 #include "engine/frame_log.h"
+#include "engine/global_state.h"
 #include "engine/holds.h"
 #include "engine/scene.h"
 #include "engine/sleep.h"
@@ -94,7 +95,7 @@ struct Simulation : RankBody {
   ElementBoxes boxes;                    // the same; of positions at some time
   std::vector<Material> materials;       // (n_regions)
   std::vector<double> mass;              // (n_nodes) [kg]
-  double whole_mass = 0;                 // edits keep it [kg]
+  double whole_mass = 0;                 // of the uncut body [kg]
   std::vector<FixedMask> fixed;          // (n_nodes)
   std::vector<std::int32_t> node_owner;  // (n_nodes)
   Surface surface;
@@ -107,6 +108,7 @@ struct Simulation : RankBody {
   std::unique_ptr<ContactStage> contact;  // only with instruments
   std::vector<CutStage> cuts;             // one an instrument that cuts
   BladeDrag drag;                         // of this frame
+  GlobalState cut_state;                  // of this frame's cuts; kept for its memory
   SurfaceView view;                       // positions of surface nodes, replicated, once a frame
 
   std::int64_t frame = 0;        // frames done
