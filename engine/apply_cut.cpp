@@ -212,8 +212,8 @@ void add_to_record(const Simulation& s, const Before& before,
 
 }  // namespace
 
-// scatter_state where the first `n_kept` owned nodes kept their numbers, and all but `nodes` of these
-// what they are.
+// scatter_state where the first `n_kept` owned nodes kept their numbers, and all but `nodes` of
+// these what they are.
 static void scatter_edited(Simulation& s, std::size_t n_kept, std::span<const std::int32_t> nodes,
                            const GlobalState& global) {
   s.scratch.has_force = false;  // on ranks that have nothing of the edit, too: all exchange alike

@@ -1,5 +1,6 @@
 #include "engine/global_state.h"
 
+#include "base/components.h"
 #include "engine/simulation.h"
 
 namespace trocar {
@@ -9,7 +10,8 @@ void gather_positions(Simulation& s, GlobalState& global) {
   const std::vector<Vec3>& X = s.mesh.X;
   all_gather_field(s.part, 3, s.state.u, *s.communicator, global.u);
   global.x.resize(X.size());
-  for (std::size_t i = 0; i < X.size(); ++i) global.x[i] = X[i] + Vec3::Map(&global.u[3 * i]);
+  components(global.x) =
+      components(X) + Eigen::Map<const Eigen::ArrayXd>(global.u.data(), std::ssize(global.u));
   global.has_velocities = false;
 }
 

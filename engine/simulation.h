@@ -124,11 +124,11 @@ struct Simulation : RankBody {
   double held_step = std::numeric_limits<double>::infinity();
   Watch watch;  // of the last frame, over all ranks
   ElementLook look;
-  State frame_start;             // where a frame goes back to
-  std::vector<double> altitude;  // (n local elements) least one, undeformed [m]
+  State frame_start;                               // where a frame goes back to
+  std::vector<double> altitude;                    // (n local elements) least one, undeformed [m]
   LeastOfMany least_altitude, least_element_step;  // of altitude and the model's element_step
-  double rest_step = 0;          // least element bound of the undeformed mesh, over all ranks [s]
-  double edge_length = 0;        // mean of the mesh at time zero [m]
+  double rest_step = 0;    // least element bound of the undeformed mesh, over all ranks [s]
+  double edge_length = 0;  // mean of the mesh at time zero [m]
   double stable_step_before_cut = 0;
   std::optional<AddedMass> added_mass;     // only with mass scaling
   std::optional<Equilibrium> equilibrium;  // only if this process looked for one

@@ -1,12 +1,11 @@
 #include "mesh/element_boxes.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
 #include <numeric>
 
 #include "base/check.h"
+#include "base/components.h"
 #include "base/sort_unique.h"
 
 namespace trocar {
@@ -52,17 +51,7 @@ void fit_all(const Mesh& mesh, std::span<const Vec3> x, ElementBoxes& boxes) {
 
 // Largest component of a node's way since the boxes were fitted.
 double largest_way(std::span<const Vec3> x, const ElementBoxes& boxes) {
-  constexpr std::size_t at_once = 4;  // one alone waits for the one before
-  std::array<double, 3 * at_once> largest{};
-  const auto compare = [&](std::size_t i, std::size_t n_components) {
-    const double *now = x[i].data(), *then = boxes.x[i].data();
-    for (std::size_t k = 0; k < n_components; ++k)
-      largest[k] = std::max(largest[k], std::abs(now[k] - then[k]));
-  };
-  std::size_t i = 0;
-  for (; i + at_once <= x.size(); i += at_once) compare(i, 3 * at_once);
-  for (; i < x.size(); ++i) compare(i, 3);
-  return *std::max_element(largest.begin(), largest.end());
+  return (components(x) - components(boxes.x)).abs().maxCoeff();
 }
 
 double mean_size(const Mesh& mesh, std::span<const Vec3> x) {

@@ -1,10 +1,10 @@
 // The least of many values against a look at all of them.
 #include "base/least_of_many.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <limits>
-
-#include <gtest/gtest.h>
 
 using namespace trocar;
 
