@@ -1,7 +1,6 @@
 #include "engine/build.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
