@@ -207,50 +207,13 @@ void add_to_record(const Simulation& s, const Before& before,
   record.stable_step_ratio =
       std::min(record.stable_step_ratio, least_element_step(s, elements) / before.least_step);
   const double mass_change = std::abs(mass_of(nodes, s.mass) - before.mass);
-  record.mass_change = std::max(record.mass_change,
-                                mass_change / std::accumulate(s.mass.begin(), s.mass.end(), 0.0));
+  record.mass_change = std::max(record.mass_change, mass_change / s.whole_mass);
 }
 
 }  // namespace
 
-GlobalState gather_positions(Simulation& s) {
-  const PhaseScope scope(s.timers, phase_gather);
-  GlobalState global;
-  global.u = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.state.u, *s.communicator);
-  global.x = present_positions(s.mesh.X, global.u);
-  return global;
-}
-
-static void gather_velocities(Simulation& s, GlobalState& global) {
-  const PhaseScope scope(s.timers, phase_gather);
-  global.v = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.state.v, *s.communicator);
-}
-
-GlobalState gather_state(Simulation& s) {
-  GlobalState global = gather_positions(s);
-  gather_velocities(s, global);
-  return global;
-}
-
-void scatter_state(Simulation& s, const GlobalState& global) {
-  s.scratch.has_force = false;
-  State state = make_state(s.model);
-  state.time = s.state.time;
-  state.last_dt = s.state.last_dt;
-  state.step = s.state.step;
-  state.history_time = s.state.history_time;
-  for (std::size_t i = 0; i < s.part.node_global.size(); ++i) {
-    const auto g = static_cast<std::size_t>(s.part.node_global[i]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      state.u[3 * i + k] = global.u[3 * g + k];
-      state.v[3 * i + k] = global.v[3 * g + k];
-    }
-  }
-  s.state = std::move(state);
-}
-
-// The same where the first `n_kept` owned nodes kept their numbers, and all but `nodes` of these
-// what they are.
+// scatter_state where the first `n_kept` owned nodes kept their numbers, and all but `nodes` of
+// these what they are.
 static void scatter_edited(Simulation& s, std::size_t n_kept, std::span<const std::int32_t> nodes,
                            const GlobalState& global) {
   s.scratch.has_force = false;  // on ranks that have nothing of the edit, too: all exchange alike
@@ -273,7 +236,7 @@ static void scatter_edited(Simulation& s, std::size_t n_kept, std::span<const st
 
 void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutRecord& record) {
   if (s.corners.first.empty()) s.corners = node_corners(s.mesh);
-  if (global.v.empty()) gather_velocities(s, global);
+  if (!global.has_velocities) gather_velocities(s, global);
   const EditedElements edited = find_edited(s.mesh, s.corners, edit);
   std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited.before);
   const Before before = measure_before(s, edited.before, nodes, global);

@@ -35,9 +35,14 @@ void update_part_and_model(Simulation& s, const ModelEdit& edit) {
       edit, s.model);
   s.neighbours = make_neighbours(s.halo, s.model, s.contact != nullptr, *s.communicator);
   fit_scratch(s.model, s.scratch);
+  std::vector<std::int64_t> places;
   for (const std::int32_t e : edit.elements)
-    if (const std::int64_t k = s.part.place_of(e); k >= 0)
+    if (const std::int64_t k = s.part.place_of(e); k >= 0) {
       s.altitude[static_cast<std::size_t>(k)] = least_altitude(s.mesh, e, s.mesh.X);
+      places.push_back(k);
+    }
+  s.least_altitude.change(s.altitude, places);
+  s.least_element_step.change(s.model.element_step, places);
 }
 
 bool holds_one(const Part& part, std::span<const std::int32_t> elements) {
@@ -72,6 +77,7 @@ void update_topology(Simulation& s, std::span<const std::int32_t> elements,
     update_part_and_model(s, {elements, nodes, touching});
   else
     s.part.node_local.resize(s.mesh.X.size(), -1);
+  update_surface_view(s.surface, s.node_owner, s.part, s.view);
   follow_model(s);
 }
 

@@ -1,10 +1,9 @@
 #include "engine/build.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
+#include <numeric>
 
 #include "base/digest.h"
 #include "base/error.h"
@@ -186,13 +185,21 @@ void prepare_first_cut(Simulation& s) {
   s.boxes = make_element_boxes(s.mesh, s.mesh.X);
 }
 
-double least_of_ranks(const std::vector<double>& values, const Communicator& communicator) {
-  std::array<double, 8> least;  // of every eighth: one alone waits for the one before
-  least.fill(std::numeric_limits<double>::max());
-  for (std::size_t k = 0; k < values.size(); k += least.size())
-    for (std::size_t lane = 0; lane < std::min(least.size(), values.size() - k); ++lane)
-      least[lane] = std::min(least[lane], values[k + lane]);
-  return communicator.all_min(*std::min_element(least.begin(), least.end()));
+// For what `n` values become by the nodes that cuts add.
+template <class T>
+void leave_room(std::size_t n, std::vector<T>& values) {
+  values.reserve(n + n / 8);
+}
+
+// So that no edit moves all that is known of the nodes.
+void leave_room_for_copies(Simulation& s) {
+  const std::size_t n = s.mesh.X.size();
+  for (auto* values : {&s.mesh.X, &s.boxes.x, &s.view.x, &s.cut_state.x}) leave_room(n, *values);
+  for (auto* values : {&s.cut_state.u, &s.cut_state.v, &s.state.u, &s.state.v, &s.look.u})
+    leave_room(3 * n, *values);
+  for (auto* values : {&s.node_owner, &s.corners.first, &s.part.node_local, &s.part.node_global})
+    leave_room(n, *values);
+  leave_room(n, s.mass);
 }
 
 // Small elements with steps of their own, if they set everyone's. Collective.
@@ -247,17 +254,22 @@ void rebuild_topology(Simulation& s) {
   s.surface = boundary_surface(s.mesh);
   s.n_pieces = count_pieces(s.mesh);
   s.altitude = least_altitudes(s);
+  s.least_altitude = LeastOfMany(s.altitude);
+  s.least_element_step = LeastOfMany(s.model.element_step);
+  s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part);
   s.boxes = {};
   follow_model(s);
 }
 
 void follow_model(Simulation& s) {
-  s.rest_step = least_of_ranks(s.model.element_step, *s.communicator);
-  s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part, s.communicator->rank());
+  s.rest_step = s.communicator->all_min(s.least_element_step.value());
   localise_holds(s.holds, s.part);
   // A component r of displacements strains tetrahedra by at most 4 sqrt(3) r / h, hexahedra at
   // their centre by 6 r / h, with the least altitude h.
-  s.look = {.reach = unseen_strain / 7 * least_of_ranks(s.altitude, *s.communicator)};
+  std::vector<double> u = std::move(s.look.u);
+  u.clear();  // keeps its memory
+  s.look = {.u = std::move(u),
+            .reach = unseen_strain / 7 * s.communicator->all_min(s.least_altitude.value())};
   if (!s.contact) return;
   if (s.mesh.dimension() == 3)
     s.contact->detector.set_closed_surface(s.surface);
@@ -280,6 +292,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   build_instruments(loaded, s);
   s.body_crc = crc_of_body(s);
   rebuild_topology(s);
+  s.whole_mass = std::accumulate(s.mass.begin(), s.mass.end(), 0.0);
   if (!s.cuts.empty()) prepare_first_cut(s);
   s.state = make_state(s.model);
   refresh_surface(s);
@@ -292,6 +305,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   if (std::any_of(s.scene.outputs.begin(), s.scene.outputs.end(),
                   [](const SceneOutput& output) { return output.kind == OutputKind::metrics; }))
     open_energy_ledger(s);
+  if (!s.cuts.empty()) leave_room_for_copies(s);
   s.scratch.has_force = false;  // nodes may be moved before the first frame
   return simulation;
 }

@@ -16,7 +16,8 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
 
 // (n_regions) [kg/m^3]
 std::vector<double> region_densities(std::span<const Material> materials);
-// What follows from model, surface and altitudes: the last part of rebuild_topology. Collective.
+// What follows from surface, view, and the least step and altitude: the last part of
+// rebuild_topology. Collective.
 void follow_model(Simulation& s);
 
 }  // namespace trocar

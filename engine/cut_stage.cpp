@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "base/box.h"
 #include "engine/apply_cut.h"
@@ -161,7 +160,7 @@ void add_to_record(double travel, double milliseconds, CutStage& stage) {
 }
 
 void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, CutStage& stage,
-                     std::optional<GlobalState>& global) {
+                     bool& is_gathered) {
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
   const BladeSweep sweep = sweep_of(tool, span);
   Box blade;
@@ -172,8 +171,10 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
   if (!is_near && !stage.is_in_stroke) return;
 
   const double start = monotonic_seconds();
-  if (!global) global = gather_positions(s);
-  locate_edge(s, *global, sweep.after, stage);
+  GlobalState& global = s.cut_state;
+  if (!is_gathered) gather_positions(s, global);
+  is_gathered = true;
+  locate_edge(s, global, sweep.after, stage);
   if (!stage.is_in_stroke) {
     if (stage.engaged.empty()) return;
     s.stable_step_before_cut = s.watch.stable_step;
@@ -183,10 +184,10 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
   const bool is_last = leaves_tissue(tool, span, is_near, stage);
   const std::int64_t n_edits = stage.strokes.back().n_edits;
   if (s.mesh.dimension() == 2)
-    cut_plane_piece(s, stage, span, is_last, *global);
+    cut_plane_piece(s, stage, span, is_last, global);
   else
-    cut_volume(s, stage, sweep, is_last, *global);
-  if (stage.strokes.back().n_edits > n_edits) locate_edge(s, *global, sweep.after, stage);
+    cut_volume(s, stage, sweep, is_last, global);
+  if (stage.strokes.back().n_edits > n_edits) locate_edge(s, global, sweep.after, stage);
   add_to_record(way_of_middle(sweep).norm(), 1e3 * (monotonic_seconds() - start), stage);
   if (is_last) end_stroke(s, stage, span.t1);
 }
@@ -196,8 +197,8 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
 void cut_along_blades(Simulation& s, const FrameSpan& span) {
   const PhaseScope scope(s.timers, phase_cut);
   const Box tissue = surface_box(s);
-  std::optional<GlobalState> global;  // gathered by the first blade that is near
-  for (CutStage& stage : s.cuts) cut_along_blade(s, span, tissue, stage, global);
+  bool is_gathered = false;  // by the first blade that is near
+  for (CutStage& stage : s.cuts) cut_along_blade(s, span, tissue, stage, is_gathered);
 }
 
 void prepare_drag(Simulation& s, const FrameSpan& span) {

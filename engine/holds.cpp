@@ -29,13 +29,17 @@ int grasp(Holds& holds, const Tool& tool, std::int32_t number, const Pose& pose,
   return n_taken;
 }
 
+// A plane body is fixed across its plane everywhere: that holds nothing.
+std::uint8_t holds_in_plane(FixedMask fixed) {
+  constexpr FixedMask in_plane = 3;
+  return (fixed & in_plane) != 0 ? 1 : 0;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> held_nodes(const Holds& holds, std::span<const std::uint8_t> fixed) {
-  constexpr FixedMask in_plane =
-      3;  // a plane body is fixed across its plane everywhere: that holds nothing
   std::vector<std::uint8_t> is_held(fixed.size());
-  for (std::size_t i = 0; i < fixed.size(); ++i) is_held[i] = (fixed[i] & in_plane) != 0 ? 1 : 0;
+  std::transform(fixed.begin(), fixed.end(), is_held.begin(), holds_in_plane);
   for (const Hold& hold : holds.holds) is_held[static_cast<std::size_t>(hold.node)] = 1;
   return is_held;
 }

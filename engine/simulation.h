@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/communicator.h"
+#include "base/least_of_many.h"
 #include "base/timers.h"
 #include "engine/added_mass.h"
 #include "engine/blade_drag.h"
@@ -17,6 +18,7 @@
 #include "engine/cut_stage.h"
 #include "engine/energy_ledger.h"
 #include "engine/frame_log.h"
+#include "engine/global_state.h"
 #include "engine/holds.h"
 #include "engine/scene.h"
 #include "engine/sleep.h"
@@ -93,6 +95,7 @@ struct Simulation : RankBody {
   ElementBoxes boxes;                    // the same; of positions at some time
   std::vector<Material> materials;       // (n_regions)
   std::vector<double> mass;              // (n_nodes) [kg]
+  double whole_mass = 0;                 // of the uncut body [kg]
   std::vector<FixedMask> fixed;          // (n_nodes)
   std::vector<std::int32_t> node_owner;  // (n_nodes)
   Surface surface;
@@ -105,6 +108,7 @@ struct Simulation : RankBody {
   std::unique_ptr<ContactStage> contact;  // only with instruments
   std::vector<CutStage> cuts;             // one an instrument that cuts
   BladeDrag drag;                         // of this frame
+  GlobalState cut_state;                  // of this frame's cuts; kept for its memory
   SurfaceView view;                       // positions of surface nodes, replicated, once a frame
 
   std::int64_t frame = 0;        // frames done
@@ -120,10 +124,11 @@ struct Simulation : RankBody {
   double held_step = std::numeric_limits<double>::infinity();
   Watch watch;  // of the last frame, over all ranks
   ElementLook look;
-  State frame_start;             // where a frame goes back to
-  std::vector<double> altitude;  // (n local elements) least one, undeformed [m]
-  double rest_step = 0;          // least element bound of the undeformed mesh, over all ranks [s]
-  double edge_length = 0;        // mean of the mesh at time zero [m]
+  State frame_start;                               // where a frame goes back to
+  std::vector<double> altitude;                    // (n local elements) least one, undeformed [m]
+  LeastOfMany least_altitude, least_element_step;  // of altitude and the model's element_step
+  double rest_step = 0;    // least element bound of the undeformed mesh, over all ranks [s]
+  double edge_length = 0;  // mean of the mesh at time zero [m]
   double stable_step_before_cut = 0;
   std::optional<AddedMass> added_mass;     // only with mass scaling
   std::optional<Equilibrium> equilibrium;  // only if this process looked for one

@@ -4,20 +4,6 @@
 
 namespace trocar {
 
-SurfaceView make_surface_view(const Surface& surface, std::span<const Vec3> X,
-                              std::span<const std::int32_t> node_owner, const Part& part,
-                              int rank) {
-  SurfaceView view;
-  view.x.assign(X.begin(), X.end());
-  view.node = surface.node;
-  const auto owner = [&](std::int32_t node) { return node_owner[static_cast<std::size_t>(node)]; };
-  std::stable_sort(view.node.begin(), view.node.end(),
-                   [&](std::int32_t a, std::int32_t b) { return owner(a) < owner(b); });
-  for (const std::int32_t node : view.node)
-    if (owner(node) == rank) view.local.push_back(part.node_local[static_cast<std::size_t>(node)]);
-  return view;
-}
-
 namespace {
 
 // Calls use(node, value) for all surface nodes with a field's (n_local * 3) values.
@@ -35,6 +21,28 @@ void gather(const SurfaceView& view, std::span<const double> field, Communicator
 }
 
 }  // namespace
+
+SurfaceView make_surface_view(const Surface& surface, std::span<const Vec3> X,
+                              std::span<const std::int32_t> node_owner, const Part& part) {
+  SurfaceView view;
+  view.x.assign(X.begin(), X.end());
+  update_surface_view(surface, node_owner, part, view);
+  return view;
+}
+
+void update_surface_view(const Surface& surface, std::span<const std::int32_t> node_owner,
+                         const Part& part, SurfaceView& view) {
+  view.x.resize(node_owner.size(), Vec3::Zero());
+  view.node = surface.node;
+  const auto owner = [&](std::int32_t node) { return node_owner[static_cast<std::size_t>(node)]; };
+  const auto by_owner = [&](std::int32_t a, std::int32_t b) { return owner(a) < owner(b); };
+  if (!std::is_sorted(view.node.begin(), view.node.end(), by_owner))
+    std::stable_sort(view.node.begin(), view.node.end(), by_owner);
+  view.local.clear();
+  for (const std::int32_t node : view.node)
+    if (owner(node) == part.rank)
+      view.local.push_back(part.node_local[static_cast<std::size_t>(node)]);
+}
 
 void gather_surface(SurfaceView& view, std::span<const Vec3> X, std::span<const double> u,
                     Communicator& communicator) {

@@ -21,7 +21,11 @@ struct SurfaceView {
 };
 
 SurfaceView make_surface_view(const Surface& surface, std::span<const Vec3> X,
-                              std::span<const std::int32_t> node_owner, const Part& part, int rank);
+                              std::span<const std::int32_t> node_owner, const Part& part);
+// The same after an edit, in time of the surface's; positions of new nodes wait for the next
+// gathering.
+void update_surface_view(const Surface& surface, std::span<const std::int32_t> node_owner,
+                         const Part& part, SurfaceView& view);
 // Collective. u, v (n_local * 3).
 void gather_surface(SurfaceView& view, std::span<const Vec3> X, std::span<const double> u,
                     Communicator& communicator);

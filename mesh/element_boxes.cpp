@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/check.h"
+#include "base/components.h"
 #include "base/sort_unique.h"
 
 namespace trocar {
@@ -50,10 +51,7 @@ void fit_all(const Mesh& mesh, std::span<const Vec3> x, ElementBoxes& boxes) {
 
 // Largest component of a node's way since the boxes were fitted.
 double largest_way(std::span<const Vec3> x, const ElementBoxes& boxes) {
-  Eigen::Array3d largest = Eigen::Array3d::Zero();
-  for (std::size_t i = 0; i < x.size(); ++i)
-    largest = largest.max((x[i] - boxes.x[i]).array().abs());
-  return largest.maxCoeff();
+  return (components(x) - components(boxes.x)).abs().maxCoeff();
 }
 
 double mean_size(const Mesh& mesh, std::span<const Vec3> x) {

@@ -181,31 +181,37 @@ void HaloExchange::exchange(std::span<double> field, Communicator& communicator)
   finish(fields, communicator);
 }
 
-std::vector<double> all_gather_field(const Part& part, std::int32_t n_nodes, int width,
-                                     std::span<const double> local, Communicator& communicator) {
+void all_gather_field(const Part& part, int width, std::span<const double> local,
+                      Communicator& communicator, std::vector<double>& field) {
   const auto n = static_cast<std::size_t>(width);
-  CHECK_OP(local.size(), >=, static_cast<std::size_t>(part.n_owned) * n);
-  if (communicator.size() == 1) {
-    CHECK_OP(part.n_owned, ==, n_nodes);
-    std::vector<double> field(static_cast<std::size_t>(n_nodes) * n);
-    for (std::int32_t k = 0; k < part.n_owned; ++k)
-      std::copy_n(local.data() + n * k, n, field.data() + n * part.node_global[k]);
-    return field;
+  const std::size_t n_mine = static_cast<std::size_t>(part.n_owned) * n;
+  CHECK_OP(local.size(), >=, n_mine);
+  field.resize(part.node_local.size() * n);
+  if (communicator.size() == 1) {  // owns all nodes, ascending
+    CHECK_OP(n_mine, ==, field.size());
+    std::copy_n(local.begin(), n_mine, field.begin());
+    return;
   }
   // Each node travels as its global number (exact in a double) and its values.
   std::vector<double> records;
-  records.reserve(static_cast<std::size_t>(part.n_owned) * (n + 1));
+  records.reserve(n_mine + static_cast<std::size_t>(part.n_owned));
   for (std::int32_t k = 0; k < part.n_owned; ++k) {
     records.push_back(part.node_global[k]);
     const double* values = local.data() + n * k;
     records.insert(records.end(), values, values + n);
   }
   records = communicator.all_gather(records);
-  CHECK_OP(records.size(), ==, static_cast<std::size_t>(n_nodes) * (n + 1));
-  std::vector<double> field(static_cast<std::size_t>(n_nodes) * n);
+  CHECK_OP(records.size(), ==, part.node_local.size() * (n + 1));
   for (auto record = records.begin(); record != records.end();
        record += static_cast<std::ptrdiff_t>(n + 1))
     std::copy_n(record + 1, n, field.begin() + static_cast<std::ptrdiff_t>(*record) * width);
+}
+
+std::vector<double> all_gather_field(const Part& part, std::int32_t n_nodes, int width,
+                                     std::span<const double> local, Communicator& communicator) {
+  CHECK_OP(std::ssize(part.node_local), ==, n_nodes);
+  std::vector<double> field;
+  all_gather_field(part, width, local, communicator, field);
   return field;
 }
 

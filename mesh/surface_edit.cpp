@@ -22,25 +22,44 @@ Surface fresh_surface(const Mesh& mesh, const SurfaceEdit& edit) {
   return fresh;
 }
 
-void append_triangle(const Surface& from, std::size_t t, Surface& surface) {
-  surface.triangle.push_back(from.triangle[t]);
-  surface.element.push_back(from.element[t]);
-  surface.is_cut.push_back(from.is_cut[t]);
-  surface.is_quad_half.push_back(from.is_quad_half[t]);
-}
+// Triangles [begin, end) of the surface before the edit, or of the fresh ones.
+struct Run {
+  std::size_t begin, end;
+  bool is_fresh;
+};
 
 // Ascending by element: those of `fresh` in place of the old ones of the edited elements.
-Surface merged(const Surface& old, const Surface& fresh, std::span<const std::int32_t> elements) {
-  Surface surface;
-  std::size_t next = 0;
-  for (std::size_t t = 0; t < old.triangle.size(); ++t) {
-    if (std::binary_search(elements.begin(), elements.end(), old.element[t])) continue;
-    for (; next < fresh.triangle.size() && fresh.element[next] < old.element[t]; ++next)
-      append_triangle(fresh, next, surface);
-    append_triangle(old, t, surface);
+std::vector<Run> merged_runs(const Surface& old, const Surface& fresh,
+                             std::span<const std::int32_t> elements) {
+  std::vector<Run> runs;
+  auto from = old.element.begin(), from_fresh = fresh.element.begin();
+  const auto add = [&](auto begin, auto end, auto first, bool is_fresh) {
+    if (begin != end)
+      runs.push_back({static_cast<std::size_t>(begin - first),
+                      static_cast<std::size_t>(end - first), is_fresh});
+  };
+  for (const std::int32_t e : elements) {
+    const auto begin = std::lower_bound(from, old.element.end(), e);
+    const auto end_fresh = std::upper_bound(from_fresh, fresh.element.end(), e);
+    add(from, begin, old.element.begin(), false);
+    add(from_fresh, end_fresh, fresh.element.begin(), true);
+    from = std::upper_bound(begin, old.element.end(), e);
+    from_fresh = end_fresh;
   }
-  for (; next < fresh.triangle.size(); ++next) append_triangle(fresh, next, surface);
-  return surface;
+  add(from, old.element.end(), old.element.begin(), false);
+  return runs;
+}
+
+template <class T>
+void merge(const std::vector<T>& fresh, std::span<const Run> runs, std::vector<T>& values) {
+  std::vector<T> merged;
+  merged.reserve(values.size() + fresh.size());
+  for (const Run& run : runs) {
+    const std::vector<T>& from = run.is_fresh ? fresh : values;
+    merged.insert(merged.end(), from.begin() + static_cast<std::ptrdiff_t>(run.begin),
+                  from.begin() + static_cast<std::ptrdiff_t>(run.end));
+  }
+  values = std::move(merged);
 }
 
 // Only facets between the edit's nodes change: the other nodes stay on the surface or off it.
@@ -66,9 +85,12 @@ void update_surface(const Mesh& mesh, const SurfaceEdit& edit, Surface& surface)
     return;
   }
   const Surface fresh = fresh_surface(mesh, edit);
-  std::vector<std::int32_t> node = merged_nodes(surface, fresh, edit.nodes);
-  surface = merged(surface, fresh, edit.elements);
-  surface.node = std::move(node);
+  const std::vector<Run> runs = merged_runs(surface, fresh, edit.elements);
+  merge(fresh.triangle, runs, surface.triangle);
+  merge(fresh.is_cut, runs, surface.is_cut);
+  merge(fresh.is_quad_half, runs, surface.is_quad_half);
+  merge(fresh.element, runs, surface.element);
+  surface.node = merged_nodes(surface, fresh, edit.nodes);
 }
 
 }  // namespace trocar

@@ -1,7 +1,7 @@
 // A model after an edit that left every element its place in the lists: the numbers of edited
 // elements and nodes are made anew, the others stay. What is left in proportion to the model is the
-// order of sums, whole numbers only (a pass over nodes on one thread of one rank, over elements
-// else), and positions in single precision.
+// order of sums, whole numbers only (nodes are copied and rows searched on one thread of one rank,
+// elements passed else), and positions in single precision.
 #pragma once
 
 #include <cstdint>

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "base/sort_unique.h"
 #include "base/threads.h"
 #include "solver/block_ranges.h"
 #include "solver/row_order.h"
@@ -121,11 +122,11 @@ void finish(const NodeForces<float>& task, std::span<const std::int32_t> node) {
   active_kernels().nodes.force_of_singles(task, node.data(), std::ssize(node));
 }
 
-// Of each of the nodes, counted through all lists.
+// Of each of the nodes, counted through all lists; `first` of each list.
 std::vector<std::int32_t> last_blocks(std::span<const std::int32_t> nodes,
-                                      std::span<const BlockPlace> places, const Model& model) {
-  std::vector<std::int32_t> first{0}, last(nodes.size(), -1);
-  for (const ElementBlocks& blocks : model.blocks) first.push_back(first.back() + blocks.n_blocks);
+                                      std::span<const BlockPlace> places,
+                                      std::span<const std::int32_t> first, const Model& model) {
+  std::vector<std::int32_t> last(nodes.size(), -1);
   for (const BlockPlace& place : places) {
     const ElementBlocks& blocks = model.blocks[place.list];
     const std::int64_t n = corners_of_block(blocks);
@@ -139,27 +140,60 @@ std::vector<std::int32_t> last_blocks(std::span<const std::int32_t> nodes,
   return last;
 }
 
-// Own nodes of the one run: the others keep their order.
+// Nodes with a last block each, by both.
+class OwnNodes {
+ public:
+  OwnNodes(std::size_t most, const SumOrder& from) : from_(from) {
+    node_.reserve(most);
+    last_block_.reserve(most);
+  }
+  void add(std::int32_t block, std::int32_t node) {
+    node_.push_back(node);
+    last_block_.push_back(block);
+  }
+  // Those from `begin` to `end` of before.
+  void add_old(std::ptrdiff_t begin, std::ptrdiff_t end) {
+    node_.insert(node_.end(), from_.node.begin() + begin, from_.node.begin() + end);
+    last_block_.insert(last_block_.end(), from_.last_block.begin() + begin,
+                       from_.last_block.begin() + end);
+  }
+  void move_to(SumOrder& sums) {
+    sums.run_first = {0, static_cast<std::int32_t>(node_.size())};
+    sums.node = std::move(node_);
+    sums.last_block = std::move(last_block_);
+  }
+
+ private:
+  const SumOrder& from_;
+  std::vector<std::int32_t> node_, last_block_;
+};
+
+// Own nodes of the one run, after those of `nodes` changed from one of the `blocks` to another: the
+// rest keeps its order. blocks: ascending, counted through all lists.
 void edit_own_nodes(std::span<const std::int32_t> nodes, std::span<const std::int32_t> last_block,
-                    SumOrder& sums) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> changed, all;  // last block, node
+                    std::span<const std::int32_t> blocks, SumOrder& sums) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> changed;  // last block, node
   for (std::size_t k = 0; k < nodes.size(); ++k) changed.emplace_back(last_block[k], nodes[k]);
   std::sort(changed.begin(), changed.end());
-  std::vector<std::uint8_t> is_changed(sums.node.size() + nodes.size(), 0);
-  for (const std::int32_t i : nodes) is_changed[i] = 1;
-  all.reserve(is_changed.size());
+  const auto old = sums.last_block.begin();
+  OwnNodes own(sums.node.size() + nodes.size(), sums);
   auto next = changed.begin();
-  for (std::size_t k = 0; k < sums.node.size(); ++k) {
-    if (is_changed[sums.node[k]] != 0) continue;
-    const std::pair own(sums.last_block[k], sums.node[k]);
-    while (next != changed.end() && *next < own) all.push_back(*next++);
-    all.push_back(own);
+  std::ptrdiff_t done = 0;
+  for (const std::int32_t block : blocks) {
+    const auto [begin, end] = std::equal_range(old + done, sums.last_block.end(), block);
+    own.add_old(done, begin - old);
+    done = end - old;
+    for (auto k = begin - old; k < done; ++k) {
+      if (std::binary_search(nodes.begin(), nodes.end(), sums.node[k])) continue;
+      for (; next != changed.end() && *next < std::pair(block, sums.node[k]); ++next)
+        own.add(block, next->second);
+      own.add(block, sums.node[k]);
+    }
+    for (; next != changed.end() && next->first == block; ++next) own.add(block, next->second);
   }
-  all.insert(all.end(), next, changed.end());
-  sums.node.resize(all.size());
-  sums.last_block.resize(all.size());
-  for (std::size_t k = 0; k < all.size(); ++k) std::tie(sums.last_block[k], sums.node[k]) = all[k];
-  sums.run_first = {0, static_cast<std::int32_t>(all.size())};
+  CHECK(next == changed.end());
+  own.add_old(done, std::ssize(sums.node));
+  own.move_to(sums);
 }
 
 // Of these blocks, and of those that had the last node or have it now.
@@ -230,7 +264,11 @@ void edit_sums(std::span<const std::int32_t> nodes, std::span<const BlockPlace> 
   for (ElementBlocks& list : model.blocks) list.target.clear();
   const bool is_one_run = model.sums.n_runs == 1 && model.sums.n_inside_runs == 1;
   if (is_one_run && chunk_count(count_blocks(model)) == 1) {
-    edit_own_nodes(nodes, last_blocks(nodes, blocks, model), model.sums);
+    std::vector<std::int32_t> first{0}, numbers;
+    for (const ElementBlocks& list : model.blocks) first.push_back(first.back() + list.n_blocks);
+    for (const BlockPlace& place : blocks) numbers.push_back(first[place.list] + place.block);
+    sort_unique(numbers);
+    edit_own_nodes(nodes, last_blocks(nodes, blocks, first, model), numbers, model.sums);
     model.sums.n_places = model.n_local;
     edit_rows(blocks, model);
   } else {

@@ -19,8 +19,9 @@ struct BlockPlace {
   std::int32_t block = 0;  // of the list
   bool operator==(const BlockPlace&) const = default;
 };
-// The same after an edit of a model whose sums were in order before it, in time of the edit's and
-// of whole numbers of its nodes and rows where one run does all and no list reads halo nodes.
+// The same after an edit of a model whose sums were in order before it, in time of the edit's
+// where one run does all and no list reads halo nodes, but for a copy of its nodes' whole numbers
+// and a look at its rows.
 // nodes: local numbers of owned ones that meet other elements than before, ascending; blocks: all
 // those with elements at these nodes.
 void edit_sums(std::span<const std::int32_t> nodes, std::span<const BlockPlace> blocks,

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "mesh/edit.h"
 #include "mesh/generate.h"
 
 namespace trocar {
@@ -28,7 +31,7 @@ TEST(SurfaceView, on_one_rank_has_the_present_positions_of_all_surface_nodes) {
   Case c;
   const std::vector<std::int32_t> owner(c.mesh.X.size(), 0);
   const Part part = make_part(c.mesh, owner, 0);
-  SurfaceView view = make_surface_view(c.surface, c.mesh.X, owner, part, 0);
+  SurfaceView view = make_surface_view(c.surface, c.mesh.X, owner, part);
   Communicator alone;
   gather_surface(view, c.mesh.X, local_field(part), alone);
   EXPECT_EQ(view.node, c.surface.node);
@@ -39,7 +42,7 @@ TEST(SurfaceView, lists_each_surface_node_once_by_owner_and_number) {
   Case c;
   const std::vector<std::int32_t> owner = partition_nodes(c.mesh, 3);
   const SurfaceView view =
-      make_surface_view(c.surface, c.mesh.X, owner, make_part(c.mesh, owner, 1), 1);
+      make_surface_view(c.surface, c.mesh.X, owner, make_part(c.mesh, owner, 1));
   for (std::size_t k = 1; k < view.node.size(); ++k)
     EXPECT_LT(std::pair(owner[view.node[k - 1]], view.node[k - 1]),
               std::pair(owner[view.node[k]], view.node[k]));
@@ -56,7 +59,7 @@ TEST(SurfaceView, the_ranks_values_in_rank_order_meet_the_nodes_in_the_order_of_
   std::vector<std::int32_t> expected;
   for (int rank = 0; rank < 3; ++rank) {
     const Part part = make_part(c.mesh, owner, rank);
-    const SurfaceView view = make_surface_view(c.surface, c.mesh.X, owner, part, rank);
+    const SurfaceView view = make_surface_view(c.surface, c.mesh.X, owner, part);
     for (const std::int32_t local : view.local) {
       EXPECT_LT(local, part.n_owned);
       sent.push_back(part.node_global[local]);
@@ -64,6 +67,33 @@ TEST(SurfaceView, the_ranks_values_in_rank_order_meet_the_nodes_in_the_order_of_
     expected = view.node;
   }
   EXPECT_EQ(sent, expected);
+}
+
+TEST(SurfaceView, after_an_edit_is_that_of_the_edited_surface_and_keeps_where_the_others_are) {
+  Case c;
+  std::vector<std::int32_t> owner = partition_nodes(c.mesh, 3);
+  const Part part = make_part(c.mesh, owner, 1);
+  SurfaceView view = make_surface_view(c.surface, c.mesh.X, owner, part);
+  const Vec3 there(1, 2, 3);
+  view.x[static_cast<std::size_t>(c.surface.node[0])] = there;
+
+  MeshEdit edit;
+  const std::int32_t parent = c.surface.node[5], copy = c.mesh.n_nodes();
+  edit.duplicate_parent = {parent};
+  const std::span<const std::int32_t> corner = c.mesh.corners(0);
+  const auto at = std::find(corner.begin(), corner.end(), parent) - corner.begin();
+  ASSERT_LT(at, std::ssize(corner));
+  edit.corners = {{.element = 0, .corner = static_cast<std::int32_t>(at), .node = copy}};
+  apply_edit(edit, c.mesh);
+  apply_edit_to_owners(edit.duplicate_parent, owner);
+  const Surface surface = boundary_surface(c.mesh);
+  const Part after = make_part(c.mesh, owner, 1);
+  update_surface_view(surface, owner, after, view);
+  const SurfaceView expected = make_surface_view(surface, c.mesh.X, owner, after);
+  EXPECT_EQ(view.node, expected.node);
+  EXPECT_EQ(view.local, expected.local);
+  EXPECT_EQ(view.x.size(), c.mesh.X.size());
+  EXPECT_EQ(view.x[static_cast<std::size_t>(c.surface.node[0])], there);
 }
 
 }  // namespace
