@@ -11,9 +11,9 @@ Started::~Started() = default;
 std::unique_ptr<Started> built(const std::string& text, const std::vector<std::string>& overrides) {
   start_log(0, true);
   set_thread_count(1);
-  const TestFolder folder;
   auto started = std::make_unique<Started>();
-  started->loaded = load_scene(write_text(folder.file("s.toml"), text), overrides);
+  started->outputs.folder = started->folder.path();
+  started->loaded = load_scene(write_text(started->folder.file("s.toml"), text), overrides);
   started->s = build(started->loaded, started->alone);
   return started;
 }

@@ -15,6 +15,7 @@ namespace trocar {
 struct Started {
   Started();
   ~Started();
+  TestFolder folder;  // of the scene and what it writes
   LoadedScene loaded;
   Communicator alone;
   std::unique_ptr<Simulation> s;
