@@ -91,7 +91,10 @@ static std::vector<CutRefusal> refusals(const TetCut& cut, bool is_last) {
   if (!is_last) return list;
   for (const auto& [e, f] : cut.opening.refused) {
     const std::array<std::int32_t, 3> node = facet_nodes(cut.around.patch, e, f);
-    list.push_back({(cut.X[node[0]] + cut.X[node[1]] + cut.X[node[2]]) / 3, CutRefusal::pinched});
+    const bool is_bent =
+        std::ranges::any_of(node, [&](std::int32_t i) { return cut.around.patch.is_bent[i] != 0; });
+    list.push_back({(cut.X[node[0]] + cut.X[node[1]] + cut.X[node[2]]) / 3,
+                    is_bent ? CutRefusal::bent : CutRefusal::pinched});
   }
   return list;
 }

@@ -13,6 +13,7 @@ struct CutRefusal {
   enum Reason : std::int32_t {
     pinched,  // a facet: the outer surface would be no 2-manifold
     chip,     // elements below half a mean edge cubed stay with the other side
+    bent,     // a facet at a hexahedron that is bent too much to become tetrahedra
     missed,   // an element, facet or edge on the blade's path that holds both sides together
     n_reasons
   };

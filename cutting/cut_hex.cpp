@@ -2,12 +2,20 @@
 #include "cutting/cut_hex.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/sort_unique.h"
+#include "cutting/cut_hex_shape.h"
 #include "cutting/cut_patch.h"
 #include "mesh/hex_split.h"
 
 namespace trocar {
+
+// Least step bound of a hexahedron's tetrahedra over its own below which it is not split.
+static constexpr double least_step_part = 0.25;
+
+// Of a tetrahedron, present over reference volume, below which it counts as nearly flat.
+static constexpr double least_volume_ratio = 0.1;
 
 bool has_hexahedra(const Mesh& mesh) {
   return std::find(mesh.element_type.begin(), mesh.element_type.end(), ElementType::hex8) !=
@@ -21,31 +29,83 @@ static std::array<std::int32_t, 4> tet_nodes(const Mesh& mesh, std::int32_t e,
   return node;
 }
 
-// Whether the triangles' common edge begins at the quad's lowest node, as hex_tets has it.
+// Whether the triangles' common edge begins where hex_tets has it.
 static bool has_own_diagonal(const Mesh& mesh, const SplitQuad& quad) {
   const auto &s = quad.triangle[0].node, &t = quad.triangle[1].node;
-  std::int32_t lowest = -1;
+  std::int32_t first = -1;
   for (const auto& nodes : {s, t})
     for (const std::int32_t i : nodes)
-      if (i >= 0 && (lowest < 0 || mesh.uncut_node(i) < mesh.uncut_node(lowest))) lowest = i;
-  return std::find(s.begin(), s.end(), lowest) != s.end() &&
-         std::find(t.begin(), t.end(), lowest) != t.end();
+      if (i >= 0 && (first < 0 || is_diagonal_at(mesh, i, first))) first = i;
+  return std::find(s.begin(), s.end(), first) != s.end() &&
+         std::find(t.begin(), t.end(), first) != t.end();
+}
+
+// Of all tetrahedra of hexahedron e; not positive if one is inverted.
+static double least_step_bound(const Mesh& mesh, std::int32_t e) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::array<int, 4>& tet : hex_tets(mesh, e))
+    least = std::min(least, step_bound(mesh.X, tet_nodes(mesh, e, tet)));
+  return least;
+}
+
+std::vector<std::uint8_t> hex_split_ranks(const Mesh& mesh) {
+  if (!has_hexahedra(mesh)) return {};
+  Mesh ranked = mesh;
+  ranked.hex_split_rank = diagonal_ranks(mesh);
+  std::vector<std::uint8_t> rank = ranked.hex_split_rank;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    if (mesh.element_type[e] != ElementType::hex8) continue;
+    const std::span<const std::int32_t> node = mesh.corners(e);
+    std::array<Vec3, 8> X;
+    for (std::size_t a = 0; a < 8; ++a) X[a] = mesh.X[node[a]];
+    if (least_step_bound(ranked, e) >= least_step_part * hex_step_bound(X)) continue;
+    for (const std::int32_t i : node) rank[i] |= whole_bit;
+  }
+  if (std::ranges::count(rank, 0) == std::ssize(rank)) rank.clear();
+  return rank;
+}
+
+static bool is_marked_whole(const Mesh& mesh, std::int32_t e) {
+  return !mesh.hex_split_rank.empty() && std::ranges::all_of(mesh.corners(e), [&](std::int32_t i) {
+    return (mesh.hex_split_rank[mesh.uncut_node(i)] & whole_bit) != 0;
+  });
 }
 
 std::vector<std::int32_t> whole_hexahedra(const Mesh& mesh) {
   std::vector<std::int32_t> whole;
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    if (mesh.element_type[e] != ElementType::hex8) continue;
-    const auto tets = hex_tets(mesh, e);
-    if (std::any_of(tets.begin(), tets.end(), [&](const std::array<int, 4>& tet) {
-          return !(six_volumes(mesh.X, tet_nodes(mesh, e, tet)) > 0);
-        }))
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    if (mesh.element_type[e] == ElementType::hex8 &&
+        (is_marked_whole(mesh, e) || !(least_step_bound(mesh, e) > 0)))
       whole.push_back(e);
-  }
   for (const SplitQuad& quad : split_quads(mesh, sorted_facet_sides(mesh)))
     if (!has_own_diagonal(mesh, quad)) whole.push_back(quad.hex);
   sort_unique(whole);
   return whole;
+}
+
+static bool is_bent(const HexTets& tets, std::span<const Vec3> x, std::int32_t hex) {
+  for (std::int32_t s = tets.first[hex]; s < tets.first[hex + 1]; ++s) {
+    const std::span<const std::int32_t> c = tets.mesh.corners(s);
+    const std::array<std::int32_t, 4> node{c[0], c[1], c[2], c[3]};
+    if (!(six_volumes(x, node) > least_volume_ratio * six_volumes(tets.mesh.X, node))) return true;
+  }
+  return false;
+}
+
+std::vector<std::int32_t> bent_nodes(const HexTets& tets, std::span<const Vec3> x,
+                                     std::span<const std::int32_t> element) {
+  std::vector<std::int32_t> hex, node;
+  for (const std::int32_t s : element)
+    if (const std::int32_t e = tets.source[s]; tets.first[e + 1] - tets.first[e] == n_hex_tets)
+      hex.push_back(e);
+  sort_unique(hex);
+  for (const std::int32_t e : hex) {
+    if (!is_bent(tets, x, e)) continue;
+    for (std::int32_t s = tets.first[e]; s < tets.first[e + 1]; ++s)
+      node.insert(node.end(), tets.mesh.corners(s).begin(), tets.mesh.corners(s).end());
+  }
+  sort_unique(node);
+  return node;
 }
 
 static void add_as_tets(const Mesh& body, std::int32_t e, HexTets& tets) {

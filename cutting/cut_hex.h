@@ -26,9 +26,19 @@ struct HexTets {
 
 bool has_hexahedra(const Mesh& mesh);
 
+// Mesh::hex_split_rank of an uncut mesh, empty where all is zero. Whole stay hexahedra of which a
+// tetrahedron would allow less than a quarter of their step.
+std::vector<std::uint8_t> hex_split_ranks(const Mesh& mesh);
+
 // Hexahedra that can't be seen as tetrahedra: one would be inverted, or tetrahedra that lie on a
-// facet of theirs have the other diagonal. They stay whole, with all their nodes; ascending.
+// facet of theirs have the other diagonal, or Mesh::hex_split_rank says so of all nodes. They stay
+// whole, with all their nodes; ascending.
 std::vector<std::int32_t> whole_hexahedra(const Mesh& mesh);
+
+// Nodes of hexahedra that may not become tetrahedra at the present positions x, as one would be
+// inverted or nearly flat there; of those that elements of tets.mesh (ascending) belong to.
+std::vector<std::int32_t> bent_nodes(const HexTets& tets, std::span<const Vec3> x,
+                                     std::span<const std::int32_t> element);
 
 // Brings `tets` up to date with the body; built anew where somebody else has changed the body.
 void update_hex_tets(const Mesh& body, HexTets& tets);

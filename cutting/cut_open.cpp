@@ -54,8 +54,10 @@ bool is_joined(const CutPatch& patch, const Corners& corner, std::int32_t e, int
   return true;
 }
 
-// Facets (lower element's side) between elements of different sides.
-static std::vector<TetFacet> facets_between_sides(const CutPatch& patch, const CutLabels& labels) {
+// Facets (lower element's side) between elements of different sides; in `bent` those that stay
+// joined because of a bent hexahedron.
+static std::vector<TetFacet> facets_between_sides(const CutPatch& patch, const CutLabels& labels,
+                                                  std::vector<TetFacet>& bent) {
   std::vector<TetFacet> facet;
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     for (int f = 0; f < 4; ++f) {
@@ -66,7 +68,8 @@ static std::vector<TetFacet> facets_between_sides(const CutPatch& patch, const C
       const bool is_free = std::all_of(node.begin(), node.end(), [&](std::int32_t i) {
         return patch.is_whole(i) && patch.is_joined[i] == 0;
       });
-      if (is_free) facet.push_back({e, f});
+      const auto is_bent = [&](std::int32_t i) { return patch.is_bent[i] != 0; };
+      if (is_free) (std::ranges::any_of(node, is_bent) ? bent : facet).push_back({e, f});
     }
   return facet;
 }
@@ -227,8 +230,8 @@ std::vector<std::uint8_t> unripe_nodes(const CutSurroundings& around, const CutL
 
 std::vector<std::int32_t> pinched_nodes(const CutSurroundings& around, const CutLabels& labels) {
   const PatchMesh mesh = make_patch_mesh(around.patch);
-  const std::vector<TetFacet> facet = facets_between_sides(around.patch, labels);
   CutOpening opening;
+  const std::vector<TetFacet> facet = facets_between_sides(around.patch, labels, opening.refused);
   split_nodes(around.patch, mesh, facet, opening);
   return broken_nodes(around, facet, std::vector<std::uint8_t>(around.patch.node.size(), 0),
                       opening);
@@ -237,8 +240,8 @@ std::vector<std::int32_t> pinched_nodes(const CutSurroundings& around, const Cut
 CutOpening open_facets(const CutSurroundings& around, const CutLabels& labels,
                        const std::vector<std::uint8_t>& stays_whole) {
   const PatchMesh mesh = make_patch_mesh(around.patch);
-  std::vector<TetFacet> facet = facets_between_sides(around.patch, labels);
   CutOpening opening;
+  std::vector<TetFacet> facet = facets_between_sides(around.patch, labels, opening.refused);
   do split_nodes(around.patch, mesh, facet, opening);
   while (close_facets(around, broken_nodes(around, facet, stays_whole, opening), facet, opening));
   return opening;

@@ -206,6 +206,7 @@ CutPatch make_patch(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
   set_stars(patch);
   set_neighbours(patch, index);
   patch.is_joined.assign(patch.node.size(), 0);
+  patch.is_bent.assign(patch.node.size(), 0);
   for (const std::int32_t i : joined)
     if (index.local[i] >= 0) patch.is_joined[index.local[i]] = 1;
   for (std::int32_t i = 0; i < patch.n_nodes(); ++i) {

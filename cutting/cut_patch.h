@@ -27,7 +27,9 @@ struct CutPatch {
   std::vector<std::uint8_t> node_ring;  // 0 for the seeds' nodes
   std::vector<std::uint8_t> is_locked;  // node that must stay where it is
   std::vector<std::uint8_t>
-      is_joined;           // node of an element that is no tetrahedron: must stay one node
+      is_joined;  // node of an element that is no tetrahedron: must stay one node
+  std::vector<std::uint8_t>
+      is_bent;             // of a bent hexahedron: must stay where and what it is for now
   std::vector<Vec3> X, x;  // reference and present positions
   std::vector<std::int32_t> star_offset, star_element;
 

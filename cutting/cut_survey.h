@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cutting/cut_chips.h"
+#include "cutting/cut_hex.h"
 #include "cutting/cut_label.h"
 #include "cutting/cut_move.h"
 #include "cutting/cut_open.h"
@@ -30,10 +31,11 @@ struct TetCut {
 };
 
 // The surroundings of the elements that were crossed since the last edit; without elements if
-// nothing was. is_last takes in all that the stroke has not finished.
-CutSurroundings survey(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
-                       std::span<const std::uint8_t> is_held, const CutStroke& stroke,
-                       bool is_last);
+// nothing was. is_last takes in all that the stroke has not finished. hexahedra: null, or those
+// that `mesh` was made of.
+CutSurroundings survey(const Mesh& mesh, const HexTets* hexahedra, CutIndex& index,
+                       std::span<const Vec3> x, std::span<const std::uint8_t> is_held,
+                       const CutStroke& stroke, bool is_last);
 
 // Which nodes lie on opened facets, and what each node may do. Nodes of front elements stay unless
 // is_last: the blade is still in there.

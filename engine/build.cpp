@@ -156,7 +156,7 @@ void build_instruments(const LoadedScene& loaded, Simulation& s) {
 
 // One sliver makes every frame slow, and from outside that looks like a run that hangs; signals are
 // heeded between frames only.
-void check_slow_element(const Simulation& s) {
+void check_slow_element(const LoadedScene& loaded, const Simulation& s) {
   constexpr double many_substeps = 20000, too_many_substeps = 1e6;
   const double n = 1 / (s.scene.time.frame_rate * s.scene.solver.step_factor * s.watch.stable_step);
   if (n < many_substeps) return;
@@ -168,7 +168,7 @@ void check_slow_element(const Simulation& s) {
       figures + std::string(
                     " a step: it is a sliver (\"trocar mesh\" shows the mesh's quality), or "
                     "its material is too stiff, too light or too near poisson_ratio = 0.5");
-  if (n > too_many_substeps) throw InputError(sentence);
+  if (n > too_many_substeps) loaded.where.fail("tissue", sentence);
   log_warning(sentence);
 }
 
@@ -215,6 +215,15 @@ std::unique_ptr<MultiRate> find_multirate(const Simulation& s) {
                          .part = s.part,
                          .model = s.model},
                         *s.communicator);
+}
+
+// What is wrong now is so with the tissue as it was given.
+void build_topology(const LoadedScene& loaded, Simulation& s) {
+  try {
+    rebuild_topology(s);
+  } catch (const InputError& trouble) {
+    loaded.where.fail("tissue.material", trouble.what());
+  }
 }
 
 }  // namespace
@@ -291,13 +300,13 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   if (s.scene.start.state == StartState::equilibrium) check_is_held(loaded, s);
   build_instruments(loaded, s);
   s.body_crc = crc_of_body(s);
-  rebuild_topology(s);
+  build_topology(loaded, s);
   s.whole_mass = std::accumulate(s.mass.begin(), s.mass.end(), 0.0);
   if (!s.cuts.empty()) prepare_first_cut(s);
   s.state = make_state(s.model);
   refresh_surface(s);
   watch_state(s);
-  check_slow_element(s);
+  check_slow_element(loaded, s);
   if (s.contact && s.scene.start.state == StartState::undeformed)
     check_instruments_outside(loaded, buried * s.contact_reach,
                               "the body at time 0: let it begin outside", s);

@@ -74,6 +74,9 @@ void check_copies(const Mesh& mesh) {
       n_uncut >= 0 && std::all_of(mesh.copied_node.begin(), mesh.copied_node.end(),
                                   [=](std::int32_t i) { return i >= 0 && i < n_uncut; });
   if (!is_sound) throw InputError("stored mesh has copies of nodes that it has not");
+  const auto n_ranks = static_cast<std::int64_t>(mesh.hex_split_rank.size());
+  if (n_ranks != 0 && n_ranks != n_uncut)
+    throw InputError("stored mesh has ranks of nodes that it has not");
 }
 
 }  // namespace
@@ -96,6 +99,7 @@ std::vector<std::byte> mesh_to_bytes(const Mesh& mesh) {
     writer.put_vector(set.node);
   }
   writer.put_vector(mesh.copied_node);
+  writer.put_vector(mesh.hex_split_rank);
   return writer.take();
 }
 
@@ -119,6 +123,7 @@ Mesh mesh_from_bytes(std::span<const std::byte> bytes) {
     set.node = reader.get_vector<std::int32_t>();
   }
   mesh.copied_node = reader.get_vector<std::int32_t>();
+  mesh.hex_split_rank = reader.get_vector<std::uint8_t>();
   check_copies(mesh);
   return mesh;
 }

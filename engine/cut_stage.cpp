@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "base/box.h"
+#include "base/error.h"
 #include "engine/apply_cut.h"
 #include "engine/frame_report.h"
+#include "engine/frame_watch.h"
 #include "engine/mesh_measures.h"
 #include "engine/simulation.h"
 
@@ -199,6 +201,8 @@ void cut_along_blades(Simulation& s, const FrameSpan& span) {
   const Box tissue = surface_box(s);
   bool is_gathered = false;  // by the first blade that is near
   for (CutStage& stage : s.cuts) cut_along_blade(s, span, tissue, stage, is_gathered);
+  if (const std::string trouble = find_trouble(s); !trouble.empty())
+    throw SimulationError("after the cut at " + number_text(span.t1) + " s: " + trouble);
 }
 
 void prepare_drag(Simulation& s, const FrameSpan& span) {

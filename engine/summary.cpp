@@ -47,6 +47,7 @@ Json refusals_json(const CutRecord& c) {
   constexpr std::array<const char*, CutRefusal::n_reasons> reason = {
       "the outer surface would no longer be a closed surface",
       "a chip below half an edge cubed stays with the other side",
+      "a hexahedron there is bent too much to become tetrahedra",
       "tissue on the blade's way from surface to surface stays joined"};
   Json list = Json::array();
   for (const CutRefusal& r : c.refusals)

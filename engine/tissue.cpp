@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cutting/cut_hex.h"
 #include "engine/bytes.h"
 #include "mesh/generate.h"
 #include "mesh/mesh_file.h"
@@ -83,22 +84,27 @@ void check_supports(const LoadedScene& loaded, const Mesh& mesh) {
   }
 }
 
+bool has_blade(const Scene& scene) {
+  return std::ranges::any_of(scene.instruments, [](const SceneInstrument& instrument) {
+    return instrument.kind == InstrumentKind::scalpel ||
+           instrument.kind == InstrumentKind::scissors;
+  });
+}
+
 Mesh read_tissue(const LoadedScene& loaded) {
   const SceneTissue& tissue = loaded.scene.tissue;
   Mesh mesh;
-  if (tissue.shape) {
-    mesh = generate_tissue(*tissue.shape);
-  } else {
-    try {
-      mesh = read_mesh(scene_path(loaded, tissue.mesh), tissue.scale);
-      if (tissue.is_renumbered) mesh = in_near_order(std::move(mesh));
-    } catch (const InputError& trouble) {
-      loaded.where.fail("tissue.mesh", trouble.what());
-    }
+  try {
+    mesh = tissue.shape ? generate_tissue(*tissue.shape)
+                        : read_mesh(scene_path(loaded, tissue.mesh), tissue.scale);
+    if (!tissue.shape && tissue.is_renumbered) mesh = in_near_order(std::move(mesh));
+  } catch (const InputError& trouble) {
+    loaded.where.fail(tissue.shape ? "tissue.shape.elements" : "tissue.mesh", trouble.what());
   }
   place(tissue, mesh);
   const std::vector<std::string> faults = validate(mesh, 3);
   if (!faults.empty()) loaded.where.fail("tissue", "the mesh can't be used: " + faults.front());
+  if (has_blade(loaded.scene)) mesh.hex_split_rank = hex_split_ranks(mesh);
   add_regions(loaded, mesh);
   check_supports(loaded, mesh);
   return mesh;

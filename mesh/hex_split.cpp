@@ -7,11 +7,61 @@
 
 namespace trocar {
 
+bool is_diagonal_at(const Mesh& mesh, std::int32_t i, std::int32_t j) {
+  const std::int32_t a = mesh.uncut_node(i), b = mesh.uncut_node(j);
+  const auto rank = [&](std::int32_t k) {
+    return mesh.hex_split_rank.empty() ? 0 : mesh.hex_split_rank[k] & rank_bits;
+  };
+  return rank(a) != rank(b) ? rank(a) > rank(b) : a < b;
+}
+
+// Outward normal of facet f at corner `a`.
+static Vec3 corner_normal(const Mesh& mesh, std::int32_t e, int f, int a) {
+  const std::array<int, 4> quad = facet_corners(ElementType::hex8, f);
+  const auto k = static_cast<std::size_t>(std::find(quad.begin(), quad.end(), a) - quad.begin());
+  const auto X = [&](std::size_t m) {
+    return mesh.X[mesh.corners(e)[static_cast<std::size_t>(quad[m % 4])]];
+  };
+  return (X(k + 1) - X(k)).cross(X(k + 3) - X(k)).normalized();
+}
+
+// How nearly the two facets at an edge of hexahedron e lie in one plane at its end `a`: 0 up to an
+// angle of 127 degrees, 1 at 180.
+static double flatness(const Mesh& mesh, std::int32_t e, const std::array<int, 2>& edge, int a) {
+  std::array<Vec3, 2> normal;
+  std::size_t n = 0;
+  for (int f = 0; f < 6; ++f) {
+    const std::array<int, 4> quad = facet_corners(ElementType::hex8, f);
+    if (std::ranges::count(quad, edge[0]) + std::ranges::count(quad, edge[1]) == 2)
+      normal[n++] = corner_normal(mesh, e, f, a);
+  }
+  constexpr double least_cosine = 0.6;
+  return std::max(0.0, (normal[0].dot(normal[1]) - least_cosine) / (1 - least_cosine));
+}
+
+std::vector<std::uint8_t> diagonal_ranks(const Mesh& mesh) {
+  std::vector<double> sum(mesh.X.size());
+  std::vector<int> n_hexahedra(mesh.X.size());
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    if (mesh.element_type[e] != ElementType::hex8) continue;
+    for (const std::int32_t i : mesh.corners(e)) ++n_hexahedra[i];
+    for (const std::array<int, 2>& edge : edge_corners(ElementType::hex8))
+      for (const int a : edge)
+        sum[mesh.corners(e)[static_cast<std::size_t>(a)]] += flatness(mesh, e, edge, a);
+  }
+  constexpr double n_edges = 3;  // at a corner: all flat at most
+  std::vector<std::uint8_t> rank;
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    rank.push_back(
+        static_cast<std::uint8_t>(rank_bits * sum[i] / (n_edges * std::max(1, n_hexahedra[i]))));
+  return rank;
+}
+
 std::array<std::array<int, 4>, n_hex_tets> hex_tets(const Mesh& mesh, std::int32_t e) {
   const std::span<const std::int32_t> node = mesh.corners(e);
   const auto is_lower = [&](int a, int b) {
-    return mesh.uncut_node(node[static_cast<std::size_t>(a)]) <
-           mesh.uncut_node(node[static_cast<std::size_t>(b)]);
+    return is_diagonal_at(mesh, node[static_cast<std::size_t>(a)],
+                          node[static_cast<std::size_t>(b)]);
   };
   int apex = 0;
   for (int a = 1; a < 8; ++a)

@@ -17,9 +17,21 @@ namespace trocar {
 
 inline constexpr int n_hex_tets = 6;
 
-// Local corners of the six tetrahedra of hexahedron e: each facet has its diagonal at the node of
-// the lowest number (Dompierre et al. 1999, "How to subdivide pyramids, prisms and hexahedra into
-// tetrahedra"), where a copy counts as the node that it was copied from: cuts don't turn diagonals.
+// Of Mesh::hex_split_rank.
+inline constexpr std::uint8_t rank_bits = 127, whole_bit = 128;
+
+// Whether a facet's diagonal begins at node i rather than at j: at that of the higher rank, else of
+// the lower number. A copy counts as the node that it was copied from: cuts don't turn diagonals.
+bool is_diagonal_at(const Mesh& mesh, std::int32_t i, std::int32_t j);
+
+// (n_nodes) Ranks 0 … 127 that grow with how nearly facets of the hexahedra around lie in one plane
+// with their neighbours at an edge, as where a grid is bent to a ball: with diagonals that begin at
+// its ends no tetrahedron has all of its nodes in that plane.
+std::vector<std::uint8_t> diagonal_ranks(const Mesh& mesh);
+
+// Local corners of the six tetrahedra of hexahedron e: each facet has its diagonal at the first of
+// its nodes (Dompierre et al. 1999, "How to subdivide pyramids, prisms and hexahedra into
+// tetrahedra", has the lowest number).
 std::array<std::array<int, 4>, n_hex_tets> hex_tets(const Mesh& mesh, std::int32_t e);
 
 // The facet of hexahedron e that facet f of a tetrahedron on its nodes lies on, -1 if inside.

@@ -40,6 +40,9 @@ struct Mesh {
   // (n_copies) The last nodes are copies that cuts made: the node of the uncut mesh that each is
   // of.
   std::vector<std::int32_t> copied_node;
+  // (n_nodes of the uncut mesh, or empty) How hexahedra become tetrahedra: bits 0 to 6, the node's
+  // rank where facets choose their diagonals (hex_split.h); bit 7, at a hexahedron that never does.
+  std::vector<std::uint8_t> hex_split_rank;
 
   std::int32_t n_nodes() const { return static_cast<std::int32_t>(X.size()); }
   std::int32_t n_elements() const { return static_cast<std::int32_t>(element_type.size()); }

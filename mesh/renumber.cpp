@@ -119,6 +119,7 @@ double mean_node_span(const Mesh& mesh) {
 
 Mesh renumbered(const Mesh& mesh) {
   CHECK_OP(mesh.copied_node.size(), ==, 0U);
+  CHECK_OP(mesh.hex_split_rank.size(), ==, 0U);
   const std::vector<std::int32_t> nodes = near_order(mesh);
   std::vector<std::int32_t> new_number(nodes.size());
   for (std::size_t k = 0; k < nodes.size(); ++k)

@@ -13,6 +13,7 @@
 #include "solver/element_setup.h"
 #include "solver/history.h"
 #include "solver/kernels.h"
+#include "solver/material_check.h"
 #include "solver/material_setup.h"
 #include "solver/model_edit.h"
 #include "solver/simd.h"
@@ -34,18 +35,12 @@ struct Source {
   const Material& material(std::int32_t e) const { return materials[mesh.element_region[e]]; }
 };
 
-void check_material(const Material& material, std::size_t region) {
-  const std::string fault = fault_of(material);
-  if (!fault.empty())
-    throw InputError("material of region " + std::to_string(region) + ": " + fault);
-}
-
 void check_source(const Source& source, std::span<const FixedMask> fixed,
                   std::span<const double> mass) {
   CHECK_OP(source.materials.size(), >=, source.mesh.region_name.size());
   CHECK_OP(fixed.size(), ==, source.mesh.X.size());
   CHECK_OP(mass.size(), ==, source.mesh.X.size());
-  for (std::size_t r = 0; r < source.materials.size(); ++r) check_material(source.materials[r], r);
+  check_materials(source.mesh, source.materials, source.options);
 }
 
 Formulation formulation_of(const Source& source, std::int32_t e) {
@@ -91,9 +86,6 @@ ElementBlocks empty_blocks(const Source& source, int key, std::int32_t n_element
   const BlockKernels kernels = kernels_for(kernels_of(Simd::scalar), blocks);
   CHECK_OP(kernels.element.n_corners, ==, n_corners(shape_of(blocks.formulation)));
   CHECK_OP(kernels.element.n_stash, <=, max_stash_values);
-  if (!blocks.prony.empty() && kernels.law.viscous_stress == nullptr)
-    throw InputError("material of region " + std::to_string(blocks.region) +
-                     ": this kind of element can't be viscoelastic (prony)");
   const auto n_lanes = static_cast<std::size_t>(blocks.n_blocks * blocks.lanes);
   const std::size_t n_numbers = n_lanes * static_cast<std::size_t>(kernels.n_values);
   blocks.element_local.resize(n_lanes);

@@ -30,18 +30,6 @@ std::vector<std::int32_t> number_fields(const Mesh& mesh, VolumeAverages& averag
   return field;
 }
 
-void check_materials(std::span<const Material> materials, std::span<const std::int32_t> field,
-                     const Model& model) {
-  const auto& row = kernels_of(Simd::scalar)
-                        .of[static_cast<int>(model.options.precision)]
-                        .law[static_cast<int>(LawKind::averaged_pressure)];
-  for (std::size_t r = 0; r < field.size(); ++r)
-    if (field[r] >= 0 && row[static_cast<int>(materials[r].model)].stress == nullptr)
-      throw InputError("region " + std::to_string(r) +
-                       ": averaged nodal pressure needs a material with a volumetric energy of its "
-                       "own, such as neo-hookean");
-}
-
 void set_shares(std::span<const Material> materials, std::span<const std::int32_t> field,
                 Model& model) {
   model.averages.share.resize(static_cast<std::size_t>(model.averages.n_fields));
@@ -115,7 +103,6 @@ void link_lanes(Model& model) {
 void link_volume_averages(const Mesh& mesh, std::span<const Material> materials, Model& model) {
   if (model.options.tet4 != Formulation::tet4_nodal_pressure) return;
   const std::vector<std::int32_t> field = number_fields(mesh, model.averages);
-  check_materials(materials, field, model);
   set_shares(materials, field, model);
   for (ElementBlocks& blocks : model.blocks) {
     if (!averages_volume(blocks)) continue;

@@ -7,6 +7,7 @@
 
 #include "cutting/cut_hex_shape.h"
 #include "cutting_tet.h"
+#include "mesh/hex_split.h"
 
 namespace trocar {
 namespace {
@@ -169,6 +170,110 @@ TEST(CutHex, held_nodes_stay_where_they_are) {
   for (std::size_t i = 0; i < X.size(); ++i)
     EXPECT_TRUE(held[i] == 0 || body.mesh.X[i] == X[i]) << i;
   EXPECT_EQ(fault(body), "");
+}
+
+// Least present over reference volume of the body's tetrahedra.
+double least_volume_ratio(const Body& body) {
+  double least = 1;
+  for (std::int32_t e = 0; e < body.mesh.n_elements(); ++e)
+    if (body.mesh.element_type[e] == ElementType::tet4)
+      least = std::min(
+          least, element_volume(body.mesh, e, body.x) / element_volume(body.mesh, e, body.mesh.X));
+  return least;
+}
+
+// Every second node of a layer to the one side, the others to the other: the middles of the cells
+// stay as they are.
+Vec3 zigzag(const Vec3& X, double amount) {
+  const Vec3 cell = (6 * (X + Vec3::Constant(0.5))).array().round();
+  return X + Vec3(int(cell.x() + cell.y()) % 2 == 0 ? amount : -amount, 0, 0) / 6;
+}
+
+TEST(CutHex, hexahedra_that_are_bent_stay_hexahedra_and_are_cut_once_they_are_straight) {
+  // Opened facets have moved no node that lies in the zigzag when they are seen.
+  const Vec3 normal = tilted;
+  const Blade blade = plane_blade({0.02, 0.05, 0}, normal, 1);
+  for (const bool straightens : {true, false}) {
+    Body body(hex_block(0));
+    TetCutter cutter{CutTetOptions{}};
+    cutter.start_stroke();
+    Ledger ledger;
+    std::vector<CutRefusal> refusals;
+    const int n_steps = 25;
+    for (int k = 0; k < n_steps; ++k) {
+      if (ledger.n_edits == 0)
+        body.deform(
+            [&](const Vec3& X) { return zigzag(X, straightens && k + 1 == n_steps ? 0 : 0.6); });
+      CutFigures figures;
+      const BladeSweep sweep{blade(double(k) / n_steps), blade(double(k + 1) / n_steps), normal};
+      const MeshEdit edit =
+          cutter.advance(body.mesh, body.x, body.is_held, sweep, k + 1 == n_steps, figures);
+      apply(edit, figures, body, ledger);
+      refusals = figures.refusals;
+      EXPECT_GT(least_volume_ratio(body), 0.02) << k;
+    }
+    EXPECT_EQ(fault(body), "");
+    EXPECT_EQ(n_pieces(body.mesh), straightens ? 2 : 1);
+    EXPECT_EQ(n_of(body.mesh, ElementType::tet4) > 0, straightens);
+    EXPECT_EQ(std::ranges::count(refusals, CutRefusal::bent, &CutRefusal::reason) > 0,
+              !straightens);
+  }
+}
+
+// Of those that are not whole, the least step bound of the tetrahedra over the hexahedron's.
+double least_part_of_step(const Mesh& mesh) {
+  const std::vector<std::int32_t> whole = whole_hexahedra(mesh);
+  double least = 1;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    if (std::binary_search(whole.begin(), whole.end(), e)) continue;
+    const auto c = mesh.corners(e);
+    for (const auto& tet : hex_tets(mesh, e))
+      least = std::min(least, step_bound(mesh.X, {c[tet[0]], c[tet[1]], c[tet[2]], c[tet[3]]}) /
+                                  bound_of(mesh, e));
+  }
+  return least;
+}
+
+TEST(CutHex, grids_bent_to_balls_and_cylinders_keep_half_of_their_step_as_tetrahedra) {
+  const BoxElements kind = BoxElements::hex8;
+  for (const int n : {6, 8, 10, 20}) {
+    Mesh cylinder = make_cylinder(Vec3::Zero(), 0.05, 0.1, n, n, kind);
+    EXPECT_LT(least_part_of_step(cylinder), 0.11);
+    cylinder.hex_split_rank = hex_split_ranks(cylinder);
+    EXPECT_TRUE(whole_hexahedra(cylinder).empty());
+    EXPECT_GT(least_part_of_step(cylinder), 0.43);
+    Mesh ball = make_ball(Vec3::Zero(), 0.05, n, kind);
+    EXPECT_LT(least_part_of_step(ball), 0.05);
+    ball.hex_split_rank = hex_split_ranks(ball);
+    EXPECT_LE(whole_hexahedra(ball).size(), n < 20 ? 8U : 24U);  // at the eight corners of the grid
+    EXPECT_GT(least_part_of_step(ball), 0.25);
+  }
+}
+
+TEST(CutHex, boxes_need_no_ranks) {
+  EXPECT_TRUE(hex_split_ranks(hex_block(0)).empty());
+  EXPECT_TRUE(
+      hex_split_ranks(make_box(Vec3::Zero(), {8, 2, 1}, {4, 4, 4}, BoxElements::hex8)).empty());
+  EXPECT_TRUE(hex_split_ranks(make_box(Vec3::Zero(), {1, 1, 1}, {4, 4, 4}, BoxElements::tet4_kuhn))
+                  .empty());
+}
+
+TEST(CutHex, what_stays_whole_does_so_after_cuts) {
+  Body body(make_ball(Vec3::Zero(), 0.5, 8, BoxElements::hex8));
+  body.mesh.hex_split_rank = hex_split_ranks(body.mesh);
+  const auto whole = [&] {
+    std::vector<std::vector<std::int32_t>> nodes;
+    for (const std::int32_t e : whole_hexahedra(body.mesh))
+      nodes.emplace_back(body.mesh.corners(e).begin(), body.mesh.corners(e).end());
+    return nodes;
+  };
+  const auto before = whole();
+  ASSERT_EQ(before.size(), 8U);
+  cut(body, plane_blade({0.02, 0.05, 0}, tilted, 1), tilted, 25);
+  EXPECT_EQ(fault(body), "");
+  EXPECT_EQ(whole(), before);
+  EXPECT_GE(least_bound(body.mesh),
+            0.2 * least_bound(Body(make_ball(Vec3::Zero(), 0.5, 8, BoxElements::hex8)).mesh));
 }
 
 TEST(CutHex, the_bound_of_a_cube_is_root_two_times_that_of_its_tetrahedra) {

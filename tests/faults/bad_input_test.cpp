@@ -157,6 +157,16 @@ TEST(BadInput, a_frame_of_too_many_steps_names_the_material_as_a_cause) {
                  {"--set", "tissue.material.poisson_ratio=0.4999999999999"});
 }
 
+TEST(BadInput, what_elements_can_not_be_is_refused_with_its_place) {
+  const std::string folder = test_folder("misfit"), scene = folder + "/scene.toml";
+  std::ofstream(scene) << "[time]\nduration = 1\n[tissue.shape]\nkind = \"ball\"\n"
+                          "elements = \"tet4-five\"\n[tissue.material]\nmodel = \"linear\"\n"
+                          "[solver]\ntetrahedron = \"nodal-pressure\"\n";
+  expect_refusal(scene, folder, input_wrong, ":5:12: tissue.shape.elements");
+  expect_refusal(scene, folder, input_wrong, ":6:1: tissue.material: tet4-nodal-pressure elements",
+                 {"--set", "tissue.shape.elements=tet4-kuhn"});
+}
+
 TEST(BadInput, one_number_for_a_vector_is_refused_with_what_it_needs) {
   const std::string folder = test_folder("vector");
   expect_refusal(config("block_hex.toml"), folder, input_wrong, "needs 3 numbers and a unit",

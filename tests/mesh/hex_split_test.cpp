@@ -67,6 +67,21 @@ TEST(HexSplit, tetrahedra_fill_a_body_of_hexahedra_whatever_its_numbers) {
   }
 }
 
+TEST(HexSplit, neighbours_agree_about_diagonals_of_any_ranks) {
+  std::mt19937 random(5);
+  for (int k = 0; k < 20; ++k) {
+    Mesh mesh = hex_box({3, 3, 3});
+    for (std::size_t i = 0; i < mesh.X.size(); ++i)
+      mesh.hex_split_rank.push_back(static_cast<std::uint8_t>(random() % 3));
+    std::vector<std::int32_t> all(27);
+    std::iota(all.begin(), all.end(), 0);
+    split(mesh, all);
+    EXPECT_EQ(validate(mesh), std::vector<std::string>{}) << k;
+    EXPECT_EQ(boundary_surface(mesh).triangle.size(), 108U);
+    EXPECT_NEAR(total_volume(mesh), 1, 1e-14);  // 162 terms of rounding
+  }
+}
+
 TEST(HexSplit, a_body_of_both_kinds_is_one_piece_with_the_surface_of_the_uncut_one) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     Mesh mesh = shuffled(hex_box({3, 3, 3}), seed);
