@@ -42,12 +42,33 @@ std::int32_t place_of(const ContactSet& set, std::int32_t node) {
                                    set.node.begin());
 }
 
+// The detector has a piece's contacts one behind the other.
+void add_beside(ContactSet& set) {
+  std::vector<std::int32_t> last(set.node.size(), -1);  // entry of each node
+  std::int32_t first = 0;                               // entry of the present piece
+  for (std::size_t k = 0; k < set.items.size(); ++k) {
+    ContactSet::Item& item = set.items[k];
+    const Contact &contact = item.contact, &before = set.items[k > 0 ? k - 1 : 0].contact;
+    if (contact.tool != before.tool || contact.piece != before.piece)
+      first = static_cast<std::int32_t>(set.beside.size());
+    for (std::size_t a = 0; a < 3; ++a) {
+      std::int32_t& entry = last[to_size(item.place[a])];
+      if (entry < first) {
+        entry = static_cast<std::int32_t>(set.beside.size());
+        set.beside.push_back({.item = static_cast<std::int32_t>(k), .place = item.place[a]});
+      }
+      item.beside[a] = entry;
+    }
+  }
+}
+
 void add_items(const FoundContacts& contacts, ContactSet& set) {
   for (const Contact& contact : contacts.with_tools) {
     ContactSet::Item& item = set.items.emplace_back();
     item.contact = contact;
     for (std::size_t a = 0; a < 3; ++a) item.place[a] = place_of(set, contact.node[a]);
   }
+  add_beside(set);
   for (const TissuePair& pair : contacts.with_tissue)
     set.tissue.push_back({.place = {place_of(set, pair.node), place_of(set, pair.corner[0]),
                                     place_of(set, pair.corner[1]), place_of(set, pair.corner[2])},

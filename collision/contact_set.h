@@ -30,14 +30,22 @@ struct FoundContacts {
 struct ContactSet {
   struct Item {
     Contact contact;
-    std::array<std::int32_t, 3> place{};  // of its corners in the nodes below
-    bool is_near = true;                  // at the last look
-    Vec3 reaction_sum = Vec3::Zero();     // on the tool, over the steps so far [N]
+    std::array<std::int32_t, 3> place{};   // of its corners in the nodes below
+    std::array<std::int32_t, 3> beside{};  // of its corners in `beside`
+    bool is_near = true;                   // at the last look
+    Vec3 reaction_sum = Vec3::Zero();      // on the tool, over the steps so far [N]
   };
   struct TissueItem {
     std::array<std::int32_t, 4> place{};  // of the node and the corners of the triangle
     double handicap = 0;                  // TissuePair
     std::int64_t next_look = 0;           // step of the frame before which they cannot meet
+  };
+  // A corner of items of one piece of a tool: six or so of them have it.
+  struct BesidePiece {
+    std::int32_t item = 0;  // the first
+    std::int32_t place = 0;
+    Vec3 local = Vec3::Zero();  // in the tool's frame, at the last look [m]
+    std::optional<NodeTouch> touch;
   };
   // Between a node and the tissue that it lies on, of the last step of the frame: where the next
   // one begins.
@@ -49,6 +57,7 @@ struct ContactSet {
   // In the detector's order; empty on ranks without a node of theirs.
   std::vector<Item> items;
   std::vector<TissueItem> tissue;
+  std::vector<BesidePiece> beside;  // in the order of items
   // Nodes of the items, ascending by global number.
   std::vector<std::int32_t> node;          // global numbers
   std::vector<double> inverse_mass;        // 0: nothing moves it [1/kg]

@@ -48,12 +48,17 @@ void add_triangle(const ContactStep& step, double release, std::int32_t k, Conta
 
 void find_deepest(const ContactDetector& detector, const ContactStep& step, ContactSet& set) {
   std::fill(set.deepest.begin(), set.deepest.end(), DeepestPiece{});
+  for (ContactSet::BesidePiece& b : set.beside) {
+    const ContactSet::Item& item = set.items[to_size(b.item)];
+    b.touch =
+        detector.touch_node(item.contact, set.x_end[to_size(b.place)], tool_of(step, item).pose);
+  }
   for (std::size_t k = 0; k < set.items.size(); ++k) {
     const ContactSet::Item& item = set.items[k];
     const std::array<Vec3, 3> x = corners_of(set, item);
     const Vec3 facet = (x[1] - x[0]).cross(x[2] - x[0]);
     for (std::size_t a = 0; a < 3; ++a) {
-      const auto found = detector.touch_node(item.contact, x[a], tool_of(step, item).pose);
+      const std::optional<NodeTouch>& found = set.beside[to_size(item.beside[a])].touch;
       DeepestPiece& of_node = set.deepest[to_size(item.place[a])];
       if (found && found->gap < of_node.touch.gap && found->normal.dot(facet) < 0)
         of_node = {.item = static_cast<std::int32_t>(k), .touch = *found};
@@ -100,12 +105,16 @@ double project(double friction, ContactConstraint& c, ContactSet& set) {
 }  // namespace
 
 void look_again(const ContactDetector& detector, const ContactStep& step, ContactSet& set) {
+  for (ContactSet::BesidePiece& b : set.beside)
+    b.local =
+        tool_of(step, set.items[to_size(b.item)]).pose.apply_inverse(set.x_end[to_size(b.place)]);
   for (ContactSet::Item& item : set.items) {
     const bool is_hull = detector.is_hull(item.contact);
     if (is_hull && step.number % hull_steps != 0) continue;
     const double margin = is_hull ? closing_speed * hull_steps * step.dt : 0;
-    item.is_near =
-        detector.update(corners_of(set, item), tool_of(step, item).pose, margin, item.contact);
+    const auto local = [&](std::size_t a) { return set.beside[to_size(item.beside[a])].local; };
+    item.is_near = detector.update({corners_of(set, item), {local(0), local(1), local(2)}},
+                                   tool_of(step, item).pose, margin, item.contact);
   }
 }
 

@@ -249,17 +249,16 @@ void ContactDetector::detect_tissue(const TissueReach& reach,
   if (state_->tree) find_tissue_pairs(*state_->tree, reach, pairs);
 }
 
-bool ContactDetector::update(const std::array<Vec3, 3>& x, const Pose& pose, double margin,
+bool ContactDetector::update(const Corners& corners, const Pose& pose, double margin,
                              Contact& contact) const {
   const PieceCore& core = state_->core_of(contact);
   if (state_->plane.node.empty()) {
-    const Triangle local = {pose.apply_inverse(x[0]), pose.apply_inverse(x[1]),
-                            pose.apply_inverse(x[2])};
-    const std::optional<Touch> found = touch(core, local, margin);
+    const std::optional<Touch> found = touch(core, corners.local, margin);
     if (!found) return false;
     take(*found, contact);
   } else {
-    const std::optional<Touch> found = touch_edge(plane_section(core, pose), {x[0], x[1]}, margin);
+    const std::optional<Touch> found =
+        touch_edge(plane_section(core, pose), {corners.x[0], corners.x[1]}, margin);
     if (!found) return false;
     take_plane(*found, pose, contact);
   }

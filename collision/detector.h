@@ -67,11 +67,13 @@ class ContactDetector {
   // plane meshes, which have none.
   void detect_tissue(const TissueReach& reach, std::vector<TissuePair>& pairs) const;
 
-  // A contact found by detect, a little later: weights, point, normal and gap anew, for corners x
+  // A contact found by detect, a little later: weights, point, normal and gap anew, for its corners
   // and the pose of its tool. False where the gap is `margin` or more, or only the edge of a blade
   // touches. A core that was in front of the triangle may have passed it since.
-  bool update(const std::array<Vec3, 3>& x, const Pose& pose, double margin,
-              Contact& contact) const;
+  struct Corners {
+    std::array<Vec3, 3> x, local;  // in the world and in the tool's frame [m]
+  };
+  bool update(const Corners& corners, const Pose& pose, double margin, Contact& contact) const;
   // Where x lies in the contact's piece. Of a hull: the nearest of its faces. Nothing on plane
   // meshes.
   std::optional<NodeTouch> touch_node(const Contact& contact, const Vec3& x,

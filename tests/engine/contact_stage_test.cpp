@@ -71,9 +71,13 @@ TEST(ContactStage, looks_as_far_as_the_tool_travels_in_the_frame) {
 std::vector<Contact> touching(Case& c) {
   std::vector<Contact> found;
   for (Contact contact : c.detect()) {
-    std::array<Vec3, 3> x;
-    for (std::size_t a = 0; a < 3; ++a) x[a] = c.mesh.X[static_cast<std::size_t>(contact.node[a])];
-    if (c.stage.detector.update(x, c.tools[0].path.at(0), 1e-3, contact)) found.push_back(contact);
+    ContactDetector::Corners corners;
+    const Pose pose = c.tools[0].path.at(0);
+    for (std::size_t a = 0; a < 3; ++a) {
+      corners.x[a] = c.mesh.X[static_cast<std::size_t>(contact.node[a])];
+      corners.local[a] = pose.apply_inverse(corners.x[a]);
+    }
+    if (c.stage.detector.update(corners, pose, 1e-3, contact)) found.push_back(contact);
   }
   return found;
 }
