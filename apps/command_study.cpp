@@ -98,11 +98,19 @@ void study_all(const StudyOptions& options) {
     write_file(options.docs + "/accuracy.md", accuracy_page(studies, "images"));
 }
 
+void check_combination(const StudyOptions& options) {
+  if (!options.subject.empty() && (options.all || options.list))
+    throw InputError("study: " + in_quotes(options.subject) +
+                     " and --all or --list exclude each other");
+  if (!options.docs.empty() && !options.all) throw InputError("study: --docs belongs to --all");
+}
+
 }  // namespace
 
 ExitCode command_study(const StudyOptions& options, Communicator& communicator) {
   if (communicator.size() > 1)
     throw InputError("study measures one process with one thread: start it without mpirun");
+  check_combination(options);
   if (!options.target.empty()) read_target(options.target);
   set_thread_count(1);
   if (options.list) {
