@@ -41,6 +41,8 @@ Problem find_problem(const StudyOptions& options, Communicator& communicator) {
                              .sleeps = options.sleeps,
                              .sizes = options.sweep.sizes},
                             communicator);
+  if (std::filesystem::path(options.subject).has_extension())
+    throw InputError(options.subject + ": there is no file of this name");
   const std::string nearest = nearest_name(options.subject, known);
   throw InputError(in_quotes(options.subject) + " is neither a scene file nor a built-in problem" +
                    (nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?") +
@@ -61,9 +63,9 @@ void check_sizes(const StudyOptions& options, const Problem& problem) {
           std::to_string(n));
 }
 
-// Before the runs, which take minutes.
+// Before the runs, which take minutes. A scene's result is a length, known after its finest run.
 void check_target(const StudyOptions& options, const Problem& problem) {
-  if (!options.target.empty()) require_fits(read_target(options.target), problem);
+  if (!options.target.empty() && !problem.is_scene()) require_fits(read_target(options.target), problem);
 }
 
 Target target_of(const StudyOptions& options, const Study& study) {
