@@ -65,7 +65,8 @@ void check_sizes(const StudyOptions& options, const Problem& problem) {
 
 // Before the runs, which take minutes. A scene's result is a length, known after its finest run.
 void check_target(const StudyOptions& options, const Problem& problem) {
-  if (!options.target.empty() && !problem.is_scene()) require_fits(read_target(options.target), problem);
+  if (!options.target.empty() && !problem.is_scene())
+    require_fits(read_target(options.target), problem);
 }
 
 Target target_of(const StudyOptions& options, const Study& study) {
