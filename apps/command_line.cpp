@@ -130,7 +130,7 @@ void add_study(CLI::App& app, CommandLine& line) {
   study
       ->add_option("--budget", s.sweep.budget,
                    "Processor seconds of a sweep; runs that would not fit are left out")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1e-3, 1e9));
   study->add_option("--set", s.overrides, "Change a key of the scene; may be repeated")
       ->allow_extra_args(false);
   study->add_option("--simd", line.machine.simd, "Instruction set of the kernels")
@@ -228,7 +228,7 @@ void add_others(CLI::App& app, CommandLine& line) {
       app.add_subcommand("doctor", "What this machine offers, what is missing and how to get it");
   doctor->footer(examples_doctor);
   doctor->callback([&] { line.command = Command::doctor; });
-  CLI::App* help = app.add_subcommand("help", "Explain something: scene, tissues");
+  CLI::App* help = app.add_subcommand("help", "Explain something: scene, tissues, a sub-command");
   help->add_subcommand("scene", "All keys of a scene file with units, ranges and defaults")
       ->add_flag("--markdown", line.is_markdown, "As Markdown");
   help->require_subcommand(1);
@@ -241,13 +241,35 @@ void add_others(CLI::App& app, CommandLine& line) {
   });
 }
 
+std::vector<std::string> names_of_commands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(sub->get_name());
+  return names;
+}
+
+bool is_one_of(const std::string& word, const std::vector<std::string>& words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+// "trocar help" is "trocar --help", "trocar help run" is "trocar run --help".
+std::vector<const char*> words_of(const CLI::App& app, int argc, char** argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  if (argc < 2 || std::string(argv[1]) != "help") return words;
+  if (argc == 2) return {words[0], "--help"};
+  if (argc == 3 && is_one_of(words[2], names_of_commands(app)))
+    return {words[0], words[2], "--help"};
+  return words;
+}
+
 // What is wrong, the word that was probably meant ("trocar rnu"), and where help is.
 std::string complaint(const CLI::App& app, const std::string& trouble, int argc, char** argv) {
-  std::vector<std::string> known;
-  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
-    known.push_back(sub->get_name());
+  const std::vector<std::string> known = names_of_commands(app);
   const std::string word = argc < 2 ? "" : argv[1];
-  if (std::find(known.begin(), known.end(), word) != known.end())
+  if (word == "help" && argc == 3)
+    return "there is no help on " + in_quotes(argv[2]) + ", only on scene, tissues and commands" +
+           "\nrun \"trocar help\" for what there is";
+  if (is_one_of(word, known))
     return trouble + "\nrun \"trocar " + word + " --help\" for what there is";
   const std::string end = "\nrun \"trocar --help\" for what there is";
   if (word.empty() || word[0] == '-') return trouble + end;
@@ -278,7 +300,8 @@ bool parse_command_line(int argc, char** argv, CommandLine& line, ExitCode& code
   add_replay(app, line);
   add_others(app, line);
   try {
-    app.parse(argc, argv);
+    const std::vector<const char*> words = words_of(app, argc, argv);
+    app.parse(static_cast<int>(words.size()), words.data());
     return true;
   } catch (const CLI::Success& help) {
     if (is_first_process()) app.exit(help);

@@ -41,6 +41,8 @@ Problem find_problem(const StudyOptions& options, Communicator& communicator) {
                              .sleeps = options.sleeps,
                              .sizes = options.sweep.sizes},
                             communicator);
+  if (std::filesystem::path(options.subject).has_extension())
+    throw InputError(options.subject + ": there is no file of this name");
   const std::string nearest = nearest_name(options.subject, known);
   throw InputError(in_quotes(options.subject) + " is neither a scene file nor a built-in problem" +
                    (nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?") +
@@ -61,9 +63,10 @@ void check_sizes(const StudyOptions& options, const Problem& problem) {
           std::to_string(n));
 }
 
-// Before the runs, which take minutes.
+// Before the runs, which take minutes. A scene's result is a length, known after its finest run.
 void check_target(const StudyOptions& options, const Problem& problem) {
-  if (!options.target.empty()) require_fits(read_target(options.target), problem);
+  if (!options.target.empty() && !problem.is_scene())
+    require_fits(read_target(options.target), problem);
 }
 
 Target target_of(const StudyOptions& options, const Study& study) {
@@ -98,11 +101,19 @@ void study_all(const StudyOptions& options) {
     write_file(options.docs + "/accuracy.md", accuracy_page(studies, "images"));
 }
 
+void check_combination(const StudyOptions& options) {
+  if (!options.subject.empty() && (options.all || options.list))
+    throw InputError("study: " + in_quotes(options.subject) +
+                     " and --all or --list exclude each other");
+  if (!options.docs.empty() && !options.all) throw InputError("study: --docs belongs to --all");
+}
+
 }  // namespace
 
 ExitCode command_study(const StudyOptions& options, Communicator& communicator) {
   if (communicator.size() > 1)
     throw InputError("study measures one process with one thread: start it without mpirun");
+  check_combination(options);
   if (!options.target.empty()) read_target(options.target);
   set_thread_count(1);
   if (options.list) {

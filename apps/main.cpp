@@ -8,6 +8,12 @@
 #include "base/error.h"
 #include "base/log.h"
 
+// What was asked for on standard output must not be lost in silence, e.g. on a full disk.
+static void check_was_printed() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw trocar::MachineError("standard output can't be written");
+}
+
 int main(int argc, char** argv) {
   using namespace trocar;
   CommandLine line;
@@ -18,7 +24,9 @@ int main(int argc, char** argv) {
   const int rank = session.world().rank();
   start_log(rank, line.machine.is_quiet);
   try {
-    return static_cast<int>(run_command(line, session.world()));
+    code = run_command(line, session.world());
+    check_was_printed();
+    return static_cast<int>(code);
   } catch (const InputError& trouble) {  // thrown on every rank alike
     code = ExitCode::input;
     log_error(trouble.what());

@@ -126,6 +126,21 @@ void build_cuts(Simulation& s) {
     for (CutStage& stage : s.cuts) stage.tet.prepare(s.mesh);
 }
 
+// The edge has points half an element's edge apart, of which each frame makes a band.
+void check_blade_length(const LoadedScene& loaded, std::size_t k, double edge) {
+  constexpr double most_edges = 1e5;
+  const SceneInstrument& instrument = loaded.scene.instruments[k];
+  const bool has_blade =
+      instrument.kind == InstrumentKind::scalpel || instrument.kind == InstrumentKind::scissors;
+  if (!has_blade || instrument.blade_length <= most_edges * edge) return;
+  char sentence[120];
+  std::snprintf(sentence, sizeof sentence,
+                "the blade is longer than 100,000 edges of the mesh, which have %.3g m: does its "
+                "unit fit the mesh's?",
+                edge);
+  loaded.where.fail("instrument[" + std::to_string(k) + "].blade_length", sentence);
+}
+
 void build_instruments(const LoadedScene& loaded, Simulation& s) {
   const double edge = s.edge_length;
   for (std::size_t k = 0; k < s.scene.instruments.size(); ++k) {
@@ -133,6 +148,7 @@ void build_instruments(const LoadedScene& loaded, Simulation& s) {
     if (s.mesh.dimension() == 2 && instrument.kind == InstrumentKind::scissors)
       loaded.where.fail("instrument[" + std::to_string(k) + "].kind",
                         "scissors cut volumes only: a scalpel cuts this plane body");
+    check_blade_length(loaded, k, edge);
     s.tools.push_back(
         make_tool(instrument, load_tool_mesh(loaded, k, *s.communicator), 0.5 * edge));
   }
@@ -167,7 +183,8 @@ void check_slow_element(const LoadedScene& loaded, const Simulation& s) {
   const std::string sentence =
       figures + std::string(
                     " a step: it is a sliver (\"trocar mesh\" shows the mesh's quality), or "
-                    "its material is too stiff, too light or too near poisson_ratio = 0.5");
+                    "its material is too stiff, too light or too near poisson_ratio = 0.5, or "
+                    "solver.step_factor or time.frame_rate is too small");
   if (n > too_many_substeps) loaded.where.fail("tissue", sentence);
   log_warning(sentence);
 }

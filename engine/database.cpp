@@ -71,7 +71,22 @@ void Database::run(const std::string& sql) {
     fail(sqlite3_errmsg(handle_->connection));
 }
 
+// What a killed run left is read with an index that SQLite writes beside the file.
+bool Database::is_hindered() const {
+  if (handle_->connection == nullptr) return false;
+  const int code = sqlite3_errcode(handle_->connection);
+  std::error_code trouble;
+  return (code == SQLITE_IOERR || code == SQLITE_FULL || code == SQLITE_CANTOPEN ||
+          code == SQLITE_READONLY) &&
+         std::filesystem::exists(file_ + "-wal", trouble);
+}
+
 void Database::fail(const std::string& what) const {
+  if (mode_ == Mode::read && is_hindered())
+    throw MachineError(file_ + ": can't be read here (" + what + "): a run that was killed left " +
+                       file_ +
+                       "-wal, which needs room and permission to write beside it; copy both "
+                       "elsewhere");
   if (mode_ == Mode::read) throw InputError(file_ + ": is no readable recording (" + what + ")");
   throw MachineError(file_ + ": can't be written (" + what + ")");
 }

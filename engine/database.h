@@ -43,7 +43,7 @@ class Database {
  public:
   enum class Mode { create, extend, read };
   // create: replaces the file; failures are MachineErrors, also of extend, which goes on with one
-  // that is there. read: failures are InputErrors. All "path: reason".
+  // that is there. read: failures are InputErrors, but for what a disk hinders. All "path: reason".
   Database(const std::string& file, Mode mode);
   ~Database();
   Database(const Database&) = delete;
@@ -53,6 +53,7 @@ class Database {
 
  private:
   friend class Statement;
+  bool is_hindered() const;
   struct Handle;
   std::string file_;
   Mode mode_;

@@ -40,13 +40,14 @@ std::vector<std::int32_t> pieces_of(const Mesh& mesh) {
                         "its weight");
 }
 
-Relaxation relax_body(Simulation& s) {
+Relaxation relax_body(Simulation& s, const std::atomic<bool>* stop) {
   aim_holds(s.holds, s.tools, s.mesh.X, 0);
   return relax(s.model,
                {.prescribed = s.holds.prescribed,
                 .max_iterations = s.scene.start.max_iterations,
                 .tolerance = s.scene.start.tolerance,
-                .neighbours = &s.neighbours},
+                .neighbours = &s.neighbours,
+                .stop = stop},
                s.state, s.scratch);
 }
 
@@ -78,9 +79,13 @@ void check_is_held(const LoadedScene& loaded, const Simulation& s) {
                               ", and gravity moves it there");
 }
 
-void start_in_equilibrium(const LoadedScene& loaded, Simulation& s) {
+bool start_in_equilibrium(const LoadedScene& loaded, Simulation& s, const std::atomic<bool>* stop) {
   const double start = monotonic_seconds();
-  const Relaxation found = relax_body(s);
+  const Relaxation found = relax_body(s, stop);
+  if (found.is_stopped) {
+    s.state = make_state(s.model);
+    return false;
+  }
   check_found(found, s);
   s.equilibrium = Equilibrium{.iterations = found.iterations,
                               .residual = found.residual,
@@ -98,6 +103,7 @@ void start_in_equilibrium(const LoadedScene& loaded, Simulation& s) {
   note_event(s, 0,
              "in equilibrium after " + std::to_string(found.iterations) + " iterations, residual " +
                  number_text(found.residual));
+  return true;
 }
 
 }  // namespace trocar

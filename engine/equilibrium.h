@@ -2,6 +2,8 @@
 // begins with a body that drops and swings.
 #pragma once
 
+#include <atomic>
+
 #include "engine/scene.h"
 #include "engine/simulation.h"
 
@@ -13,7 +15,9 @@ void check_is_held(const LoadedScene& loaded, const Simulation& s);
 // Relaxes the state that build made, with moving supports where they are at time zero; time and
 // step stay 0, viscous overstress too, and the energy ledger begins anew. Instruments take no part:
 // throws InputError if one reaches into the body that was found, and SimulationError, with the body
-// as it was, if there is none. Collective.
-void start_in_equilibrium(const LoadedScene& loaded, Simulation& s);
+// as it was, if there is none. False, with the body as it was, if `stop` was set on a rank.
+// Collective.
+bool start_in_equilibrium(const LoadedScene& loaded, Simulation& s,
+                          const std::atomic<bool>* stop = nullptr);
 
 }  // namespace trocar

@@ -60,10 +60,23 @@ PvdEntry write_frame_vtu(const Mesh& mesh, const RecordedFrame& frame, const std
   return {.time = frame.time, .file = name};
 }
 
-void list_frames(RecordingReader& reader) {
-  for (const auto& [frame, time] : reader.frames())
+void list_frames(RecordingReader& reader,
+                 const std::vector<std::pair<std::int64_t, double>>& frames) {
+  for (const auto& [frame, time] : frames)
     std::printf("%8lld  %10.4f s  %s\n", static_cast<long long>(frame), time,
                 digest_text(reader.read(frame).digest).c_str());
+}
+
+std::string video_file(const ReplayOptions& options) {
+  return (std::filesystem::path(options.folder) / options.video).string();
+}
+
+// The film is not written over what it shows.
+void check_recording_stays(const ReplayOptions& options) {
+  std::error_code is_new;
+  if (!options.video.empty() &&
+      std::filesystem::equivalent(video_file(options), options.recording, is_new))
+    throw InputError("--video " + options.video + ": the film would replace its recording");
 }
 
 std::vector<FilmOrder> orders_of(const Scene& scene, const ReplayOptions& options,
@@ -76,7 +89,7 @@ std::vector<FilmOrder> orders_of(const Scene& scene, const ReplayOptions& option
   std::vector<FilmOrder> orders;
   if (!options.video.empty()) {
     order.kind = OutputKind::video;
-    order.file = options.folder + "/" + options.video;
+    order.file = video_file(options);
     orders.push_back(order);
   }
   if (options.frames) {
@@ -144,11 +157,12 @@ void replay(const ReplayOptions& options) {
   RecordingReader reader(options.recording);
   for (const std::string& sentence : reader.damage())
     log_warning(options.recording + ": " + sentence);
-  if (options.list) return list_frames(reader);
+  const auto frames = chosen_frames(reader, options);
+  if (options.list) return list_frames(reader, frames);
   if (options.video.empty() && !options.frames && !options.vtu)
     throw InputError("nothing to do: ask for --video FILE, --frames, --vtu or --list");
+  check_recording_stays(options);
   make_output_folder(options.folder);
-  const auto frames = chosen_frames(reader, options);
   const std::unique_ptr<FilmStudio> studio = open_studio(reader, options, frames);
   std::vector<PvdEntry> entries;
   ProgressBar bar("replay");

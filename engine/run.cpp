@@ -25,6 +25,7 @@ namespace trocar {
 namespace {
 
 std::atomic<bool> stop_asked = false;
+constexpr const char* stopped_by_signal = "stopped by a signal";
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 // A second signal ends this rank at once, and mpirun the others: outputs are consistent at any
@@ -36,6 +37,7 @@ void ask_to_stop(int) {
 void listen_to_signals() {
   stop_asked = false;
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) std::signal(signal, ask_to_stop);
+  if (std::signal(SIGHUP, ask_to_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
 }
 
 bool is_stopped(const Communicator& communicator) {
@@ -73,7 +75,7 @@ std::string run_frames(Simulation& s, Outputs& outputs) {
                progress_note(s, start));
   }
   write_checkpoint(s, outputs);
-  return s.frame < n_frames ? "stopped by a signal" : "";
+  return s.frame < n_frames ? stopped_by_signal : "";
 }
 
 // What comes before the first frame if the scene asks for it; the sentence of the trouble, "" if
@@ -81,11 +83,10 @@ std::string run_frames(Simulation& s, Outputs& outputs) {
 std::string prepare_start(const LoadedScene& loaded, Simulation& s) {
   if (s.scene.start.state != StartState::equilibrium) return "";
   try {
-    start_in_equilibrium(loaded, s);
+    return start_in_equilibrium(loaded, s, &stop_asked) ? "" : stopped_by_signal;
   } catch (const SimulationError& trouble) {
     return trouble.what();
   }
-  return "";
 }
 
 void write_summary(const std::string& text, const std::string& file) {
@@ -131,7 +132,7 @@ bool run_scene(const RunOptions& options, Communicator& communicator) {
 
   if (trouble.empty()) trouble = run_frames(*simulation, outputs);
   times.loop_seconds = monotonic_seconds() - start - times.setup_seconds;
-  const bool is_stopped_by_signal = trouble == "stopped by a signal";
+  const bool is_stopped_by_signal = trouble == stopped_by_signal;
   finish_outputs(outputs);
   times.finish_seconds = monotonic_seconds() - start - times.setup_seconds - times.loop_seconds;
   if (outputs.studio) times.drawing_seconds = outputs.studio->seconds();

@@ -23,7 +23,7 @@ LoadedScene share_scene(const std::string& file, const std::vector<std::string>&
 
 // Runs it and writes everything, summary.json last. Collective. Throws SimulationError after
 // writing what there is. Returns true if the run went through, false if a signal (SIGINT, SIGTERM,
-// SIGUSR1) stopped it at a frame's end.
+// SIGHUP, SIGUSR1) stopped it at a frame's end.
 bool run_scene(const RunOptions& options, Communicator& communicator);
 
 }  // namespace trocar

@@ -107,6 +107,22 @@ bool stays_inside(const std::string& file) {
   return std::none_of(path.begin(), path.end(), [](const auto& part) { return part == ".."; });
 }
 
+std::string plain_file(const SceneOutput& output) {
+  return std::filesystem::path(output.file).lexically_normal().string();
+}
+
+// Only frames are a folder, in which others may lie.
+void check_no_output_lies_in_a_file(const Scene& scene, const SourceMap& where) {
+  std::vector<std::string> files = {"summary.json", "scene.toml", "checkpoint.bin"};
+  for (const SceneOutput& output : scene.outputs)
+    if (output.kind != OutputKind::frames) files.push_back(plain_file(output));
+  for (std::size_t k = 0; k < scene.outputs.size(); ++k)
+    for (const std::string& file : files)
+      if (plain_file(scene.outputs[k]).starts_with(file + "/"))
+        where.fail(item("output", k) + ".file",
+                   "\"" + scene.outputs[k].file + "\" lies in \"" + file + "\", which is a file");
+}
+
 void check_outputs(const Scene& scene, const SourceMap& where) {
   std::set<std::string> files;
   for (std::size_t k = 0; k < scene.outputs.size(); ++k) {
@@ -115,7 +131,7 @@ void check_outputs(const Scene& scene, const SourceMap& where) {
     if (!stays_inside(output.file))
       where.fail(path + ".file",
                  "\"" + output.file + "\" must be a relative path inside the output folder");
-    const std::string plain = std::filesystem::path(output.file).lexically_normal().string();
+    const std::string plain = plain_file(output);
     if (plain == "summary.json" || plain == "scene.toml" || plain.starts_with("checkpoint.bin"))
       where.fail(path + ".file", "\"" + plain + "\" is written by every run: choose another name");
     if (!files.insert(plain).second)
@@ -132,8 +148,12 @@ void check_outputs(const Scene& scene, const SourceMap& where) {
 }
 
 void check_cameras(const Scene& scene, const SourceMap& where) {
+  std::set<std::string> names;
   for (std::size_t k = 0; k < scene.cameras.size(); ++k) {
     const SceneCamera& camera = scene.cameras[k];
+    if (!names.insert(camera.name).second)
+      where.fail(item("camera", k),
+                 "two cameras are called \"" + camera.name + "\": give each a name");
     const Vec3 view = camera.target - camera.eye;
     if (view.norm() < 1e-9 ||
         view.cross(camera.up).norm() < 1e-6 * view.norm() * std::max(1e-9, camera.up.norm()))
@@ -177,6 +197,7 @@ LoadedScene load_scene(const std::string& file, const std::vector<std::string>& 
   check_instruments(located.value, located.where);
   check_cameras(scene, located.where);
   check_outputs(scene, located.where);
+  check_no_output_lies_in_a_file(scene, located.where);
   check_start(scene, located.where);
   check_contact(scene, located.where);
   std::string folder = std::filesystem::path(file).parent_path().string();

@@ -55,6 +55,9 @@ void place(const SceneTissue& tissue, Mesh& mesh) {
 void add_regions(const LoadedScene& loaded, Mesh& mesh) {
   for (std::size_t k = 0; k < loaded.scene.regions.size(); ++k) {
     const SceneRegion& region = loaded.scene.regions[k];
+    if (find_node_set(mesh, region.name))
+      loaded.where.fail("region[" + std::to_string(k) + "].name",
+                        "the body has a region \"" + region.name + "\" already");
     NodeSet set{.name = region.name, .node = {}};
     for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) {
       const Vec3& X = mesh.X[static_cast<std::size_t>(i)];
@@ -95,11 +98,14 @@ Mesh read_tissue(const LoadedScene& loaded) {
   const SceneTissue& tissue = loaded.scene.tissue;
   Mesh mesh;
   try {
-    mesh = tissue.shape ? generate_tissue(*tissue.shape)
-                        : read_mesh(scene_path(loaded, tissue.mesh), tissue.scale);
-    if (!tissue.shape && tissue.is_renumbered) mesh = in_near_order(std::move(mesh));
+    if (tissue.shape) {
+      mesh = generate_tissue(*tissue.shape);
+    } else {
+      mesh = read_mesh(scene_path(loaded, tissue.mesh), tissue.scale);
+      if (tissue.is_renumbered) mesh = in_near_order(std::move(mesh));
+    }
   } catch (const InputError& trouble) {
-    loaded.where.fail(tissue.shape ? "tissue.shape.elements" : "tissue.mesh", trouble.what());
+    loaded.where.fail(tissue.shape ? "tissue.shape" : "tissue.mesh", trouble.what());
   }
   place(tissue, mesh);
   const std::vector<std::string> faults = validate(mesh, 3);

@@ -148,7 +148,8 @@ bool is_binary_stl(std::string_view bytes) {
 
 TriangleMesh read_stl(ByteReader& in) {
   // A binary file may begin with "solid" as well: its length tells.
-  if (!is_binary_stl(in.rest()) && in.peek_word() == "solid") return read_ascii_stl(in);
+  ByteReader look = in;  // a header of blanks stays unread
+  if (!is_binary_stl(in.rest()) && look.peek_word() == "solid") return read_ascii_stl(in);
   return read_binary_stl(in);
 }
 

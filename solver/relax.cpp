@@ -163,6 +163,10 @@ void find_relaxed_force(const Model& model, Neighbours& neighbours, State& state
   find_force(model, neighbours, state, scratch);
 }
 
+bool is_stopped(const RelaxTask& task, const Communicator& communicator) {
+  return task.stop != nullptr && communicator.all_max(*task.stop ? 1 : 0) > 0;
+}
+
 }  // namespace
 
 Relaxer make_relaxer(const Model& model, std::span<const PrescribedNode> prescribed) {
@@ -213,7 +217,8 @@ Relaxation relax(const Model& model, const RelaxTask& task, State& state, Scratc
     const bool is_look = r.result.iterations % look_interval == 0;
     relax_step(model, scratch, *neighbours.communicator, r, state);
     r.result.is_converged = is_look && share == 1 && r.result.residual <= task.tolerance;
-    if (r.result.is_converged || !r.result.is_finite) break;
+    r.result.is_stopped = is_look && is_stopped(task, *neighbours.communicator);
+    if (r.result.is_converged || !r.result.is_finite || r.result.is_stopped) break;
   }
   find_relaxed_force(model, neighbours, state, scratch);
   add_load(model, task, 1, scratch);

@@ -4,6 +4,7 @@
 // estimated as it goes.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,6 +25,8 @@ struct RelaxTask {
   // single precision leave some 1e-6 of it: ask for no less than 3e-5 there.
   double tolerance = 1e-6;
   Neighbours* neighbours = nullptr;  // null: alone
+  // Set by a signal on any rank: the relaxation ends at its next look. Null: nobody stops it.
+  const std::atomic<bool>* stop = nullptr;
 };
 
 struct Relaxation {
@@ -34,6 +37,7 @@ struct Relaxation {
   double residual = 0;
   bool is_converged = false;
   bool is_finite = true;  // otherwise it diverged
+  bool is_stopped = false;
 };
 
 // Moves `state` into equilibrium: u changes, v and last_dt become 0, time and step stay.

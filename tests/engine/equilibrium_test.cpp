@@ -190,6 +190,14 @@ TEST(Equilibrium, that_is_not_found_is_named_and_leaves_the_body_undeformed) {
   EXPECT_EQ(largest_of(few->s->state.u), 0);
 }
 
+TEST(Equilibrium, is_not_sought_on_after_a_signal) {
+  const auto column = built(column_text("hex8", soft, downwards));
+  const std::atomic<bool> stop = true;
+  EXPECT_FALSE(start_in_equilibrium(column->loaded, *column->s, &stop));
+  EXPECT_FALSE(column->s->equilibrium.has_value());
+  EXPECT_EQ(largest_of(column->s->state.u), 0);
+}
+
 TEST(Equilibrium, is_refused_with_an_instrument_inside_the_body) {
   const auto sentence = [](const std::string& height) {
     return input_error_of([&] {

@@ -1,6 +1,9 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "engine/database.h"
@@ -195,6 +198,28 @@ TEST(RecordingReader, leaves_the_file_and_its_folder_as_they_were) {
     EXPECT_FALSE(std::filesystem::exists(folder.file("r-shm")));
   }
   EXPECT_EQ(read_text(folder.file("r")), before);
+}
+
+// A limit on the size of files stands for a full disk: no index of the log can be written beside
+// it.
+TEST(RecordingReader, says_on_a_full_disk_that_the_log_of_a_killed_run_can_be_read_elsewhere) {
+  const TestFolder folder;
+  const ExampleRun run = example_run(4);
+  RecordingWriter writer(folder.file("r"), run.head);
+  for (const char* tail : {"", "-wal"})
+    std::filesystem::copy_file(folder.file("r") + tail, folder.file("killed") + tail);
+  const auto read = [&] { RecordingReader reader(folder.file("killed")); };
+  const pid_t child = fork();
+  if (child == 0) {
+    signal(SIGXFSZ, SIG_IGN);
+    const rlimit none{.rlim_cur = 0, .rlim_max = 0};
+    setrlimit(RLIMIT_FSIZE, &none);
+    _exit(contains(error_of<MachineError>(read), "copy both elsewhere") ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(error_of<MachineError>(read), "");
 }
 
 // What can be told from a file: the frames that are read are right and those that are not there are

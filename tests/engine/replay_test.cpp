@@ -102,6 +102,15 @@ TEST(Replay, names_a_camera_that_the_scene_lacks) {
   EXPECT_TRUE(contains(input_error_of([&] { replay(c.options); }), "no camera \"other\""));
 }
 
+TEST(Replay, does_not_write_a_film_over_its_recording) {
+  Case c;
+  c.options.folder = c.folder.path();
+  c.options.video = "./r";
+  const std::string before = read_text(c.options.recording);
+  EXPECT_TRUE(contains(input_error_of([&] { replay(c.options); }), "would replace its recording"));
+  EXPECT_EQ(read_text(c.options.recording), before);
+}
+
 TEST(Replay, says_which_folder_can_not_be_made) {
   Case c;
   write_text(c.options.folder, "a file");

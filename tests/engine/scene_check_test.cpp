@@ -145,6 +145,18 @@ TEST(SceneCheck, refuses_outputs_that_would_overwrite_the_files_of_every_run) {
     expect_error(output_text("metrics", file), "is written by every run");
 }
 
+TEST(SceneCheck, refuses_an_output_inside_a_file) {
+  expect_error(output_text("metrics", "a/b") + output_text("metrics", "a"), "lies in \"a\"");
+  expect_error(output_text("metrics", "summary.json/a"), "lies in \"summary.json\"");
+  EXPECT_EQ(scene_error(scene_text(camera_text + output_text("frames", "a") +
+                                   output_text("metrics", "a/b") + output_text("metrics", "ab"))),
+            "");
+}
+
+TEST(SceneCheck, refuses_two_cameras_of_one_name) {
+  expect_error(camera_text + camera_text, "two cameras are called \"endoscope\"");
+}
+
 TEST(SceneCheck, needs_a_known_camera_for_pictures) {
   for (const std::string kind : {"video", "frames", "contact-sheet"}) {
     expect_error(output_text(kind, "a"), "a picture needs a [[camera]]");

@@ -111,6 +111,26 @@ TEST(BadInput, a_mesh_with_a_sliver_that_would_take_for_ever_is_refused_with_its
   expect_refusal(scene, folder, input_wrong, "because element 0 allows only");
 }
 
+TEST(BadInput, a_blade_that_is_longer_than_100000_edges_is_refused_before_it_is_divided) {
+  expect_refusal(config("block_hex.toml"), test_folder("blade"), input_wrong,
+                 "instrument[0].blade_length",
+                 {"--set",
+                  "instrument=[{kind='scalpel',blade_length=1e20,path=[{time=0,position="
+                  "[0,0,1]}]}]"});
+}
+
+TEST(BadInput, a_generated_body_that_can_not_be_made_is_refused_with_its_place) {
+  const std::string folder = test_folder("cells");
+  const std::string scene =
+      changed_config(folder, "block_hex.toml", "[20, 20, 20]", "[2000, 2000, 2000]");
+  expect_refusal(scene, folder, input_wrong, scene + ":9:1: tissue.shape: a generated mesh");
+}
+
+TEST(BadInput, a_step_factor_that_asks_for_millions_of_steps_a_frame_is_named_as_a_cause) {
+  expect_refusal(config("block_hex.toml"), test_folder("factor"), input_wrong, "solver.step_factor",
+                 {"--set", "solver.step_factor=1e-6"});
+}
+
 TEST(BadInput, an_unwritable_output_folder_is_refused) {
   const std::string folder = test_folder("unwritable");
   std::ofstream(folder + "/out") << "a file where the folder should be\n";
@@ -140,6 +160,40 @@ TEST(BadInput, a_command_that_is_like_no_other_is_named) {
   EXPECT_NE(run.err.find("\"bogus-words\""), std::string::npos) << run.err;
 }
 
+TEST(BadInput, help_on_what_is_not_there_says_so) {
+  const Finished run = run_trocar({"help", "bogus"}, test_folder("help-bogus"));
+  EXPECT_EQ(run.exit_code, input_wrong);
+  EXPECT_NE(run.err.find("no help on \"bogus\""), std::string::npos) << run.err;
+}
+
+TEST(Help, alone_and_on_a_command_is_that_of_the_option) {
+  const std::string folder = test_folder("help");
+  const Finished alone = run_trocar({"help"}, folder), on_run = run_trocar({"help", "run"}, folder);
+  EXPECT_EQ(alone.exit_code, 0);
+  EXPECT_EQ(alone.out, run_trocar({"--help"}, folder).out);
+  EXPECT_EQ(on_run.exit_code, 0);
+  EXPECT_EQ(on_run.out, run_trocar({"run", "--help"}, folder).out);
+}
+
+TEST(Help, that_can_not_be_printed_is_an_error_of_the_machine) {
+  const Finished run = run_words({"sh", "-c", "\"$0\" help scene > /dev/full", TROCAR_PROGRAM},
+                                 test_folder("help-full"));
+  EXPECT_EQ(run.exit_code, machine_failed);
+  EXPECT_NE(run.err.find("standard output can't be written"), std::string::npos) << run.err;
+}
+
+TEST(BadInput, a_study_refuses_what_it_would_ignore) {
+  const std::string folder = test_folder("study");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"study", "--all", "indentation"},
+        {"study", "--list", "indentation"},
+        {"study", "indentation", "--docs", folder}}) {
+    const Finished run = run_trocar(words, folder);
+    EXPECT_EQ(run.exit_code, input_wrong) << run.out;
+    EXPECT_EQ(count(run.err, "error"), 1) << run.err;
+  }
+}
+
 TEST(BadInput, a_scale_that_is_not_above_zero_is_refused) {
   const std::string folder = test_folder("scale");
   for (const std::string scale : {"0", "-1 mm"}) {
@@ -162,7 +216,7 @@ TEST(BadInput, what_elements_can_not_be_is_refused_with_its_place) {
   std::ofstream(scene) << "[time]\nduration = 1\n[tissue.shape]\nkind = \"ball\"\n"
                           "elements = \"tet4-five\"\n[tissue.material]\nmodel = \"linear\"\n"
                           "[solver]\ntetrahedron = \"nodal-pressure\"\n";
-  expect_refusal(scene, folder, input_wrong, ":5:12: tissue.shape.elements");
+  expect_refusal(scene, folder, input_wrong, ":3:1: tissue.shape: round meshes");
   expect_refusal(scene, folder, input_wrong, ":6:1: tissue.material: tet4-nodal-pressure elements",
                  {"--set", "tissue.shape.elements=tet4-kuhn"});
 }
@@ -178,6 +232,12 @@ TEST(BadInput, a_region_that_is_not_there_lists_those_that_are) {
   const std::string scene =
       changed_config(folder, "block_hex.toml", "region = \"z-\"", "region = \"bottom\"");
   expect_refusal(scene, folder, input_wrong, "\"z+\"");
+}
+
+TEST(BadInput, a_region_of_a_name_that_the_body_has_is_refused) {
+  expect_refusal(config("block_hex.toml"), test_folder("region-twice"), input_wrong,
+                 "the body has a region \"z-\" already",
+                 {"--set", "region=[{name='z-',low=[-1,-1,-1],high=[1,1,1]}]"});
 }
 
 TEST(BadInput, an_output_outside_its_folder_is_refused) {

@@ -238,7 +238,7 @@ TEST(Resume, after_a_signal_goes_on_at_the_frame_where_it_stopped) {
   const std::string folder = test_folder("signalled");
   const std::string scene = scene_file(folder, resume_block_text);
   const std::string expected = uninterrupted(scene);
-  for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) {
+  for (const int signal : {SIGTERM, SIGINT, SIGUSR1, SIGHUP}) {
     std::filesystem::remove_all(folder + "/out");
     std::vector<std::string> words = run_arguments(scene, folder, often_in_real_time);
     words.insert(words.begin(), TROCAR_PROGRAM);
@@ -265,6 +265,38 @@ TEST(Signals, a_second_one_ends_a_run_at_once) {
   kill(child, SIGTERM);
   EXPECT_EQ(waitpid(child, &status, 0), child);
   EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, stopped);
+}
+
+// Waits until the program listens to the signal.
+void wait_for_handler(pid_t child, int signal) {
+  const std::string file = "/proc/" + std::to_string(child) + "/status", key = "SigCgt:";
+  for (int tries = 0; tries < 1000; ++tries) {
+    const std::string status = read_text(file);
+    const std::size_t at = status.find(key);
+    if (at != std::string::npos &&
+        (std::stoull(status.substr(at + key.size()), nullptr, 16) >> (signal - 1) & 1) != 0)
+      return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  ADD_FAILURE() << "no handler of signal " << signal;
+}
+
+// The block is too heavy for its material: without the signal it would swing for minutes.
+TEST(Signals, end_the_search_for_equilibrium) {
+  const std::string folder = test_folder("equilibrium-signal");
+  const pid_t child =
+      start({TROCAR_PROGRAM, "run", config("block_hex.toml"), "-q", "-o", folder + "/out", "--set",
+             "output=[]", "--set", "start.state='equilibrium'", "--set", "start.tolerance=1.1e-12",
+             "--set", "start.max_iterations=100000000", "--set", "tissue.shape.cells=[30, 30, 30]"},
+            folder);
+  wait_for_handler(child, SIGTERM);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  kill(child, SIGTERM);
+  int status = 0;
+  EXPECT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, stopped);
+  EXPECT_EQ(read_summary(folder + "/out")["trouble"], "stopped by a signal");
+  EXPECT_EQ(read_summary(folder + "/out")["frames"], 0);
 }
 
 TEST(Resume, of_two_ranks_that_were_signalled_goes_on_with_one) {

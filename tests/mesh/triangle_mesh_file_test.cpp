@@ -104,6 +104,14 @@ TEST(SurfaceFile, an_stl_that_is_cut_off_is_refused) {
       "bytes");
 }
 
+TEST(SurfaceFile, a_binary_stl_whose_header_is_blank_and_which_is_cut_off_is_read_from_its_start) {
+  const std::string binary = stl_binary();
+  EXPECT_EQ(
+      refusal("a.stl", std::string(80, ' ') + binary.substr(80, binary.size() - 81)),
+      " byte 80: 4 triangles of a binary STL are announced, but the file goes on for only 199 "
+      "bytes");
+}
+
 TEST(SurfaceFile, a_corner_that_is_not_finite_is_refused) {
   std::string content = stl_binary();
   content.replace(84 + 50 + 12, 4,

@@ -28,12 +28,26 @@ TEST(Study, the_list_names_all_problems) {
     EXPECT_NE(list.out.find(name), std::string::npos) << name;
 }
 
+TEST(Study, of_a_scene_takes_a_length_as_its_target) {
+  const std::string folder = test_folder("study-scene");
+  const Finished study =
+      run_trocar({"study", config("plane_cut.toml"), "--sizes", "4,6", "--precision", "double",
+                  "--target", "1 mm", "-o", folder, "--set", "time.duration='0.5 s'", "--set",
+                  "instrument=[]", "--set", "solver.gravity=[0, -9.81, 0]"},
+                 folder);
+  EXPECT_EQ(study.exit_code, 0) << study.err;
+  EXPECT_NE(study.out.find("For 1 mm error at least cost"), std::string::npos) << study.out;
+}
+
 TEST(Study, what_does_not_exist_is_named_with_the_nearest_that_does) {
   const std::string folder = test_folder("study-wrong");
   const Finished wrong = run_trocar({"study", "indentatoin"}, folder);
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_NE(wrong.err.find("did you mean \"indentation\"?"), std::string::npos) << wrong.err;
   EXPECT_EQ(run_trocar({"study"}, folder).exit_code, 2);
+  const Finished absent = run_trocar({"study", "absent.toml"}, folder);
+  EXPECT_EQ(absent.exit_code, 2);
+  EXPECT_NE(absent.err.find("absent.toml: there is no file"), std::string::npos) << absent.err;
   EXPECT_EQ(run_trocar({"study", "lame-mode", "--elements", "hex9"}, folder).exit_code, 2);
   EXPECT_EQ(run_trocar({"study", "lame-mode", "--target", "soon"}, folder).exit_code, 2);
   EXPECT_EQ(run_trocar({"study", "bending-column", "--sizes", "3"}, folder).exit_code, 2);
