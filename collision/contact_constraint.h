@@ -21,6 +21,7 @@ struct ContactConstraint {
   std::int32_t item = 0;  // -1: between tissue and tissue
   std::array<std::int32_t, 4> place{};
   std::array<double, 4> weight{};
+  std::array<double, 4> lever{};  // weight / mass [1/kg]
   Vec3 normal, slip;     // n; slip of the step without contact [m]
   double lack = 0;       // [m]
   double felt_mass = 0;  // 1 / sum w^2 / m [kg]

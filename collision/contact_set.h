@@ -39,6 +39,11 @@ struct ContactSet {
     double handicap = 0;                  // TissuePair
     std::int64_t next_look = 0;           // step of the frame before which they cannot meet
   };
+  // The pairs of one node: a run of `tissue`.
+  struct TissueNode {
+    std::size_t first = 0, end = 0;
+    std::int64_t next_look = 0;  // the first of theirs
+  };
   // Between a node and the tissue that it lies on, of the last step of the frame: where the next
   // one begins.
   struct TissueImpulse {
@@ -49,6 +54,7 @@ struct ContactSet {
   // In the detector's order; empty on ranks without a node of theirs.
   std::vector<Item> items;
   std::vector<TissueItem> tissue;
+  std::vector<TissueNode> tissue_node;
   // Nodes of the items, ascending by global number.
   std::vector<std::int32_t> node;          // global numbers
   std::vector<double> inverse_mass;        // 0: nothing moves it [1/kg]
