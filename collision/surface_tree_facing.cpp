@@ -57,8 +57,9 @@ class FacingSearch {
     if (!tree_.node_.empty()) within(0);
     sort_opposites();
     for (std::size_t t = 0; t < tree_.triangle_.size(); ++t)
-      take_nodes(static_cast<std::int32_t>(t),
-                 std::span(opposite_).subspan(first_[t], first_[t + 1] - first_[t]));
+      for (std::size_t k = first_[t]; k < first_[t + 1]; ++k)
+        for (const std::int32_t node : tree_.nodes(opposite_[k].triangle))
+          take_node(node, static_cast<std::int32_t>(t), opposite_[k]);
     std::sort(found_.begin(), found_.end(), [](const auto& f, const auto& g) {
       return f.node != g.node ? f.node < g.node : f.triangle < g.triangle;
     });
@@ -140,21 +141,19 @@ class FacingSearch {
     }
   }
 
-  void take_nodes(std::int32_t t, std::span<const Opposite> opposites) {
-    for (const Opposite& s : opposites)
-      for (const std::int32_t node : tree_.nodes(s.triangle)) {
-        Seen& seen = seen_[to_index(node)];
-        if (seen.by != t) {
-          seen = {.by = t};
-          if (!may_meet(node, t)) continue;
-          seen.found = static_cast<std::int32_t>(found_.size());
-          found_.push_back({node, t, s.opposition, s.triangle});
-        } else if (seen.found >= 0) {
-          SurfaceTree::Facing& f = found_[to_index(seen.found)];
-          if (std::pair(s.opposition, s.triangle) < std::pair(f.opposition, f.own))
-            f = {node, t, s.opposition, s.triangle};
-        }
-      }
+  // Of a triangle that faces t.
+  void take_node(std::int32_t node, std::int32_t t, const Opposite& s) {
+    Seen& seen = seen_[to_index(node)];
+    if (seen.by != t) {
+      seen = {.by = t};
+      if (!may_meet(node, t)) return;
+      seen.found = static_cast<std::int32_t>(found_.size());
+      found_.push_back({node, t, s.opposition, s.triangle});
+    }
+    if (seen.found < 0) return;
+    SurfaceTree::Facing& f = found_[to_index(seen.found)];
+    if (std::pair(s.opposition, s.triangle) < std::pair(f.opposition, f.own))
+      f = {node, t, s.opposition, s.triangle};
   }
 
   bool may_meet(std::int32_t node, std::int32_t t) const {

@@ -45,8 +45,7 @@ TissueTouch touch_tissue(const Vec3& x, const Triangle& triangle) {
 }
 
 TissueTouch touch_tissue(const Vec3& x, const Triangle& triangle, const TrianglePoint& nearest) {
-  TissueTouch touch{.nearest = nearest,
-                    .normal = unit_normal(triangle).value_or(Vec3::Zero())};
+  TissueTouch touch{.nearest = nearest, .normal = unit_normal(triangle).value_or(Vec3::Zero())};
   const Vec3 d = x - touch.nearest.point;
   touch.distance = d.norm();
   touch.height = touch.normal.dot(d);
