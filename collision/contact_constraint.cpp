@@ -20,6 +20,7 @@ void add_constraint(double gap, double release, const Vec3& away, ContactConstra
   for (std::size_t a = 0; a < 4; ++a) {
     const std::size_t i = to_size(c.place[a]);
     relative += c.weight[a] * (set.x_end[i] - set.x_start[i]);
+    c.lever[a] = c.weight[a] * set.inverse_mass[i];
     inverse += c.weight[a] * c.weight[a] * set.inverse_mass[i];
     lightest = std::max(lightest, std::abs(c.weight[a]) * set.inverse_mass[i]);
   }
@@ -34,8 +35,7 @@ void add_constraint(double gap, double release, const Vec3& away, ContactConstra
 }
 
 void apply_impulse(const ContactConstraint& c, const Vec3& impulse, ContactSet& set) {
-  for (std::size_t a = 0; a < 4; ++a)
-    set.move[to_size(c.place[a])] += c.weight[a] * set.inverse_mass[to_size(c.place[a])] * impulse;
+  for (std::size_t a = 0; a < 4; ++a) set.move[to_size(c.place[a])] += c.lever[a] * impulse;
 }
 
 Vec3 at_most(const Vec3& v, double most) {

@@ -21,9 +21,10 @@ struct ContactConstraint {
   std::int32_t item = 0;  // -1: between tissue and tissue
   std::array<std::int32_t, 4> place{};
   std::array<double, 4> weight{};
-  Vec3 normal, slip;     // n; slip of the step without contact [m]
-  double lack = 0;       // [m]
-  double felt_mass = 0;  // 1 / sum w^2 / m [kg]
+  std::array<double, 4> lever{};  // weight / mass [1/kg]
+  Vec3 normal, slip;              // n; slip of the step without contact [m]
+  double lack = 0;                // [m]
+  double felt_mass = 0;           // 1 / sum w^2 / m [kg]
   // Impulse times dt, along n, and its bound: a triangle with two held corners would move the third
   // one a thousand times as far as it lacks. [kg m]
   double push = 0, most_push = 0;

@@ -69,10 +69,15 @@ void add_items(const FoundContacts& contacts, ContactSet& set) {
     for (std::size_t a = 0; a < 3; ++a) item.place[a] = place_of(set, contact.node[a]);
   }
   add_beside(set);
-  for (const TissuePair& pair : contacts.with_tissue)
+  for (const TissuePair& pair : contacts.with_tissue) {
+    const std::size_t k = set.tissue.size();
+    if (k == 0 || contacts.with_tissue[k - 1].node != pair.node)
+      set.tissue_node.push_back({.first = k});
+    set.tissue_node.back().end = k + 1;
     set.tissue.push_back({.place = {place_of(set, pair.node), place_of(set, pair.corner[0]),
                                     place_of(set, pair.corner[1]), place_of(set, pair.corner[2])},
                           .handicap = pair.handicap});
+  }
 }
 
 }  // namespace

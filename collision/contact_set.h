@@ -47,6 +47,11 @@ struct ContactSet {
     Vec3 local = Vec3::Zero();  // in the tool's frame, at the last look [m]
     std::optional<NodeTouch> touch;
   };
+  // The pairs of one node: a run of `tissue`.
+  struct TissueNode {
+    std::size_t first = 0, end = 0;
+    std::int64_t next_look = 0;  // the first of theirs
+  };
   // Between a node and the tissue that it lies on, of the last step of the frame: where the next
   // one begins.
   struct TissueImpulse {
@@ -58,6 +63,7 @@ struct ContactSet {
   std::vector<Item> items;
   std::vector<TissueItem> tissue;
   std::vector<BesidePiece> beside;  // in the order of items
+  std::vector<TissueNode> tissue_node;
   // Nodes of the items, ascending by global number.
   std::vector<std::int32_t> node;          // global numbers
   std::vector<double> inverse_mass;        // 0: nothing moves it [1/kg]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "collision/contact_constraint.h"
@@ -83,23 +84,40 @@ void add_nodes(const ContactDetector& detector, const ContactStep& step, double 
   }
 }
 
-Vec3 extra(const ContactConstraint& c, std::span<const Vec3> move) {
-  return c.weight[0] * move[to_size(c.place[0])] + c.weight[1] * move[to_size(c.place[1])] +
-         c.weight[2] * move[to_size(c.place[2])] + c.weight[3] * move[to_size(c.place[3])];
-}
+// The moves of a constraint's nodes while it is worked on.
+struct Moves {
+  std::array<Vec3, 4> of;
 
-// Returns by how much the contact point went.
-double project(double friction, ContactConstraint& c, ContactSet& set) {
-  const Vec3 before = extra(c, set.move);
+  Moves(const ContactConstraint& c, std::span<const Vec3> move)
+      : of{move[to_size(c.place[0])], move[to_size(c.place[1])], move[to_size(c.place[2])],
+           move[to_size(c.place[3])]} {}
+  // Last ones first: a node that stands there twice has its weight in the first place.
+  void put_back(const ContactConstraint& c, std::span<Vec3> move) const {
+    for (std::size_t a = 4; a-- > 0;) move[to_size(c.place[a])] = of[a];
+  }
+  Vec3 extra(const ContactConstraint& c) const {
+    return c.weight[0] * of[0] + c.weight[1] * of[1] + c.weight[2] * of[2] + c.weight[3] * of[3];
+  }
+  void add(const ContactConstraint& c, const Vec3& impulse) {
+    for (std::size_t a = 0; a < 4; ++a) of[a] += c.lever[a] * impulse;
+  }
+};
+
+// Returns the square of the way that the contact point went.
+double project(double friction, ContactConstraint& c, std::span<Vec3> move) {
+  Moves moves(c, move);
+  const Vec3 before = moves.extra(c);
   const double push =
       std::clamp(c.push + c.felt_mass * (c.lack - c.normal.dot(before)), 0.0, c.most_push);
-  apply_impulse(c, (push - c.push) * c.normal, set);
+  if (push == 0 && c.push == 0) return 0;
+  moves.add(c, (push - c.push) * c.normal);
   c.push = push;
-  const Vec3 now = extra(c, set.move), along = now - c.normal.dot(now) * c.normal;
+  const Vec3 now = moves.extra(c), along = now - c.normal.dot(now) * c.normal;
   const Vec3 drag = at_most(c.drag - c.felt_mass * (c.slip + along), friction * push);
-  apply_impulse(c, drag - c.drag, set);
+  moves.add(c, drag - c.drag);
   c.drag = drag;
-  return (extra(c, set.move) - before).norm();
+  moves.put_back(c, move);
+  return (moves.extra(c) - before).squaredNorm();
 }
 
 }  // namespace
@@ -133,9 +151,10 @@ void solve_contacts(const ContactDetector& detector, const ContactStep& step,
   begin_tissue(step.number, options.friction, set);
   double change = deepest;
   for (int round = 0; round < most_rounds && change > good_enough * deepest; ++round) {
-    change = 0;
+    double change2 = 0;
     for (ContactConstraint& c : constraints)
-      change = std::max(change, project(options.friction, c, set));
+      change2 = std::max(change2, project(options.friction, c, set.move));
+    change = std::sqrt(change2);
   }
   end_tissue(step.number, set);
   std::fill(set.force.begin(), set.force.end(), Vec3::Zero());

@@ -1,6 +1,7 @@
 #include "collision/contact_tissue.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace trocar {
 
@@ -10,51 +11,72 @@ namespace {
 // [m/s]
 constexpr double speedup = 0.2;
 
+// Of the pairs of a node. Height and normal are looked for where they decide.
 struct Nearest {
   const ContactSet::TissueItem* item = nullptr;
-  TissueCandidate candidate;
+  TrianglePoint point;
+  double distance = 0;
 };
 
+Triangle corners_of(const ContactSet& set, const ContactSet::TissueItem& item) {
+  const auto& [i, a, b, c] = item.place;
+  return {set.x_end[to_size(a)], set.x_end[to_size(b)], set.x_end[to_size(c)]};
+}
+
+const Vec3& node_of(const ContactSet& set, const ContactSet::TissueItem& item) {
+  return set.x_end[to_size(item.place[0])];
+}
+
+TissueCandidate candidate_of(const ContactSet& set, const Nearest& near) {
+  return {touch_tissue(node_of(set, *near.item), corners_of(set, *near.item), near.point),
+          near.item->handicap};
+}
+
+bool says_more(const ContactSet& set, const Nearest& near, const Nearest& than) {
+  if (are_equally_near(near.distance, than.distance))
+    return says_more(candidate_of(set, near), candidate_of(set, than));
+  return near.distance + near.item->handicap < than.distance + than.item->handicap;
+}
+
 // Before they could meet.
-std::int64_t steps_apart(const ContactSet& set, const ContactSet::TissueItem& item,
-                         const TissueTouch& touch, double dt) {
+std::int64_t steps_apart(const ContactSet& set, const Nearest& near, double dt) {
+  if (near.distance < speedup * dt) return 0;
   const auto motion = [&](std::size_t a) -> Vec3 {
-    const std::size_t i = to_size(item.place[a]);
+    const std::size_t i = to_size(near.item->place[a]);
     return set.x_end[i] - set.x_start[i];
   };
   Vec3 relative = motion(0);
-  for (std::size_t a = 0; a < 3; ++a) relative -= touch.nearest.weight[a] * motion(a + 1);
-  return static_cast<std::int64_t>(touch.distance / (2 * relative.norm() + speedup * dt));
+  for (std::size_t a = 0; a < 3; ++a) relative -= near.point.weight[a] * motion(a + 1);
+  return static_cast<std::int64_t>(near.distance / (2 * relative.norm() + speedup * dt));
 }
 
-// The nearest triangle that a node may meet, of its pairs from `first` on; returns where those of
-// the next node begin.
-std::size_t find_nearest(std::int64_t step, double dt, ContactSet& set, std::size_t first,
-                         Nearest& nearest) {
-  const std::int32_t node = set.tissue[first].place[0];
-  std::size_t k = first;
-  for (; k < set.tissue.size() && set.tissue[k].place[0] == node; ++k) {
+// The nearest triangle that the node may meet, of those that are looked at in this step.
+Nearest find_nearest(std::int64_t step, double dt, ContactSet::TissueNode& node, ContactSet& set) {
+  Nearest nearest;
+  node.next_look = std::numeric_limits<std::int64_t>::max();
+  for (std::size_t k = node.first; k < node.end; ++k) {
     ContactSet::TissueItem& item = set.tissue[k];
-    if (step < item.next_look) continue;
-    const auto& [i, a, b, c] = item.place;
-    const TissueTouch touch =
-        touch_tissue(set.x_end[to_size(i)],
-                     {set.x_end[to_size(a)], set.x_end[to_size(b)], set.x_end[to_size(c)]});
-    item.next_look = step + steps_apart(set, item, touch, dt);
-    const TissueCandidate candidate{touch, item.handicap};
-    if (!nearest.item || says_more(candidate, nearest.candidate)) nearest = {&item, candidate};
+    if (step >= item.next_look) {
+      const Vec3& x = node_of(set, item);
+      Nearest here{.item = &item, .point = closest_point_triangle(x, corners_of(set, item))};
+      here.distance = (x - here.point.point).norm();
+      item.next_look = step + steps_apart(set, here, dt);
+      if (!nearest.item || says_more(set, here, nearest)) nearest = here;
+    }
+    node.next_look = std::min(node.next_look, item.next_look);
   }
-  return k;
+  return nearest;
 }
 
 }  // namespace
 
 void add_tissue(std::int64_t step, double dt, double release, ContactSet& set) {
-  for (std::size_t k = 0; k < set.tissue.size();) {
-    Nearest nearest;
-    k = find_nearest(step, dt, set, k, nearest);
-    const TissueTouch& touch = nearest.candidate.touch;
-    if (!nearest.item || !touch.is_below) continue;
+  for (ContactSet::TissueNode& node : set.tissue_node) {
+    if (step < node.next_look) continue;
+    const Nearest nearest = find_nearest(step, dt, node, set);
+    if (!nearest.item) continue;
+    const TissueTouch touch = candidate_of(set, nearest).touch;
+    if (!touch.is_below) continue;
     const auto& w = touch.nearest.weight;
     ContactConstraint c{.item = -1,
                         .place = nearest.item->place,

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "collision/surface_tree.h"
 
@@ -7,6 +9,7 @@ namespace trocar {
 namespace {
 
 constexpr double least_opposite = -0.1;  // n·n of normals that face each other is less
+constexpr double slack = 1e-9;           // for rounding
 
 // The least a·b of all a and b in two boxes.
 double least_dot(const Box& a, const Box& b) {
@@ -24,18 +27,23 @@ double least_dot(const Box& a, const Box& b) {
 class FacingSearch {
  public:
   FacingSearch(const SurfaceTree& tree, std::span<const Vec3> ahead, double reach, double depth)
-      : tree_(tree), ahead_(ahead), reach_(reach), depth_(depth), parts_(tree.node_.size()) {
+      : tree_(tree),
+        ahead_(ahead),
+        reach_(reach),
+        depth_(depth),
+        parts_(tree.node_.size()),
+        seen_(tree.x_.size()) {
     for (std::size_t t = 0; t < tree.triangle_.size(); ++t) {
       normal_.push_back(
           unit_normal(tree.corners(static_cast<std::int32_t>(t))).value_or(Vec3::Zero()));
       Box& box = box_ahead_.emplace_back();
       for (const std::int32_t node : tree.triangle_[t]) box.add(ahead[to_index(node)]);
+      way_.emplace_back(tree.box_[t]).add(box);
     }
     for (std::size_t k = parts_.size(); k-- > 0;) {  // children stand behind their parents
       for_triangles(k, [&](std::int32_t t) {
         parts_[k].normals.add(normal_[to_index(t)]);
-        parts_[k].way.add(tree.box_[to_index(t)]);
-        parts_[k].way.add(box_ahead_[to_index(t)]);
+        parts_[k].way.add(way_[to_index(t)]);
       });
       if (is_leaf(k)) continue;
       for (const std::size_t child : {k + 1, right_of(k)}) {
@@ -47,16 +55,14 @@ class FacingSearch {
 
   std::vector<SurfaceTree::Facing> found() {
     if (!tree_.node_.empty()) within(0);
-    const auto key = [](const SurfaceTree::Facing& f) {
-      return std::int64_t{f.node} << 32 | f.triangle;
-    };
-    std::sort(found_.begin(), found_.end(), [&](const auto& a, const auto& b) {
-      if (key(a) != key(b)) return key(a) < key(b);
-      return a.opposition != b.opposition ? a.opposition < b.opposition : a.own < b.own;
+    sort_opposites();
+    for (std::size_t t = 0; t < tree_.triangle_.size(); ++t)
+      for (std::size_t k = first_[t]; k < first_[t + 1]; ++k)
+        for (const std::int32_t node : tree_.nodes(opposite_[k].triangle))
+          take_node(node, static_cast<std::int32_t>(t), opposite_[k]);
+    std::sort(found_.begin(), found_.end(), [](const auto& f, const auto& g) {
+      return f.node != g.node ? f.node < g.node : f.triangle < g.triangle;
     });
-    const auto end = std::unique(found_.begin(), found_.end(),
-                                 [&](const auto& a, const auto& b) { return key(a) == key(b); });
-    found_.erase(end, found_.end());
     return std::move(found_);
   }
 
@@ -70,6 +76,15 @@ class FacingSearch {
     for (std::int32_t j = node.first; j < node.first + node.count; ++j)
       visit(tree_.order_[to_index(j)]);
   }
+
+  struct Opposite {
+    std::int32_t triangle = 0;
+    double opposition = 0;
+  };
+  // The triangle that looked at a node last, and where it stands in found_, if it does.
+  struct Seen {
+    std::int32_t by = -1, found = -1;
+  };
 
   void within(std::size_t k) {
     if (least_dot(parts_[k].normals, parts_[k].normals) >= least_opposite) return;
@@ -106,22 +121,49 @@ class FacingSearch {
 
   void take(std::int32_t s, std::int32_t t) {
     const double opposition = normal_[to_index(s)].dot(normal_[to_index(t)]);
-    if (opposition >= least_opposite) return;
-    take_nodes(s, t, opposition);
-    take_nodes(t, s, opposition);
+    if (opposition < least_opposite &&
+        way_[to_index(s)].overlaps(way_[to_index(t)], (1 + slack) * reach_))
+      pairs_.push_back({s, t, opposition});
   }
 
-  void take_nodes(std::int32_t s, std::int32_t t, double opposition) {
+  // By triangle, so that a node that several of them share is looked at once.
+  void sort_opposites() {
+    first_.assign(tree_.triangle_.size() + 1, 0);
+    for (const Pair& pair : pairs_) {
+      ++first_[to_index(pair.s)];
+      ++first_[to_index(pair.t)];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    opposite_.resize(2 * pairs_.size());
+    for (const Pair& pair : pairs_) {
+      opposite_[--first_[to_index(pair.s)]] = {pair.t, pair.opposition};
+      opposite_[--first_[to_index(pair.t)]] = {pair.s, pair.opposition};
+    }
+  }
+
+  // Of a triangle that faces t.
+  void take_node(std::int32_t node, std::int32_t t, const Opposite& s) {
+    Seen& seen = seen_[to_index(node)];
+    if (seen.by != t) {
+      seen = {.by = t};
+      if (!may_meet(node, t)) return;
+      seen.found = static_cast<std::int32_t>(found_.size());
+      found_.push_back({node, t, s.opposition, s.triangle});
+    }
+    if (seen.found < 0) return;
+    SurfaceTree::Facing& f = found_[to_index(seen.found)];
+    if (std::pair(s.opposition, s.triangle) < std::pair(f.opposition, f.own))
+      f = {node, t, s.opposition, s.triangle};
+  }
+
+  bool may_meet(std::int32_t node, std::int32_t t) const {
     const std::array<std::int32_t, 3>& own = tree_.nodes(t);
     const Vec3& n = normal_[to_index(t)];
-    for (const std::int32_t node : tree_.nodes(s)) {
-      const Vec3 &x = tree_.position(node), &x_ahead = ahead_[to_index(node)];
-      const double now = n.dot(x - tree_.position(own[0]));
-      const double later = n.dot(x_ahead - ahead_[to_index(own[0])]);
-      if (std::max(now, later) > -depth_ && std::min(now, later) < reach_ &&
-          comes_near(x, x_ahead, t) && std::find(own.begin(), own.end(), node) == own.end())
-        found_.push_back({node, t, opposition, s});
-    }
+    const Vec3 &x = tree_.position(node), &x_ahead = ahead_[to_index(node)];
+    const double now = n.dot(x - tree_.position(own[0]));
+    const double later = n.dot(x_ahead - ahead_[to_index(own[0])]);
+    return std::max(now, later) > -depth_ && std::min(now, later) < reach_ &&
+           comes_near(x, x_ahead, t) && std::find(own.begin(), own.end(), node) == own.end();
   }
 
   // As seen from the triangle's box.
@@ -137,13 +179,22 @@ class FacingSearch {
   struct Part {
     Box normals, way;
   };
+  struct Pair {
+    std::int32_t s = 0, t = 0;
+    double opposition = 0;
+  };
 
   const SurfaceTree& tree_;
   std::span<const Vec3> ahead_;
   double reach_, depth_;
-  std::vector<Vec3> normal_;    // (n_triangles)
-  std::vector<Box> box_ahead_;  // (n_triangles)
-  std::vector<Part> parts_;     // (n tree nodes)
+  std::vector<Vec3> normal_;        // (n_triangles)
+  std::vector<Box> box_ahead_;      // (n_triangles)
+  std::vector<Box> way_;            // (n_triangles) now and ahead
+  std::vector<Part> parts_;         // (n tree nodes)
+  std::vector<Pair> pairs_;         // of triangles, each once
+  std::vector<std::size_t> first_;  // (n_triangles + 1) into opposite_
+  std::vector<Opposite> opposite_;
+  std::vector<Seen> seen_;  // (n_nodes)
   std::vector<SurfaceTree::Facing> found_;
 };
 

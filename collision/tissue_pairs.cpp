@@ -41,8 +41,11 @@ double longest_exit(const SurfaceTree& tree, std::span<const Candidate> of_node,
 }  // namespace
 
 TissueTouch touch_tissue(const Vec3& x, const Triangle& triangle) {
-  TissueTouch touch{.nearest = closest_point_triangle(x, triangle),
-                    .normal = unit_normal(triangle).value_or(Vec3::Zero())};
+  return touch_tissue(x, triangle, closest_point_triangle(x, triangle));
+}
+
+TissueTouch touch_tissue(const Vec3& x, const Triangle& triangle, const TrianglePoint& nearest) {
+  TissueTouch touch{.nearest = nearest, .normal = unit_normal(triangle).value_or(Vec3::Zero())};
   const Vec3 d = x - touch.nearest.point;
   touch.distance = d.norm();
   touch.height = touch.normal.dot(d);
@@ -51,9 +54,13 @@ TissueTouch touch_tissue(const Vec3& x, const Triangle& triangle) {
   return touch;
 }
 
+bool are_equally_near(double a, double b) {
+  return std::abs(a - b) <= equal * std::max(a, b);
+}
+
 bool says_more(const TissueCandidate& candidate, const TissueCandidate& than) {
   const double near = candidate.touch.distance, far = than.touch.distance;
-  if (std::abs(near - far) <= equal * std::max(near, far))
+  if (are_equally_near(near, far))
     return std::abs(candidate.touch.height) > std::abs(than.touch.height);
   return near + candidate.handicap < far + than.handicap;
 }

@@ -44,6 +44,11 @@ struct TissueTouch {
   bool is_below = false;       // behind the triangle, and within 63 degrees straight below it
 };
 TissueTouch touch_tissue(const Vec3& x, const Triangle& triangle);
+// The same, where the nearest point is known.
+TissueTouch touch_tissue(const Vec3& x, const Triangle& triangle, const TrianglePoint& nearest);
+
+// Distances within rounding of each other.
+bool are_equally_near(double a, double b);
 
 // Is nearer, handicaps included; of triangles that share the nearest point, the one that is seen
 // more steeply knows on which side the node is.

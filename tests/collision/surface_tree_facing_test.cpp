@@ -12,8 +12,8 @@ namespace {
 
 constexpr double reach = 0.004, depth = 0.002;
 
-// {node, triangle} and their opposition.
-using Pairs = std::map<std::array<std::int32_t, 2>, double>;
+// {node, triangle}, their opposition and which triangle of the node's it is of.
+using Pairs = std::map<std::array<std::int32_t, 2>, std::pair<double, std::int32_t>>;
 
 struct Bodies {
   Mesh mesh;
@@ -57,8 +57,9 @@ struct Bodies {
         if (opposition >= -0.1) continue;
         for (const std::int32_t node : triangle[s]) {
           if (!may_meet(node, t)) continue;
-          const auto at = found.try_emplace({node, static_cast<std::int32_t>(t)}, opposition);
-          at.first->second = std::min(at.first->second, opposition);
+          const std::pair own(opposition, static_cast<std::int32_t>(s));
+          const auto at = found.try_emplace({node, static_cast<std::int32_t>(t)}, own);
+          at.first->second = std::min(at.first->second, own);
         }
       }
     return found;
@@ -83,7 +84,8 @@ TEST(SurfaceTree, finds_what_faces_each_other_like_a_plain_loop) {
       EXPECT_GT(expected.size(), 20u);
       Pairs found;
       for (const SurfaceTree::Facing& f : tree.facing(b.ahead, reach, depth))
-        found.emplace_hint(found.end(), std::array{f.node, f.triangle}, f.opposition);
+        found.emplace_hint(found.end(), std::array{f.node, f.triangle},
+                           std::pair(f.opposition, f.own));
       EXPECT_EQ(found, expected);
     }
 }
