@@ -19,6 +19,7 @@
 #include "mesh/connected_nodes.h"
 #include "mesh/mesh_file.h"
 #include "mesh/quality.h"
+#include "solver/material_check.h"
 
 namespace trocar {
 
@@ -234,6 +235,16 @@ std::unique_ptr<MultiRate> find_multirate(const Simulation& s) {
                         *s.communicator);
 }
 
+// Cuts make tetrahedra of hexahedra, in the middle of the run.
+void check_converted(const LoadedScene& loaded, const Simulation& s) {
+  if (s.cuts.empty() || !has_hexahedra(s.mesh)) return;
+  const SolverOptions options = solver_options(s.scene);
+  for (const Material& material : s.materials)
+    if (const std::string fault = misfit_of(material, options.tet4, options.precision);
+        !fault.empty())
+      loaded.where.fail("solver.tetrahedron", "a cut makes tetrahedra of hexahedra: " + fault);
+}
+
 // What is wrong now is so with the tissue as it was given.
 void build_topology(const LoadedScene& loaded, Simulation& s) {
   try {
@@ -318,6 +329,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   build_instruments(loaded, s);
   s.body_crc = crc_of_body(s);
   build_topology(loaded, s);
+  check_converted(loaded, s);
   s.whole_mass = std::accumulate(s.mass.begin(), s.mass.end(), 0.0);
   if (!s.cuts.empty()) prepare_first_cut(s);
   s.state = make_state(s.model);

@@ -22,7 +22,14 @@ std::vector<bool> types_of_regions(const Mesh& mesh, std::size_t n_regions) {
   return has;
 }
 
-// Why elements of this kind can't be of the material, "" if they can.
+void check(const Mesh& mesh, std::size_t region, const std::string& fault) {
+  if (fault.empty()) return;
+  const std::string name = region < mesh.region_name.size() ? mesh.region_name[region] : "";
+  throw InputError((name.empty() ? "" : "region \"" + name + "\": ") + fault);
+}
+
+}  // namespace
+
 std::string misfit_of(const Material& material, Formulation formulation, Precision precision) {
   const KernelsOfPrecision& kernels = kernels_of(Simd::scalar).of[static_cast<int>(precision)];
   const LawKind kind = kernels.element[static_cast<int>(formulation)].law;
@@ -31,14 +38,6 @@ std::string misfit_of(const Material& material, Formulation formulation, Precisi
   return std::string(name_of(formulation)) +
          " elements need a material with a volumetric energy of its own, such as neo-hookean";
 }
-
-void check(const Mesh& mesh, std::size_t region, const std::string& fault) {
-  if (fault.empty()) return;
-  const std::string name = region < mesh.region_name.size() ? mesh.region_name[region] : "";
-  throw InputError((name.empty() ? "" : "region \"" + name + "\": ") + fault);
-}
-
-}  // namespace
 
 void check_materials(const Mesh& mesh, std::span<const Material> materials,
                      const SolverOptions& options) {

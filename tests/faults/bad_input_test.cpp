@@ -219,6 +219,10 @@ TEST(BadInput, what_elements_can_not_be_is_refused_with_its_place) {
   expect_refusal(scene, folder, input_wrong, ":3:1: tissue.shape: round meshes");
   expect_refusal(scene, folder, input_wrong, ":6:1: tissue.material: tet4-nodal-pressure elements",
                  {"--set", "tissue.shape.elements=tet4-kuhn"});
+  std::ofstream(scene, std::ios::app) << "[[instrument]]\nkind = \"scalpel\"\n[[instrument.path]]\n"
+                                         "time = 0\nposition = [0, 0, 1]\n";
+  expect_refusal(scene, folder, input_wrong, ":9:15: solver.tetrahedron: a cut makes tetrahedra",
+                 {"--set", "tissue.shape.elements=hex8"});
 }
 
 TEST(BadInput, one_number_for_a_vector_is_refused_with_what_it_needs) {
