@@ -12,7 +12,7 @@
 namespace trocar {
 
 // Least step bound of a hexahedron's tetrahedra over its own below which it is not split.
-static constexpr double least_step_part = 0.25;
+static constexpr double least_step_part = 0.15;
 
 // Of a tetrahedron, present over reference volume, below which it counts as nearly flat.
 static constexpr double least_volume_ratio = 0.1;

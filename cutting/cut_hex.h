@@ -27,7 +27,7 @@ struct HexTets {
 bool has_hexahedra(const Mesh& mesh);
 
 // Mesh::hex_split_rank of an uncut mesh, empty where all is zero. Whole stay hexahedra of which a
-// tetrahedron would allow less than a quarter of their step.
+// tetrahedron would allow less than 0.15 of their step.
 std::vector<std::uint8_t> hex_split_ranks(const Mesh& mesh);
 
 // Hexahedra that can't be seen as tetrahedra: one would be inverted, or tetrahedra that lie on a

@@ -99,7 +99,7 @@ std::vector<std::byte> mesh_to_bytes(const Mesh& mesh) {
     writer.put_vector(set.node);
   }
   writer.put_vector(mesh.copied_node);
-  writer.put_vector(mesh.hex_split_rank);
+  if (!mesh.hex_split_rank.empty()) writer.put_vector(mesh.hex_split_rank);  // else as it ever was
   return writer.take();
 }
 
@@ -123,7 +123,7 @@ Mesh mesh_from_bytes(std::span<const std::byte> bytes) {
     set.node = reader.get_vector<std::int32_t>();
   }
   mesh.copied_node = reader.get_vector<std::int32_t>();
-  mesh.hex_split_rank = reader.get_vector<std::uint8_t>();
+  if (!reader.is_at_end()) mesh.hex_split_rank = reader.get_vector<std::uint8_t>();
   check_copies(mesh);
   return mesh;
 }

@@ -52,6 +52,7 @@ class ByteReader {
   }
   std::string get_text();
   std::size_t get_count(std::size_t item_size);  // throws InputError if that many can't follow
+  bool is_at_end() const { return bytes_.empty(); }
 
  private:
   void get_raw(void* data, std::size_t size);

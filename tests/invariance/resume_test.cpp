@@ -120,6 +120,22 @@ TEST(Resume, in_the_middle_of_a_plane_cut_gives_the_same_bits_on_other_ranks) {
   expect_resumes("plane", config("plane_cut.toml"), "1.4 s", "2.2 s");
 }
 
+TEST(Resume,
+     in_the_middle_of_a_cut_through_a_ball_of_hexahedra_gives_the_same_bits_on_other_ranks) {
+  const std::string folder = test_folder("ball-scene");
+  const std::string text =
+      "[time]\nduration = 0.5\nframe_rate = 60\n[tissue.shape]\nkind = \"ball\"\nradius = 0.02\n"
+      "cells = [8, 8, 8]\n[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\n"
+      "[solver]\nmass_damping = 20\n[[region]]\nname = \"foot\"\nlow = [-1, -1, -1]\n"
+      "high = [1, 1, -0.012]\n[[support]]\nregion = \"foot\"\n[[instrument]]\nkind = \"scalpel\"\n"
+      "blade_length = 0.06\npath = [\n"
+      "{ time = 0.05, position = [-0.05, 0.03, -0.004], direction = [0, 1, 0], "
+      "forward = [1, 0, 0.2] },\n"
+      "{ time = 0.45, position = [0.05, 0.03, 0.016], direction = [0, 1, 0], "
+      "forward = [1, 0, 0.2] } ]\n";
+  expect_resumes("ball", scene_file(folder, text), "0.27 s", "0.4 s");
+}
+
 TEST(Resume, of_the_grasped_hexahedral_block_gives_the_same_bits_on_other_ranks) {
   // Enough elements for two threads on each of two ranks.
   expect_resumes("hexahedra", config("block_hex.toml"), "1.6 s", "1.8 s",
