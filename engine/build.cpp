@@ -131,9 +131,7 @@ void build_cuts(Simulation& s) {
 void check_blade_length(const LoadedScene& loaded, std::size_t k, double edge) {
   constexpr double most_edges = 1e5;
   const SceneInstrument& instrument = loaded.scene.instruments[k];
-  const bool has_blade =
-      instrument.kind == InstrumentKind::scalpel || instrument.kind == InstrumentKind::scissors;
-  if (!has_blade || instrument.blade_length <= most_edges * edge) return;
+  if (!has_blade(instrument.kind) || instrument.blade_length <= most_edges * edge) return;
   char sentence[120];
   std::snprintf(sentence, sizeof sentence,
                 "the blade is longer than 100,000 edges of the mesh, which have %.3g m: does its "

@@ -18,6 +18,9 @@ enum class Pace { fast, real_time };
 enum class ShapeKind { box, ball, cylinder, rectangle, triangular_rectangle };
 enum class ElementKind { hex8, tet4_kuhn, tet4_five };
 enum class InstrumentKind { probe, grasper, scalpel, scissors };
+inline bool has_blade(InstrumentKind kind) {
+  return kind == InstrumentKind::scalpel || kind == InstrumentKind::scissors;
+}
 enum class GraspAction { none, close, open };
 enum class OutputKind { video, frames, recording, metrics, contact_sheet };
 enum class CutMode { robust, paper };

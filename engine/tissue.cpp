@@ -87,10 +87,9 @@ void check_supports(const LoadedScene& loaded, const Mesh& mesh) {
   }
 }
 
-bool has_blade(const Scene& scene) {
+bool is_cut(const Scene& scene) {
   return std::ranges::any_of(scene.instruments, [](const SceneInstrument& instrument) {
-    return instrument.kind == InstrumentKind::scalpel ||
-           instrument.kind == InstrumentKind::scissors;
+    return has_blade(instrument.kind);
   });
 }
 
@@ -110,7 +109,7 @@ Mesh read_tissue(const LoadedScene& loaded) {
   place(tissue, mesh);
   const std::vector<std::string> faults = validate(mesh, 3);
   if (!faults.empty()) loaded.where.fail("tissue", "the mesh can't be used: " + faults.front());
-  if (has_blade(loaded.scene)) mesh.hex_split_rank = hex_split_ranks(mesh);
+  if (is_cut(loaded.scene)) mesh.hex_split_rank = hex_split_ranks(mesh);
   add_regions(loaded, mesh);
   check_supports(loaded, mesh);
   return mesh;
