@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/log.h"
 #include "engine/apply_cut.h"
@@ -147,8 +148,8 @@ FrameSpan step_safely(Simulation& s) {
     if (trouble.empty()) {
       repeat_frame(s, span, tries);
     } else {
-      s.watch = good_watch;
-      roll_back(s, trouble, tries);
+      const Watch failed = std::exchange(s.watch, good_watch);
+      roll_back(s, span, failed, trouble, tries);
     }
   }
 }

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "engine/frame_report.h"
+#include "engine/suspect.h"
 #include "solver/element_watch.h"
 #include "solver/frequency.h"
 #include "solver/step.h"
@@ -255,14 +256,17 @@ std::string find_trouble(const Simulation& s) {
 namespace {
 
 // What both ways back to the frame's beginning have in common; the sentence's beginning.
-std::string go_back(Simulation& s, const std::string& trouble, int tries) {
-  const double time = static_cast<double>(s.frame) / s.scene.time.frame_rate;
+std::string go_back(Simulation& s, const FrameSpan& span, const Watch& failed,
+                    const std::string& trouble, int tries) {
   ++s.log.n_roll_backs;
-  if (tries >= most_roll_backs)
-    throw SimulationError("in the frame after " + number_text(time) + " s: " + trouble + "; " +
-                          std::to_string(tries) +
-                          " roll-backs with smaller steps did not help: slower instruments, "
-                          "smaller loads, a finer mesh or a lower poisson_ratio may");
+  if (tries >= most_roll_backs) {
+    const Suspect suspect = find_suspect(s, failed, span);
+    throw SimulationError(
+        "in the frame after " + number_text(span.t0) + " s: " + trouble + suspect.place + "; " +
+        std::to_string(tries) + " roll-backs with smaller steps did not help: " +
+        (suspect.name.empty() ? "smaller loads" : "a slower or shorter path of " + suspect.name) +
+        ", a finer mesh or a lower poisson_ratio may");
+  }
   forget_hold_reactions(s.holds);
   s.look.is_done = false;  // it was of a state that is gone
   return "rolled back: " + trouble;
@@ -274,14 +278,14 @@ void repeat_frame(Simulation& s, const FrameSpan& span, int tries) {
   const std::string trouble = "the tissue's stable step fell to " +
                               number_text(s.watch.stable_step) + " s, below the step of " +
                               number_text(span.dt) + " s";
-  note_event(s, span.t0, go_back(s, trouble, tries));
+  note_event(s, span.t0, go_back(s, span, s.watch, trouble, tries));
 }
 
-void roll_back(Simulation& s, const std::string& trouble, int tries) {
-  const std::string sentence = go_back(s, trouble, tries);
+void roll_back(Simulation& s, const FrameSpan& span, const Watch& failed,
+               const std::string& trouble, int tries) {
+  const std::string sentence = go_back(s, span, failed, trouble, tries);
   s.step_scale *= 0.5;
-  note_event(s, static_cast<double>(s.frame) / s.scene.time.frame_rate,
-             sentence + "; step scale now " + number_text(s.step_scale));
+  note_event(s, span.t0, sentence + "; step scale now " + number_text(s.step_scale));
 }
 
 void wait_for_deadline(Simulation& s, const FrameRow& row) {

@@ -64,8 +64,10 @@ std::string find_trouble(const Simulation& s);
 // Notes that the frame is done again with the stable step of its end, which its own exceeded;
 // throws as roll_back does.
 void repeat_frame(Simulation& s, const FrameSpan& span, int tries);
-// Halves the step for what follows; throws SimulationError after most_roll_backs tries.
-void roll_back(Simulation& s, const std::string& trouble, int tries);
+// Halves the step for what follows; throws SimulationError after most_roll_backs tries, which says
+// where and beside what. `failed`: of the frame. Collective.
+void roll_back(Simulation& s, const FrameSpan& span, const Watch& failed,
+               const std::string& trouble, int tries);
 
 // Sleeps until the frame's deadline if the scene runs in real time, and counts a miss.
 void wait_for_deadline(Simulation& s, const struct FrameRow& row);

@@ -197,9 +197,8 @@ TEST(FindTrouble, names_the_element_whose_stable_step_falls_below_a_hundredth_of
 
 TEST(RollBack, halves_the_step_and_forgets_the_reactions_of_the_failed_frame) {
   Simulation s = sound_simulation();
-  s.frame = 30;
   s.holds.reaction_sum = {Vec3(1, 2, 3)};
-  roll_back(s, "element 7 is inverted", 0);
+  roll_back(s, {.t0 = 1}, s.watch, "element 7 is inverted", 0);
   EXPECT_EQ(s.step_scale, 0.5);
   EXPECT_EQ(s.log.n_roll_backs, 1);
   EXPECT_EQ(s.holds.reaction_sum[0], Vec3::Zero());
@@ -207,13 +206,17 @@ TEST(RollBack, halves_the_step_and_forgets_the_reactions_of_the_failed_frame) {
   EXPECT_TRUE(contains(s.log.events[0], "1.000 s: rolled back: element 7 is inverted"));
 }
 
-TEST(RollBack, gives_up_after_its_last_try_with_time_and_cause) {
-  Simulation s = sound_simulation();
-  s.frame = 15;
-  for (int tries = 0; tries < most_roll_backs; ++tries) roll_back(s, "t", tries);
-  const std::string sentence =
-      error_of<SimulationError>([&] { roll_back(s, "element 7 is inverted", most_roll_backs); });
-  EXPECT_TRUE(contains(sentence, "in the frame after 0.5 s: element 7 is inverted")) << sentence;
+TEST(RollBack, gives_up_after_its_last_try_with_time_cause_and_place) {
+  const auto started = block_of("tet4-kuhn");
+  Simulation& s = *started->s;
+  const FrameSpan span{.t0 = 0.5, .t1 = 0.6};
+  const Watch failed{.least_J = -1, .least_J_element = 0};
+  for (int tries = 0; tries < most_roll_backs; ++tries) roll_back(s, span, failed, "t", tries);
+  const std::string sentence = error_of<SimulationError>(
+      [&] { roll_back(s, span, failed, "element 0 is inverted", most_roll_backs); });
+  EXPECT_TRUE(contains(sentence, "in the frame after 0.5 s: element 0 is inverted at (0.0"))
+      << sentence;
+  EXPECT_TRUE(contains(sentence, " m; 4 roll-backs")) << sentence;  // nothing moves
 }
 
 TEST(RepeatFrame, keeps_the_new_stable_step_and_the_scale_and_says_why) {
@@ -226,6 +229,7 @@ TEST(RepeatFrame, keeps_the_new_stable_step_and_the_scale_and_says_why) {
   EXPECT_EQ(s.log.n_roll_backs, 1);
   EXPECT_TRUE(contains(s.log.events.back(), "stable step fell to 1e-04 s, below the step of 2e-04"))
       << s.log.events.back();
+  s.watch.stable_element = -1;  // not known
   EXPECT_THROW(repeat_frame(s, {.dt = 2e-4}, most_roll_backs), SimulationError);
 }
 

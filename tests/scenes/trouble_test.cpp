@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <regex>
 
 #include "program.h"
 
@@ -66,6 +68,15 @@ bool has_event(const nlohmann::json& summary, const std::string& words) {
   return false;
 }
 
+// Whether the sentence about a failed frame has these words, and ends its place with a speed about
+// this one [m/s].
+bool tells_of(const Finished& run, const std::string& place, const std::string& who, double speed) {
+  const std::string before_speed = who + ", which moves at ";
+  const std::size_t at = run.err.find(before_speed);
+  if (run.exit_code != 3 || at == std::string::npos || run.err.find(place) > at) return false;
+  return std::abs(std::stod(run.err.substr(at + before_speed.size())) - speed) < 0.1 * speed;
+}
+
 TEST(Trouble, hourglass_energy_above_5_per_cent_is_warned_of_once) {
   const std::string folder = test_folder("hourglass");
   ASSERT_EQ(run_text(bar, folder).exit_code, 0);
@@ -95,13 +106,54 @@ TEST(Trouble, that_smaller_steps_do_not_cure_ends_the_run_with_3_and_keeps_what_
   const Finished run = run_text(pushed_to("-400 mm"), folder);
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_NE(run.err.find("in the frame after 0.1 s: "), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("roll-backs with smaller steps did not help"), std::string::npos);
+  EXPECT_NE(
+      run.err.find(
+          "roll-backs with smaller steps did not help: a slower or shorter path of \"grasper\""),
+      std::string::npos)
+      << run.err;
+  EXPECT_TRUE(tells_of(run, " at (", " m from a node held by \"grasper\"", 14)) << run.err;
   const nlohmann::json summary = read_summary(folder);
   ASSERT_FALSE(summary.is_discarded());
   EXPECT_EQ(summary["finished"], false);
   EXPECT_EQ(summary["frames"], 3);
   const std::string metrics = read_text(folder + "/metrics.csv");
   EXPECT_EQ(std::count(metrics.begin(), metrics.end(), '\n'), 4);  // head, 3 frames
+}
+
+// The whole bar's length, again and again.
+TEST(Trouble, names_the_support_that_tears_the_tissue) {
+  const Finished run = run_text(bar + R"([[support]]
+region = "x+"
+path = [
+  { time = 0, displacement = [0, 0, 0] },
+  { time = "0.1 s", displacement = ["-8 m", 0, 0] },
+]
+)",
+                                test_folder("torn-by-support"));
+  EXPECT_TRUE(tells_of(run, " at (", " m from a node held by the support of \"x+\"", 62))
+      << run.err;
+}
+
+// Of a material that yields to compression.
+TEST(Trouble, names_the_instrument_that_crushes_the_tissue) {
+  const Finished run = run_text(
+      std::regex_replace(bar, std::regex("neo-hookean"), "st-venant-kirchhoff") + R"([[region]]
+name = "below"
+low = [-1, -1, -1]
+high = ["1 m", "1 m", "1 mm"]
+[[support]]
+region = "below"
+[[instrument]]
+kind = "probe"
+name = "thumb"
+radius = "30 mm"
+path = [
+  { time = 0, position = ["30 mm", "5 mm", "45 mm"] },
+  { time = "0.4 s", position = ["30 mm", "5 mm", "-3 mm"] },
+]
+)",
+      test_folder("crushed-by-probe"));
+  EXPECT_TRUE(tells_of(run, " at (", " m from \"thumb\"", 0.08)) << run.err;
 }
 
 }  // namespace

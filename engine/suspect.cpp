@@ -1,0 +1,107 @@
+#include "engine/suspect.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "collision/narrow_phase.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr double near_edges = 2;  // beyond the way within the frame
+
+std::string short_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+// Nodes of the element, or the node, that is to blame.
+std::vector<std::int32_t> failed_nodes(const Mesh& mesh, const Watch& failed) {
+  if (failed.bad_node >= 0) return {failed.bad_node};
+  const std::int32_t e = failed.least_J > 0 ? failed.stable_element : failed.least_J_element;
+  if (e < 0) return {};
+  const auto corners = mesh.corners(e);
+  return {corners.begin(), corners.end()};
+}
+
+// The nearest so far.
+struct Nearest {
+  double gap = std::numeric_limits<double>::infinity();  // at the frame's beginning [m]
+  double way = 0;                                        // within the frame [m]
+  std::string name, how;
+};
+
+void take_nearer(Nearest&& found, Nearest& nearest) {
+  if (found.gap < nearest.gap) nearest = std::move(found);
+}
+
+void look_at_tools(std::span<const Tool> tools, const Vec3& x, const FrameSpan& span,
+                   Nearest& nearest) {
+  for (const Tool& tool : tools) {
+    const Pose pose = tool.path.at(span.t0);
+    const Vec3 local = pose.rotation.conjugate() * (x - pose.translation);
+    for (const ConvexPiece& piece : tool.shape.pieces)
+      take_nearer({.gap = std::max(0.0, signed_distance(make_core(piece), local).gap),
+                   .way = tool.path.travel(span.t0, span.t1, std::max(0.0, local.z())),
+                   .name = "\"" + tool.name + "\"",
+                   .how = "from "},
+                  nearest);
+  }
+}
+
+// Of the moving support of this number (Holds::paths).
+const std::string& region_of_path(const Scene& scene, std::int32_t number) {
+  auto support = scene.supports.begin();
+  while (support->path.empty() || number-- > 0) ++support;
+  return support->region;
+}
+
+void look_at_holds(const Simulation& s, std::span<const Vec3> all, const Vec3& x,
+                   const FrameSpan& span, Nearest& nearest) {
+  for (const Hold& hold : s.holds.holds) {
+    Nearest found{.gap = (all[hold.node] - x).norm(), .how = "from a node held by "};
+    if (found.gap >= nearest.gap) continue;
+    if (hold.tool >= 0) {
+      const Tool& tool = s.tools[static_cast<std::size_t>(hold.tool)];
+      found.name = "\"" + tool.name + "\"";
+      found.way = tool.path.travel(span.t0, span.t1, 0);
+    } else {
+      const DisplacementPath& path = s.holds.paths[static_cast<std::size_t>(hold.support)];
+      found.name = "the support of \"" + region_of_path(s.scene, hold.support) + "\"";
+      found.way = (path.at(span.t1) - path.at(span.t0)).norm();
+    }
+    nearest = std::move(found);
+  }
+}
+
+}  // namespace
+
+Suspect find_suspect(Simulation& s, const Watch& failed, const FrameSpan& span) {
+  const std::vector<std::int32_t> nodes = failed_nodes(s.mesh, failed);
+  if (nodes.empty()) return {};
+  GlobalState global;
+  gather_positions(s, global);
+  Vec3 x = Vec3::Zero();
+  for (const std::int32_t node : nodes) x += global.x[node] / static_cast<double>(nodes.size());
+  Nearest nearest;
+  look_at_tools(s.tools, x, span, nearest);
+  look_at_holds(s, global.x, x, span, nearest);
+  Suspect suspect{.place = " at (" + short_text(x.x()) + ", " + short_text(x.y()) + ", " +
+                           short_text(x.z()) + ") m",
+                  .name = ""};
+  if (nearest.name.empty()) return suspect;
+  suspect.place += ", " + short_text(nearest.gap) + " m " + nearest.how + nearest.name;
+  suspect.place +=
+      nearest.way > 0 ? ", which moves at " + short_text(nearest.way / (span.t1 - span.t0)) + " m/s"
+                      : ", which rests";
+  if (nearest.gap < near_edges * s.edge_length + nearest.way) suspect.name = nearest.name;
+  return suspect;
+}
+
+}  // namespace trocar
