@@ -261,11 +261,9 @@ std::string go_back(Simulation& s, const FrameSpan& span, const Watch& failed,
   ++s.log.n_roll_backs;
   if (tries >= most_roll_backs) {
     const Suspect suspect = find_suspect(s, failed, span);
-    throw SimulationError(
-        "in the frame after " + number_text(span.t0) + " s: " + trouble + suspect.place + "; " +
-        std::to_string(tries) + " roll-backs with smaller steps did not help: " +
-        (suspect.name.empty() ? "smaller loads" : "a slower or shorter path of " + suspect.name) +
-        ", a finer mesh or a lower poisson_ratio may");
+    throw SimulationError("in the frame after " + number_text(span.t0) + " s: " + trouble +
+                          suspect.place + "; " + std::to_string(tries) +
+                          " roll-backs with smaller steps did not help: " + suspect.cure + " may");
   }
   forget_hold_reactions(s.holds);
   s.look.is_done = false;  // it was of a state that is gone

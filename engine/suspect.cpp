@@ -80,11 +80,24 @@ void look_at_holds(const Simulation& s, std::span<const Vec3> all, const Vec3& x
   }
 }
 
+bool is_for_small_strains(const Material& material) {
+  return material.model == MaterialModel::linear ||
+         material.model == MaterialModel::st_venant_kirchhoff;
+}
+
+// `mover` comes near in the frame; "" where none does.
+std::string cure(const Simulation& s, const std::string& mover) {
+  const bool is_weak = std::any_of(s.materials.begin(), s.materials.end(), is_for_small_strains);
+  return (mover.empty() ? "smaller loads" : "a slower or shorter path of " + mover) +
+         (is_weak ? ", a material for large strains such as neo-hookean" : "") +
+         ", a finer mesh or a lower poisson_ratio";
+}
+
 }  // namespace
 
 Suspect find_suspect(Simulation& s, const Watch& failed, const FrameSpan& span) {
   const std::vector<std::int32_t> nodes = failed_nodes(s.mesh, failed);
-  if (nodes.empty()) return {};
+  if (nodes.empty()) return {.place = "", .cure = cure(s, "")};
   GlobalState global;
   gather_positions(s, global);
   Vec3 x = Vec3::Zero();
@@ -92,16 +105,15 @@ Suspect find_suspect(Simulation& s, const Watch& failed, const FrameSpan& span) 
   Nearest nearest;
   look_at_tools(s.tools, x, span, nearest);
   look_at_holds(s, global.x, x, span, nearest);
-  Suspect suspect{.place = " at (" + short_text(x.x()) + ", " + short_text(x.y()) + ", " +
-                           short_text(x.z()) + ") m",
-                  .name = ""};
-  if (nearest.name.empty()) return suspect;
-  suspect.place += ", " + short_text(nearest.gap) + " m " + nearest.how + nearest.name;
-  suspect.place +=
-      nearest.way > 0 ? ", which moves at " + short_text(nearest.way / (span.t1 - span.t0)) + " m/s"
-                      : ", which rests";
-  if (nearest.gap < near_edges * s.edge_length + nearest.way) suspect.name = nearest.name;
-  return suspect;
+  std::string place =
+      " at (" + short_text(x.x()) + ", " + short_text(x.y()) + ", " + short_text(x.z()) + ") m";
+  if (nearest.name.empty()) return {.place = place, .cure = cure(s, "")};
+  place += ", " + short_text(nearest.gap) + " m " + nearest.how + nearest.name;
+  place += nearest.way > 0
+               ? ", which moves at " + short_text(nearest.way / (span.t1 - span.t0)) + " m/s"
+               : ", which rests";
+  const bool is_near = nearest.gap < near_edges * s.edge_length + nearest.way;
+  return {.place = place, .cure = cure(s, is_near ? nearest.name : "")};
 }
 
 }  // namespace trocar

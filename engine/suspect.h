@@ -9,7 +9,7 @@ namespace trocar {
 
 struct Suspect {
   std::string place;  // " at (0.03, 0.01, 0.02) m, 0.0004 m from ..."
-  std::string name;   // of the instrument or support, "" where none comes near in the frame
+  std::string cure;   // "a slower or shorter path of ..., a finer mesh or a lower poisson_ratio"
 };
 // Where the element or node that `failed` blames is in the present state, that of the frame's
 // beginning, and the nearest instrument, held node or moving support. Collective.

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "cutting/cut_plane_subdivide.h"
 #include "mesh/quality.h"
+#include "study/cut2d_path.h"
 
 namespace trocar {
 
@@ -20,21 +21,29 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+void add_figures(const CutFigures& figures, Cut2dTrial& trial) {
+  trial.n_opened_edges += figures.n_opened_facets;
+  trial.n_moved += figures.n_moved;
+  trial.n_refused += figures.n_refused;
+  trial.largest_deviation = std::max(trial.largest_deviation, figures.largest_deviation);
+}
+
 // Time from mesh and path to the edited mesh.
 double displace(const Cut2dOptions& options, Cut2dTrial& trial) {
   double seconds = 0;
   trial.n_opened_edges = trial.n_moved = trial.n_refused = 0;
   trial.after = trial.before;
   for (const Cut2dPath& path : trial.paths) {
-    const std::vector<std::uint8_t> is_held(trial.after.X.size(), 0);
-    const Clock::time_point start = Clock::now();
-    const PlaneCut cut = cut_plane(trial.after, path, -1, is_held, options.plane);
-    apply_edit(cut.edit, trial.after);
-    seconds += seconds_since(start);
-    trial.n_opened_edges += cut.figures.n_opened_facets;
-    trial.n_moved += cut.figures.n_moved;
-    trial.n_refused += cut.figures.n_refused;
-    trial.largest_deviation = std::max(trial.largest_deviation, cut.figures.largest_deviation);
+    std::int32_t tip = -1;  // where the last reach ended
+    for (const Cut2dPath& reach : reaches(path)) {
+      const std::vector<std::uint8_t> is_held(trial.after.X.size(), 0);
+      const Clock::time_point start = Clock::now();
+      const PlaneCut cut = cut_plane(trial.after, reach, tip, is_held, options.plane);
+      apply_edit(cut.edit, trial.after);
+      seconds += seconds_since(start);
+      tip = cut.tip;
+      add_figures(cut.figures, trial);
+    }
   }
   return seconds;
 }

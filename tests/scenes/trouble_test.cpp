@@ -154,6 +154,7 @@ path = [
 )",
       test_folder("crushed-by-probe"));
   EXPECT_TRUE(tells_of(run, " at (", " m from \"thumb\"", 0.08)) << run.err;
+  EXPECT_NE(run.err.find("a material for large strains"), std::string::npos) << run.err;
 }
 
 }  // namespace

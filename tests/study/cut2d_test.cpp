@@ -45,6 +45,47 @@ TEST(Cut2dPath, arc_keeps_its_distance_from_the_centre) {
   }
 }
 
+TEST(Cut2dPath, new_reaches_begin_at_sharp_bends_and_where_the_path_would_cross_itself) {
+  const auto sizes = [](const char* text) {
+    std::vector<std::size_t> result;
+    for (const Cut2dPath& reach : reaches(read_path(text))) result.push_back(reach.size());
+    return result;
+  };
+  using Sizes = std::vector<std::size_t>;
+  EXPECT_EQ(sizes("0,0 10,0"), Sizes{2});
+  EXPECT_EQ(sizes("0,0 10,0 16,10"), Sizes{3});             // 59 degrees
+  EXPECT_EQ(sizes("0,0 10,0 15,10 16,30"), (Sizes{2, 3}));  // 63, then 24
+  // An octagon's sides, 45 degrees each, and on across the first one.
+  EXPECT_EQ(sizes("0,0 9,0 14,5 14,12 9,17 2,17 -3,12 -3,5 2,1 8,-7"), (Sizes{9, 2}));
+  const Cut2dPath path = read_path("0,0 30,0 10,5 30,10");
+  const std::vector<Cut2dPath> parts = reaches(path);
+  ASSERT_EQ(parts.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(parts[k], (Cut2dPath{path[k], path[k + 1]}));
+}
+
+// Legs of 25 mm of edges of 5 mm, 22 degrees apart.
+TEST(Cut2dTrial, sharp_bend_takes_no_edges_from_its_legs) {
+  for (const Cut2dMode mode : {Cut2dMode::robust, Cut2dMode::paper}) {
+    const auto edges = [&](const char* path) {
+      const Cut2dTrial trial = run_trial(paper_mesh(2), {read_path(path)}, options_of(mode, 1));
+      EXPECT_EQ(trial.n_refused, 0) << path;
+      EXPECT_LT(trial.statistics_after.edge.max, 2.2 * trial.statistics_before.edge.max) << path;
+      return trial.n_opened_edges;
+    };
+    EXPECT_GE(edges("45,15 20,20 45,25"), edges("45,15 20,20") + edges("20,20 45,25") - 2);
+  }
+}
+
+TEST(Cut2dTrial, path_that_crosses_itself_is_cut_whole) {
+  const Cut2dTrial trial =
+      run_trial(paper_mesh(2), {read_path("-1,12 35,12 45,18 45,26 35,31 28,26 28,-1")},
+                options_of(Cut2dMode::robust, 1));
+  EXPECT_EQ(trial.n_refused, 0);
+  // Euler of a body in two pieces: what is round the loop, and the rest.
+  EXPECT_EQ(trial.n_new_elements, 0);
+  EXPECT_GT(trial.altitude_ratio, 0.2);
+}
+
 TEST(Cut2dTrial, several_paths_are_cut_one_after_another) {
   const std::vector<Cut2dPath> paths = {read_path("30,-1 38,41"), read_path("-1,17 71,23")};
   const Cut2dTrial trial = run_trial(paper_mesh(2), paths, options_of(Cut2dMode::robust, 1));
