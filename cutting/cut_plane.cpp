@@ -167,9 +167,10 @@ PlaneCut cut_plane(const Mesh& mesh, std::span<const Vec3> path, std::int32_t co
   const int tip = continued_tip >= 0 ? local_node(patch, continued_tip) : -1;
   std::vector<SubPath> sub_paths = clip_to_body(patch, make_sub_path(point), tip);
   if (sub_paths.empty()) return refused;
+  const int n_held = leave_out_held(patch, sub_paths);
   if (options.is_robust)
     for (SubPath& sub_path : sub_paths) draw_back_ends(patch, sub_path);
-  const std::size_t n_wanted = sub_paths.size();
+  const std::size_t n_wanted = sub_paths.size() + static_cast<std::size_t>(n_held);
   const Attempt attempt = cut_what_is_possible(patch, sub_paths, options);
   if (sub_paths.empty()) return refused;
   PlaneCut cut = make_plane_cut(mesh, patch, attempt.patch, attempt.chains);

@@ -1,7 +1,9 @@
 #include "cutting/cut_plane_path.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 namespace trocar {
 
@@ -11,6 +13,8 @@ constexpr double on_boundary = 0.1;     // h
 constexpr double least_length = 0.3;    // h
 constexpr double tip_clearance = 0.4;   // h
 constexpr double same_crossing = 1e-2;  // h
+constexpr double held_clearance = 0.5;  // h
+constexpr double look = 0.1;            // h, between two looks for held nodes
 
 struct PathCrossing {
   double s = 0;
@@ -110,6 +114,48 @@ double cleared_end(const PlanePatch& patch, const SubPath& path, double s) {
   return (middle - s) * inward < 0 ? middle - 0.5 * inward * middle : s;
 }
 
+// Whether an element at p has a corner that may be displaced; also where there is no element.
+bool is_movable(const PlanePatch& patch, const Vec2& p) {
+  bool is_found = false;
+  for (int e = 0; e < patch.n_elements(); ++e) {
+    if (!contains(patch, e, p)) continue;
+    for (const int i : patch.corner[e])
+      if (patch.is_held[i] == 0) return true;
+    is_found = true;
+  }
+  return !is_found;
+}
+
+// The stretch from `from` to `to`; its ends are inside the body where they are not the path's.
+SubPath stretch(const SubPath& path, double from, double to) {
+  SubPath result = trimmed(path, from, to);
+  if (from > 0) {
+    result.start_on = {};
+    result.tip = -1;
+  }
+  if (to < path.length()) result.end_on = {};
+  return result;
+}
+
+// Appends the stretches that can be cut; returns how many can't.
+int add_movable(const PlanePatch& patch, const SubPath& path, std::vector<SubPath>& result) {
+  const int n = static_cast<int>(std::ceil(path.length() / (look * patch.h)));
+  const auto s = [&](int k) { return path.length() * k / n; };
+  const auto is_free = [&](int k) { return is_movable(patch, position(path, s(k))); };
+  int n_held = 0;
+  for (int first = 0; first <= n;) {
+    int last = first;
+    const bool is_cut = is_free(first);
+    while (last < n && is_free(last + 1) == is_cut) ++last;
+    if (!is_cut) ++n_held;
+    const double from = first > 0 ? s(first) + held_clearance * patch.h : 0;
+    const double to = last < n ? s(last) - held_clearance * patch.h : path.length();
+    if (is_cut && to - from > least_length * patch.h) result.push_back(stretch(path, from, to));
+    first = last + 1;
+  }
+  return n_held;
+}
+
 }  // namespace
 
 SubPath make_sub_path(std::vector<Vec2> point) {
@@ -166,6 +212,15 @@ SubPath with_ends(const SubPath& path, const Vec2& start, const Vec2& end, doubl
   result.point = bent.point;
   result.s = bent.s;
   return result;
+}
+
+int leave_out_held(const PlanePatch& patch, std::vector<SubPath>& paths) {
+  if (std::find(patch.is_held.begin(), patch.is_held.end(), 1) == patch.is_held.end()) return 0;
+  std::vector<SubPath> result;
+  int n_held = 0;
+  for (const SubPath& path : paths) n_held += add_movable(patch, path, result);
+  paths = std::move(result);
+  return n_held;
 }
 
 void draw_back_ends(const PlanePatch& patch, SubPath& path) {

@@ -122,10 +122,13 @@ void cut_plane_piece(Simulation& s, CutStage& stage, const FrameSpan& span, bool
   options.particle = s.scene.cutting.particle;
   const PlaneCut cut =
       cut_plane(s.mesh, path, stage.plane_tip, held_nodes(s.holds, s.fixed), options);
+  if (cut.edit.is_empty() && !is_last) return;  // refused here: tried again with a longer path
   note_edit(s, cut.edit, cut.figures, global, stage.strokes.back());
-  if (cut.edit.is_empty()) return;  // refused here: tried again with a longer path
-  stage.plane_tip = cut.tip;
-  path = {cut.tip >= 0 ? s.mesh.X[static_cast<std::size_t>(cut.tip)] : path.back()};
+  // A cut that ends before its path does, at nodes that are held, is not continued.
+  const auto X = [&](std::int32_t node) { return s.mesh.X[static_cast<std::size_t>(node)]; };
+  const bool is_continued = cut.tip >= 0 && (X(cut.tip) - path.back()).norm() < h;
+  stage.plane_tip = is_continued ? cut.tip : -1;
+  path = {is_continued ? X(cut.tip) : path.back()};
 }
 
 void end_stroke(const Simulation& s, CutStage& stage, double time) {

@@ -194,6 +194,31 @@ TEST(CutPlane, held_nodes_are_never_displaced) {
   for (const NodeMove& move : result.edit.moves) EXPECT_EQ(is_held[move.node], 0);
 }
 
+// Along y = 20 mm from x = 5 to 65 mm, through nodes that are held in part of it.
+TEST(CutPlane, opens_what_lies_beside_held_nodes) {
+  const Mesh mesh = paper_mesh(2);
+  const std::vector<Vec3> path = {{5 * mm, 20 * mm, 0}, {65 * mm, 20 * mm, 0}};
+  const auto opened_beside = [&](double from, double to, std::size_t n_cuts) {
+    std::vector<std::uint8_t> is_held = none_held(mesh);
+    for (std::size_t i = 0; i < mesh.X.size(); ++i)
+      is_held[i] = mesh.X[i].x() > from && mesh.X[i].x() < to ? 1 : 0;
+    const PlaneCut result = cut_plane(mesh, path, -1, is_held, {});
+    for (const NodeMove& move : result.edit.moves) EXPECT_EQ(is_held[move.node], 0);
+    EXPECT_EQ(result.figures.n_refused, 1);
+    const Mesh after = applied(result.edit, mesh);
+    EXPECT_TRUE(validate(after).empty());
+    EXPECT_GT(least_altitude(after), 0.3 * least_altitude(mesh));
+    // Both ends of a cut inside the body stay one node.
+    EXPECT_EQ(static_cast<std::size_t>(result.figures.n_opened_facets),
+              static_cast<std::size_t>(result.figures.n_duplicated) + n_cuts);
+    return result.figures.n_opened_facets;
+  };
+  const auto free_edges = [](double length) { return static_cast<int>(length / 5.5) - 1; };
+  EXPECT_GE(opened_beside(0, 30 * mm, 1), free_edges(35));         // begins at held nodes
+  EXPECT_GE(opened_beside(40 * mm, 100 * mm, 1), free_edges(35));  // ends there
+  EXPECT_GE(opened_beside(30 * mm, 40 * mm, 2), 2 * free_edges(25));
+}
+
 TEST(CutPlane, refuses_when_all_nodes_are_held) {
   const Mesh mesh = paper_mesh(1);
   const std::vector<std::uint8_t> is_held(mesh.X.size(), 1);
