@@ -10,11 +10,11 @@ namespace trocar {
 
 // Where tissue stays joined though the blade went through.
 struct CutRefusal {
-  enum Reason : std::int32_t {
-    pinched,  // a facet: the outer surface would be no 2-manifold
-    chip,     // elements below half a mean edge cubed stay with the other side
-    bent,     // a facet at a hexahedron that is bent too much to become tetrahedra
-    missed,   // an element, facet or edge on the blade's path that holds both sides together
+  enum Reason : std::int32_t {  // as checkpoints have them: new ones go to the end
+    pinched,                    // a facet: the outer surface would be no 2-manifold
+    chip,                       // elements below half a mean edge cubed stay with the other side
+    missed,  // an element, facet or edge on the blade's path that holds both sides together
+    bent,    // a facet at a hexahedron that is bent too much to become tetrahedra
     n_reasons
   };
   Vec3 X = Vec3::Zero();  // its centre, reference configuration [m]

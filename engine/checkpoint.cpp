@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "base/check.h"
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/log.h"
@@ -156,7 +157,8 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
 }
 
 FrameStart start_of_frame(const Simulation& s) {
-  return {.watch = s.watch,
+  return {.step = s.state.step,
+          .watch = s.watch,
           .step_scale = s.step_scale,
           .holds = s.holds.holds,
           .is_open = s.holds.is_open,
@@ -167,6 +169,7 @@ FrameStart start_of_frame(const Simulation& s) {
 }
 
 Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start) {
+  CHECK_OP(s.state.step, ==, start.step);
   s.look = start.look;
   s.sleep = start.sleep;
   Checkpoint c = take_checkpoint(s);

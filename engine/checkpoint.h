@@ -64,6 +64,7 @@ void restore_checkpoint(const Checkpoint& checkpoint, Simulation& s);
 // What a frame changes before its substeps have gone well: a run that fails within a frame keeps
 // the frame's beginning.
 struct FrameStart {
+  std::int64_t step = 0;  // of the state
   Watch watch;
   double step_scale = 1;
   std::vector<Hold> holds;

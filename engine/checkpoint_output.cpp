@@ -36,6 +36,7 @@ bool is_checkpoint_due(const Simulation& s) {
 
 void write_checkpoint(Simulation& s, Outputs& outputs, const FrameStart* failed) {
   if (s.scene.checkpoint.every == 0 || s.frame == outputs.last_checkpoint) return;
+  if (failed && s.state.step != failed->step) return;
   const double start = monotonic_seconds();
   Checkpoint checkpoint = failed ? take_checkpoint_of_start(s, *failed) : take_checkpoint(s);
   checkpoint.recordings = recording_marks(s, outputs);

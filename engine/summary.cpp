@@ -47,8 +47,8 @@ Json refusals_json(const CutRecord& c) {
   constexpr std::array<const char*, CutRefusal::n_reasons> reason = {
       "the outer surface would no longer be a closed surface",
       "a chip below half an edge cubed stays with the other side",
-      "a hexahedron there is bent too much to become tetrahedra",
-      "tissue on the blade's way from surface to surface stays joined"};
+      "tissue on the blade's way from surface to surface stays joined",
+      "a hexahedron there is bent too much to become tetrahedra"};
   Json list = Json::array();
   for (const CutRefusal& r : c.refusals)
     list.push_back({{"X_m", {r.X.x(), r.X.y(), r.X.z()}},

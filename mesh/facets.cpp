@@ -109,14 +109,13 @@ void add_facet(Surface& surface, const Mesh& mesh, std::int32_t e, int f) {
   const std::size_t n = corner[3] < 0 ? 3 : 4;
   for (std::size_t a = 0; a < n; ++a) node[a] = mesh.corners(e)[corner[a]];
   const bool is_cut = (mesh.cut_facets[e] >> f & 1) != 0;
-  // Both elements of a quad split it at its lowest node, so the surface does not depend on the
-  // side; nor does it once a cut has parted them.
+  // As hex_tets splits it: the surface depends neither on the side nor on what a cut makes of the
+  // hexahedron.
   if (n == 4)
     std::rotate(node.begin(),
-                std::min_element(node.begin(), node.end(),
-                                 [&](std::int32_t i, std::int32_t j) {
-                                   return mesh.uncut_node(i) < mesh.uncut_node(j);
-                                 }),
+                std::min_element(
+                    node.begin(), node.end(),
+                    [&](std::int32_t i, std::int32_t j) { return is_diagonal_at(mesh, i, j); }),
                 node.end());
   add_triangle(surface, {node[0], node[1], node[2]}, e, is_cut, n == 4);
   if (n == 4) add_triangle(surface, {node[0], node[2], node[3]}, e, is_cut, true);

@@ -41,8 +41,8 @@ NodeElements node_elements(const Mesh& mesh);
 // Unique edges (a < b), ascending.
 std::vector<std::array<std::int32_t, 2>> mesh_edges(const Mesh& mesh);
 
-// The boundary as triangles in ascending order of (element, facet); a quad is split at its lowest
-// node. A plane mesh (tri3) is its own surface: all elements, in order.
+// The boundary as triangles in ascending order of (element, facet); a quad is split as
+// hex_tets has it. A plane mesh (tri3) is its own surface: all elements, in order.
 struct Surface {
   std::vector<std::array<std::int32_t, 3>> triangle;  // node numbers, outward
   std::vector<std::int32_t> element;                  // (n_triangles) behind each triangle

@@ -57,6 +57,12 @@ TEST(CheckpointBytes, read_back_give_the_same_checkpoint) {
             edit_to_bytes(c.recordings[0].pending[0].edit));
 }
 
+TEST(CheckpointBytes, have_the_numbers_of_refusals_that_older_ones_have) {
+  EXPECT_EQ(CutRefusal::pinched, 0);
+  EXPECT_EQ(CutRefusal::chip, 1);
+  EXPECT_EQ(CutRefusal::missed, 2);
+}
+
 TEST(CheckpointBytes, with_any_byte_changed_are_refused) {
   const std::vector<std::byte> good = checkpoint_to_bytes(example_checkpoint());
   for (std::size_t k = 0; k < good.size(); ++k)

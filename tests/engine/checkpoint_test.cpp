@@ -4,12 +4,19 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "base/digest.h"
 #include "base/threads.h"
 #include "engine/build.h"
+#include "engine/bytes.h"
+#include "engine/checkpoint_file.h"
+#include "engine/checkpoint_output.h"
 #include "engine/frame.h"
 #include "engine/output.h"
 #include "engine_files.h"
 #include "engine_resume.h"
+#include "engine_started.h"
 
 namespace trocar {
 namespace {
@@ -97,6 +104,36 @@ TEST(Checkpoint, of_each_frame_of_a_plane_cut_leads_to_the_next_one) {
         std::max(longest_path, checkpoint_from_bytes(bytes, "c").cuts[0].plane_path.size());
   EXPECT_GT(longest_path, 2u);
   EXPECT_GT(checkpoint_from_bytes(checkpoints.back(), "c").duplicate_node.size(), 2u);
+}
+
+TEST(Checkpoint, of_an_older_program_that_gave_nodes_no_ranks_is_taken) {
+  const LoadedScene scene = loaded_text(
+      time_table("1 s") + "[tissue.shape]\nkind = \"ball\"\nradius = 0.02\ncells = [6, 6, 6]\n" +
+      tissue_of_kpa(6) +
+      "[[instrument]]\nkind = \"scalpel\"\npath = [{ time = 0, position = [0, 0, 1] }]\n");
+  Communicator alone;
+  const auto s = build(scene, alone);
+  Checkpoint c = take_checkpoint(*s);
+  EXPECT_FALSE(c.mesh.hex_split_rank.empty());
+  c.mesh.hex_split_rank.clear();
+  c.body_crc = crc32c(mesh_to_bytes(c.mesh));
+  restore_checkpoint(c, *s);
+  EXPECT_TRUE(s->mesh.hex_split_rank.empty());
+}
+
+TEST(Checkpoint, of_a_frame_that_failed_behind_its_cut_is_not_written) {
+  const auto c = built(resume_block_text);
+  Simulation& s = *c->s;
+  FrameStart start;
+  const std::int32_t n = s.mesh.n_nodes();
+  while (s.mesh.n_nodes() == n) {
+    start = start_of_frame(s);
+    run_frame(s, c->outputs);
+  }
+  write_checkpoint(s, c->outputs, &start);
+  EXPECT_FALSE(std::filesystem::exists(c->folder.file(checkpoint_name)));
+  write_checkpoint(s, c->outputs);
+  EXPECT_TRUE(std::filesystem::exists(c->folder.file(checkpoint_name)));
 }
 
 using Forget = void (*)(CutMemory&);

@@ -85,6 +85,9 @@ TEST(HexSplit, neighbours_agree_about_diagonals_of_any_ranks) {
 TEST(HexSplit, a_body_of_both_kinds_is_one_piece_with_the_surface_of_the_uncut_one) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     Mesh mesh = shuffled(hex_box({3, 3, 3}), seed);
+    std::mt19937 random(seed);
+    for (std::size_t i = 0; i < mesh.X.size() && seed % 2 == 1; ++i)
+      mesh.hex_split_rank.push_back(static_cast<std::uint8_t>(random() % 3));
     const Surface before = boundary_surface(mesh);
     split(mesh, {1, 4, 13, 14, 26});
     std::vector<std::int32_t> piece;
