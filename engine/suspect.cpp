@@ -112,8 +112,8 @@ Suspect find_suspect(Simulation& s, const Watch& failed, const FrameSpan& span) 
   place += nearest.way > 0
                ? ", which moves at " + short_text(nearest.way / (span.t1 - span.t0)) + " m/s"
                : ", which rests";
-  const bool is_near = nearest.gap < near_edges * s.edge_length + nearest.way;
-  return {.place = place, .cure = cure(s, is_near ? nearest.name : "")};
+  const bool may_be = nearest.way > 0 && nearest.gap < near_edges * s.edge_length + nearest.way;
+  return {.place = place, .cure = cure(s, may_be ? nearest.name : "")};
 }
 
 }  // namespace trocar
