@@ -16,10 +16,11 @@ namespace trocar {
 
 namespace {
 
-constexpr int max_attempts = 5;         // each with one segment less
-constexpr double good_altitude = 0.5;   // least altitude after / before: no further attempt
-constexpr double floor_altitude = 0.1;  // below this a cut is refused
-constexpr double far_corner = 0.4;      // h: ends bend into corners so far away in later attempts
+constexpr int max_attempts = 5;          // each with one segment less
+constexpr double good_altitude = 0.5;    // least altitude after / before: no further attempt
+constexpr double floor_altitude = 0.1;   // below this a cut is refused
+constexpr double better_altitude = 1.5;  // worth a part of the cut that stays joined
+constexpr double far_corner = 0.4;       // h: ends bend into corners so far away in later attempts
 
 // A try to lay all sub-paths into the patch.
 struct Attempt {
@@ -149,6 +150,38 @@ Attempt cut_what_is_possible(const PlanePatch& patch, std::vector<SubPath>& sub_
   return attempt;
 }
 
+struct Laid {
+  Attempt attempt;
+  std::size_t n_refused = 0;
+  double length = 0;  // of what is cut [m]
+};
+
+// Stretches through elements with n_held_corners or more stay joined.
+Laid lay_beside_held(const PlanePatch& patch, std::vector<SubPath> sub_paths, int n_held_corners,
+                     const CutPlaneOptions& options) {
+  const int n_held = leave_out_held(patch, n_held_corners, sub_paths);
+  if (options.is_robust)
+    for (SubPath& sub_path : sub_paths) draw_back_ends(patch, sub_path);
+  Laid laid;
+  const std::size_t n_wanted = sub_paths.size() + static_cast<std::size_t>(n_held);
+  laid.attempt = cut_what_is_possible(patch, sub_paths, options);
+  laid.n_refused = n_wanted - sub_paths.size();
+  for (const SubPath& sub_path : sub_paths) laid.length += sub_path.length();
+  return laid;
+}
+
+// Farther away from what is held more may be possible, or better elements.
+Laid lay_as_possible(const PlanePatch& patch, const std::vector<SubPath>& sub_paths,
+                     const CutPlaneOptions& options) {
+  Laid laid = lay_beside_held(patch, sub_paths, 3, options);
+  const bool has_held =
+      std::find(patch.is_held.begin(), patch.is_held.end(), 1) != patch.is_held.end();
+  if (!has_held || (laid.n_refused == 0 && laid.attempt.altitude >= good_altitude)) return laid;
+  Laid farther = lay_beside_held(patch, sub_paths, 1, options);
+  const bool is_better = farther.attempt.altitude > better_altitude * laid.attempt.altitude;
+  return farther.length > laid.length || (farther.length > 0 && is_better) ? farther : laid;
+}
+
 }  // namespace
 
 CutPlaneOptions published_options() {
@@ -165,16 +198,13 @@ PlaneCut cut_plane(const Mesh& mesh, std::span<const Vec3> path, std::int32_t co
   const PlanePatch patch = make_patch(mesh, point, is_held, options.rings + 1);
   if (patch.element.empty()) return {};
   const int tip = continued_tip >= 0 ? local_node(patch, continued_tip) : -1;
-  std::vector<SubPath> sub_paths = clip_to_body(patch, make_sub_path(point), tip);
+  const std::vector<SubPath> sub_paths = clip_to_body(patch, make_sub_path(point), tip);
   if (sub_paths.empty()) return refused;
-  const int n_held = leave_out_held(patch, sub_paths);
-  if (options.is_robust)
-    for (SubPath& sub_path : sub_paths) draw_back_ends(patch, sub_path);
-  const std::size_t n_wanted = sub_paths.size() + static_cast<std::size_t>(n_held);
-  const Attempt attempt = cut_what_is_possible(patch, sub_paths, options);
-  if (sub_paths.empty()) return refused;
-  PlaneCut cut = make_plane_cut(mesh, patch, attempt.patch, attempt.chains);
-  cut.figures.n_refused = static_cast<std::int32_t>(n_wanted - sub_paths.size());
+  const Laid laid = lay_as_possible(patch, sub_paths, options);
+  refused.figures.n_refused = static_cast<std::int32_t>(laid.n_refused);
+  if (laid.length == 0) return refused;
+  PlaneCut cut = make_plane_cut(mesh, patch, laid.attempt.patch, laid.attempt.chains);
+  cut.figures.n_refused = static_cast<std::int32_t>(laid.n_refused);
   return cut;
 }
 

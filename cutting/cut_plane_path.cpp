@@ -114,13 +114,13 @@ double cleared_end(const PlanePatch& patch, const SubPath& path, double s) {
   return (middle - s) * inward < 0 ? middle - 0.5 * inward * middle : s;
 }
 
-// Whether an element at p has a corner that may be displaced; also where there is no element.
-bool is_movable(const PlanePatch& patch, const Vec2& p) {
+// Whether an element at p has less than n_corners that are held; also where there is no element.
+bool is_movable(const PlanePatch& patch, int n_corners, const Vec2& p) {
   bool is_found = false;
   for (int e = 0; e < patch.n_elements(); ++e) {
     if (!contains(patch, e, p)) continue;
-    for (const int i : patch.corner[e])
-      if (patch.is_held[i] == 0) return true;
+    const auto& [a, b, c] = patch.corner[e];
+    if (patch.is_held[a] + patch.is_held[b] + patch.is_held[c] < n_corners) return true;
     is_found = true;
   }
   return !is_found;
@@ -138,10 +138,11 @@ SubPath stretch(const SubPath& path, double from, double to) {
 }
 
 // Appends the stretches that can be cut; returns how many can't.
-int add_movable(const PlanePatch& patch, const SubPath& path, std::vector<SubPath>& result) {
+int add_movable(const PlanePatch& patch, int n_corners, const SubPath& path,
+                std::vector<SubPath>& result) {
   const int n = static_cast<int>(std::ceil(path.length() / (look * patch.h)));
   const auto s = [&](int k) { return path.length() * k / n; };
-  const auto is_free = [&](int k) { return is_movable(patch, position(path, s(k))); };
+  const auto is_free = [&](int k) { return is_movable(patch, n_corners, position(path, s(k))); };
   int n_held = 0;
   for (int first = 0; first <= n;) {
     int last = first;
@@ -214,11 +215,11 @@ SubPath with_ends(const SubPath& path, const Vec2& start, const Vec2& end, doubl
   return result;
 }
 
-int leave_out_held(const PlanePatch& patch, std::vector<SubPath>& paths) {
+int leave_out_held(const PlanePatch& patch, int n_corners, std::vector<SubPath>& paths) {
   if (std::find(patch.is_held.begin(), patch.is_held.end(), 1) == patch.is_held.end()) return 0;
   std::vector<SubPath> result;
   int n_held = 0;
-  for (const SubPath& path : paths) n_held += add_movable(patch, path, result);
+  for (const SubPath& path : paths) n_held += add_movable(patch, n_corners, path, result);
   paths = std::move(result);
   return n_held;
 }

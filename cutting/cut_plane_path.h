@@ -33,9 +33,10 @@ SubPath with_ends(const SubPath& path, const Vec2& start, const Vec2& end, doubl
 // 0.3 h are left out. `tip` (local node or -1): where the path continues an older cut.
 std::vector<SubPath> clip_to_body(const PlanePatch& patch, const SubPath& path, int tip);
 
-// Leaves out where the paths run through elements whose corners are all held, none of which could
-// be displaced onto the cut, and half a mean edge around. Returns how many stretches are left out.
-int leave_out_held(const PlanePatch& patch, std::vector<SubPath>& paths);
+// Leaves out where the paths run through elements with n_corners or more that are held, and half a
+// mean edge around: with three, none could be displaced onto the cut. Returns how many stretches
+// are left out.
+int leave_out_held(const PlanePatch& patch, int n_corners, std::vector<SubPath>& paths);
 
 // Draws ends inside the body back along the path until they are 0.4 h away from the boundary: a tip
 // nearer than that leaves no room for the elements between. Never below half the length.

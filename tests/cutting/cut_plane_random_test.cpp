@@ -64,12 +64,8 @@ double step_bound(const Mesh& mesh) {
   return least;
 }
 
-// What holds for each cut; n_closed is the number of ends that stay closed.
-void cut_and_check(const Mesh& mesh, const std::vector<Vec3>& path, int n_closed, Sample& sample) {
-  const auto start = std::chrono::steady_clock::now();
-  const PlaneCut result = cut(mesh, path);
-  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-  sample.milliseconds.push_back(time.count());
+// What holds for each cut; n_closed is the number of ends that stay closed, -1 if it is not known.
+void check(const Mesh& mesh, const PlaneCut& result, int n_closed, Sample& sample) {
   if (result.edit.is_empty()) {
     EXPECT_GT(result.figures.n_refused, 0);
     ++sample.n_refused;
@@ -87,6 +83,14 @@ void cut_and_check(const Mesh& mesh, const std::vector<Vec3>& path, int n_closed
   EXPECT_NEAR(total_mass(after) / total_mass(mesh), 1, 1e-12);
   sample.altitude.push_back(least_altitude(after) / least_altitude(mesh));
   sample.step.push_back(step_bound(after) / step_bound(mesh));
+}
+
+void cut_and_check(const Mesh& mesh, const std::vector<Vec3>& path, int n_closed, Sample& sample) {
+  const auto start = std::chrono::steady_clock::now();
+  const PlaneCut result = cut(mesh, path);
+  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+  sample.milliseconds.push_back(time.count());
+  check(mesh, result, n_closed, sample);
 }
 
 // Tips at least 10 mm from the bounding box, so that cuts do not graze the boundary.
@@ -152,6 +156,31 @@ TEST(CutPlaneRandom, cuts_anywhere_are_valid_or_refused) {
     }
     sample.print("cuts anywhere", c);
     EXPECT_LE(sample.n_refused, n_cuts() / 8);
+  }
+}
+
+// Across the body, with the nodes of a disc held that the path meets: what is free is cut.
+TEST(CutPlaneRandom, cuts_through_held_discs_move_no_held_node_and_open_the_rest) {
+  for (int c = 1; c <= 4; ++c) {
+    const Mesh mesh = paper_mesh(c);
+    Random random(99);
+    Sample sample;
+    for (int k = 0; k < n_cuts() / 3; ++k) {
+      const std::vector<Vec3> path = {{random(12 * mm, 58 * mm), -1 * mm, 0},
+                                      {random(12 * mm, 58 * mm), height(mesh) + mm, 0}};
+      const Vec3 centre = path[0] + random(0, 1) * (path[1] - path[0]);
+      const double radius = random(3 * mm, 12 * mm);
+      std::vector<std::uint8_t> is_held(mesh.X.size(), 0);
+      for (std::size_t i = 0; i < mesh.X.size(); ++i)
+        is_held[i] = (mesh.X[i] - centre).norm() < radius ? 1 : 0;
+      const PlaneCut result = cut_plane(mesh, path, -1, is_held, {});
+      for (const NodeMove& move : result.edit.moves) EXPECT_EQ(is_held[move.node], 0);
+      sample.milliseconds.push_back(0);
+      check(mesh, result, -1, sample);
+    }
+    sample.print("cuts through held discs", c);
+    EXPECT_EQ(sample.n_refused, 0);
+    EXPECT_GE(Sample::at(sample.altitude, 0), 0.2);
   }
 }
 
