@@ -30,28 +30,39 @@ std::vector<std::int32_t> failed_nodes(const Mesh& mesh, const Watch& failed) {
   return {corners.begin(), corners.end()};
 }
 
-// The nearest so far.
-struct Nearest {
+// What may be to blame.
+struct Mover {
   double gap = std::numeric_limits<double>::infinity();  // at the frame's beginning [m]
   double way = 0;                                        // within the frame [m]
   std::string name, how;
 };
 
-void take_nearer(Nearest&& found, Nearest& nearest) {
-  if (found.gap < nearest.gap) nearest = std::move(found);
-}
+// The one so far: of those that come near the one that moves most, else the nearest.
+struct Choice {
+  double reach = 0;  // [m]
+  Mover best;
+
+  bool comes_near(const Mover& mover) const { return mover.gap < reach + mover.way; }
+  bool is_better(const Mover& mover) const {
+    const bool was_near = comes_near(best), is_near = comes_near(mover);
+    if (was_near != is_near) return is_near;
+    return is_near && mover.way != best.way ? mover.way > best.way : mover.gap < best.gap;
+  }
+  void offer(Mover&& mover) {
+    if (is_better(mover)) best = std::move(mover);
+  }
+};
 
 void look_at_tools(std::span<const Tool> tools, const Vec3& x, const FrameSpan& span,
-                   Nearest& nearest) {
+                   Choice& choice) {
   for (const Tool& tool : tools) {
     const Pose pose = tool.path.at(span.t0);
     const Vec3 local = pose.rotation.conjugate() * (x - pose.translation);
     for (const ConvexPiece& piece : tool.shape.pieces)
-      take_nearer({.gap = std::max(0.0, signed_distance(make_core(piece), local).gap),
-                   .way = tool.path.travel(span.t0, span.t1, std::max(0.0, local.z())),
-                   .name = "\"" + tool.name + "\"",
-                   .how = "from "},
-                  nearest);
+      choice.offer({.gap = std::max(0.0, signed_distance(make_core(piece), local).gap),
+                    .way = tool.path.travel(span.t0, span.t1, std::max(0.0, local.z())),
+                    .name = "\"" + tool.name + "\"",
+                    .how = "from "});
   }
 }
 
@@ -63,10 +74,9 @@ const std::string& region_of_path(const Scene& scene, std::int32_t number) {
 }
 
 void look_at_holds(const Simulation& s, std::span<const Vec3> all, const Vec3& x,
-                   const FrameSpan& span, Nearest& nearest) {
+                   const FrameSpan& span, Choice& choice) {
   for (const Hold& hold : s.holds.holds) {
-    Nearest found{.gap = (all[hold.node] - x).norm(), .how = "from a node held by "};
-    if (found.gap >= nearest.gap) continue;
+    Mover found{.gap = (all[hold.node] - x).norm(), .how = "from a node held by "};
     if (hold.tool >= 0) {
       const Tool& tool = s.tools[static_cast<std::size_t>(hold.tool)];
       found.name = "\"" + tool.name + "\"";
@@ -76,7 +86,7 @@ void look_at_holds(const Simulation& s, std::span<const Vec3> all, const Vec3& x
       found.name = "the support of \"" + region_of_path(s.scene, hold.support) + "\"";
       found.way = (path.at(span.t1) - path.at(span.t0)).norm();
     }
-    nearest = std::move(found);
+    choice.offer(std::move(found));
   }
 }
 
@@ -102,18 +112,18 @@ Suspect find_suspect(Simulation& s, const Watch& failed, const FrameSpan& span) 
   gather_positions(s, global);
   Vec3 x = Vec3::Zero();
   for (const std::int32_t node : nodes) x += global.x[node] / static_cast<double>(nodes.size());
-  Nearest nearest;
-  look_at_tools(s.tools, x, span, nearest);
-  look_at_holds(s, global.x, x, span, nearest);
+  Choice choice{.reach = near_edges * s.edge_length, .best = {}};
+  look_at_tools(s.tools, x, span, choice);
+  look_at_holds(s, global.x, x, span, choice);
+  const Mover& best = choice.best;
   std::string place =
       " at (" + short_text(x.x()) + ", " + short_text(x.y()) + ", " + short_text(x.z()) + ") m";
-  if (nearest.name.empty()) return {.place = place, .cure = cure(s, "")};
-  place += ", " + short_text(nearest.gap) + " m " + nearest.how + nearest.name;
-  place += nearest.way > 0
-               ? ", which moves at " + short_text(nearest.way / (span.t1 - span.t0)) + " m/s"
-               : ", which rests";
-  const bool may_be = nearest.way > 0 && nearest.gap < near_edges * s.edge_length + nearest.way;
-  return {.place = place, .cure = cure(s, may_be ? nearest.name : "")};
+  if (best.name.empty()) return {.place = place, .cure = cure(s, "")};
+  place += ", " + short_text(best.gap) + " m " + best.how + best.name;
+  place += best.way > 0 ? ", which moves at " + short_text(best.way / (span.t1 - span.t0)) + " m/s"
+                        : ", which rests";
+  const bool may_be = best.way > 0 && choice.comes_near(best);
+  return {.place = place, .cure = cure(s, may_be ? best.name : "")};
 }
 
 }  // namespace trocar

@@ -1,0 +1,69 @@
+// Whom the sentence about a failed frame names.
+#include "engine/suspect.h"
+
+#include <gtest/gtest.h>
+
+#include "engine_started.h"
+
+namespace trocar {
+namespace {
+
+// A cube of 4 x 4 x 4 hexahedra of 25 mm whose sides x- and y- are moved at 1 and 100 mm/s.
+std::unique_ptr<Started> moved_cube() {
+  return built(R"([time]
+duration = "1 s"
+[tissue.shape]
+kind = "box"
+elements = "hex8"
+cells = [4, 4, 4]
+[tissue.material]
+model = "linear"
+[[support]]
+region = "x-"
+path = [ { time = 0, displacement = [0, 0, 0] }, { time = "1 s", displacement = ["1 mm", 0, 0] } ]
+[[support]]
+region = "y-"
+path = [ { time = 0, displacement = [0, 0, 0] }, { time = "1 s", displacement = [0, "100 mm", 0] } ]
+)",
+               {});
+}
+
+// Of the hexahedron in cell (i, j, 2).
+Suspect suspect_of_cell(int i, int j) {
+  const auto started = moved_cube();
+  Simulation& s = *started->s;
+  Watch failed{.least_J = -1};
+  for (std::int32_t e = 0; e < s.mesh.n_elements(); ++e) {
+    const Vec3& low = s.mesh.X[s.mesh.corners(e)[0]];
+    if ((low - 0.025 * Vec3(i, j, 2)).norm() < 1e-9) failed.least_J_element = e;
+  }
+  EXPECT_GE(failed.least_J_element, 0);
+  return find_suspect(s, failed, {.t0 = 0.5, .t1 = 0.51});
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(Suspect, is_what_moves_most_of_all_that_come_near) {
+  const Suspect suspect = suspect_of_cell(0, 1);  // beside x-, a cell away from y-
+  EXPECT_TRUE(contains(suspect.place, " at (0.0125, 0.0375, 0.0625) m, ")) << suspect.place;
+  EXPECT_TRUE(contains(suspect.place, "m from a node held by the support of \"y-\""));
+  EXPECT_TRUE(contains(suspect.cure, "path of the support of \"y-\", a material for large strains"))
+      << suspect.cure;
+}
+
+TEST(Suspect, is_the_near_one_where_what_moves_more_is_far) {
+  const Suspect suspect = suspect_of_cell(0, 3);
+  EXPECT_TRUE(contains(suspect.place, "support of \"x-\", which moves at 0.00")) << suspect.place;
+  EXPECT_TRUE(contains(suspect.cure, "path of the support of \"x-\"")) << suspect.cure;
+}
+
+TEST(Suspect, is_nobody_where_none_comes_near) {
+  const Suspect suspect = suspect_of_cell(3, 3);
+  EXPECT_TRUE(contains(suspect.place, "support of \"")) << suspect.place;  // the nearest, anyway
+  EXPECT_TRUE(contains(suspect.cure, "smaller loads")) << suspect.cure;
+}
+
+}  // namespace
+}  // namespace trocar
