@@ -174,9 +174,8 @@ Laid lay_beside_held(const PlanePatch& patch, std::vector<SubPath> sub_paths, in
 Laid lay_as_possible(const PlanePatch& patch, const std::vector<SubPath>& sub_paths,
                      const CutPlaneOptions& options) {
   Laid laid = lay_beside_held(patch, sub_paths, 3, options);
-  const bool has_held =
-      std::find(patch.is_held.begin(), patch.is_held.end(), 1) != patch.is_held.end();
-  if (!has_held || (laid.n_refused == 0 && laid.attempt.altitude >= good_altitude)) return laid;
+  if (!patch.has_held() || (laid.n_refused == 0 && laid.attempt.altitude >= good_altitude))
+    return laid;
   Laid farther = lay_beside_held(patch, sub_paths, 1, options);
   const bool is_better = farther.attempt.altitude > better_altitude * laid.attempt.altitude;
   return farther.length > laid.length || (farther.length > 0 && is_better) ? farther : laid;
@@ -201,9 +200,8 @@ PlaneCut cut_plane(const Mesh& mesh, std::span<const Vec3> path, std::int32_t co
   const std::vector<SubPath> sub_paths = clip_to_body(patch, make_sub_path(point), tip);
   if (sub_paths.empty()) return refused;
   const Laid laid = lay_as_possible(patch, sub_paths, options);
-  refused.figures.n_refused = static_cast<std::int32_t>(laid.n_refused);
-  if (laid.length == 0) return refused;
-  PlaneCut cut = make_plane_cut(mesh, patch, laid.attempt.patch, laid.attempt.chains);
+  PlaneCut cut;
+  if (laid.length > 0) cut = make_plane_cut(mesh, patch, laid.attempt.patch, laid.attempt.chains);
   cut.figures.n_refused = static_cast<std::int32_t>(laid.n_refused);
   return cut;
 }

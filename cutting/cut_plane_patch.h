@@ -41,6 +41,7 @@ struct PlanePatch {
 
   int n_elements() const { return static_cast<int>(element.size()); }
   int n_nodes() const { return static_cast<int>(node.size()); }
+  bool has_held() const { return std::find(is_held.begin(), is_held.end(), 1) != is_held.end(); }
 };
 
 // The elements that the path meets and `rings` rings around them. Empty if it meets none.

@@ -216,7 +216,7 @@ SubPath with_ends(const SubPath& path, const Vec2& start, const Vec2& end, doubl
 }
 
 int leave_out_held(const PlanePatch& patch, int n_corners, std::vector<SubPath>& paths) {
-  if (std::find(patch.is_held.begin(), patch.is_held.end(), 1) == patch.is_held.end()) return 0;
+  if (!patch.has_held()) return 0;
   std::vector<SubPath> result;
   int n_held = 0;
   for (const SubPath& path : paths) n_held += add_movable(patch, n_corners, path, result);

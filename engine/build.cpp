@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <utility>
 
 #include "base/digest.h"
 #include "base/error.h"
@@ -99,10 +100,10 @@ TriangleMesh load_tool_mesh(const LoadedScene& loaded, std::size_t k, Communicat
 }
 
 // Without the ranks of nodes, which follow from the rest: older checkpoints have none.
-std::uint32_t crc_of_body(const Simulation& s) {
-  Mesh given = s.mesh;
-  given.hex_split_rank.clear();
-  std::uint32_t crc = crc32c(mesh_to_bytes(given));
+std::uint32_t crc_of_body(Simulation& s) {
+  std::vector<std::uint8_t> ranks = std::exchange(s.mesh.hex_split_rank, {});
+  std::uint32_t crc = crc32c(mesh_to_bytes(s.mesh));
+  s.mesh.hex_split_rank = std::move(ranks);
   for (const Tool& tool : s.tools) crc = crc32c(std::as_bytes(std::span(tool.own_mesh.X)), crc);
   return crc;
 }

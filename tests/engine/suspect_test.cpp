@@ -41,10 +41,6 @@ Suspect suspect_of_cell(int i, int j) {
   return find_suspect(s, failed, {.t0 = 0.5, .t1 = 0.51});
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST(Suspect, is_what_moves_most_of_all_that_come_near) {
   const Suspect suspect = suspect_of_cell(0, 1);  // beside x-, a cell away from y-
   EXPECT_TRUE(contains(suspect.place, " at (0.0125, 0.0375, 0.0625) m, ")) << suspect.place;

@@ -87,8 +87,9 @@ TEST(Cut2dTrial, path_that_crosses_itself_is_cut_whole) {
       run_trial(paper_mesh(2), {read_path("-1,12 35,12 45,18 45,26 35,31 28,26 28,-1")},
                 options_of(Cut2dMode::robust, 1));
   EXPECT_EQ(trial.n_refused, 0);
-  // Euler of a body in two pieces: what is round the loop, and the rest.
   EXPECT_EQ(trial.n_new_elements, 0);
+  // Euler of three pieces: the corner, what is inside the loop, and the rest.
+  EXPECT_EQ(trial.n_new_nodes, trial.n_opened_edges + 2);
   EXPECT_GT(trial.altitude_ratio, 0.2);
 }
 
