@@ -7,10 +7,10 @@ The organ is a smooth union of ellipsoids (right lobe, left lobe, thin lower edg
 triangulated surface, gmsh remeshes it and fills it with tetrahedra. The boundary triangles of the upper back (where the ligaments hold the liver)
 become the physical surface "attachment". Needs numpy and the gmsh program (Debian packages python3-numpy, gmsh).
 """
+import argparse
 import os
 import struct
 import subprocess
-import sys
 import tempfile
 
 import numpy as np
@@ -179,13 +179,15 @@ def write_msh(points, attachment, tets, path):
 
 
 def main():
-    edge = float(sys.argv[1]) if len(sys.argv) > 1 else 4.0
     here = os.path.dirname(os.path.abspath(__file__))
-    output = sys.argv[2] if len(sys.argv) > 2 else os.path.join(here, "..", "configs", "meshes", "liver.msh")
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("edge", metavar="EDGE_MM", type=float, nargs="?", default=4.0)
+    arguments.add_argument("output", metavar="OUTPUT", nargs="?", default=os.path.join(here, "..", "configs", "meshes", "liver.msh"))
+    asked = arguments.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         stl = os.path.join(folder, "organ.stl")
         write_stl(*marching_tetrahedra(2.5), stl)
-        points, triangles, tets = gmsh_fill(stl, edge, folder)
+        points, triangles, tets = gmsh_fill(stl, asked.edge, folder)
     points, tets, used, rank = order_along_z_curve(points, tets)
     triangles = rank[np.searchsorted(used, triangles)]
     centre = points[triangles].mean(1)
@@ -194,7 +196,7 @@ def main():
     d = points[tets]
     volume = np.einsum("ni,ni->n", np.cross(d[:, 1] - d[:, 0], d[:, 2] - d[:, 0]), d[:, 3] - d[:, 0]) / 6
     assert (volume > 0).all(), "gmsh made an inverted element"
-    write_msh(points * MM, triangles[held], tets, output)
+    write_msh(points * MM, triangles[held], tets, asked.output)
     print(f"{len(points)} nodes, {len(tets)} tetrahedra, {volume.sum() / 1000:.1f} mL, "
           f"box {np.ptp(points, axis=0)} mm, {held.sum()} of {len(triangles)} boundary triangles held")
 

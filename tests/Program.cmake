@@ -1,10 +1,10 @@
 # Tests that go through the front door: they start the program, alone and under mpirun.
 find_package(nlohmann_json REQUIRED)
-string(JOIN " " mpirun_text ${TROCAR_MPIRUN})
+set(TROCAR_ON_RANKS ${CMAKE_SOURCE_DIR}/scripts/on_ranks)
 add_library(test_program STATIC support/program.cpp)
 target_link_libraries(test_program PUBLIC test_support_mesh nlohmann_json::nlohmann_json PRIVATE test_options)
 target_compile_definitions(test_program PUBLIC TROCAR_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
-  TROCAR_PROGRAM="$<TARGET_FILE:trocar>" TROCAR_MPIRUN="${mpirun_text}")
+  TROCAR_PROGRAM="$<TARGET_FILE:trocar>" TROCAR_ON_RANKS="${TROCAR_ON_RANKS}")
 target_precompile_headers(test_program PRIVATE <gtest/gtest.h> <cmath> <filesystem> <fstream> <nlohmann/json.hpp> <sstream> <string>)
 
 # These keep all cores of the machine busy themselves; they come first, so that no core waits for their turn. The others start the
@@ -38,5 +38,5 @@ target_compile_definitions(test_invariance PRIVATE TROCAR_SCENE_DIGESTS="$<TARGE
 
 add_executable(slow_rank invariance/slow_rank.cpp)
 target_link_libraries(slow_rank PRIVATE base test_options)
-add_test(NAME invariance/a_rank_exchanges_while_the_other_is_busy COMMAND ${TROCAR_MPIRUN} -np 2 $<TARGET_FILE:slow_rank>)
+add_test(NAME invariance/a_rank_exchanges_while_the_other_is_busy COMMAND ${TROCAR_ON_RANKS} 2 $<TARGET_FILE:slow_rank>)
 set_tests_properties(invariance/a_rank_exchanges_while_the_other_is_busy PROPERTIES TIMEOUT 60)

@@ -1,6 +1,6 @@
 // Whether a rank gets its neighbour's message, and is rid of its own, while the neighbour is busy
 // with something else: otherwise each exchange would wait for the slower one of two ranks.
-// mpirun -np 2 slow_rank; exit code 1 if it has to wait.
+// scripts/on_ranks 2 slow_rank; exit code 1 if it has to wait.
 #include <chrono>
 #include <cstdio>
 #include <thread>

@@ -60,10 +60,7 @@ Finished run_trocar(const std::vector<std::string>& arguments, const std::string
 
 std::vector<std::string> mpirun_words(int ranks, const std::string& program,
                                       const std::vector<std::string>& arguments) {
-  std::vector<std::string> words;
-  std::stringstream mpirun(TROCAR_MPIRUN);
-  for (std::string word; mpirun >> word;) words.push_back(word);
-  words.insert(words.end(), {"-np", std::to_string(ranks), program});
+  std::vector<std::string> words = {TROCAR_ON_RANKS, std::to_string(ranks), program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   return words;
 }
