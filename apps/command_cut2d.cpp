@@ -53,13 +53,18 @@ void print_trial(const Cut2dTrial& trial) {
   std::printf(
       "%s\n%d edges opened, %d nodes and %d elements new, %d nodes moved, %d parts of the path "
       "refused\n"
-      "least altitude after / before %.3f; cut nodes off the path by at most %.3g mm\n",
+      "stable step after / before %.3f, least altitude %.3f; cut nodes off the path by at most "
+      "%.3g "
+      "mm\n",
       rows_text({{0, "I", "before", trial.statistics_before, 0, 0, ""},
                  {0, "NR", "after", trial.statistics_after, trial.best_seconds,
                   trial.median_seconds, ""}})
           .c_str(),
       trial.n_opened_edges, trial.n_new_nodes, trial.n_new_elements, trial.n_moved, trial.n_refused,
-      trial.altitude_ratio, 1e3 * trial.largest_deviation);
+      trial.step_ratio, trial.altitude_ratio, 1e3 * trial.largest_deviation);
+  for (const CutRefusal& refusal : trial.refusals)
+    std::printf("stays joined at %.4g,%.4g mm: %s\n", 1e3 * refusal.X.x(), 1e3 * refusal.X.y(),
+                reason_of(refusal));
 }
 
 std::string nothing_cut_text(const Mesh& mesh) {
@@ -78,8 +83,9 @@ std::string nothing_cut_text(const Mesh& mesh) {
 }
 
 ExitCode cut_one(const Cut2dCommand& command) {
-  const Cut2dTrial trial = run_trial(mesh_of(command), paths_of(command),
-                                     options_of(mode_of(command.mode), command.repetitions));
+  const Cut2dTrial trial =
+      run_trial(mesh_of(command), paths_of(command),
+                options_of(mode_of(command.mode), command.repetitions, command.least_step_ratio));
   draw_trial(command, "", trial);
   if (trial.n_opened_edges == 0) log_warning(nothing_cut_text(trial.before));
   if (command.is_json)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "cutting/cut_plane.h"
 
 namespace trocar {
 
@@ -14,6 +15,7 @@ struct Cut2dCommand {
   std::vector<std::string> paths, arcs;
   std::string mode = "robust";
   int repetitions = 0;
+  double least_step_ratio = plane_step_ratio;
   bool is_table = false, is_sweep = false, is_json = false;
   int n_cuts = 100;
   std::string svg_folder, markdown_file, docs_folder;

@@ -151,6 +151,12 @@ void add_cut2d_figures(CLI::App& cut2d, Cut2dCommand& c) {
           "median time are printed. 0: as often as begins within 0.25 s")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
+  cut2d
+      .add_option("--least-step-ratio", c.least_step_ratio,
+                  "Floor under the stable step after / before a robust cut: what would sink below "
+                  "it stays joined. 0: none")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   cut2d.add_flag("--table1", c.is_table, "All of Table 1, the printed figures beside ours");
   cut2d.add_flag("--sweep", c.is_sweep,
                  "Study the parameters of the combined system with random cuts");

@@ -13,13 +13,19 @@ struct CutRefusal {
   enum Reason : std::int32_t {  // as checkpoints have them: new ones go to the end
     pinched,                    // a facet: the outer surface would be no 2-manifold
     chip,                       // elements below half a mean edge cubed stay with the other side
-    missed,  // an element, facet or edge on the blade's path that holds both sides together
-    bent,    // a facet at a hexahedron that is bent too much to become tetrahedra
+    missed,   // an element, facet or edge on the blade's path that holds both sides together
+    bent,     // a facet at a hexahedron that is bent too much to become tetrahedra
+    slow,     // plane cuts: elements there would have a stable step below the floor …
+    held,     // … would need nodes that must not be displaced …
+    no_room,  // … or too few nodes are there for valid ones
     n_reasons
   };
-  Vec3 X = Vec3::Zero();  // its centre, reference configuration [m]
+  Vec3 X = Vec3::Zero();  // its centre, or that of the stretch, reference configuration [m]
   std::int32_t reason = pinched;
 };
+
+// As the ledger says it.
+const char* reason_of(const CutRefusal& refusal);
 
 struct CutFigures {
   std::int32_t n_opened_facets = 0;

@@ -18,9 +18,16 @@ namespace {
 
 constexpr int max_attempts = 5;          // each with one segment less
 constexpr double good_altitude = 0.5;    // least altitude after / before: no further attempt
-constexpr double floor_altitude = 0.1;   // below this a cut is refused
+constexpr double floor_altitude = 0.1;   // below this a cut is refused, whatever the step
+constexpr int most_slow = 12;            // stretches left out for the step, then whole pieces are
 constexpr double better_altitude = 1.5;  // worth a part of the cut that stays joined
 constexpr double far_corner = 0.4;       // h: ends bend into corners so far away in later attempts
+
+// The least step bound and the centre of the element that has it. [m]
+struct Slowest {
+  double bound = 0;
+  Vec2 centre = Vec2::Zero();
+};
 
 // A try to lay all sub-paths into the patch.
 struct Attempt {
@@ -28,6 +35,7 @@ struct Attempt {
   std::vector<CutChain> chains;
   int bad_chain = -1;   // that could not be laid
   double altitude = 0;  // least altitude after / before; 0 if there is no valid mesh
+  Slowest slowest;
 };
 
 std::vector<Vec2> plane_path(std::span<const Vec3> path) {
@@ -58,6 +66,28 @@ double smallest_altitude(const PlanePatch& patch, const std::vector<Vec2>& x) {
   for (const auto& [a, b, c] : patch.corner)
     least = std::min(least, least_altitude(x[a], x[b], x[c]));
   return least;
+}
+
+Slowest find_slowest(const PlanePatch& patch, const std::vector<Vec2>& x) {
+  Slowest slowest{1e300, {}};
+  for (const auto& [a, b, c] : patch.corner)
+    if (const double bound = step_bound(x[a], x[b], x[c]); bound < slowest.bound)
+      slowest = {bound, (x[a] + x[b] + x[c]) / 3};
+  return slowest;
+}
+
+bool keeps_floors(const Attempt& attempt, const CutPlaneOptions& options) {
+  return attempt.altitude >= floor_altitude && attempt.slowest.bound >= options.least_step;
+}
+
+bool is_good(const Attempt& attempt, const CutPlaneOptions& options) {
+  return keeps_floors(attempt, options) &&
+         (!options.is_robust || attempt.altitude >= good_altitude);
+}
+
+bool is_better(const Attempt& a, const Attempt& b, const CutPlaneOptions& options) {
+  const bool does_a = keeps_floors(a, options), does_b = keeps_floors(b, options);
+  return does_a != does_b ? does_a : a.altitude > b.altitude;
 }
 
 std::vector<std::uint8_t> cut_nodes(const PlanePatch& patch, std::span<const CutChain> chains) {
@@ -103,9 +133,10 @@ Attempt remesh(const PlanePatch& patch, std::span<const SubPath> sub_paths,
   for (const SubPath& path : sub_paths) attempt.chains.push_back({path, {}, {}, {}});
   attempt.bad_chain = lay_chains(attempt, adapt);
   if (attempt.bad_chain >= 0) return attempt;
-  if (remesh_around(attempt, options))
-    attempt.altitude =
-        smallest_altitude(attempt.patch, attempt.patch.x) / smallest_altitude(patch, patch.X);
+  if (!remesh_around(attempt, options)) return attempt;
+  attempt.altitude =
+      smallest_altitude(attempt.patch, attempt.patch.x) / smallest_altitude(patch, patch.X);
+  attempt.slowest = find_slowest(attempt.patch, attempt.patch.x);
   return attempt;
 }
 
@@ -127,45 +158,55 @@ Attempt best_attempt(const PlanePatch& patch, std::span<const SubPath> sub_paths
     Attempt attempt = remesh(patch, sub_paths, adapt, options);
     if (attempt.bad_chain >= 0) return best.altitude > 0 ? best : attempt;
     for (std::size_t c = 0; c < adapt.size(); ++c) adapt[c] = next_try(attempt.chains[c], k);
-    if (attempt.altitude > best.altitude) best = std::move(attempt);
-    if (best.altitude >= (options.is_robust ? good_altitude : floor_altitude)) break;
+    if (is_better(attempt, best, options)) best = std::move(attempt);
+    if (is_good(best, options)) break;
   }
   return best;
 }
 
-// Pieces of the path that can't be cut (slices at a corner, held nodes) are left joined, the
-// others are cut; if it is not clear which one is in the way, the shortest goes first.
-Attempt cut_what_is_possible(const PlanePatch& patch, std::vector<SubPath>& sub_paths,
-                             const CutPlaneOptions& options) {
+struct Laid {
   Attempt attempt;
+  std::vector<CutRefusal> refusals;
+  double length = 0;  // of what is cut [m]
+};
+
+CutRefusal refusal_at(const Vec2& place, CutRefusal::Reason reason) {
+  return {{place.x(), place.y(), 0}, reason};
+}
+
+// Stretches whose elements would be too small for the step, and pieces that can't be cut (slices at
+// a corner, held nodes), are left joined, the others are cut; if it is not clear which piece is in
+// the way, the shortest goes first.
+void cut_what_is_possible(const PlanePatch& patch, std::vector<SubPath>& sub_paths,
+                          const CutPlaneOptions& options, Laid& laid) {
+  int n_slow = 0;
   while (!sub_paths.empty()) {
-    attempt = best_attempt(patch, sub_paths, options);
-    if (attempt.altitude >= floor_altitude) break;
+    laid.attempt = best_attempt(patch, sub_paths, options);
+    if (keeps_floors(laid.attempt, options)) return;
+    if (options.least_step > 0 && laid.attempt.altitude > 0 && n_slow++ < most_slow) {
+      laid.refusals.push_back(refusal_at(laid.attempt.slowest.centre, CutRefusal::slow));
+      leave_out_near(patch, laid.attempt.slowest.centre, sub_paths);
+      continue;
+    }
     auto worst = std::min_element(
         sub_paths.begin(), sub_paths.end(),
         [](const SubPath& a, const SubPath& b) { return a.length() < b.length(); });
-    if (attempt.bad_chain >= 0) worst = sub_paths.begin() + attempt.bad_chain;
+    if (laid.attempt.bad_chain >= 0) worst = sub_paths.begin() + laid.attempt.bad_chain;
+    laid.refusals.push_back(
+        refusal_at(position(*worst, 0.5 * worst->length()), CutRefusal::no_room));
     sub_paths.erase(worst);
   }
-  return attempt;
 }
-
-struct Laid {
-  Attempt attempt;
-  std::size_t n_refused = 0;
-  double length = 0;  // of what is cut [m]
-};
 
 // Stretches through elements with n_held_corners or more stay joined.
 Laid lay_beside_held(const PlanePatch& patch, std::vector<SubPath> sub_paths, int n_held_corners,
                      const CutPlaneOptions& options) {
-  const int n_held = leave_out_held(patch, n_held_corners, sub_paths);
+  Laid laid;
+  for (const Vec2& place : leave_out_held(patch, n_held_corners, sub_paths))
+    laid.refusals.push_back(refusal_at(place, CutRefusal::held));
   if (options.is_robust)
     for (SubPath& sub_path : sub_paths) draw_back_ends(patch, sub_path);
-  Laid laid;
-  const std::size_t n_wanted = sub_paths.size() + static_cast<std::size_t>(n_held);
-  laid.attempt = cut_what_is_possible(patch, sub_paths, options);
-  laid.n_refused = n_wanted - sub_paths.size();
+  cut_what_is_possible(patch, sub_paths, options, laid);
   for (const SubPath& sub_path : sub_paths) laid.length += sub_path.length();
   return laid;
 }
@@ -174,11 +215,18 @@ Laid lay_beside_held(const PlanePatch& patch, std::vector<SubPath> sub_paths, in
 Laid lay_as_possible(const PlanePatch& patch, const std::vector<SubPath>& sub_paths,
                      const CutPlaneOptions& options) {
   Laid laid = lay_beside_held(patch, sub_paths, 3, options);
-  if (!patch.has_held() || (laid.n_refused == 0 && laid.attempt.altitude >= good_altitude))
+  if (!patch.has_held() || (laid.refusals.empty() && laid.attempt.altitude >= good_altitude))
     return laid;
   Laid farther = lay_beside_held(patch, sub_paths, 1, options);
-  const bool is_better = farther.attempt.altitude > better_altitude * laid.attempt.altitude;
-  return farther.length > laid.length || (farther.length > 0 && is_better) ? farther : laid;
+  const bool has_better = farther.attempt.altitude > better_altitude * laid.attempt.altitude;
+  return farther.length > laid.length || (farther.length > 0 && has_better) ? farther : laid;
+}
+
+PlaneCut refused_at(const Vec2& place) {
+  PlaneCut cut;
+  cut.figures.n_refused = 1;
+  cut.figures.refusals = {refusal_at(place, CutRefusal::no_room)};
+  return cut;
 }
 
 }  // namespace
@@ -187,22 +235,34 @@ CutPlaneOptions published_options() {
   return {.is_robust = false, .most_steps = 150, .area_sweeps = 10};
 }
 
+double least_step_bound(const Mesh& mesh) {
+  double least = 1e300;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    const auto corner = mesh.corners(e);
+    const auto x = [&](int a) -> Vec2 { return mesh.X[corner[a]].head<2>(); };
+    least = std::min(least, step_bound(x(0), x(1), x(2)));
+  }
+  return least;
+}
+
 PlaneCut cut_plane(const Mesh& mesh, std::span<const Vec3> path, std::int32_t continued_tip,
                    std::span<const std::uint8_t> is_held, const CutPlaneOptions& options) {
   check_arguments(mesh, path, is_held);
-  PlaneCut refused;
-  refused.figures.n_refused = 1;
   const std::vector<Vec2> point = plane_path(path);
-  if (point.size() < 2) return refused;
+  if (point.size() < 2) return refused_at(point.front());
   const PlanePatch patch = make_patch(mesh, point, is_held, options.rings + 1);
   if (patch.element.empty()) return {};
   const int tip = continued_tip >= 0 ? local_node(patch, continued_tip) : -1;
-  const std::vector<SubPath> sub_paths = clip_to_body(patch, make_sub_path(point), tip);
-  if (sub_paths.empty()) return refused;
-  const Laid laid = lay_as_possible(patch, sub_paths, options);
+  const SubPath whole = make_sub_path(point);
+  const std::vector<SubPath> sub_paths = clip_to_body(patch, whole, tip);
+  if (sub_paths.empty()) return refused_at(position(whole, 0.5 * whole.length()));
+  CutPlaneOptions within = options;  // elements that lie below the floor may not sink further
+  within.least_step = std::min(options.least_step, find_slowest(patch, patch.X).bound);
+  const Laid laid = lay_as_possible(patch, sub_paths, within);
   PlaneCut cut;
   if (laid.length > 0) cut = make_plane_cut(mesh, patch, laid.attempt.patch, laid.attempt.chains);
-  cut.figures.n_refused = static_cast<std::int32_t>(laid.n_refused);
+  cut.figures.refusals = laid.refusals;
+  cut.figures.n_refused = static_cast<std::int32_t>(laid.refusals.size());
   return cut;
 }
 

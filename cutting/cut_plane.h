@@ -27,10 +27,19 @@ struct CutPlaneOptions {
   int most_steps = 4;       // of the homogenisation
   int area_sweeps = 4;      // of the area step over all nodes
   int rings = 3;            // vicinity that is homogenised
+  double least_step = 0;    // floor under the step bounds of elements [m], see least_step_bound:
+                            // what would sink below, or further, is not cut. 0: none
   bool operator==(const CutPlaneOptions&) const = default;
 };
 // As published: homogenised until the threshold, without flips for quality.
 CutPlaneOptions published_options();
+
+// Default of least_step over the body's bound before it was cut: random cuts that do not graze the
+// boundary keep 0.62 or more by themselves (docs/cutting-2d.md).
+inline constexpr double plane_step_ratio = 0.5;
+// Of the elements of a plane mesh the least 2 A / sqrt(sum of squared edges), which over the wave
+// speed bounds the stable step. [m]
+double least_step_bound(const Mesh& mesh);
 
 // Cuts the plane mesh (tri3) along the polyline `path` (>= 2 points, reference configuration, z =
 // 0). Ends inside the body stay closed (crack tips); ends on or beyond the boundary open it. If

@@ -73,6 +73,11 @@ inline double least_altitude(const Vec2& a, const Vec2& b, const Vec2& c) {
       std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
   return 2 * triangle_area(a, b, c) / std::sqrt(longest);
 }
+// Bounds the stable step: omega^2 <= c^2 sum_a 1 / h_a^2 of an element with the altitudes h_a. [m]
+inline double step_bound(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return 2 * triangle_area(a, b, c) /
+         std::sqrt((b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm());
+}
 inline int corner_of(const PlanePatch& patch, int e, int node) {
   const std::array<int, 3>& corner = patch.corner[e];
   return corner[0] == node ? 0 : corner[1] == node ? 1 : 2;

@@ -137,24 +137,22 @@ SubPath stretch(const SubPath& path, double from, double to) {
   return result;
 }
 
-// Appends the stretches that can be cut; returns how many can't.
-int add_movable(const PlanePatch& patch, int n_corners, const SubPath& path,
-                std::vector<SubPath>& result) {
+// Appends the stretches that can be cut to `result`, the middles of those that can't to `held`.
+void add_movable(const PlanePatch& patch, int n_corners, const SubPath& path,
+                 std::vector<SubPath>& result, std::vector<Vec2>& held) {
   const int n = static_cast<int>(std::ceil(path.length() / (look * patch.h)));
   const auto s = [&](int k) { return path.length() * k / n; };
   const auto is_free = [&](int k) { return is_movable(patch, n_corners, position(path, s(k))); };
-  int n_held = 0;
   for (int first = 0; first <= n;) {
     int last = first;
     const bool is_cut = is_free(first);
     while (last < n && is_free(last + 1) == is_cut) ++last;
-    if (!is_cut) ++n_held;
+    if (!is_cut) held.push_back(position(path, 0.5 * (s(first) + s(last))));
     const double from = first > 0 ? s(first) + held_clearance * patch.h : 0;
     const double to = last < n ? s(last) - held_clearance * patch.h : path.length();
     if (is_cut && to - from > least_length * patch.h) result.push_back(stretch(path, from, to));
     first = last + 1;
   }
-  return n_held;
 }
 
 }  // namespace
@@ -192,14 +190,21 @@ SubPath trimmed(const SubPath& path, double from, double to) {
   return result;
 }
 
-double distance_to(const SubPath& path, const Vec2& p) {
-  double least = std::numeric_limits<double>::max();
+double nearest_on(const SubPath& path, const Vec2& p) {
+  double least = std::numeric_limits<double>::max(), s = 0;
   for (std::size_t k = 0; k + 1 < path.point.size(); ++k) {
     const Vec2 &a = path.point[k], d = path.point[k + 1] - a;
     const double t = std::min(1.0, std::max(0.0, (p - a).dot(d) / d.squaredNorm()));
-    least = std::min(least, (p - a - t * d).norm());
+    const double distance = (p - a - t * d).norm();
+    if (distance >= least) continue;
+    least = distance;
+    s = path.s[k] + t * d.norm();
   }
-  return least;
+  return s;
+}
+
+double distance_to(const SubPath& path, const Vec2& p) {
+  return (p - position(path, nearest_on(path, p))).norm();
 }
 
 SubPath with_ends(const SubPath& path, const Vec2& start, const Vec2& end, double reach) {
@@ -215,13 +220,27 @@ SubPath with_ends(const SubPath& path, const Vec2& start, const Vec2& end, doubl
   return result;
 }
 
-int leave_out_held(const PlanePatch& patch, int n_corners, std::vector<SubPath>& paths) {
-  if (!patch.has_held()) return 0;
+std::vector<Vec2> leave_out_held(const PlanePatch& patch, int n_corners,
+                                 std::vector<SubPath>& paths) {
+  if (!patch.has_held()) return {};
   std::vector<SubPath> result;
-  int n_held = 0;
-  for (const SubPath& path : paths) n_held += add_movable(patch, n_corners, path, result);
+  std::vector<Vec2> held;
+  for (const SubPath& path : paths) add_movable(patch, n_corners, path, result, held);
   paths = std::move(result);
-  return n_held;
+  return held;
+}
+
+void leave_out_near(const PlanePatch& patch, const Vec2& point, std::vector<SubPath>& paths) {
+  const auto nearest =
+      std::min_element(paths.begin(), paths.end(), [&](const SubPath& a, const SubPath& b) {
+        return distance_to(a, point) < distance_to(b, point);
+      });
+  const SubPath path = *nearest;
+  const double gap = 0.5 * patch.h, s = nearest_on(path, point);
+  std::vector<SubPath> rest;
+  if (s - gap > patch.h) rest.push_back(stretch(path, 0, s - gap));
+  if (path.length() - s - gap > patch.h) rest.push_back(stretch(path, s + gap, path.length()));
+  paths.insert(paths.erase(nearest), rest.begin(), rest.end());
 }
 
 void draw_back_ends(const PlanePatch& patch, SubPath& path) {

@@ -24,6 +24,8 @@ Vec2 position(const SubPath& path, double s);
 Vec2 tangent(const SubPath& path, double s);
 SubPath trimmed(const SubPath& path, double from, double to);
 
+// Arc length of the point nearest to p.
+double nearest_on(const SubPath& path, const Vec2& p);
 double distance_to(const SubPath& path, const Vec2& p);
 // The path with other ends: where an end moves, the last `reach` of the path bends towards it.
 SubPath with_ends(const SubPath& path, const Vec2& start, const Vec2& end, double reach);
@@ -34,9 +36,14 @@ SubPath with_ends(const SubPath& path, const Vec2& start, const Vec2& end, doubl
 std::vector<SubPath> clip_to_body(const PlanePatch& patch, const SubPath& path, int tip);
 
 // Leaves out where the paths run through elements with n_corners or more that are held, and half a
-// mean edge around: with three, none could be displaced onto the cut. Returns how many stretches
-// are left out.
-int leave_out_held(const PlanePatch& patch, int n_corners, std::vector<SubPath>& paths);
+// mean edge around: with three, none could be displaced onto the cut. Returns the middles of the
+// stretches that are left out.
+std::vector<Vec2> leave_out_held(const PlanePatch& patch, int n_corners,
+                                 std::vector<SubPath>& paths);
+
+// Leaves out half a mean edge on both sides of where the path that comes nearest passes a point;
+// what would be shorter than an edge then, too.
+void leave_out_near(const PlanePatch& patch, const Vec2& point, std::vector<SubPath>& paths);
 
 // Draws ends inside the body back along the path until they are 0.4 h away from the boundary: a tip
 // nearer than that leaves no room for the elements between. Never below half the length.

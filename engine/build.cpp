@@ -118,13 +118,30 @@ void warn_of_whole_hexahedra(const Simulation& s) {
                 "tetrahedra on their facets have the other diagonal");
 }
 
+CutTetOptions tet_cut_options(const SceneCutting& cutting) {
+  CutTetOptions options{.advance = cutting.advance};
+  if (!std::isnan(cutting.least_step_ratio)) options.least_step_ratio = cutting.least_step_ratio;
+  return options;
+}
+
+CutPlaneOptions plane_cut_options(const SceneCutting& cutting, const Mesh& mesh) {
+  const bool is_robust = cutting.mode == CutMode::robust;
+  CutPlaneOptions options = is_robust ? CutPlaneOptions{} : published_options();
+  options.spring = cutting.spring;
+  options.particle = cutting.particle;
+  const double ratio =
+      std::isnan(cutting.least_step_ratio) ? plane_step_ratio : cutting.least_step_ratio;
+  if (is_robust) options.least_step = ratio * least_step_bound(mesh);
+  return options;
+}
+
 void build_cuts(Simulation& s) {
   const SceneCutting& cutting = s.scene.cutting;
   for (std::size_t k = 0; k < s.tools.size(); ++k) {
     if (s.tools[k].edge.empty()) continue;
-    s.cuts.push_back(CutStage{.tool = static_cast<std::int32_t>(k),
-                              .tet = TetCutter({.advance = cutting.advance,
-                                                .least_step_ratio = cutting.least_step_ratio})});
+    s.cuts.push_back(
+        CutStage{.tool = static_cast<std::int32_t>(k), .tet = TetCutter(tet_cut_options(cutting))});
+    if (s.mesh.dimension() == 2) s.cuts.back().plane = plane_cut_options(cutting, s.mesh);
   }
   if (!s.cuts.empty()) warn_of_whole_hexahedra(s);
   if (s.mesh.dimension() == 3)

@@ -116,12 +116,8 @@ void cut_plane_piece(Simulation& s, CutStage& stage, const FrameSpan& span, bool
   const double h = mean_edge_length(s.mesh);
   if (path.size() < 2 || length < (is_last ? 0.5 * h : plane_advance * h)) return;
 
-  CutPlaneOptions options =
-      s.scene.cutting.mode == CutMode::robust ? CutPlaneOptions{} : published_options();
-  options.spring = s.scene.cutting.spring;
-  options.particle = s.scene.cutting.particle;
   const PlaneCut cut =
-      cut_plane(s.mesh, path, stage.plane_tip, held_nodes(s.holds, s.fixed), options);
+      cut_plane(s.mesh, path, stage.plane_tip, held_nodes(s.holds, s.fixed), stage.plane);
   if (cut.edit.is_empty() && !is_last) return;  // refused here: tried again with a longer path
   note_edit(s, cut.edit, cut.figures, global, stage.strokes.back());
   // A cut that ends before its path does, at nodes that are held, is not continued.

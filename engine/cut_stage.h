@@ -53,6 +53,7 @@ struct CutProgress {
 struct CutStage : CutProgress {
   std::int32_t tool = 0;
   TetCutter tet;
+  CutPlaneOptions plane;
 };
 
 // Cuts along all blades' motion in the frame and applies the edits. Collective.

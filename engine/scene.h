@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -94,7 +95,7 @@ struct SceneContact {
 
 struct SceneCutting {
   double advance = 0.5;
-  double least_step_ratio = 0.75;
+  double least_step_ratio = std::numeric_limits<double>::quiet_NaN();  // not given
   double resistance = 0;  // force per length of engaged edge [N/m]
   CutMode mode = CutMode::robust;
   double spring = 1, particle = 0.1;

@@ -153,7 +153,9 @@ Options<SceneCutting> cutting_options() {
   c.number("advance", &SceneCutting::advance, dim::none, {.low = 0.1, .high = 5},
            "Edge lengths that the blade sweeps before the mesh is changed.");
   c.number("least_step_ratio", &SceneCutting::least_step_ratio, dim::none, {.low = 0.05, .high = 1},
-           "Floor on stable step after / before a cut, of the tetrahedra around it.");
+           "Floor on stable step after / before a cut: of the tetrahedra around it, 0.75 if "
+           "absent; of a "
+           "plane body before it was cut at all, 0.5 if absent. Not in mode paper.");
   c.number(
       "resistance", &SceneCutting::resistance, {.kilogram = 1, .second = -2}, not_negative,
       "Largest force of the tissue against the blade per length of its edge inside, \"20 N/m\".");

@@ -1,7 +1,6 @@
 #include "engine/summary.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -44,15 +43,9 @@ Json mesh_json(const Mesh& mesh, const SceneSolver& solver) {
 }
 
 Json refusals_json(const CutRecord& c) {
-  constexpr std::array<const char*, CutRefusal::n_reasons> reason = {
-      "the outer surface would no longer be a closed surface",
-      "a chip below half an edge cubed stays with the other side",
-      "tissue on the blade's way from surface to surface stays joined",
-      "a hexahedron there is bent too much to become tetrahedra"};
   Json list = Json::array();
   for (const CutRefusal& r : c.refusals)
-    list.push_back({{"X_m", {r.X.x(), r.X.y(), r.X.z()}},
-                    {"reason", reason[static_cast<std::size_t>(r.reason)]}});
+    list.push_back({{"X_m", {r.X.x(), r.X.y(), r.X.z()}}, {"reason", reason_of(r)}});
   return list;
 }
 

@@ -31,8 +31,13 @@ std::string trial_json(const Cut2dTrial& trial, const std::string& mode) {
   json["n_new_elements"] = trial.n_new_elements;
   json["n_moved_nodes"] = trial.n_moved;
   json["n_refused"] = trial.n_refused;
+  json["refusals"] = Json::array();
+  for (const CutRefusal& refusal : trial.refusals)
+    json["refusals"].push_back(
+        {{"X_m", {refusal.X.x(), refusal.X.y(), 0}}, {"reason", reason_of(refusal)}});
   json["largest_deviation_m"] = trial.largest_deviation;
   json["least_altitude_ratio"] = trial.altitude_ratio;
+  json["least_step_ratio"] = trial.step_ratio;
   json["best_s"] = trial.best_seconds;
   json["median_s"] = trial.median_seconds;
   return json.dump(2) + "\n";

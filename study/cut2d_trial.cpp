@@ -25,6 +25,7 @@ void add_figures(const CutFigures& figures, Cut2dTrial& trial) {
   trial.n_opened_edges += figures.n_opened_facets;
   trial.n_moved += figures.n_moved;
   trial.n_refused += figures.n_refused;
+  trial.refusals.insert(trial.refusals.end(), figures.refusals.begin(), figures.refusals.end());
   trial.largest_deviation = std::max(trial.largest_deviation, figures.largest_deviation);
 }
 
@@ -32,13 +33,17 @@ void add_figures(const CutFigures& figures, Cut2dTrial& trial) {
 double displace(const Cut2dOptions& options, Cut2dTrial& trial) {
   double seconds = 0;
   trial.n_opened_edges = trial.n_moved = trial.n_refused = 0;
+  trial.refusals.clear();
   trial.after = trial.before;
+  CutPlaneOptions plane = options.plane;
+  if (options.mode == Cut2dMode::robust)
+    plane.least_step = options.least_step_ratio * least_step_bound(trial.before);
   for (const Cut2dPath& path : trial.paths) {
     std::int32_t tip = -1;  // where the last reach ended
     for (const Cut2dPath& reach : reaches(path)) {
       const std::vector<std::uint8_t> is_held(trial.after.X.size(), 0);
       const Clock::time_point start = Clock::now();
-      const PlaneCut cut = cut_plane(trial.after, reach, tip, is_held, options.plane);
+      const PlaneCut cut = cut_plane(trial.after, reach, tip, is_held, plane);
       apply_edit(cut.edit, trial.after);
       seconds += seconds_since(start);
       tip = cut.tip;
@@ -81,8 +86,9 @@ double smallest_altitude(const Mesh& mesh) {
 
 }  // namespace
 
-Cut2dOptions options_of(Cut2dMode mode, int repetitions) {
-  return {mode, mode == Cut2dMode::paper ? published_options() : CutPlaneOptions{}, repetitions};
+Cut2dOptions options_of(Cut2dMode mode, int repetitions, double least_step_ratio) {
+  return {mode, mode == Cut2dMode::paper ? published_options() : CutPlaneOptions{}, repetitions,
+          least_step_ratio};
 }
 
 Cut2dTrial run_trial(const Mesh& mesh, const std::vector<Cut2dPath>& paths,
@@ -104,6 +110,7 @@ Cut2dTrial run_trial(const Mesh& mesh, const std::vector<Cut2dPath>& paths,
   trial.n_new_nodes = trial.after.n_nodes() - mesh.n_nodes();
   trial.n_new_elements = trial.after.n_elements() - mesh.n_elements();
   trial.altitude_ratio = smallest_altitude(trial.after) / smallest_altitude(mesh);
+  trial.step_ratio = least_step_bound(trial.after) / least_step_bound(mesh);
   return trial;
 }
 

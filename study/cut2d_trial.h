@@ -20,17 +20,21 @@ struct Cut2dTrial {
   std::vector<Cut2dPath> paths;
   PlaneStatistics statistics_before, statistics_after;
   int n_opened_edges = 0, n_new_nodes = 0, n_new_elements = 0, n_moved = 0, n_refused = 0;
-  double largest_deviation = 0;  // of a cut node from the path [m]
-  double altitude_ratio = 0;     // least altitude after / before: bounds the time step
+  std::vector<CutRefusal> refusals;             // (n_refused)
+  double largest_deviation = 0;                 // of a cut node from the path [m]
+  double altitude_ratio = 0;                    // least altitude after / before
+  double step_ratio = 0;                        // least_step_bound after / before
   double best_seconds = 0, median_seconds = 0;  // of all cuts, over the repetitions
 };
 
 struct Cut2dOptions {
   Cut2dMode mode = Cut2dMode::robust;
-  CutPlaneOptions plane;  // of the other modes; set by options_of
-  int repetitions = 1;    // 0: as many as begin within 0.25 s
+  CutPlaneOptions plane;                       // of the other modes; set by options_of
+  int repetitions = 1;                         // 0: as many as begin within 0.25 s
+  double least_step_ratio = plane_step_ratio;  // floor of robust cuts under the step after / before
 };
-Cut2dOptions options_of(Cut2dMode mode, int repetitions);
+Cut2dOptions options_of(Cut2dMode mode, int repetitions,
+                        double least_step_ratio = plane_step_ratio);
 
 // Cuts along the paths one after another. Throws InputError for a mesh of other elements than
 // triangles, and for subdivision along a path that is not straight.

@@ -30,7 +30,9 @@ double height(const Mesh& mesh) {
 }
 
 struct Sample {
+  double floor = plane_step_ratio;  // under the step after / before
   int n_refused = 0;
+  std::int64_t n_opened = 0, n_left = 0;  // facets; places left joined
   std::vector<double> altitude, step, milliseconds;
 
   static double at(std::vector<double>& values, double fraction) {
@@ -39,17 +41,18 @@ struct Sample {
   }
   void print(const char* kind, int configuration) {
     std::printf(
-        "%s, configuration %d: %zu cut, %d refused; least altitude after / before: worst "
+        "%s, configuration %d: %zu cut, %d refused, %lld edges opened, %lld places left; least "
+        "altitude after / before: worst "
         "%.3f, 5 %% %.3f, median %.3f; stable step: worst %.3f, median %.3f; ms: median %.3f, "
         "95 %% %.3f\n",
-        kind, configuration, altitude.size(), n_refused, at(altitude, 0), at(altitude, 0.05),
-        at(altitude, 0.5), at(step, 0), at(step, 0.5), at(milliseconds, 0.5),
-        at(milliseconds, 0.95));
+        kind, configuration, altitude.size(), n_refused, static_cast<long long>(n_opened),
+        static_cast<long long>(n_left), at(altitude, 0), at(altitude, 0.05), at(altitude, 0.5),
+        at(step, 0), at(step, 0.5), at(milliseconds, 0.5), at(milliseconds, 0.95));
   }
 };
 
 // Bound of the stable step over the wave speed: omega^2 <= c^2 sum_a 1 / h_a^2 of an element with
-// the altitudes h_a.
+// the altitudes h_a. Not that of the module itself.
 double step_bound(const Mesh& mesh) {
   double least = 1e300;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
@@ -70,9 +73,13 @@ void cut_and_check(const Mesh& mesh, const std::vector<Vec3>& path, int n_closed
                    std::vector<std::uint8_t> is_held = {}) {
   is_held.resize(mesh.X.size());
   const auto start = std::chrono::steady_clock::now();
-  const PlaneCut result = cut_plane(mesh, path, -1, is_held, {});
+  const CutPlaneOptions options{.least_step = sample.floor * step_bound(mesh)};
+  const PlaneCut result = cut_plane(mesh, path, -1, is_held, options);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
   sample.milliseconds.push_back(time.count());
+  EXPECT_EQ(result.figures.refusals.size(), static_cast<std::size_t>(result.figures.n_refused));
+  sample.n_left += result.figures.n_refused;
+  sample.n_opened += result.figures.n_opened_facets;
   for (const NodeMove& move : result.edit.moves) EXPECT_EQ(is_held[move.node], 0);
   if (result.edit.is_empty()) {
     EXPECT_GT(result.figures.n_refused, 0);
@@ -91,6 +98,7 @@ void cut_and_check(const Mesh& mesh, const std::vector<Vec3>& path, int n_closed
   EXPECT_NEAR(total_mass(after) / total_mass(mesh), 1, 1e-12);
   sample.altitude.push_back(least_altitude(after) / least_altitude(mesh));
   sample.step.push_back(step_bound(after) / step_bound(mesh));
+  EXPECT_GE(sample.step.back(), sample.floor * (1 - 1e-12));
 }
 
 // Tips at least 10 mm from the bounding box, so that cuts do not graze the boundary.
@@ -156,6 +164,23 @@ TEST(CutPlaneRandom, cuts_anywhere_are_valid_or_refused) {
     }
     sample.print("cuts anywhere", c);
     EXPECT_LE(sample.n_refused, n_cuts() / 8);
+  }
+}
+
+// Whatever floor the user wants; what that costs is places that stay joined.
+TEST(CutPlaneRandom, steps_keep_any_floor) {
+  for (const double floor : {0.0, 0.35, 0.5, 0.75, 0.9}) {
+    const Mesh mesh = paper_mesh(4);
+    Random random(31);
+    Sample sample{.floor = floor};
+    for (int k = 0; k < n_cuts() / 3; ++k) {
+      const Vec3 start(random(-10 * mm, 80 * mm), random(-10 * mm, 60 * mm), 0);
+      cut_and_check(mesh, {start, {random(20 * mm, 50 * mm), random(10 * mm, 30 * mm), 0}}, -1,
+                    sample);
+    }
+    std::printf("floor %.2f: ", floor);
+    sample.print("cuts from anywhere to the middle", 4);
+    EXPECT_GT(sample.n_opened, floor < 0.8 ? 5 * n_cuts() / 3 : 0);
   }
 }
 

@@ -61,6 +61,7 @@ TEST(CheckpointBytes, have_the_numbers_of_refusals_that_older_ones_have) {
   EXPECT_EQ(CutRefusal::pinched, 0);
   EXPECT_EQ(CutRefusal::chip, 1);
   EXPECT_EQ(CutRefusal::missed, 2);
+  EXPECT_EQ(CutRefusal::bent, 3);
 }
 
 TEST(CheckpointBytes, with_any_byte_changed_are_refused) {

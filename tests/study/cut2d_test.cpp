@@ -66,8 +66,8 @@ TEST(Cut2dPath, new_reaches_begin_at_sharp_bends_and_where_the_path_would_cross_
 // In one edit these opened 1, 12 and 9 edges in the robust mode.
 TEST(Cut2dTrial, sharp_bend_takes_no_edges_from_its_legs) {
   const auto edges = [](int configuration, const std::string& path) {
-    const Cut2dTrial trial =
-        run_trial(paper_mesh(configuration), {read_path(path)}, options_of(Cut2dMode::robust, 1));
+    const Cut2dTrial trial = run_trial(paper_mesh(configuration), {read_path(path)},
+                                       options_of(Cut2dMode::robust, 1, 0));
     EXPECT_EQ(trial.n_refused, 0) << path;
     return trial.n_opened_edges;
   };
@@ -80,6 +80,20 @@ TEST(Cut2dTrial, sharp_bend_takes_no_edges_from_its_legs) {
   of_bend(3, "45,15", "20,20", "45,25");
   of_bend(2, "60,8", "20,30", "60,20");
   of_bend(4, "50,10", "20,22", "30,10");
+}
+
+// 20 degrees: the elements between the legs are as thin as the wedge is, so that its tip stays.
+TEST(Cut2dTrial, thin_wedge_keeps_the_floor_and_says_where_it_stays_joined) {
+  const std::vector<Cut2dPath> path = {read_path("60,8 20,30 60,20")};
+  const Cut2dTrial free = run_trial(paper_mesh(2), path, options_of(Cut2dMode::robust, 1, 0));
+  EXPECT_LT(free.step_ratio, 0.5);
+  EXPECT_TRUE(free.refusals.empty());
+  const Cut2dTrial trial = run_trial(paper_mesh(2), path, options_of(Cut2dMode::robust, 1));
+  EXPECT_GE(trial.step_ratio, 0.5);
+  EXPECT_GE(trial.n_opened_edges, free.n_opened_edges - 2);
+  ASSERT_EQ(trial.refusals.size(), 1);
+  EXPECT_EQ(trial.refusals[0].reason, CutRefusal::slow);
+  EXPECT_LT((trial.refusals[0].X - path[0][1]).norm(), 8 * mm);
 }
 
 TEST(Cut2dTrial, path_that_crosses_itself_is_cut_whole) {

@@ -1,0 +1,19 @@
+#include "cutting/cut_figures.h"
+
+#include <array>
+
+namespace trocar {
+
+const char* reason_of(const CutRefusal& refusal) {
+  constexpr std::array<const char*, CutRefusal::n_reasons> text = {
+      "the outer surface would no longer be a closed surface",
+      "a chip below half an edge cubed stays with the other side",
+      "tissue on the blade's way from surface to surface stays joined",
+      "a hexahedron there is bent too much to become tetrahedra",
+      "the stable step of elements there would fall below the floor",
+      "nodes there are held",
+      "too few nodes are there for valid elements"};
+  return text[static_cast<std::size_t>(refusal.reason)];
+}
+
+}  // namespace trocar
