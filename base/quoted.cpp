@@ -41,12 +41,19 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+// The beginning of a name counts as one change.
+static std::size_t distance_to(std::string_view name, const std::string& allowed) {
+  return name.size() >= 3 && allowed.starts_with(name) ? 1 : edit_distance(name, allowed);
+}
+
 std::string nearest_name(std::string_view name, std::span<const std::string> allowed) {
   if (allowed.empty() || name.size() > 64) return "";
-  return *std::min_element(allowed.begin(), allowed.end(),
-                           [&](const std::string& a, const std::string& b) {
-                             return edit_distance(name, a) < edit_distance(name, b);
-                           });
+  const std::string& nearest = *std::min_element(
+      allowed.begin(), allowed.end(), [&](const std::string& a, const std::string& b) {
+        return distance_to(name, a) < distance_to(name, b);
+      });
+  const std::size_t most = (std::max(name.size(), nearest.size()) + 2) / 3;
+  return distance_to(name, nearest) <= most ? nearest : "";
 }
 
 }  // namespace trocar

@@ -13,8 +13,8 @@ std::string in_quotes(std::string_view text);
 // Number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`
 // (optimal string alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b);
-// The allowed name nearest to `name`, the first of equals; "" if there is none or `name` is longer
-// than any sane one.
+// The allowed name nearest to `name`, the first of equals; "" if more than a third of the letters
+// differ, or `name` is longer than any sane one. What `name` begins counts as near.
 std::string nearest_name(std::string_view name, std::span<const std::string> allowed);
 
 }  // namespace trocar

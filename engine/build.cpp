@@ -256,12 +256,18 @@ std::unique_ptr<MultiRate> find_multirate(const Simulation& s) {
 
 // Cuts make tetrahedra of hexahedra, in the middle of the run.
 void check_converted(const LoadedScene& loaded, const Simulation& s) {
-  if (s.cuts.empty() || !has_hexahedra(s.mesh)) return;
+  if (s.cuts.empty()) return;
   const SolverOptions options = solver_options(s.scene);
-  for (const Material& material : s.materials)
-    if (const std::string fault = misfit_of(material, options.tet4, options.precision);
+  std::vector<std::uint8_t> has_hexahedra(s.materials.size(), 0);
+  for (std::size_t e = 0; e < s.mesh.element_type.size(); ++e)
+    if (s.mesh.element_type[e] == ElementType::hex8)
+      has_hexahedra[static_cast<std::size_t>(s.mesh.element_region[e])] = 1;
+  for (std::size_t r = 0; r < s.materials.size(); ++r) {
+    if (has_hexahedra[r] == 0) continue;
+    if (const std::string fault = misfit_of(s.materials[r], options.tet4, options.precision);
         !fault.empty())
       loaded.where.fail("solver.tetrahedron", "a cut makes tetrahedra of hexahedra: " + fault);
+  }
 }
 
 // What is wrong now is so with the tissue as it was given.

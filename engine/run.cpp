@@ -89,6 +89,17 @@ std::string prepare_start(const LoadedScene& loaded, Simulation& s) {
   }
 }
 
+// has_begun: the frames; before, there is nothing to go on from.
+void report_stop(const Simulation& s, bool has_begun) {
+  if (!has_begun)
+    log_warning(
+        "stopped by a signal during the search for equilibrium, of which nothing is kept: start it "
+        "anew, without --resume");
+  else if (s.scene.checkpoint.every > 0)
+    log_warning("stopped by a signal after frame " + std::to_string(s.frame) +
+                ": --resume goes on from there");
+}
+
 void write_summary(const std::string& text, const std::string& file) {
   std::ofstream stream(file);
   if (!(stream << text).flush())
@@ -130,7 +141,8 @@ bool run_scene(const RunOptions& options, Communicator& communicator) {
   Outputs outputs = open_outputs(*simulation, options.folder, checkpoint ? &*checkpoint : nullptr);
   RunTimes times{.setup_seconds = monotonic_seconds() - start};
 
-  if (trouble.empty()) trouble = run_frames(*simulation, outputs);
+  const bool has_begun = trouble.empty();
+  if (has_begun) trouble = run_frames(*simulation, outputs);
   times.loop_seconds = monotonic_seconds() - start - times.setup_seconds;
   const bool is_stopped_by_signal = trouble == stopped_by_signal;
   finish_outputs(outputs);
@@ -138,6 +150,7 @@ bool run_scene(const RunOptions& options, Communicator& communicator) {
   if (outputs.studio) times.drawing_seconds = outputs.studio->seconds();
   const std::string summary = make_summary(*simulation, times, trouble);
   if (communicator.is_root()) write_summary(summary, options.folder + "/summary.json");
+  if (is_stopped_by_signal) report_stop(*simulation, has_begun);
   if (!trouble.empty() && !is_stopped_by_signal) throw SimulationError(trouble);
   return !is_stopped_by_signal;
 }

@@ -40,8 +40,17 @@ TEST(EditDistance, counts_a_swap_as_one) {
 TEST(NearestName, is_the_first_of_the_nearest) {
   const std::string names[] = {"length", "density", "dentist"};
   EXPECT_EQ(nearest_name("densty", names), "density");
+  EXPECT_EQ(nearest_name("den", names), "density");
   EXPECT_EQ(nearest_name("x", {}), "");
   EXPECT_EQ(nearest_name(std::string(1 << 20, 'x'), names), "");
+}
+
+TEST(NearestName, is_none_where_more_than_a_third_of_the_letters_differ) {
+  const std::string names[] = {"gravity", "lame-mode"};
+  EXPECT_EQ(nearest_name("gravty", names), "gravity");
+  EXPECT_EQ(nearest_name("gvarity", names), "gravity");
+  EXPECT_EQ(nearest_name("zzzqqq", names), "");
+  EXPECT_EQ(nearest_name("mode", names), "");
 }
 
 TEST(InQuotes, cuts_between_characters_and_hides_control_characters) {

@@ -225,6 +225,23 @@ TEST(BadInput, what_elements_can_not_be_is_refused_with_its_place) {
                  {"--set", "tissue.shape.elements=hex8"});
 }
 
+TEST(BadInput, a_region_without_elements_may_have_any_material) {
+  const std::string folder = test_folder("empty_region"), scene = folder + "/scene.toml";
+  std::ofstream(folder + "/cube.msh")
+      << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"soft\"\n3 2 \"hard\"\n"
+         "$EndPhysicalNames\n$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n"
+         "7 1 1 1\n8 0 1 1\n$EndNodes\n$Elements\n1\n1 5 2 1 1 1 2 3 4 5 6 7 8\n$EndElements\n";
+  std::ofstream(scene) << "[time]\nduration = 1\n[tissue]\nmesh = \"cube.msh\"\n"
+                          "[[tissue.region_material]]\nregion = \"hard\"\n"
+                          "[tissue.region_material.material]\nmodel = \"linear\"\n"
+                          "[solver]\ntetrahedron = \"nodal-pressure\"\n"
+                          "[[instrument]]\nkind = \"scalpel\"\n[[instrument.path]]\n"
+                          "time = 0\nposition = [0, 0, 9]\n";
+  EXPECT_EQ(run_trocar({"check", scene}, folder).exit_code, 0);
+  const std::string of_soft = "tissue.region_material=[{region='soft', material={model='linear'}}]";
+  expect_refusal(scene, folder, input_wrong, "a cut makes tetrahedra", {"--set", of_soft});
+}
+
 TEST(BadInput, one_number_for_a_vector_is_refused_with_what_it_needs) {
   const std::string folder = test_folder("vector");
   expect_refusal(config("block_hex.toml"), folder, input_wrong, "needs 3 numbers and a unit",

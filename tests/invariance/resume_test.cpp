@@ -301,7 +301,7 @@ void wait_for_handler(pid_t child, int signal) {
 TEST(Signals, end_the_search_for_equilibrium) {
   const std::string folder = test_folder("equilibrium-signal");
   const pid_t child =
-      start({TROCAR_PROGRAM, "run", config("block_hex.toml"), "-q", "-o", folder + "/out", "--set",
+      start({TROCAR_PROGRAM, "run", config("block_hex.toml"), "-o", folder + "/out", "--set",
              "output=[]", "--set", "start.state='equilibrium'", "--set", "start.tolerance=1.1e-12",
              "--set", "start.max_iterations=100000000", "--set", "tissue.shape.cells=[30, 30, 30]"},
             folder);
@@ -313,6 +313,8 @@ TEST(Signals, end_the_search_for_equilibrium) {
   EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, stopped);
   EXPECT_EQ(read_summary(folder + "/out")["trouble"], "stopped by a signal");
   EXPECT_EQ(read_summary(folder + "/out")["frames"], 0);
+  EXPECT_NE(read_text(folder + "/first").find("start it anew, without --resume"),
+            std::string::npos);
 }
 
 TEST(Resume, of_two_ranks_that_were_signalled_goes_on_with_one) {
