@@ -5,6 +5,7 @@
 
 #include "base/box.h"
 #include "base/error.h"
+#include "cutting/cut_plane_reaches.h"
 #include "engine/apply_cut.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
@@ -99,9 +100,9 @@ void cut_volume(Simulation& s, CutStage& stage, const BladeSweep& sweep, bool is
   note_edit(s, edit, figures, global, stage.strokes.back());
 }
 
-// Takes up the tip's path in reference positions and cuts a piece of it once it is long enough.
-void cut_plane_piece(Simulation& s, CutStage& stage, const FrameSpan& span, bool is_last,
-                     GlobalState& global) {
+// In reference positions.
+void take_up_tip(const Simulation& s, const FrameSpan& span, const GlobalState& global,
+                 CutStage& stage) {
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
   std::vector<Vec3>& path = stage.plane_path;
   if (path.empty()) {
@@ -111,20 +112,47 @@ void cut_plane_piece(Simulation& s, CutStage& stage, const FrameSpan& span, bool
   const Location place = locate_nearest(s.mesh, global.x, tool.path.at(span.t1).translation);
   const Vec3 point = interpolate(s.mesh, place, s.mesh.X);
   if ((point - path.back()).norm() > 1e-9) path.push_back(point);
+}
+
+double length_of(const std::vector<Vec3>& path) {
   double length = 0;
   for (std::size_t k = 1; k < path.size(); ++k) length += (path[k] - path[k - 1]).norm();
-  const double h = mean_edge_length(s.mesh);
-  if (path.size() < 2 || length < (is_last ? 0.5 * h : plane_advance * h)) return;
+  return length;
+}
 
+// Along stage.plane_path, which then begins anew at the tip. One that may grow is tried again where
+// it is refused.
+void cut_reach(Simulation& s, CutStage& stage, bool may_grow, double h, GlobalState& global) {
+  std::vector<Vec3>& path = stage.plane_path;
   const PlaneCut cut =
       cut_plane(s.mesh, path, stage.plane_tip, held_nodes(s.holds, s.fixed), stage.plane);
-  if (cut.edit.is_empty() && !is_last) return;  // refused here: tried again with a longer path
+  if (cut.edit.is_empty() && may_grow) return;
   note_edit(s, cut.edit, cut.figures, global, stage.strokes.back());
   // A cut that ends before its path does, at nodes that are held, is not continued.
   const auto X = [&](std::int32_t node) { return s.mesh.X[static_cast<std::size_t>(node)]; };
   const bool is_continued = cut.tip >= 0 && (X(cut.tip) - path.back()).norm() < h;
   stage.plane_tip = is_continued ? cut.tip : -1;
   path = {is_continued ? X(cut.tip) : path.back()};
+}
+
+// Cuts the tip's path reach by reach, each once it is long enough or the next one begins. Legs
+// shorter than half an edge are left out: the next reach begins where they did.
+void cut_along_tip(Simulation& s, CutStage& stage, const FrameSpan& span, bool is_last,
+                   GlobalState& global) {
+  take_up_tip(s, span, global, stage);
+  const double h = mean_edge_length(s.mesh);
+  std::vector<std::vector<Vec3>> parts = reaches(stage.plane_path);
+  for (std::vector<Vec3>& part : parts) {
+    const bool may_grow = !is_last && &part == &parts.back();
+    part.front() = stage.plane_path.front();
+    const double length = length_of(part);
+    if (length >= (may_grow ? plane_advance : 0.5) * h) {
+      stage.plane_path = part;
+      cut_reach(s, stage, may_grow, h, global);
+    } else if (may_grow) {
+      stage.plane_path = part;
+    }
+  }
 }
 
 void end_stroke(const Simulation& s, CutStage& stage, double time) {
@@ -185,7 +213,7 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
   const bool is_last = leaves_tissue(tool, span, is_near, stage);
   const std::int64_t n_edits = stage.strokes.back().n_edits;
   if (s.mesh.dimension() == 2)
-    cut_plane_piece(s, stage, span, is_last, global);
+    cut_along_tip(s, stage, span, is_last, global);
   else
     cut_volume(s, stage, sweep, is_last, global);
   if (stage.strokes.back().n_edits > n_edits) locate_edge(s, global, sweep.after, stage);

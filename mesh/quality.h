@@ -32,7 +32,7 @@ MeshStatistics mesh_statistics(const Mesh& mesh);
 
 // Every broken invariant, one sentence each, empty if the mesh is sound: corner numbers in range,
 // no repeated corner, positive volume, finite positions, no unreferenced node, no facet of three
-// elements, no duplicate element. At most `most` sentences.
+// elements or with both on one side, no duplicate element. At most `most` sentences.
 std::vector<std::string> validate(const Mesh& mesh, int most = 20);
 
 // Number of pieces connected through facets, and the piece of each element.

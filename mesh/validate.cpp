@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "mesh/facet_sort.h"
+#include "mesh/facets.h"
 #include "mesh/quality.h"
 
 namespace trocar {
@@ -153,6 +154,34 @@ void check_node_sets(Report& report, const Mesh& mesh) {
   }
 }
 
+bool has_same_corners(const Mesh& mesh, std::int32_t e, std::int32_t f) {
+  const std::span<const std::int32_t> a = mesh.corners(e), b = mesh.corners(f);
+  return std::is_permutation(a.begin(), a.end(), b.begin(), b.end());
+}
+
+// The facet's nodes, outward; of a face from the lowest on.
+std::vector<std::int32_t> outward_nodes(const Mesh& mesh, const FacetSide& side) {
+  std::vector<std::int32_t> node;
+  for (const int corner : facet_corners(mesh.element_type[side.element], side.facet))
+    if (corner >= 0) node.push_back(mesh.corners(side.element)[corner]);
+  if (node.size() > 2)
+    std::rotate(node.begin(), std::min_element(node.begin(), node.end()), node.end());
+  return node;
+}
+
+// Both volumes are positive: across a facet its nodes run the other way round. A duplicate is
+// reported as that.
+void check_sides(Report& report, const Mesh& mesh, const FacetSide& a, const FacetSide& b) {
+  const std::vector<std::int32_t> node = outward_nodes(mesh, a);
+  if (node != outward_nodes(mesh, b) || has_same_corners(mesh, a.element, b.element)) return;
+  Vec3 place = Vec3::Zero();
+  for (const std::int32_t i : node) place += mesh.X[i] / static_cast<double>(node.size());
+  report.add("elements " + std::to_string(a.element) + " and " + std::to_string(b.element) +
+             " overlap: both lie on one side of the facet of nodes" + nodes_text(a.node) +
+             ", at (" + number(place.x()) + ", " + number(place.y()) + ", " + number(place.z()) +
+             ") m");
+}
+
 void check_facets(Report& report, const Mesh& mesh) {
   const std::vector<FacetSide> side = sorted_facet_sides(mesh);
   for (std::size_t begin = 0, end = 0; begin < side.size() && !report.is_full(); begin = end) {
@@ -164,6 +193,7 @@ void check_facets(Report& report, const Mesh& mesh) {
       report.add("the facet of nodes" + nodes_text(side[begin].node) + " is shared by " +
                  std::to_string(end - begin) + " elements: " + std::to_string(side[begin].element) +
                  ", " + std::to_string(side[begin + 1].element) + elements);
+    if (end - begin == 2) check_sides(report, mesh, side[begin], side[begin + 1]);
   }
 }
 

@@ -11,7 +11,6 @@ namespace trocar {
 
 namespace {
 
-constexpr double sharpest = 0.5;   // cosine of the bend at which a new reach begins
 constexpr double straight = 1e-9;  // sine of the turn of three points that count as one line
 
 double read_number(const std::string& text, const std::string& point) {
@@ -54,23 +53,6 @@ void add_arc(Cut2dPath& path, const Vec3& centre, const Vec3& to, double sense, 
   add_arc(path, centre, to, sense, depth - 1);
 }
 
-// Whether the segments a b and c d cross.
-bool do_cross(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const auto parts = [](const Vec3& from, const Vec3& to, const Vec3& p, const Vec3& q) {
-    return (turn(to - from, p - from) > 0) != (turn(to - from, q - from) > 0);
-  };
-  return parts(a, b, c, d) && parts(c, d, a, b);
-}
-
-bool begins_reach(const Cut2dPath& reach, const Vec3& next) {
-  if (reach.size() < 2) return false;
-  const Vec3 before = reach.back() - reach[reach.size() - 2], way = next - reach.back();
-  if (before.dot(way) <= sharpest * before.norm() * way.norm()) return true;
-  for (std::size_t k = 0; k + 2 < reach.size(); ++k)
-    if (do_cross(reach[k], reach[k + 1], reach.back(), next)) return true;
-  return false;
-}
-
 }  // namespace
 
 Cut2dPath read_path(const std::string& text) {
@@ -98,15 +80,6 @@ Cut2dPath read_arc(const std::string& text) {
   add_arc(path, centre, three[1], sense, 5);
   add_arc(path, centre, three[2], sense, 5);
   return path;
-}
-
-std::vector<Cut2dPath> reaches(const Cut2dPath& path) {
-  std::vector<Cut2dPath> result{{path.front()}};
-  for (std::size_t k = 1; k < path.size(); ++k) {
-    if (begins_reach(result.back(), path[k])) result.push_back({path[k - 1]});
-    result.back().push_back(path[k]);
-  }
-  return result;
 }
 
 }  // namespace trocar

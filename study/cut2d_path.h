@@ -14,9 +14,4 @@ Cut2dPath read_path(const std::string& text);
 // lie on one. Throws InputError.
 Cut2dPath read_arc(const std::string& text);
 
-// The path in parts that one edit can lay each, from end to end: no part bends by 60 degrees or
-// more at a point, or crosses itself. Where two legs compete for the same nodes, a cut in one edit
-// gets too few of them.
-std::vector<Cut2dPath> reaches(const Cut2dPath& path);
-
 }  // namespace trocar

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "base/error.h"
+#include "cutting/cut_plane_reaches.h"
 #include "cutting/cut_plane_subdivide.h"
 #include "mesh/quality.h"
-#include "study/cut2d_path.h"
 
 namespace trocar {
 

@@ -66,6 +66,32 @@ TEST(Validate, names_a_facet_of_three_elements) {
   EXPECT_EQ(validate(mesh), Sentences{"the facet of nodes 0 1 2 is shared by 3 elements: 0, 1, 2"});
 }
 
+TEST(Validate, names_elements_on_the_same_side_of_a_facet_with_its_place) {
+  Mesh tets = single_element(ElementType::tet4, {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 1}});
+  tets.X.emplace_back(0, 0, 2);
+  add_element(tets, ElementType::tet4, std::array{1, 2, 0, 4});
+  EXPECT_EQ(validate(tets), Sentences{"elements 0 and 1 overlap: both lie on one side of the facet "
+                                      "of nodes 0 1 2, at (1, 1, 0) m"});
+  Mesh triangles = single_element(ElementType::tri3, {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}});
+  triangles.X.emplace_back(1, 2, 0);
+  add_element(triangles, ElementType::tri3, std::array{0, 1, 3});
+  EXPECT_EQ(validate(triangles), Sentences{"elements 0 and 1 overlap: both lie on one side of the "
+                                           "facet of nodes 0 1, at (1, 0, 0) m"});
+  Mesh hexes = make_box(Vec3::Zero(), Vec3::Ones(), {1, 1, 1}, BoxElements::hex8);
+  const std::vector<std::int32_t> corner = hexes.corner_node;
+  std::array<std::int32_t, 8> higher{};
+  for (std::size_t a = 0; a < 8; ++a) {
+    higher[a] = corner[a];
+    if (a < 4) continue;
+    higher[a] = hexes.n_nodes();
+    const Vec3 above = hexes.X[corner[a]] + Vec3(0, 0, 1);
+    hexes.X.push_back(above);
+  }
+  add_element(hexes, ElementType::hex8, higher);
+  ASSERT_EQ(validate(hexes).size(), 1u);
+  EXPECT_EQ(validate(hexes)[0].substr(0, 31), "elements 0 and 1 overlap: both ");
+}
+
 TEST(Validate, names_duplicate_elements_in_any_order_of_their_corners) {
   Mesh mesh = single_element(ElementType::tet4, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   add_element(mesh, ElementType::tet4, std::array{1, 2, 0, 3});

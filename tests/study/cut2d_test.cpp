@@ -45,24 +45,6 @@ TEST(Cut2dPath, arc_keeps_its_distance_from_the_centre) {
   }
 }
 
-TEST(Cut2dPath, new_reaches_begin_at_sharp_bends_and_where_the_path_would_cross_itself) {
-  const auto sizes = [](const char* text) {
-    std::vector<std::size_t> result;
-    for (const Cut2dPath& reach : reaches(read_path(text))) result.push_back(reach.size());
-    return result;
-  };
-  using Sizes = std::vector<std::size_t>;
-  EXPECT_EQ(sizes("0,0 10,0"), Sizes{2});
-  EXPECT_EQ(sizes("0,0 10,0 16,10"), Sizes{3});             // 59 degrees
-  EXPECT_EQ(sizes("0,0 10,0 15,10 16,30"), (Sizes{2, 3}));  // 63, then 24
-  // An octagon's sides, 45 degrees each, and on across the first one.
-  EXPECT_EQ(sizes("0,0 9,0 14,5 14,12 9,17 2,17 -3,12 -3,5 2,1 8,-7"), (Sizes{9, 2}));
-  const Cut2dPath path = read_path("0,0 30,0 10,5 30,10");
-  const std::vector<Cut2dPath> parts = reaches(path);
-  ASSERT_EQ(parts.size(), 3u);
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(parts[k], (Cut2dPath{path[k], path[k + 1]}));
-}
-
 // In one edit these opened 1, 12 and 9 edges in the robust mode.
 TEST(Cut2dTrial, sharp_bend_takes_no_edges_from_its_legs) {
   const auto edges = [](int configuration, const std::string& path) {
