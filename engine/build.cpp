@@ -54,17 +54,17 @@ FixedMask fixed_mask(const std::string& components) {
 // plane.
 void build_supports(Simulation& s) {
   s.fixed.assign(s.mesh.X.size(), s.mesh.dimension() == 2 ? fixed_mask("z") : FixedMask{0});
-  for (const SceneSupport& support : s.scene.supports) {
+  for (std::size_t k = 0; k < s.scene.supports.size(); ++k) {
+    const SceneSupport& support = s.scene.supports[k];
+    s.holds.paths.emplace_back(support.path);
     const NodeSet* set = find_node_set(s.mesh, support.region);
     if (support.path.empty()) {
       for (const std::int32_t node : set->node)
         s.fixed[static_cast<std::size_t>(node)] |= fixed_mask(support.fix);
       continue;
     }
-    const auto path = static_cast<std::int32_t>(s.holds.paths.size());
-    s.holds.paths.emplace_back(support.path);
     for (const std::int32_t node : set->node)
-      s.holds.holds.push_back({.node = node, .support = path});
+      s.holds.holds.push_back({.node = node, .support = static_cast<std::int32_t>(k)});
   }
   const auto by_node = [](const Hold& a, const Hold& b) { return a.node < b.node; };
   std::stable_sort(s.holds.holds.begin(), s.holds.holds.end(), by_node);
@@ -312,7 +312,7 @@ void rebuild_topology(Simulation& s) {
   s.scratch = make_scratch(s.model);
   s.multirate = find_multirate(s);
   begin_sleep(s);
-  if (s.energy) s.scratch.damping_work.assign(static_cast<std::size_t>(s.model.n_owned), 0.0);
+  if (s.energy) keep_works(s.model, s.scratch);
   s.surface = boundary_surface(s.mesh);
   s.n_pieces = count_pieces(s.mesh);
   s.altitude = least_altitudes(s);
@@ -326,6 +326,7 @@ void rebuild_topology(Simulation& s) {
 void follow_model(Simulation& s) {
   s.rest_step = s.communicator->all_min(s.least_element_step.value());
   localise_holds(s.holds, s.part);
+  if (s.energy) localise_supports(s.scene.supports, s.mesh, s.part, s.energy->support_forces);
   // A component r of displacements strains tetrahedra by at most 4 sqrt(3) r / h, hexahedra at
   // their centre by 6 r / h, with the least altitude h.
   std::vector<double> u = std::move(s.look.u);

@@ -10,7 +10,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 7;
+constexpr std::uint32_t checkpoint_format = 8;
 
 static void visit(Saver& a, Mesh& mesh) {
   std::vector<std::byte> bytes = mesh_to_bytes(mesh);
@@ -88,7 +88,7 @@ static void visit(Archive& a, EnergyState& e) {
 }
 template <class Archive>
 static void visit(Archive& a, EnergyWorks& w) {
-  a(w.contact, w.holds, w.blade, w.damping, w.cut);
+  a(w.contact, w.holds, w.blade, w.damping, w.viscous, w.cut);
 }
 template <class Archive>
 static void visit(Archive& a, EnergyMemory& m) {
@@ -98,7 +98,7 @@ template <class Archive>
 static void visit(Archive& a, FrameRow& r) {
   a(r.frame, r.step, r.n_substeps, r.time, r.dt, r.stable_step, r.least_J, r.asleep, r.energy,
     r.works, r.energy_error, r.wound_width, r.wound_width_mean, r.n_contacts, r.n_held, r.n_edits,
-    r.n_pieces, r.tools, r.seconds);
+    r.n_pieces, r.tools, r.support_forces, r.seconds);
 }
 template <class Archive>
 static void visit(Archive& a, FrameLog& l) {

@@ -49,12 +49,24 @@ void add_nodal_energies(const RankBody& body, std::vector<double>& kinetic,
 
 void open_energy_ledger(Simulation& s) {
   s.energy = std::make_unique<EnergyLedger>();
-  s.scratch.damping_work.assign(static_cast<std::size_t>(s.model.n_owned), 0.0);
+  keep_works(s.model, s.scratch);
+  localise_supports(s.scene.supports, s.mesh, s.part, s.energy->support_forces);
   s.energy->memory.initial = mechanical_energy(s).sum();
+}
+
+// What viscous forces do in the half step from where works stand to the end of the last one.
+static double last_viscous_work(const Simulation& s) {
+  std::vector<double> work(s.scratch.viscous_work.size());
+  for (std::size_t i = 0; i < work.size(); ++i)
+    work[i] = s.state.last_dt / 2 *
+              velocity_of(s.state, static_cast<std::int32_t>(i))
+                  .dot(Eigen::Map<const Vec3>(s.scratch.viscous_force.data() + 3 * i));
+  return sum_over_ranks(work, *s.communicator);
 }
 
 EnergyState mechanical_energy(Simulation& s) {
   if (!s.scratch.has_force) compute_force(s.model, s.state, s.scratch);
+  find_viscous_force(s.model, s.state, s.scratch);
   if (s.multirate) s.scratch.has_force = false;  // as they are refined
   // After a cut the last step may be too long for the substeps of new small elements.
   if (s.state.last_dt > 0 && s.state.last_dt <= s.watch.stable_step)
@@ -76,7 +88,9 @@ void begin_frame_work(Simulation& s) {
   ledger.contact_work.assign(s.contact ? s.contact->set.local.size() : 0, 0.0);
   ledger.hold_work.assign(s.holds.owned.size(), 0.0);
   ledger.blade_work.assign(s.drag.node.size(), 0.0);
-  std::fill(s.scratch.damping_work.begin(), s.scratch.damping_work.end(), 0.0);
+  for (std::vector<double>* work : {&s.scratch.damping_work, &s.scratch.viscous_work})
+    std::fill(work->begin(), work->end(), 0.0);
+  forget_support_forces(ledger.support_forces);
 }
 
 void note_velocities(Simulation& s, double dt) {
@@ -97,6 +111,7 @@ void note_velocities(Simulation& s, double dt) {
 void add_work(Simulation& s) {
   EnergyLedger& ledger = *s.energy;
   const double half_dt = ledger.dt_mid / 2;
+  add_support_forces(s.scratch.force, ledger.support_forces);
   for (std::size_t k = 0; k < ledger.contact_work.size(); ++k) {
     const ContactStage& contact = *s.contact;
     const Vec3 v = ledger.contact_velocity[k] + velocity_of(s.state, contact.set.local[k]);
@@ -121,12 +136,14 @@ void close_frame_work(Simulation& s) {
   ledger.memory.works.holds += sum_over_ranks(ledger.hold_work, *s.communicator);
   ledger.memory.works.blade += sum_over_ranks(ledger.blade_work, *s.communicator);
   ledger.memory.works.damping -= sum_over_ranks(s.scratch.damping_work, *s.communicator);
+  ledger.memory.works.viscous += sum_over_ranks(s.scratch.viscous_work, *s.communicator);
 }
 
 void report_energies(Simulation& s, FrameRow& row) {
   EnergyLedger& ledger = *s.energy;
   row.energy = mechanical_energy(s);
   row.works = ledger.memory.works;
+  row.works.viscous += last_viscous_work(s);
   row.energy_error = row.energy.sum() - ledger.memory.initial - row.works.sum();
   const double stored = row.energy.strain + row.energy.hourglass;
   ledger.memory.largest_stored = std::max(ledger.memory.largest_stored, stored);

@@ -1,11 +1,12 @@
 // Where the body's energy comes from and goes to: the energies that it holds, and the work that
-// contact, grasped or moved nodes, blades and damping have done on it since the start. Only for
-// scenes with a metrics output.
+// contact, grasped or moved nodes, blades and damping have done on it since the start; and what the
+// supports bear. Only for scenes with a metrics output.
 //
 // Central differences obey m (v+ - v-) / dt + alpha m v = f exactly at every node, v = (v+ + v-)/2,
 // so that F·v dt summed over the steps is the work of a force F to rounding. Kinetic energy and
 // works then belong to the middle of the last step; sum dt/2 v-·f carries the kinetic energy to its
-// end, where strain and gravity are evaluated (numerics 1.1).
+// end, where strain and gravity are evaluated (numerics 1.1). The same carries the work of viscous
+// forces there; strain energy is that of the laws without relaxation.
 #pragma once
 
 #include <vector>
@@ -13,6 +14,7 @@
 #include "base/exact_sum.h"
 #include "base/vec.h"
 #include "engine/frame_log.h"
+#include "engine/support_forces.h"
 #include "solver/rank_body.h"
 
 namespace trocar {
@@ -35,6 +37,7 @@ struct EnergyLedger {
   std::vector<Vec3> contact_velocity, hold_velocity, blade_velocity;
   std::vector<double> contact_work, hold_work, blade_work;
   double dt_mid = 0;  // between the two velocities of the step [s]
+  SupportForces support_forces;
 };
 
 // Starts the ledger with what the body holds now. Collective.

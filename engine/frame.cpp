@@ -93,6 +93,7 @@ void update_force(Simulation& s, double dt) {
   if (!s.scratch.has_force) find_force(s.model, s.neighbours, s.state, s.scratch);
   s.scratch.has_force = false;  // from here on it is added to
   refine_forces(s, dt);
+  find_viscous_force(s.model, s.state, s.scratch);
 }
 
 void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {

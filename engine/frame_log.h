@@ -28,8 +28,12 @@ struct EnergyWorks {
   double holds = 0;    // grasped nodes and moving supports
   double blade = 0;    // the resistance to blades
   double damping = 0;  // mass-proportional damping; not positive
-  double cut = 0;      // change of the energy held at edits of the mesh
-  double sum() const { return contact + holds + blade + damping + cut; }
+  // What relaxation adds to the laws' stress. Strain energy is that of the laws alone: loading what
+  // has relaxed stores more of it than the load does work, and this is the difference; around a
+  // cycle it is what viscosity takes, negative.
+  double viscous = 0;
+  double cut = 0;  // change of the energy held at edits of the mesh
+  double sum() const { return contact + holds + blade + damping + viscous + cut; }
 };
 
 struct FrameRow {
@@ -44,7 +48,8 @@ struct FrameRow {
   double wound_width = 0, wound_width_mean = 0;  // [m] distance of partner nodes, largest and mean
   std::int64_t n_contacts = 0, n_held = 0, n_edits = 0, n_pieces = 1;
   std::vector<ToolRow> tools;
-  double seconds = 0;  // wall time of the frame without waiting
+  std::vector<Vec3> support_forces;  // of the tissue on each, mean over the frame; with metrics [N]
+  double seconds = 0;                // wall time of the frame without waiting
 };
 
 // An edit as the recording needs it: in front of which frame it happened.

@@ -13,21 +13,26 @@ namespace trocar {
 
 namespace {
 
-// Mean over the frame of what the tissue does to each tool: contact, held nodes, the blade's
-// resistance.
+Vec3 over_ranks(ExactSum3& sum, const Communicator& communicator) {
+  for (ExactSum& component : sum) component.all_sum(communicator);
+  return {sum[0].value(), sum[1].value(), sum[2].value()};
+}
+
+// Mean over the frame of what the tissue does to each tool, by contact, held nodes and the blade's
+// resistance, and to each support.
 void sum_forces(Simulation& s, const FrameSpan& span, FrameRow& row) {
-  std::vector<ExactSum3> sums(s.tools.size());
+  std::vector<ExactSum3> sums(s.tools.size()), on_support(s.scene.supports.size());
   if (s.contact) sum_contact_reactions(*s.contact, span.n_substeps, sums);
-  sum_hold_reactions(s.holds, span.n_substeps, sums);
+  sum_hold_reactions(s.holds, span.n_substeps, sums, on_support);
   sum_drag_reactions(s.drag, span.n_substeps, sums);
   row.tools.resize(s.tools.size());
   for (std::size_t k = 0; k < s.tools.size(); ++k) {
     row.tools[k].position = s.tools[k].path.at(span.t1).translation;
-    for (std::size_t i = 0; i < 3; ++i) {
-      sums[k][i].all_sum(*s.communicator);
-      row.tools[k].force[static_cast<Eigen::Index>(i)] = sums[k][i].value();
-    }
+    row.tools[k].force = over_ranks(sums[k], *s.communicator);
   }
+  if (!s.energy) return;
+  sum_support_forces(s.energy->support_forces, span.n_substeps, on_support);
+  for (ExactSum3& sum : on_support) row.support_forces.push_back(over_ranks(sum, *s.communicator));
 }
 
 // Partner nodes lay on each other when they were cut apart: their distance is how far the wound

@@ -115,13 +115,15 @@ void forget_hold_reactions(Holds& holds) {
   std::fill(holds.reaction_sum.begin(), holds.reaction_sum.end(), Vec3::Zero());
 }
 
-void sum_hold_reactions(Holds& holds, std::int64_t n_substeps, std::span<ExactSum3> force) {
+void sum_hold_reactions(Holds& holds, std::int64_t n_substeps, std::span<ExactSum3> on_tool,
+                        std::span<ExactSum3> on_support) {
   for (std::size_t k = 0; k < holds.owned.size(); ++k) {
     const Hold& hold = holds.holds[static_cast<std::size_t>(holds.owned[k])];
     const Vec3 mean = holds.reaction_sum[k] / static_cast<double>(n_substeps);
     holds.reaction_sum[k] = Vec3::Zero();
-    if (hold.tool < 0) continue;
-    add(-mean, force[static_cast<std::size_t>(hold.tool)]);  // the tissue pulls back on the tool
+    // The tissue pulls back on what holds it.
+    add(-mean, hold.tool >= 0 ? on_tool[static_cast<std::size_t>(hold.tool)]
+                              : on_support[static_cast<std::size_t>(hold.support)]);
   }
 }
 

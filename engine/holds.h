@@ -14,8 +14,8 @@
 
 namespace trocar {
 
-// A node held by tool `tool` at `offset` in the tool's frame, or moved by support path `support`.
-// [m]
+// A node held by tool `tool` at `offset` in the tool's frame, or moved by support `support` of the
+// scene. [m]
 struct Hold {
   std::int32_t node = 0;  // global
   std::int32_t tool = -1;
@@ -25,7 +25,7 @@ struct Hold {
 
 struct Holds {
   std::vector<Hold> holds;                 // ascending node, a node once
-  std::vector<DisplacementPath> paths;     // of moving supports
+  std::vector<DisplacementPath> paths;     // (n_supports) none of supports at rest
   std::vector<std::int32_t> owned;         // positions in `holds` of this rank's nodes
   std::vector<PrescribedNode> prescribed;  // (owned.size())
   std::vector<Vec3> reaction_sum;          // (owned.size()) over the substeps of this frame [N]
@@ -54,8 +54,9 @@ void aim_holds(Holds& holds, std::span<const Tool> tools, std::span<const Vec3> 
 void add_hold_reactions(Holds& holds);
 // Of a frame that is done again.
 void forget_hold_reactions(Holds& holds);
-// Mean force of the tissue on each tool through its holds, over n substeps; adds to force
-// (n_tools), exact in any order.
-void sum_hold_reactions(Holds& holds, std::int64_t n_substeps, std::span<ExactSum3> force);
+// Mean force of the tissue on each tool and moving support through its holds, over n substeps; adds
+// to on_tool (n_tools) and on_support (n_supports), exact in any order.
+void sum_hold_reactions(Holds& holds, std::int64_t n_substeps, std::span<ExactSum3> on_tool,
+                        std::span<ExactSum3> on_support);
 
 }  // namespace trocar

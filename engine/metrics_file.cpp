@@ -18,16 +18,19 @@ std::string csv_text(const std::string& text) {
 
 }  // namespace
 
-MetricsFile::MetricsFile(const std::string& file, std::span<const Tool> tools)
+MetricsFile::MetricsFile(const std::string& file, std::span<const Tool> tools,
+                         std::span<const std::string> supports)
     : file_(file), stream_(file) {
   stream_ << "time_s,frame,step,substeps,dt_s,stable_step_s,least_J,kinetic_J,strain_J,hourglass_J,"
-             "gravity_J,contact_work_J,hold_work_J,blade_work_J,damping_work_J,cut_energy_J,"
-             "energy_error_J,contacts,held_nodes,cut_edits,pieces,wound_width_m,wound_width_mean_m,"
-             "frame_"
-             "seconds";
+             "gravity_J,contact_work_J,hold_work_J,blade_work_J,damping_work_J,viscous_work_J,"
+             "cut_energy_J,energy_error_J,contacts,held_nodes,cut_edits,pieces,wound_width_m,"
+             "wound_width_mean_m,frame_seconds";
   for (const Tool& tool : tools)
     for (const char* column : {"_x_m", "_y_m", "_z_m", "_force_x_N", "_force_y_N", "_force_z_N"})
       stream_ << ',' << csv_text(tool.name + column);
+  for (const std::string& support : supports)
+    for (const char* column : {"_force_x_N", "_force_y_N", "_force_z_N"})
+      stream_ << ',' << csv_text("support_" + support + column);
   stream_ << '\n';
   check();
 }
@@ -37,7 +40,7 @@ void MetricsFile::add(const FrameRow& row) {
   for (const double value :
        {row.dt, row.stable_step, row.least_J, row.energy.kinetic, row.energy.strain,
         row.energy.hourglass, row.energy.gravity, row.works.contact, row.works.holds,
-        row.works.blade, row.works.damping, row.works.cut, row.energy_error})
+        row.works.blade, row.works.damping, row.works.viscous, row.works.cut, row.energy_error})
     stream_ << ',' << number_text(value);
   stream_ << ',' << row.n_contacts << ',' << row.n_held << ',' << row.n_edits << ','
           << row.n_pieces;
@@ -46,6 +49,8 @@ void MetricsFile::add(const FrameRow& row) {
   for (const ToolRow& tool : row.tools)
     for (const Vec3& vector : {tool.position, tool.force})
       for (int i = 0; i < 3; ++i) stream_ << ',' << number_text(vector[i]);
+  for (const Vec3& force : row.support_forces)
+    for (int i = 0; i < 3; ++i) stream_ << ',' << number_text(force[i]);
   stream_ << '\n';
   check();
 }

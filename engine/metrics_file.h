@@ -13,7 +13,8 @@ namespace trocar {
 class MetricsFile {
  public:
   // Throws MachineError if the file can't be written (here and below).
-  MetricsFile(const std::string& file, std::span<const Tool> tools);
+  MetricsFile(const std::string& file, std::span<const Tool> tools,
+              std::span<const std::string> supports);
   void add(const FrameRow& row);
 
  private:

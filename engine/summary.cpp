@@ -115,6 +115,19 @@ Json tools_json(const Simulation& s) {
   return tools;
 }
 
+// Rows from before a resumed run was asked for metrics know of none.
+Json supports_json(const Simulation& s) {
+  Json supports;
+  const std::vector<std::string> names = support_names(s.scene.supports);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    double largest = 0;
+    for (const FrameRow& row : s.log.rows)
+      if (!row.support_forces.empty()) largest = std::max(largest, row.support_forces[k].norm());
+    supports[names[k]] = {{"largest_force_N", largest}};
+  }
+  return supports;
+}
+
 Json phases_json(const Simulation& s, const RunTimes& times) {
   Json phases = {{"set-up", times.setup_seconds}};
   for (const auto& [name, seconds] : s.timers.totals()) phases[name] = seconds;
@@ -146,7 +159,8 @@ Json energies_json(const Simulation& s, const FrameRow& last) {
     error = std::max(error, std::abs(row.energy_error));
     const EnergyState& e = row.energy;
     turned_over = std::max({turned_over, e.kinetic, e.strain, std::abs(e.gravity),
-                            std::abs(row.works.contact), std::abs(row.works.holds)});
+                            std::abs(row.works.contact), std::abs(row.works.holds),
+                            std::abs(row.works.blade)});
   }
   const EnergyState& e = last.energy;
   const EnergyWorks& w = last.works;
@@ -158,6 +172,7 @@ Json energies_json(const Simulation& s, const FrameRow& last) {
           {"hold_work", w.holds},
           {"blade_work", w.blade},
           {"damping_work", w.damping},
+          {"viscous_work", w.viscous},
           {"cut", w.cut},
           {"largest_balance_error", error},
           {"largest_balance_error_share", turned_over > 0 ? error / turned_over : 0},
@@ -217,6 +232,7 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   if (s.sleep) j["share_asleep_mean"] = mean_share_asleep(s.log.rows);
   j["least_det_F"] = {{"value", s.log.least_J}, {"element", s.log.least_J_element}};
   j["instruments"] = tools_json(s);
+  if (s.energy) j["supports"] = supports_json(s);
   j["wound"] = {{"partner_nodes", s.duplicate_node.size()},
                 {"largest_width_m", wound},
                 {"width_at_end_m", last.wound_width}};

@@ -66,13 +66,6 @@ void look_at_tools(std::span<const Tool> tools, const Vec3& x, const FrameSpan& 
   }
 }
 
-// Of the moving support of this number (Holds::paths).
-const std::string& region_of_path(const Scene& scene, std::int32_t number) {
-  auto support = scene.supports.begin();
-  while (support->path.empty() || number-- > 0) ++support;
-  return support->region;
-}
-
 void look_at_holds(const Simulation& s, std::span<const Vec3> all, const Vec3& x,
                    const FrameSpan& span, Choice& choice) {
   for (const Hold& hold : s.holds.holds) {
@@ -82,8 +75,9 @@ void look_at_holds(const Simulation& s, std::span<const Vec3> all, const Vec3& x
       found.name = "\"" + tool.name + "\"";
       found.way = tool.path.travel(span.t0, span.t1, 0);
     } else {
-      const DisplacementPath& path = s.holds.paths[static_cast<std::size_t>(hold.support)];
-      found.name = "the support of \"" + region_of_path(s.scene, hold.support) + "\"";
+      const auto support = static_cast<std::size_t>(hold.support);
+      const DisplacementPath& path = s.holds.paths[support];
+      found.name = "the support of \"" + s.scene.supports[support].region + "\"";
       found.way = (path.at(span.t1) - path.at(span.t0)).norm();
     }
     choice.offer(std::move(found));

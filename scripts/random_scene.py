@@ -3,7 +3,7 @@ import itertools
 import math
 import random
 
-MESH_FILE = "mesh.msh"
+MESH_FILE, METRICS_FILE, RECORDING_FILE = "mesh.msh", "metrics.csv", "run.trocar"
 
 
 def millimetres(v):
@@ -207,4 +207,7 @@ def scene(seed):
         parts.append('[start]\nstate = "equilibrium"\n')
     add = plane_instrument if family == "plane" else instrument
     parts += [add(draw, f"i{k}", size, duration) for k in range(draw.randint(0, 4))]
+    parts.append(f'[[output]]\nkind = "metrics"\nfile = "{METRICS_FILE}"\n')
+    if draw.random() < 0.5:
+        parts.append(f'[[output]]\nkind = "recording"\nfile = "{RECORDING_FILE}"\n')
     return "\n".join(parts), mesh

@@ -98,12 +98,15 @@ Vec3 middle_velocity(const Model& model, const Coefficients& c, const State& sta
   return v;
 }
 
-// alpha v·M v dt_m with v = (v+ + v-) / 2; call before the velocities change.
-void add_damping_work(const Model& model, const Coefficients& c, const State& state,
-                      Scratch& scratch) {
+// alpha v·M v dt_m and f·v dt_m of viscous forces, with v = (v+ + v-) / 2; call before the
+// velocities change.
+void add_works(const Model& model, const Coefficients& c, const State& state, Scratch& scratch) {
+  const auto v_of = [&](std::int64_t i) { return middle_velocity(model, c, state, scratch, i); };
+  for (std::int64_t i = 0; i < std::ssize(scratch.viscous_work); ++i)
+    scratch.viscous_work[i] +=
+        Eigen::Map<const Vec3>(scratch.viscous_force.data() + 3 * i).dot(v_of(i)) * c.dt_m;
   const double alpha = model.options.mass_damping;
   if (scratch.damping_work.empty() || alpha == 0) return;
-  const auto v_of = [&](std::int64_t i) { return middle_velocity(model, c, state, scratch, i); };
   for (std::int64_t i = 0; i < model.n_owned; ++i)
     scratch.damping_work[i] += alpha * model.mass[i] * v_of(i).squaredNorm() * c.dt_m;
   const MassClusters& clusters = model.clusters;
@@ -148,7 +151,7 @@ void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> p
   }
   couple_clusters(model, c, dt, state, prescribed, scratch);
   for (PrescribedNode& node : prescribed) add_reaction(model, c, dt, state, scratch, node);
-  add_damping_work(model, c, state, scratch);
+  add_works(model, c, state, scratch);
   integrate_nodes(model, c, dt, scratch, state);
   // Exactly there, without the rounding of u + dt (u_next - u) / dt.
   for (const PrescribedNode& node : prescribed)

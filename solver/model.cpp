@@ -364,6 +364,14 @@ Scratch make_scratch(const Model& model) {
   return scratch;
 }
 
+void keep_works(const Model& model, Scratch& scratch) {
+  const auto n_owned = static_cast<std::size_t>(model.n_owned);
+  scratch.damping_work.resize(n_owned);
+  if (model.n_history == 0) return;
+  scratch.viscous_work.resize(n_owned);
+  scratch.viscous_force.resize(3 * n_owned);
+}
+
 void fit_scratch(const Model& model, Scratch& scratch) {
   const auto n_owned = static_cast<std::size_t>(model.n_owned);
   with_sums(model, scratch,
@@ -371,7 +379,7 @@ void fit_scratch(const Model& model, Scratch& scratch) {
   scratch.volume_change.resize(static_cast<std::size_t>(model.averages.n_lanes));
   scratch.force.resize(3 * n_owned);
   scratch.has_force = false;
-  if (!scratch.damping_work.empty()) scratch.damping_work.resize(n_owned);
+  if (!scratch.damping_work.empty()) keep_works(model, scratch);
   scratch.viscous.resize(model.blocks.size());
 }
 

@@ -186,18 +186,24 @@ struct Scratch {
   // Whether `force` is known to be find_force's of the present displacement, so that the next step
   // need not compute it; whoever moves nodes or adds to `force` says no.
   bool has_force = false;
-  // Empty, or (n_owned): energy that mass damping takes from each node, added up by integrate [J].
-  std::vector<double> damping_work;
+  // Empty, or (n_owned): what keep_works asks for, added up by integrate [J].
+  std::vector<double> damping_work;   // energy that mass damping takes from each node
+  std::vector<double> viscous_work;   // work of `viscous_force` on it; empty without viscosity
+  std::vector<double> viscous_force;  // (n_owned * 3) of find_viscous_force, or empty [N]
   // Of held nodes in clusters, and room for sums of clusters; used by integrate.
   std::vector<GivenAcceleration> given;
   std::vector<double> cluster_sums;
   std::vector<double> uncoupled;     // force, while predict couples clusters
   std::vector<ViscousStep> viscous;  // (block lists) of the step that is being computed
+  bool is_elastic = false;           // leaves relaxation out and the history alone
   // Empty, or (blocks through all lists) 1: all its nodes have zero velocity and nobody asks for
   // their forces, so that it is left out.
   std::vector<std::uint8_t> is_asleep;
 };
 Scratch make_scratch(const Model& model);
+// From now on integrate adds up what mass damping takes from each owned node, and what relaxation
+// does if there is any.
+void keep_works(const Model& model, Scratch& scratch);
 // After an edit: what the next step reads of places that are new is zero.
 void fit_scratch(const Model& model, Scratch& scratch);
 

@@ -34,7 +34,7 @@ void add_list(const Model& model, const ElementBlocks& blocks, std::int64_t firs
       model, blocks, state, first, n,
       [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
         if (watch.all != nullptr) watch.all->look(model, blocks, kernels, task, block, watch.least);
-        if (blocks.prony.empty())
+        if (blocks.prony.empty() || scratch.is_elastic)
           kernels.law.stress(task);
         else
           kernels.law.viscous_stress(task, scratch.viscous[&blocks - model.blocks.data()],
@@ -155,6 +155,17 @@ void compute_border_force(const Model& model, State& state, Scratch& scratch, El
 void compute_force(const Model& model, State& state, Scratch& scratch) {
   compute_inside_force(model, state, scratch);
   compute_border_force(model, state, scratch);
+}
+
+void find_viscous_force(const Model& model, State& state, Scratch& scratch) {
+  if (scratch.viscous_force.empty()) return;
+  scratch.is_elastic = true;
+  scratch.force.swap(scratch.viscous_force);
+  compute_force(model, state, scratch);
+  scratch.force.swap(scratch.viscous_force);
+  scratch.is_elastic = false;
+  for (std::size_t k = 0; k < scratch.force.size(); ++k)
+    scratch.viscous_force[k] = scratch.force[k] - scratch.viscous_force[k];
 }
 
 std::size_t memory_bytes(const Model& model, const Scratch& scratch) {

@@ -32,6 +32,10 @@ void compute_inside_force(const Model& model, State& state, Scratch& scratch,
 void compute_border_force(const Model& model, State& state, Scratch& scratch,
                           ElementWatch* watch = nullptr);
 
+// scratch.viscous_force: what the present scratch.force of compute_force is more than the force
+// that the laws without relaxation would give. Does nothing unless keep_works asked for it.
+void find_viscous_force(const Model& model, State& state, Scratch& scratch);
+
 // A node whose motion is given: an instrument holds it.
 struct PrescribedNode {
   std::int32_t node = 0;         // local, owned

@@ -117,7 +117,6 @@ TEST(Equilibrium, keeps_the_first_frames_at_rest) {
     EXPECT_LT(calm.energy.kinetic, 1e-10 * calm.energy.strain);
     EXPECT_GT(wild.energy.kinetic + wild.energy.strain, 0.1 * calm.energy.strain);
     EXPECT_LT(largest_difference(rest->s->state.u, u), 1e-5 * largest_of(u));
-    // What is out of balance does work that the branches of the material take without a ledger.
     EXPECT_LT(std::abs(calm.energy_error), 1e-6 * calm.energy.strain);
   }
 }

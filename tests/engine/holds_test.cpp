@@ -219,15 +219,16 @@ TEST(HoldReactions, are_the_mean_over_the_substeps_with_the_sign_of_the_tissue_o
       c.holds.prescribed[k].reaction = Vec3(step, 10.0 * static_cast<double>(k), 0.5);
     add_hold_reactions(c.holds);
   }
-  std::vector<ExactSum3> force(2);
-  sum_hold_reactions(c.holds, 4, force);
-  EXPECT_EQ(sum_of(force[1][0]),
-            -2 * (1 + 2 + 3 + 4) / 4.0);  // two nodes; the support's force is nobody's
+  std::vector<ExactSum3> force(2), on_support(1);
+  sum_hold_reactions(c.holds, 4, force, on_support);
+  EXPECT_EQ(sum_of(force[1][0]), -2 * (1 + 2 + 3 + 4) / 4.0);  // two nodes
+  EXPECT_EQ(sum_of(on_support[0][0]), -(1 + 2 + 3 + 4) / 4.0);
+  EXPECT_EQ(sum_of(on_support[0][1]), -20);
   EXPECT_EQ(sum_of(force[1][1]), -10);
   EXPECT_EQ(sum_of(force[1][2]), -1);
   EXPECT_EQ(sum_of(force[0][0]), 0);
   std::vector<ExactSum3> again(2);
-  sum_hold_reactions(c.holds, 4, again);
+  sum_hold_reactions(c.holds, 4, again, on_support);
   EXPECT_EQ(sum_of(again[1][0]), 0);
 }
 

@@ -40,27 +40,31 @@ std::vector<Tool> two_tools(const std::string& first) {
   return {make_tool(probe, {}, 1e-3), make_tool(scalpel, {}, 1e-3)};
 }
 
+const std::vector<std::string> supports = {"z-"};
+
 FrameRow example_row() {
-  FrameRow row{.frame = 3,
-               .step = 120,
-               .n_substeps = 40,
-               .time = 0.1,
-               .dt = 1.0 / 1200,
-               .stable_step = 1e-3,
-               .least_J = 0.9,
-               .energy = {.kinetic = 1, .strain = 2, .hourglass = 3, .gravity = 21},
-               .works = {.contact = 22, .holds = 23, .blade = 24, .damping = -25, .cut = 26},
-               .energy_error = 27,
-               .wound_width = 4,
-               .wound_width_mean = 5,
-               .n_contacts = 6,
-               .n_held = 7,
-               .n_edits = 8,
-               .n_pieces = 28,
-               .seconds = 9};
+  FrameRow row{
+      .frame = 3,
+      .step = 120,
+      .n_substeps = 40,
+      .time = 0.1,
+      .dt = 1.0 / 1200,
+      .stable_step = 1e-3,
+      .least_J = 0.9,
+      .energy = {.kinetic = 1, .strain = 2, .hourglass = 3, .gravity = 21},
+      .works = {.contact = 22, .holds = 23, .blade = 24, .damping = -25, .viscous = -29, .cut = 26},
+      .energy_error = 27,
+      .wound_width = 4,
+      .wound_width_mean = 5,
+      .n_contacts = 6,
+      .n_held = 7,
+      .n_edits = 8,
+      .n_pieces = 28,
+      .seconds = 9};
   row.tools.resize(2);
   row.tools[0] = {.position = Vec3(10, 11, 12), .force = Vec3(13, 14, 15)};
   row.tools[1] = {.position = Vec3(16, 17, 18), .force = Vec3(19, 20, 1.0 / 3)};
+  row.support_forces = {Vec3(30, 31, 32)};
   return row;
 }
 
@@ -68,7 +72,7 @@ TEST(MetricsFile, has_each_value_of_a_row_under_its_column) {
   const TestFolder folder;
   const std::string file = folder.file("m.csv");
   {
-    MetricsFile metrics(file, two_tools("probe"));
+    MetricsFile metrics(file, two_tools("probe"), supports);
     metrics.add(example_row());
   }
   const std::vector<std::string> text = lines(read_text(file));
@@ -96,6 +100,7 @@ TEST(MetricsFile, has_each_value_of_a_row_under_its_column) {
                                                                 {"hold_work_J", 23},
                                                                 {"blade_work_J", 24},
                                                                 {"damping_work_J", -25},
+                                                                {"viscous_work_J", -29},
                                                                 {"cut_energy_J", 26},
                                                                 {"energy_error_J", 27},
                                                                 {"wound_width_m", 4},
@@ -105,6 +110,9 @@ TEST(MetricsFile, has_each_value_of_a_row_under_its_column) {
                                                                 {"cut_edits", 8},
                                                                 {"pieces", 28},
                                                                 {"frame_seconds", 9},
+                                                                {"support_z-_force_x_N", 30},
+                                                                {"support_z-_force_y_N", 31},
+                                                                {"support_z-_force_z_N", 32},
                                                                 {"probe_x_m", 10},
                                                                 {"probe_y_m", 11},
                                                                 {"probe_z_m", 12},
@@ -125,7 +133,7 @@ TEST(MetricsFile, has_each_value_of_a_row_under_its_column) {
 TEST(MetricsFile, has_every_row_on_the_disk_before_the_next_comes) {
   const TestFolder folder;
   const std::string file = folder.file("m.csv");
-  MetricsFile metrics(file, two_tools("probe"));
+  MetricsFile metrics(file, two_tools("probe"), supports);
   EXPECT_EQ(lines(read_text(file)).size(), 1u);
   for (std::size_t k = 0; k < 3; ++k) {
     metrics.add(example_row());
@@ -137,24 +145,24 @@ TEST(MetricsFile, keeps_its_columns_whatever_an_instrument_is_called) {
   const TestFolder folder;
   const std::string file = folder.file("m.csv");
   {
-    MetricsFile metrics(file, two_tools("left, \"old\" probe"));
+    MetricsFile metrics(file, two_tools("left, \"old\" probe"), supports);
     metrics.add(example_row());
   }
   const std::vector<std::string> text = lines(read_text(file));
   EXPECT_EQ(fields(text[0]).size(), fields(text[1]).size());
-  EXPECT_EQ(fields(text[0])[24], "left, \"old\" probe_x_m");
+  EXPECT_EQ(fields(text[0])[25], "left, \"old\" probe_x_m");
 }
 
 TEST(MetricsFile, says_which_file_can_not_be_written) {
   const TestFolder folder;
   const std::string file = folder.file("no/such/folder/m.csv");
-  EXPECT_TRUE(contains(error_of<MachineError>([&] { MetricsFile(file, {}); }),
+  EXPECT_TRUE(contains(error_of<MachineError>([&] { MetricsFile(file, {}, {}); }),
                        file + ": can't be written"));
 }
 
 TEST(MetricsFile, notices_a_full_disk) {
   if (access("/dev/full", W_OK) != 0) GTEST_SKIP() << "no /dev/full";
-  EXPECT_THROW(MetricsFile("/dev/full", {}), MachineError);
+  EXPECT_THROW(MetricsFile("/dev/full", {}, {}), MachineError);
 }
 
 }  // namespace

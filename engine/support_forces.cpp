@@ -1,0 +1,56 @@
+#include "engine/support_forces.h"
+
+#include <algorithm>
+
+namespace trocar {
+
+void localise_supports(std::span<const SceneSupport> supports, const Mesh& mesh, const Part& part,
+                       SupportForces& forces) {
+  forces.of_rank.clear();
+  std::vector<bool> is_taken(3 * static_cast<std::size_t>(part.n_owned));
+  for (std::size_t k = 0; k < supports.size(); ++k) {
+    if (!supports[k].path.empty()) continue;
+    for (const std::int32_t node : find_node_set(mesh, supports[k].region)->node) {
+      const std::int64_t local = part.node_local[static_cast<std::size_t>(node)];
+      if (local < 0 || local >= part.n_owned) continue;
+      for (const char axis : supports[k].fix) {
+        const std::int64_t component = 3 * local + (axis - 'x');
+        if (is_taken[static_cast<std::size_t>(component)]) continue;
+        is_taken[static_cast<std::size_t>(component)] = true;
+        forces.of_rank.push_back({.support = static_cast<std::int32_t>(k), .component = component});
+      }
+    }
+  }
+  forces.sum.assign(forces.of_rank.size(), 0.0);
+}
+
+void forget_support_forces(SupportForces& forces) {
+  std::fill(forces.sum.begin(), forces.sum.end(), 0.0);
+}
+
+void add_support_forces(std::span<const double> force, SupportForces& forces) {
+  for (std::size_t k = 0; k < forces.sum.size(); ++k)
+    forces.sum[k] += force[static_cast<std::size_t>(forces.of_rank[k].component)];
+}
+
+void sum_support_forces(const SupportForces& forces, std::int64_t n_substeps,
+                        std::span<ExactSum3> force) {
+  for (std::size_t k = 0; k < forces.sum.size(); ++k) {
+    const SupportedComponent& at = forces.of_rank[k];
+    force[static_cast<std::size_t>(at.support)][static_cast<std::size_t>(at.component % 3)].add(
+        forces.sum[k] / static_cast<double>(n_substeps));
+  }
+}
+
+std::vector<std::string> support_names(std::span<const SceneSupport> supports) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < supports.size(); ++k) {
+    const auto before = std::count_if(
+        supports.begin(), supports.begin() + static_cast<std::ptrdiff_t>(k),
+        [&](const SceneSupport& other) { return other.region == supports[k].region; });
+    names.push_back(supports[k].region + (before > 0 ? "_" + std::to_string(before + 1) : ""));
+  }
+  return names;
+}
+
+}  // namespace trocar
