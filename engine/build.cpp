@@ -73,6 +73,17 @@ void build_supports(Simulation& s) {
                       s.holds.holds.end());
 }
 
+void check_loads(const LoadedScene& loaded, const Simulation& s) {
+  for (std::size_t k = 0; k < s.scene.loads.size(); ++k) {
+    const SceneLoad& load = s.scene.loads[k];
+    if (load.pressure != 0 &&
+        loaded_faces(s.mesh, s.surface, *find_node_set(s.mesh, load.region)).empty())
+      loaded.where.fail("load[" + std::to_string(k) + "].region",
+                        "no face of the surface lies in region \"" + load.region +
+                            "\" with all its nodes: nothing for the pressure to act on");
+  }
+}
+
 TriangleMesh load_tool_mesh(const LoadedScene& loaded, std::size_t k, Communicator& communicator) {
   const SceneInstrument& instrument = loaded.scene.instruments[k];
   if (instrument.mesh.empty()) return {};
@@ -326,6 +337,7 @@ void rebuild_topology(Simulation& s) {
 void follow_model(Simulation& s) {
   s.rest_step = s.communicator->all_min(s.least_element_step.value());
   localise_holds(s.holds, s.part);
+  localise_loads(s.scene.loads, s.mesh, s.surface, s.part, s.loads);
   if (s.energy) localise_supports(s.scene.supports, s.mesh, s.part, s.energy->support_forces);
   // A component r of displacements strains tetrahedra by at most 4 sqrt(3) r / h, hexahedra at
   // their centre by 6 r / h, with the least altitude h.
@@ -355,6 +367,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   build_instruments(loaded, s);
   s.body_crc = crc_of_body(s);
   build_topology(loaded, s);
+  check_loads(loaded, s);
   check_converted(loaded, s);
   s.whole_mass = std::accumulate(s.mass.begin(), s.mass.end(), 0.0);
   if (!s.cuts.empty()) prepare_first_cut(s);

@@ -88,7 +88,7 @@ static void visit(Archive& a, EnergyState& e) {
 }
 template <class Archive>
 static void visit(Archive& a, EnergyWorks& w) {
-  a(w.contact, w.holds, w.blade, w.damping, w.viscous, w.cut);
+  a(w.contact, w.holds, w.blade, w.loads, w.damping, w.viscous, w.cut);
 }
 template <class Archive>
 static void visit(Archive& a, EnergyMemory& m) {

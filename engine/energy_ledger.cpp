@@ -88,6 +88,7 @@ void begin_frame_work(Simulation& s) {
   ledger.contact_work.assign(s.contact ? s.contact->set.local.size() : 0, 0.0);
   ledger.hold_work.assign(s.holds.owned.size(), 0.0);
   ledger.blade_work.assign(s.drag.node.size(), 0.0);
+  ledger.load_work.assign(s.loads.node.size(), 0.0);
   for (std::vector<double>* work : {&s.scratch.damping_work, &s.scratch.viscous_work})
     std::fill(work->begin(), work->end(), 0.0);
   forget_support_forces(ledger.support_forces);
@@ -106,6 +107,9 @@ void note_velocities(Simulation& s, double dt) {
   ledger.blade_velocity.clear();
   for (const BladeDrag::Node& node : s.drag.node)
     ledger.blade_velocity.push_back(velocity_of(s.state, node.local));
+  ledger.load_velocity.clear();
+  for (const std::int32_t node : s.loads.node)
+    ledger.load_velocity.push_back(velocity_of(s.state, node));
 }
 
 void add_work(Simulation& s) {
@@ -128,6 +132,10 @@ void add_work(Simulation& s) {
     const Vec3 v = ledger.blade_velocity[k] + velocity_of(s.state, node.local);
     ledger.blade_work[k] += half_dt * node.force * node.direction.dot(v);
   }
+  for (std::size_t k = 0; k < ledger.load_work.size(); ++k) {
+    const Vec3 v = ledger.load_velocity[k] + velocity_of(s.state, s.loads.node[k]);
+    ledger.load_work[k] += half_dt * s.loads.force[k].dot(v);
+  }
 }
 
 void close_frame_work(Simulation& s) {
@@ -135,6 +143,7 @@ void close_frame_work(Simulation& s) {
   ledger.memory.works.contact += sum_over_ranks(ledger.contact_work, *s.communicator);
   ledger.memory.works.holds += sum_over_ranks(ledger.hold_work, *s.communicator);
   ledger.memory.works.blade += sum_over_ranks(ledger.blade_work, *s.communicator);
+  ledger.memory.works.loads += sum_over_ranks(ledger.load_work, *s.communicator);
   ledger.memory.works.damping -= sum_over_ranks(s.scratch.damping_work, *s.communicator);
   ledger.memory.works.viscous += sum_over_ranks(s.scratch.viscous_work, *s.communicator);
 }

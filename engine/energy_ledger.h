@@ -1,6 +1,6 @@
 // Where the body's energy comes from and goes to: the energies that it holds, and the work that
-// contact, grasped or moved nodes, blades and damping have done on it since the start; and what the
-// supports bear. Only for scenes with a metrics output.
+// contact, loads, grasped or moved nodes, blades and damping have done on it since the start; and
+// what the supports bear. Only for scenes with a metrics output.
 //
 // Central differences obey m (v+ - v-) / dt + alpha m v = f exactly at every node, v = (v+ + v-)/2,
 // so that F·v dt summed over the steps is the work of a force F to rounding. Kinetic energy and
@@ -32,10 +32,10 @@ struct EnergyMemory {
 struct EnergyLedger {
   EnergyMemory memory;
   // Of this frame on this rank: velocities [m/s] before the step of where forces act, and their
-  // work [J], in the order of the contact set's nodes, of the holds and of the nodes that blades
-  // drag along.
-  std::vector<Vec3> contact_velocity, hold_velocity, blade_velocity;
-  std::vector<double> contact_work, hold_work, blade_work;
+  // work [J], in the order of the contact set's nodes, of the holds, of the nodes that blades drag
+  // along and of the loads' nodes.
+  std::vector<Vec3> contact_velocity, hold_velocity, blade_velocity, load_velocity;
+  std::vector<double> contact_work, hold_work, blade_work, load_work;
   double dt_mid = 0;  // between the two velocities of the step [s]
   SupportForces support_forces;
 };

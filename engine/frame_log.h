@@ -27,13 +27,14 @@ struct EnergyWorks {
   double contact = 0;  // instruments that touch it
   double holds = 0;    // grasped nodes and moving supports
   double blade = 0;    // the resistance to blades
+  double loads = 0;
   double damping = 0;  // mass-proportional damping; not positive
   // What relaxation adds to the laws' stress. Strain energy is that of the laws alone: loading what
   // has relaxed stores more of it than the load does work, and this is the difference; around a
   // cycle it is what viscosity takes, negative.
   double viscous = 0;
   double cut = 0;  // change of the energy held at edits of the mesh
-  double sum() const { return contact + holds + blade + damping + viscous + cut; }
+  double sum() const { return contact + holds + blade + loads + damping + viscous + cut; }
 };
 
 struct FrameRow {

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "base/digest.h"
 #include "base/exact_sum.h"
 #include "base/log.h"
+#include "solver/step.h"
 
 namespace trocar {
 
@@ -16,6 +18,25 @@ namespace {
 Vec3 over_ranks(ExactSum3& sum, const Communicator& communicator) {
   for (ExactSum& component : sum) component.all_sum(communicator);
   return {sum[0].value(), sum[1].value(), sum[2].value()};
+}
+
+// Steps leave out elements that sleep: what supports of theirs bear is that of the frame's end.
+void wake_support_forces(Simulation& s, std::int64_t n_substeps) {
+  if (!s.sleep || s.sleep->share == 0) return;
+  const std::vector<double> force = s.scratch.force;
+  const bool has_force = s.scratch.has_force;
+  std::vector<std::uint8_t> asleep = std::exchange(s.scratch.is_asleep, {});
+  find_force(s.model, s.neighbours, s.state, s.scratch);
+  add_loads(s.loads, 1, s.scratch.force);
+  SupportForces& forces = s.energy->support_forces;
+  for (std::size_t k = 0; k < forces.sum.size(); ++k) {
+    const std::int64_t component = forces.of_rank[k].component;
+    if (s.sleep->is_asleep[component / 3] != 0)
+      forces.sum[k] = static_cast<double>(n_substeps) * s.scratch.force[component];
+  }
+  s.scratch.is_asleep = std::move(asleep);
+  s.scratch.force = force;
+  s.scratch.has_force = has_force;
 }
 
 // Mean over the frame of what the tissue does to each tool, by contact, held nodes and the blade's
@@ -31,6 +52,7 @@ void sum_forces(Simulation& s, const FrameSpan& span, FrameRow& row) {
     row.tools[k].force = over_ranks(sums[k], *s.communicator);
   }
   if (!s.energy) return;
+  wake_support_forces(s, span.n_substeps);
   sum_support_forces(s.energy->support_forces, span.n_substeps, on_support);
   for (ExactSum3& sum : on_support) row.support_forces.push_back(over_ranks(sum, *s.communicator));
 }

@@ -22,7 +22,8 @@ MetricsFile::MetricsFile(const std::string& file, std::span<const Tool> tools,
                          std::span<const std::string> supports)
     : file_(file), stream_(file) {
   stream_ << "time_s,frame,step,substeps,dt_s,stable_step_s,least_J,kinetic_J,strain_J,hourglass_J,"
-             "gravity_J,contact_work_J,hold_work_J,blade_work_J,damping_work_J,viscous_work_J,"
+             "gravity_J,contact_work_J,hold_work_J,blade_work_J,load_work_J,damping_work_J,viscous_"
+             "work_J,"
              "cut_energy_J,energy_error_J,contacts,held_nodes,cut_edits,pieces,wound_width_m,"
              "wound_width_mean_m,frame_seconds";
   for (const Tool& tool : tools)
@@ -37,10 +38,10 @@ MetricsFile::MetricsFile(const std::string& file, std::span<const Tool> tools,
 
 void MetricsFile::add(const FrameRow& row) {
   stream_ << number_text(row.time) << ',' << row.frame << ',' << row.step << ',' << row.n_substeps;
-  for (const double value :
-       {row.dt, row.stable_step, row.least_J, row.energy.kinetic, row.energy.strain,
-        row.energy.hourglass, row.energy.gravity, row.works.contact, row.works.holds,
-        row.works.blade, row.works.damping, row.works.viscous, row.works.cut, row.energy_error})
+  for (const double value : {row.dt, row.stable_step, row.least_J, row.energy.kinetic,
+                             row.energy.strain, row.energy.hourglass, row.energy.gravity,
+                             row.works.contact, row.works.holds, row.works.blade, row.works.loads,
+                             row.works.damping, row.works.viscous, row.works.cut, row.energy_error})
     stream_ << ',' << number_text(value);
   stream_ << ',' << row.n_contacts << ',' << row.n_held << ',' << row.n_edits << ','
           << row.n_pieces;

@@ -130,6 +130,18 @@ struct SceneSupport {
   std::vector<SupportKey> path;
 };
 
+struct LoadKey {
+  double time = 0;
+  double factor = 1;
+};
+
+struct SceneLoad {
+  std::string region;
+  Vec3 force = Vec3::Zero();  // of the whole region [N]
+  double pressure = 0;        // from outside [Pa]
+  std::vector<LoadKey> path;
+};
+
 struct InstrumentKey {
   double time = 0;
   Vec3 position = Vec3::Zero();
@@ -176,6 +188,7 @@ struct Scene {
   SceneCheckpoint checkpoint;
   std::vector<SceneRegion> regions;
   std::vector<SceneSupport> supports;
+  std::vector<SceneLoad> loads;
   std::vector<SceneInstrument> instruments;
   std::vector<SceneCamera> cameras;
   std::vector<SceneOutput> outputs;

@@ -70,6 +70,17 @@ void check_supports(const Scene& scene, const SourceMap& where) {
   }
 }
 
+void check_loads(const Scene& scene, const SourceMap& where) {
+  for (std::size_t k = 0; k < scene.loads.size(); ++k) {
+    const SceneLoad& load = scene.loads[k];
+    if (load.force == Vec3::Zero() && load.pressure == 0)
+      where.fail(item("load", k), "a load needs a force or a pressure");
+    for (std::size_t j = 1; j < load.path.size(); ++j)
+      if (!(load.path[j - 1].time < load.path[j].time))
+        where.fail(item("load", k) + "." + item("path", j), "the times of a path must ascend");
+  }
+}
+
 void check_key(const InstrumentKey& key, const std::string& name, const SourceMap& where) {
   if (key.direction.norm() < 1e-9)
     where.fail(name + ".direction", "the direction must not be zero");
@@ -194,6 +205,7 @@ LoadedScene load_scene(const std::string& file, const std::vector<std::string>& 
   check_shortcuts(scene, located.where);
   complete_materials(located.value.tissue, located.where);
   check_supports(scene, located.where);
+  check_loads(scene, located.where);
   check_instruments(located.value, located.where);
   check_cameras(scene, located.where);
   check_outputs(scene, located.where);

@@ -193,7 +193,7 @@ Options<SceneCheckpoint> checkpoint_options() {
 
 Options<SceneRegion> region_options() {
   Options<SceneRegion> r("A named set of nodes: those in a box, in the body's first position.");
-  r.text("name", &SceneRegion::name, "Name for supports.", Need::required);
+  r.text("name", &SceneRegion::name, "Name for supports and loads.", Need::required);
   r.vector("low", &SceneRegion::low, dim::length, any, "Lower corner.", Need::required);
   r.vector("high", &SceneRegion::high, dim::length, any, "Upper corner.", Need::required);
   return r;
@@ -209,6 +209,22 @@ Options<SceneSupport> support_options() {
   s.text("fix", &SceneSupport::fix, "Which components: some of \"xyz\".");
   s.list("path", &SceneSupport::path, key, "Prescribed motion (needs fix = \"xyz\").");
   return s;
+}
+
+Options<SceneLoad> load_options() {
+  Options<LoadKey> key("How much of the load acts at a time.");
+  key.number("time", &LoadKey::time, dim::time, not_negative, "Time.", Need::required);
+  key.number("factor", &LoadKey::factor, dim::none, any, "Of force and pressure.", Need::required);
+  Options<SceneLoad> l("Pushes or pulls a region.");
+  l.text("region", &SceneLoad::region, "Region of the mesh or of [[region]].", Need::required);
+  l.vector("force", &SceneLoad::force, dim::force, any,
+           "Of the whole region, in a fixed direction; spread over the faces of the surface that "
+           "lie in the region, or evenly over its nodes where there are none.");
+  l.number("pressure", &SceneLoad::pressure, dim::pressure, any,
+           "On these faces from outside, always straight; wounds in them are left out.");
+  l.list("path", &SceneLoad::path, key,
+         "Factor over time, smooth in between, constant before and after; 1 if absent.");
+  return l;
 }
 
 Options<SceneInstrument> instrument_options() {
@@ -296,6 +312,7 @@ Options<Scene> scene_options() {
           "What \"trocar run --resume\" continues from.");
   s.list("region", &Scene::regions, region_options(), "Regions.");
   s.list("support", &Scene::supports, support_options(), "Supports.");
+  s.list("load", &Scene::loads, load_options(), "Loads.");
   s.list("instrument", &Scene::instruments, instrument_options(), "Instruments.");
   s.list("camera", &Scene::cameras, camera_options(), "Cameras.");
   s.list("output", &Scene::outputs, output_options(), "Outputs.");

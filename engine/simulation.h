@@ -20,6 +20,7 @@
 #include "engine/frame_log.h"
 #include "engine/global_state.h"
 #include "engine/holds.h"
+#include "engine/loads.h"
 #include "engine/scene.h"
 #include "engine/sleep.h"
 #include "engine/surface_view.h"
@@ -104,7 +105,8 @@ struct Simulation : RankBody {
   std::int32_t n_pieces = 1;  // that the body has fallen into
 
   std::vector<Tool> tools;
-  Holds holds;                            // grasped nodes and moving supports
+  Holds holds;  // grasped nodes and moving supports
+  Loads loads;
   std::unique_ptr<ContactStage> contact;  // only with instruments
   std::vector<CutStage> cuts;             // one an instrument that cuts
   BladeDrag drag;                         // of this frame

@@ -5,10 +5,10 @@
 // does not matter to the nodes that are awake.
 // A frame in which a node beside sleeping ones goes further than a quarter of the bound from where
 // it was when it came to lie there, or in which a contact, a hold or a blade touches sleeping ones,
-// is done again with all awake: pressure waves cross an organ within a frame, so there is no use in
-// waking a neighbourhood. What sleeps thus misses the eighth in which it was found quiet and
-// about as much as its surroundings moved, a quarter. That is an estimate, not a proof: a body that
-// creeps for ever below the sixteenth in half a second is stopped, too.
+// or a load changes, is done again with all awake: pressure waves cross an organ within a frame, so
+// there is no use in waking a neighbourhood. What sleeps thus misses the eighth in which it was
+// found quiet and about as much as its surroundings moved, a quarter. That is an estimate, not a
+// proof: a body that creeps for ever below the sixteenth in half a second is stopped, too.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ struct Sleep {
 void begin_sleep(Simulation& s);
 // After a frame that went well, before its outputs. Collective.
 void fall_asleep(Simulation& s);
-// Wakes all if a contact, a hold or a blade touches what sleeps. Collective.
+// Wakes all if a contact, a hold or a blade touches what sleeps or a load changes. Collective.
 void wake_touched(Simulation& s);
 // Whether a node beside sleeping ones has moved too far; then all are awake. Collective.
 bool wake_disturbed(Simulation& s);

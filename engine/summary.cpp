@@ -160,7 +160,7 @@ Json energies_json(const Simulation& s, const FrameRow& last) {
     const EnergyState& e = row.energy;
     turned_over = std::max({turned_over, e.kinetic, e.strain, std::abs(e.gravity),
                             std::abs(row.works.contact), std::abs(row.works.holds),
-                            std::abs(row.works.blade)});
+                            std::abs(row.works.blade), std::abs(row.works.loads)});
   }
   const EnergyState& e = last.energy;
   const EnergyWorks& w = last.works;
@@ -171,6 +171,7 @@ Json energies_json(const Simulation& s, const FrameRow& last) {
           {"contact_work", w.contact},
           {"hold_work", w.holds},
           {"blade_work", w.blade},
+          {"load_work", w.loads},
           {"damping_work", w.damping},
           {"viscous_work", w.viscous},
           {"cut", w.cut},

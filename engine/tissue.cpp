@@ -78,13 +78,15 @@ std::string known_regions(const Mesh& mesh) {
   return names.empty() ? "none" : names;
 }
 
-void check_supports(const LoadedScene& loaded, const Mesh& mesh) {
-  for (std::size_t k = 0; k < loaded.scene.supports.size(); ++k) {
-    const std::string& name = loaded.scene.supports[k].region;
-    if (!find_node_set(mesh, name))
-      loaded.where.fail("support[" + std::to_string(k) + "].region",
-                        "the body has no region \"" + name + "\"; it has " + known_regions(mesh));
-  }
+// Of supports or loads.
+template <class Items>
+void check_regions(const LoadedScene& loaded, const std::string& list, const Items& items,
+                   const Mesh& mesh) {
+  for (std::size_t k = 0; k < items.size(); ++k)
+    if (!find_node_set(mesh, items[k].region))
+      loaded.where.fail(
+          list + "[" + std::to_string(k) + "].region",
+          "the body has no region \"" + items[k].region + "\"; it has " + known_regions(mesh));
 }
 
 bool is_cut(const Scene& scene) {
@@ -111,7 +113,8 @@ Mesh read_tissue(const LoadedScene& loaded) {
   if (!faults.empty()) loaded.where.fail("tissue", "the mesh can't be used: " + faults.front());
   if (is_cut(loaded.scene)) mesh.hex_split_rank = hex_split_ranks(mesh);
   add_regions(loaded, mesh);
-  check_supports(loaded, mesh);
+  check_regions(loaded, "support", loaded.scene.supports, mesh);
+  check_regions(loaded, "load", loaded.scene.loads, mesh);
   return mesh;
 }
 

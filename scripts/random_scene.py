@@ -122,6 +122,17 @@ def supports(draw, size, duration):
     return text
 
 
+def load(draw, size, duration):
+    """A force or a pressure, or both, on what lies high or far along y; it may come on late."""
+    low = [-999, -999, 0.7 * size[2]] if size[2] else [-999, 0.7 * size[1], -1]
+    text = f'[[region]]\nname = "loaded"\nlow = {millimetres(low)}\nhigh = [1, 1, 1]\n[[load]]\nregion = "loaded"\n'
+    text += f"force = {numbers([draw.uniform(-0.3, 0.3) for _ in range(3)])}\n"
+    text += f"pressure = {draw.choice([0, 0, 100, -100, 300])}\n"
+    if draw.random() < 0.5:
+        text += f"path = [{{ time = 0, factor = {draw.choice([0, 0.5])} }}, {{ time = {duration / 2}, factor = 1 }}]\n"
+    return text
+
+
 def key(time_s, position, direction, forward=None, action="none"):
     text = f'{{ time = {time_s:.6g}, position = {millimetres(position)}, direction = {numbers(direction)}, action = "{action}"'
     return text + (f", forward = {numbers(forward)}" if forward else "") + " }"
@@ -210,4 +221,6 @@ def scene(seed):
     parts.append(f'[[output]]\nkind = "metrics"\nfile = "{METRICS_FILE}"\n')
     if draw.random() < 0.5:
         parts.append(f'[[output]]\nkind = "recording"\nfile = "{RECORDING_FILE}"\n')
+    if draw.random() < 0.3:
+        parts.append(load(draw, size, duration))
     return "\n".join(parts), mesh

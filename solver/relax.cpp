@@ -130,6 +130,7 @@ double ramp(const RelaxTask& task, std::int64_t iteration) {
 void add_load(const Model& model, const RelaxTask& task, double share, Scratch& scratch) {
   if (!task.load.empty())
     for (std::size_t k = 0; k < task.load.size(); ++k) scratch.force[k] += share * task.load[k];
+  if (task.add_load) task.add_load(share, scratch.force);
   if (share == 1) return;
   for (std::size_t i = 0; i < model.mass.size(); ++i)
     for (int j = 0; j < 3; ++j)

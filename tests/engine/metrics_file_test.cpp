@@ -43,24 +43,29 @@ std::vector<Tool> two_tools(const std::string& first) {
 const std::vector<std::string> supports = {"z-"};
 
 FrameRow example_row() {
-  FrameRow row{
-      .frame = 3,
-      .step = 120,
-      .n_substeps = 40,
-      .time = 0.1,
-      .dt = 1.0 / 1200,
-      .stable_step = 1e-3,
-      .least_J = 0.9,
-      .energy = {.kinetic = 1, .strain = 2, .hourglass = 3, .gravity = 21},
-      .works = {.contact = 22, .holds = 23, .blade = 24, .damping = -25, .viscous = -29, .cut = 26},
-      .energy_error = 27,
-      .wound_width = 4,
-      .wound_width_mean = 5,
-      .n_contacts = 6,
-      .n_held = 7,
-      .n_edits = 8,
-      .n_pieces = 28,
-      .seconds = 9};
+  FrameRow row{.frame = 3,
+               .step = 120,
+               .n_substeps = 40,
+               .time = 0.1,
+               .dt = 1.0 / 1200,
+               .stable_step = 1e-3,
+               .least_J = 0.9,
+               .energy = {.kinetic = 1, .strain = 2, .hourglass = 3, .gravity = 21},
+               .works = {.contact = 22,
+                         .holds = 23,
+                         .blade = 24,
+                         .loads = 33,
+                         .damping = -25,
+                         .viscous = -29,
+                         .cut = 26},
+               .energy_error = 27,
+               .wound_width = 4,
+               .wound_width_mean = 5,
+               .n_contacts = 6,
+               .n_held = 7,
+               .n_edits = 8,
+               .n_pieces = 28,
+               .seconds = 9};
   row.tools.resize(2);
   row.tools[0] = {.position = Vec3(10, 11, 12), .force = Vec3(13, 14, 15)};
   row.tools[1] = {.position = Vec3(16, 17, 18), .force = Vec3(19, 20, 1.0 / 3)};
@@ -99,6 +104,7 @@ TEST(MetricsFile, has_each_value_of_a_row_under_its_column) {
                                                                 {"contact_work_J", 22},
                                                                 {"hold_work_J", 23},
                                                                 {"blade_work_J", 24},
+                                                                {"load_work_J", 33},
                                                                 {"damping_work_J", -25},
                                                                 {"viscous_work_J", -29},
                                                                 {"cut_energy_J", 26},
@@ -150,7 +156,7 @@ TEST(MetricsFile, keeps_its_columns_whatever_an_instrument_is_called) {
   }
   const std::vector<std::string> text = lines(read_text(file));
   EXPECT_EQ(fields(text[0]).size(), fields(text[1]).size());
-  EXPECT_EQ(fields(text[0])[25], "left, \"old\" probe_x_m");
+  EXPECT_EQ(fields(text[0])[26], "left, \"old\" probe_x_m");
 }
 
 TEST(MetricsFile, says_which_file_can_not_be_written) {

@@ -54,6 +54,16 @@ double largest_difference(const Simulation& a, const Simulation& b) {
   return most;
 }
 
+TEST(Sleep, leaves_supports_the_weight) {
+  const auto run = started({"solver.sleep='0.1 mm'", "output=[{kind='metrics', file='m.csv'}]"});
+  while (run->s->frame < 20) run_frame(*run->s, run->outputs);
+  EXPECT_GT(run->s->sleep->share, 0.9);
+  double weight = 0;
+  for (const double m : run->s->mass) weight += 9.81 * m;
+  const Vec3 force = run->s->log.rows.back().support_forces[0];
+  EXPECT_LT((force - Vec3(0, 0, -weight)).norm(), 1e-3 * weight);
+}
+
 TEST(Sleep, changes_displacements_by_less_than_the_bound_while_much_is_asleep) {
   const auto awake = started({}), sleepy = started(with_sleep);
   double most = 0, moved = 0, share_while_pressed = 0;

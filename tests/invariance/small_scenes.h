@@ -205,6 +205,10 @@ inline const std::string layer_cut = scalpel(R"(
   { time = 0.3, position = ["14 mm", "20 mm", "12 mm"], forward = [0, 1, 0] },
 )");
 
+inline const std::string loads =
+    "[[load]]\nregion = \"z+\"\npressure = \"150 Pa\"\n[[load]]\nregion = \"y+\"\n"
+    "force = [0, 0.02, 0.01]\npath = [{ time = 0, factor = 0.2 }, { time = 0.2, factor = 1 }]\n";
+
 inline std::vector<SmallScene> small_scenes() {
   const std::string viscous = "prony = [ { share = 0.4, time = \"0.1 s\" } ]\n";
   const std::string held_sides = "[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"x+\"\n";
@@ -252,6 +256,9 @@ inline std::vector<SmallScene> small_scenes() {
        layered(layer_files[0], sleep, "0.8 s") + at_rest + late_layer_probe},
       {"tet4 with local steps, pressed, pulled and cut, resumed",
        layered(layer_files[1], "", "0.36 s") + layer_probe + layer_grasper + layer_cut, "0.2 s"},
+      {"tet4, pulled by a force, under pressure and cut, resumed", block({}) + loads + partial_cut,
+       "0.2 s"},
+      {"hex8 viscoelastic, under pressure from equilibrium", block(viscous_hex) + at_rest + loads},
       {"tet4, pulled and cut, resumed", block({}) + grasper + partial_cut, "0.2 s"},
       {"hex8 from equilibrium, cut, resumed", block(hexahedra()) + at_rest + curved_cut, "0.26 s"},
   };

@@ -1,0 +1,174 @@
+#include "engine/loads.h"
+
+#include <algorithm>
+
+namespace trocar {
+
+namespace {
+
+int size_of(const LoadFace& face) {
+  return static_cast<int>(std::count_if(face.begin(), face.end(), [](auto i) { return i >= 0; }));
+}
+
+std::vector<LoadFace> outer_edges(const Mesh& mesh) {
+  const FacetNeighbours across = facet_neighbours(mesh);
+  std::vector<LoadFace> edges;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    for (int f = 0; f < 3; ++f) {
+      if (across.of(e, f) >= 0 || (mesh.cut_facets[e] >> f & 1) != 0) continue;
+      const std::array<int, 4> corner = facet_corners(ElementType::tri3, f);
+      edges.push_back({mesh.corners(e)[corner[0]], mesh.corners(e)[corner[1]], -1, -1});
+    }
+  return edges;
+}
+
+// The two halves of a quad are one face again.
+std::vector<LoadFace> outer_faces(const Surface& surface) {
+  std::vector<LoadFace> faces;
+  for (std::size_t t = 0; t < surface.triangle.size(); ++t) {
+    const auto& [a, b, c] = surface.triangle[t];
+    LoadFace face = {a, b, c, -1};
+    if (surface.is_quad_half[t] != 0) face[3] = surface.triangle[++t][2];
+    if (surface.is_cut[t] == 0) faces.push_back(face);
+  }
+  return faces;
+}
+
+// Outward, as long as the area [m^2]; x(node) is a position.
+template <class Positions>
+Vec3 area_vector(const LoadFace& face, double thickness, const Positions& x) {
+  const Vec3 a = x(face[0]), b = x(face[1]);
+  if (face[2] < 0) return thickness * Vec3(b.y() - a.y(), a.x() - b.x(), 0);
+  const Vec3 c = x(face[2]);
+  return face[3] < 0 ? 0.5 * (b - a).cross(c - a) : 0.5 * (c - a).cross(x(face[3]) - b);
+}
+
+// (n_nodes) the part of a whole force that acts at each.
+std::vector<double> parts_of(const Mesh& mesh, const NodeSet& region,
+                             std::span<const LoadFace> faces) {
+  std::vector<double> part(mesh.X.size(), 0.0);
+  double sum = 0;
+  for (const LoadFace& face : faces) {
+    const double area = area_vector(face, 1, [&](std::int32_t i) {
+                          return mesh.X[static_cast<std::size_t>(i)];
+                        }).norm();
+    sum += area;
+    for (int k = 0; k < size_of(face); ++k) part[face[k]] += area / size_of(face);
+  }
+  if (!(sum > 0)) {
+    for (const std::int32_t node : region.node) part[node] = 1;
+    sum = static_cast<double>(region.node.size());
+  }
+  for (double& value : part) value /= sum;
+  return part;
+}
+
+// Gives each owned node that a load acts on its place in Loads::node.
+struct Placing {
+  const Part& part;
+  Loads& loads;
+  std::vector<std::int32_t> of_node = std::vector<std::int32_t>(part.n_owned, -1);
+
+  // -1 for nodes of other ranks and for none.
+  std::int32_t operator()(std::int32_t node) {
+    const std::int32_t local = node < 0 ? -1 : part.node_local[node];
+    if (local < 0 || local >= part.n_owned) return -1;
+    if (of_node[local] < 0) {
+      of_node[local] = static_cast<std::int32_t>(loads.node.size());
+      loads.node.push_back(local);
+    }
+    return of_node[local];
+  }
+};
+
+void take_force(std::int32_t load, const Mesh& mesh, const NodeSet& region,
+                std::span<const LoadFace> faces, Placing& placing) {
+  const std::vector<double> parts = parts_of(mesh, region, faces);
+  for (const std::int32_t node : region.node) {
+    const std::int32_t place = parts[node] > 0 ? placing(node) : -1;
+    if (place >= 0)
+      placing.loads.shares.push_back({.load = load, .place = place, .part = parts[node]});
+  }
+}
+
+void take_pressure(std::int32_t load, std::span<const LoadFace> faces, Placing& placing) {
+  for (const LoadFace& face : faces) {
+    Loads::Face local = {.load = load, .node = {-1, -1, -1, -1}, .place = {}};
+    for (std::size_t j = 0; j < 4; ++j) {
+      local.place[j] = placing(face[j]);
+      if (face[j] >= 0) local.node[j] = placing.part.node_local[face[j]];
+    }
+    if (std::any_of(local.place.begin(), local.place.end(), [](auto i) { return i >= 0; }))
+      placing.loads.faces.push_back(local);
+  }
+}
+
+DisplacementPath path_of(const SceneLoad& load) {
+  std::vector<SupportKey> keys;
+  for (const LoadKey& key : load.path)
+    keys.push_back({.time = key.time, .displacement = Vec3(key.factor, 0, 0)});
+  if (keys.empty()) keys.push_back({.displacement = Vec3(1, 0, 0)});
+  return DisplacementPath(keys);
+}
+
+}  // namespace
+
+std::vector<LoadFace> loaded_faces(const Mesh& mesh, const Surface& surface,
+                                   const NodeSet& region) {
+  std::vector<std::uint8_t> is_inside(mesh.X.size(), 0);
+  for (const std::int32_t node : region.node) is_inside[static_cast<std::size_t>(node)] = 1;
+  std::vector<LoadFace> faces = mesh.dimension() == 2 ? outer_edges(mesh) : outer_faces(surface);
+  std::erase_if(faces, [&](const LoadFace& face) {
+    return std::any_of(face.begin(), face.end(), [&](std::int32_t i) {
+      return i >= 0 && is_inside[static_cast<std::size_t>(i)] == 0;
+    });
+  });
+  return faces;
+}
+
+void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Surface& surface,
+                    const Part& part, Loads& loads) {
+  loads = {};
+  if (scene.empty()) return;
+  Placing placing{.part = part, .loads = loads};
+  for (std::size_t k = 0; k < scene.size(); ++k) {
+    loads.path.push_back(path_of(scene[k]));
+    const NodeSet& region = *find_node_set(mesh, scene[k].region);
+    const std::vector<LoadFace> faces = loaded_faces(mesh, surface, region);
+    const auto load = static_cast<std::int32_t>(k);
+    if (scene[k].force != Vec3::Zero()) take_force(load, mesh, region, faces, placing);
+    if (scene[k].pressure != 0) take_pressure(load, faces, placing);
+  }
+  loads.force.assign(loads.node.size(), Vec3::Zero());
+}
+
+bool do_loads_change(const Loads& loads, double t0, double t1) {
+  return std::any_of(loads.path.begin(), loads.path.end(),
+                     [&](const DisplacementPath& path) { return path.at(t0) != path.at(t1); });
+}
+
+void find_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Part& part,
+                double thickness, double time, std::span<const double> u, Loads& loads) {
+  std::fill(loads.force.begin(), loads.force.end(), Vec3::Zero());
+  loads.factor.clear();
+  for (const DisplacementPath& path : loads.path) loads.factor.push_back(path.at(time).x());
+  for (const Loads::Share& share : loads.shares)
+    loads.force[share.place] += loads.factor[share.load] * share.part * scene[share.load].force;
+  const auto x = [&](std::int32_t local) -> Vec3 {
+    return mesh.X[static_cast<std::size_t>(part.node_global[local])] +
+           Vec3(u[3 * local], u[3 * local + 1], u[3 * local + 2]);
+  };
+  for (const Loads::Face& face : loads.faces) {
+    const Vec3 of_node = -loads.factor[face.load] * scene[face.load].pressure / size_of(face.node) *
+                         area_vector(face.node, thickness, x);
+    for (const std::int32_t place : face.place)
+      if (place >= 0) loads.force[place] += of_node;
+  }
+}
+
+void add_loads(const Loads& loads, double share, std::span<double> force) {
+  for (std::size_t k = 0; k < loads.node.size(); ++k)
+    for (int j = 0; j < 3; ++j) force[3 * loads.node[k] + j] += share * loads.force[k][j];
+}
+
+}  // namespace trocar

@@ -1,0 +1,177 @@
+// Forces and pressures: closed forms, what they do to momentum and energy, and what cuts leave of
+// them. That ranks and threads don't matter is tested in tests/invariance.
+#include "engine/loads.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/equilibrium.h"
+#include "engine_scene.h"
+#include "engine_started.h"
+
+namespace trocar {
+namespace {
+
+const std::string metrics = "[[output]]\nkind = \"metrics\"\nfile = \"m.csv\"\n";
+const std::string at_rest = "[start]\nstate = \"equilibrium\"\ntolerance = 1e-8\n";
+
+std::string box_text(const std::string& elements, const std::string& material) {
+  return "[time]\nduration = 1\nframe_rate = 100\n[tissue.shape]\nkind = \"box\"\n"
+         "high = [0.02, 0.02, 0.05]\ncells = [2, 3, 5]\nelements = \"" +
+         elements + "\"\n[tissue.material]\ndensity = 1000\n" + material;
+}
+
+const std::string linear = "model = \"linear\"\nyoung_modulus = 6000\npoisson_ratio = 0\n";
+const std::string soft = "young_modulus = 6000\npoisson_ratio = 0.4\n";
+const std::string foot = "[[support]]\nregion = \"z-\"\n";
+
+Vec3 total(const Loads& loads) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& force : loads.force) sum += force;
+  return sum;
+}
+
+TEST(Loads, stretch_a_bar_by_the_closed_form) {
+  for (const std::string elements : {"hex8", "tet4-kuhn", "tet4-five"}) {
+    const auto bar = built(at_rest + box_text(elements, linear) + foot + metrics +
+                           "[[load]]\nregion = \"z+\"\nforce = [0, 0, \"0.02 N\"]\n");
+    start_in_equilibrium(bar->loaded, *bar->s);
+    const double strain = 0.02 / (6000 * 4e-4);
+    for (std::size_t i = 0; i < bar->s->mesh.X.size(); ++i) {
+      const Vec3 u = Vec3::Map(&bar->s->state.u[3 * i]);
+      EXPECT_LT((u - Vec3(0, 0, strain * bar->s->mesh.X[i].z())).norm(), 1e-6 * strain * 0.05);
+    }
+    run_frame(*bar->s, bar->outputs);
+    EXPECT_LT((bar->s->log.rows.back().support_forces[0] - Vec3(0, 0, 0.02)).norm(), 1e-6 * 0.02);
+  }
+}
+
+// W = … + K/2 (J - 1)^2: J = 1 - p/K, whatever the size of the deformation.
+TEST(Loads, pressure_on_all_sides_shrinks_a_free_body_by_the_closed_form) {
+  const double K = 6000 / (3 * (1 - 2 * 0.4)), p = 0.3 * K;
+  const std::string pressure = "pressure = " + std::to_string(p) + "\n";
+  std::string sides;
+  for (const std::string side : {"x-", "x+", "y-", "y+", "z-", "z+"})
+    sides += "[[load]]\nregion = \"" + side + "\"\n" + pressure;
+  const std::string ball =
+      "[time]\nduration = 1\n[tissue.shape]\nkind = \"ball\"\nradius = 0.02\ncells = [6, 6, 6]\n"
+      "elements = \"tet4-kuhn\"\n[tissue.material]\n" +
+      soft;
+  for (const std::string& text :
+       {box_text("hex8", soft) + sides, box_text("tet4-five", soft) + sides,
+        ball + "[[load]]\nregion = \"surface\"\n" + pressure}) {
+    const auto body = built(at_rest + text);
+    start_in_equilibrium(body->loaded, *body->s);
+    EXPECT_NEAR(body->s->watch.least_J, 0.7, 1e-5) << text;
+    double volume = 0, before = 0;
+    for (std::int32_t e = 0; e < body->s->mesh.n_elements(); ++e) {
+      before += element_volume(body->s->mesh, e, body->s->mesh.X);
+      volume += element_volume(body->s->mesh, e, gather_state(*body->s).x);
+    }
+    EXPECT_NEAR(volume, 0.7 * before, 1e-5 * before) << text;
+  }
+}
+
+Vec3 momentum(const Simulation& s) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < s.mass.size(); ++i) sum += s.mass[i] * Vec3::Map(&s.state.v[3 * i]);
+  return sum;
+}
+
+TEST(Loads, change_the_momentum_of_a_free_body_and_their_work_its_energy) {
+  const auto body = built(box_text("hex8", soft) + metrics +
+                              "[[load]]\nregion = \"x-\"\nforce = [0.01, 0.002, 0]\n"
+                              "[[load]]\nregion = \"z+\"\npressure = \"100 Pa\"\n"
+                              "path = [{ time = 0.02, factor = 0 }, { time = 0.1, factor = 1 }]\n",
+                          {"solver.step_factor=0.1"});
+  for (int frame = 0; frame < 2; ++frame) run_frame(*body->s, body->outputs);
+  const Vec3 before = momentum(*body->s);
+  const double dt = body->s->log.rows.back().dt;
+  run_frame(*body->s, body->outputs);
+  ASSERT_EQ(body->s->log.rows.back().dt, dt);
+  const Vec3 gained = (momentum(*body->s) - before) / 0.01;
+  EXPECT_NEAR(gained.x(), 0.01, 1e-3 * 0.01);  // and what the pressed face turns
+  EXPECT_LT(gained.z(), -1e-4);
+  while (body->s->frame < 20) run_frame(*body->s, body->outputs);
+  const FrameRow& row = body->s->log.rows.back();
+  EXPECT_GT(row.works.loads, 1e-5);
+  EXPECT_LT(std::abs(row.energy_error), 1e-4 * row.works.loads);
+}
+
+TEST(Loads, of_an_edge_in_the_plane_push_along_its_normal) {
+  const auto sheet = built(
+      "[time]\nduration = 1\n[tissue]\nthickness = 0.005\n[tissue.shape]\n"
+      "kind = \"rectangle\"\nhigh = [0.04, 0.02, 0]\ncells = [9, 5, 1]\n"
+      "[[load]]\nregion = \"x+\"\npressure = 200\n[[load]]\nregion = \"y-\"\npressure = 50\n");
+  run_frame(*sheet->s, sheet->outputs);
+  Simulation& s = *sheet->s;
+  const std::vector<double> rest(s.state.u.size(), 0.0);
+  find_loads(s.scene.loads, s.mesh, s.part, 0.005, 0, rest, s.loads);
+  EXPECT_LT((total(s.loads) - Vec3(-200 * 0.02, 50 * 0.04, 0) * 0.005).norm(), 1e-12);
+}
+
+TEST(Loads, of_a_region_without_faces_are_spread_over_its_nodes) {
+  const auto bar = built(box_text("hex8", soft) + foot +
+                         "[[region]]\nname = \"corner\"\nlow = [-1, -1, 0.049]\n"
+                         "high = [0.001, 0.001, 1]\n[[load]]\nregion = \"corner\"\n"
+                         "force = [0.001, 0, 0]\n");
+  run_frame(*bar->s, bar->outputs);
+  ASSERT_EQ(bar->s->loads.node.size(), 1u);
+  EXPECT_EQ(bar->s->loads.force[0], Vec3(0.001, 0, 0));
+}
+
+// The cut opens the loaded side x-: its force stays what it was, and nothing presses on the wound.
+TEST(Loads, stay_on_their_side_after_a_cut) {
+  const auto bar = built(box_text("tet4-kuhn", soft) + foot +
+                         "[[load]]\nregion = \"x-\"\nforce = [0, \"0.1 N\", 0]\n"
+                         "[[load]]\nregion = \"x-\"\npressure = \"10 Pa\"\n");
+  Simulation& s = *bar->s;
+  const NodeSet& side = *find_node_set(s.mesh, "x-");
+  const std::size_t n_faces = loaded_faces(s.mesh, s.surface, side).size(),
+                    n_nodes = s.loads.node.size();
+  GlobalState global = gather_state(s);
+  CutFigures figures;
+  CutRecord record;
+  apply_cut(s, cut_across(s, global, figures), global, record);
+  EXPECT_EQ(loaded_faces(s.mesh, s.surface, *find_node_set(s.mesh, "x-")).size(), n_faces);
+  EXPECT_GT(s.loads.node.size(), n_nodes);
+  find_loads(s.scene.loads, s.mesh, s.part, 1, 0, s.state.u, s.loads);
+  EXPECT_LT((total(s.loads) - Vec3(10 * 0.02 * 0.05, 0.1, 0)).norm(), 1e-9);
+}
+
+TEST(Loads, that_change_end_sleep) {
+  const auto bar = built(at_rest + box_text("hex8", soft) + foot +
+                             "[solver]\nsleep = \"0.1 mm\"\nmass_damping = 20\n"
+                             "[[load]]\nregion = \"z+\"\nforce = [0, 0, -0.05]\n"
+                             "path = [{ time = 0.75, factor = 1 }, { time = 0.8, factor = 3 }]\n",
+                         {"time.frame_rate=50"});
+  start_in_equilibrium(bar->loaded, *bar->s);
+  while (bar->s->frame < 37) run_frame(*bar->s, bar->outputs);
+  EXPECT_GT(bar->s->sleep->share, 0.9);
+  run_frame(*bar->s, bar->outputs);
+  EXPECT_EQ(bar->s->sleep->share, 0);
+}
+
+TEST(Loads, are_refused_with_their_place) {
+  const auto error = [](const std::string& load) {
+    return scene_error("[time]\nduration = 1\n[tissue.shape]\nkind = \"box\"\n[[load]]\n" + load);
+  };
+  EXPECT_NE(error("region = \"z+\"\n").find("load[0]: a load needs a force or a pressure"),
+            std::string::npos);
+  EXPECT_NE(error("region = \"z+\"\npressure = 1\npath = [{ time = 1, factor = 0 }, { time = 1, "
+                  "factor = 1 }]\n")
+                .find("load[0].path[1]: the times of a path must ascend"),
+            std::string::npos);
+  EXPECT_NE(error_of<InputError>([] {
+              built(box_text("hex8", soft) + "[[load]]\nregion = \"top\"\npressure = 1\n");
+            }).find("load[0].region: the body has no region \"top\"; it has \"x-\""),
+            std::string::npos);
+  EXPECT_NE(error_of<InputError>([] {
+              built(box_text("hex8", soft) +
+                    "[[region]]\nname = \"in\"\nlow = [0.005, 0.005, 0.005]\n"
+                    "high = [0.015, 0.015, 0.045]\n[[load]]\nregion = \"in\"\npressure = 1\n");
+            }).find("load[0].region: no face of the surface lies in region \"in\""),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace trocar
