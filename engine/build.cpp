@@ -84,6 +84,14 @@ void check_loads(const LoadedScene& loaded, const Simulation& s) {
   }
 }
 
+void check_markers(const LoadedScene& loaded, const Simulation& s) {
+  for (std::size_t k = 0; k < s.markers.size(); ++k)
+    if (s.markers[k].element < 0)
+      loaded.where.fail(
+          "marker[" + std::to_string(k) + "].position",
+          "marker \"" + s.scene.markers[k].name + "\" lies outside the undeformed body");
+}
+
 TriangleMesh load_tool_mesh(const LoadedScene& loaded, std::size_t k, Communicator& communicator) {
   const SceneInstrument& instrument = loaded.scene.instruments[k];
   if (instrument.mesh.empty()) return {};
@@ -337,6 +345,7 @@ void rebuild_topology(Simulation& s) {
 void follow_model(Simulation& s) {
   s.rest_step = s.communicator->all_min(s.least_element_step.value());
   localise_holds(s.holds, s.part);
+  s.markers = locate_markers(s.scene.markers, s.mesh);
   localise_loads(s.scene.loads, s.mesh, s.surface, s.part, s.loads);
   if (s.energy) localise_supports(s.scene.supports, s.mesh, s.part, s.energy->support_forces);
   // A component r of displacements strains tetrahedra by at most 4 sqrt(3) r / h, hexahedra at
@@ -368,6 +377,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   s.body_crc = crc_of_body(s);
   build_topology(loaded, s);
   check_loads(loaded, s);
+  check_markers(loaded, s);
   check_converted(loaded, s);
   s.whole_mass = std::accumulate(s.mass.begin(), s.mass.end(), 0.0);
   if (!s.cuts.empty()) prepare_first_cut(s);

@@ -98,7 +98,7 @@ template <class Archive>
 static void visit(Archive& a, FrameRow& r) {
   a(r.frame, r.step, r.n_substeps, r.time, r.dt, r.stable_step, r.least_J, r.asleep, r.energy,
     r.works, r.energy_error, r.wound_width, r.wound_width_mean, r.n_contacts, r.n_held, r.n_edits,
-    r.n_pieces, r.tools, r.support_forces, r.seconds);
+    r.n_pieces, r.tools, r.support_forces, r.markers, r.seconds);
 }
 template <class Archive>
 static void visit(Archive& a, FrameLog& l) {

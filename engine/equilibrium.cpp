@@ -37,7 +37,8 @@ std::vector<std::int32_t> pieces_of(const Mesh& mesh) {
   s.state = make_state(s.model);
   throw SimulationError("no equilibrium to start from: " + cause +
                         "; supports may leave the body free to turn, or it is too soft to bear "
-                        "its weight");
+                        "its weight" +
+                        (s.loads.is_empty() ? "" : " and loads"));
 }
 
 Relaxation relax_body(Simulation& s, const std::atomic<bool>* stop) {

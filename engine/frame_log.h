@@ -49,6 +49,7 @@ struct FrameRow {
   double wound_width = 0, wound_width_mean = 0;  // [m] distance of partner nodes, largest and mean
   std::int64_t n_contacts = 0, n_held = 0, n_edits = 0, n_pieces = 1;
   std::vector<ToolRow> tools;
+  std::vector<Vec3> markers;         // positions; with metrics [m]
   std::vector<Vec3> support_forces;  // of the tissue on each, mean over the frame; with metrics [N]
   double seconds = 0;                // wall time of the frame without waiting
 };

@@ -15,11 +15,6 @@ namespace trocar {
 
 namespace {
 
-Vec3 over_ranks(ExactSum3& sum, const Communicator& communicator) {
-  for (ExactSum& component : sum) component.all_sum(communicator);
-  return {sum[0].value(), sum[1].value(), sum[2].value()};
-}
-
 // Steps leave out elements that sleep: what supports of theirs bear is that of the frame's end.
 void wake_support_forces(Simulation& s, std::int64_t n_substeps) {
   if (!s.sleep || s.sleep->share == 0) return;
@@ -49,12 +44,13 @@ void sum_forces(Simulation& s, const FrameSpan& span, FrameRow& row) {
   row.tools.resize(s.tools.size());
   for (std::size_t k = 0; k < s.tools.size(); ++k) {
     row.tools[k].position = s.tools[k].path.at(span.t1).translation;
-    row.tools[k].force = over_ranks(sums[k], *s.communicator);
+    row.tools[k].force = sum_over_ranks(sums[k], *s.communicator);
   }
   if (!s.energy) return;
   wake_support_forces(s, span.n_substeps);
   sum_support_forces(s.energy->support_forces, span.n_substeps, on_support);
-  for (ExactSum3& sum : on_support) row.support_forces.push_back(over_ranks(sum, *s.communicator));
+  for (ExactSum3& sum : on_support)
+    row.support_forces.push_back(sum_over_ranks(sum, *s.communicator));
 }
 
 // Partner nodes lay on each other when they were cut apart: their distance is how far the wound
@@ -103,7 +99,10 @@ void report_state(Simulation& s, FrameRow& row) {
   row.stable_step = s.watch.stable_step;
   row.least_J = s.watch.least_J;
   if (s.sleep) row.asleep = s.sleep->share;
-  if (s.energy) report_energies(s, row);
+  if (s.energy) {
+    report_energies(s, row);
+    row.markers = marker_positions(s.markers, s.mesh, s.part, s.state.u, *s.communicator);
+  }
   if (!s.duplicate_node.empty()) report_wound(s, row);
   for (const CutStage& stage : s.cuts)
     for (const CutRecord& stroke : stage.strokes) row.n_edits += stroke.n_edits;

@@ -19,7 +19,8 @@ std::string csv_text(const std::string& text) {
 }  // namespace
 
 MetricsFile::MetricsFile(const std::string& file, std::span<const Tool> tools,
-                         std::span<const std::string> supports)
+                         std::span<const std::string> supports,
+                         std::span<const SceneMarker> markers)
     : file_(file), stream_(file) {
   stream_ << "time_s,frame,step,substeps,dt_s,stable_step_s,least_J,kinetic_J,strain_J,hourglass_J,"
              "gravity_J,contact_work_J,hold_work_J,blade_work_J,load_work_J,damping_work_J,viscous_"
@@ -32,6 +33,9 @@ MetricsFile::MetricsFile(const std::string& file, std::span<const Tool> tools,
   for (const std::string& support : supports)
     for (const char* column : {"_force_x_N", "_force_y_N", "_force_z_N"})
       stream_ << ',' << csv_text("support_" + support + column);
+  for (const SceneMarker& marker : markers)
+    for (const char* column : {"_x_m", "_y_m", "_z_m"})
+      stream_ << ',' << csv_text("marker_" + marker.name + column);
   stream_ << '\n';
   check();
 }
@@ -50,8 +54,9 @@ void MetricsFile::add(const FrameRow& row) {
   for (const ToolRow& tool : row.tools)
     for (const Vec3& vector : {tool.position, tool.force})
       for (int i = 0; i < 3; ++i) stream_ << ',' << number_text(vector[i]);
-  for (const Vec3& force : row.support_forces)
-    for (int i = 0; i < 3; ++i) stream_ << ',' << number_text(force[i]);
+  for (const std::vector<Vec3>* vectors : {&row.support_forces, &row.markers})
+    for (const Vec3& vector : *vectors)
+      for (int i = 0; i < 3; ++i) stream_ << ',' << number_text(vector[i]);
   stream_ << '\n';
   check();
 }

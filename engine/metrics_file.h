@@ -14,7 +14,7 @@ class MetricsFile {
  public:
   // Throws MachineError if the file can't be written (here and below).
   MetricsFile(const std::string& file, std::span<const Tool> tools,
-              std::span<const std::string> supports);
+              std::span<const std::string> supports, std::span<const SceneMarker> markers);
   void add(const FrameRow& row);
 
  private:

@@ -81,7 +81,8 @@ std::unique_ptr<RecordingWriter> old_recording(const std::string& file, std::int
 // Rows of the frames before a resumed run are written again: the checkpoint has them.
 std::unique_ptr<MetricsFile> open_metrics(const Simulation& s, const OutputSlot& slot,
                                           const Checkpoint* resumed) {
-  auto metrics = std::make_unique<MetricsFile>(slot.file, s.tools, support_names(s.scene.supports));
+  auto metrics = std::make_unique<MetricsFile>(slot.file, s.tools, support_names(s.scene.supports),
+                                               s.scene.markers);
   if (!resumed) return metrics;
   if (!resumed->has_energies) {
     log_warning(slot.file + ": begins where the run is resumed, it was not asked for before");

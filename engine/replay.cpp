@@ -107,6 +107,7 @@ std::vector<std::pair<std::int64_t, double>> chosen_frames(const RecordingReader
   for (const auto& entry : reader.frames())
     if (entry.second >= options.from - 1e-9 && entry.second <= options.to + 1e-9)
       chosen.push_back(entry);
+  if (reader.frames().empty()) throw InputError(options.recording + ": holds no frame");
   if (chosen.empty())
     throw InputError(options.recording + ": no recorded frame lies in the chosen time");
   return chosen;

@@ -162,6 +162,11 @@ struct SceneInstrument {
   std::vector<InstrumentKey> path;
 };
 
+struct SceneMarker {
+  std::string name;
+  Vec3 position = Vec3::Zero();
+};
+
 struct SceneCamera {
   std::string name = "endoscope";
   Vec3 eye{0, -0.3, 0.2}, target = Vec3::Zero(), up{0, 0, 1};
@@ -190,6 +195,7 @@ struct Scene {
   std::vector<SceneSupport> supports;
   std::vector<SceneLoad> loads;
   std::vector<SceneInstrument> instruments;
+  std::vector<SceneMarker> markers;
   std::vector<SceneCamera> cameras;
   std::vector<SceneOutput> outputs;
 };

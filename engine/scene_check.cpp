@@ -81,6 +81,14 @@ void check_loads(const Scene& scene, const SourceMap& where) {
   }
 }
 
+void check_markers(const Scene& scene, const SourceMap& where) {
+  std::set<std::string> names;
+  for (std::size_t k = 0; k < scene.markers.size(); ++k)
+    if (!names.insert(scene.markers[k].name).second)
+      where.fail(item("marker", k) + ".name", "two markers are called \"" + scene.markers[k].name +
+                                                  "\": give each its own name");
+}
+
 void check_key(const InstrumentKey& key, const std::string& name, const SourceMap& where) {
   if (key.direction.norm() < 1e-9)
     where.fail(name + ".direction", "the direction must not be zero");
@@ -206,6 +214,7 @@ LoadedScene load_scene(const std::string& file, const std::vector<std::string>& 
   complete_materials(located.value.tissue, located.where);
   check_supports(scene, located.where);
   check_loads(scene, located.where);
+  check_markers(scene, located.where);
   check_instruments(located.value, located.where);
   check_cameras(scene, located.where);
   check_outputs(scene, located.where);

@@ -262,6 +262,14 @@ Options<SceneInstrument> instrument_options() {
   return i;
 }
 
+Options<SceneMarker> marker_options() {
+  Options<SceneMarker> m("A point of the tissue that the metrics follow.");
+  m.text("name", &SceneMarker::name, "Name in the metrics.", Need::required);
+  m.vector("position", &SceneMarker::position, dim::length, any,
+           "In the undeformed body, where the scene places it.", Need::required);
+  return m;
+}
+
 Options<SceneCamera> camera_options() {
   Options<SceneCamera> c("A view.");
   c.text("name", &SceneCamera::name, "Name for outputs.");
@@ -314,6 +322,7 @@ Options<Scene> scene_options() {
   s.list("support", &Scene::supports, support_options(), "Supports.");
   s.list("load", &Scene::loads, load_options(), "Loads.");
   s.list("instrument", &Scene::instruments, instrument_options(), "Instruments.");
+  s.list("marker", &Scene::markers, marker_options(), "Markers.");
   s.list("camera", &Scene::cameras, camera_options(), "Cameras.");
   s.list("output", &Scene::outputs, output_options(), "Outputs.");
   return s;

@@ -21,6 +21,7 @@
 #include "engine/global_state.h"
 #include "engine/holds.h"
 #include "engine/loads.h"
+#include "engine/markers.h"
 #include "engine/scene.h"
 #include "engine/sleep.h"
 #include "engine/surface_view.h"
@@ -107,6 +108,7 @@ struct Simulation : RankBody {
   std::vector<Tool> tools;
   Holds holds;  // grasped nodes and moving supports
   Loads loads;
+  std::vector<Location> markers;
   std::unique_ptr<ContactStage> contact;  // only with instruments
   std::vector<CutStage> cuts;             // one an instrument that cuts
   BladeDrag drag;                         // of this frame

@@ -223,4 +223,7 @@ def scene(seed):
         parts.append(f'[[output]]\nkind = "recording"\nfile = "{RECORDING_FILE}"\n')
     if draw.random() < 0.3:
         parts.append(load(draw, size, duration))
+    if draw.random() < 0.3 and family != "file":
+        middle = [s / 2 for s in size]
+        parts.append(f'[[marker]]\nname = "middle"\nposition = {millimetres(middle)}\n')
     return "\n".join(parts), mesh

@@ -1,4 +1,6 @@
 // Central differences in leapfrog form with centred mass damping.
+#include <algorithm>
+
 #include "base/check.h"
 #include "solver/block_ranges.h"
 #include "solver/mass_clusters.h"
@@ -73,8 +75,28 @@ double next_velocity(const Model& model, const Coefficients& c, const Scratch& s
              : c.keep * state.v[k] + c.gain / inertia_of(model)[i] * scratch.force[k];
 }
 
-void integrate_nodes(const Model& model, const Coefficients& c, double dt, const Scratch& scratch,
+// What damping takes from the nodes and what viscous forces do on them, where middle velocities are
+// kept: before a step these are v.
+void add_works(const Model& model, const Coefficients& c, const State& state, std::int64_t begin,
+               std::int64_t end, Scratch& scratch) {
+  for (std::int64_t k = 3 * begin; k < 3 * end; ++k)
+    scratch.middle[k] = (scratch.middle[k] + state.v[k]) / 2;
+  const double* const v = scratch.middle.data();
+  const double scale = model.options.mass_damping * c.dt_m;
+  for (std::int64_t i = begin; i < end && scale > 0; ++i)
+    scratch.damping_work[i] +=
+        scale * model.mass[i] *
+        (v[3 * i] * v[3 * i] + v[3 * i + 1] * v[3 * i + 1] + v[3 * i + 2] * v[3 * i + 2]);
+  if (scratch.viscous_work.empty()) return;
+  const double* const f = scratch.viscous_force.data();
+  for (std::int64_t i = begin; i < end; ++i)
+    scratch.viscous_work[i] +=
+        c.dt_m * (f[3 * i] * v[3 * i] + f[3 * i + 1] * v[3 * i + 1] + f[3 * i + 2] * v[3 * i + 2]);
+}
+
+void integrate_nodes(const Model& model, const Coefficients& c, double dt, Scratch& scratch,
                      State& state) {
+  constexpr std::int64_t at_once = 512;  // nodes, where velocities of before are kept
   const NodeMotion task{.keep = c.keep,
                         .gain = c.gain,
                         .dt = dt,
@@ -84,37 +106,28 @@ void integrate_nodes(const Model& model, const Coefficients& c, double dt, const
                         .v = state.v.data(),
                         .u = state.u.data()};
   parallel_for_nodes(model.n_owned, [&](std::int64_t begin, std::int64_t end) {
-    active_kernels().nodes.motion(task, begin, end);
+    const NodeKernels& kernels = active_kernels().nodes;
+    if (scratch.middle.empty()) return kernels.motion(task, begin, end);
+    for (; begin < end; begin += at_once) {
+      const std::int64_t next = std::min(end, begin + at_once);
+      std::copy(state.v.begin() + 3 * begin, state.v.begin() + 3 * next,
+                scratch.middle.begin() + 3 * begin);
+      kernels.motion(task, begin, next);
+      add_works(model, c, state, begin, next, scratch);
+    }
   });
 }
 
-// Of a node, (v+ + v-) / 2.
-Vec3 middle_velocity(const Model& model, const Coefficients& c, const State& state,
-                     const Scratch& scratch, std::int64_t i) {
-  Vec3 v = Vec3::Zero();
-  for (int j = 0; j < 3; ++j)
-    if (!is_fixed(model, i, j))
-      v[j] = (state.v[3 * i + j] + next_velocity(model, c, scratch, state, i, j)) / 2;
-  return v;
-}
-
-// alpha v·M v dt_m and f·v dt_m of viscous forces, with v = (v+ + v-) / 2; call before the
-// velocities change.
-void add_works(const Model& model, const Coefficients& c, const State& state, Scratch& scratch) {
-  const auto v_of = [&](std::int64_t i) { return middle_velocity(model, c, state, scratch, i); };
-  for (std::int64_t i = 0; i < std::ssize(scratch.viscous_work); ++i)
-    scratch.viscous_work[i] +=
-        Eigen::Map<const Vec3>(scratch.viscous_force.data() + 3 * i).dot(v_of(i)) * c.dt_m;
-  const double alpha = model.options.mass_damping;
-  if (scratch.damping_work.empty() || alpha == 0) return;
-  for (std::int64_t i = 0; i < model.n_owned; ++i)
-    scratch.damping_work[i] += alpha * model.mass[i] * v_of(i).squaredNorm() * c.dt_m;
+// alpha v·M v dt_m of what clusters have more than mass.
+void add_cluster_damping(const Model& model, const Coefficients& c, Scratch& scratch) {
   const MassClusters& clusters = model.clusters;
+  const double scale = model.options.mass_damping * c.dt_m;
+  const auto v_of = [&](std::int64_t i) { return Vec3::Map(&scratch.middle[3 * i]); };
   for (std::size_t cluster = 0; cluster < clusters.total.size(); ++cluster) {
     const Vec3 mean = cluster_mean(clusters, cluster, v_of);
     for (std::int32_t k = clusters.offset[cluster]; k < clusters.offset[cluster + 1]; ++k)
       scratch.damping_work[clusters.node[k]] +=
-          alpha * clusters.added[k] * (v_of(clusters.node[k]) - mean).squaredNorm() * c.dt_m;
+          scale * clusters.added[k] * (v_of(clusters.node[k]) - mean).squaredNorm();
   }
 }
 
@@ -151,8 +164,8 @@ void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> p
   }
   couple_clusters(model, c, dt, state, prescribed, scratch);
   for (PrescribedNode& node : prescribed) add_reaction(model, c, dt, state, scratch, node);
-  add_works(model, c, state, scratch);
   integrate_nodes(model, c, dt, scratch, state);
+  if (!scratch.middle.empty()) add_cluster_damping(model, c, scratch);
   // Exactly there, without the rounding of u + dt (u_next - u) / dt.
   for (const PrescribedNode& node : prescribed)
     for (int j = 0; j < 3; ++j)

@@ -367,6 +367,7 @@ Scratch make_scratch(const Model& model) {
 void keep_works(const Model& model, Scratch& scratch) {
   const auto n_owned = static_cast<std::size_t>(model.n_owned);
   scratch.damping_work.resize(n_owned);
+  scratch.middle.resize(3 * n_owned);
   if (model.n_history == 0) return;
   scratch.viscous_work.resize(n_owned);
   scratch.viscous_force.resize(3 * n_owned);

@@ -190,6 +190,7 @@ struct Scratch {
   std::vector<double> damping_work;   // energy that mass damping takes from each node
   std::vector<double> viscous_work;   // work of `viscous_force` on it; empty without viscosity
   std::vector<double> viscous_force;  // (n_owned * 3) of find_viscous_force, or empty [N]
+  std::vector<double> middle;         // (n_owned * 3) velocities in the middle of the step [m/s]
   // Of held nodes in clusters, and room for sums of clusters; used by integrate.
   std::vector<GivenAcceleration> given;
   std::vector<double> cluster_sums;

@@ -41,6 +41,7 @@ std::vector<Tool> two_tools(const std::string& first) {
 }
 
 const std::vector<std::string> supports = {"z-"};
+const std::vector<SceneMarker> markers = {{.name = "tumour"}};
 
 FrameRow example_row() {
   FrameRow row{.frame = 3,
@@ -70,6 +71,7 @@ FrameRow example_row() {
   row.tools[0] = {.position = Vec3(10, 11, 12), .force = Vec3(13, 14, 15)};
   row.tools[1] = {.position = Vec3(16, 17, 18), .force = Vec3(19, 20, 1.0 / 3)};
   row.support_forces = {Vec3(30, 31, 32)};
+  row.markers = {Vec3(34, 35, 36)};
   return row;
 }
 
@@ -77,7 +79,7 @@ TEST(MetricsFile, has_each_value_of_a_row_under_its_column) {
   const TestFolder folder;
   const std::string file = folder.file("m.csv");
   {
-    MetricsFile metrics(file, two_tools("probe"), supports);
+    MetricsFile metrics(file, two_tools("probe"), supports, markers);
     metrics.add(example_row());
   }
   const std::vector<std::string> text = lines(read_text(file));
@@ -116,6 +118,9 @@ TEST(MetricsFile, has_each_value_of_a_row_under_its_column) {
                                                                 {"cut_edits", 8},
                                                                 {"pieces", 28},
                                                                 {"frame_seconds", 9},
+                                                                {"marker_tumour_x_m", 34},
+                                                                {"marker_tumour_y_m", 35},
+                                                                {"marker_tumour_z_m", 36},
                                                                 {"support_z-_force_x_N", 30},
                                                                 {"support_z-_force_y_N", 31},
                                                                 {"support_z-_force_z_N", 32},
@@ -139,7 +144,7 @@ TEST(MetricsFile, has_each_value_of_a_row_under_its_column) {
 TEST(MetricsFile, has_every_row_on_the_disk_before_the_next_comes) {
   const TestFolder folder;
   const std::string file = folder.file("m.csv");
-  MetricsFile metrics(file, two_tools("probe"), supports);
+  MetricsFile metrics(file, two_tools("probe"), supports, markers);
   EXPECT_EQ(lines(read_text(file)).size(), 1u);
   for (std::size_t k = 0; k < 3; ++k) {
     metrics.add(example_row());
@@ -151,7 +156,7 @@ TEST(MetricsFile, keeps_its_columns_whatever_an_instrument_is_called) {
   const TestFolder folder;
   const std::string file = folder.file("m.csv");
   {
-    MetricsFile metrics(file, two_tools("left, \"old\" probe"), supports);
+    MetricsFile metrics(file, two_tools("left, \"old\" probe"), supports, markers);
     metrics.add(example_row());
   }
   const std::vector<std::string> text = lines(read_text(file));
@@ -162,13 +167,13 @@ TEST(MetricsFile, keeps_its_columns_whatever_an_instrument_is_called) {
 TEST(MetricsFile, says_which_file_can_not_be_written) {
   const TestFolder folder;
   const std::string file = folder.file("no/such/folder/m.csv");
-  EXPECT_TRUE(contains(error_of<MachineError>([&] { MetricsFile(file, {}, {}); }),
+  EXPECT_TRUE(contains(error_of<MachineError>([&] { MetricsFile(file, {}, {}, {}); }),
                        file + ": can't be written"));
 }
 
 TEST(MetricsFile, notices_a_full_disk) {
   if (access("/dev/full", W_OK) != 0) GTEST_SKIP() << "no /dev/full";
-  EXPECT_THROW(MetricsFile("/dev/full", {}, {}), MachineError);
+  EXPECT_THROW(MetricsFile("/dev/full", {}, {}, {}), MachineError);
 }
 
 }  // namespace

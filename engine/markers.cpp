@@ -1,0 +1,31 @@
+#include "engine/markers.h"
+
+#include "base/exact_sum.h"
+
+namespace trocar {
+
+std::vector<Location> locate_markers(std::span<const SceneMarker> markers, const Mesh& mesh) {
+  if (markers.empty()) return {};
+  std::vector<Vec3> points;
+  for (const SceneMarker& marker : markers) points.push_back(marker.position);
+  return locate_points(mesh, mesh.X, points);
+}
+
+std::vector<Vec3> marker_positions(std::span<const Location> markers, const Mesh& mesh,
+                                   const Part& part, std::span<const double> u,
+                                   const Communicator& communicator) {
+  std::vector<Vec3> positions;
+  for (const Location& marker : markers) {
+    ExactSum3 sum;
+    const std::span<const std::int32_t> corner = mesh.corners(marker.element);
+    for (std::size_t a = 0; a < corner.size(); ++a) {
+      const std::int32_t local = part.node_local[corner[a]];
+      if (local < 0 || local >= part.n_owned) continue;
+      add(marker.weight[a] * (mesh.X[corner[a]] + Vec3::Map(&u[3 * std::size_t(local)])), sum);
+    }
+    positions.push_back(sum_over_ranks(sum, communicator));
+  }
+  return positions;
+}
+
+}  // namespace trocar

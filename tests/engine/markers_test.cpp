@@ -1,0 +1,106 @@
+// Points of the tissue: where they go with it, on either side of a cut.
+#include "engine/markers.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "engine/equilibrium.h"
+#include "engine_scene.h"
+#include "engine_started.h"
+#include "mesh/connected_nodes.h"
+
+namespace trocar {
+namespace {
+
+std::string bar_text(const std::string& elements, const std::string& markers) {
+  return "[time]\nduration = 1\nframe_rate = 100\n[start]\nstate = \"equilibrium\"\n"
+         "tolerance = 1e-9\n[tissue.shape]\nkind = \"box\"\nlow = [-0.01, -0.01, 0]\n"
+         "high = [0.01, 0.01, 0.05]\ncells = [3, 2, 5]\nelements = \"" +
+         elements +
+         "\"\n[tissue.material]\nmodel = \"linear\"\nyoung_modulus = 6000\npoisson_ratio = 0\n"
+         "[[support]]\nregion = \"z-\"\n[[support]]\nregion = \"z+\"\n"
+         "path = [{ time = 0, displacement = [0, 0, 0.002] }]\n"
+         "[[output]]\nkind = \"metrics\"\nfile = \"m.csv\"\n" +
+         markers;
+}
+
+std::string marker(const std::string& name, const Vec3& at) {
+  return "[[marker]]\nname = \"" + name + "\"\nposition = [" + std::to_string(at.x()) + ", " +
+         std::to_string(at.y()) + ", " + std::to_string(at.z()) + "]\n";
+}
+
+TEST(Markers, go_with_the_tissue_of_a_stretched_bar) {
+  const std::vector<Vec3> X = {
+      {0.0031, -0.0022, 0.0137}, {-0.01, 0.01, 0.05}, {0, 0, 0.02}, {0.009, 0.001, 0.0415}};
+  std::string markers;
+  for (std::size_t k = 0; k < X.size(); ++k) markers += marker(std::to_string(k), X[k]);
+  for (const std::string elements : {"hex8", "tet4-kuhn"}) {
+    const auto bar = built(bar_text(elements, markers));
+    start_in_equilibrium(bar->loaded, *bar->s);
+    run_frame(*bar->s, bar->outputs);
+    const std::vector<Vec3>& x = bar->s->log.rows.back().markers;
+    ASSERT_EQ(x.size(), X.size());
+    for (std::size_t k = 0; k < X.size(); ++k)
+      EXPECT_LT((x[k] - Vec3(X[k].x(), X[k].y(), 1.04 * X[k].z())).norm(), 1e-9) << elements << k;
+  }
+}
+
+// The blade goes through z = 15 mm, 18 degrees off the level; the body is stretched as it cuts.
+TEST(Markers, stay_where_they_are_beside_a_cut_that_moves_nodes_and_follow_their_side) {
+  std::string markers;
+  int n = 0;
+  for (const double z : {0.012, 0.0144, 0.0156, 0.018})
+    for (const double y : {-0.007, 0., 0.004}) {
+      markers += marker(std::to_string(n), Vec3(0.001 * n - 0.006, y, z));
+      ++n;
+    }
+  for (const std::string elements : {"hex8", "tet4-five"}) {
+    const auto bar = built(bar_text(elements, markers));
+    start_in_equilibrium(bar->loaded, *bar->s);
+    Simulation& s = *bar->s;
+    const auto positions = [&] {
+      return marker_positions(s.markers, s.mesh, s.part, s.state.u, *s.communicator);
+    };
+    const std::vector<Vec3> before = positions();
+    GlobalState global = gather_state(s);
+    CutFigures figures;
+    CutRecord record;
+    apply_cut(s, cut_across(s, global, figures), global, record);
+    EXPECT_GT(figures.n_moved, 0);
+    const std::vector<Vec3> after = positions();
+    for (std::size_t k = 0; k < before.size(); ++k)
+      EXPECT_LT((after[k] - before[k]).norm(), 1e-9) << elements << " " << k;
+    // The lower part is moved away: those below the blade go with it, the others stay.
+    const Vec3 away(0, 0, -0.1);
+    std::vector<std::int32_t> all(s.mesh.element_type.size());
+    std::iota(all.begin(), all.end(), 0);
+    const std::vector<std::int32_t> piece = connected_nodes(s.mesh, all);
+    const NodeSet& lower = *find_node_set(s.mesh, "z-");
+    for (std::size_t i = 0; i < s.mesh.X.size(); ++i)
+      if (piece[i] == piece[static_cast<std::size_t>(lower.node[0])])
+        for (int j = 0; j < 3; ++j) s.state.u[3 * i + static_cast<std::size_t>(j)] += away[j];
+    const std::vector<Vec3> moved = positions();
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      const Vec3 way = moved[k] - after[k];
+      EXPECT_TRUE(way.norm() < 1e-12 || (way - away).norm() < 1e-12) << elements << " " << k;
+    }
+    EXPECT_LT((moved.front() - after.front() - away).norm(), 1e-12);
+    EXPECT_LT((moved.back() - after.back()).norm(), 1e-12);
+  }
+}
+
+TEST(Markers, are_refused_outside_the_body_and_by_the_same_name) {
+  const auto error = [](const std::string& markers) {
+    return error_of<InputError>([&] { built(bar_text("hex8", markers)); });
+  };
+  EXPECT_NE(error(marker("m", Vec3(0, 0, 0.06)))
+                .find("marker[0].position: marker \"m\" lies outside the undeformed body"),
+            std::string::npos);
+  EXPECT_NE(error(marker("m", Vec3(0, 0, 0.01)) + marker("m", Vec3(0, 0, 0.02)))
+                .find("marker[1].name: two markers are called \"m\""),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace trocar
