@@ -64,13 +64,21 @@ static double last_viscous_work(const Simulation& s) {
   return sum_over_ranks(work, *s.communicator);
 }
 
+// Forces as the substeps of small elements have them; loads count there, and do work.
+static void refine_last_forces(Simulation& s) {
+  s.scratch.has_force = false;
+  // After a cut the last step may be too long for the substeps of new small elements.
+  if (s.state.last_dt == 0 || s.state.last_dt > s.watch.stable_step) return;
+  find_loads_at(s, s.state.time);
+  add_loads(s.loads, 1, s.scratch.force);
+  refine_forces(s, s.state.last_dt);
+  add_loads(s.loads, -1, s.scratch.force);
+}
+
 EnergyState mechanical_energy(Simulation& s) {
   if (!s.scratch.has_force) compute_force(s.model, s.state, s.scratch);
   find_viscous_force(s.model, s.state, s.scratch);
-  if (s.multirate) s.scratch.has_force = false;  // as they are refined
-  // After a cut the last step may be too long for the substeps of new small elements.
-  if (s.state.last_dt > 0 && s.state.last_dt <= s.watch.stable_step)
-    refine_forces(s, s.state.last_dt);
+  if (s.multirate) refine_last_forces(s);
   EnergyTerms terms;
   energy_terms(s.model, s.part, s.state, terms);
   terms.strain.insert(terms.strain.end(), terms.volumetric.begin(), terms.volumetric.end());

@@ -44,7 +44,7 @@ std::vector<std::int32_t> pieces_of(const Mesh& mesh) {
 Relaxation relax_body(Simulation& s, const std::atomic<bool>* stop) {
   aim_holds(s.holds, s.tools, s.mesh.X, 0);
   const auto add = [&](double share, std::span<double> force) {
-    find_loads(s.scene.loads, s.mesh, s.part, s.scene.tissue.thickness, 0, s.state.u, s.loads);
+    find_loads_at(s, 0);
     add_loads(s.loads, share, force);
   };
   return relax(s.model,

@@ -87,24 +87,20 @@ void resolve_contacts(Simulation& s, const FrameSpan& span, std::int64_t k) {
   add_contact_force(contact, s.scratch.force);
 }
 
-void apply_loads(Simulation& s, double time) {
-  if (s.loads.is_empty()) return;
-  find_loads(s.scene.loads, s.mesh, s.part, s.scene.tissue.thickness, time, s.state.u, s.loads);
-  add_loads(s.loads, 1, s.scratch.force);
-}
-
-// The first of a frame may be known from the look at the end of the one before.
-void update_force(Simulation& s, double dt) {
+// Of elements and loads. The first of a frame may be known from the look at the end of the one
+// before.
+void update_force(Simulation& s, double time, double dt) {
   const ForceScope scope(s);
   if (!s.scratch.has_force) find_force(s.model, s.neighbours, s.state, s.scratch);
   s.scratch.has_force = false;  // from here on it is added to
-  refine_forces(s, dt);
   find_viscous_force(s.model, s.state, s.scratch);
+  find_loads_at(s, time);
+  add_loads(s.loads, 1, s.scratch.force);
+  refine_forces(s, dt);
 }
 
 void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
-  update_force(s, span.dt);
-  apply_loads(s, span.t0 + static_cast<double>(k) * span.dt);
+  update_force(s, span.t0 + static_cast<double>(k) * span.dt, span.dt);
   aim_holds(s.holds, s.tools, s.mesh.X, span.t0 + static_cast<double>(k + 1) * span.dt);
   if (s.contact) {
     const PhaseScope scope(s.timers, phase_contact);

@@ -228,6 +228,11 @@ void refine_forces(Simulation& s, double dt) {
                *s.multirate, s.scratch);
 }
 
+void find_loads_at(Simulation& s, double time) {
+  if (s.loads.is_empty()) return;
+  find_loads(s.scene.loads, s.mesh, s.part, s.scene.tissue.thickness, time, s.state.u, s.loads);
+}
+
 double largest_speed(const Simulation& s) {
   double most = 0;
   for (std::int64_t i = 0; i < s.part.n_owned; ++i)

@@ -57,6 +57,8 @@ void follow_from_here(Simulation& s, double step);
 void find_stiffening_at_look(Simulation& s);
 // Forces of a step dt in place of those at this moment, with solver.multirate. Collective.
 void refine_forces(Simulation& s, double dt);
+// s.loads as they act at a time [s] on the body as it is.
+void find_loads_at(Simulation& s, double time);
 // Of all nodes of all ranks. Collective. [m/s]
 double largest_speed(const Simulation& s);
 // A sentence with element or node and cause, "" if all is well. The same on every rank.
