@@ -43,7 +43,9 @@ Options<SceneShape> shape_options() {
            "Elements of box, ball and cylinder.");
   s.vector("low", &SceneShape::low, dim::length, any, "Lower corner of a box.");
   s.vector("high", &SceneShape::high, dim::length, any,
-           "Upper corner of a box; a rectangle runs from 0 to here.");
+           "Upper corner of a box; a rectangle runs from 0 to here, but a triangular-rectangle "
+           "only along "
+           "x: its height follows from its rows of equilateral triangles.");
   s.vector("centre", &SceneShape::centre, dim::length, any,
            "Centre of a ball, of a cylinder's base.");
   s.number("radius", &SceneShape::radius, dim::length, positive, "Of ball and cylinder.");
