@@ -69,10 +69,11 @@ static CutBody opened_in_the_middle(CutBody body) {
   return body;
 }
 
-// In one stroke along an oblique plane. The blade meets the body at rest: a plane there is one in
-// the reference too.
-static CutBody cut_through(CutBody body) {
-  const Vec3 normal = Vec3(1, .3, .2).normalized();
+static const Vec3 oblique = Vec3(1, .3, .2).normalized();
+
+// In one stroke along a plane through the middle. The blade meets the body at rest: a plane there
+// is one in the reference too.
+static CutBody cut_through(CutBody body, const Vec3& normal) {
   cutting_test::Body tissue_body(body.mesh);
   TetCutter cutter{CutTetOptions{}};
   cutter.start_stroke();
@@ -150,7 +151,8 @@ static void check_forces(const std::string& cut_name, const CutBody& cut) {
 
 TEST(V30Cut, forces_are_those_of_a_body_born_in_two_pieces) {
   check_forces("opened between elements", opened_in_the_middle(moving_block()));
-  check_forces("oblique stroke", cut_through(moving_block()));
+  check_forces("oblique stroke", cut_through(moving_block(), oblique));
+  check_forces("stroke along a plane of nodes", cut_through(moving_block(), Vec3::UnitX()));
 }
 
 TEST(V30Cut, a_cut_that_moves_no_nodes_keeps_linear_and_angular_momentum) {
@@ -167,7 +169,7 @@ TEST(V30Cut, a_cut_that_moves_no_nodes_keeps_linear_and_angular_momentum) {
 }
 
 TEST(V30Cut, both_halves_relax_to_zero_strain) {
-  const CutBody cut = cut_through(moving_block());
+  const CutBody cut = cut_through(moving_block(), oblique);
   Body body = settled_in(cut.mesh, cut.u);
   const double before = stored_energy(body);
   settle(body, {.ramp_iterations = 0, .tolerance = 1e-6});
