@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "cutting/cut_hex.h"
+#include "engine/body_check.h"
 #include "engine/bytes.h"
 #include "engine/equilibrium.h"
 #include "engine/frame_report.h"
@@ -20,7 +21,6 @@
 #include "mesh/connected_nodes.h"
 #include "mesh/mesh_file.h"
 #include "mesh/quality.h"
-#include "solver/material_check.h"
 
 namespace trocar {
 
@@ -71,25 +71,6 @@ void build_supports(Simulation& s) {
   const auto same_node = [](const Hold& a, const Hold& b) { return a.node == b.node; };
   s.holds.holds.erase(std::unique(s.holds.holds.begin(), s.holds.holds.end(), same_node),
                       s.holds.holds.end());
-}
-
-void check_loads(const LoadedScene& loaded, const Simulation& s) {
-  for (std::size_t k = 0; k < s.scene.loads.size(); ++k) {
-    const SceneLoad& load = s.scene.loads[k];
-    if (load.pressure != 0 &&
-        loaded_faces(s.mesh, s.surface, *find_node_set(s.mesh, load.region)).empty())
-      loaded.where.fail("load[" + std::to_string(k) + "].region",
-                        "no face of the surface lies in region \"" + load.region +
-                            "\" with all its nodes: nothing for the pressure to act on");
-  }
-}
-
-void check_markers(const LoadedScene& loaded, const Simulation& s) {
-  for (std::size_t k = 0; k < s.markers.size(); ++k)
-    if (s.markers[k].element < 0)
-      loaded.where.fail(
-          "marker[" + std::to_string(k) + "].position",
-          "marker \"" + s.scene.markers[k].name + "\" lies outside the undeformed body");
 }
 
 TriangleMesh load_tool_mesh(const LoadedScene& loaded, std::size_t k, Communicator& communicator) {
@@ -273,22 +254,6 @@ std::unique_ptr<MultiRate> find_multirate(const Simulation& s) {
                         *s.communicator);
 }
 
-// Cuts make tetrahedra of hexahedra, in the middle of the run.
-void check_converted(const LoadedScene& loaded, const Simulation& s) {
-  if (s.cuts.empty()) return;
-  const SolverOptions options = solver_options(s.scene);
-  std::vector<std::uint8_t> has_hexahedra(s.materials.size(), 0);
-  for (std::size_t e = 0; e < s.mesh.element_type.size(); ++e)
-    if (s.mesh.element_type[e] == ElementType::hex8)
-      has_hexahedra[static_cast<std::size_t>(s.mesh.element_region[e])] = 1;
-  for (std::size_t r = 0; r < s.materials.size(); ++r) {
-    if (has_hexahedra[r] == 0) continue;
-    if (const std::string fault = misfit_of(s.materials[r], options.tet4, options.precision);
-        !fault.empty())
-      loaded.where.fail("solver.tetrahedron", "a cut makes tetrahedra of hexahedra: " + fault);
-  }
-}
-
 // What is wrong now is so with the tissue as it was given.
 void build_topology(const LoadedScene& loaded, Simulation& s) {
   try {
@@ -376,9 +341,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   build_instruments(loaded, s);
   s.body_crc = crc_of_body(s);
   build_topology(loaded, s);
-  check_loads(loaded, s);
-  check_markers(loaded, s);
-  check_converted(loaded, s);
+  check_body(loaded, s);
   s.whole_mass = std::accumulate(s.mass.begin(), s.mass.end(), 0.0);
   if (!s.cuts.empty()) prepare_first_cut(s);
   s.state = make_state(s.model);
@@ -389,9 +352,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
     check_instruments_outside(loaded, buried * s.contact_reach,
                               "the body at time 0: let it begin outside", s);
   s.log.least_stable_step = s.log.largest_stable_step = s.watch.stable_step;
-  if (std::any_of(s.scene.outputs.begin(), s.scene.outputs.end(),
-                  [](const SceneOutput& output) { return output.kind == OutputKind::metrics; }))
-    open_energy_ledger(s);
+  if (has_metrics(s.scene)) open_energy_ledger(s);
   if (!s.cuts.empty()) leave_room_for_copies(s);
   s.scratch.has_force = false;  // nodes may be moved before the first frame
   return simulation;

@@ -44,12 +44,10 @@ FrameSpan plan_frame(const Simulation& s) {
 void grasp(Simulation& s, const FrameSpan& span) {
   const double before = static_cast<double>(s.frame - 1) / s.scene.time.frame_rate;
   if (!will_act(s.tools, before, span.t0)) return;
-  const int n_taken = act_graspers(s.holds, s.tools, before, span.t0, gather_state(s).x, s.fixed);
-  if (n_taken < 0) return;
-  localise_holds(s.holds, s.part);
-  note_event(s, span.t0,
-             n_taken > 0 ? "grasper closes on " + std::to_string(n_taken) + " nodes"
-                         : "grasper opens or closes on nothing");
+  const std::vector<GraspAct> acts =
+      act_graspers(s.holds, s.tools, before, span.t0, gather_state(s).x, s.fixed);
+  if (!acts.empty()) localise_holds(s.holds, s.part);
+  for (const GraspAct& act : acts) note_grasp(s, span.t0, act);
 }
 
 void detect(Simulation& s, const FrameSpan& span) {

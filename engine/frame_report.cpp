@@ -117,6 +117,33 @@ void note_event(Simulation& s, double time, const std::string& event) {
   log_info(stamp + event);
 }
 
+void note_grasp(Simulation& s, double time, const GraspAct& act) {
+  const Tool& tool = s.tools[static_cast<std::size_t>(act.tool)];
+  char text[160] = " opens";
+  if (act.n_taken > 0)
+    std::snprintf(text, sizeof text, " closes on %d nodes", act.n_taken);
+  else if (act.has_closed)
+    std::snprintf(text, sizeof text,
+                  " closes on nothing: the nearest free node is %.3g mm from its tip, and it grips "
+                  "within %.3g mm",
+                  1e3 * act.nearest, 1e3 * tool.grip_radius);
+  note_event(s, time, tool.name + text);
+}
+
+void note_idle_blades(Simulation& s) {
+  for (const CutStage& stage : s.cuts) {
+    if (std::any_of(stage.strokes.begin(), stage.strokes.end(),
+                    [](const CutRecord& stroke) { return stroke.n_edits > 0; }))
+      continue;
+    const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+    const char* const why = !stage.strokes.empty() ? "its strokes in the summary say where it was"
+                            : tool.kind == InstrumentKind::scissors
+                                ? "its jaws never closed on the tissue"
+                                : "its blade never met the tissue";
+    note_event(s, s.state.time, tool.name + " has cut nothing: " + why);
+  }
+}
+
 std::uint64_t state_digest(const Simulation& s) {
   std::uint64_t sum = 0;
   for (std::int32_t i = 0; i < s.part.n_owned; ++i) {

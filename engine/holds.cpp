@@ -1,6 +1,8 @@
 #include "engine/holds.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace trocar {
 
@@ -14,19 +16,23 @@ void release(Holds& holds, std::int32_t tool) {
   std::erase_if(holds.holds, [&](const Hold& hold) { return hold.tool == tool; });
 }
 
-int grasp(Holds& holds, const Tool& tool, std::int32_t number, const Pose& pose,
-          std::span<const Vec3> x, std::span<const std::uint8_t> fixed) {
+GraspAct grasp(Holds& holds, const Tool& tool, std::int32_t number, const Pose& pose,
+               std::span<const Vec3> x, std::span<const std::uint8_t> fixed) {
   const std::vector<std::uint8_t> is_held = held_nodes(holds, fixed);
-  int n_taken = 0;
+  GraspAct act{.tool = number, .has_closed = true};
+  double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < x.size(); ++i) {
+    if (is_held[i] != 0) continue;
     const Vec3 offset = pose.apply_inverse(x[i]);
-    if (is_held[i] || offset.squaredNorm() > tool.grip_radius * tool.grip_radius) continue;
+    nearest = std::min(nearest, offset.squaredNorm());
+    if (offset.squaredNorm() > tool.grip_radius * tool.grip_radius) continue;
     holds.holds.push_back({.node = static_cast<std::int32_t>(i), .tool = number, .offset = offset});
-    ++n_taken;
+    ++act.n_taken;
   }
+  act.nearest = std::sqrt(nearest);
   std::sort(holds.holds.begin(), holds.holds.end(),
             [](const Hold& a, const Hold& b) { return a.node < b.node; });
-  return n_taken;
+  return act;
 }
 
 // A plane body is fixed across its plane everywhere: that holds nothing.
@@ -51,21 +57,21 @@ bool will_act(std::span<const Tool> tools, double t0, double t1) {
   return false;
 }
 
-int act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,
-                 std::span<const Vec3> x, std::span<const std::uint8_t> fixed) {
-  int n_taken = -1;
+std::vector<GraspAct> act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,
+                                   std::span<const Vec3> x, std::span<const std::uint8_t> fixed) {
+  std::vector<GraspAct> acts;
   for (std::size_t k = 0; k < tools.size(); ++k)
     for (const InstrumentKey& key : tools[k].keys) {
       if (!acts_within(key, t0, t1)) continue;
       const auto number = static_cast<std::int32_t>(k);
       holds.is_open[k] = key.action == GraspAction::open;
       if (tools[k].kind != InstrumentKind::grasper) continue;
-      n_taken = std::max(n_taken, 0);
       release(holds, number);
-      if (key.action == GraspAction::close)
-        n_taken += grasp(holds, tools[k], number, tools[k].path.at(t1), x, fixed);
+      acts.push_back(key.action == GraspAction::close
+                         ? grasp(holds, tools[k], number, tools[k].path.at(t1), x, fixed)
+                         : GraspAct{.tool = number});
     }
-  return n_taken;
+  return acts;
 }
 
 void localise_holds(Holds& holds, const Part& part) {

@@ -36,11 +36,18 @@ struct Holds {
 // 1 for each node (n_nodes) that is held by anything or supported in x or y.
 std::vector<std::uint8_t> held_nodes(const Holds& holds, std::span<const std::uint8_t> fixed);
 
+// What a grasper did: closed on so many nodes, or opened.
+struct GraspAct {
+  std::int32_t tool = 0;
+  bool has_closed = false;
+  int n_taken = 0;
+  double nearest = 0;  // distance of the nearest node that nothing else holds from its tip [m]
+};
 // Closes and opens graspers and scissors whose key time lies in (t0, t1]; x (n_nodes) all present
-// positions. Nodes within the grip radius of the tip that nothing else holds are taken. Returns the
-// number of nodes taken, -1 if no grasper acted.
-int act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,
-                 std::span<const Vec3> x, std::span<const std::uint8_t> fixed);
+// positions. Nodes within the grip radius of the tip that nothing else holds are taken. Returns
+// what graspers did, one after the other.
+std::vector<GraspAct> act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,
+                                   std::span<const Vec3> x, std::span<const std::uint8_t> fixed);
 bool will_act(std::span<const Tool> tools, double t0, double t1);
 
 // After a change of part, holds or topology.

@@ -200,6 +200,9 @@ struct Scene {
   std::vector<SceneOutput> outputs;
 };
 
+// Whether anything of the scene is written to a table of metrics.
+bool has_metrics(const Scene& scene);
+
 Options<Scene> scene_options();
 
 // Reads and checks a scene, also what one key alone can't tell: names that refer to each other,

@@ -205,6 +205,11 @@ void check_time(const Scene& scene, const SourceMap& where) {
 
 }  // namespace
 
+bool has_metrics(const Scene& scene) {
+  return std::any_of(scene.outputs.begin(), scene.outputs.end(),
+                     [](const SceneOutput& output) { return output.kind == OutputKind::metrics; });
+}
+
 LoadedScene load_scene(const std::string& file, const std::vector<std::string>& overrides) {
   Located<Scene> located = read_options(scene_options(), file, overrides);
   const Scene& scene = located.value;

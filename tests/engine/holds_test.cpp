@@ -34,7 +34,12 @@ struct Case {
     holds.poses.resize(2);
     holds.is_open.assign(2, 1);
   }
-  int act(double t0, double t1) { return act_graspers(holds, tools, t0, t1, mesh.X, fixed); }
+  int act(double t0, double t1) {  // nodes taken, -1: no grasper acted
+    int n_taken = -1;
+    for (const GraspAct& act : act_graspers(holds, tools, t0, t1, mesh.X, fixed))
+      n_taken = std::max(n_taken, 0) + act.n_taken;
+    return n_taken;
+  }
   std::vector<std::int32_t> nodes() const {
     std::vector<std::int32_t> list;
     for (const Hold& hold : holds.holds) list.push_back(hold.node);

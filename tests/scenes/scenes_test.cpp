@@ -242,7 +242,8 @@ TEST(Equilibrium, is_reported_with_iterations_residual_and_seconds) {
   EXPECT_GT(summary["equilibrium"]["iterations"], 0);
   EXPECT_LE(summary["equilibrium"]["residual"], 1e-4);
   EXPECT_GT(summary["equilibrium"]["seconds"], 0.0);
-  EXPECT_EQ(summary["events"].size(), 1u);
+  EXPECT_NE(summary["events"][0].get<std::string>().find("in equilibrium after "),
+            std::string::npos);
 }
 
 TEST(Equilibrium, that_is_not_found_ends_the_run_with_a_sentence_and_a_summary) {

@@ -1,0 +1,77 @@
+#include "engine/body_check.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/log.h"
+#include "solver/material_check.h"
+
+namespace trocar {
+
+namespace {
+
+// Whether a load could move any of the nodes; which way a pressure pushes is open.
+bool can_move(const Simulation& s, const SceneLoad& load, const NodeSet& region) {
+  FixedMask pushed = load.pressure != 0 ? all_components : FixedMask{0};
+  for (int j = 0; j < 3; ++j)
+    if (load.force[j] != 0) pushed = static_cast<FixedMask>(pushed | (1 << j));
+  std::vector<std::uint8_t> is_carried(s.mesh.X.size());  // by a moving support
+  for (const Hold& hold : s.holds.holds) is_carried[static_cast<std::size_t>(hold.node)] = 1;
+  return std::any_of(region.node.begin(), region.node.end(), [&](std::int32_t node) {
+    const auto i = static_cast<std::size_t>(node);
+    return is_carried[i] == 0 && (pushed & ~s.fixed[i]) != 0;
+  });
+}
+
+void check_loads(const LoadedScene& loaded, const Simulation& s) {
+  for (std::size_t k = 0; k < s.scene.loads.size(); ++k) {
+    const SceneLoad& load = s.scene.loads[k];
+    const NodeSet& region = *find_node_set(s.mesh, load.region);
+    if (load.pressure != 0 && loaded_faces(s.mesh, s.surface, region).empty())
+      loaded.where.fail("load[" + std::to_string(k) + "].region",
+                        "no face of the surface lies in region \"" + load.region +
+                            "\" with all its nodes: nothing for the pressure to act on");
+    if (!can_move(s, load, region))
+      log_warning("load[" + std::to_string(k) +
+                  "] moves nothing: supports hold all nodes of region \"" + load.region +
+                  "\", or the body is plane and the force across it");
+  }
+}
+
+void check_markers(const LoadedScene& loaded, const Simulation& s) {
+  if (!s.markers.empty() && !has_metrics(s.scene))
+    log_warning(
+        "markers do nothing: there is no [[output]] of kind \"metrics\" to tell where they are");
+  for (std::size_t k = 0; k < s.markers.size(); ++k)
+    if (s.markers[k].element < 0)
+      loaded.where.fail(
+          "marker[" + std::to_string(k) + "].position",
+          "marker \"" + s.scene.markers[k].name + "\" lies outside the undeformed body");
+}
+
+// Cuts make tetrahedra of hexahedra, in the middle of the run.
+void check_converted(const LoadedScene& loaded, const Simulation& s) {
+  if (s.cuts.empty()) return;
+  const SolverOptions options = solver_options(s.scene);
+  std::vector<std::uint8_t> has_hexahedra(s.materials.size(), 0);
+  for (std::size_t e = 0; e < s.mesh.element_type.size(); ++e)
+    if (s.mesh.element_type[e] == ElementType::hex8)
+      has_hexahedra[static_cast<std::size_t>(s.mesh.element_region[e])] = 1;
+  for (std::size_t r = 0; r < s.materials.size(); ++r) {
+    if (has_hexahedra[r] == 0) continue;
+    if (const std::string fault = misfit_of(s.materials[r], options.tet4, options.precision);
+        !fault.empty())
+      loaded.where.fail("solver.tetrahedron", "a cut makes tetrahedra of hexahedra: " + fault);
+  }
+}
+
+}  // namespace
+
+void check_body(const LoadedScene& loaded, const Simulation& s) {
+  check_loads(loaded, s);
+  check_markers(loaded, s);
+  check_converted(loaded, s);
+}
+
+}  // namespace trocar

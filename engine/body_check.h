@@ -1,0 +1,13 @@
+// What of a scene is wrong or without effect only its body can tell.
+#pragma once
+
+#include "engine/scene.h"
+#include "engine/simulation.h"
+
+namespace trocar {
+
+// Loads, markers, and materials of what a cut makes. Throws InputError, naming the key, where the
+// scene can't be run as it is; warns where a part of it does nothing.
+void check_body(const LoadedScene& loaded, const Simulation& s);
+
+}  // namespace trocar

@@ -1,0 +1,96 @@
+// What a scene asks for in vain is told: loads on what can't move, markers without metrics,
+// graspers and blades that meet no tissue.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "program.h"
+
+namespace trocar {
+namespace {
+
+const std::string block = R"(
+[time]
+duration = "0.06 s"
+frame_rate = "50 Hz"
+[tissue.shape]
+kind = "box"
+elements = "hex8"
+high = ["20 mm", "20 mm", "20 mm"]
+cells = [4, 4, 4]
+[tissue.material]
+young_modulus = "5 kPa"
+poisson_ratio = 0.4
+density = 1000
+[[support]]
+region = "z-"
+)";
+
+struct Told {
+  Finished run;
+  std::string events;
+};
+
+// Of the block and what else a scene has.
+Told told(const std::string& more, const std::string& folder) {
+  const std::string file = folder + "/scene.toml";
+  std::ofstream(file) << block + more;
+  Told result{.run = run_trocar({"run", file, "-q", "-o", folder}, folder), .events = {}};
+  const nlohmann::json summary = read_summary(folder);
+  if (!summary.is_discarded()) result.events = summary["events"].dump();
+  return result;
+}
+
+bool has(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+TEST(InVain, loads_on_what_cannot_move_and_markers_without_metrics_are_warned_of) {
+  const std::string in_vain =
+      "[[load]]\nregion = \"z-\"\nforce = [1, 0, 1]\n"
+      "[[marker]]\nname = \"m\"\nposition = [0, 0, 0]\n";
+  const Finished run = told(in_vain, test_folder("in-vain")).run;
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_TRUE(has(run.err, "load[0] moves nothing: supports hold all nodes of region \"z-\""));
+  EXPECT_TRUE(has(run.err, "markers do nothing: there is no [[output]] of kind \"metrics\""));
+}
+
+TEST(InVain, nothing_is_said_of_loads_and_markers_that_serve) {
+  const std::string of_use =
+      "[[load]]\nregion = \"x+\"\npressure = 1\n"
+      "[[marker]]\nname = \"m\"\nposition = [0, 0, 0]\n"
+      "[[output]]\nkind = \"metrics\"\nfile = \"m.csv\"\n";
+  const Told all = told(of_use, test_folder("of-use"));
+  EXPECT_EQ(all.run.exit_code, 0);
+  EXPECT_EQ(all.run.err, "");
+  EXPECT_EQ(all.events, "[]");
+}
+
+TEST(InVain, graspers_and_blades_that_meet_no_tissue_are_told_by_name) {
+  const std::string pose = "position = [\"10 mm\", \"-40 mm\", \"30 mm\"], direction = [0, 0, -1]";
+  const Told all = told(
+      "[[instrument]]\nkind = \"grasper\"\nname = \"left hand\"\nradius = \"2 mm\"\n"
+      "grip_radius = \"5 mm\"\npath = [{ time = 0, " +
+          pose + " }, { time = \"0.02 s\", " + pose +
+          ", action = \"close\" }, { time = \"0.04 s\", " + pose +
+          ", action = \"open\" }]\n"
+          "[[instrument]]\nkind = \"scalpel\"\nblade_length = \"9 mm\"\n"
+          "path = [{ time = 0, " +
+          pose +
+          " }]\n[[instrument]]\nkind = \"scissors\"\nblade_length = \"9 mm\"\n"
+          "path = [{ time = 0, " +
+          pose + " }]\n",
+      test_folder("no-tissue"));
+  EXPECT_EQ(all.run.exit_code, 0);
+  // sqrt(40^2 + 10^2) mm to the edge of the top.
+  EXPECT_TRUE(has(all.events,
+                  "0.020 s: left hand closes on nothing: the nearest free node is 41.2 mm from its "
+                  "tip, and it grips within 5 mm"))
+      << all.events;
+  EXPECT_TRUE(has(all.events, "0.040 s: left hand opens")) << all.events;
+  EXPECT_TRUE(has(all.events, "scalpel has cut nothing: its blade never met the tissue"));
+  EXPECT_TRUE(has(all.events, "scissors has cut nothing: its jaws never closed on the tissue"));
+}
+
+}  // namespace
+}  // namespace trocar
