@@ -58,7 +58,7 @@ void open_energy_ledger(Simulation& s) {
 
 // What viscous forces do in the half step from where works stand to the end of the last one.
 static double last_viscous_work(const Simulation& s) {
-  std::vector<double> work(s.scratch.viscous_work.size());
+  std::vector<double> work(s.scratch.viscous_force.size() / 3);
   for (std::size_t i = 0; i < work.size(); ++i)
     work[i] = s.state.last_dt / 2 *
               velocity_of(s.state, static_cast<std::int32_t>(i))
@@ -99,8 +99,7 @@ void begin_frame_work(Simulation& s) {
   ledger.hold_work.assign(s.holds.owned.size(), 0.0);
   ledger.blade_work.assign(s.drag.node.size(), 0.0);
   ledger.load_work.assign(s.loads.node.size(), 0.0);
-  for (std::vector<double>* work : {&s.scratch.damping_work, &s.scratch.viscous_work})
-    std::fill(work->begin(), work->end(), 0.0);
+  forget_works(s.scratch);
   forget_support_forces(ledger.support_forces);
 }
 
@@ -154,7 +153,8 @@ void close_frame_work(Simulation& s) {
   ledger.memory.works.holds += sum_over_ranks(ledger.hold_work, *s.communicator);
   ledger.memory.works.blade += sum_over_ranks(ledger.blade_work, *s.communicator);
   ledger.memory.works.loads += sum_over_ranks(ledger.load_work, *s.communicator);
-  ledger.memory.works.damping -= sum_over_ranks(s.scratch.damping_work, *s.communicator);
+  ledger.memory.works.damping -=
+      sum_over_ranks(find_damping_work(s.model, s.scratch), *s.communicator);
   ledger.memory.works.viscous += sum_over_ranks(s.scratch.viscous_work, *s.communicator);
 }
 

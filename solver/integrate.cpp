@@ -1,5 +1,6 @@
 // Central differences in leapfrog form with centred mass damping.
 #include <algorithm>
+#include <array>
 
 #include "base/check.h"
 #include "solver/block_ranges.h"
@@ -75,28 +76,25 @@ double next_velocity(const Model& model, const Coefficients& c, const Scratch& s
              : c.keep * state.v[k] + c.gain / inertia_of(model)[i] * scratch.force[k];
 }
 
-// What damping takes from the nodes and what viscous forces do on them, where middle velocities are
-// kept: before a step these are v.
-void add_works(const Model& model, const Coefficients& c, const State& state, std::int64_t begin,
-               std::int64_t end, Scratch& scratch) {
-  for (std::int64_t k = 3 * begin; k < 3 * end; ++k)
-    scratch.middle[k] = (scratch.middle[k] + state.v[k]) / 2;
-  const double* const v = scratch.middle.data();
-  const double scale = model.options.mass_damping * c.dt_m;
-  for (std::int64_t i = begin; i < end && scale > 0; ++i)
-    scratch.damping_work[i] +=
-        scale * model.mass[i] *
-        (v[3 * i] * v[3 * i] + v[3 * i + 1] * v[3 * i + 1] + v[3 * i + 2] * v[3 * i + 2]);
-  if (scratch.viscous_work.empty()) return;
-  const double* const f = scratch.viscous_force.data();
-  for (std::int64_t i = begin; i < end; ++i)
-    scratch.viscous_work[i] +=
-        c.dt_m * (f[3 * i] * v[3 * i] + f[3 * i + 1] * v[3 * i + 1] + f[3 * i + 2] * v[3 * i + 2]);
+// Works of nodes from `begin` on; `v`: their velocities before the step, then those in its middle.
+void add_works(const NodeKernels& kernels, double dt_m, const State& state, std::int64_t begin,
+               std::span<double> v, Scratch& scratch) {
+  const auto of_nodes = [&](std::vector<double>& values) {
+    return values.empty() ? nullptr : values.data() + 3 * begin;
+  };
+  kernels.works({.dt = dt_m,
+                 .after = state.v.data() + 3 * begin,
+                 .force = of_nodes(scratch.viscous_force),
+                 .v = v.data(),
+                 .swept = of_nodes(scratch.swept),
+                 .work = of_nodes(scratch.viscous_work)},
+                std::ssize(v));
+  if (!scratch.middle.empty()) std::copy(v.begin(), v.end(), of_nodes(scratch.middle));
 }
 
 void integrate_nodes(const Model& model, const Coefficients& c, double dt, Scratch& scratch,
                      State& state) {
-  constexpr std::int64_t at_once = 512;  // nodes, where velocities of before are kept
+  constexpr std::int64_t at_once = 512;  // nodes, where works are kept
   const NodeMotion task{.keep = c.keep,
                         .gain = c.gain,
                         .dt = dt,
@@ -107,13 +105,13 @@ void integrate_nodes(const Model& model, const Coefficients& c, double dt, Scrat
                         .u = state.u.data()};
   parallel_for_nodes(model.n_owned, [&](std::int64_t begin, std::int64_t end) {
     const NodeKernels& kernels = active_kernels().nodes;
-    if (scratch.middle.empty()) return kernels.motion(task, begin, end);
+    if (!scratch.keeps_works) return kernels.motion(task, begin, end);
+    std::array<double, 3 * at_once> v;
     for (; begin < end; begin += at_once) {
       const std::int64_t next = std::min(end, begin + at_once);
-      std::copy(state.v.begin() + 3 * begin, state.v.begin() + 3 * next,
-                scratch.middle.begin() + 3 * begin);
+      std::copy(state.v.begin() + 3 * begin, state.v.begin() + 3 * next, v.begin());
       kernels.motion(task, begin, next);
-      add_works(model, c, state, begin, next, scratch);
+      add_works(kernels, c.dt_m, state, begin, std::span(v).first(3 * (next - begin)), scratch);
     }
   });
 }
@@ -126,7 +124,7 @@ void add_cluster_damping(const Model& model, const Coefficients& c, Scratch& scr
   for (std::size_t cluster = 0; cluster < clusters.total.size(); ++cluster) {
     const Vec3 mean = cluster_mean(clusters, cluster, v_of);
     for (std::int32_t k = clusters.offset[cluster]; k < clusters.offset[cluster + 1]; ++k)
-      scratch.damping_work[clusters.node[k]] +=
+      scratch.cluster_work[clusters.node[k]] +=
           scale * clusters.added[k] * (v_of(clusters.node[k]) - mean).squaredNorm();
   }
 }
@@ -165,7 +163,7 @@ void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> p
   couple_clusters(model, c, dt, state, prescribed, scratch);
   for (PrescribedNode& node : prescribed) add_reaction(model, c, dt, state, scratch, node);
   integrate_nodes(model, c, dt, scratch, state);
-  if (!scratch.middle.empty()) add_cluster_damping(model, c, scratch);
+  if (!scratch.cluster_work.empty()) add_cluster_damping(model, c, scratch);
   // Exactly there, without the rounding of u + dt (u_next - u) / dt.
   for (const PrescribedNode& node : prescribed)
     for (int j = 0; j < 3; ++j)
@@ -174,6 +172,19 @@ void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> p
   state.time += dt;
   state.last_dt = dt;
   ++state.step;
+}
+
+std::vector<double> find_damping_work(const Model& model, const Scratch& scratch) {
+  std::vector<double> work = scratch.cluster_work;
+  work.resize(static_cast<std::size_t>(model.n_owned));
+  for (std::size_t k = 0; k < scratch.swept.size(); ++k)
+    work[k / 3] += model.options.mass_damping * model.mass[k / 3] * scratch.swept[k];
+  return work;
+}
+
+void forget_works(Scratch& scratch) {
+  for (std::vector<double>* sum : {&scratch.swept, &scratch.viscous_work, &scratch.cluster_work})
+    std::fill(sum->begin(), sum->end(), 0.0);
 }
 
 }  // namespace trocar

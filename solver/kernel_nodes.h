@@ -57,6 +57,13 @@ struct NodeLoops {
     if (i < end) move_last(task, i, static_cast<int>(end - i));
   }
 
+  static void works(const NodeWorks& given, std::int64_t n) {
+    const NodeWorks task = given;
+    std::int64_t k = 0;
+    for (; k + width <= n; k += width) add_works(task, k);
+    if (k < n) add_last_works(task, k, static_cast<int>(n - k));
+  }
+
  private:
   struct Nodes {
     const double* inertia;
@@ -206,13 +213,40 @@ struct NodeLoops {
     copy(v, 3 * n, nodes.v);
     copy(u, 3 * n, nodes.u);
   }
+
+  [[gnu::always_inline]] static void add_works(const NodeWorks& task, std::int64_t k) {
+    const Pack v = 0.5 * (load<Pack>(task.v + k) + load<Pack>(task.after + k));
+    store(task.v + k, v);
+    if (task.swept != nullptr)
+      store(task.swept + k, Pack(load<Pack>(task.swept + k) + task.dt * (v * v)));
+    if (task.work != nullptr)
+      store(task.work + k,
+            Pack(load<Pack>(task.work + k) + task.dt * (v * load<Pack>(task.force + k))));
+  }
+
+  // Fewer than a register's, likewise in copies.
+  [[gnu::always_inline]] static void add_last_works(const NodeWorks& task, std::int64_t k, int n) {
+    double after[width] = {}, force[width] = {}, v[width] = {}, swept[width] = {}, work[width] = {};
+    copy(task.after + k, n, after);
+    copy(task.v + k, n, v);
+    if (task.swept != nullptr) copy(task.swept + k, n, swept);
+    if (task.work != nullptr) copy(task.work + k, n, work), copy(task.force + k, n, force);
+    add_works({task.dt, after, force, v, swept, work}, 0);
+    copy(v, n, task.v + k);
+    if (task.swept != nullptr) copy(swept, n, task.swept + k);
+    if (task.work != nullptr) copy(work, n, task.work + k);
+  }
 };
 
 template <class Pack>
 NodeKernels node_kernels() {
   using Loops = NodeLoops<Pack>;
-  return {Loops::template force<double>, Loops::template force<float>,
-          Loops::template add_places<double>, Loops::template add_places<float>, Loops::motion};
+  return {Loops::template force<double>,
+          Loops::template force<float>,
+          Loops::template add_places<double>,
+          Loops::template add_places<float>,
+          Loops::motion,
+          Loops::works};
 }
 
 }  // namespace trocar

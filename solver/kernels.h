@@ -94,6 +94,14 @@ struct NodeMotion {
   double *v, *u;              // [m/s], [m]
 };
 
+// v = (v + after) / 2, the velocity in the middle of a step; swept += dt v v and work += dt force v
+// where they are given.
+struct NodeWorks {
+  double dt = 0;
+  const double *after = nullptr, *force = nullptr;         // [m/s], [N]
+  double *v = nullptr, *swept = nullptr, *work = nullptr;  // [m/s], [m^2/s], [J]
+};
+
 template <class Real>
 using NodeForceKernel = void (*)(const NodeForces<Real>& task, const std::int32_t* node,
                                  std::int64_t n);
@@ -110,6 +118,7 @@ struct NodeKernels {
   PlaceKernel<double> add_places;
   PlaceKernel<float> add_places_of_singles;
   void (*motion)(const NodeMotion& task, std::int64_t begin, std::int64_t end);
+  void (*works)(const NodeWorks& task, std::int64_t n);  // of n components
 };
 
 struct Kernels {

@@ -365,12 +365,17 @@ Scratch make_scratch(const Model& model) {
 }
 
 void keep_works(const Model& model, Scratch& scratch) {
+  scratch.keeps_works = true;
   const auto n_owned = static_cast<std::size_t>(model.n_owned);
-  scratch.damping_work.resize(n_owned);
-  scratch.middle.resize(3 * n_owned);
-  if (model.n_history == 0) return;
-  scratch.viscous_work.resize(n_owned);
-  scratch.viscous_force.resize(3 * n_owned);
+  const auto fit = [](bool is_used, std::size_t n, std::vector<double>& values) {
+    values.resize(is_used ? n : 0);
+  };
+  const bool has_clusters = !model.clusters.node.empty();
+  fit(model.options.mass_damping > 0, 3 * n_owned, scratch.swept);
+  fit(model.n_history > 0, 3 * n_owned, scratch.viscous_work);
+  fit(model.n_history > 0, 3 * n_owned, scratch.viscous_force);
+  fit(has_clusters, 3 * n_owned, scratch.middle);
+  fit(has_clusters, n_owned, scratch.cluster_work);
 }
 
 void fit_scratch(const Model& model, Scratch& scratch) {
@@ -380,7 +385,7 @@ void fit_scratch(const Model& model, Scratch& scratch) {
   scratch.volume_change.resize(static_cast<std::size_t>(model.averages.n_lanes));
   scratch.force.resize(3 * n_owned);
   scratch.has_force = false;
-  if (!scratch.damping_work.empty()) keep_works(model, scratch);
+  if (scratch.keeps_works) keep_works(model, scratch);
   scratch.viscous.resize(model.blocks.size());
 }
 

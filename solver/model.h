@@ -186,11 +186,14 @@ struct Scratch {
   // Whether `force` is known to be find_force's of the present displacement, so that the next step
   // need not compute it; whoever moves nodes or adds to `force` says no.
   bool has_force = false;
-  // Empty, or (n_owned): what keep_works asks for, added up by integrate [J].
-  std::vector<double> damping_work;   // energy that mass damping takes from each node
-  std::vector<double> viscous_work;   // work of `viscous_force` on it; empty without viscosity
-  std::vector<double> viscous_force;  // (n_owned * 3) of find_viscous_force, or empty [N]
-  std::vector<double> middle;         // (n_owned * 3) velocities in the middle of the step [m/s]
+  // Of keep_works, (n_owned * 3) and added up by integrate; without it, and what a model has no use
+  // for, empty.
+  bool keeps_works = false;
+  std::vector<double> swept;          // squared velocity times time [m^2/s], for find_damping_work
+  std::vector<double> viscous_work;   // of `viscous_force` [J]
+  std::vector<double> viscous_force;  // of find_viscous_force [N]
+  std::vector<double> middle;         // velocities in the middle of the last step [m/s]
+  std::vector<double> cluster_work;   // (n_owned) taken by damping of what clusters add [J]
   // Of held nodes in clusters, and room for sums of clusters; used by integrate.
   std::vector<GivenAcceleration> given;
   std::vector<double> cluster_sums;

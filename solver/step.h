@@ -61,6 +61,10 @@ void predict(const Model& model, Scratch& scratch, std::span<const PrescribedNod
 // Displacement that one newton more gives 1 kg in the step [s^2].
 double step_response(const Model& model, const State& state, double dt);
 
+// With keep_works, since forget_works: energy that mass damping has taken from each owned node. [J]
+std::vector<double> find_damping_work(const Model& model, const Scratch& scratch);
+void forget_works(Scratch& scratch);
+
 // Name of the instruction set that the kernels use: "sse2", "avx2", "avx512"; "scalar" for tests.
 const char* simd_name();
 // Picks it: "auto" or one of the names. Throws InputError if the machine lacks it. Call before the

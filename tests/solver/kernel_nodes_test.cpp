@@ -81,6 +81,52 @@ TEST(NodeKernels, a_node_moves_by_the_same_bits_whatever_part_it_is_in) {
   });
 }
 
+// u stands for the velocity after the step; numbers of order 1.
+TEST(NodeKernels, works_are_those_of_middle_velocities_by_the_same_bits_in_any_part) {
+  for_each_simd([](const NodeKernels& kernels) {
+    const Nodes nodes = random_nodes();
+    struct Works {
+      std::vector<double> v, swept, work;
+    };
+    const Works start{nodes.v, nodes.inertia, nodes.force};
+    const auto add = [&](Works& w, std::size_t begin, std::size_t end) {
+      kernels.works({.dt = .3,
+                     .after = nodes.u.data() + begin,
+                     .force = nodes.force.data() + begin,
+                     .v = w.v.data() + begin,
+                     .swept = w.swept.data() + begin,
+                     .work = w.work.data() + begin},
+                    static_cast<std::int64_t>(end - begin));
+    };
+    Works whole = start, parts = start;
+    for (Works* w : {&whole, &parts}) w->swept.resize(3 * n_nodes, .5);
+    for (std::size_t k = 0; k < 3 * n_nodes; k += 13)
+      add(parts, k, std::min<std::size_t>(k + 13, 3 * n_nodes));
+    const std::vector<double> before = whole.swept;
+    add(whole, 0, 3 * n_nodes);
+    EXPECT_EQ(whole.v, parts.v);
+    EXPECT_EQ(whole.swept, parts.swept);
+    EXPECT_EQ(whole.work, parts.work);
+    for (std::size_t k = 0; k < 3 * n_nodes; ++k) {
+      const double v = (nodes.v[k] + nodes.u[k]) / 2;
+      EXPECT_EQ(whole.v[k], v);
+      EXPECT_NEAR(whole.swept[k], before[k] + .3 * v * v, 1e-15);
+      EXPECT_NEAR(whole.work[k], start.work[k] + .3 * nodes.force[k] * v, 1e-15);
+    }
+  });
+}
+
+// What is not asked for is left alone.
+TEST(NodeKernels, works_without_a_place_for_them_make_middle_velocities_alone) {
+  for_each_simd([](const NodeKernels& kernels) {
+    Nodes nodes = random_nodes();
+    const std::vector<double> before = nodes.v;
+    kernels.works({.dt = .3, .after = nodes.u.data(), .v = nodes.v.data()}, 3 * n_nodes);
+    for (std::size_t k = 0; k < 3 * n_nodes; ++k)
+      EXPECT_EQ(nodes.v[k], (before[k] + nodes.u[k]) / 2);
+  });
+}
+
 // Whose sums are of this kind.
 static NodeForceKernel<double> force_kernel(const NodeKernels& kernels, double) {
   return kernels.force;
