@@ -20,6 +20,24 @@ TEST(Docs, pages_of_the_program_are_what_it_prints) {
   EXPECT_EQ(run_trocar({"help", "tissues", "--markdown"}, folder).out, page("tissues.md"));
 }
 
+TEST(Docs, the_scene_of_the_readme_runs_and_cuts) {
+  const std::string folder = test_folder("readme"), begin = "```toml\n";
+  const std::string readme = read_text(std::string(TROCAR_SOURCE_DIR) + "/README.md");
+  const std::size_t at = readme.find(begin) + begin.size();
+  std::ofstream(folder + "/s.toml") << readme.substr(at, readme.find("```", at) - at);
+  const Finished run =
+      run_trocar({"run", folder + "/s.toml", "-q", "-o", folder, "--set", "output=[]", "--set",
+                  "time.duration=4", "--set", "tissue.mesh='" + config("meshes/liver.msh") + "'"},
+                 folder);
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.err, "");
+  const nlohmann::json summary = read_summary(folder);
+  ASSERT_FALSE(summary.is_discarded());
+  EXPECT_EQ(summary["events"].size(), 0U);
+  ASSERT_EQ(summary["cuts"].size(), 1U);
+  EXPECT_GT(summary["cuts"][0]["facets_opened"], 4);
+}
+
 // Names of phases and of what the scene names are not words of the page.
 void collect_keys(const nlohmann::json& value, std::set<std::string>& keys) {
   if (!value.is_structured()) return;
