@@ -56,8 +56,11 @@ Ran run_scene_file(const std::string& name, const std::string& outputs) {
       2,
       {"run", config(name), "-q", "--threads", "1", "-o", ran.folder, "--set", "output=" + outputs},
       ran.folder, 500);
-  EXPECT_EQ(ran.program.exit_code, 0) << ran.program.err;
+  EXPECT_EQ(ran.program.exit_code, 0);
+  EXPECT_EQ(ran.program.err, "");
   ran.summary = read_summary(ran.folder);
+  // Of instruments that do nothing.
+  EXPECT_EQ(ran.summary["events"].dump().find(" nothing"), std::string::npos);
   if (!ran.summary.is_discarded()) ran.metrics = read_metrics(ran.folder + "/metrics.csv");
   return ran;
 }
