@@ -86,6 +86,11 @@ void print_mesh(const std::string& file, const Mesh& mesh) {
       std::printf("  %-17s %d\n", element_type_name(static_cast<ElementType>(type)), n);
   std::printf("  pieces            %d\n  surface triangles %d\n", m.n_pieces,
               m.n_surface_triangles);
+  if (m.n_unjoined > 0)
+    std::printf(
+        "  NOT JOINED        %d nodes lie where nodes of other pieces do: the pieces come "
+        "apart unless the mesher merges these nodes\n",
+        m.n_unjoined);
   std::printf("  box               %.4g x %.4g x %.4g m\n  volume            %.5g %s\n", size.x(),
               size.y(), size.z(), m.volume, mesh.dimension() == 2 ? "m^2" : "m^3");
   std::printf("  edges             %.3g … %.3g m, mean %.3g m\n", m.edge_min, m.edge_max,

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/log.h"
 #include "cutting/cut_hex.h"
 #include "engine/bytes.h"
+#include "engine/mesh_measures.h"
+#include "mesh/connected_nodes.h"
 #include "mesh/generate.h"
 #include "mesh/mesh_file.h"
 #include "mesh/quality.h"
@@ -95,6 +98,17 @@ bool is_cut(const Scene& scene) {
   });
 }
 
+// Parts that a mesher has laid side by side fall apart, which is seldom wanted.
+void warn_of_pieces(const SceneTissue& tissue, const Mesh& mesh) {
+  const std::int32_t n_pieces = count_pieces(mesh);
+  const std::int32_t n = n_pieces > 1 ? count_unjoined(mesh, 1e-6 * mean_edge_length(mesh)) : 0;
+  if (n > 0)
+    log_warning(
+        tissue.mesh + ": is in " + std::to_string(n_pieces) + " pieces, and " + std::to_string(n) +
+        " nodes lie where nodes of other pieces do without being joined to them: the mesher "
+        "must merge these if the pieces belong together");
+}
+
 Mesh read_tissue(const LoadedScene& loaded) {
   const SceneTissue& tissue = loaded.scene.tissue;
   Mesh mesh;
@@ -111,6 +125,7 @@ Mesh read_tissue(const LoadedScene& loaded) {
   place(tissue, mesh);
   const std::vector<std::string> faults = validate(mesh, 3);
   if (!faults.empty()) loaded.where.fail("tissue", "the mesh can't be used: " + faults.front());
+  if (!tissue.shape) warn_of_pieces(tissue, mesh);
   if (is_cut(loaded.scene)) mesh.hex_split_rank = hex_split_ranks(mesh);
   add_regions(loaded, mesh);
   check_regions(loaded, "support", loaded.scene.supports, mesh);

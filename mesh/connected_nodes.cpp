@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mesh/equal_points.h"
+
 namespace trocar {
 
 static std::int32_t root_of(std::vector<std::int32_t>& above, std::int32_t node) {
@@ -37,6 +39,17 @@ std::int32_t count_pieces(const Mesh& mesh) {
   std::int32_t n = 0;
   for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) n += piece[i] == i ? 1 : 0;
   return n;
+}
+
+std::int32_t count_unjoined(const Mesh& mesh, double tolerance) {
+  const std::vector<std::int32_t> piece = connected_nodes(mesh);
+  std::vector<Vec3> rounded;
+  for (const Vec3& X : mesh.X) rounded.push_back((X / tolerance).array().round());
+  const std::vector<std::int32_t> first = first_equal(rounded);
+  std::vector<std::uint8_t> is_unjoined(mesh.X.size());
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
+    if (piece[i] != piece[first[i]]) is_unjoined[i] = is_unjoined[first[i]] = 1;
+  return static_cast<std::int32_t>(std::count(is_unjoined.begin(), is_unjoined.end(), 1));
 }
 
 }  // namespace trocar

@@ -19,4 +19,8 @@ std::vector<std::int32_t> connected_nodes(const Mesh& mesh);
 // after every cut, these are the pieces of mesh_pieces (quality.h).
 std::int32_t count_pieces(const Mesh& mesh);
 
+// Nodes that lie where a node of another piece does, but for rounding to multiples of `tolerance`
+// [m]: facets that were meant to be joined, as a rule.
+std::int32_t count_unjoined(const Mesh& mesh, double tolerance);
+
 }  // namespace trocar

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/connected_nodes.h"
 #include "mesh/facet_sort.h"
 #include "mesh/facets.h"
 
@@ -115,6 +116,8 @@ MeshStatistics mesh_statistics(const Mesh& mesh) {
   }
   count_edges(mesh, statistics);
   count_elements(mesh, statistics);
+  if (statistics.n_pieces > 1)
+    statistics.n_unjoined = count_unjoined(mesh, 1e-6 * statistics.edge_mean);
   return statistics;
 }
 

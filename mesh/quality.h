@@ -22,7 +22,8 @@ double least_altitude(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x)
 struct MeshStatistics {
   std::array<std::int32_t, n_element_types> n_elements_by_type{};
   std::int32_t n_nodes = 0, n_surface_triangles = 0, n_pieces = 0;
-  double volume = 0;                                 // [m^3] ([m^2] in 2D)
+  std::int32_t n_unjoined = 0;  // nodes of pieces, see count_unjoined; within 1e-6 mean edges
+  double volume = 0;            // [m^3] ([m^2] in 2D)
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();      // bounding box [m]
   double edge_min = 0, edge_mean = 0, edge_max = 0;  // [m]
   double quality_min = 0, quality_mean = 0;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/quoted.h"
+#include "mesh/equal_points.h"
 #include "mesh/mesh_file_formats.h"
 
 namespace trocar {
@@ -114,28 +115,6 @@ void read_obj_face(ByteReader& in, std::vector<std::int32_t>& corner, TriangleMe
   check_simple(in, corner);
   for (std::size_t a = 2; a < corner.size(); ++a)
     mesh.triangle.push_back({corner[0], corner[a - 1], corner[a]});
-}
-
-bool is_before(const Vec3& a, const Vec3& b) {
-  if (a.x() != b.x()) return a.x() < b.x();
-  if (a.y() != b.y()) return a.y() < b.y();
-  return a.z() < b.z();
-}
-
-// For each vertex the first one at the same position.
-std::vector<std::int32_t> first_equal(const std::vector<Vec3>& X) {
-  std::vector<std::int32_t> order(X.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) {
-    if (is_before(X[i], X[j])) return true;
-    return !is_before(X[j], X[i]) && i < j;
-  });
-  std::vector<std::int32_t> first(X.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const bool is_same = k > 0 && !is_before(X[order[k - 1]], X[order[k]]);
-    first[order[k]] = is_same ? first[order[k - 1]] : order[k];
-  }
-  return first;
 }
 
 }  // namespace

@@ -4,6 +4,9 @@
 
 #include <fstream>
 
+#include "mesh/generate.h"
+#include "mesh/mesh_file.h"
+#include "mesh_joined.h"
 #include "program.h"
 
 namespace trocar {
@@ -90,6 +93,22 @@ TEST(InVain, graspers_and_blades_that_meet_no_tissue_are_told_by_name) {
   EXPECT_TRUE(has(all.events, "0.040 s: left hand opens")) << all.events;
   EXPECT_TRUE(has(all.events, "scalpel has cut nothing: its blade never met the tissue"));
   EXPECT_TRUE(has(all.events, "scissors has cut nothing: its jaws never closed on the tissue"));
+}
+
+TEST(InVain, parts_that_the_mesher_did_not_join_are_warned_of) {
+  const std::string folder = test_folder("not-joined");
+  const auto box = [](double x) {
+    return make_box(Vec3(x, 0, 0), Vec3(x + 0.02, 0.02, 0.02), {2, 2, 2}, BoxElements::tet4_kuhn);
+  };
+  write_mesh(joined(box(0), box(0.02)), folder + "/two.msh");
+  const std::string scene = folder + "/s.toml";
+  std::ofstream(scene) << "[time]\nduration = 0.1\n[tissue]\nmesh = \"two.msh\"\n";
+  const Finished run = run_trocar({"run", scene, "-q", "-o", folder}, folder);
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_TRUE(has(run.err, "two.msh: is in 2 pieces, and 18 nodes lie where nodes of other pieces"))
+      << run.err;
+  const Finished mesh = run_trocar({"mesh", folder + "/two.msh"}, folder);
+  EXPECT_TRUE(has(mesh.out, "NOT JOINED        18 nodes")) << mesh.out;
 }
 
 }  // namespace
