@@ -83,6 +83,7 @@ TriangleMesh load_tool_mesh(const LoadedScene& loaded, std::size_t k, Communicat
       const TriangleMesh surface =
           read_triangle_mesh(scene_path(loaded, instrument.mesh), instrument.scale);
       carrier.X = surface.X;
+      warn_of_size(instrument.mesh, "instrument[" + std::to_string(k) + "].scale", carrier.X);
       for (const auto& triangle : surface.triangle)
         add_element(carrier, ElementType::tri3, triangle);
     } catch (const InputError& trouble) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "base/log.h"
 #include "cutting/cut_hex.h"
@@ -125,7 +126,10 @@ Mesh read_tissue(const LoadedScene& loaded) {
   place(tissue, mesh);
   const std::vector<std::string> faults = validate(mesh, 3);
   if (!faults.empty()) loaded.where.fail("tissue", "the mesh can't be used: " + faults.front());
-  if (!tissue.shape) warn_of_pieces(tissue, mesh);
+  if (!tissue.shape) {
+    warn_of_size(tissue.mesh, "tissue.scale", mesh.X);
+    warn_of_pieces(tissue, mesh);
+  }
   if (is_cut(loaded.scene)) mesh.hex_split_rank = hex_split_ranks(mesh);
   add_regions(loaded, mesh);
   check_regions(loaded, "support", loaded.scene.supports, mesh);
@@ -137,6 +141,21 @@ Mesh read_tissue(const LoadedScene& loaded) {
 
 std::string scene_path(const LoadedScene& loaded, const std::string& file) {
   return file.starts_with('/') ? file : loaded.folder + file;
+}
+
+void warn_of_size(const std::string& file, const std::string& key, std::span<const Vec3> X) {
+  constexpr double smallest = 5e-4, largest = 3;  // [m]
+  Vec3 low = X.front(), high = low;
+  for (const Vec3& point : X) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  const double longest = (high - low).maxCoeff();
+  if (longest >= smallest && longest <= largest) return;
+  char size[32];
+  std::snprintf(size, sizeof size, "%.3g", longest);
+  log_warning(file + ": is " + size + " m long: " + key +
+              " says what one unit of the file is, \"1 mm\" for a mesh in millimetres");
 }
 
 Mesh load_tissue(const LoadedScene& loaded, Communicator& communicator) {

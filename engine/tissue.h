@@ -14,6 +14,10 @@ Mesh load_tissue(const LoadedScene& loaded, Communicator& communicator);
 // The path of a file that the scene names: relative ones start at the scene file's folder.
 std::string scene_path(const LoadedScene& loaded, const std::string& file);
 
+// Warns if a body or an instrument of these points, read from a file, is far from the size of one:
+// the file has another unit, as a rule, than `key` of the scene says.
+void warn_of_size(const std::string& file, const std::string& key, std::span<const Vec3> X);
+
 // Runs `read` on rank 0 and hands its InputError to everyone; its bytes too. Collective.
 template <class Read>
 std::vector<std::byte> read_on_root(Communicator& communicator, const Read& read) {

@@ -107,6 +107,10 @@ TEST(InVain, parts_that_the_mesher_did_not_join_are_warned_of) {
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_TRUE(has(run.err, "two.msh: is in 2 pieces, and 18 nodes lie where nodes of other pieces"))
       << run.err;
+  EXPECT_FALSE(has(run.err, "m long"));
+  const Finished large =
+      run_trocar({"run", scene, "-q", "-o", folder, "--set", "tissue.scale=1000"}, folder);
+  EXPECT_TRUE(has(large.err, "two.msh: is 40 m long: tissue.scale says")) << large.err;
   const Finished mesh = run_trocar({"mesh", folder + "/two.msh"}, folder);
   EXPECT_TRUE(has(mesh.out, "NOT JOINED        18 nodes")) << mesh.out;
 }
