@@ -15,6 +15,7 @@
 #include "base/timers.h"
 #include "render/image_file.h"
 #include "render/renderer.h"
+#include "render/view.h"
 
 namespace trocar {
 
@@ -192,6 +193,16 @@ void FilmStudio::Thread::run() {
   }
   is_ready = true;
   changed.notify_all();
+}
+
+bool is_in_view(const FilmOrder& order, std::span<const Vec3> x) {
+  const View view = make_view(to_camera(order.camera), order.width, order.height);
+  return std::any_of(x.begin(), x.end(), [&](const Vec3& point) {
+    const double depth = (point - view.eye).dot(view.forward);
+    if (depth < view.near || depth > view.far) return false;
+    const Vec2 at = project(view, point, order.width, order.height);
+    return at.x() >= 0 && at.x() <= order.width && at.y() >= 0 && at.y() <= order.height;
+  });
 }
 
 FilmStudio::FilmStudio(std::vector<FilmOrder> orders, SceneLook look, bool is_plane,

@@ -23,6 +23,9 @@ struct FilmOrder {
   std::int64_t n_before = 0;  // of them, drawn before the run was resumed
 };
 
+// Whether any of the points is in the picture.
+bool is_in_view(const FilmOrder& order, std::span<const Vec3> x);
+
 // All that a frame's picture needs, copied out of the simulation.
 struct FilmFrame {
   std::int64_t number = 0;  // of the frame

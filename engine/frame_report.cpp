@@ -130,7 +130,7 @@ void note_grasp(Simulation& s, double time, const GraspAct& act) {
   note_event(s, time, tool.name + text);
 }
 
-void note_idle_blades(Simulation& s) {
+static void note_idle_blades(Simulation& s) {
   for (const CutStage& stage : s.cuts) {
     if (std::any_of(stage.strokes.begin(), stage.strokes.end(),
                     [](const CutRecord& stroke) { return stroke.n_edits > 0; }))
@@ -142,6 +142,15 @@ void note_idle_blades(Simulation& s) {
                                 : "its blade never met the tissue";
     note_event(s, s.state.time, tool.name + " has cut nothing: " + why);
   }
+}
+
+void note_idle_tools(Simulation& s) {
+  note_idle_blades(s);
+  for (std::size_t k = 0; k < s.tools.size(); ++k)
+    if (s.tools[k].kind == InstrumentKind::probe &&
+        std::all_of(s.log.rows.begin(), s.log.rows.end(),
+                    [&](const FrameRow& row) { return row.tools[k].force == Vec3::Zero(); }))
+      note_event(s, s.state.time, s.tools[k].name + " has touched nothing");
 }
 
 std::uint64_t state_digest(const Simulation& s) {

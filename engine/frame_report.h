@@ -17,8 +17,8 @@ void report_state(Simulation& s, FrameRow& row);
 // To the log of the summary and, on rank 0, to the terminal.
 void note_event(Simulation& s, double time, const std::string& event);
 void note_grasp(Simulation& s, double time, const GraspAct& act);
-// At the end of a run: blades that have cut nothing.
-void note_idle_blades(Simulation& s);
+// At the end of a run: blades that have cut nothing, and probes that have touched nothing.
+void note_idle_tools(Simulation& s);
 // 64-bit digest of nodes, velocities, connectivity, time and step; equal for any number of ranks
 // and threads. Collective.
 std::uint64_t state_digest(const Simulation& s);

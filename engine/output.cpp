@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 
 #include "base/digest.h"
 #include "base/error.h"
@@ -59,6 +60,23 @@ std::vector<FilmOrder> film_orders(const Scene& scene, const Outputs& outputs,
                       .n_before = first_frame / slot.interval});
   }
   return orders;
+}
+
+std::string point_text(const Vec3& x) {
+  char text[80];
+  std::snprintf(text, sizeof text, "(%.3g, %.3g, %.3g)", x.x(), x.y(), x.z());
+  return text;
+}
+
+void warn_of_empty_pictures(const Simulation& s, std::span<const FilmOrder> orders) {
+  const Vec3 middle = std::accumulate(s.mesh.X.begin(), s.mesh.X.end(), Vec3(Vec3::Zero())) /
+                      static_cast<double>(s.mesh.X.size());
+  for (const FilmOrder& order : orders)
+    if (!is_in_view(order, s.mesh.X))
+      log_warning(order.file + ": camera \"" + order.camera.name + "\" looks from " +
+                  point_text(order.camera.eye) + " to " + point_text(order.camera.target) +
+                  " m and sees nothing of the tissue, which is around " + point_text(middle) +
+                  " m at the start");
 }
 
 std::unique_ptr<RecordingWriter> new_recording(const Simulation& s, const std::string& file) {
@@ -137,9 +155,10 @@ void open_writers(const Simulation& s, const Checkpoint* resumed, Outputs& outpu
   const std::vector<FilmOrder> orders = film_orders(s.scene, outputs, s.first_frame);
   const bool is_over =
       s.first_frame >= std::llround(s.scene.time.duration * s.scene.time.frame_rate);
-  if (!orders.empty() && !is_over)
-    outputs.studio =
-        std::make_unique<FilmStudio>(orders, s.scene.tissue.look, s.mesh.dimension() == 2, s.tools);
+  if (orders.empty() || is_over) return;
+  warn_of_empty_pictures(s, orders);
+  outputs.studio =
+      std::make_unique<FilmStudio>(orders, s.scene.tissue.look, s.mesh.dimension() == 2, s.tools);
 }
 
 void add_film_frame(const Simulation& s, Outputs& outputs, const FrameRow& row) {

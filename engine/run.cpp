@@ -143,7 +143,7 @@ bool run_scene(const RunOptions& options, Communicator& communicator) {
 
   const bool has_begun = trouble.empty();
   if (has_begun) trouble = run_frames(*simulation, outputs);
-  if (trouble.empty()) note_idle_blades(*simulation);
+  if (trouble.empty()) note_idle_tools(*simulation);
   times.loop_seconds = monotonic_seconds() - start - times.setup_seconds;
   const bool is_stopped_by_signal = trouble == stopped_by_signal;
   finish_outputs(outputs);

@@ -69,7 +69,7 @@ TEST(InVain, nothing_is_said_of_loads_and_markers_that_serve) {
   EXPECT_EQ(all.events, "[]");
 }
 
-TEST(InVain, graspers_and_blades_that_meet_no_tissue_are_told_by_name) {
+TEST(InVain, instruments_that_meet_no_tissue_are_told_by_name) {
   const std::string pose = "position = [\"10 mm\", \"-40 mm\", \"30 mm\"], direction = [0, 0, -1]";
   const Told all = told(
       "[[instrument]]\nkind = \"grasper\"\nname = \"left hand\"\nradius = \"2 mm\"\n"
@@ -82,6 +82,7 @@ TEST(InVain, graspers_and_blades_that_meet_no_tissue_are_told_by_name) {
           pose +
           " }]\n[[instrument]]\nkind = \"scissors\"\nblade_length = \"9 mm\"\n"
           "path = [{ time = 0, " +
+          pose + " }]\n[[instrument]]\nkind = \"probe\"\nname = \"thumb\"\npath = [{ time = 0, " +
           pose + " }]\n",
       test_folder("no-tissue"));
   EXPECT_EQ(all.run.exit_code, 0);
@@ -91,6 +92,7 @@ TEST(InVain, graspers_and_blades_that_meet_no_tissue_are_told_by_name) {
                   "tip, and it grips within 5 mm"))
       << all.events;
   EXPECT_TRUE(has(all.events, "0.040 s: left hand opens")) << all.events;
+  EXPECT_TRUE(has(all.events, "thumb has touched nothing"));
   EXPECT_TRUE(has(all.events, "scalpel has cut nothing: its blade never met the tissue"));
   EXPECT_TRUE(has(all.events, "scissors has cut nothing: its jaws never closed on the tissue"));
 }
@@ -113,6 +115,21 @@ TEST(InVain, parts_that_the_mesher_did_not_join_are_warned_of) {
   EXPECT_TRUE(has(large.err, "two.msh: is 40 m long: tissue.scale says")) << large.err;
   const Finished mesh = run_trocar({"mesh", folder + "/two.msh"}, folder);
   EXPECT_TRUE(has(mesh.out, "NOT JOINED        18 nodes")) << mesh.out;
+}
+
+TEST(InVain, pictures_without_tissue_are_warned_of) {
+  const std::string folder = test_folder("empty-pictures");
+  const auto err_with = [&](const std::string& camera) {
+    return told(
+               camera + "[[output]]\nkind = \"frames\"\nfile = \"f\"\nevery = 1\nsize = [64, 48]\n",
+               folder)
+        .run.err;
+  };
+  EXPECT_TRUE(
+      has(err_with("[[camera]]\nname = \"roof\"\neye = [0, 0, 300]\ntarget = [0, 10, 300]\n"),
+          "camera \"roof\" looks from (0, 0, 300) to (0, 10, 300) m and sees nothing of the "
+          "tissue, which is around (0.01, 0.01, 0.01) m at the start"));
+  EXPECT_EQ(err_with("[[camera]]\neye = [0, -0.1, 0.1]\ntarget = [0, 0, 0]\n"), "");
 }
 
 }  // namespace
