@@ -122,6 +122,8 @@ void note_grasp(Simulation& s, double time, const GraspAct& act) {
   char text[160] = " opens";
   if (act.n_taken > 0)
     std::snprintf(text, sizeof text, " closes on %d nodes", act.n_taken);
+  else if (act.has_closed && std::isinf(act.nearest))
+    std::snprintf(text, sizeof text, " closes on nothing: all nodes are held by others");
   else if (act.has_closed)
     std::snprintf(text, sizeof text,
                   " closes on nothing: the nearest free node is %.3g mm from its tip, and it grips "

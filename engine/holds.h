@@ -41,7 +41,8 @@ struct GraspAct {
   std::int32_t tool = 0;
   bool has_closed = false;
   int n_taken = 0;
-  double nearest = 0;  // distance of the nearest node that nothing else holds from its tip [m]
+  double nearest = 0;  // distance of the nearest node that nothing else holds from its tip,
+                       // infinity if there is none [m]
 };
 // Closes and opens graspers and scissors whose key time lies in (t0, t1]; x (n_nodes) all present
 // positions. Nodes within the grip radius of the tip that nothing else holds are taken. Returns

@@ -117,6 +117,23 @@ TEST(Grasp, of_nothing_is_reported_as_none_taken) {
   EXPECT_FALSE(c.holds.is_open[1]);
 }
 
+TEST(Grasp, tells_how_far_the_nearest_free_node_is) {
+  Case c;
+  for (Vec3& X : c.mesh.X) X += Vec3(1, 0, 0);
+  const Vec3 tip = c.tools[1].path.at(1).translation;
+  double nearest = 1;
+  for (std::size_t i = 1; i < c.mesh.X.size(); ++i)
+    nearest = std::min(nearest, (c.mesh.X[i] - tip).norm());
+  c.mesh.X[0] = tip;
+  c.fixed[0] = all_components;  // held: not taken, nor the nearest
+  const auto acts = [&] { return act_graspers(c.holds, c.tools, 0.9, 1, c.mesh.X, c.fixed); };
+  ASSERT_EQ(acts().size(), 1U);
+  EXPECT_EQ(acts()[0].n_taken, 0);
+  EXPECT_NEAR(acts()[0].nearest, nearest, 1e-12);
+  std::fill(c.fixed.begin(), c.fixed.end(), all_components);
+  EXPECT_TRUE(std::isinf(acts()[0].nearest));
+}
+
 TEST(HeldNodes, are_those_supported_in_x_or_y_and_the_held) {
   Case c;
   c.fixed[1] = 1;
