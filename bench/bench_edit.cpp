@@ -1,8 +1,9 @@
 // What an edit of a running scene costs: the same incision as in bench_cut scaling, 6 cells long
-// and 3 deep, in ever larger boxes of tetrahedra at rest, through the whole of cut_along_blades
+// and 3 deep, in ever larger boxes of elements at rest, through the whole of cut_along_blades
 // (bench_cut times the cut alone). Markdown to stdout.
-// bench_edit [--energy] [--once] [N]...: boxes of N cells a side (default 15, 30); --energy: with
-// the ledger that a metrics output keeps; --once: one run in place of the quickest of five
+// bench_edit [--energy] [--hexahedra] [--once] [N]...: boxes of N cells a side (default 15, 30);
+// --energy: with the ledger that a metrics output keeps; --hexahedra: of hexahedra, which the blade
+// splits; --once: one run in place of the quickest of five
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -39,11 +40,17 @@ std::string path_of(double top, double shift) {
          key(0.085, 3.3, 1.6, low) + key(0.118, 3.3, 1.6, high) + "]\n";
 }
 
-std::string scene_of(int n) {
+struct Trial {
+  bool has_energy = false, is_of_hexahedra = false;
+  int n_runs = 5;
+};
+
+std::string scene_of(int n, const Trial& trial) {
   const double side = cell * n / 2;
   const std::string s = number(side), top = number(2 * side), cells = std::to_string(n);
   return "[time]\nduration = 1\nframe_rate = " + number(frame_rate) +
-         "\n[tissue.shape]\nkind = \"box\"\nelements = \"tet4-kuhn\"\nlow = [-" + s + ", -" + s +
+         "\n[tissue.shape]\nkind = \"box\"\nelements = \"" +
+         (trial.is_of_hexahedra ? "hex8" : "tet4-kuhn") + "\"\nlow = [-" + s + ", -" + s +
          ", 0]\nhigh = [" + s + ", " + s + ", " + top + "]\ncells = [" + cells + ", " + cells +
          ", " + cells +
          "]\n[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\ndensity = 1000\n"
@@ -57,10 +64,10 @@ struct Cost {
   std::vector<double> edits, others;  // frames that edit, others with the blade in the body [s]
 };
 
-Cost cut_box(int n, bool has_energy) {
-  const auto started = built(scene_of(n));
+Cost cut_box(int n, const Trial& trial) {
+  const auto started = built(scene_of(n, trial));
   Simulation& s = *started->s;
-  if (has_energy) open_energy_ledger(s);
+  if (trial.has_energy) open_energy_ledger(s);
   Cost cost{.n_elements = s.mesh.n_elements()};
   const CutStage& stage = s.cuts.front();
   for (; s.frame < 31; ++s.frame) {
@@ -83,10 +90,10 @@ double median(std::vector<double> values) {
 }
 
 // Frame by frame the quickest of some runs: others may use the machine.
-Cost least_cost(int n, bool has_energy, int n_runs) {
-  Cost best = cut_box(n, has_energy);
-  for (int run = 1; run < n_runs; ++run) {
-    const Cost cost = cut_box(n, has_energy);
+Cost least_cost(int n, const Trial& trial) {
+  Cost best = cut_box(n, trial);
+  for (int run = 1; run < trial.n_runs; ++run) {
+    const Cost cost = cut_box(n, trial);
     for (std::size_t k = 0; k < best.edits.size(); ++k)
       best.edits[k] = std::min(best.edits[k], cost.edits[k]);
     for (std::size_t k = 0; k < best.others.size(); ++k)
@@ -98,26 +105,27 @@ Cost least_cost(int n, bool has_energy, int n_runs) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  constexpr const char* usage = "bench_edit [--energy] [--once] [N]...";
+  constexpr const char* usage = "bench_edit [--energy] [--hexahedra] [--once] [N]...";
   if (is_help_asked(argc, argv)) return print_usage(usage, stdout);
   std::vector<int> cells;
-  bool has_energy = false;
-  int n_runs = 5;
+  Trial trial;
   for (int k = 1; k < argc; ++k)
     if (std::strcmp(argv[k], "--energy") == 0)
-      has_energy = true;
+      trial.has_energy = true;
+    else if (std::strcmp(argv[k], "--hexahedra") == 0)
+      trial.is_of_hexahedra = true;
     else if (std::strcmp(argv[k], "--once") == 0)
-      n_runs = 1;
+      trial.n_runs = 1;
     else if (const int n = std::atoi(argv[k]); n > 0)
       cells.push_back(n);
     else
       return print_usage(usage, stderr);
   if (cells.empty()) cells = {15, 30};
   std::printf(
-      "| tetrahedra | edits | median, longest frame with an edit [ms] | median without |\n"
+      "| elements | edits | median, longest frame with an edit [ms] | median without |\n"
       "|---|---|---|---|\n");
   for (const int n : cells) {
-    const Cost cost = least_cost(n, has_energy, n_runs);
+    const Cost cost = least_cost(n, trial);
     std::printf("| %d | %zu | %.2f, %.2f | %.2f |\n", cost.n_elements, cost.edits.size(),
                 1e3 * median(cost.edits),
                 1e3 * *std::max_element(cost.edits.begin(), cost.edits.end()),

@@ -202,50 +202,87 @@ static void take_over_tetrahedra(const Translation& t, MeshEdit& edit) {
             [](const auto& a, const auto& b) { return a.element < b.element; });
 }
 
+// What an element of the body is after the edit, with nodes of its own: itself or its tetrahedra.
+static Mesh pieces_after(const Translation& t, std::int32_t e, const KeptHex* kept) {
+  Mesh pieces;
+  const auto add = [&](ElementType type, std::span<const std::int32_t> node) {
+    std::array<std::int32_t, max_corners> corner{};
+    for (std::size_t a = 0; a < node.size(); ++a) {
+      corner[a] = pieces.n_nodes();
+      pieces.X.push_back(position_after(t, node[a])[0]);
+    }
+    add_element(pieces, type, std::span(corner).first(node.size()));
+  };
+  if (kept != nullptr) add(ElementType::hex8, kept->node);
+  for (std::int32_t s = t.tets.first[e]; s < t.tets.first[e + 1] && kept == nullptr; ++s) {
+    std::array<std::int32_t, 4> node{};
+    for (std::int32_t c = 0; c < 4; ++c) node[static_cast<std::size_t>(c)] = node_after(t, s, c);
+    add(ElementType::tet4, node);
+  }
+  return pieces;
+}
+
+// Of hexahedra that stay, ascending.
+using KeptHexahedra = std::vector<std::pair<std::int32_t, KeptHex>>;
+
+static const KeptHex* find_kept(const KeptHexahedra& kept, std::int32_t e) {
+  const auto at = std::lower_bound(kept.begin(), kept.end(), e,
+                                   [](const auto& hex, std::int32_t k) { return hex.first < k; });
+  return at != kept.end() && at->first == e ? &at->second : nullptr;
+}
+
 // Scales the density of the elements that changed shape or kind, region by region.
 static std::vector<DensityChange> density_changes(const Translation& t, const CutIndex& index,
-                                                  const MeshEdit& edit) {
+                                                  const KeptHexahedra& kept) {
   std::vector<std::int32_t> changed = moved_elements(t, index);
   changed.insert(changed.end(), t.split.begin(), t.split.end());
   sort_unique(changed);
-  Mesh after = t.body;
-  apply_edit(edit, after);
   std::vector<double> mass_before(t.body.region_name.size(), 0), mass_after = mass_before;
-  std::vector<std::int32_t> child;
+  std::vector<std::pair<std::int32_t, std::int32_t>> child;  // number after the edit, e
   for (const std::int32_t e : changed) {
-    mass_before[t.body.element_region[e]] +=
-        t.body.density_factor[e] * element_volume(t.body, e, t.body.X);
-    const std::int32_t n = t.is_split(e) ? n_hex_tets : 1;
-    for (std::int32_t k = 0; k < n; ++k) {
-      child.push_back(t.number_after(t.tets.first[e]) + k);
-      mass_after[t.body.element_region[e]] +=
-          after.density_factor[child.back()] * element_volume(after, child.back(), after.X);
+    const std::int32_t region = t.body.element_region[e];
+    mass_before[region] += t.body.density_factor[e] * element_volume(t.body, e, t.body.X);
+    const Mesh pieces = pieces_after(t, e, find_kept(kept, e));
+    for (std::int32_t k = 0; k < pieces.n_elements(); ++k) {
+      child.emplace_back(t.number_after(t.tets.first[e]) + k, e);
+      mass_after[region] += t.body.density_factor[e] * element_volume(pieces, k, pieces.X);
     }
   }
   std::vector<DensityChange> change;
-  for (const std::int32_t e : child) {
-    const std::int32_t region = after.element_region[e];
+  for (const auto& [number, e] : child) {
+    const std::int32_t region = t.body.element_region[e];
     if (mass_before[region] != mass_after[region])
-      change.push_back({e, after.density_factor[e] * (mass_before[region] / mass_after[region])});
+      change.push_back(
+          {number, t.body.density_factor[e] * (mass_before[region] / mass_after[region])});
   }
   return change;
 }
 
+// Of the tetrahedra, in the body after the edit.
 static void set_sources(const Translation& t, HexTets& tets) {
-  std::vector<std::int32_t> source, first;
-  for (std::int32_t s = 0; s < tets.mesh.n_elements(); ++s) {
-    source.push_back(t.number_after(s));
-    if (s == 0 || source[s] != source[s - 1]) first.push_back(s);
+  std::vector<std::int32_t> first;
+  first.reserve(tets.first.size() + (n_hex_tets - 1) * t.split.size());
+  auto split = t.split.begin();
+  std::int32_t number = 0;
+  for (std::int32_t e = 0; e < t.body.n_elements(); ++e) {
+    const bool is_split = split != t.split.end() && *split == e;
+    if (is_split) ++split;
+    if (!is_split) first.push_back(tets.first[e]);
+    for (std::int32_t s = tets.first[e]; s < tets.first[e + 1]; ++s) {
+      if (is_split) first.push_back(s);
+      tets.source[s] = number;
+      if (is_split) ++number;
+    }
+    if (!is_split) ++number;
   }
   first.push_back(tets.mesh.n_elements());
-  tets.source = std::move(source);
   tets.first = std::move(first);
 }
 
 MeshEdit edit_of_body(const Mesh& body, std::span<const Vec3> x, const CutIndex& index,
                       const MeshEdit& edit, HexTets& tets, CutFigures& figures) {
   Translation t{body, x, edit, tets, {}};
-  std::vector<std::pair<std::int32_t, KeptHex>> kept;
+  KeptHexahedra kept;
   for (const std::int32_t e : touched_hexahedra(t, index)) {
     KeptHex hex;
     if (stays_hexahedron(t, e, hex))
@@ -259,7 +296,7 @@ MeshEdit edit_of_body(const Mesh& body, std::span<const Vec3> x, const CutIndex&
   result.duplicate_parent = edit.duplicate_parent;
   for (const auto& [e, hex] : kept) keep_hexahedron(t, e, hex, result);
   take_over_tetrahedra(t, result);
-  result.density = density_changes(t, index, result);
+  result.density = density_changes(t, index, kept);
   figures.n_converted = static_cast<std::int32_t>(t.split.size());
   figures.n_kept_hexahedra = static_cast<std::int32_t>(kept.size());
   if (!t.split.empty()) set_sources(t, tets);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 
 #include "base/log.h"
 #include "base/sort_unique.h"
@@ -44,41 +43,31 @@ std::vector<std::int32_t> united(std::span<const std::int32_t> a, std::span<cons
 struct EditedElements {
   std::vector<std::int32_t> before, after;  // ascending
   std::vector<double> volume;               // of `before`, before the edit [m^3]
-  std::vector<std::int32_t> parent;         // (n_elements after); empty: no element was split
 };
 
 EditedElements find_edited(const Mesh& mesh, const NodeCorners& corners, const MeshEdit& edit) {
-  EditedElements edited;
-  if (edit.splits.empty()) {
-    edited.before = edited.after = edited_elements(corners, edit);
-  } else {
-    edited.before = edited_elements(mesh, edit);
-    edited.parent = element_parents(mesh, edit);
-    for (std::size_t e = 0; e < edited.parent.size(); ++e)
-      if (std::binary_search(edited.before.begin(), edited.before.end(), edited.parent[e]))
-        edited.after.push_back(static_cast<std::int32_t>(e));
-  }
-  for (const std::int32_t e : edited.before)
+  EditedElements edited{.before = edited_elements(corners, edit), .after = {}, .volume = {}};
+  const SplitNumbers numbers(edit.splits);
+  for (const std::int32_t e : edited.before) {
+    const std::int32_t n = numbers.is_split(e) ? n_hex_tets : 1;
+    for (std::int32_t k = 0; k < n; ++k) edited.after.push_back(numbers.after(e) + k);
     edited.volume.push_back(element_volume(mesh, e, mesh.X));
+  }
   return edited;
 }
 
 // What an element's history comes from, behind the edit.
 struct HistorySource {
   std::vector<double> copies;        // of all elements before the edit; empty without viscosity
-  std::vector<std::int32_t> parent;  // (n_elements)
+  std::vector<std::int32_t> parent;  // (n_elements after it), from before it on
   // (n_elements) Volumes over those of the elements that they were or were parts of; 1 where the
   // edit left them.
   std::vector<double> scale;
 };
 
-void find_parents(const Mesh& after, const EditedElements& edited, HistorySource& history) {
+// after: the mesh behind the edit.
+void find_scales(const Mesh& after, const EditedElements& edited, HistorySource& history) {
   if (history.copies.empty()) return;
-  history.parent = edited.parent;
-  if (history.parent.empty()) {
-    history.parent.resize(after.element_type.size());
-    std::iota(history.parent.begin(), history.parent.end(), 0);
-  }
   history.scale.assign(after.element_type.size(), 1.0);
   for (const std::int32_t e : edited.after) {
     const auto k = static_cast<std::size_t>(e);
@@ -94,15 +83,11 @@ struct Known {
   std::int64_t at_step = 0;  // of the last search
 };
 
-void restore_known(std::span<const std::int32_t> element_parent, const Known& known,
-                   Simulation& s) {
+void restore_known(const MeshEdit& edit, const Known& known, Simulation& s) {
   s.look.at_step = known.at_step;
   s.watch = known.watch;
   for (std::int32_t* element : {&s.watch.stable_element, &s.watch.least_J_element})
-    if (*element >= 0 && !element_parent.empty())
-      *element = static_cast<std::int32_t>(
-          std::lower_bound(element_parent.begin(), element_parent.end(), *element) -
-          element_parent.begin());
+    if (*element >= 0) *element = SplitNumbers(edit.splits).after(*element);
 }
 
 // Whether the step is known from what is around the edit and what was known of the rest.
@@ -132,12 +117,15 @@ void inherit_by_duplicates(Simulation& s, const MeshEdit& edit, std::int32_t n_b
 // would after 1,300 to 2,800.
 constexpr double tolerated_imbalance = 1.1;
 
-void rebalance(Simulation& s) {
+// Returns whether owners changed.
+bool rebalance(Simulation& s) {
+  if (s.communicator->size() == 1) return false;
   const double now = imbalance(s.mesh, s.node_owner, s.communicator->size());
-  if (now <= tolerated_imbalance) return;
+  if (now <= tolerated_imbalance) return false;
   s.node_owner = partition_nodes(s.mesh, *s.communicator);
   log_info("after a cut the busiest rank has " + std::to_string(std::lround(100 * (now - 1))) +
            " % more work than the mean: parts are chosen anew");
+  return true;
 }
 
 // mesh: after the edit.
@@ -149,7 +137,7 @@ void move_positions(const MeshEdit& edit, const Mesh& mesh, GlobalState& global)
   for (std::size_t i = n_before; i < global.x.size(); ++i) place(i);
 }
 
-// All that every rank holds of the whole body; returns keeps_places.
+// All that every rank holds of the whole body; returns whether update_topology will do.
 bool edit_whole(const MeshEdit& edit, GlobalState& global, Simulation& s) {
   const std::int32_t n_before = s.mesh.n_nodes();
   apply_edit(edit, s.mesh, 3, global.u);
@@ -157,15 +145,12 @@ bool edit_whole(const MeshEdit& edit, GlobalState& global, Simulation& s) {
   inherit_by_duplicates(s, edit, n_before);
   apply_edit_to_owners(edit.duplicate_parent, s.node_owner);
   apply_edit_to_holds(edit, n_before, s.holds);
-  const bool is_local = keeps_places(s, edit);
-  if (edit.splits.empty()) apply_edit(edit, s.mesh, s.corners);
+  const bool is_local = keeps_owners(s, edit);
+  apply_edit(edit, s.mesh, s.corners);
   apply_edit(edit, s.mesh);
-  if (!edit.splits.empty()) {
-    s.corners = node_corners(s.mesh);
-    rebalance(s);
-  }
   move_positions(edit, s.mesh, global);
-  return is_local;
+  const bool has_new_owners = !edit.splits.empty() && rebalance(s);
+  return is_local && !has_new_owners;
 }
 
 // Of the edited elements and their nodes.
@@ -231,7 +216,7 @@ static void scatter_edited(Simulation& s, std::size_t n_kept, std::span<const st
   for (std::size_t local = n_kept; local < s.part.node_global.size(); ++local) take(local);
   const auto n_fields = static_cast<std::size_t>(s.model.averages.n_fields);
   state.theta.assign(s.part.node_global.size() * n_fields, 0.0);
-  state.history.assign(state.history.size(), 0.0);
+  state.history.assign(static_cast<std::size_t>(s.model.n_history), 0.0);
 }
 
 void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutRecord& record) {
@@ -247,6 +232,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
       strain_energy(*make_strained_patch(s, edit, edited.before, of_before, global));
   HistorySource history{.copies =
                             s.communicator->all_gather(copy_history(s.model, s.part, s.state))};
+  if (!history.copies.empty()) history.parent = element_parents(s.mesh, edit);
   const Known known{s.watch, s.look.at_step};
 
   const auto n_kept = static_cast<std::size_t>(s.part.n_owned);
@@ -254,7 +240,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   const bool is_local = edit_whole(edit, global, s);
   nodes = united(nodes, nodes_of(s.mesh, edited.after));
   if (is_local)
-    update_topology(s, edited.after, nodes, global.x);
+    update_topology(s, {edit.splits, edited.after, nodes, global.x});
   else
     rebuild_topology(s);
   restore_strain_energy(adjustable, strain, s.mesh,
@@ -266,10 +252,10 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
     scatter_edited(s, n_kept, nodes, global);
   else
     scatter_state(s, global);
-  find_parents(s.mesh, edited, history);
+  find_scales(s.mesh, edited, history);
   restore_history(s.model, s.part, history.copies, history.parent, history.scale, s.state);
   if (is_step_local) {
-    restore_known(edited.parent, known, s);
+    restore_known(edit, known, s);
     watch_edit(s, edited.after, {global, history.copies, history.parent, history.scale});
     if (s.energy) update_volume_change(s.model, s.neighbours, s.state, s.scratch);
   } else {

@@ -27,6 +27,23 @@ void update_pieces(const SubMesh& around, Simulation& s) {
   if (count_pieces(around.mesh) > 1) s.n_pieces = count_pieces(s.mesh);
 }
 
+void update_least(Simulation& s, const ModelEdit& edit) {
+  move_to_places(edit.place_before, s.altitude);
+  std::vector<std::int64_t> places;
+  for (const std::int32_t e : edit.elements)
+    if (const std::int64_t k = s.part.place_of(e); k >= 0) {
+      s.altitude[static_cast<std::size_t>(k)] = least_altitude(s.mesh, e, s.mesh.X);
+      places.push_back(k);
+    }
+  if (edit.place_before.empty()) {
+    s.least_altitude.change(s.altitude, places);
+    s.least_element_step.change(s.model.element_step, places);
+  } else {
+    s.least_altitude = LeastOfMany(s.altitude);
+    s.least_element_step = LeastOfMany(s.model.element_step);
+  }
+}
+
 void update_part_and_model(Simulation& s, const ModelEdit& edit) {
   update_part(s.mesh, s.corners, s.node_owner, edit.nodes, s.part);
   s.halo = make_halo(s.mesh, s.corners, s.node_owner, s.part);
@@ -35,14 +52,7 @@ void update_part_and_model(Simulation& s, const ModelEdit& edit) {
       edit, s.model);
   s.neighbours = make_neighbours(s.halo, s.model, s.contact != nullptr, *s.communicator);
   fit_scratch(s.model, s.scratch);
-  std::vector<std::int64_t> places;
-  for (const std::int32_t e : edit.elements)
-    if (const std::int64_t k = s.part.place_of(e); k >= 0) {
-      s.altitude[static_cast<std::size_t>(k)] = least_altitude(s.mesh, e, s.mesh.X);
-      places.push_back(k);
-    }
-  s.least_altitude.change(s.altitude, places);
-  s.least_element_step.change(s.model.element_step, places);
+  update_least(s, edit);
 }
 
 bool holds_one(const Part& part, std::span<const std::int32_t> elements) {
@@ -52,29 +62,29 @@ bool holds_one(const Part& part, std::span<const std::int32_t> elements) {
 
 }  // namespace
 
-bool keeps_places(const Simulation& s, const MeshEdit& edit) {
+bool keeps_owners(const Simulation& s, const MeshEdit& edit) {
   const SceneSolver& solver = s.scene.solver;
-  if (!edit.splits.empty() || solver.mass_scaling_step != 0 || solver.is_multirate ||
-      solver.sleep != 0)
-    return false;
+  if (solver.mass_scaling_step != 0 || solver.is_multirate || solver.sleep != 0) return false;
   const auto owner = [&](std::int32_t i) { return s.node_owner[static_cast<std::size_t>(i)]; };
   return std::all_of(edit.corners.begin(), edit.corners.end(), [&](const CornerChange& change) {
-    const auto corner = static_cast<std::size_t>(change.corner);
-    return owner(change.node) == owner(s.mesh.corners(change.element)[corner]);
+    return owner(change.node) == owner(node_before(edit, s.mesh, change));
   });
 }
 
-void update_topology(Simulation& s, std::span<const std::int32_t> elements,
-                     std::span<const std::int32_t> nodes, std::span<const Vec3> x) {
-  const std::vector<std::int32_t> touching = elements_around(s.corners, nodes);
+void update_topology(Simulation& s, const TopologyEdit& edit) {
+  const std::vector<std::int32_t> touching = elements_around(s.corners, edit.nodes);
   const SubMesh around =
       make_sub_mesh(s.mesh, elements_around(s.corners, nodes_of(s.mesh, touching)));
-  update_mass(around, nodes, s);
-  update_surface(s.mesh, {nodes, touching, around}, s.surface);
+  update_mass(around, edit.nodes, s);
+  SplitNumbers(edit.splits).renumber(s.surface.element);
+  update_surface(s.mesh, {edit.nodes, touching, around}, s.surface);
   update_pieces(around, s);
-  if (!s.boxes.is_empty()) update_element_boxes(s.mesh, x, nodes, touching, s.boxes);
-  if (holds_one(s.part, elements))
-    update_part_and_model(s, {elements, nodes, touching});
+  if (!s.boxes.is_empty())
+    update_element_boxes(s.mesh, edit.x, {edit.splits, edit.nodes, touching}, s.boxes);
+  const std::vector<std::int32_t> place_before =
+      split_elements(s.mesh, s.node_owner, edit.splits, s.part);
+  if (holds_one(s.part, edit.elements))
+    update_part_and_model(s, {edit.elements, edit.nodes, touching, place_before});
   else
     s.part.node_local.resize(s.mesh.X.size(), -1);
   update_surface_view(s.surface, s.node_owner, s.part, s.view);

@@ -1,6 +1,7 @@
-// What follows from mesh and owners (rebuild_topology), after an edit that left every element its
-// place: made anew around the edit, kept elsewhere. A rank that holds none of the edited elements
-// keeps its part, halo and model.
+// What follows from mesh and owners (rebuild_topology), after an edit that left every corner its
+// owner: made anew around the edit, kept elsewhere, but for elements' numbers and the lists of
+// elements where hexahedra were split. A rank that holds none of the edited elements keeps its halo
+// and model.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +11,20 @@
 
 namespace trocar {
 
-// Whether update_topology will do: no hexahedra were split, all corners stayed with their owners,
-// and the scene has nothing that is planned on the whole mesh (mass scaling, multirate, sleep).
-// mesh: before the edit; owners: behind it.
-bool keeps_places(const Simulation& s, const MeshEdit& edit);
+// Whether update_topology will do: all corners stay with their owners, and the scene has nothing
+// that is planned on the whole mesh (mass scaling, multirate, sleep). mesh: before the edit;
+// owners: behind it.
+bool keeps_owners(const Simulation& s, const MeshEdit& edit);
 
-// elements: edited ones; nodes: all their corners, before and after the edit; both ascending.
-// x (n_nodes) present positions [m]. Collective. The result is rebuild_topology's, but for the
-// state and the boxes of elements that this one forgets.
-void update_topology(Simulation& s, std::span<const std::int32_t> elements,
-                     std::span<const std::int32_t> nodes, std::span<const Vec3> x);
+struct TopologyEdit {
+  std::span<const HexSplit> splits;
+  std::span<const std::int32_t>
+      elements;                         // edited ones, by their numbers after the edit, ascending
+  std::span<const std::int32_t> nodes;  // all their corners, before and after it, ascending
+  std::span<const Vec3> x;              // (n_nodes) present positions [m]
+};
+// Collective. The result is rebuild_topology's, but for the state and the boxes of elements that
+// this one forgets.
+void update_topology(Simulation& s, const TopologyEdit& edit);
 
 }  // namespace trocar

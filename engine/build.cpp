@@ -223,21 +223,30 @@ void prepare_first_cut(Simulation& s) {
   s.boxes = make_element_boxes(s.mesh, s.mesh.X);
 }
 
-// For what `n` values become by the nodes that cuts add.
+// For what `n` values become by the nodes and elements that cuts add.
 template <class T>
 void leave_room(std::size_t n, std::vector<T>& values) {
   values.reserve(n + n / 8);
 }
 
-// So that no edit moves all that is known of the nodes.
-void leave_room_for_copies(Simulation& s) {
+// So that no edit moves all that is known of the nodes and elements.
+void leave_room_for_edits(Simulation& s) {
   const std::size_t n = s.mesh.X.size();
   for (auto* values : {&s.mesh.X, &s.boxes.x, &s.view.x, &s.cut_state.x}) leave_room(n, *values);
-  for (auto* values : {&s.cut_state.u, &s.cut_state.v, &s.state.u, &s.state.v, &s.look.u})
+  for (auto* values :
+       {&s.cut_state.u, &s.cut_state.v, &s.state.u, &s.state.v, &s.look.u, &s.scratch.force})
     leave_room(3 * n, *values);
   for (auto* values : {&s.node_owner, &s.corners.first, &s.part.node_local, &s.part.node_global})
     leave_room(n, *values);
   leave_room(n, s.mass);
+  if (!has_hexahedra(s.mesh)) return;
+  Mesh& mesh = s.mesh;
+  for (auto* values : {&mesh.corner_offset, &mesh.corner_node, &mesh.element_region,
+                       &s.corners.next, &s.corners.element, &s.boxes.order, &s.boxes.leaf})
+    leave_room(values->size(), *values);
+  leave_room(mesh.element_type.size(), mesh.element_type);
+  leave_room(mesh.cut_facets.size(), mesh.cut_facets);
+  leave_room(mesh.density_factor.size(), mesh.density_factor);
 }
 
 // Small elements with steps of their own, if they set everyone's. Collective.
@@ -354,7 +363,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
                               "the body at time 0: let it begin outside", s);
   s.log.least_stable_step = s.log.largest_stable_step = s.watch.stable_step;
   if (has_metrics(s.scene)) open_energy_ledger(s);
-  if (!s.cuts.empty()) leave_room_for_copies(s);
+  if (!s.cuts.empty()) leave_room_for_edits(s);
   s.scratch.has_force = false;  // nodes may be moved before the first frame
   return simulation;
 }

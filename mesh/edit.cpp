@@ -2,11 +2,59 @@
 #include "mesh/edit.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/check.h"
 #include "mesh/hex_split.h"
 
 namespace trocar {
+
+// More elements, and more corners, than the hexahedron had.
+static constexpr std::int32_t n_more_elements = n_hex_tets - 1, n_more_corners = 4 * n_hex_tets - 8;
+
+// Of splits that lie before element e.
+static std::int32_t count_before(std::span<const HexSplit> splits, std::int32_t e) {
+  const auto at =
+      std::lower_bound(splits.begin(), splits.end(), e,
+                       [](const HexSplit& split, std::int32_t k) { return split.element < k; });
+  return static_cast<std::int32_t>(at - splits.begin());
+}
+
+std::int32_t SplitNumbers::after(std::int32_t before) const {
+  return before + n_more_elements * count_before(splits_, before);
+}
+
+std::int32_t SplitNumbers::before(std::int32_t after) const {
+  std::size_t low = 0, high = splits_.size();  // splits whose first tetrahedron is not behind it
+  while (low < high) {
+    const std::size_t k = low + (high - low) / 2;
+    if (splits_[k].element + n_more_elements * static_cast<std::int32_t>(k) <= after)
+      low = k + 1;
+    else
+      high = k;
+  }
+  const std::int32_t moved_up = after - n_more_elements * static_cast<std::int32_t>(low);
+  return low > 0 ? std::max(moved_up, splits_[low - 1].element) : after;
+}
+
+bool SplitNumbers::is_split(std::int32_t before) const {
+  const auto k = static_cast<std::size_t>(count_before(splits_, before));
+  return k < splits_.size() && splits_[k].element == before;
+}
+
+void SplitNumbers::renumber(std::span<std::int32_t> elements) const {
+  std::int32_t low = 0, high = -1, way = 0;  // of elements from low to high
+  for (std::int32_t& e : elements) {
+    if (e < low || e > high) {
+      const std::int32_t k = count_before(splits_, e);
+      low = k > 0 ? splits_[static_cast<std::size_t>(k - 1)].element + 1 : 0;
+      high = k < std::ssize(splits_) ? splits_[static_cast<std::size_t>(k)].element
+                                     : std::numeric_limits<std::int32_t>::max();
+      way = n_more_elements * k;
+    }
+    e += way;
+  }
+}
 
 std::vector<std::int32_t> element_parents(const Mesh& mesh, const MeshEdit& edit) {
   std::vector<std::int32_t> parent;
@@ -19,21 +67,13 @@ std::vector<std::int32_t> element_parents(const Mesh& mesh, const MeshEdit& edit
   return parent;
 }
 
-std::vector<std::int32_t> edited_elements(const Mesh& mesh, const MeshEdit& edit) {
-  const std::vector<std::int32_t> parent = element_parents(mesh, edit);
-  std::vector<std::uint8_t> is_moved(mesh.X.size(), 0), is_edited(mesh.element_type.size(), 0);
-  for (const HexSplit& split : edit.splits) is_edited[split.element] = 1;
-  for (const NodeMove& move : edit.moves) is_moved[move.node] = 1;
-  for (const CornerChange& change : edit.corners) is_edited[parent[change.element]] = 1;
-  for (const DensityChange& change : edit.density) is_edited[parent[change.element]] = 1;
-  std::vector<std::int32_t> element;
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    const std::span<const std::int32_t> node = mesh.corners(e);
-    if (is_edited[e] != 0 ||
-        std::any_of(node.begin(), node.end(), [&](std::int32_t i) { return is_moved[i] != 0; }))
-      element.push_back(e);
-  }
-  return element;
+std::int32_t node_before(const MeshEdit& edit, const Mesh& before, const CornerChange& change) {
+  const SplitNumbers numbers(edit.splits);
+  const std::int32_t e = numbers.before(change.element);
+  const auto corner = static_cast<std::size_t>(change.corner);
+  if (!numbers.is_split(e)) return before.corners(e)[corner];
+  const HexSplit& split = edit.splits[static_cast<std::size_t>(count_before(edit.splits, e))];
+  return split.corner[static_cast<std::size_t>(change.element - numbers.after(e))][corner];
 }
 
 // A duplicate joins every set of its parent; new numbers are the highest, so the sets stay
@@ -57,50 +97,60 @@ static std::uint8_t inherited_cut_facets(const Mesh& mesh, std::int32_t e,
   return static_cast<std::uint8_t>(mask);
 }
 
-template <class T>
-static void spread_to_children(std::span<const std::int32_t> parent, std::vector<T>& values) {
-  if (values.empty()) return;
-  std::vector<T> spread;
-  spread.reserve(parent.size());
-  for (const std::int32_t e : parent) spread.push_back(values[static_cast<std::size_t>(e)]);
-  values = std::move(spread);
+static void split_corner_nodes(std::span<const HexSplit> splits, Mesh& mesh) {
+  std::vector<std::int32_t>& node = mesh.corner_node;
+  auto end = std::ssize(node);
+  node.resize(node.size() + n_more_corners * splits.size());
+  auto to = node.end();
+  for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
+    const std::int32_t first = mesh.corner_offset[split->element];
+    to = std::move_backward(node.begin() + first + 8, node.begin() + end, to);
+    end = first;
+    for (auto tet = split->corner.rbegin(); tet != split->corner.rend(); ++tet)
+      to = std::copy_backward(tet->begin(), tet->end(), to);
+  }
 }
 
-static void split_hexahedra(const MeshEdit& edit, Mesh& mesh) {
-  if (edit.splits.empty()) return;
-  const std::vector<std::int32_t> parent = element_parents(mesh, edit);
-  std::vector<ElementType> type;
-  std::vector<std::int32_t> offset{0}, node;
-  std::vector<std::uint8_t> cut_facets;
-  auto split = edit.splits.begin();
-  const auto add = [&](ElementType element, std::span<const std::int32_t> corner,
-                       std::uint8_t mask) {
-    type.push_back(element);
-    node.insert(node.end(), corner.begin(), corner.end());
-    offset.push_back(static_cast<std::int32_t>(node.size()));
-    cut_facets.push_back(mask);
-  };
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    if (split == edit.splits.end() || split->element != e) {
-      add(mesh.element_type[e], mesh.corners(e), mesh.cut_facets[e]);
-      continue;
-    }
-    CHECK(mesh.element_type[e] == ElementType::hex8);
-    for (const std::array<std::int32_t, 4>& tet : split->corner)
-      add(ElementType::tet4, tet, inherited_cut_facets(mesh, e, tet));
-    ++split;
+static void split_corner_offsets(std::span<const HexSplit> splits,
+                                 std::vector<std::int32_t>& offset) {
+  spread_over_splits(splits, offset);
+  std::int32_t way = 0, e = 0;
+  for (const HexSplit& split : splits) {
+    const std::int32_t first = split.element + way / n_more_corners * n_more_elements;
+    for (; e < first; ++e) offset[e] += way;
+    for (std::int32_t tet = 0; tet < n_hex_tets; ++tet, ++e) offset[e] += way + 4 * tet;
+    way += n_more_corners;
   }
-  mesh.element_type = std::move(type);
-  mesh.corner_offset = std::move(offset);
-  mesh.corner_node = std::move(node);
-  mesh.cut_facets = std::move(cut_facets);
-  spread_to_children(parent, mesh.element_region);
-  spread_to_children(parent, mesh.density_factor);
-  spread_to_children(parent, mesh.fibre);
+  for (; e < std::ssize(offset); ++e) offset[e] += way;
+}
+
+static void split_hexahedra(std::span<const HexSplit> splits, Mesh& mesh) {
+  if (splits.empty()) return;
+  std::vector<std::uint8_t> cut_facets;
+  for (const HexSplit& split : splits) {
+    CHECK(mesh.element_type[split.element] == ElementType::hex8);
+    for (const std::array<std::int32_t, 4>& tet : split.corner)
+      cut_facets.push_back(inherited_cut_facets(mesh, split.element, tet));
+  }
+  split_corner_nodes(splits, mesh);
+  split_corner_offsets(splits, mesh.corner_offset);
+  spread_over_splits(splits, mesh.element_type);
+  spread_over_splits(splits, mesh.element_region);
+  spread_over_splits(splits, mesh.density_factor);
+  spread_over_splits(splits, mesh.fibre);
+  spread_over_splits(splits, mesh.cut_facets);
+  const SplitNumbers numbers(splits);
+  auto mask = cut_facets.begin();
+  for (const HexSplit& split : splits) {
+    const std::int32_t first = numbers.after(split.element);
+    std::fill_n(mesh.element_type.begin() + first, n_hex_tets, ElementType::tet4);
+    std::copy_n(mask, n_hex_tets, mesh.cut_facets.begin() + first);
+    mask += n_hex_tets;
+  }
 }
 
 void apply_edit(const MeshEdit& edit, Mesh& mesh) {
-  split_hexahedra(edit, mesh);
+  split_hexahedra(edit.splits, mesh);
   const std::int32_t first_duplicate = mesh.n_nodes();
   for (const NodeMove& move : edit.moves) mesh.X[move.node] = move.X;
   for (const std::int32_t parent : edit.duplicate_parent) {

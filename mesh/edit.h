@@ -2,6 +2,7 @@
 // Cutting makes it, engine applies it to mesh, model, state, contact and recording in one order.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -35,11 +36,13 @@ struct DensityChange {
   double factor = 1;  // the whole new value of Mesh::density_factor
 };
 
+inline constexpr std::int32_t n_hex_tets = 6;
+
 // Hexahedron `element` becomes six tetrahedra on its own nodes. They inherit all that it had and
 // take its place: elements behind it move up by five.
 struct HexSplit {
-  std::int32_t element = 0;                             // its number before the edit
-  std::array<std::array<std::int32_t, 4>, 6> corner{};  // nodes
+  std::int32_t element = 0;                                      // its number before the edit
+  std::array<std::array<std::int32_t, 4>, n_hex_tets> corner{};  // nodes
 };
 
 // Applied in the order of its members. The k-th duplicate becomes node n_nodes + k and copies its
@@ -57,14 +60,47 @@ struct MeshEdit {
   }
 };
 
+// Numbers of elements before and after the splits of an edit.
+class SplitNumbers {
+ public:
+  // splits: those of a MeshEdit, which must stay.
+  explicit SplitNumbers(std::span<const HexSplit> splits) : splits_(splits) {}
+  // Of an element, or the first of those that it becomes.
+  std::int32_t after(std::int32_t before) const;
+  // Of the element that this is, or is a part of.
+  std::int32_t before(std::int32_t after) const;
+  bool is_split(std::int32_t before) const;
+  // From those before to those after: quick where they mostly ascend.
+  void renumber(std::span<std::int32_t> elements) const;
+
+ private:
+  std::span<const HexSplit> splits_;
+};
+
+// values (n_elements): those of split elements go to all that they become.
+template <class T>
+void spread_over_splits(std::span<const HexSplit> splits, std::vector<T>& values) {
+  if (values.empty()) return;
+  auto end = std::ssize(values);
+  values.resize(values.size() + (n_hex_tets - 1) * splits.size());
+  auto to = values.end();
+  for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
+    const auto behind = values.begin() + split->element + 1;
+    to = std::move_backward(behind, values.begin() + end, to);
+    end = split->element;
+    const T value = values[static_cast<std::size_t>(end)];
+    to -= n_hex_tets;
+    std::fill_n(to, n_hex_tets, value);
+  }
+}
+
 // (n_elements after the edit) The element that each is, or is a part of, before it.
 std::vector<std::int32_t> element_parents(const Mesh& mesh, const MeshEdit& edit);
 
-// Elements that the edit touches in any way (split, moved corner, changed corner, density), by
-// their numbers before it, ascending.
-std::vector<std::int32_t> edited_elements(const Mesh& mesh, const MeshEdit& edit);
+// The node that a corner has until it changes. before: the mesh before the edit.
+std::int32_t node_before(const MeshEdit& edit, const Mesh& before, const CornerChange& change);
 
-void apply_edit(MeshEdit const& edit, Mesh& mesh);
+void apply_edit(const MeshEdit& edit, Mesh& mesh);
 // The same change on a nodal field with `width` doubles a node (n_nodes * width -> n_new_nodes *
 // width); `before` is the mesh before the edit.
 void apply_edit(const MeshEdit& edit, const Mesh& before, int width, std::vector<double>& field);

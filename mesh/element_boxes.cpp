@@ -54,6 +54,44 @@ double largest_way(std::span<const Vec3> x, const ElementBoxes& boxes) {
   return (components(x) - components(boxes.x)).abs().maxCoeff();
 }
 
+// (leaf, first of its tetrahedra) of each split, ascending.
+using SplitLeaves = std::vector<std::pair<std::int32_t, std::int32_t>>;
+
+// Behind the other elements of its leaf come all but the first tetrahedron of each hexahedron.
+void add_tetrahedra(const SplitLeaves& splits, ElementBoxes& boxes) {
+  constexpr std::int32_t n_more = n_hex_tets - 1;
+  auto end = std::ssize(boxes.order);
+  boxes.order.resize(boxes.order.size() + n_more * splits.size());
+  auto to = boxes.order.end();
+  for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
+    const auto end_of_leaf = boxes.first[static_cast<std::size_t>(split->first) + 1];
+    to = std::move_backward(boxes.order.begin() + end_of_leaf, boxes.order.begin() + end, to);
+    end = end_of_leaf;
+    to -= n_more;
+    std::iota(to, to + n_more, split->second + 1);
+  }
+  std::int32_t n_added = 0;
+  auto split = splits.begin();
+  for (std::size_t leaf = 0; leaf + 1 < boxes.first.size(); ++leaf) {
+    for (; split != splits.end() && split->first == static_cast<std::int32_t>(leaf); ++split)
+      n_added += n_more;
+    boxes.first[leaf + 1] += n_added;
+  }
+}
+
+void split_elements(std::span<const HexSplit> splits, ElementBoxes& boxes) {
+  if (splits.empty()) return;
+  const SplitNumbers numbers(splits);
+  SplitLeaves leaves;
+  for (const HexSplit& split : splits)
+    leaves.emplace_back(boxes.leaf[static_cast<std::size_t>(split.element)],
+                        numbers.after(split.element));
+  std::sort(leaves.begin(), leaves.end());
+  numbers.renumber(boxes.order);
+  add_tetrahedra(leaves, boxes);
+  spread_over_splits(splits, boxes.leaf);
+}
+
 double mean_size(const Mesh& mesh, std::span<const Vec3> x) {
   double sum = 0;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
@@ -96,15 +134,16 @@ ElementBoxes make_element_boxes(const Mesh& mesh, std::span<const Vec3> x) {
   return boxes;
 }
 
-void update_element_boxes(const Mesh& mesh, std::span<const Vec3> x,
-                          std::span<const std::int32_t> nodes,
-                          std::span<const std::int32_t> elements, ElementBoxes& boxes) {
+void update_element_boxes(const Mesh& mesh, std::span<const Vec3> x, const BoxesEdit& edit,
+                          ElementBoxes& boxes) {
+  split_elements(edit.splits, boxes);
   CHECK_OP(boxes.leaf.size(), ==, mesh.element_type.size());
   boxes.x.resize(x.size());
-  for (const std::int32_t i : nodes)
+  for (const std::int32_t i : edit.nodes)
     boxes.x[static_cast<std::size_t>(i)] = x[static_cast<std::size_t>(i)];
   std::vector<std::int32_t> changed;  // places in the tree
-  for (const std::int32_t e : elements) changed.push_back(boxes.leaf[static_cast<std::size_t>(e)]);
+  for (const std::int32_t e : edit.elements)
+    changed.push_back(boxes.leaf[static_cast<std::size_t>(e)]);
   sort_unique(changed);
   for (const std::int32_t leaf : changed) fit_leaf(mesh, static_cast<std::size_t>(leaf), boxes);
   for (std::int32_t& k : changed) k += static_cast<std::int32_t>(boxes.first.size()) - 1;

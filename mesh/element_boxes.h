@@ -1,6 +1,6 @@
 // Boxes of elements in a binary tree over them, for positions that move little between two
 // questions: what moved is asked for by a margin, so that a question costs a look at the nodes and
-// what is near. Topology may change as long as every element keeps its number.
+// what is near.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/box.h"
-#include "mesh/mesh.h"
+#include "mesh/edit.h"
 
 namespace trocar {
 
@@ -29,11 +29,14 @@ struct ElementBoxes {
 // Splits at the median middle along the longest side.
 ElementBoxes make_element_boxes(const Mesh& mesh, std::span<const Vec3> x);
 
-// After an edit that split no hexahedron. nodes: those that moved or are new; elements: all that
-// touch them.
-void update_element_boxes(const Mesh& mesh, std::span<const Vec3> x,
-                          std::span<const std::int32_t> nodes,
-                          std::span<const std::int32_t> elements, ElementBoxes& boxes);
+// What an edit changes: its splits; nodes that moved or are new; all elements that touch them.
+struct BoxesEdit {
+  std::span<const HexSplit> splits;
+  std::span<const std::int32_t> nodes, elements;
+};
+// mesh and x: after the edit. Tetrahedra share the leaf that their hexahedron was in.
+void update_element_boxes(const Mesh& mesh, std::span<const Vec3> x, const BoxesEdit& edit,
+                          ElementBoxes& boxes);
 
 // All elements whose boxes at x overlap `box`, and perhaps some that are near, ascending. Fits the
 // boxes anew where nodes have moved by more than half an element since.

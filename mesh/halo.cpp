@@ -44,6 +44,33 @@ Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int r
   return part;
 }
 
+std::vector<std::int32_t> split_elements(const Mesh& mesh, std::span<const std::int32_t> node_owner,
+                                         std::span<const HexSplit> splits, Part& part) {
+  const SplitNumbers numbers(splits);
+  std::vector<std::int32_t> place, before = part.element_global;
+  numbers.renumber(part.element_global);
+  if (std::none_of(splits.begin(), splits.end(), [&](const HexSplit& split) {
+        return std::binary_search(before.begin(), before.end(), split.element);
+      }))
+    return place;
+  const auto is_owned = [&](std::int32_t i) { return node_owner[i] == part.rank; };
+  std::vector<std::int32_t> element;
+  auto split = splits.begin();
+  for (std::int32_t k = 0; k < std::ssize(before); ++k) {
+    while (split != splits.end() && split->element < before[k]) ++split;
+    const bool is_split = split != splits.end() && split->element == before[k];
+    const std::int32_t first = part.element_global[k];
+    for (std::int32_t e = first; e < first + (is_split ? n_hex_tets : 1); ++e) {
+      const std::span<const std::int32_t> node = mesh.corners(e);
+      if (is_split && std::none_of(node.begin(), node.end(), is_owned)) continue;
+      element.push_back(e);
+      place.push_back(is_split ? -1 : k);
+    }
+  }
+  part.element_global = std::move(element);
+  return place;
+}
+
 // Whether an element at the node has a corner that the rank owns.
 static bool is_near(const Mesh& mesh, const NodeCorners& corners,
                     std::span<const std::int32_t> node_owner, int rank, std::int32_t node) {

@@ -10,12 +10,11 @@
 #include <span>
 #include <vector>
 
+#include "mesh/edit.h"
 #include "mesh/facet_sort.h"
 #include "mesh/mesh.h"
 
 namespace trocar {
-
-inline constexpr int n_hex_tets = 6;
 
 // Of Mesh::hex_split_rank.
 inline constexpr std::uint8_t rank_bits = 127, whole_bit = 128;

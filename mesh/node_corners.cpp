@@ -12,13 +12,16 @@ static void link(NodeCorners& corners, std::int32_t node, std::int32_t corner) {
   corners.first[node] = corner;
 }
 
-static void unlink(NodeCorners& corners, std::int32_t node, std::int32_t corner) {
+// Returns the element's corner at the node.
+static std::int32_t unlink(NodeCorners& corners, std::int32_t node, std::int32_t element) {
   std::int32_t* at = &corners.first[node];
-  while (*at != corner) {
+  for (;; at = &corners.next[*at]) {
     CHECK_OP(*at, >=, 0);
-    at = &corners.next[*at];
+    if (corners.element[*at] == element) break;
   }
+  const std::int32_t corner = *at;
   *at = corners.next[corner];
+  return corner;
 }
 
 NodeCorners node_corners(const Mesh& mesh) {
@@ -35,14 +38,35 @@ NodeCorners node_corners(const Mesh& mesh) {
   return corners;
 }
 
+static void split_hexahedra(std::span<const HexSplit> splits, const Mesh& before,
+                            NodeCorners& corners) {
+  if (splits.empty()) return;
+  std::vector<std::int32_t> unused;
+  for (const HexSplit& split : splits)
+    for (const std::int32_t node : before.corners(split.element))
+      unused.push_back(unlink(corners, node, split.element));
+  const SplitNumbers numbers(splits);
+  numbers.renumber(corners.element);
+  for (const HexSplit& split : splits)
+    for (std::size_t tet = 0; tet < split.corner.size(); ++tet)
+      for (const std::int32_t node : split.corner[tet]) {
+        if (unused.empty()) {
+          unused.push_back(static_cast<std::int32_t>(corners.next.size()));
+          corners.next.push_back(-1);
+          corners.element.push_back(-1);
+        }
+        const std::int32_t corner = unused.back();
+        unused.pop_back();
+        corners.element[corner] = numbers.after(split.element) + static_cast<std::int32_t>(tet);
+        link(corners, node, corner);
+      }
+}
+
 void apply_edit(const MeshEdit& edit, const Mesh& before, NodeCorners& corners) {
-  CHECK(edit.splits.empty());
+  split_hexahedra(edit.splits, before, corners);
   corners.first.resize(before.X.size() + edit.duplicate_parent.size(), -1);
-  for (const CornerChange& change : edit.corners) {
-    const std::int32_t corner = before.corner_offset[change.element] + change.corner;
-    unlink(corners, before.corner_node[corner], corner);
-    link(corners, change.node, corner);
-  }
+  for (const CornerChange& change : edit.corners)
+    link(corners, change.node, unlink(corners, node_before(edit, before, change), change.element));
 }
 
 std::vector<std::int32_t> elements_around(const NodeCorners& corners,
@@ -56,12 +80,15 @@ std::vector<std::int32_t> elements_around(const NodeCorners& corners,
 }
 
 std::vector<std::int32_t> edited_elements(const NodeCorners& before, const MeshEdit& edit) {
-  CHECK(edit.splits.empty());
+  const SplitNumbers numbers(edit.splits);
   std::vector<std::int32_t> moved;
   for (const NodeMove& move : edit.moves) moved.push_back(move.node);
   std::vector<std::int32_t> elements = elements_around(before, moved);
-  for (const CornerChange& change : edit.corners) elements.push_back(change.element);
-  for (const DensityChange& change : edit.density) elements.push_back(change.element);
+  for (const HexSplit& split : edit.splits) elements.push_back(split.element);
+  for (const CornerChange& change : edit.corners)
+    elements.push_back(numbers.before(change.element));
+  for (const DensityChange& change : edit.density)
+    elements.push_back(numbers.before(change.element));
   sort_unique(elements);
   return elements;
 }

@@ -11,17 +11,18 @@
 
 namespace trocar {
 
-// Corners are positions in Mesh::corner_node; the lists are in no order.
+// In no order: neither the corners nor those of a node.
 struct NodeCorners {
   std::vector<std::int32_t> first;    // (n_nodes) a corner at the node, -1: none
   std::vector<std::int32_t> next;     // (n_corners) another one at the same node, -1: no more
   std::vector<std::int32_t> element;  // (n_corners)
 };
 NodeCorners node_corners(const Mesh& mesh);
-// `before` is the mesh before the edit, which splits no hexahedra.
+// `before` is the mesh before the edit. Splits take a pass over the elements' numbers.
 void apply_edit(const MeshEdit& edit, const Mesh& before, NodeCorners& corners);
 
-// Elements that the edit touches in any way (edit.h), ascending; it splits no hexahedra.
+// Elements that the edit touches in any way (split, moved corner, changed corner, density), by
+// their numbers before it, ascending.
 std::vector<std::int32_t> edited_elements(const NodeCorners& before, const MeshEdit& edit);
 
 // All elements that touch one of the nodes, ascending.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/communicator.h"
+#include "mesh/edit.h"
 #include "mesh/mesh.h"
 #include "mesh/node_corners.h"
 
@@ -37,9 +38,14 @@ struct Part {
   std::int32_t n_local() const { return static_cast<std::int32_t>(node_global.size()); }
 };
 Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int rank);
-// The same after an edit that kept the owners of all corners and split no hexahedra, from the part
-// before it: the elements stay. `nodes`: all corners of edited elements, before and after it,
-// ascending. In time of theirs and of the halo's.
+// The part's elements after the splits of an edit, by the mesh and owners after it. Returns which
+// place in element_global each had before, -1 if it is new; empty if the part had no hexahedron
+// that was split, so that each kept its place.
+std::vector<std::int32_t> split_elements(const Mesh& mesh, std::span<const std::int32_t> node_owner,
+                                         std::span<const HexSplit> splits, Part& part);
+// The part after an edit that kept the owners of all corners, from the part before it with the
+// elements after it. `nodes`: all corners of edited elements, before and after it, ascending. In
+// time of theirs and of the halo's.
 void update_part(const Mesh& mesh, const NodeCorners& corners,
                  std::span<const std::int32_t> node_owner, std::span<const std::int32_t> nodes,
                  Part& part);

@@ -1,11 +1,13 @@
-// A model after an edit that left every element its place in the lists: the numbers of edited
-// elements and nodes are made anew, the others stay. What is left in proportion to the model is the
-// order of sums, whole numbers only (nodes are copied and rows searched on one thread of one rank,
-// elements passed else), and positions in single precision.
+// A model after an edit: the numbers of edited elements and nodes are made anew, the others stay or
+// go with their elements. What is left in proportion to the model is the order of sums, whole
+// numbers only (nodes are copied and rows searched on one thread of one rank, elements passed
+// else), positions in single precision, and copies of the lists from which hexahedra were split.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "solver/model.h"
 
@@ -24,9 +26,21 @@ struct ModelEdit {
   std::span<const std::int32_t> elements;  // those with other corners, positions or densities
   std::span<const std::int32_t> nodes;     // all corners of these, before and after
   std::span<const std::int32_t> touching;  // all elements that touch the nodes now
+  // (elements of the part) Where in the part each was before, -1: new; empty: all where they are.
+  std::span<const std::int32_t> place_before;
 };
-// The part has the elements that it had, in lists that read halo nodes or don't as before. Without
-// mass scaling. The result is build_model's.
+// Elements that are not new read halo nodes or don't, as before. Without mass scaling. The result
+// is build_model's.
 void edit_model(const ModelSource& source, const ModelEdit& edit, Model& model);
+
+// values (elements of the part): from before the edit to after it, zero for new elements.
+template <class T>
+void move_to_places(std::span<const std::int32_t> place_before, std::vector<T>& values) {
+  if (place_before.empty()) return;
+  std::vector<T> moved;
+  moved.reserve(place_before.size());
+  for (const std::int32_t k : place_before) moved.push_back(k >= 0 ? values[k] : T{});
+  values = std::move(moved);
+}
 
 }  // namespace trocar

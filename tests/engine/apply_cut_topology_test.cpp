@@ -82,7 +82,18 @@ int for_edits(Simulation& s, const Body& body) {
 const std::vector<std::pair<std::string, std::string>> kinds = {
     {"tet4-kuhn", ""},
     {"tet4-five", "precision = \"single\"\n"},
-    {"tet4-kuhn", "tetrahedron = \"nodal-pressure\"\n"}};
+    {"tet4-kuhn", "tetrahedron = \"nodal-pressure\"\n"},
+    {"hex8", ""},
+    {"hex8", "precision = \"single\"\n"},
+    {"hex8", "tetrahedron = \"nodal-pressure\"\n"}};
+
+void make_half_stiffer(Simulation& s) {
+  s.mesh.region_name = {"", "stiff"};
+  s.materials.push_back(s.materials.front());
+  s.materials.back().young_modulus *= 2;
+  for (std::int32_t e = 0; e < s.mesh.n_elements(); ++e)
+    s.mesh.element_region[e] = s.mesh.X[s.mesh.corners(e)[0]].y() < 0.002 ? 1 : 0;
+}
 
 TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
   for (const auto& [elements, solver] : kinds)
@@ -90,11 +101,12 @@ TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
       const auto started = built(scene_of(elements, solver));
       set_thread_count(n_threads);
       Simulation& s = *started->s;
+      if (n_threads == 2) make_half_stiffer(s);
       rebuild_topology(s);
       const int n_edits = for_edits(s, [&](GlobalState& global, const MeshEdit& edit) {
         const std::vector<std::int32_t> owner = s.node_owner;
         apply_edit_to_owners(edit.duplicate_parent, s.node_owner);
-        EXPECT_TRUE(keeps_places(s, edit));
+        EXPECT_TRUE(keeps_owners(s, edit));
         s.node_owner = owner;
         CutRecord record;
         apply_cut(s, edit, global, record);
@@ -133,9 +145,7 @@ void bend_and_move(Simulation& s) {
 }
 
 TEST(Topology, of_an_edit_changes_the_ledger_by_what_the_whole_body_gains) {
-  auto with_hexahedra = kinds;
-  with_hexahedra.emplace_back("hex8", "");
-  for (const auto& [elements, solver] : with_hexahedra) {
+  for (const auto& [elements, solver] : kinds) {
     const auto started = built(scene_of(elements, solver + "gravity = [1, 0, -9.81]\n"));
     Simulation& s = *started->s;
     open_energy_ledger(s);
@@ -148,9 +158,12 @@ TEST(Topology, of_an_edit_changes_the_ledger_by_what_the_whole_body_gains) {
       const double change = mechanical_energy(s).sum() - before.sum();
       EXPECT_GT(std::abs(change), 1e-6 * before.strain);
       // Rounding: of the sums of the whole energies to 1e-16 of them, of the terms in single
-      // precision, which are the same numbers in both, not at all.
+      // precision, which are the same numbers in both, not at all; but hexahedra in single
+      // precision round positions from the least corner of the body, or of the patch.
       const double size = before.kinetic + before.strain + std::abs(before.gravity);
-      EXPECT_NEAR(s.energy->memory.works.cut - cut_before, change, 1e-14 * size) << elements;
+      const bool rounds = !s.model.position.empty();
+      EXPECT_NEAR(s.energy->memory.works.cut - cut_before, change, (rounds ? 1e-8 : 1e-14) * size)
+          << elements;
     });
     EXPECT_GE(n_edits, 4);
   }
@@ -169,14 +182,20 @@ TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
       models.push_back(
           build_model(s.mesh, parts.back(), s.materials, s.fixed, s.mass, solver_options(s.scene)));
     }
-    int n_edits = 0;
+    int n_edits = 0, n_splits = 0;
     for_edits(s, [&](GlobalState& global, const MeshEdit& edit) {
       apply_edit_to_owners(edit.duplicate_parent, owner);
       std::swap(owner, s.node_owner);
-      const bool is_local = keeps_places(s, edit);
+      const bool is_local = keeps_owners(s, edit);
       std::swap(owner, s.node_owner);
-      const std::vector<std::int32_t> edited = edited_elements(s.mesh, edit);
+      const SplitNumbers numbers(edit.splits);
+      std::vector<std::int32_t> edited = edited_elements(s.corners, edit);
       std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited);
+      for (std::int32_t& e : edited) e = numbers.after(e);
+      for (const HexSplit& split : edit.splits)
+        for (std::int32_t k = 1; k < n_hex_tets; ++k)
+          edited.push_back(numbers.after(split.element) + k);
+      sort_unique(edited);
       CutRecord record;
       apply_cut(s, edit, global, record);
       for (const std::int32_t i : nodes_of(s.mesh, edited)) nodes.push_back(i);
@@ -187,6 +206,9 @@ TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
         const Model model =
             build_model(s.mesh, part, s.materials, s.fixed, s.mass, solver_options(s.scene));
         if (is_local) {
+          const std::vector<std::int32_t> place_before =
+              split_elements(s.mesh, owner, edit.splits, parts[rank]);
+          n_splits += place_before.empty() ? 0 : 1;
           update_part(s.mesh, s.corners, owner, nodes, parts[rank]);
           expect_equal(parts[rank], part);
           edit_model({.mesh = s.mesh,
@@ -194,7 +216,8 @@ TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
                       .materials = s.materials,
                       .fixed = s.fixed,
                       .mass = s.mass},
-                     {edited, nodes, elements_around(s.corners, nodes)}, models[rank]);
+                     {edited, nodes, elements_around(s.corners, nodes), place_before},
+                     models[rank]);
           expect_equal(models[rank], model);
         }
         parts[rank] = part;
@@ -202,6 +225,7 @@ TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
       }
     });
     EXPECT_GE(n_edits, 3);
+    EXPECT_GE(n_splits, elements == "hex8" ? 4 : 0);
   }
 }
 

@@ -66,17 +66,17 @@ TEST(ElementBoxes, follow_an_edit_as_if_made_after_it) {
     ElementBoxes boxes = make_element_boxes(box.mesh, box.mesh.X);
     Mesh after = box.mesh;
     apply_edit(box.edit, after);
-    const std::vector<std::int32_t> edited = edited_elements(box.mesh, box.edit);
+    const std::vector<std::int32_t> edited = edited_elements(node_corners(box.mesh), box.edit);
     std::vector<std::int32_t> nodes = nodes_of(box.mesh, edited);
     for (std::int32_t i = box.mesh.n_nodes(); i < after.n_nodes(); ++i) nodes.push_back(i);
     std::vector<Vec3> x = after.X;
     for (const std::int32_t i : nodes) x[i] += Vec3(0.004, 0.01, -0.003) * ((i % 3) - 1);
-    update_element_boxes(after, x, nodes, elements_around(node_corners(after), nodes), boxes);
+    update_element_boxes(after, x, {{}, nodes, elements_around(node_corners(after), nodes)}, boxes);
     EXPECT_EQ(boxes.x, x);
     expect_none_missing(after, x, boxes);
     ElementBoxes fresh = boxes;
     for (Box& own : fresh.box) own = {};  // leaves and all above them anew
-    update_element_boxes(after, x, nodes, boxes.order, fresh);
+    update_element_boxes(after, x, {{}, nodes, boxes.order}, fresh);
     for (std::size_t k = 1; k < boxes.box.size(); ++k) {
       EXPECT_EQ(boxes.box[k].low, fresh.box[k].low);
       EXPECT_EQ(boxes.box[k].high, fresh.box[k].high);

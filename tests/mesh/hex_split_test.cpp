@@ -10,8 +10,10 @@
 #include "mesh/edit.h"
 #include "mesh/facets.h"
 #include "mesh/generate.h"
+#include "mesh/node_corners.h"
 #include "mesh/quality.h"
 #include "mesh_fixtures.h"
+#include "mesh_split.h"
 
 using namespace trocar;
 
@@ -21,19 +23,8 @@ Mesh hex_box(const std::array<int, 3>& n) {
   return make_box(Vec3::Zero(), Vec3::Ones(), n, BoxElements::hex8);
 }
 
-HexSplit split_of(const Mesh& mesh, std::int32_t e) {
-  HexSplit split{.element = e};
-  const auto tets = hex_tets(mesh, e);
-  for (std::size_t k = 0; k < tets.size(); ++k)
-    for (std::size_t a = 0; a < 4; ++a)
-      split.corner[k][a] = mesh.corners(e)[static_cast<std::size_t>(tets[k][a])];
-  return split;
-}
-
 void split(Mesh& mesh, const std::vector<std::int32_t>& elements) {
-  MeshEdit edit;
-  for (const std::int32_t e : elements) edit.splits.push_back(split_of(mesh, e));
-  apply_edit(edit, mesh);
+  apply_edit({.splits = splits_of(mesh, elements)}, mesh);
 }
 
 // Numbers the nodes anew at random: every pattern of diagonals comes up.
@@ -126,7 +117,7 @@ TEST(HexSplit, children_take_the_place_and_the_values_of_their_hexahedron) {
   const Mesh before = mesh;
   apply_edit(edit, mesh);
   EXPECT_EQ(element_parents(before, edit), (std::vector<std::int32_t>{0, 1, 1, 1, 1, 1, 1, 2}));
-  EXPECT_EQ(edited_elements(before, edit), (std::vector<std::int32_t>{1}));
+  EXPECT_EQ(edited_elements(node_corners(before), edit), (std::vector<std::int32_t>{1}));
   EXPECT_EQ(mesh.element_region, (std::vector<std::int32_t>{0, 1, 1, 1, 1, 1, 1, 0}));
   EXPECT_EQ(mesh.density_factor, (std::vector<double>{1, 2, 2, 2, 2, 2, 2, 3}));
   EXPECT_EQ(mesh.element_type.back(), ElementType::hex8);

@@ -1,0 +1,24 @@
+// Hexahedra to split into tetrahedra.
+#pragma once
+
+#include "mesh/edit.h"
+#include "mesh/hex_split.h"
+
+namespace trocar {
+
+inline HexSplit split_of(const Mesh& mesh, std::int32_t e) {
+  HexSplit split{.element = e};
+  const auto tets = hex_tets(mesh, e);
+  for (std::size_t k = 0; k < tets.size(); ++k)
+    for (std::size_t a = 0; a < 4; ++a)
+      split.corner[k][a] = mesh.corners(e)[static_cast<std::size_t>(tets[k][a])];
+  return split;
+}
+
+inline std::vector<HexSplit> splits_of(const Mesh& mesh, std::span<const std::int32_t> elements) {
+  std::vector<HexSplit> splits;
+  for (const std::int32_t e : elements) splits.push_back(split_of(mesh, e));
+  return splits;
+}
+
+}  // namespace trocar
