@@ -1,9 +1,10 @@
 // What an edit of a running scene costs: the same incision as in bench_cut scaling, 6 cells long
 // and 3 deep, in ever larger boxes of elements at rest, through the whole of cut_along_blades
 // (bench_cut times the cut alone). Markdown to stdout.
-// bench_edit [--energy] [--hexahedra] [--once] [N]...: boxes of N cells a side (default 15, 30);
-// --energy: with the ledger that a metrics output keeps; --hexahedra: of hexahedra, which the blade
-// splits; --once: one run in place of the quickest of five
+// bench_edit [--energy] [--hexahedra] [--viscous] [--once] [N]...: boxes of N cells a side (default
+// 15, 30); --energy: with the ledger that a metrics output keeps; --hexahedra: of hexahedra, which
+// the blade splits; --viscous: of a material with history; --once: one run in place of the quickest
+// of five
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -41,7 +42,7 @@ std::string path_of(double top, double shift) {
 }
 
 struct Trial {
-  bool has_energy = false, is_of_hexahedra = false;
+  bool has_energy = false, is_of_hexahedra = false, is_viscous = false;
   int n_runs = 5;
 };
 
@@ -53,7 +54,8 @@ std::string scene_of(int n, const Trial& trial) {
          (trial.is_of_hexahedra ? "hex8" : "tet4-kuhn") + "\"\nlow = [-" + s + ", -" + s +
          ", 0]\nhigh = [" + s + ", " + s + ", " + top + "]\ncells = [" + cells + ", " + cells +
          ", " + cells +
-         "]\n[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\ndensity = 1000\n"
+         "]\n[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\ndensity = 1000\n" +
+         (trial.is_viscous ? "[[tissue.material.prony]]\nshare = 0.3\ntime = 0.1\n" : "") +
          "[[support]]\nregion = \"z-\"\nfix = \"xyz\"\n"
          "[[instrument]]\nkind = \"scalpel\"\nblade_length = \"16 mm\"\n" +
          path_of(2 * side, n % 2 == 1 ? 0.5 : 0);
@@ -105,7 +107,7 @@ Cost least_cost(int n, const Trial& trial) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  constexpr const char* usage = "bench_edit [--energy] [--hexahedra] [--once] [N]...";
+  constexpr const char* usage = "bench_edit [--energy] [--hexahedra] [--viscous] [--once] [N]...";
   if (is_help_asked(argc, argv)) return print_usage(usage, stdout);
   std::vector<int> cells;
   Trial trial;
@@ -114,6 +116,8 @@ int main(int argc, char** argv) {
       trial.has_energy = true;
     else if (std::strcmp(argv[k], "--hexahedra") == 0)
       trial.is_of_hexahedra = true;
+    else if (std::strcmp(argv[k], "--viscous") == 0)
+      trial.is_viscous = true;
     else if (std::strcmp(argv[k], "--once") == 0)
       trial.n_runs = 1;
     else if (const int n = std::atoi(argv[k]); n > 0)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include "base/log.h"
 #include "base/sort_unique.h"
@@ -13,7 +14,6 @@
 #include "engine/frame_watch.h"
 #include "engine/mesh_measures.h"
 #include "mesh/quality.h"
-#include "solver/history.h"
 
 namespace trocar {
 
@@ -56,24 +56,46 @@ EditedElements find_edited(const Mesh& mesh, const NodeCorners& corners, const M
   return edited;
 }
 
-// What an element's history comes from, behind the edit.
-struct HistorySource {
-  std::vector<double> copies;        // of all elements before the edit; empty without viscosity
-  std::vector<std::int32_t> parent;  // (n_elements after it), from before it on
-  // (n_elements) Volumes over those of the elements that they were or were parts of; 1 where the
-  // edit left them.
-  std::vector<double> scale;
+// Copies of elements' history before an edit, none without viscosity, and where it goes.
+struct CarriedHistory {
+  std::vector<double> copies;
+  ElementOrigins origins;
 };
 
+bool is_viscous(const Simulation& s) {
+  return std::any_of(s.materials.begin(), s.materials.end(),
+                     [](const Material& material) { return !material.prony.empty(); });
+}
+
+std::vector<std::int32_t> all_elements(std::int32_t n) {
+  std::vector<std::int32_t> all(static_cast<std::size_t>(n));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+// Of these elements (ascending), before the edit. Collective.
+CarriedHistory carry_history(const Simulation& s, std::span<const std::int32_t> elements,
+                             const MeshEdit& edit) {
+  CarriedHistory history{
+      .copies = s.communicator->all_gather(copy_history(s.model, s.part, s.state, elements)),
+      .origins = {}};
+  const SplitNumbers numbers(edit.splits);
+  for (const std::int32_t e : elements)
+    for (std::int32_t k = 0; k < (numbers.is_split(e) ? n_hex_tets : 1); ++k) {
+      history.origins.element.push_back(numbers.after(e) + k);
+      history.origins.parent.push_back(e);
+    }
+  history.origins.scale.assign(history.origins.element.size(), 1.0);
+  return history;
+}
+
 // after: the mesh behind the edit.
-void find_scales(const Mesh& after, const EditedElements& edited, HistorySource& history) {
-  if (history.copies.empty()) return;
-  history.scale.assign(after.element_type.size(), 1.0);
-  for (const std::int32_t e : edited.after) {
-    const auto k = static_cast<std::size_t>(e);
-    const auto at = std::lower_bound(edited.before.begin(), edited.before.end(), history.parent[k]);
-    history.scale[k] = element_volume(after, e, after.X) /
-                       edited.volume[static_cast<std::size_t>(at - edited.before.begin())];
+void find_scales(const Mesh& after, const EditedElements& edited, ElementOrigins& origins) {
+  for (std::size_t k = 0; k < origins.element.size(); ++k) {
+    const auto at = std::lower_bound(edited.before.begin(), edited.before.end(), origins.parent[k]);
+    if (at != edited.before.end() && *at == origins.parent[k])
+      origins.scale[k] = element_volume(after, origins.element[k], after.X) /
+                         edited.volume[static_cast<std::size_t>(at - edited.before.begin())];
   }
 }
 
@@ -97,9 +119,7 @@ bool keeps_step(const Simulation& s) {
 
 // Whether an edit changes no energies but those around it.
 bool keeps_energy(const Simulation& s) {
-  const auto has_history = [](const Material& material) { return !material.prony.empty(); };
-  return !s.scene.solver.is_multirate && !s.added_mass &&
-         std::none_of(s.materials.begin(), s.materials.end(), has_history);
+  return !s.scene.solver.is_multirate && !s.added_mass;
 }
 
 // Supports and partner pairs go with the nodes.
@@ -216,7 +236,6 @@ static void scatter_edited(Simulation& s, std::size_t n_kept, std::span<const st
   for (std::size_t local = n_kept; local < s.part.node_global.size(); ++local) take(local);
   const auto n_fields = static_cast<std::size_t>(s.model.averages.n_fields);
   state.theta.assign(s.part.node_global.size() * n_fields, 0.0);
-  state.history.assign(static_cast<std::size_t>(s.model.n_history), 0.0);
 }
 
 void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutRecord& record) {
@@ -230,14 +249,15 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   const double energy = energy_around(s, is_energy_local, of_before, global);
   const double strain =
       strain_energy(*make_strained_patch(s, edit, edited.before, of_before, global));
-  HistorySource history{.copies =
-                            s.communicator->all_gather(copy_history(s.model, s.part, s.state))};
-  if (!history.copies.empty()) history.parent = element_parents(s.mesh, edit);
+  CarriedHistory history;
+  if (is_viscous(s)) history = carry_history(s, elements_of_patch(s, of_before), edit);
   const Known known{s.watch, s.look.at_step};
 
   const auto n_kept = static_cast<std::size_t>(s.part.n_owned);
   const std::vector<std::int32_t> adjustable = adjustable_nodes(s, edit);
+  const std::int32_t n_elements = s.mesh.n_elements();
   const bool is_local = edit_whole(edit, global, s);
+  if (!is_local && is_viscous(s)) history = carry_history(s, all_elements(n_elements), edit);
   nodes = united(nodes, nodes_of(s.mesh, edited.after));
   if (is_local)
     update_topology(s, {edit.splits, edited.after, nodes, global.x});
@@ -252,11 +272,11 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
     scatter_edited(s, n_kept, nodes, global);
   else
     scatter_state(s, global);
-  find_scales(s.mesh, edited, history);
-  restore_history(s.model, s.part, history.copies, history.parent, history.scale, s.state);
+  find_scales(s.mesh, edited, history.origins);
+  restore_history(s.model, s.part, history.copies, history.origins, s.state);
   if (is_step_local) {
     restore_known(edit, known, s);
-    watch_edit(s, edited.after, {global, history.copies, history.parent, history.scale});
+    watch_edit(s, edited.after, {global, history.copies, &history.origins});
     if (s.energy) update_volume_change(s.model, s.neighbours, s.state, s.scratch);
   } else {
     watch_state(s);

@@ -4,11 +4,11 @@
 #include <iterator>
 #include <utility>
 
+#include "base/check.h"
 #include "base/exact_sum.h"
 #include "engine/energy_ledger.h"
 #include "engine/frame_watch.h"
 #include "solver/frequency.h"
-#include "solver/history.h"
 #include "solver/step.h"
 #include "solver/watch.h"
 
@@ -16,9 +16,8 @@ namespace trocar {
 
 namespace {
 
-std::vector<std::int32_t> free_nodes(const Simulation& s, std::span<const std::int32_t> edited,
+std::vector<std::int32_t> with_rings(const Simulation& s, std::vector<std::int32_t> nodes,
                                      int n_rings) {
-  std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited);
   for (int ring = 0; ring < n_rings; ++ring)
     nodes = nodes_of(s.mesh, elements_around(s.corners, nodes));
   return nodes;
@@ -57,6 +56,20 @@ std::vector<FixedMask> fixed_in_patch(const Simulation& s, std::span<const std::
   return fixed;
 }
 
+// By the elements' numbers in the patch.
+ElementOrigins origins_in_patch(const ElementOrigins& all, const SubMesh& sub) {
+  ElementOrigins own;
+  for (const std::int32_t e : sub.element) {
+    const auto at = std::lower_bound(all.element.begin(), all.element.end(), e);
+    CHECK(at != all.element.end() && *at == e);
+    const auto k = static_cast<std::size_t>(at - all.element.begin());
+    own.element.push_back(static_cast<std::int32_t>(own.element.size()));
+    own.parent.push_back(all.parent[k]);
+    own.scale.push_back(all.scale[k]);
+  }
+  return own;
+}
+
 void set_state(const Simulation& s, const PatchState& state, Patch& patch) {
   patch.state = make_state(patch.model);
   patch.state.time = patch.state.history_time = s.state.time;
@@ -68,8 +81,7 @@ void set_state(const Simulation& s, const PatchState& state, Patch& patch) {
   }
   if (!state.history.empty())
     restore_history(patch.model, patch.part, state.history,
-                    values_of(state.parent, patch.sub.element),
-                    values_of(state.scale, patch.sub.element), patch.state);
+                    origins_in_patch(*state.origins, patch.sub), patch.state);
   average_volume_change(patch.model, patch.state, patch.scratch);
 }
 
@@ -108,7 +120,12 @@ double sum_of(std::initializer_list<std::span<const double>> lists) {
 
 std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
                                   const PatchState& state) {
-  return make_patch_of_nodes(s, free_nodes(s, edited, state.n_rings), state);
+  return make_patch_of_nodes(s, with_rings(s, nodes_of(s.mesh, edited), state.n_rings), state);
+}
+
+std::vector<std::int32_t> elements_of_patch(const Simulation& s,
+                                            std::span<const std::int32_t> nodes) {
+  return elements_of_forces(s, with_rings(s, {nodes.begin(), nodes.end()}, patch_rings));
 }
 
 std::unique_ptr<Patch> make_patch_of(const Simulation& s, std::span<const std::int32_t> elements,

@@ -9,6 +9,7 @@
 
 #include "engine/apply_cut.h"
 #include "mesh/sub_mesh.h"
+#include "solver/history.h"
 
 namespace trocar {
 
@@ -21,22 +22,25 @@ struct Patch : RankBody {
 // what others give.
 inline constexpr int patch_rings = 1;
 
-// After the edit: the state of all nodes, and copies of the history (history.h) of the elements
-// that `parent` names, times `scale`.
+// After the edit: the state of all nodes, copies of history (history.h; none without viscosity) and
+// the origins of all elements of the patch.
 struct PatchState {
   const GlobalState& global;
-  std::span<const double> history;
-  std::span<const std::int32_t> parent;  // (n_elements)
-  std::span<const double> scale;         // (n_elements)
+  std::span<const double> history = {};
+  const ElementOrigins* origins = nullptr;
   int n_rings = patch_rings;
 };
 std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
                                   const PatchState& state);
 
+// All elements of a patch around edited elements that have these nodes, without scaled masses.
+std::vector<std::int32_t> elements_of_patch(const Simulation& s,
+                                            std::span<const std::int32_t> nodes);
+
 // Of all elements that the nodes' forces depend on, everything but these nodes held, with the
 // velocities of `state`: what an edit changes of the body's energy it changes of this one, for the
-// same nodes before and after (all corners of edited elements, before and after). Without history
-// and scaled masses. [J]
+// same nodes before and after (all corners of edited elements, before and after). Without scaled
+// masses. [J]
 double patch_energy(const Simulation& s, std::span<const std::int32_t> nodes,
                     const PatchState& state);
 

@@ -49,7 +49,7 @@ void update_part_and_model(Simulation& s, const ModelEdit& edit) {
   s.halo = make_halo(s.mesh, s.corners, s.node_owner, s.part);
   edit_model(
       {.mesh = s.mesh, .part = s.part, .materials = s.materials, .fixed = s.fixed, .mass = s.mass},
-      edit, s.model);
+      edit, s.model, s.state.history);
   s.neighbours = make_neighbours(s.halo, s.model, s.contact != nullptr, *s.communicator);
   fit_scratch(s.model, s.scratch);
   update_least(s, edit);
@@ -58,6 +58,11 @@ void update_part_and_model(Simulation& s, const ModelEdit& edit) {
 bool holds_one(const Part& part, std::span<const std::int32_t> elements) {
   return std::any_of(elements.begin(), elements.end(),
                      [&](std::int32_t e) { return part.place_of(e) >= 0; });
+}
+
+// The first tetrahedra of a region bring a field of averages with them, on all ranks.
+bool changes_averages(const Simulation& s, const TopologyEdit& edit) {
+  return !edit.splits.empty() && s.model.options.tet4 == Formulation::tet4_nodal_pressure;
 }
 
 }  // namespace
@@ -83,7 +88,7 @@ void update_topology(Simulation& s, const TopologyEdit& edit) {
     update_element_boxes(s.mesh, edit.x, {edit.splits, edit.nodes, touching}, s.boxes);
   const std::vector<std::int32_t> place_before =
       split_elements(s.mesh, s.node_owner, edit.splits, s.part);
-  if (holds_one(s.part, edit.elements))
+  if (holds_one(s.part, edit.elements) || changes_averages(s, edit))
     update_part_and_model(s, {edit.elements, edit.nodes, touching, place_before});
   else
     s.part.node_local.resize(s.mesh.X.size(), -1);

@@ -1,5 +1,8 @@
 #include "solver/history.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "base/check.h"
 #include "solver/block_ranges.h"
 #include "solver/elementary.h"
@@ -34,52 +37,85 @@ std::int64_t place_history(std::vector<ElementBlocks>& lists) {
   return next;
 }
 
-// Calls body(element, first number, width, lanes between numbers) for all elements with history.
+// The first number from `at` on that is not below `number`: mostly the one there or behind it.
+template <class At>
+static At find_from(At at, At end, std::int32_t number) {
+  for (int k = 0; k < 4 && at != end && *at < number; ++k) ++at;
+  return at == end || *at >= number ? at : std::lower_bound(at, end, number);
+}
+
+// Calls body(k, first number, width, lanes between numbers) for each element k of `elements`
+// (ascending) that the part has with history.
 template <class Body>
-static void for_histories(const Model& model, const Part& part, const Body& body) {
+static void for_histories(const Model& model, const Part& part,
+                          std::span<const std::int32_t> elements, const Body& body) {
   for (const ElementBlocks& blocks : model.blocks) {
     const int width = history_width(blocks);
-    for (std::int64_t lane = 0; lane < blocks.n_elements && width > 0; ++lane) {
-      const std::int64_t block = lane / blocks.lanes;
-      body(part.element_global[blocks.element_local[lane]],
-           blocks.first_history + block * width * blocks.lanes + lane % blocks.lanes, width,
-           blocks.lanes);
+    if (width == 0) continue;
+    const auto end = blocks.element_local.begin() + blocks.n_elements;
+    auto at = blocks.element_local.begin();
+    auto place = part.element_global.begin();
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      place = find_from(place, part.element_global.end(), elements[k]);
+      if (place == part.element_global.end() || *place != elements[k]) continue;
+      const auto local = static_cast<std::int32_t>(place - part.element_global.begin());
+      at = find_from(at, end, local);
+      if (at == end || *at != local) continue;
+      const std::int64_t lane = at - blocks.element_local.begin();
+      body(k,
+           blocks.first_history + lane / blocks.lanes * width * blocks.lanes + lane % blocks.lanes,
+           width, blocks.lanes);
     }
   }
 }
 
-std::vector<double> copy_history(const Model& model, const Part& part, const State& state) {
+std::vector<double> copy_history(const Model& model, const Part& part, const State& state,
+                                 std::span<const std::int32_t> elements) {
   std::vector<double> copy;
-  for_histories(model, part, [&](std::int32_t e, std::int64_t first, int width, int lanes) {
-    copy.push_back(e);
-    copy.push_back(width);
-    for (int k = 0; k < width; ++k) copy.push_back(state.history[first + k * lanes]);
-  });
+  for_histories(model, part, elements,
+                [&](std::size_t k, std::int64_t first, int width, int lanes) {
+                  copy.push_back(elements[k]);
+                  copy.push_back(width);
+                  for (int j = 0; j < width; ++j) copy.push_back(state.history[first + j * lanes]);
+                });
   return copy;
 }
 
-void restore_history(const Model& model, const Part& part, std::span<const double> copies,
-                     std::span<const std::int32_t> parent, std::span<const double> scale,
-                     State& state) {
-  CHECK_OP(parent.size(), ==, scale.size());
-  const std::int32_t last = parent.empty() ? -1 : parent.back();  // parents ascend
-  std::vector<std::size_t> place(static_cast<std::size_t>(last) + 1, copies.size());
+std::vector<double> copy_history(const Model& model, const Part& part, const State& state) {
+  return copy_history(model, part, state, part.element_global);
+}
+
+// (element, where its copy is), ascending.
+static std::vector<std::pair<std::int32_t, std::size_t>> find_copies(
+    std::span<const double> copies) {
+  std::vector<std::pair<std::int32_t, std::size_t>> found;
   for (std::size_t at = 0; at < copies.size(); at += 2 + static_cast<std::size_t>(copies[at + 1]))
-    if (copies[at] <= last) place[static_cast<std::size_t>(copies[at])] = at;
-  for_histories(model, part, [&](std::int32_t e, std::int64_t first, int width, int lanes) {
-    const auto element = static_cast<std::size_t>(e);
-    const std::size_t at = place[static_cast<std::size_t>(parent[element])];
-    if (at == copies.size()) return;
-    const int n = static_cast<int>(copies[at + 1]);
-    CHECK_OP(n % width, ==, 0);
-    const double n_parent_points = n / width;  // for each point of this element
-    for (int k = 0; k < n; ++k) {
-      const double value =
-          scale[element] * copies[at + 2 + static_cast<std::size_t>(k)] / n_parent_points;
-      double& number = state.history[first + k % width * lanes];
-      number = k < width ? value : number + value;
-    }
-  });
+    found.emplace_back(static_cast<std::int32_t>(copies[at]), at);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void restore_history(const Model& model, const Part& part, std::span<const double> copies,
+                     const ElementOrigins& origins, State& state) {
+  CHECK_OP(origins.parent.size(), ==, origins.element.size());
+  CHECK_OP(origins.scale.size(), ==, origins.element.size());
+  const auto found = find_copies(copies);
+  for_histories(
+      model, part, origins.element, [&](std::size_t e, std::int64_t first, int width, int lanes) {
+        const auto copy = std::lower_bound(found.begin(), found.end(),
+                                           std::pair{origins.parent[e], std::size_t{0}});
+        if (copy == found.end() || copy->first != origins.parent[e]) return;
+        const std::size_t at = copy->second;
+        const int n = static_cast<int>(copies[at + 1]);
+        CHECK_OP(n % width, ==, 0);
+        const double n_parent_points = n / width;  // for each point of this element
+        for (int k = 0; k < n; ++k) {
+          const double value =
+              origins.scale[e] * copies[at + 2 + static_cast<std::size_t>(k)] / n_parent_points;
+          double& number = state.history[first + k % width * lanes];
+          number = k < width ? value : number + value;
+        }
+      });
 }
 
 }  // namespace trocar

@@ -2,6 +2,7 @@
 // cut.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mesh/partition.h"
@@ -18,14 +19,22 @@ int history_width(const ElementBlocks& blocks);
 // Length of State::history, and where each list begins (ElementBlocks::first_history).
 std::int64_t place_history(std::vector<ElementBlocks>& lists);
 
-// The history of this rank's elements, one after the other: global number, count, numbers.
+// The history of this rank's elements, or of those of `elements` (ascending) that it has, one after
+// the other: global number, count, numbers.
 std::vector<double> copy_history(const Model& model, const Part& part, const State& state);
-// What copies of all ranks, one behind the other, say of the part's elements. Element e gets the
-// numbers of the one that it was or was a part of, parent[e], multiplied by scale[e]: its volume
-// over the parent's, since stresses are stored times the volume of the whole element. One of a
-// single point whose parent had several gets their mean.
+std::vector<double> copy_history(const Model& model, const Part& part, const State& state,
+                                 std::span<const std::int32_t> elements);
+
+// What elements were before an edit.
+struct ElementOrigins {
+  std::vector<std::int32_t> element;  // global numbers, ascending
+  std::vector<std::int32_t> parent;   // of each, what it was or was a part of
+  std::vector<double> scale;          // of each, its volume over the parent's
+};
+// These elements, where the part has them, get the history of their parents from copies of all
+// ranks, one behind the other, multiplied by the scale, since stresses are stored times the volume
+// of the whole element. One of a single point whose parent had several gets their mean.
 void restore_history(const Model& model, const Part& part, std::span<const double> copies,
-                     std::span<const std::int32_t> parent, std::span<const double> scale,
-                     State& state);
+                     const ElementOrigins& origins, State& state);
 
 }  // namespace trocar

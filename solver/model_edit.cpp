@@ -98,17 +98,17 @@ std::int64_t n_of_lane(const Numbers& numbers, const ElementBlocks& list) {
 
 // Lane by lane from before[lane], whole blocks at once where they stay together. `to` may be `from`
 // if no lane is new: then they move down.
-template <class Numbers>
-void copy_lanes(const Numbers& from, std::int64_t n, std::span<const std::int64_t> before,
-                std::int64_t lanes, Numbers& to) {
+template <class T>
+void copy_lanes(const T* from, std::int64_t n, std::span<const std::int64_t> before,
+                std::int64_t lanes, T* to) {
   const std::int64_t n_lanes = std::ssize(before);
   const auto first = [&](std::int64_t lane) { return lane / lanes * lanes * n + lane % lanes; };
   for (std::int64_t lane = 0; lane < n_lanes; lane += lanes) {
     const std::int64_t last = std::min(lane + lanes, n_lanes) - 1, source = before[lane];
     const bool is_whole = source >= 0 && source % lanes == 0 && last - lane == lanes - 1 &&
                           before[last] == source + lanes - 1;
-    if (is_whole && (&from != &to || source != lane))
-      std::copy_n(from.begin() + source * n, lanes * n, to.begin() + lane * n);
+    if (is_whole && (from != to || source != lane))
+      std::copy_n(from + source * n, lanes * n, to + lane * n);
     for (std::int64_t l = lane; l <= last && !is_whole; ++l)
       for (std::int64_t k = 0; before[l] >= 0 && k < n; ++k)
         to[first(l) + k * lanes] = from[first(before[l]) + k * lanes];
@@ -119,7 +119,7 @@ void copy_lanes(const Numbers& from, std::int64_t n, std::span<const std::int64_
 template <class Numbers>
 void drop_lanes(std::span<const std::int64_t> before, ElementBlocks& list, Numbers& numbers) {
   const std::int64_t n = n_of_lane(numbers, list), n_lanes = std::ssize(before);
-  copy_lanes(numbers, n, before, list.lanes, numbers);
+  copy_lanes(numbers.data(), n, before, list.lanes, numbers.data());
   const std::int64_t n_blocks = (n_lanes + list.lanes - 1) / list.lanes;
   numbers.resize(static_cast<std::size_t>(n_blocks * list.lanes * n));
   for (std::int64_t lane = n_lanes; lane < n_blocks * list.lanes; ++lane)
@@ -143,7 +143,7 @@ ElementBlocks extended(const ListSource& source, std::size_t key, const Lanes& l
                        const ElementBlocks& from) {
   ElementBlocks list = empty_blocks(source, key, static_cast<std::int32_t>(lanes.element.size()));
   const auto copy = [&](const auto& before, auto& now) {
-    copy_lanes(before, n_of_lane(now, list), lanes.before, list.lanes, now);
+    copy_lanes(before.data(), n_of_lane(now, list), lanes.before, list.lanes, now.data());
   };
   if (from.n_elements == 0) return list;
   copy(from.corner, list.corner);
@@ -165,8 +165,8 @@ ElementBlocks moved_list(const ListSource& source, std::size_t key, const Lanes&
   return list;
 }
 
-void move_lists(const ListSource& source, std::span<const std::int32_t> place_before,
-                Model& model) {
+void move_lists(const ListSource& source, std::span<const std::int32_t> place_before, Model& model,
+                std::vector<double>& history) {
   std::vector<std::int32_t> place_after(model.element_step.size(), -1);
   std::map<std::size_t, std::vector<std::int32_t>> added;  // by the keys of their lists
   std::map<std::size_t, ElementBlocks> before;
@@ -178,21 +178,28 @@ void move_lists(const ListSource& source, std::span<const std::int32_t> place_be
   for (ElementBlocks& list : model.blocks) before[list_key(source, list)] = std::move(list);
   for (const auto& [key, elements] : added) before.try_emplace(key);
   model.blocks.clear();
+  std::vector<double> moved;
   for (auto& [key, list] : before) {
     const Lanes lanes = lanes_after(list, place_after, added[key]);
-    if (!lanes.element.empty())
-      model.blocks.push_back(moved_list(source, key, lanes, std::move(list)));
+    if (lanes.element.empty()) continue;
+    const double* const from = history.data() + list.first_history;
+    model.blocks.push_back(moved_list(source, key, lanes, std::move(list)));
+    moved.resize(static_cast<std::size_t>(place_history(model.blocks)));
+    const ElementBlocks& now = model.blocks.back();
+    copy_lanes(from, history_width(now), lanes.before, now.lanes, moved.data() + now.first_history);
   }
+  history = std::move(moved);
   move_to_places(place_before, model.element_step);
   model.n_history = place_history(model.blocks);
 }
 
 }  // namespace
 
-void edit_model(const ModelSource& from, const ModelEdit& edit, Model& model) {
+void edit_model(const ModelSource& from, const ModelEdit& edit, Model& model,
+                std::vector<double>& history) {
   CHECK(model.clusters.node.empty());
   const ListSource source{from.mesh, from.part, from.materials, model.options};
-  if (!edit.place_before.empty()) move_lists(source, edit.place_before, model);
+  if (!edit.place_before.empty()) move_lists(source, edit.place_before, model, history);
   resize_nodes(from.part, model);
   const FixedMask plane = held_by_plane(from.mesh);
   const std::vector<std::int32_t> owned = owned_of(from.part, edit.nodes);

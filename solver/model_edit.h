@@ -30,8 +30,9 @@ struct ModelEdit {
   std::span<const std::int32_t> place_before;
 };
 // Elements that are not new read halo nodes or don't, as before. Without mass scaling. The result
-// is build_model's.
-void edit_model(const ModelSource& source, const ModelEdit& edit, Model& model);
+// is build_model's. History (State::history) stays with its elements; that of new ones is zero.
+void edit_model(const ModelSource& source, const ModelEdit& edit, Model& model,
+                std::vector<double>& history);
 
 // values (elements of the part): from before the edit to after it, zero for new elements.
 template <class T>

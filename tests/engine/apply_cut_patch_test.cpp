@@ -73,10 +73,10 @@ std::unique_ptr<Patch> patch_of(Simulation& s, std::span<const std::int32_t> edi
   const std::vector<double> history = copy_history(s.model, s.part, s.state);
   std::vector<std::int32_t> itself(s.mesh.element_type.size());
   std::iota(itself.begin(), itself.end(), 0);
-  const std::vector<double> same(itself.size(), 1.0);
+  const ElementOrigins origins{itself, itself, std::vector<double>(itself.size(), 1.0)};
   return make_patch(
       s, elements_around(s.corners, edited),
-      {.global = global, .history = history, .parent = itself, .scale = same, .n_rings = n_rings});
+      {.global = global, .history = history, .origins = &origins, .n_rings = n_rings});
 }
 
 // Bent, and shaken by `noise` [m]; watched.

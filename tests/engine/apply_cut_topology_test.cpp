@@ -15,7 +15,9 @@
 #include "engine_scene.h"
 #include "engine_started.h"
 #include "mesh/surface_edit.h"
+#include "solver/history.h"
 #include "solver/model_edit.h"
+#include "solver/step.h"
 #include "solver_model_equal.h"
 
 namespace trocar {
@@ -79,13 +81,16 @@ int for_edits(Simulation& s, const Body& body) {
   return n_edits;
 }
 
+const std::string viscosity = "[[tissue.material.prony]]\nshare = 0.4\ntime = 0.1\n";
 const std::vector<std::pair<std::string, std::string>> kinds = {
     {"tet4-kuhn", ""},
     {"tet4-five", "precision = \"single\"\n"},
     {"tet4-kuhn", "tetrahedron = \"nodal-pressure\"\n"},
     {"hex8", ""},
     {"hex8", "precision = \"single\"\n"},
-    {"hex8", "tetrahedron = \"nodal-pressure\"\n"}};
+    {"hex8", "tetrahedron = \"nodal-pressure\"\n"},
+    {"hex8", viscosity},
+    {"tet4-kuhn", viscosity}};
 
 void make_half_stiffer(Simulation& s) {
   s.mesh.region_name = {"", "stiff"};
@@ -93,6 +98,39 @@ void make_half_stiffer(Simulation& s) {
   s.materials.back().young_modulus *= 2;
   for (std::int32_t e = 0; e < s.mesh.n_elements(); ++e)
     s.mesh.element_region[e] = s.mesh.X[s.mesh.corners(e)[0]].y() < 0.002 ? 1 : 0;
+}
+
+void bend_and_move(Simulation& s) {
+  for (std::size_t i = 0; i < s.mesh.X.size(); ++i) {
+    const Vec3& X = s.mesh.X[i];
+    Vec3::Map(&s.state.u[3 * i]) = Vec3(3 * X.z() * X.z(), 0.1 * X.x(), -4 * X.x() * X.y());
+    Vec3::Map(&s.state.v[3 * i]) = Vec3(0.3 - 2 * X.y(), 40 * X.x() * X.z(), 0.2);
+  }
+  s.state.last_dt = 1e-4;
+  compute_force(s.model, s.state, s.scratch);  // and the history
+  watch_state(s);
+}
+
+std::vector<double> volumes(const Mesh& mesh) {
+  std::vector<double> volume;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    volume.push_back(element_volume(mesh, e, mesh.X));
+  return volume;
+}
+
+// What elements have of `copies` by the volumes that they and their parents have.
+std::vector<double> history_of(const Simulation& s, std::span<const double> copies,
+                               std::span<const std::int32_t> parent,
+                               std::span<const double> volume_before) {
+  ElementOrigins origins{.element = {}, .parent = {parent.begin(), parent.end()}, .scale = {}};
+  const std::vector<double> volume = volumes(s.mesh);
+  for (std::size_t e = 0; e < parent.size(); ++e) {
+    origins.element.push_back(static_cast<std::int32_t>(e));
+    origins.scale.push_back(volume[e] / volume_before[static_cast<std::size_t>(parent[e])]);
+  }
+  State state = make_state(s.model);
+  restore_history(s.model, s.part, copies, origins, state);
+  return state.history;
 }
 
 TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
@@ -103,11 +141,16 @@ TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
       Simulation& s = *started->s;
       if (n_threads == 2) make_half_stiffer(s);
       rebuild_topology(s);
+      const bool is_viscous = s.model.n_history > 0;
+      if (is_viscous) bend_and_move(s);
       const int n_edits = for_edits(s, [&](GlobalState& global, const MeshEdit& edit) {
         const std::vector<std::int32_t> owner = s.node_owner;
         apply_edit_to_owners(edit.duplicate_parent, s.node_owner);
         EXPECT_TRUE(keeps_owners(s, edit));
         s.node_owner = owner;
+        const std::vector<double> copies = copy_history(s.model, s.part, s.state);
+        const std::vector<double> volume = volumes(s.mesh);
+        const std::vector<std::int32_t> parent = element_parents(s.mesh, edit);
         CutRecord record;
         apply_cut(s, edit, global, record);
         const Part part = s.part;
@@ -126,6 +169,8 @@ TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
         EXPECT_EQ(rest_step, s.rest_step);
         EXPECT_EQ(reach, s.look.reach);
         EXPECT_EQ(n_pieces, s.n_pieces);
+        EXPECT_EQ(s.state.history, history_of(s, copies, parent, volume));
+        EXPECT_EQ(is_viscous, !copies.empty());
         watch_state(s);
       });
       EXPECT_GE(n_edits, 4);
@@ -134,19 +179,9 @@ TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
   set_thread_count(1);
 }
 
-void bend_and_move(Simulation& s) {
-  for (std::size_t i = 0; i < s.mesh.X.size(); ++i) {
-    const Vec3& X = s.mesh.X[i];
-    Vec3::Map(&s.state.u[3 * i]) = Vec3(3 * X.z() * X.z(), 0.1 * X.x(), -4 * X.x() * X.y());
-    Vec3::Map(&s.state.v[3 * i]) = Vec3(0.3 - 2 * X.y(), 40 * X.x() * X.z(), 0.2);
-  }
-  s.state.last_dt = 1e-4;
-  watch_state(s);
-}
-
 TEST(Topology, of_an_edit_changes_the_ledger_by_what_the_whole_body_gains) {
   for (const auto& [elements, solver] : kinds) {
-    const auto started = built(scene_of(elements, solver + "gravity = [1, 0, -9.81]\n"));
+    const auto started = built(scene_of(elements, "gravity = [1, 0, -9.81]\n" + solver));
     Simulation& s = *started->s;
     open_energy_ledger(s);
     bend_and_move(s);
@@ -174,6 +209,7 @@ TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
   for (const auto& [elements, solver] : kinds) {
     const auto started = built(scene_of(elements, solver));
     Simulation& s = *started->s;
+    s.corners = node_corners(s.mesh);
     std::vector<std::int32_t> owner = partition_nodes(s.mesh, 3);
     std::vector<Part> parts;
     std::vector<Model> models;
@@ -206,6 +242,7 @@ TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
         const Model model =
             build_model(s.mesh, part, s.materials, s.fixed, s.mass, solver_options(s.scene));
         if (is_local) {
+          std::vector<double> history(static_cast<std::size_t>(models[rank].n_history));
           const std::vector<std::int32_t> place_before =
               split_elements(s.mesh, owner, edit.splits, parts[rank]);
           n_splits += place_before.empty() ? 0 : 1;
@@ -216,8 +253,8 @@ TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
                       .materials = s.materials,
                       .fixed = s.fixed,
                       .mass = s.mass},
-                     {edited, nodes, elements_around(s.corners, nodes), place_before},
-                     models[rank]);
+                     {edited, nodes, elements_around(s.corners, nodes), place_before}, models[rank],
+                     history);
           expect_equal(models[rank], model);
         }
         parts[rank] = part;
