@@ -43,6 +43,7 @@ bool SplitNumbers::is_split(std::int32_t before) const {
 }
 
 void SplitNumbers::renumber(std::span<std::int32_t> elements) const {
+  if (splits_.empty()) return;
   std::int32_t low = 0, high = -1, way = 0;  // of elements from low to high
   for (std::int32_t& e : elements) {
     if (e < low || e > high) {

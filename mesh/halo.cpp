@@ -46,6 +46,7 @@ Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int r
 
 std::vector<std::int32_t> split_elements(const Mesh& mesh, std::span<const std::int32_t> node_owner,
                                          std::span<const HexSplit> splits, Part& part) {
+  if (splits.empty()) return {};
   const SplitNumbers numbers(splits);
   std::vector<std::int32_t> place, before = part.element_global;
   numbers.renumber(part.element_global);
