@@ -1,6 +1,7 @@
 // An edit of the tetrahedra as one of the body: which hexahedra stay, and the numbers of the rest.
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "base/sort_unique.h"
 #include "cutting/cut_hex.h"
@@ -22,15 +23,13 @@ struct Translation {
   std::span<const Vec3> x;
   const MeshEdit& edit;  // of tets.mesh
   const HexTets& tets;
-  std::vector<std::int32_t> split;  // hexahedra, ascending
+  std::vector<HexSplit> splits;  // ascending
 
-  bool is_split(std::int32_t e) const { return std::binary_search(split.begin(), split.end(), e); }
+  bool is_split(std::int32_t e) const { return SplitNumbers(splits).is_split(e); }
   // Of element s of tets.mesh in the body after the edit.
   std::int32_t number_after(std::int32_t s) const {
     const std::int32_t e = tets.source[s];
-    const auto n_before = std::lower_bound(split.begin(), split.end(), e) - split.begin();
-    return e + (n_hex_tets - 1) * static_cast<std::int32_t>(n_before) +
-           (is_split(e) ? s - tets.first[e] : 0);
+    return SplitNumbers(splits).after(e) + (is_split(e) ? s - tets.first[e] : 0);
   }
   bool is_hexahedron(std::int32_t e) const {  // that has tetrahedra
     return tets.first[e + 1] - tets.first[e] == n_hex_tets;
@@ -235,7 +234,7 @@ static const KeptHex* find_kept(const KeptHexahedra& kept, std::int32_t e) {
 static std::vector<DensityChange> density_changes(const Translation& t, const CutIndex& index,
                                                   const KeptHexahedra& kept) {
   std::vector<std::int32_t> changed = moved_elements(t, index);
-  changed.insert(changed.end(), t.split.begin(), t.split.end());
+  for (const HexSplit& split : t.splits) changed.push_back(split.element);
   sort_unique(changed);
   std::vector<double> mass_before(t.body.region_name.size(), 0), mass_after = mass_before;
   std::vector<std::pair<std::int32_t, std::int32_t>> child;  // number after the edit, e
@@ -260,23 +259,18 @@ static std::vector<DensityChange> density_changes(const Translation& t, const Cu
 
 // Of the tetrahedra, in the body after the edit.
 static void set_sources(const Translation& t, HexTets& tets) {
-  std::vector<std::int32_t> first;
-  first.reserve(tets.first.size() + (n_hex_tets - 1) * t.split.size());
-  auto split = t.split.begin();
-  std::int32_t number = 0;
-  for (std::int32_t e = 0; e < t.body.n_elements(); ++e) {
-    const bool is_split = split != t.split.end() && *split == e;
-    if (is_split) ++split;
-    if (!is_split) first.push_back(tets.first[e]);
-    for (std::int32_t s = tets.first[e]; s < tets.first[e + 1]; ++s) {
-      if (is_split) first.push_back(s);
-      tets.source[s] = number;
-      if (is_split) ++number;
-    }
-    if (!is_split) ++number;
+  const SplitNumbers numbers(t.splits);
+  const auto count_up = [](auto begin, std::int32_t first) {
+    std::iota(begin, begin + n_hex_tets, first);
+  };
+  numbers.renumber(tets.source);
+  for (const HexSplit& split : t.splits)
+    count_up(tets.source.begin() + tets.first[split.element], numbers.after(split.element));
+  spread_over_splits(t.splits, tets.first);
+  for (const HexSplit& split : t.splits) {
+    const auto first = tets.first.begin() + numbers.after(split.element);
+    count_up(first, *first);
   }
-  first.push_back(tets.mesh.n_elements());
-  tets.first = std::move(first);
 }
 
 MeshEdit edit_of_body(const Mesh& body, std::span<const Vec3> x, const CutIndex& index,
@@ -288,18 +282,18 @@ MeshEdit edit_of_body(const Mesh& body, std::span<const Vec3> x, const CutIndex&
     if (stays_hexahedron(t, e, hex))
       kept.emplace_back(e, hex);
     else
-      t.split.push_back(e);
+      t.splits.push_back(split_of(t, e));
   }
   MeshEdit result;
-  for (const std::int32_t e : t.split) result.splits.push_back(split_of(t, e));
+  result.splits = t.splits;
   for (const NodeMove& move : edit.moves) result.moves.push_back(move_in_body(t, move));
   result.duplicate_parent = edit.duplicate_parent;
   for (const auto& [e, hex] : kept) keep_hexahedron(t, e, hex, result);
   take_over_tetrahedra(t, result);
   result.density = density_changes(t, index, kept);
-  figures.n_converted = static_cast<std::int32_t>(t.split.size());
+  figures.n_converted = static_cast<std::int32_t>(t.splits.size());
   figures.n_kept_hexahedra = static_cast<std::int32_t>(kept.size());
-  if (!t.split.empty()) set_sources(t, tets);
+  if (!t.splits.empty()) set_sources(t, tets);
   apply_edit(edit, tets.mesh);
   return result;
 }

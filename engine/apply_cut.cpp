@@ -47,12 +47,9 @@ struct EditedElements {
 
 EditedElements find_edited(const Mesh& mesh, const NodeCorners& corners, const MeshEdit& edit) {
   EditedElements edited{.before = edited_elements(corners, edit), .after = {}, .volume = {}};
-  const SplitNumbers numbers(edit.splits);
-  for (const std::int32_t e : edited.before) {
-    const std::int32_t n = numbers.is_split(e) ? n_hex_tets : 1;
-    for (std::int32_t k = 0; k < n; ++k) edited.after.push_back(numbers.after(e) + k);
+  edited.after = SplitNumbers(edit.splits).all_after(edited.before);
+  for (const std::int32_t e : edited.before)
     edited.volume.push_back(element_volume(mesh, e, mesh.X));
-  }
   return edited;
 }
 
@@ -62,29 +59,23 @@ struct CarriedHistory {
   ElementOrigins origins;
 };
 
-bool is_viscous(const Simulation& s) {
-  return std::any_of(s.materials.begin(), s.materials.end(),
-                     [](const Material& material) { return !material.prony.empty(); });
-}
-
 std::vector<std::int32_t> all_elements(std::int32_t n) {
   std::vector<std::int32_t> all(static_cast<std::size_t>(n));
   std::iota(all.begin(), all.end(), 0);
   return all;
 }
 
-// Of these elements (ascending), before the edit. Collective.
+// Of these elements (ascending, before the edit), while part, model and state are those before it.
+// Collective.
 CarriedHistory carry_history(const Simulation& s, std::span<const std::int32_t> elements,
                              const MeshEdit& edit) {
   CarriedHistory history{
       .copies = s.communicator->all_gather(copy_history(s.model, s.part, s.state, elements)),
       .origins = {}};
   const SplitNumbers numbers(edit.splits);
-  for (const std::int32_t e : elements)
-    for (std::int32_t k = 0; k < (numbers.is_split(e) ? n_hex_tets : 1); ++k) {
-      history.origins.element.push_back(numbers.after(e) + k);
-      history.origins.parent.push_back(e);
-    }
+  history.origins.element = numbers.all_after(elements);
+  for (const std::int32_t e : history.origins.element)
+    history.origins.parent.push_back(numbers.before(e));
   history.origins.scale.assign(history.origins.element.size(), 1.0);
   return history;
 }
@@ -249,15 +240,17 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   const double energy = energy_around(s, is_energy_local, of_before, global);
   const double strain =
       strain_energy(*make_strained_patch(s, edit, edited.before, of_before, global));
-  CarriedHistory history;
-  if (is_viscous(s)) history = carry_history(s, elements_of_patch(s, of_before), edit);
+  std::vector<std::int32_t> with_history;  // that must be carried
+  if (is_viscous(s.materials)) with_history = elements_of_patch(s, of_before);
   const Known known{s.watch, s.look.at_step};
 
   const auto n_kept = static_cast<std::size_t>(s.part.n_owned);
   const std::vector<std::int32_t> adjustable = adjustable_nodes(s, edit);
   const std::int32_t n_elements = s.mesh.n_elements();
   const bool is_local = edit_whole(edit, global, s);
-  if (!is_local && is_viscous(s)) history = carry_history(s, all_elements(n_elements), edit);
+  if (!is_local && is_viscous(s.materials)) with_history = all_elements(n_elements);
+  CarriedHistory history;
+  if (is_viscous(s.materials)) history = carry_history(s, with_history, edit);
   nodes = united(nodes, nodes_of(s.mesh, edited.after));
   if (is_local)
     update_topology(s, {edit.splits, edited.after, nodes, global.x});

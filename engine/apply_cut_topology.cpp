@@ -47,9 +47,8 @@ void update_least(Simulation& s, const ModelEdit& edit) {
 void update_part_and_model(Simulation& s, const ModelEdit& edit) {
   update_part(s.mesh, s.corners, s.node_owner, edit.nodes, s.part);
   s.halo = make_halo(s.mesh, s.corners, s.node_owner, s.part);
-  edit_model(
-      {.mesh = s.mesh, .part = s.part, .materials = s.materials, .fixed = s.fixed, .mass = s.mass},
-      edit, s.model, s.state.history);
+  edit_model({s.mesh, s.part, s.materials, s.model.options, s.fixed, s.mass}, edit, s.model,
+             s.state.history);
   s.neighbours = make_neighbours(s.halo, s.model, s.contact != nullptr, *s.communicator);
   fit_scratch(s.model, s.scratch);
   update_least(s, edit);

@@ -137,10 +137,8 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   s.state.step = c.step;
   s.state.history_time = c.history_time;
   scatter_state(s, {.u = c.u, .v = c.v});
-  std::vector<std::int32_t> itself(c.history.empty() ? 0 : s.mesh.element_type.size());
-  std::iota(itself.begin(), itself.end(), 0);
-  restore_history(s.model, s.part, c.history,
-                  {itself, itself, std::vector<double>(itself.size(), 1.0)}, s.state);
+  if (!c.history.empty())
+    restore_history(s.model, s.part, c.history, unedited_elements(s.mesh.n_elements()), s.state);
   if (s.sleep) restore_sleep(c.sleep, s);
   for (std::size_t k = 0; k < s.cuts.size(); ++k) remember(c.cuts[k], s.cuts[k]);
   s.step_scale = c.step_scale;

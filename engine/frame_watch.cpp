@@ -119,9 +119,7 @@ double step_by_frequency(Simulation& s, double growth) {
 // Whether those of a frame's end are those of the next one's first step: sleeping elements have
 // none, histories keep their time, and averages at nodes are exchanged in every step.
 bool keeps_forces(const Simulation& s) {
-  return !s.sleep && s.model.averages.n_fields == 0 &&
-         std::ranges::all_of(s.materials,
-                             [](const Material& material) { return material.prony.empty(); });
+  return !s.sleep && s.model.averages.n_fields == 0 && !is_viscous(s.materials);
 }
 
 void find_watched_force(Simulation& s, ElementWatch& elements) {

@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "base/check.h"
 #include "mesh/hex_split.h"
 
 namespace trocar {
-
-// More elements, and more corners, than the hexahedron had.
-static constexpr std::int32_t n_more_elements = n_hex_tets - 1, n_more_corners = 4 * n_hex_tets - 8;
 
 // Of splits that lie before element e.
 static std::int32_t count_before(std::span<const HexSplit> splits, std::int32_t e) {
@@ -37,9 +35,16 @@ std::int32_t SplitNumbers::before(std::int32_t after) const {
   return low > 0 ? std::max(moved_up, splits_[low - 1].element) : after;
 }
 
-bool SplitNumbers::is_split(std::int32_t before) const {
+const HexSplit* SplitNumbers::find(std::int32_t before) const {
   const auto k = static_cast<std::size_t>(count_before(splits_, before));
-  return k < splits_.size() && splits_[k].element == before;
+  return k < splits_.size() && splits_[k].element == before ? &splits_[k] : nullptr;
+}
+
+std::vector<std::int32_t> SplitNumbers::all_after(std::span<const std::int32_t> before) const {
+  std::vector<std::int32_t> all;
+  for (const std::int32_t e : before)
+    for (std::int32_t k = 0; k < (is_split(e) ? n_hex_tets : 1); ++k) all.push_back(after(e) + k);
+  return all;
 }
 
 void SplitNumbers::renumber(std::span<std::int32_t> elements) const {
@@ -58,13 +63,9 @@ void SplitNumbers::renumber(std::span<std::int32_t> elements) const {
 }
 
 std::vector<std::int32_t> element_parents(const Mesh& mesh, const MeshEdit& edit) {
-  std::vector<std::int32_t> parent;
-  parent.reserve(mesh.element_type.size() + 5 * edit.splits.size());
-  auto split = edit.splits.begin();
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    const bool is_split = split != edit.splits.end() && split->element == e;
-    parent.insert(parent.end(), is_split ? split++->corner.size() : 1, e);
-  }
+  std::vector<std::int32_t> parent(mesh.element_type.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  spread_over_splits(edit.splits, parent);
   return parent;
 }
 
@@ -72,9 +73,9 @@ std::int32_t node_before(const MeshEdit& edit, const Mesh& before, const CornerC
   const SplitNumbers numbers(edit.splits);
   const std::int32_t e = numbers.before(change.element);
   const auto corner = static_cast<std::size_t>(change.corner);
-  if (!numbers.is_split(e)) return before.corners(e)[corner];
-  const HexSplit& split = edit.splits[static_cast<std::size_t>(count_before(edit.splits, e))];
-  return split.corner[static_cast<std::size_t>(change.element - numbers.after(e))][corner];
+  const HexSplit* const split = numbers.find(e);
+  if (split == nullptr) return before.corners(e)[corner];
+  return split->corner[static_cast<std::size_t>(change.element - numbers.after(e))][corner];
 }
 
 // A duplicate joins every set of its parent; new numbers are the highest, so the sets stay
@@ -101,7 +102,7 @@ static std::uint8_t inherited_cut_facets(const Mesh& mesh, std::int32_t e,
 static void split_corner_nodes(std::span<const HexSplit> splits, Mesh& mesh) {
   std::vector<std::int32_t>& node = mesh.corner_node;
   auto end = std::ssize(node);
-  node.resize(node.size() + n_more_corners * splits.size());
+  node.resize(node.size() + (4 * n_hex_tets - 8) * splits.size());
   auto to = node.end();
   for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
     const std::int32_t first = mesh.corner_offset[split->element];
@@ -110,19 +111,6 @@ static void split_corner_nodes(std::span<const HexSplit> splits, Mesh& mesh) {
     for (auto tet = split->corner.rbegin(); tet != split->corner.rend(); ++tet)
       to = std::copy_backward(tet->begin(), tet->end(), to);
   }
-}
-
-static void split_corner_offsets(std::span<const HexSplit> splits,
-                                 std::vector<std::int32_t>& offset) {
-  spread_over_splits(splits, offset);
-  std::int32_t way = 0, e = 0;
-  for (const HexSplit& split : splits) {
-    const std::int32_t first = split.element + way / n_more_corners * n_more_elements;
-    for (; e < first; ++e) offset[e] += way;
-    for (std::int32_t tet = 0; tet < n_hex_tets; ++tet, ++e) offset[e] += way + 4 * tet;
-    way += n_more_corners;
-  }
-  for (; e < std::ssize(offset); ++e) offset[e] += way;
 }
 
 static void split_hexahedra(std::span<const HexSplit> splits, Mesh& mesh) {
@@ -134,7 +122,6 @@ static void split_hexahedra(std::span<const HexSplit> splits, Mesh& mesh) {
       cut_facets.push_back(inherited_cut_facets(mesh, split.element, tet));
   }
   split_corner_nodes(splits, mesh);
-  split_corner_offsets(splits, mesh.corner_offset);
   spread_over_splits(splits, mesh.element_type);
   spread_over_splits(splits, mesh.element_region);
   spread_over_splits(splits, mesh.density_factor);
@@ -148,6 +135,9 @@ static void split_hexahedra(std::span<const HexSplit> splits, Mesh& mesh) {
     std::copy_n(mask, n_hex_tets, mesh.cut_facets.begin() + first);
     mask += n_hex_tets;
   }
+  mesh.corner_offset.resize(mesh.element_type.size() + 1);
+  for (std::int32_t e = splits.front().element; e < mesh.n_elements(); ++e)
+    mesh.corner_offset[e + 1] = mesh.corner_offset[e] + n_corners(mesh.element_type[e]);
 }
 
 void apply_edit(const MeshEdit& edit, Mesh& mesh) {

@@ -37,6 +37,7 @@ struct DensityChange {
 };
 
 inline constexpr std::int32_t n_hex_tets = 6;
+inline constexpr std::int32_t n_more_elements = n_hex_tets - 1;  // by a split
 
 // Hexahedron `element` becomes six tetrahedra on its own nodes. They inherit all that it had and
 // take its place: elements behind it move up by five.
@@ -69,7 +70,11 @@ class SplitNumbers {
   std::int32_t after(std::int32_t before) const;
   // Of the element that this is, or is a part of.
   std::int32_t before(std::int32_t after) const;
-  bool is_split(std::int32_t before) const;
+  // nullptr if the element stays.
+  const HexSplit* find(std::int32_t before) const;
+  bool is_split(std::int32_t before) const { return find(before) != nullptr; }
+  // All that these elements (ascending, before) become.
+  std::vector<std::int32_t> all_after(std::span<const std::int32_t> before) const;
   // From those before to those after: quick where they mostly ascend.
   void renumber(std::span<std::int32_t> elements) const;
 
@@ -82,7 +87,7 @@ template <class T>
 void spread_over_splits(std::span<const HexSplit> splits, std::vector<T>& values) {
   if (values.empty()) return;
   auto end = std::ssize(values);
-  values.resize(values.size() + (n_hex_tets - 1) * splits.size());
+  values.resize(values.size() + n_more_elements * splits.size());
   auto to = values.end();
   for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
     const auto behind = values.begin() + split->element + 1;

@@ -59,22 +59,21 @@ using SplitLeaves = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
 // Behind the other elements of its leaf come all but the first tetrahedron of each hexahedron.
 void add_tetrahedra(const SplitLeaves& splits, ElementBoxes& boxes) {
-  constexpr std::int32_t n_more = n_hex_tets - 1;
   auto end = std::ssize(boxes.order);
-  boxes.order.resize(boxes.order.size() + n_more * splits.size());
+  boxes.order.resize(boxes.order.size() + n_more_elements * splits.size());
   auto to = boxes.order.end();
   for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
     const auto end_of_leaf = boxes.first[static_cast<std::size_t>(split->first) + 1];
     to = std::move_backward(boxes.order.begin() + end_of_leaf, boxes.order.begin() + end, to);
     end = end_of_leaf;
-    to -= n_more;
-    std::iota(to, to + n_more, split->second + 1);
+    to -= n_more_elements;
+    std::iota(to, to + n_more_elements, split->second + 1);
   }
   std::int32_t n_added = 0;
   auto split = splits.begin();
   for (std::size_t leaf = 0; leaf + 1 < boxes.first.size(); ++leaf) {
     for (; split != splits.end() && split->first == static_cast<std::int32_t>(leaf); ++split)
-      n_added += n_more;
+      n_added += n_more_elements;
     boxes.first[leaf + 1] += n_added;
   }
 }

@@ -47,15 +47,14 @@ Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int r
 std::vector<std::int32_t> split_elements(const Mesh& mesh, std::span<const std::int32_t> node_owner,
                                          std::span<const HexSplit> splits, Part& part) {
   if (splits.empty()) return {};
-  const SplitNumbers numbers(splits);
-  std::vector<std::int32_t> place, before = part.element_global;
-  numbers.renumber(part.element_global);
-  if (std::none_of(splits.begin(), splits.end(), [&](const HexSplit& split) {
-        return std::binary_search(before.begin(), before.end(), split.element);
-      }))
-    return place;
+  const bool has_one = std::any_of(splits.begin(), splits.end(), [&](const HexSplit& split) {
+    return part.place_of(split.element) >= 0;
+  });
+  const std::vector<std::int32_t> before = part.element_global;
+  SplitNumbers(splits).renumber(part.element_global);
+  if (!has_one) return {};
   const auto is_owned = [&](std::int32_t i) { return node_owner[i] == part.rank; };
-  std::vector<std::int32_t> element;
+  std::vector<std::int32_t> place, element;
   auto split = splits.begin();
   for (std::int32_t k = 0; k < std::ssize(before); ++k) {
     while (split != splits.end() && split->element < before[k]) ++split;

@@ -1,6 +1,7 @@
 #include "solver/history.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "base/check.h"
@@ -83,6 +84,12 @@ std::vector<double> copy_history(const Model& model, const Part& part, const Sta
 
 std::vector<double> copy_history(const Model& model, const Part& part, const State& state) {
   return copy_history(model, part, state, part.element_global);
+}
+
+ElementOrigins unedited_elements(std::int32_t n) {
+  std::vector<std::int32_t> itself(static_cast<std::size_t>(n));
+  std::iota(itself.begin(), itself.end(), 0);
+  return {itself, itself, std::vector<double>(itself.size(), 1.0)};
 }
 
 // (element, where its copy is), ascending.

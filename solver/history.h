@@ -31,6 +31,8 @@ struct ElementOrigins {
   std::vector<std::int32_t> parent;   // of each, what it was or was a part of
   std::vector<double> scale;          // of each, its volume over the parent's
 };
+// Of n elements that no edit has changed.
+ElementOrigins unedited_elements(std::int32_t n);
 // These elements, where the part has them, get the history of their parents from copies of all
 // ranks, one behind the other, multiplied by the scale, since stresses are stored times the volume
 // of the whole element. One of a single point whose parent had several gets their mean.

@@ -1,6 +1,8 @@
 // Elastic constants at small strain.
 #include "solver/material.h"
 
+#include <algorithm>
+
 namespace trocar {
 
 double lame_mu(const Material& material) {
@@ -29,6 +31,11 @@ double bulk_modulus(const Material& material) {
 bool has_fibres(MaterialModel model) {
   return model == MaterialModel::transversely_isotropic ||
          model == MaterialModel::holzapfel_gasser_ogden;
+}
+
+bool is_viscous(std::span<const Material> materials) {
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const Material& material) { return !material.prony.empty(); });
 }
 
 }  // namespace trocar

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "base/vec.h"
@@ -46,5 +47,7 @@ double lame_mu(const Material& material);
 double bulk_modulus(const Material& material);
 
 bool has_fibres(MaterialModel model);
+// Whether one of them has a history.
+bool is_viscous(std::span<const Material> materials);
 
 }  // namespace trocar

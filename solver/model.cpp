@@ -17,11 +17,10 @@ namespace trocar {
 
 namespace {
 
-void check_source(const ListSource& source, std::span<const FixedMask> fixed,
-                  std::span<const double> mass) {
+void check_source(const ModelSource& source) {
   CHECK_OP(source.materials.size(), >=, source.mesh.region_name.size());
-  CHECK_OP(fixed.size(), ==, source.mesh.X.size());
-  CHECK_OP(mass.size(), ==, source.mesh.X.size());
+  CHECK_OP(source.fixed.size(), ==, source.mesh.X.size());
+  CHECK_OP(source.mass.size(), ==, source.mesh.X.size());
   check_materials(source.mesh, source.materials, source.options);
 }
 
@@ -33,7 +32,7 @@ void check_formulations(const SolverOptions& options) {
 
 // Counts the elements of each kind, gives each kind that occurs its blocks, and the elements their
 // lanes, ascending.
-void make_lists(const ListSource& source, Model& model) {
+void make_lists(const ModelSource& source, Model& model) {
   const auto key_of = [&](std::int32_t k) {
     return list_key(source, source.part.element_global[k]);
   };
@@ -51,7 +50,7 @@ void make_lists(const ListSource& source, Model& model) {
   }
 }
 
-void fill_blocks(const ListSource& source, Model& model) {
+void fill_blocks(const ModelSource& source, Model& model) {
   model.element_step.resize(source.part.element_global.size());
   for (ElementBlocks& blocks : model.blocks)
     parallel_for(std::int64_t{blocks.n_blocks}, [&](std::int64_t begin, std::int64_t end) {
@@ -66,15 +65,14 @@ void fill_blocks(const ListSource& source, Model& model) {
 Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> materials,
                   std::span<const FixedMask> fixed, std::span<const double> mass,
                   const SolverOptions& options) {
-  const ListSource source{mesh, part, materials, options};
-  check_source(source, fixed, mass);
+  const ModelSource source{mesh, part, materials, options, fixed, mass};
+  check_source(source);
   check_formulations(options);
   Model model;
   model.options = options;
   resize_nodes(part, model);
   const FixedMask plane = held_by_plane(mesh);
-  for (std::int32_t i = 0; i < model.n_owned; ++i)
-    take_node({mesh, part, materials, fixed, mass}, i, plane, model);
+  for (std::int32_t i = 0; i < model.n_owned; ++i) take_node(source, i, plane, model);
   make_lists(source, model);
   fill_blocks(source, model);
   model.n_history = place_history(model.blocks);
@@ -87,7 +85,7 @@ Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> 
 std::vector<RestingElement> resting_elements(const Mesh& mesh, std::span<const Material> materials,
                                              const SolverOptions& options) {
   const Part none;  // constants do not ask for it
-  const ListSource source{mesh, none, materials, options};
+  const ModelSource source{mesh, none, materials, options};
   std::vector<RestingElement> elements(mesh.element_type.size());
   parallel_for(std::ssize(elements), [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {

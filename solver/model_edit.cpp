@@ -55,7 +55,7 @@ std::vector<std::int32_t> owned_of(const Part& part, std::span<const std::int32_
 }
 
 // With the padding that repeats its corners.
-void refill(const ListSource& source, std::int32_t k, Model& model) {
+void refill(const ModelSource& source, std::int32_t k, Model& model) {
   const Place place = place_of(k, model);
   ElementBlocks& blocks = model.blocks[place.list];
   fill_lane(source, place.lane, blocks, model.element_step);
@@ -139,7 +139,7 @@ ElementBlocks shortened(const Lanes& lanes, ElementBlocks list) {
 }
 
 // With room for what is new.
-ElementBlocks extended(const ListSource& source, std::size_t key, const Lanes& lanes,
+ElementBlocks extended(const ModelSource& source, std::size_t key, const Lanes& lanes,
                        const ElementBlocks& from) {
   ElementBlocks list = empty_blocks(source, key, static_cast<std::int32_t>(lanes.element.size()));
   const auto copy = [&](const auto& before, auto& now) {
@@ -152,7 +152,7 @@ ElementBlocks extended(const ListSource& source, std::size_t key, const Lanes& l
   return list;
 }
 
-ElementBlocks moved_list(const ListSource& source, std::size_t key, const Lanes& lanes,
+ElementBlocks moved_list(const ModelSource& source, std::size_t key, const Lanes& lanes,
                          ElementBlocks from) {
   const bool has_new = std::ranges::find(lanes.before, -1) != lanes.before.end();
   ElementBlocks list =
@@ -165,7 +165,7 @@ ElementBlocks moved_list(const ListSource& source, std::size_t key, const Lanes&
   return list;
 }
 
-void move_lists(const ListSource& source, std::span<const std::int32_t> place_before, Model& model,
+void move_lists(const ModelSource& source, std::span<const std::int32_t> place_before, Model& model,
                 std::vector<double>& history) {
   std::vector<std::int32_t> place_after(model.element_step.size(), -1);
   std::map<std::size_t, std::vector<std::int32_t>> added;  // by the keys of their lists
@@ -195,17 +195,16 @@ void move_lists(const ListSource& source, std::span<const std::int32_t> place_be
 
 }  // namespace
 
-void edit_model(const ModelSource& from, const ModelEdit& edit, Model& model,
+void edit_model(const ModelSource& source, const ModelEdit& edit, Model& model,
                 std::vector<double>& history) {
   CHECK(model.clusters.node.empty());
-  const ListSource source{from.mesh, from.part, from.materials, model.options};
   if (!edit.place_before.empty()) move_lists(source, edit.place_before, model, history);
-  resize_nodes(from.part, model);
-  const FixedMask plane = held_by_plane(from.mesh);
-  const std::vector<std::int32_t> owned = owned_of(from.part, edit.nodes);
-  for (const std::int32_t i : owned) take_node(from, i, plane, model);
+  resize_nodes(source.part, model);
+  const FixedMask plane = held_by_plane(source.mesh);
+  const std::vector<std::int32_t> owned = owned_of(source.part, edit.nodes);
+  for (const std::int32_t i : owned) take_node(source, i, plane, model);
   for (const std::int32_t e : edit.elements)
-    if (const std::int64_t k = from.part.place_of(e); k >= 0)
+    if (const std::int64_t k = source.part.place_of(e); k >= 0)
       refill(source, static_cast<std::int32_t>(k), model);
   for (ElementBlocks& blocks : model.blocks)
     for (std::int64_t lane = 0; blocks.reads_halo && lane < std::ssize(blocks.element_local);
@@ -213,13 +212,13 @@ void edit_model(const ModelSource& from, const ModelEdit& edit, Model& model,
       fill_corners(source, lane, blocks);
   take_positions(source, model);
   if (edit.place_before.empty()) {
-    edit_sums(owned, blocks_of(from.part, edit.touching, model), model);
+    edit_sums(owned, blocks_of(source.part, edit.touching, model), model);
   } else {
     model.sums = {};
     order_sums(model);
   }
   model.averages = {};
-  link_volume_averages(from.mesh, from.materials, model);
+  link_volume_averages(source.mesh, source.materials, model);
 }
 
 }  // namespace trocar

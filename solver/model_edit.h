@@ -18,8 +18,12 @@ struct ModelSource {
   const Mesh& mesh;
   const Part& part;
   std::span<const Material> materials;
-  std::span<const FixedMask> fixed;
-  std::span<const double> mass;
+  const SolverOptions& options;
+  std::span<const FixedMask> fixed = {};  // only where nodes are taken
+  std::span<const double> mass = {};      // the same
+
+  std::int32_t n_elements() const { return static_cast<std::int32_t>(part.element_global.size()); }
+  const Material& material(std::int32_t e) const { return materials[mesh.element_region[e]]; }
 };
 // Global numbers, ascending.
 struct ModelEdit {

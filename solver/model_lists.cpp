@@ -15,12 +15,12 @@ namespace trocar {
 
 namespace {
 
-Formulation formulation_of(const ListSource& source, std::int32_t e) {
+Formulation formulation_of(const ModelSource& source, std::int32_t e) {
   const Formulation of_shape[] = {source.options.tri3, source.options.tet4, source.options.hex8};
   return of_shape[static_cast<int>(source.mesh.element_type[e])];
 }
 
-bool reads_halo(const ListSource& source, std::int32_t e) {
+bool reads_halo(const ModelSource& source, std::int32_t e) {
   const std::span<const std::int32_t> node = source.mesh.corners(e);
   return std::any_of(node.begin(), node.end(), [&](std::int32_t i) {
     return source.part.node_local[i] >= source.part.n_owned;
@@ -35,12 +35,12 @@ std::size_t key_of(std::size_t n_regions, bool reads_halo, std::int32_t region,
 }
 
 // Unit vector.
-Vec3 fibre_of_element(const ListSource& source, std::int32_t e) {
+Vec3 fibre_of_element(const ModelSource& source, std::int32_t e) {
   return source.mesh.fibre.empty() ? unit_fibre(source.material(e)) : source.mesh.fibre[e];
 }
 
 // Constants of the lane's element e: those of the material, then those of the element.
-void fill_values(const ListSource& source, std::int32_t e, const ElementConstants& element,
+void fill_values(const ModelSource& source, std::int32_t e, const ElementConstants& element,
                  std::int64_t lane, ElementBlocks& blocks) {
   const BlockKernels kernels = kernels_for(kernels_of(Simd::scalar), blocks);
   std::array<double, max_values> value{};
@@ -60,16 +60,16 @@ void fill_values(const ListSource& source, std::int32_t e, const ElementConstant
 
 }  // namespace
 
-std::size_t list_key(const ListSource& source, std::int32_t e) {
+std::size_t list_key(const ModelSource& source, std::int32_t e) {
   return key_of(source.materials.size(), reads_halo(source, e), source.mesh.element_region[e],
                 formulation_of(source, e));
 }
 
-std::size_t list_key(const ListSource& source, const ElementBlocks& blocks) {
+std::size_t list_key(const ModelSource& source, const ElementBlocks& blocks) {
   return key_of(source.materials.size(), blocks.reads_halo, blocks.region, blocks.formulation);
 }
 
-ElementBlocks empty_blocks(const ListSource& source, std::size_t key, std::int32_t n_elements) {
+ElementBlocks empty_blocks(const ModelSource& source, std::size_t key, std::int32_t n_elements) {
   ElementBlocks blocks;
   const std::size_t n_regions = source.materials.size();
   blocks.formulation = static_cast<Formulation>(key % n_formulations);
@@ -96,7 +96,7 @@ ElementBlocks empty_blocks(const ListSource& source, std::size_t key, std::int32
   return blocks;
 }
 
-ElementConstants constants_of(const ListSource& source, std::int32_t e) {
+ElementConstants constants_of(const ModelSource& source, std::int32_t e) {
   const std::span<const std::int32_t> node = source.mesh.corners(e);
   std::array<Vec3, max_corners> X;
   for (std::size_t a = 0; a < node.size(); ++a) X[a] = source.mesh.X[node[a]];
@@ -114,7 +114,7 @@ double resting_step(const ElementConstants& constants, double stiffening) {
   return constants.volume > 0 ? 2 / std::sqrt(constants.omega2 * stiffening) : 0;
 }
 
-void fill_corners(const ListSource& source, std::int64_t lane, ElementBlocks& blocks) {
+void fill_corners(const ModelSource& source, std::int64_t lane, ElementBlocks& blocks) {
   const std::int64_t block = lane / blocks.lanes, l = lane % blocks.lanes;
   const std::int32_t e = source.part.element_global[blocks.element_local[lane]];
   const std::span<const std::int32_t> node = source.mesh.corners(e);
@@ -123,7 +123,7 @@ void fill_corners(const ListSource& source, std::int64_t lane, ElementBlocks& bl
     blocks.corner[(block * n + a) * blocks.lanes + l] = source.part.node_local[node[a]];
 }
 
-void fill_lane(const ListSource& source, std::int64_t lane, ElementBlocks& blocks,
+void fill_lane(const ModelSource& source, std::int64_t lane, ElementBlocks& blocks,
                std::vector<double>& element_step) {
   const bool is_padding = lane >= blocks.n_elements;
   if (is_padding) blocks.element_local[lane] = blocks.element_local[blocks.n_elements - 1];
@@ -135,7 +135,7 @@ void fill_lane(const ListSource& source, std::int64_t lane, ElementBlocks& block
   element_step[k] = resting_step(constants, blocks.stiffening_at_rest);
 }
 
-void check_step(const ListSource& source, std::size_t k, const Model& model) {
+void check_step(const ModelSource& source, std::size_t k, const Model& model) {
   if (!(model.element_step[k] > 0))
     throw InputError("element " + std::to_string(source.part.element_global[k]) +
                      " has no positive volume, or a stiffness or density that is not finite");
@@ -165,7 +165,7 @@ void take_node(const ModelSource& source, std::int32_t i, FixedMask plane, Model
 
 // Rounded alike on all ranks and for any numbering, so that all elements at a node see it at the
 // same place. After an edit all are taken anew: the least of the coordinates may have changed.
-void take_positions(const ListSource& source, Model& model) {
+void take_positions(const ModelSource& source, Model& model) {
   const auto is_reader = [](const ElementBlocks& blocks) {
     return kernels_for(kernels_of(Simd::scalar), blocks).element.reads_positions;
   };

@@ -71,9 +71,7 @@ std::vector<std::int32_t> edited_nodes(const std::vector<Vec3>& X_before, const 
 std::unique_ptr<Patch> patch_of(Simulation& s, std::span<const std::int32_t> edited, int n_rings) {
   const GlobalState global = gather_state(s);
   const std::vector<double> history = copy_history(s.model, s.part, s.state);
-  std::vector<std::int32_t> itself(s.mesh.element_type.size());
-  std::iota(itself.begin(), itself.end(), 0);
-  const ElementOrigins origins{itself, itself, std::vector<double>(itself.size(), 1.0)};
+  const ElementOrigins origins = unedited_elements(s.mesh.n_elements());
   return make_patch(
       s, elements_around(s.corners, edited),
       {.global = global, .history = history, .origins = &origins, .n_rings = n_rings});

@@ -224,14 +224,9 @@ TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
       std::swap(owner, s.node_owner);
       const bool is_local = keeps_owners(s, edit);
       std::swap(owner, s.node_owner);
-      const SplitNumbers numbers(edit.splits);
       std::vector<std::int32_t> edited = edited_elements(s.corners, edit);
       std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited);
-      for (std::int32_t& e : edited) e = numbers.after(e);
-      for (const HexSplit& split : edit.splits)
-        for (std::int32_t k = 1; k < n_hex_tets; ++k)
-          edited.push_back(numbers.after(split.element) + k);
-      sort_unique(edited);
+      edited = SplitNumbers(edit.splits).all_after(edited);
       CutRecord record;
       apply_cut(s, edit, global, record);
       for (const std::int32_t i : nodes_of(s.mesh, edited)) nodes.push_back(i);
@@ -251,6 +246,7 @@ TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
           edit_model({.mesh = s.mesh,
                       .part = part,
                       .materials = s.materials,
+                      .options = models[rank].options,
                       .fixed = s.fixed,
                       .mass = s.mass},
                      {edited, nodes, elements_around(s.corners, nodes), place_before}, models[rank],

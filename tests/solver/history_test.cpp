@@ -211,10 +211,7 @@ TEST(Viscosity, history_goes_over_to_another_distribution_of_elements) {
   }
   bend(alone);
   State state = make_state(alone.model);
-  std::vector<std::int32_t> itself(mesh.element_type.size());
-  std::iota(itself.begin(), itself.end(), 0);
-  restore_history(alone.model, alone.part, copies,
-                  {itself, itself, std::vector<double>(itself.size(), 1.0)}, state);
+  restore_history(alone.model, alone.part, copies, unedited_elements(mesh.n_elements()), state);
   EXPECT_GT(largest(state.history), 0);
   // Padding lanes of alone have zero volume and so no stress.
   EXPECT_EQ(state.history, alone.state.history);
