@@ -1,10 +1,11 @@
 // What an edit of a running scene costs: the same incision as in bench_cut scaling, 6 cells long
 // and 3 deep, in ever larger boxes of elements at rest, through the whole of cut_along_blades
 // (bench_cut times the cut alone). Markdown to stdout.
-// bench_edit [--energy] [--hexahedra] [--viscous] [--once] [N]...: boxes of N cells a side (default
-// 15, 30); --energy: with the ledger that a metrics output keeps; --hexahedra: of hexahedra, which
-// the blade splits; --viscous: of a material with history; --once: one run in place of the quickest
-// of five
+// bench_edit [--energy] [--hexahedra] [--viscous] [--sleep] [--scaled] [--once] [N]...: boxes of N
+// cells a side (default 15, 30); --energy: with the ledger that a metrics output keeps;
+// --hexahedra: of hexahedra, which the blade splits; --viscous: of a material with history;
+// --sleep: what is at rest sleeps; --scaled: elements beside the cut get scaled masses; --once: one
+// run in place of the quickest of five
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -42,7 +43,8 @@ std::string path_of(double top, double shift) {
 }
 
 struct Trial {
-  bool has_energy = false, is_of_hexahedra = false, is_viscous = false;
+  bool has_energy = false, is_of_hexahedra = false, is_viscous = false, does_sleep = false,
+       is_scaled = false;
   int n_runs = 5;
 };
 
@@ -56,6 +58,8 @@ std::string scene_of(int n, const Trial& trial) {
          ", " + cells +
          "]\n[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\ndensity = 1000\n" +
          (trial.is_viscous ? "[[tissue.material.prony]]\nshare = 0.3\ntime = 0.1\n" : "") +
+         "[solver]\n" + (trial.does_sleep ? "sleep = \"0.1 mm\"\n" : "") +
+         (trial.is_scaled ? "mass_scaling_step = \"0.45 ms\"\n" : "") +
          "[[support]]\nregion = \"z-\"\nfix = \"xyz\"\n"
          "[[instrument]]\nkind = \"scalpel\"\nblade_length = \"16 mm\"\n" +
          path_of(2 * side, n % 2 == 1 ? 0.5 : 0);
@@ -107,7 +111,9 @@ Cost least_cost(int n, const Trial& trial) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  constexpr const char* usage = "bench_edit [--energy] [--hexahedra] [--viscous] [--once] [N]...";
+  constexpr const char* usage =
+      "bench_edit [--energy] [--hexahedra] [--viscous] [--sleep] "
+      "[--scaled] [--once] [N]...";
   if (is_help_asked(argc, argv)) return print_usage(usage, stdout);
   std::vector<int> cells;
   Trial trial;
@@ -118,6 +124,10 @@ int main(int argc, char** argv) {
       trial.is_of_hexahedra = true;
     else if (std::strcmp(argv[k], "--viscous") == 0)
       trial.is_viscous = true;
+    else if (std::strcmp(argv[k], "--sleep") == 0)
+      trial.does_sleep = true;
+    else if (std::strcmp(argv[k], "--scaled") == 0)
+      trial.is_scaled = true;
     else if (std::strcmp(argv[k], "--once") == 0)
       trial.n_runs = 1;
     else if (const int n = std::atoi(argv[k]); n > 0)

@@ -18,17 +18,16 @@ AddedMass measure(const MassScaling& scaling, const Simulation& s) {
                   .n_nodes = static_cast<std::int32_t>(scaling.node.size()),
                   .n_clusters = scaling.n_clusters()};
   if (scaling.node.empty()) return added;
-  ExactSum all, more;
-  for (const double m : s.mass) all.add(m);
+  ExactSum more;
   for (const double m : scaling.added) more.add(m);
   added.mass = more.value();
-  added.share = more.value() / all.value();
+  added.share = more.value() / s.whole_mass;
   for (std::int32_t c = 0; c < scaling.n_clusters(); ++c)
     added.largest_cluster =
         std::max(added.largest_cluster, scaling.offset[static_cast<std::size_t>(c) + 1] -
                                             scaling.offset[static_cast<std::size_t>(c)]);
   const auto most = std::max_element(scaling.added.begin(), scaling.added.end());
-  added.heaviest_node = static_cast<std::int32_t>(most - scaling.added.begin());
+  added.heaviest_node = scaling.node[static_cast<std::size_t>(most - scaling.added.begin())];
   added.low = added.high = s.mesh.X[static_cast<std::size_t>(added.heaviest_node)];
   for (const std::int32_t node : scaling.node) {
     added.low = added.low.cwiseMin(s.mesh.X[static_cast<std::size_t>(node)]);
@@ -50,19 +49,25 @@ std::string sentence(const AddedMass& added, const Simulation& s) {
 
 }  // namespace
 
-std::optional<MassScaling> plan_mass_scaling(Simulation& s) {
+void plan_mass_scaling(Simulation& s) {
   const SceneSolver& solver = s.scene.solver;
-  if (solver.mass_scaling_step == 0) return std::nullopt;
-  MassScaling scaling =
+  if (solver.mass_scaling_step == 0) return;
+  s.mass_scaling =
       find_mass_scaling(s.mesh, s.materials, solver_options(s.scene), solver.mass_scaling_step);
-  keep_clusters_whole(scaling, s.node_owner);
-  return scaling;
+  keep_clusters_whole(*s.mass_scaling, s.node_owner);
 }
 
-void report_mass_scaling(const MassScaling& scaling, Simulation& s) {
+bool follow_mass_scaling(const ScalingEdit& edit, Simulation& s) {
+  if (!s.mass_scaling) return true;
+  edit_mass_scaling(s.mesh, s.materials, s.model.options, edit, *s.mass_scaling);
+  return are_clusters_whole(*s.mass_scaling, s.node_owner);
+}
+
+void report_mass_scaling(Simulation& s) {
+  if (!s.mass_scaling) return;
   const bool is_first = !s.added_mass;
   const double before = is_first ? 0 : s.added_mass->share;
-  s.added_mass = measure(scaling, s);
+  s.added_mass = measure(*s.mass_scaling, s);
   if (s.added_mass->share > share_of_event && before <= share_of_event)
     note_event(s, s.state.time, sentence(*s.added_mass, s) + ": its motion is slowed visibly");
   else if (is_first)

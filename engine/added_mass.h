@@ -20,9 +20,11 @@ struct AddedMass {
 
 // Finds the elements to be scaled, if the scene asks for it, and moves clusters that lie on several
 // ranks to one: before the part is made.
-std::optional<MassScaling> plan_mass_scaling(Simulation& s);
-// Measures it, says it once, and notes an event when more than 5 % of the body's mass is added and
-// it was not before.
-void report_mass_scaling(const MassScaling& scaling, Simulation& s);
+void plan_mass_scaling(Simulation& s);
+// The same after an edit that the mesh has taken; false if a cluster would have to move.
+bool follow_mass_scaling(const ScalingEdit& edit, Simulation& s);
+// Measures it, if there is any, says it once, and notes an event when more than 5 % of the body's
+// mass is added and it was not before.
+void report_mass_scaling(Simulation& s);
 
 }  // namespace trocar

@@ -110,7 +110,7 @@ bool keeps_step(const Simulation& s) {
 
 // Whether an edit changes no energies but those around it.
 bool keeps_energy(const Simulation& s) {
-  return !s.scene.solver.is_multirate && !s.added_mass;
+  return !s.scene.solver.is_multirate;
 }
 
 // Supports and partner pairs go with the nodes.
@@ -149,7 +149,8 @@ void move_positions(const MeshEdit& edit, const Mesh& mesh, GlobalState& global)
 }
 
 // All that every rank holds of the whole body; returns whether update_topology will do.
-bool edit_whole(const MeshEdit& edit, GlobalState& global, Simulation& s) {
+bool edit_whole(const MeshEdit& edit, const EditedElements& edited, GlobalState& global,
+                Simulation& s) {
   const std::int32_t n_before = s.mesh.n_nodes();
   apply_edit(edit, s.mesh, 3, global.u);
   apply_edit(edit, s.mesh, 3, global.v);
@@ -161,7 +162,8 @@ bool edit_whole(const MeshEdit& edit, GlobalState& global, Simulation& s) {
   apply_edit(edit, s.mesh);
   move_positions(edit, s.mesh, global);
   const bool has_new_owners = !edit.splits.empty() && rebalance(s);
-  return is_local && !has_new_owners;
+  return is_local && !has_new_owners &&
+         follow_mass_scaling({edit.splits, edited.before, edited.after}, s);
 }
 
 // Of the edited elements and their nodes.
@@ -247,7 +249,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   const auto n_kept = static_cast<std::size_t>(s.part.n_owned);
   const std::vector<std::int32_t> adjustable = adjustable_nodes(s, edit);
   const std::int32_t n_elements = s.mesh.n_elements();
-  const bool is_local = edit_whole(edit, global, s);
+  const bool is_local = edit_whole(edit, edited, global, s);
   if (!is_local && is_viscous(s.materials)) with_history = all_elements(n_elements);
   CarriedHistory history;
   if (is_viscous(s.materials)) history = carry_history(s, with_history, edit);

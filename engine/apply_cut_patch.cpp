@@ -104,7 +104,7 @@ std::unique_ptr<Patch> make_patch_of_nodes(const Simulation& s, std::span<const 
                                            const PatchState& state) {
   SubMesh sub = make_sub_mesh(s.mesh, elements_of_forces(s, free));
   MassScaling scaling;
-  if (s.added_mass) scaling = take_in_clusters(s, sub);
+  if (s.mass_scaling) scaling = take_in_clusters(s, sub);
   const std::vector<FixedMask> fixed = fixed_in_patch(s, sub.node, free);
   return assemble(s, std::move(sub), scaling, fixed, state);
 }
@@ -125,7 +125,12 @@ std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int3
 
 std::vector<std::int32_t> elements_of_patch(const Simulation& s,
                                             std::span<const std::int32_t> nodes) {
-  return elements_of_forces(s, with_rings(s, {nodes.begin(), nodes.end()}, patch_rings));
+  std::vector<std::int32_t> elements =
+      elements_of_forces(s, with_rings(s, {nodes.begin(), nodes.end()}, patch_rings));
+  if (!s.mass_scaling) return elements;
+  SubMesh sub = make_sub_mesh(s.mesh, elements);
+  take_in_clusters(s, sub);
+  return sub.element;
 }
 
 std::unique_ptr<Patch> make_patch_of(const Simulation& s, std::span<const std::int32_t> elements,

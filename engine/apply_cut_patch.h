@@ -33,14 +33,13 @@ struct PatchState {
 std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
                                   const PatchState& state);
 
-// All elements of a patch around edited elements that have these nodes, without scaled masses.
+// All elements of a patch around edited elements that have these nodes.
 std::vector<std::int32_t> elements_of_patch(const Simulation& s,
                                             std::span<const std::int32_t> nodes);
 
 // Of all elements that the nodes' forces depend on, everything but these nodes held, with the
 // velocities of `state`: what an edit changes of the body's energy it changes of this one, for the
-// same nodes before and after (all corners of edited elements, before and after). Without scaled
-// masses. [J]
+// same nodes before and after (all corners of edited elements, before and after). [J]
 double patch_energy(const Simulation& s, std::span<const std::int32_t> nodes,
                     const PatchState& state);
 

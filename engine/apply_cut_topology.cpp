@@ -47,8 +47,10 @@ void update_least(Simulation& s, const ModelEdit& edit) {
 void update_part_and_model(Simulation& s, const ModelEdit& edit) {
   update_part(s.mesh, s.corners, s.node_owner, edit.nodes, s.part);
   s.halo = make_halo(s.mesh, s.corners, s.node_owner, s.part);
+  unscale_mass(s.model);
   edit_model({s.mesh, s.part, s.materials, s.model.options, s.fixed, s.mass}, edit, s.model,
              s.state.history);
+  if (s.mass_scaling) scale_mass(*s.mass_scaling, s.part, s.model);
   s.neighbours = make_neighbours(s.halo, s.model, s.contact != nullptr, *s.communicator);
   fit_scratch(s.model, s.scratch);
   update_least(s, edit);
@@ -67,8 +69,7 @@ bool changes_averages(const Simulation& s, const TopologyEdit& edit) {
 }  // namespace
 
 bool keeps_owners(const Simulation& s, const MeshEdit& edit) {
-  const SceneSolver& solver = s.scene.solver;
-  if (solver.mass_scaling_step != 0 || solver.is_multirate || solver.sleep != 0) return false;
+  if (s.scene.solver.is_multirate) return false;
   const auto owner = [&](std::int32_t i) { return s.node_owner[static_cast<std::size_t>(i)]; };
   return std::all_of(edit.corners.begin(), edit.corners.end(), [&](const CornerChange& change) {
     return owner(change.node) == owner(node_before(edit, s.mesh, change));
@@ -76,6 +77,7 @@ bool keeps_owners(const Simulation& s, const MeshEdit& edit) {
 }
 
 void update_topology(Simulation& s, const TopologyEdit& edit) {
+  if (s.sleep) wake_all(s);
   const std::vector<std::int32_t> touching = elements_around(s.corners, edit.nodes);
   const SubMesh around =
       make_sub_mesh(s.mesh, elements_around(s.corners, nodes_of(s.mesh, touching)));
@@ -91,6 +93,8 @@ void update_topology(Simulation& s, const TopologyEdit& edit) {
     update_part_and_model(s, {edit.elements, edit.nodes, touching, place_before});
   else
     s.part.node_local.resize(s.mesh.X.size(), -1);
+  if (s.sleep) fit_sleep(s);
+  report_mass_scaling(s);
   update_surface_view(s.surface, s.node_owner, s.part, s.view);
   follow_model(s);
 }

@@ -11,9 +11,8 @@
 
 namespace trocar {
 
-// Whether update_topology will do: all corners stay with their owners, and the scene has nothing
-// that is planned on the whole mesh (mass scaling, multirate, sleep). mesh: before the edit;
-// owners: behind it.
+// Whether update_topology will do: all corners stay with their owners, and the scene has no local
+// time steps, which are planned on the whole mesh. mesh: before the edit; owners: behind it.
 bool keeps_owners(const Simulation& s, const MeshEdit& edit);
 
 struct TopologyEdit {

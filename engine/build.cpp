@@ -295,13 +295,14 @@ std::vector<double> region_densities(std::span<const Material> materials) {
 
 void rebuild_topology(Simulation& s) {
   const int rank = s.communicator->rank();
-  const std::optional<MassScaling> scaling = plan_mass_scaling(s);
+  plan_mass_scaling(s);
   s.mass = lumped_mass(s.mesh, region_densities(s.materials), s.scene.tissue.thickness);
   s.part = make_part(s.mesh, s.node_owner, rank);
   s.halo = make_halo(s.mesh, s.node_owner, s.part, rank);
   s.model = build_model(s.mesh, s.part, s.materials, s.fixed, s.mass, solver_options(s.scene));
-  if (scaling) scale_mass(*scaling, s.part, s.model);
-  if (scaling) report_mass_scaling(*scaling, s);
+  if (s.mass_scaling) scale_mass(*s.mass_scaling, s.part, s.model);
+  if (s.whole_mass == 0) s.whole_mass = std::accumulate(s.mass.begin(), s.mass.end(), 0.0);
+  report_mass_scaling(s);
   s.neighbours = make_neighbours(s.halo, s.model, s.contact != nullptr, *s.communicator);
   s.scratch = make_scratch(s.model);
   s.multirate = find_multirate(s);
@@ -352,7 +353,6 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   s.body_crc = crc_of_body(s);
   build_topology(loaded, s);
   check_body(loaded, s);
-  s.whole_mass = std::accumulate(s.mass.begin(), s.mass.end(), 0.0);
   if (!s.cuts.empty()) prepare_first_cut(s);
   s.state = make_state(s.model);
   refresh_surface(s);

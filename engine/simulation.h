@@ -134,9 +134,10 @@ struct Simulation : RankBody {
   double rest_step = 0;    // least element bound of the undeformed mesh, over all ranks [s]
   double edge_length = 0;  // mean of the mesh at time zero [m]
   double stable_step_before_cut = 0;
-  std::optional<AddedMass> added_mass;     // only with mass scaling
-  std::optional<Equilibrium> equilibrium;  // only if this process looked for one
-  FrameLog log;                            // what each frame told
+  std::optional<MassScaling> mass_scaling;  // only if the scene asks for it; replicated
+  std::optional<AddedMass> added_mass;      // by it
+  std::optional<Equilibrium> equilibrium;   // only if this process looked for one
+  FrameLog log;                             // what each frame told
   PhaseTimers timers;
 };
 

@@ -149,6 +149,25 @@ bool is_touched(const Simulation& s) {
                      [](const CutStage& stage) { return !stage.engaged.empty(); });
 }
 
+}  // namespace
+
+void begin_sleep(Simulation& s) {
+  if (s.scene.solver.sleep == 0) return;
+  s.sleep = Sleep{.bound = s.scene.solver.sleep};
+  fit_sleep(s);
+}
+
+void fit_sleep(Simulation& s) {
+  Sleep& sleep = *s.sleep;
+  const auto n = static_cast<std::size_t>(s.model.n_owned);
+  sleep.anchor.resize(3 * n);
+  sleep.quiet.resize(n, -1);
+  sleep.is_asleep.resize(static_cast<std::size_t>(s.model.n_local));
+  sleep.is_beside.resize(n);
+  sleep.watched.resize(3 * n);
+  sleep.awake_fixed = s.model.fixed;
+}
+
 void wake_all(Simulation& s) {
   Sleep& sleep = *s.sleep;
   show_awake(s);
@@ -157,20 +176,6 @@ void wake_all(Simulation& s) {
   std::fill(sleep.quiet.begin(), sleep.quiet.end(), -1);
   sleep.block_sleeps.clear();
   sleep.share = 0;
-}
-
-}  // namespace
-
-void begin_sleep(Simulation& s) {
-  if (s.scene.solver.sleep == 0) return;
-  const auto n = static_cast<std::size_t>(s.model.n_owned);
-  s.sleep = Sleep{.bound = s.scene.solver.sleep,
-                  .anchor = std::vector<double>(3 * n, 0.0),
-                  .quiet = std::vector<std::int32_t>(n, -1),
-                  .is_asleep = std::vector<std::uint8_t>(static_cast<std::size_t>(s.model.n_local)),
-                  .is_beside = std::vector<std::uint8_t>(n),
-                  .watched = std::vector<double>(3 * n, 0.0),
-                  .awake_fixed = s.model.fixed};
 }
 
 void show_awake(Simulation& s) {

@@ -43,6 +43,10 @@ void wake_touched(Simulation& s);
 // Whether a node beside sleeping ones has moved too far; then all are awake. Collective.
 bool wake_disturbed(Simulation& s);
 
+// Before and after an edit of the topology: all awake, room for new nodes.
+void wake_all(Simulation& s);
+void fit_sleep(Simulation& s);
+
 // The model as if all were awake, and back: for searches that want all of it.
 void show_awake(Simulation& s);
 void show_asleep(Simulation& s);

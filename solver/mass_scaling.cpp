@@ -1,33 +1,62 @@
 #include "solver/mass_scaling.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/check.h"
 #include "mesh/connected_nodes.h"
+#include "mesh/sub_mesh.h"
 
 namespace trocar {
 
 namespace {
 
-// Of the element's own corner mass m_e / n.
-void add_corner_masses(const Mesh& mesh, const RestingElement& element, double wanted_step,
-                       MassScaling& scaling) {
-  const double ratio = wanted_step / element.step;
-  const std::span<const std::int32_t> corner = mesh.corners(element.number);
-  for (const std::int32_t node : corner)
-    scaling.added[node] += (ratio * ratio - 1) * element.mass / static_cast<double>(corner.size());
+// A broken element has no step; building the model will name it.
+bool is_scaled(const RestingElement& element, double wanted_step) {
+  return element.step > 0 && element.step < wanted_step;
 }
 
+std::vector<std::int32_t> numbers_of(std::span<const RestingElement> elements) {
+  std::vector<std::int32_t> numbers;
+  for (const RestingElement& element : elements) numbers.push_back(element.number);
+  return numbers;
+}
+
+// (nodes of the scaled elements' mesh) (wanted / own step)^2 - 1 of the elements' own corner masses
+// m_e / n.
+std::vector<double> corner_masses(const Mesh& scaled, const MassScaling& scaling) {
+  std::vector<double> added(scaled.X.size());
+  for (std::int32_t k = 0; k < scaled.n_elements(); ++k) {
+    const RestingElement& element = scaling.element[static_cast<std::size_t>(k)];
+    const double ratio = scaling.wanted_step / element.step;
+    const std::span<const std::int32_t> corner = scaled.corners(k);
+    for (const std::int32_t node : corner)
+      added[static_cast<std::size_t>(node)] +=
+          (ratio * ratio - 1) * element.mass / static_cast<double>(corner.size());
+  }
+  return added;
+}
+
+// All that follows from scaling.element.
 void link_clusters(const Mesh& mesh, MassScaling& scaling) {
-  const std::vector<std::int32_t> lowest = connected_nodes(mesh, scaling.element);
-  for (std::int32_t node = 0; node < mesh.n_nodes(); ++node)
-    if (scaling.added[node] > 0) scaling.node.push_back(node);
-  std::stable_sort(scaling.node.begin(), scaling.node.end(),
-                   [&](std::int32_t a, std::int32_t b) { return lowest[a] < lowest[b]; });
-  for (std::size_t k = 0; k < scaling.node.size(); ++k)
-    if (k == 0 || lowest[scaling.node[k]] != lowest[scaling.node[k - 1]])
+  const SubMesh scaled = make_sub_mesh(mesh, numbers_of(scaling.element));
+  const std::vector<double> added = corner_masses(scaled.mesh, scaling);
+  const std::vector<std::int32_t> lowest = connected_nodes(scaled.mesh);
+  std::vector<std::size_t> order(added.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::erase_if(order, [&](std::size_t i) { return !(added[i] > 0); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return lowest[a] < lowest[b]; });
+  scaling.offset.clear();
+  scaling.node.clear();
+  scaling.added.clear();
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (k == 0 || lowest[order[k]] != lowest[order[k - 1]])
       scaling.offset.push_back(static_cast<std::int32_t>(k));
-  scaling.offset.push_back(static_cast<std::int32_t>(scaling.node.size()));
+    scaling.node.push_back(scaled.node[order[k]]);
+    scaling.added.push_back(added[order[k]]);
+  }
+  scaling.offset.push_back(static_cast<std::int32_t>(order.size()));
 }
 
 // The clusters of this rank, in local numbers.
@@ -44,7 +73,7 @@ void take_clusters(const MassScaling& scaling, const Part& part, Model& model) {
       CHECK_OP(local, <, model.n_owned);
       clusters.of_node[local] = static_cast<std::int32_t>(clusters.total.size());
       clusters.node.push_back(local);
-      clusters.added.push_back(scaling.added[scaling.node[k]]);
+      clusters.added.push_back(scaling.added[k]);
       total += clusters.added.back();
     }
     clusters.total.push_back(total);
@@ -57,15 +86,34 @@ void take_clusters(const MassScaling& scaling, const Part& part, Model& model) {
 MassScaling find_mass_scaling(const Mesh& mesh, std::span<const Material> materials,
                               const SolverOptions& options, double wanted_step) {
   MassScaling scaling{.wanted_step = wanted_step};
-  scaling.added.assign(mesh.X.size(), 0.0);
-  // A broken element has no step; building the model will name it.
-  for (const RestingElement& element : resting_elements(mesh, materials, options)) {
-    if (!(element.step > 0 && element.step < wanted_step)) continue;
-    scaling.element.push_back(element.number);
-    add_corner_masses(mesh, element, wanted_step, scaling);
-  }
+  for (const RestingElement& element : resting_elements(mesh, materials, options))
+    if (is_scaled(element, wanted_step)) scaling.element.push_back(element);
   link_clusters(mesh, scaling);
   return scaling;
+}
+
+void edit_mass_scaling(const Mesh& mesh, std::span<const Material> materials,
+                       const SolverOptions& options, const ScalingEdit& edit,
+                       MassScaling& scaling) {
+  std::erase_if(scaling.element, [&](const RestingElement& element) {
+    return std::binary_search(edit.before.begin(), edit.before.end(), element.number);
+  });
+  const SplitNumbers numbers(edit.splits);
+  for (RestingElement& element : scaling.element) element.number = numbers.after(element.number);
+  for (const std::int32_t e : edit.after)
+    if (const RestingElement element = resting_element(mesh, materials, options, e);
+        is_scaled(element, scaling.wanted_step))
+      scaling.element.push_back(element);
+  std::sort(scaling.element.begin(), scaling.element.end(),
+            [](const RestingElement& a, const RestingElement& b) { return a.number < b.number; });
+  link_clusters(mesh, scaling);
+}
+
+bool are_clusters_whole(const MassScaling& scaling, std::span<const std::int32_t> node_owner) {
+  for (std::int32_t c = 0; c < scaling.n_clusters(); ++c)
+    for (std::int32_t k = scaling.offset[c]; k < scaling.offset[c + 1]; ++k)
+      if (node_owner[scaling.node[k]] != node_owner[scaling.node[scaling.offset[c]]]) return false;
+  return true;
 }
 
 void keep_clusters_whole(const MassScaling& scaling, std::span<std::int32_t> node_owner) {
@@ -80,9 +128,14 @@ void scale_mass(const MassScaling& scaling, const Part& part, Model& model) {
   if (!model.clusters.node.empty()) model.inertia = model.mass;
   for (std::size_t k = 0; k < model.clusters.node.size(); ++k)
     model.inertia[model.clusters.node[k]] += model.clusters.added[k];
-  for (std::size_t k = 0; k < model.element_step.size(); ++k)
-    if (std::binary_search(scaling.element.begin(), scaling.element.end(), part.element_global[k]))
-      model.element_step[k] = scaling.wanted_step;
+  for (const RestingElement& element : scaling.element)
+    if (const std::int64_t k = part.place_of(element.number); k >= 0)
+      model.element_step[static_cast<std::size_t>(k)] = scaling.wanted_step;
+}
+
+void unscale_mass(Model& model) {
+  model.inertia.clear();
+  model.clusters = {};
 }
 
 }  // namespace trocar

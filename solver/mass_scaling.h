@@ -14,18 +14,18 @@
 #include <span>
 #include <vector>
 
-#include "mesh/mesh.h"
+#include "mesh/edit.h"
 #include "mesh/partition.h"
 #include "solver/model.h"
 
 namespace trocar {
 
 struct MassScaling {
-  double wanted_step = 0;             // [s]
-  std::vector<std::int32_t> element;  // scaled ones, ascending
-  std::vector<double> added;          // (n_nodes) d [kg]
-  std::vector<std::int32_t> offset;   // (n_clusters + 1) into node
-  std::vector<std::int32_t> node;     // of clusters, ascending; clusters by their lowest node
+  double wanted_step = 0;               // [s]
+  std::vector<RestingElement> element;  // scaled ones, ascending
+  std::vector<std::int32_t> offset;     // (n_clusters + 1) into node and added
+  std::vector<std::int32_t> node;       // of clusters, ascending; clusters by their lowest node
+  std::vector<double> added;            // d of these nodes [kg]
 
   std::int32_t n_clusters() const { return static_cast<std::int32_t>(offset.size()) - 1; }
 };
@@ -33,9 +33,19 @@ struct MassScaling {
 // Looks at the whole mesh, undeformed; the same on every rank without communication.
 MassScaling find_mass_scaling(const Mesh& mesh, std::span<const Material> materials,
                               const SolverOptions& options, double wanted_step);
+// After an edit, to what find_mass_scaling says of the edited mesh, in time of what is scaled.
+struct ScalingEdit {
+  std::span<const HexSplit> splits;
+  std::span<const std::int32_t> before, after;  // edited elements, ascending
+};
+void edit_mass_scaling(const Mesh& mesh, std::span<const Material> materials,
+                       const SolverOptions& options, const ScalingEdit& edit, MassScaling& scaling);
+bool are_clusters_whole(const MassScaling& scaling, std::span<const std::int32_t> node_owner);
 // Gives each cluster to the owner of its lowest node, so that no rank needs another's forces.
 void keep_clusters_whole(const MassScaling& scaling, std::span<std::int32_t> node_owner);
 // Into a model whose part has whole clusters: inertia, clusters, and the scaled elements' steps.
 void scale_mass(const MassScaling& scaling, const Part& part, Model& model);
+// Inertia and clusters out of it; steps stay.
+void unscale_mass(Model& model);
 
 }  // namespace trocar

@@ -82,20 +82,23 @@ Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> 
   return model;
 }
 
-std::vector<RestingElement> resting_elements(const Mesh& mesh, std::span<const Material> materials,
-                                             const SolverOptions& options) {
+RestingElement resting_element(const Mesh& mesh, std::span<const Material> materials,
+                               const SolverOptions& options, std::int32_t number) {
   const Part none;  // constants do not ask for it
   const ModelSource source{mesh, none, materials, options};
+  const ElementConstants constants = constants_of(source, number);
+  const Material& material = source.material(number);
+  return {.number = number,
+          .step = resting_step(constants, stiffening_at_rest(material)),
+          .mass = material.density * mesh.density_factor[number] * constants.volume};
+}
+
+std::vector<RestingElement> resting_elements(const Mesh& mesh, std::span<const Material> materials,
+                                             const SolverOptions& options) {
   std::vector<RestingElement> elements(mesh.element_type.size());
   parallel_for(std::ssize(elements), [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t k = begin; k < end; ++k) {
-      const auto e = static_cast<std::int32_t>(k);
-      const ElementConstants constants = constants_of(source, e);
-      const double density = source.material(e).density * mesh.density_factor[e];
-      elements[k] = {.number = e,
-                     .step = resting_step(constants, stiffening_at_rest(source.material(e))),
-                     .mass = density * constants.volume};
-    }
+    for (std::int64_t k = begin; k < end; ++k)
+      elements[k] = resting_element(mesh, materials, options, static_cast<std::int32_t>(k));
   });
   return elements;
 }

@@ -150,6 +150,8 @@ struct RestingElement {
   double step = 0;  // element_step; 0 where the element is broken [s]
   double mass = 0;  // [kg]
 };
+RestingElement resting_element(const Mesh& mesh, std::span<const Material> materials,
+                               const SolverOptions& options, std::int32_t number);
 // All elements of the mesh, in parallel.
 std::vector<RestingElement> resting_elements(const Mesh& mesh, std::span<const Material> materials,
                                              const SolverOptions& options);

@@ -66,6 +66,29 @@ void expect_equal(const Surface& a, const Surface& b) {
   EXPECT_EQ(a.node, b.node);
 }
 
+void expect_equal(const MassScaling& a, const MassScaling& b) {
+  const auto numbers = [](const MassScaling& scaling) {
+    std::vector<std::int32_t> number;
+    for (const RestingElement& element : scaling.element) number.push_back(element.number);
+    return number;
+  };
+  EXPECT_EQ(numbers(a), numbers(b));
+  EXPECT_EQ(a.offset, b.offset);
+  EXPECT_EQ(a.node, b.node);
+  EXPECT_EQ(a.added, b.added);
+}
+
+void expect_equal(const Sleep& a, const Sleep& b) {
+  EXPECT_EQ(a.quiet, b.quiet);
+  EXPECT_EQ(a.is_asleep, b.is_asleep);
+  EXPECT_EQ(a.is_beside, b.is_beside);
+  EXPECT_EQ(a.awake_fixed, b.awake_fixed);
+  EXPECT_EQ(a.block_sleeps, b.block_sleeps);
+  EXPECT_EQ(a.share, b.share);
+  EXPECT_EQ(a.anchor.size(), b.anchor.size());
+  EXPECT_EQ(a.watched.size(), b.watched.size());
+}
+
 // Calls body(the state, the edit that it is to apply) for each; returns how many there were.
 template <class Body>
 int for_edits(Simulation& s, const Body& body) {
@@ -81,6 +104,8 @@ int for_edits(Simulation& s, const Body& body) {
   return n_edits;
 }
 
+// Longer than the steps of elements beside a cut.
+const std::string scaled = "mass_scaling_step = \"0.45 ms\"\n", sleepy = "sleep = \"0.1 mm\"\n";
 const std::string viscosity = "[[tissue.material.prony]]\nshare = 0.4\ntime = 0.1\n";
 const std::vector<std::pair<std::string, std::string>> kinds = {
     {"tet4-kuhn", ""},
@@ -90,7 +115,11 @@ const std::vector<std::pair<std::string, std::string>> kinds = {
     {"hex8", "precision = \"single\"\n"},
     {"hex8", "tetrahedron = \"nodal-pressure\"\n"},
     {"hex8", viscosity},
-    {"tet4-kuhn", viscosity}};
+    {"tet4-kuhn", viscosity},
+    {"tet4-kuhn", sleepy},
+    {"tet4-kuhn", scaled},
+    {"tet4-five", scaled + viscosity},
+    {"hex8", scaled + sleepy}};
 
 void make_half_stiffer(Simulation& s) {
   s.mesh.region_name = {"", "stiff"};
@@ -143,6 +172,7 @@ TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
       rebuild_topology(s);
       const bool is_viscous = s.model.n_history > 0;
       if (is_viscous) bend_and_move(s);
+      std::vector<std::size_t> n_scaled;
       const int n_edits = for_edits(s, [&](GlobalState& global, const MeshEdit& edit) {
         const std::vector<std::int32_t> owner = s.node_owner;
         apply_edit_to_owners(edit.duplicate_parent, s.node_owner);
@@ -159,7 +189,16 @@ TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
         const std::vector<double> mass = s.mass, altitude = s.altitude;
         const double rest_step = s.rest_step, reach = s.look.reach;
         const std::int32_t n_pieces = s.n_pieces;
+        const std::optional<MassScaling> scaling = s.mass_scaling;
+        const std::optional<AddedMass> added = s.added_mass;
+        const std::optional<Sleep> sleep = s.sleep;
         rebuild_topology(s);
+        if (scaling) {
+          expect_equal(*scaling, *s.mass_scaling);
+          EXPECT_EQ(added->mass, s.added_mass->mass);
+          n_scaled.push_back(scaling->element.size());
+        }
+        if (sleep) expect_equal(*sleep, *s.sleep);
         expect_equal(part, s.part);
         expect_equal(model, s.model);
         expect_equal(surface, s.surface);
@@ -175,6 +214,11 @@ TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
       });
       EXPECT_GE(n_edits, 4);
       EXPECT_EQ(s.n_pieces, 2);
+      if (s.mass_scaling) {
+        EXPECT_NE(n_scaled.back(), n_scaled.front());
+        std::printf("%s: %zu to %zu elements scaled, step at rest %.3g s\n", elements.c_str(),
+                    n_scaled.front(), n_scaled.back(), s.rest_step);
+      }
     }
   set_thread_count(1);
 }

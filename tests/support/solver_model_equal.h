@@ -46,11 +46,20 @@ inline void expect_equal(const VolumeAverages& a, const VolumeAverages& b) {
   EXPECT_EQ(a.share, b.share);
 }
 
+inline void expect_equal(const MassClusters& a, const MassClusters& b) {
+  EXPECT_EQ(a.offset, b.offset);
+  EXPECT_EQ(a.node, b.node);
+  EXPECT_EQ(a.added, b.added);
+  EXPECT_EQ(a.total, b.total);
+  EXPECT_EQ(a.of_node, b.of_node);
+}
+
 inline void expect_equal(const Model& a, const Model& b) {
   EXPECT_EQ(a.n_local, b.n_local);
   EXPECT_EQ(a.n_owned, b.n_owned);
   EXPECT_EQ(a.mass, b.mass);
   EXPECT_EQ(a.inertia, b.inertia);
+  expect_equal(a.clusters, b.clusters);
   EXPECT_EQ(a.fixed, b.fixed);
   EXPECT_TRUE(a.position == b.position);
   EXPECT_EQ(a.element_step, b.element_step);
