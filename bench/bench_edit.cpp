@@ -1,11 +1,12 @@
 // What an edit of a running scene costs: the same incision as in bench_cut scaling, 6 cells long
 // and 3 deep, in ever larger boxes of elements at rest, through the whole of cut_along_blades
 // (bench_cut times the cut alone). Markdown to stdout.
-// bench_edit [--energy] [--hexahedra] [--viscous] [--sleep] [--scaled] [--once] [N]...: boxes of N
-// cells a side (default 15, 30); --energy: with the ledger that a metrics output keeps;
-// --hexahedra: of hexahedra, which the blade splits; --viscous: of a material with history;
-// --sleep: what is at rest sleeps; --scaled: elements beside the cut get scaled masses; --once: one
-// run in place of the quickest of five
+// bench_edit [--energy] [--hexahedra] [--viscous] [--sleep] [--scaled] [--local-steps] [--once]
+// [N]...: boxes of N cells a side (default 15, 30); --energy: with the ledger that a metrics output
+// keeps; --hexahedra: of hexahedra, which the blade splits; --viscous: of a material with history;
+// --sleep: what is at rest sleeps; --scaled: elements beside the cut get scaled masses;
+// --local-steps: a sliver far from the cut takes substeps of its own; --once: one run in place of
+// the quickest of five
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -17,6 +18,7 @@
 #include "engine/cut_stage.h"
 #include "engine/energy_ledger.h"
 #include "engine/frame_report.h"
+#include "engine/frame_watch.h"
 #include "engine_started.h"
 
 using namespace trocar;
@@ -44,7 +46,7 @@ std::string path_of(double top, double shift) {
 
 struct Trial {
   bool has_energy = false, is_of_hexahedra = false, is_viscous = false, does_sleep = false,
-       is_scaled = false;
+       is_scaled = false, has_local_steps = false;
   int n_runs = 5;
 };
 
@@ -60,6 +62,7 @@ std::string scene_of(int n, const Trial& trial) {
          (trial.is_viscous ? "[[tissue.material.prony]]\nshare = 0.3\ntime = 0.1\n" : "") +
          "[solver]\n" + (trial.does_sleep ? "sleep = \"0.1 mm\"\n" : "") +
          (trial.is_scaled ? "mass_scaling_step = \"0.45 ms\"\n" : "") +
+         (trial.has_local_steps ? "multirate = true\n" : "") +
          "[[support]]\nregion = \"z-\"\nfix = \"xyz\"\n"
          "[[instrument]]\nkind = \"scalpel\"\nblade_length = \"16 mm\"\n" +
          path_of(2 * side, n % 2 == 1 ? 0.5 : 0);
@@ -70,9 +73,22 @@ struct Cost {
   std::vector<double> edits, others;  // frames that edit, others with the blade in the body [s]
 };
 
+// A face of the inner cell beside the lowest corner comes close to the opposite one.
+void make_sliver(Simulation& s) {
+  const Vec3 face = s.mesh.X.front() + Vec3(cell, 1.5 * cell, 1.5 * cell);
+  for (Vec3& X : s.mesh.X)
+    if ((X - face).norm() < 0.75 * cell) X.x() += 0.98 * cell;
+  rebuild_topology(s);
+  s.corners = node_corners(s.mesh);
+  s.boxes = make_element_boxes(s.mesh, s.mesh.X);
+  watch_state(s);
+  if (!s.multirate) std::fprintf(stderr, "bench_edit: the sliver takes no substeps\n");
+}
+
 Cost cut_box(int n, const Trial& trial) {
   const auto started = built(scene_of(n, trial));
   Simulation& s = *started->s;
+  if (trial.has_local_steps) make_sliver(s);
   if (trial.has_energy) open_energy_ledger(s);
   Cost cost{.n_elements = s.mesh.n_elements()};
   const CutStage& stage = s.cuts.front();
@@ -113,7 +129,7 @@ Cost least_cost(int n, const Trial& trial) {
 int main(int argc, char** argv) {
   constexpr const char* usage =
       "bench_edit [--energy] [--hexahedra] [--viscous] [--sleep] "
-      "[--scaled] [--once] [N]...";
+      "[--scaled] [--local-steps] [--once] [N]...";
   if (is_help_asked(argc, argv)) return print_usage(usage, stdout);
   std::vector<int> cells;
   Trial trial;
@@ -128,6 +144,8 @@ int main(int argc, char** argv) {
       trial.does_sleep = true;
     else if (std::strcmp(argv[k], "--scaled") == 0)
       trial.is_scaled = true;
+    else if (std::strcmp(argv[k], "--local-steps") == 0)
+      trial.has_local_steps = true;
     else if (std::strcmp(argv[k], "--once") == 0)
       trial.n_runs = 1;
     else if (const int n = std::atoi(argv[k]); n > 0)

@@ -105,12 +105,12 @@ void restore_known(const MeshEdit& edit, const Known& known, Simulation& s) {
 
 // Whether the step is known from what is around the edit and what was known of the rest.
 bool keeps_step(const Simulation& s) {
-  return s.look.is_done && s.watch.is_finite && s.watch.least_J > 0 && !s.scene.solver.is_multirate;
+  return s.look.is_done && s.watch.is_finite && s.watch.least_J > 0;
 }
 
 // Whether an edit changes no energies but those around it.
 bool keeps_energy(const Simulation& s) {
-  return !s.scene.solver.is_multirate;
+  return !s.multirate;
 }
 
 // Supports and partner pairs go with the nodes.
@@ -237,7 +237,8 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   const EditedElements edited = find_edited(s.mesh, s.corners, edit);
   std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited.before);
   const Before before = measure_before(s, edited.before, nodes, global);
-  const bool is_step_local = keeps_step(s), is_energy_local = keeps_energy(s);
+  bool is_step_local = keeps_step(s);
+  const bool is_energy_local = keeps_energy(s);
   const std::vector<std::int32_t> of_before = old_nodes(s.mesh, nodes, edit);
   const double energy = energy_around(s, is_energy_local, of_before, global);
   const double strain =
@@ -254,10 +255,12 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   CarriedHistory history;
   if (is_viscous(s.materials)) history = carry_history(s, with_history, edit);
   nodes = united(nodes, nodes_of(s.mesh, edited.after));
-  if (is_local)
-    update_topology(s, {edit.splits, edited.after, nodes, global.x});
-  else
+  if (is_local) {
+    is_step_local &= update_topology(s, {edit.splits, edited.after, nodes, global.x});
+  } else {
     rebuild_topology(s);
+    is_step_local &= !s.local_steps;
+  }
   restore_strain_energy(adjustable, strain, s.mesh,
                         *make_strained_patch(s, edit, edited.after, nodes, global), global);
   restore_momentum(nodes, s.mass, before.motion, global, record);

@@ -152,13 +152,27 @@ double patch_energy(const Simulation& s, std::span<const std::int32_t> nodes,
   return sum_of({terms.strain, terms.volumetric, terms.hourglass, kinetic, gravity});
 }
 
+// That of the body around the patch is at least as long where the patch's is.
+static double search_patch(const Simulation& s, Patch& patch) {
+  const double amplitude = search_amplitude(s.model, s.edge_length);
+  const double enough = s.watch.stable_step;
+  const Communicator alone;
+  if (!s.multirate) return search_step(patch, amplitude, alone, enough);
+  const double longer = s.multirate->steps.limit / 2;
+  const double step = longer * search_step(patch, amplitude, alone, enough / longer);
+  for (std::size_t i = 0; i < patch.sub.node.size(); ++i)
+    if (s.local_steps->plan.is_fine[static_cast<std::size_t>(patch.sub.node[i])] != 0)
+      patch.model.fixed[i] = all_components;
+  const bool is_all_fine = std::ranges::all_of(
+      patch.model.fixed, [](FixedMask fixed) { return fixed == all_components; });
+  return is_all_fine ? step : std::min(step, search_step(patch, amplitude, alone, enough));
+}
+
 Watch watch_patch(const Simulation& s, Patch& patch) {
   Watch w = watch(patch.model, patch.part, patch.state);
   const bool by_frequency = s.scene.solver.stable_step == StableStep::frequency;
   if (by_frequency && w.least_J > 0 && w.stable_step < s.watch.stable_step)
-    w.stable_step =
-        std::max(w.stable_step, search_step(patch, search_amplitude(s.model, s.edge_length),
-                                            Communicator(), s.watch.stable_step));
+    w.stable_step = std::max(w.stable_step, search_patch(s, patch));
   for (std::int32_t* element : {&w.stable_element, &w.least_J_element})
     if (*element >= 0) *element = patch.sub.element[static_cast<std::size_t>(*element)];
   return w;

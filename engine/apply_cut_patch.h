@@ -52,8 +52,8 @@ std::unique_ptr<Patch> make_patch_of(const Simulation& s, std::span<const std::i
 Watch watch_patch(const Simulation& s, Patch& patch);
 
 // The body's watch, where it is of before the edit, as it is after it: the smaller of both steps is
-// stable (by the margin of the search), and from here on what the elements stiffen counts. The
-// scene has no multirate, whose step does not follow from its elements alone.
+// stable (by the margin of the search), and from here on what the elements stiffen counts. Local
+// steps, if there are any, are as they were beyond the edited elements.
 void watch_edit(Simulation& s, std::span<const std::int32_t> edited, const PatchState& state);
 
 }  // namespace trocar

@@ -69,14 +69,13 @@ bool changes_averages(const Simulation& s, const TopologyEdit& edit) {
 }  // namespace
 
 bool keeps_owners(const Simulation& s, const MeshEdit& edit) {
-  if (s.scene.solver.is_multirate) return false;
   const auto owner = [&](std::int32_t i) { return s.node_owner[static_cast<std::size_t>(i)]; };
   return std::all_of(edit.corners.begin(), edit.corners.end(), [&](const CornerChange& change) {
     return owner(change.node) == owner(node_before(edit, s.mesh, change));
   });
 }
 
-void update_topology(Simulation& s, const TopologyEdit& edit) {
+bool update_topology(Simulation& s, const TopologyEdit& edit) {
   if (s.sleep) wake_all(s);
   const std::vector<std::int32_t> touching = elements_around(s.corners, edit.nodes);
   const SubMesh around =
@@ -95,8 +94,10 @@ void update_topology(Simulation& s, const TopologyEdit& edit) {
     s.part.node_local.resize(s.mesh.X.size(), -1);
   if (s.sleep) fit_sleep(s);
   report_mass_scaling(s);
+  const bool keeps_steps = follow_local_steps(edit.splits, edit.elements, edit.nodes, s);
   update_surface_view(s.surface, s.node_owner, s.part, s.view);
   follow_model(s);
+  return keeps_steps;
 }
 
 }  // namespace trocar

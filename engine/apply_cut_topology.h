@@ -11,8 +11,8 @@
 
 namespace trocar {
 
-// Whether update_topology will do: all corners stay with their owners, and the scene has no local
-// time steps, which are planned on the whole mesh. mesh: before the edit; owners: behind it.
+// Whether update_topology will do: all corners stay with their owners. mesh: before the edit;
+// owners: behind it.
 bool keeps_owners(const Simulation& s, const MeshEdit& edit);
 
 struct TopologyEdit {
@@ -23,7 +23,7 @@ struct TopologyEdit {
   std::span<const Vec3> x;              // (n_nodes) present positions [m]
 };
 // Collective. The result is rebuild_topology's, but for the state and the boxes of elements that
-// this one forgets.
-void update_topology(Simulation& s, const TopologyEdit& edit);
+// this one forgets, and for local steps that were given up. Returns follow_local_steps'.
+bool update_topology(Simulation& s, const TopologyEdit& edit);
 
 }  // namespace trocar

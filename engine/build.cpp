@@ -249,21 +249,6 @@ void leave_room_for_edits(Simulation& s) {
   leave_room(mesh.density_factor.size(), mesh.density_factor);
 }
 
-// Small elements with steps of their own, if they set everyone's. Collective.
-std::unique_ptr<MultiRate> find_multirate(const Simulation& s) {
-  if (!s.scene.solver.is_multirate) return nullptr;
-  const MultiRatePlan plan =
-      plan_multirate(s.mesh, resting_elements(s.mesh, s.materials, solver_options(s.scene)));
-  if (plan.n_substeps == 1) return nullptr;
-  return make_multirate(plan,
-                        {.mesh = s.mesh,
-                         .materials = s.materials,
-                         .node_owner = s.node_owner,
-                         .part = s.part,
-                         .model = s.model},
-                        *s.communicator);
-}
-
 // What is wrong now is so with the tissue as it was given.
 void build_topology(const LoadedScene& loaded, Simulation& s) {
   try {
@@ -305,7 +290,7 @@ void rebuild_topology(Simulation& s) {
   report_mass_scaling(s);
   s.neighbours = make_neighbours(s.halo, s.model, s.contact != nullptr, *s.communicator);
   s.scratch = make_scratch(s.model);
-  s.multirate = find_multirate(s);
+  plan_local_steps(s);
   begin_sleep(s);
   if (s.energy) keep_works(s.model, s.scratch);
   s.surface = boundary_surface(s.mesh);

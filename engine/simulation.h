@@ -21,6 +21,7 @@
 #include "engine/global_state.h"
 #include "engine/holds.h"
 #include "engine/loads.h"
+#include "engine/local_steps.h"
 #include "engine/markers.h"
 #include "engine/scene.h"
 #include "engine/sleep.h"
@@ -30,7 +31,6 @@
 #include "mesh/facets.h"
 #include "mesh/node_corners.h"
 #include "mesh/partition.h"
-#include "solver/multirate.h"
 #include "solver/rank_body.h"
 #include "solver/watch.h"
 
@@ -120,10 +120,11 @@ struct Simulation : RankBody {
   std::uint32_t body_crc = 0;    // of the mesh at time zero and the user's tool surfaces
   double contact_reach = 0;      // how far tissue may come towards a tool within a frame [m]
   double start_seconds = 0;      // monotonic clock at time zero of the scene
-  std::unique_ptr<EnergyLedger> energy;  // only with a metrics output
-  std::unique_ptr<MultiRate> multirate;  // only if the scene asks for it and it saves work
-  std::optional<Sleep> sleep;            // only if the scene asks for it
-  double step_scale = 1;                 // halved by each roll-back
+  std::unique_ptr<EnergyLedger> energy;      // only with a metrics output
+  std::optional<LocalStepPlan> local_steps;  // only if the scene asks for it; replicated
+  std::unique_ptr<MultiRate> multirate;      // of it, if it saves work
+  std::optional<Sleep> sleep;                // only if the scene asks for it
+  double step_scale = 1;                     // halved by each roll-back
   // The stable step falls at once and rises slowly (step_rise in frame.cpp). [s]
   double held_step = std::numeric_limits<double>::infinity();
   Watch watch;  // of the last frame, over all ranks

@@ -103,6 +103,16 @@ std::vector<RestingElement> resting_elements(const Mesh& mesh, std::span<const M
   return elements;
 }
 
+void edit_resting_elements(const Mesh& mesh, std::span<const Material> materials,
+                           const SolverOptions& options, std::span<const HexSplit> splits,
+                           std::span<const std::int32_t> elements,
+                           std::vector<RestingElement>& resting) {
+  spread_over_splits(splits, resting);
+  for (std::size_t k = 0; k < resting.size() && !splits.empty(); ++k)
+    resting[k].number = static_cast<std::int32_t>(k);
+  for (const std::int32_t e : elements) resting[e] = resting_element(mesh, materials, options, e);
+}
+
 State make_state(const Model& model) {
   State state;
   state.u.assign(static_cast<std::size_t>(model.n_local) * 3, 0.0);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/aligned_vector.h"
-#include "mesh/mesh.h"
+#include "mesh/edit.h"
 #include "mesh/partition.h"
 #include "solver/block_data.h"
 #include "solver/formulation.h"
@@ -155,6 +155,11 @@ RestingElement resting_element(const Mesh& mesh, std::span<const Material> mater
 // All elements of the mesh, in parallel.
 std::vector<RestingElement> resting_elements(const Mesh& mesh, std::span<const Material> materials,
                                              const SolverOptions& options);
+// `resting` of all elements, to what it is after an edit: elements by their numbers after it.
+void edit_resting_elements(const Mesh& mesh, std::span<const Material> materials,
+                           const SolverOptions& options, std::span<const HexSplit> splits,
+                           std::span<const std::int32_t> elements,
+                           std::vector<RestingElement>& resting);
 
 // A node whose acceleration is given: something holds it.
 struct GivenAcceleration {

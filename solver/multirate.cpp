@@ -49,19 +49,18 @@ double least_step(std::span<const RestingElement> resting) {
   return least;
 }
 
-// Nodes of elements whose step is below `step`, and the elements that touch them.
-MultiRatePlan plan_of(const Mesh& mesh, std::span<const RestingElement> resting, double step) {
-  MultiRatePlan plan{.is_fine = std::vector<std::uint8_t>(mesh.X.size(), 0)};
+std::size_t count_below(double step, std::span<const RestingElement> resting) {
+  std::size_t n = 0;
+  for (const RestingElement& element : resting) n += element.step < step ? 1 : 0;
+  return n;
+}
+
+std::vector<std::int32_t> nodes_below(double step, const Mesh& mesh,
+                                      std::span<const RestingElement> resting) {
+  std::vector<std::int32_t> elements;
   for (const RestingElement& element : resting)
-    if (element.step < step)
-      for (const std::int32_t i : mesh.corners(element.number)) plan.is_fine[i] = 1;
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    const auto corners = mesh.corners(e);
-    if (std::any_of(corners.begin(), corners.end(),
-                    [&](std::int32_t i) { return plan.is_fine[i] != 0; }))
-      plan.element.push_back(e);
-  }
-  return plan;
+    if (element.step < step) elements.push_back(element.number);
+  return nodes_of(mesh, elements);
 }
 
 // What the elements' own force needs: no loads, and masses that nobody asks for.
@@ -144,16 +143,28 @@ LocalSteps local_steps(int p) {
   return steps;
 }
 
-MultiRatePlan plan_multirate(const Mesh& mesh, std::span<const RestingElement> resting) {
+MultiRatePlan plan_multirate(const Mesh& mesh, const NodeCorners& corners,
+                             std::span<const RestingElement> resting) {
   const double least = least_step(resting), n = static_cast<double>(resting.size());
-  MultiRatePlan best{.is_fine = std::vector<std::uint8_t>(mesh.X.size(), 0)};
+  MultiRatePlan best;
+  std::vector<std::int32_t> fine;
   for (int p = 2; p <= most_substeps && least > 0; p *= 2) {
     const double longer = local_steps(p).limit / 2;  // than the step without
-    MultiRatePlan plan = plan_of(mesh, resting, longer * least);
-    plan.n_substeps = p;
-    plan.gain = longer * n / (n + p * static_cast<double>(plan.element.size()));
-    if (plan.gain > std::max(least_gain, best.gain)) best = std::move(plan);
+    const auto gain = [&](std::size_t n_fine) {
+      return longer * n / (n + p * static_cast<double>(n_fine));
+    };
+    const double enough = std::max(least_gain, best.gain);
+    if (gain(count_below(longer * least, resting)) <= enough) continue;
+    const std::vector<std::int32_t> nodes = nodes_below(longer * least, mesh, resting);
+    std::vector<std::int32_t> elements = elements_around(corners, nodes);
+    if (gain(elements.size()) <= enough) continue;
+    best.gain = gain(elements.size());
+    best.n_substeps = p;
+    best.element = std::move(elements);
+    fine = nodes;
   }
+  best.is_fine.assign(mesh.X.size(), 0);
+  for (const std::int32_t i : fine) best.is_fine[i] = 1;
   return best;
 }
 

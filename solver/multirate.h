@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/mesh.h"
+#include "mesh/node_corners.h"
 #include "mesh/partition.h"
 #include "solver/material.h"
 #include "solver/model.h"
@@ -43,7 +43,8 @@ struct MultiRatePlan {
   double gain = 1;                    // element-steps without over with it
 };
 // resting: of all elements of the mesh.
-MultiRatePlan plan_multirate(const Mesh& mesh, std::span<const RestingElement> resting);
+MultiRatePlan plan_multirate(const Mesh& mesh, const NodeCorners& corners,
+                             std::span<const RestingElement> resting);
 
 // The elements of a plan as a body of their own; a rank without such nodes has an empty one.
 struct MultiRate : RankBody {

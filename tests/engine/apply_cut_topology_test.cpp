@@ -89,6 +89,29 @@ void expect_equal(const Sleep& a, const Sleep& b) {
   EXPECT_EQ(a.watched.size(), b.watched.size());
 }
 
+void expect_equal(const LocalStepPlan& a, const LocalStepPlan& b) {
+  ASSERT_EQ(a.resting.size(), b.resting.size());
+  for (std::size_t e = 0; e < a.resting.size(); ++e) {
+    EXPECT_EQ(a.resting[e].number, b.resting[e].number);
+    EXPECT_EQ(a.resting[e].step, b.resting[e].step);
+    EXPECT_EQ(a.resting[e].mass, b.resting[e].mass);
+  }
+  EXPECT_EQ(a.plan.n_substeps, b.plan.n_substeps);
+  EXPECT_EQ(a.plan.element, b.plan.element);
+  EXPECT_EQ(a.plan.is_fine, b.plan.is_fine);
+}
+
+void expect_equal(const MultiRate& a, const MultiRate& b) {
+  expect_equal(a.part, b.part);
+  expect_equal(a.model, b.model);
+  EXPECT_EQ(a.steps.back, b.steps.back);
+  EXPECT_EQ(a.share, b.share);
+  EXPECT_EQ(a.whole, b.whole);
+  EXPECT_EQ(a.of_whole, b.of_whole);
+  EXPECT_EQ(a.is_fine, b.is_fine);
+  EXPECT_EQ(a.coarse_fixed, b.coarse_fixed);
+}
+
 // Calls body(the state, the edit that it is to apply) for each; returns how many there were.
 template <class Body>
 int for_edits(Simulation& s, const Body& body) {
@@ -106,6 +129,7 @@ int for_edits(Simulation& s, const Body& body) {
 
 // Longer than the steps of elements beside a cut.
 const std::string scaled = "mass_scaling_step = \"0.45 ms\"\n", sleepy = "sleep = \"0.1 mm\"\n";
+const std::string local = "multirate = true\n";
 const std::string viscosity = "[[tissue.material.prony]]\nshare = 0.4\ntime = 0.1\n";
 const std::vector<std::pair<std::string, std::string>> kinds = {
     {"tet4-kuhn", ""},
@@ -119,7 +143,9 @@ const std::vector<std::pair<std::string, std::string>> kinds = {
     {"tet4-kuhn", sleepy},
     {"tet4-kuhn", scaled},
     {"tet4-five", scaled + viscosity},
-    {"hex8", scaled + sleepy}};
+    {"hex8", scaled + sleepy},
+    {"tet4-kuhn", local},
+    {"hex8", local + sleepy}};
 
 void make_half_stiffer(Simulation& s) {
   s.mesh.region_name = {"", "stiff"};
@@ -127,6 +153,12 @@ void make_half_stiffer(Simulation& s) {
   s.materials.back().young_modulus *= 2;
   for (std::int32_t e = 0; e < s.mesh.n_elements(); ++e)
     s.mesh.element_region[e] = s.mesh.X[s.mesh.corners(e)[0]].y() < 0.002 ? 1 : 0;
+}
+
+// A face of one cell comes close to the opposite one, away from the blade.
+void make_sliver(Simulation& s) {
+  for (Vec3& X : s.mesh.X)
+    if ((X - Vec3(-0.012, 0.01, 0.026)).norm() < 0.003) X.x() += 0.98 * 0.004;
 }
 
 void bend_and_move(Simulation& s) {
@@ -163,12 +195,15 @@ std::vector<double> history_of(const Simulation& s, std::span<const double> copi
 }
 
 TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
+  int n_with_local_steps = 0;
   for (const auto& [elements, solver] : kinds)
     for (const int n_threads : {1, 2}) {
       const auto started = built(scene_of(elements, solver));
       set_thread_count(n_threads);
       Simulation& s = *started->s;
       if (n_threads == 2) make_half_stiffer(s);
+      const bool has_local_steps = s.scene.solver.is_multirate;
+      if (has_local_steps) make_sliver(s);
       rebuild_topology(s);
       const bool is_viscous = s.model.n_history > 0;
       if (is_viscous) bend_and_move(s);
@@ -192,7 +227,15 @@ TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
         const std::optional<MassScaling> scaling = s.mass_scaling;
         const std::optional<AddedMass> added = s.added_mass;
         const std::optional<Sleep> sleep = s.sleep;
+        const std::optional<LocalStepPlan> local_steps = s.local_steps;
+        const std::unique_ptr<MultiRate> multirate = std::move(s.multirate);
         rebuild_topology(s);
+        ASSERT_EQ(has_local_steps, s.multirate != nullptr);
+        if (has_local_steps) {
+          expect_equal(*local_steps, *s.local_steps);
+          if (multirate) expect_equal(*multirate, *s.multirate);  // else it was given up
+          n_with_local_steps += multirate ? 1 : 0;
+        }
         if (scaling) {
           expect_equal(*scaling, *s.mass_scaling);
           EXPECT_EQ(added->mass, s.added_mass->mass);
@@ -220,6 +263,7 @@ TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
                     n_scaled.front(), n_scaled.back(), s.rest_step);
       }
     }
+  EXPECT_GE(n_with_local_steps, 10);
   set_thread_count(1);
 }
 

@@ -9,11 +9,13 @@
 
 #include "engine/checkpoint.h"
 #include "engine/equilibrium.h"
+#include "engine/frame_watch.h"
 #include "engine_scene.h"
 #include "engine_started.h"
 #include "mesh/mesh_file.h"
 #include "mesh_fixtures.h"
 #include "scene_parts.h"
+#include "solver/frequency.h"
 
 namespace trocar {
 namespace {
@@ -146,6 +148,34 @@ TEST(MultiRate, goes_on_after_a_cut_and_after_a_restart_with_the_same_bits) {
     run_to(*second, 20);
     EXPECT_EQ(second->s->state.u, whole->s->state.u) << frame;
     EXPECT_EQ(second->s->state.v, whole->s->state.v) << frame;
+  }
+}
+
+double step_by_searches(Simulation& s) {
+  const double amplitude = search_amplitude(s.model, s.edge_length);
+  s.model.fixed.swap(s.multirate->coarse_fixed);
+  const double coarse = search_step(s, amplitude, *s.communicator);
+  s.model.fixed.swap(s.multirate->coarse_fixed);
+  const double whole = search_step(s, amplitude, *s.communicator);
+  EXPECT_GT(std::min(coarse, whole), 0);
+  return std::min(coarse, whole * s.multirate->steps.limit / 2);
+}
+
+// An edit looks for the step around it alone; a search through the whole body would find no less.
+TEST(MultiRate, keeps_a_stable_step_behind_each_edit) {
+  for (const BoxElements elements : {BoxElements::hex8, BoxElements::tet4_kuhn}) {
+    const auto run = hung(scalpel_text, elements, local);
+    Simulation& s = *run->s;
+    int n_edits = 0;
+    while (s.frame < 20) {
+      const std::int32_t n_before = s.mesh.n_nodes();
+      run_frame(s, run->outputs);
+      if (s.mesh.n_nodes() == n_before) continue;
+      ++n_edits;
+      ASSERT_TRUE(s.multirate);
+      EXPECT_LT(s.watch.stable_step / step_by_searches(s), frequency_margin);
+    }
+    EXPECT_GE(n_edits, 3);
   }
 }
 

@@ -14,7 +14,8 @@ Mesh with_sliver(BoxElements elements, std::uint64_t seed, int n) {
 
 Refined::Refined(const Mesh& mesh, BodyOptions options)
     : body(make_body(mesh, std::move(options))) {
-  plan = plan_multirate(body.mesh, resting_elements(body.mesh, body.materials, body.model.options));
+  plan = plan_multirate(body.mesh, node_corners(body.mesh),
+                        resting_elements(body.mesh, body.materials, body.model.options));
   const std::vector<std::int32_t> owner(body.mesh.X.size(), 0);
   multirate = make_multirate(plan,
                              {.mesh = body.mesh,

@@ -1,0 +1,58 @@
+#include "engine/local_steps.h"
+
+#include <algorithm>
+
+#include "engine/simulation.h"
+
+namespace trocar {
+
+namespace {
+
+std::unique_ptr<MultiRate> make_body(const Simulation& s) {
+  const MultiRatePlan& plan = s.local_steps->plan;
+  if (plan.n_substeps == 1) return nullptr;
+  return make_multirate(plan,
+                        {.mesh = s.mesh,
+                         .materials = s.materials,
+                         .node_owner = s.node_owner,
+                         .part = s.part,
+                         .model = s.model},
+                        *s.communicator);
+}
+
+// Nodes that an edit made are among `nodes`.
+bool is_same_elsewhere(const MultiRatePlan& before, const MultiRatePlan& after,
+                       std::span<const std::int32_t> nodes) {
+  if (before.n_substeps != after.n_substeps) return false;
+  for (std::size_t i = 0; i < before.is_fine.size(); ++i)
+    if (before.is_fine[i] != after.is_fine[i] &&
+        !std::binary_search(nodes.begin(), nodes.end(), static_cast<std::int32_t>(i)))
+      return false;
+  return true;
+}
+
+}  // namespace
+
+void plan_local_steps(Simulation& s) {
+  if (!s.scene.solver.is_multirate) return;
+  LocalStepPlan& local = s.local_steps.emplace();
+  local.resting = resting_elements(s.mesh, s.materials, s.model.options);
+  local.plan = plan_multirate(s.mesh, s.corners.first.empty() ? node_corners(s.mesh) : s.corners,
+                              local.resting);
+  s.multirate = make_body(s);
+}
+
+bool follow_local_steps(std::span<const HexSplit> splits, std::span<const std::int32_t> elements,
+                        std::span<const std::int32_t> nodes, Simulation& s) {
+  if (!s.local_steps) return true;
+  LocalStepPlan& local = *s.local_steps;
+  edit_resting_elements(s.mesh, s.materials, s.model.options, splits, elements, local.resting);
+  MultiRatePlan plan = plan_multirate(s.mesh, s.corners, local.resting);
+  const bool stays = is_same_elsewhere(local.plan, plan, nodes);
+  local.plan = std::move(plan);
+  const bool is_given_up = stays && !s.multirate;
+  s.multirate = is_given_up ? nullptr : make_body(s);
+  return stays;
+}
+
+}  // namespace trocar

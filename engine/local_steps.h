@@ -1,0 +1,29 @@
+// Small elements with steps of their own ([solver] multirate): which, and their body.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mesh/edit.h"
+#include "solver/multirate.h"
+
+namespace trocar {
+
+struct Simulation;
+
+struct LocalStepPlan {
+  std::vector<RestingElement> resting;  // of the whole mesh
+  MultiRatePlan plan;
+};
+
+// Plans on the whole mesh, if the scene asks for it, and makes the body. Collective.
+void plan_local_steps(Simulation& s);
+// The same after an edit: elements after it, and all their corners before and after it, ascending.
+// Returns whether others than these nodes are as fine as they were; local steps that were given up
+// stay so then. Collective.
+bool follow_local_steps(std::span<const HexSplit> splits, std::span<const std::int32_t> elements,
+                        std::span<const std::int32_t> nodes, Simulation& s);
+
+}  // namespace trocar
