@@ -55,12 +55,13 @@ double moved_bytes(const Body& body) {
   };
   const Model& model = body.model;
   double sum = bytes(model.mass) + bytes(model.inertia) + bytes(model.fixed) +
-               bytes(model.position) + bytes(model.sums.node) + bytes(model.sums.last_block) +
+               bytes(model.position) + bytes(model.sums.node) + bytes(model.sums.block_first) +
                2 * (bytes(body.state.u) + bytes(body.state.v) + bytes(body.scratch.sum) +
-                    bytes(body.scratch.sum_single) + bytes(body.scratch.force));
+                    bytes(body.scratch.sum_single) + bytes(body.scratch.u_by_component) +
+                    bytes(body.scratch.force));
   for (const ElementBlocks& blocks : model.blocks)
-    sum += bytes(blocks.corner) + bytes(blocks.target) + bytes(blocks.row) + bytes(blocks.data) +
-           bytes(blocks.data_single);
+    sum += bytes(blocks.corner) + bytes(blocks.target) + bytes(blocks.row) +
+           bytes(blocks.row_break) + bytes(blocks.data) + bytes(blocks.data_single);
   return sum;
 }
 

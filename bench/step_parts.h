@@ -15,10 +15,20 @@ namespace trocar {
 // A step's element kernels up to a part.
 enum class Until { strain, law, force };
 
+// Displacements by component, if the model's fields lie so; it has one run.
+inline Components components_of(Body& body) {
+  if (!body.model.is_by_component) return {};
+  const std::int64_t stride = run_stride(body.model.sums.run_nodes.front());
+  active_kernels().nodes.split(body.state.u.data(), body.model.n_local,
+                               body.scratch.u_by_component.data(), stride);
+  return {body.scratch.u_by_component.data(), stride};
+}
+
 inline void run_elements(Body& body, Until last) {
+  const Components components = components_of(body);
   for (const ElementBlocks& blocks : body.model.blocks)
     for_strained_blocks(
-        body.model, blocks, body.state, 0, blocks.n_blocks,
+        body.model, blocks, body.state, components, 0, blocks.n_blocks,
         [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
           if (last == Until::strain) return;
           kernels.law.stress(task);

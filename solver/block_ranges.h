@@ -10,6 +10,7 @@
 #include "solver/flush_subnormals.h"
 #include "solver/kernels.h"
 #include "solver/model.h"
+#include "solver/node_layout.h"
 #include "solver/row_order.h"
 #include "solver/simd.h"
 #include "solver/stash.h"
@@ -73,18 +74,29 @@ struct alignas(64) StashBytes {
   std::byte byte[64 * max_stash_values * stash_blocks];
 };
 
+// Displacements by component: component i of local node k at x[i * stride + k]; null: none.
+struct Components {
+  const double* x = nullptr;
+  std::int64_t stride = 0;
+};
+
 inline BlockTask block_task(const Model& model, const ElementBlocks& blocks,
-                            const BlockKernels& kernels, const State& state, std::int64_t first,
-                            std::int64_t n, StashBytes& stash) {
+                            const BlockKernels& kernels, const State& state,
+                            const Components& components, std::int64_t first, std::int64_t n,
+                            StashBytes& stash) {
   const std::int64_t at = first * kernels.n_values * blocks.lanes;
   const bool is_single = blocks.precision == Precision::in_single;
   const ElementKernels& element = kernels.element;
   const bool averages = element.volume_change != nullptr;
   const int share = element.share > 0 ? kernels.n_material_values + element.share : 0;
   return {.u = state.u.data(),
+          .u_x = components.x,
+          .u_stride = components.stride,
           .position = model.position.data(),
+          .position_stride = model.is_by_component ? component_stride(model.n_local) : 0,
           .corner = blocks.corner.data() + first * element.n_corners * blocks.lanes,
           .row = blocks.row.data() + first * blocks.lanes / row_lanes,
+          .row_break = blocks.row_break.data() + (blocks.row_break.empty() ? 0 : first),
           .data = is_single ? static_cast<const void*>(blocks.data_single.data() + at)
                             : static_cast<const void*>(blocks.data.data() + at),
           .n_blocks = n,
@@ -97,24 +109,31 @@ inline BlockTask block_task(const Model& model, const ElementBlocks& blocks,
           .share_stride = element.share_stride,
           .theta = state.theta.data() + blocks.field,
           .n_fields = model.averages.n_fields,
-          .element_share = averages ? model.averages.share[blocks.field] : 0};
+          .element_share = averages ? model.averages.share[blocks.field] : 0,
+          .sum_stride = sum_stride(model)};
 }
 
 // Calls body(kernels, task, block) for the blocks [first, first + n) of a list, some at a time,
 // with their strains in the stash; block is the first of them.
 template <class Body>
 void for_strained_blocks(const Model& model, const ElementBlocks& blocks, const State& state,
-                         std::int64_t first, std::int64_t n, const Body& body) {
+                         const Components& components, std::int64_t first, std::int64_t n,
+                         const Body& body) {
   StashBytes stash;
   const FlushSubnormals flush(blocks.precision == Precision::in_single);
   const BlockKernels kernels = kernels_for(active_kernels(), blocks);
   const std::int64_t step = blocks_at_once(kernels);
   for (std::int64_t at = first; at < first + n; at += step) {
-    const BlockTask task =
-        block_task(model, blocks, kernels, state, at, std::min(step, first + n - at), stash);
+    const BlockTask task = block_task(model, blocks, kernels, state, components, at,
+                                      std::min(step, first + n - at), stash);
     kernels.element.strain(task);
     body(kernels, task, at);
   }
+}
+template <class Body>
+void for_strained_blocks(const Model& model, const ElementBlocks& blocks, const State& state,
+                         std::int64_t first, std::int64_t n, const Body& body) {
+  for_strained_blocks(model, blocks, state, {}, first, n, body);
 }
 
 }  // namespace trocar

@@ -5,7 +5,7 @@
 //   q_p = w_p - H X_p,  X_p = sum_a G_p,a X_a,  g_p = dW_hg/dq_p (hourglass.h)
 //   f_a = sum_m S_m,a (P' b_m) + sum_p G_p,a g_p,  P' = V P - sum_p g_p (x) X_p.
 // A translation gives exactly zero. The b_m are not held but made of the modes X_m in each step,
-// 108 instructions of a group's 730 in double: the X_m are 21 numbers, 18 of which would be held
+// a sixth of a hexahedron's operations: the X_m are 21 numbers, 18 of which would be held
 // otherwise. In single not even these are held but made of the nodes' positions (Model::position),
 // which eight elements share: 16 bytes a node in place of 120 an element.
 #pragma once
@@ -34,99 +34,100 @@ struct OnePointHex8 {
   static constexpr int n_kept = 3 * n_hourglass_modes + n_b;  // q and b
   static constexpr int kept_added_in_single = n_X + 1;
 
-  // Of what is kept, behind the strain: q_0 … q_3, then b_0 … b_5; in single dV/dX in place of b,
-  // as it is, then X_3 … X_6 and what makes b of dV/dX: one product a component of H and P'.
+  // Of what is kept, behind the strain: q_0 … q_3, then 64 V b_0 … 64 V b_5, whose factor H and P'
+  // take; in single X_3 … X_6 and 1 / (64 V), too.
   static constexpr int kept_q = 0, kept_b = 3 * n_hourglass_modes, kept_X = kept_b + n_b;
   static constexpr int kept_inverse = kept_X + n_X;
 
   template <class Pack>
   static constexpr bool reads_positions = sizeof(RealOf<Pack>) == sizeof(float);
 
-  // Keeps b_m = dV/dX_m / V of V = ([X_0 X_1 X_2] + ([X_4 X_3 X_2] + [X_5 X_1 X_3] + [X_0 X_5 X_4])
-  // / 3) / 64, the exact volume (hex8_reference.h).
+  // Keeps 64 dV/dX_m of 64 V = [X_0 X_1 X_2] + ([X_4 X_3 X_2] + [X_5 X_1 X_3] + [X_0 X_5 X_4]) / 3,
+  // the exact volume (hex8_reference.h).
   template <class Pack>
   [[gnu::always_inline]] static void prepare(const BlockValues<Pack>& value,
                                              const Stash<Pack>& kept) {
-    const Pack inverse = value(value_inverse), third = real<Pack>(1.0 / 3) * inverse;
-    Pack X[6][3], d[6][3];  // d_m = X_m / (64 V), a third of it where m > 2
+    Pack X[6][3];
     for (int m = 0; m < 6; ++m)
-      for (int i = 0; i < 3; ++i) {
+      for (int i = 0; i < 3; ++i)
         X[m][i] = value((m < 3 ? value_shape + 3 * m : value_X + 3 * (m - 3)) + i);
-        d[m][i] = X[m][i] * (m < 3 ? inverse : third);
-      }
     for_volume_gradient(
-        X, d, [&](int m, int i, const Pack& b) __attribute__((always_inline)) {
-          kept.put(kept_b + 3 * m + i, b);
-        });
+        X, [&](int m, int i, const Pack& b)
+               __attribute__((always_inline)) { kept.put(kept_b + 3 * m + i, b); });
   }
 
   // The same of corners at x. V is made of the same modes, so that sum_m X_m (x) b_m = I but for
-  // rounding. Keeps X_3 … X_6, too.
+  // rounding. Keeps X_3 … X_6 and 1 / (64 V), too.
   template <class Pack>
   [[gnu::always_inline]] static void prepare(Pack (&x)[8][3], const Stash<Pack>& kept) {
-    Pack X[6][3], d[6][3];  // d_m = X_m, a third of it where m > 2
+    Pack X[6][3];
     for (int i = 0; i < 3; ++i) {
       for (int a = 7; a >= 0; --a) x[a][i] -= x[0][i];
       Pack w[n_hex_modes];
       modes_of_corners(x, i, w);
-      for (int m = 0; m < 6; ++m) {
-        X[m][i] = w[m];
-        d[m][i] = m < 3 ? w[m] : Pack(real<Pack>(1.0 / 3) * w[m]);
-      }
+      for (int m = 0; m < 6; ++m) X[m][i] = w[m];
       for (int p = 0; p < 4; ++p) kept.put(kept_X + 3 * p + i, w[3 + p]);
     }
     Pack V = zero_of(X[0][0]);  // 64 V = X_0 . dV/dX_0 + X_3 . dV/dX_3
     for_volume_gradient(
-        X, d, [&](int m, int i, const Pack& b) __attribute__((always_inline)) {
+        X, [&](int m, int i, const Pack& b) __attribute__((always_inline)) {
           kept.put(kept_b + 3 * m + i, b);
           if (m % 3 == 0) V += X[m][i] * b;
         });
     kept.put(kept_inverse, Pack(1.0 / V));
   }
 
-  // H; keeps q.
+  // H; keeps q. Each number that is kept or constant is read once, for all components.
   template <class Pack>
   [[gnu::always_inline]] static Tensor<Pack> strain(const BlockValues<Pack>& value,
                                                     const Pack (&u)[8][3],
                                                     const Stash<Pack>& kept) {
+    Pack w[3][n_hex_modes];
+    for (int i = 0; i < 3; ++i) modes_of_corners(u, i, w[i]);
     Tensor<Pack> H;
-#pragma GCC unroll 3
-    for (int i = 0; i < 3; ++i) {
-      Pack w[n_hex_modes];
-      modes_of_corners(u, i, w);
-      for (int j = 0; j < 3; ++j) {
-        H(i, j) = w[0] * b_of(kept, 0, j);
-        for (int m = 1; m < 6; ++m) H(i, j) += w[m] * b_of(kept, m, j);
-        if constexpr (reads_positions<Pack>) H(i, j) *= kept.get(kept_inverse);
+    const Pack inverse = inverse_of(value, kept);
+    for (int j = 0; j < 3; ++j) {
+      for (int m = 0; m < 6; ++m) {
+        const Pack b = kept.get(kept_b + 3 * m + j);
+        for (int i = 0; i < 3; ++i)
+          H(i, j) = m == 0 ? Pack(w[i][m] * b) : Pack(H(i, j) + w[i][m] * b);
       }
-      for (int p = 0; p < 4; ++p) {
-        kept.put(kept_q + 3 * p + i, Pack(w[3 + p] - (H(i, 0) * X_of(value, kept, p, 0) +
-                                                      H(i, 1) * X_of(value, kept, p, 1) +
-                                                      H(i, 2) * X_of(value, kept, p, 2))));
-      }
+      for (int i = 0; i < 3; ++i) H(i, j) *= inverse;
+    }
+    for (int p = 0; p < 4; ++p) {
+      Pack X[3];
+      for (int j = 0; j < 3; ++j) X[j] = X_of(value, kept, p, j);
+      for (int i = 0; i < 3; ++i)
+        kept.put(kept_q + 3 * p + i,
+                 Pack(w[i][3 + p] - (H(i, 0) * X[0] + H(i, 1) * X[1] + H(i, 2) * X[2])));
     }
     return H;
   }
 
+  // Of f_a = sum_m S_m,a w_m, component by component.
   template <class Pack>
-  [[gnu::always_inline]] static void forces(const BlockValues<Pack>& value, const Stash<Pack>& kept,
-                                            const Tensor<Pack>& VP, Pack (&f)[8][3]) {
+  [[gnu::always_inline]] static void force_modes(const BlockValues<Pack>& value,
+                                                 const Stash<Pack>& kept, const Tensor<Pack>& VP,
+                                                 Pack (&w)[3][n_hex_modes]) {
     Pack g[n_hourglass_modes][3];
     hourglass_forces(value, kept, g);
-#pragma GCC unroll 3
-    for (int i = 0; i < 3; ++i) {
-      Pack P[3], w[n_hex_modes];
+    Tensor<Pack> P = VP;
+    for (int p = 0; p < 4; ++p)
       for (int j = 0; j < 3; ++j) {
-        P[j] = VP(i, j);
-        for (int p = 0; p < 4; ++p) P[j] -= g[p][i] * X_of(value, kept, p, j);
-        if constexpr (reads_positions<Pack>) P[j] *= kept.get(kept_inverse);
+        const Pack X = X_of(value, kept, p, j);
+        for (int i = 0; i < 3; ++i) P(i, j) -= g[p][i] * X;
       }
-      for (int m = 0; m < 6; ++m)
-        w[m] = P[0] * b_of(kept, m, 0) + P[1] * b_of(kept, m, 1) + P[2] * b_of(kept, m, 2);
-      for (int p = 0; p < 3; ++p) w[3 + p] += g[p][i];
-      w[6] = g[3][i];
-      corners_of_modes(w, i, f);
-    }
+    const Pack inverse = inverse_of(value, kept);
+    for (int k = 0; k < 9; ++k) P(k / 3, k % 3) *= inverse;
+    for (int m = 0; m < 6; ++m)
+      for (int j = 0; j < 3; ++j) {
+        const Pack b = kept.get(kept_b + 3 * m + j);
+        for (int i = 0; i < 3; ++i)
+          w[i][m] = j > 0    ? Pack(w[i][m] + P(i, j) * b)
+                    : m >= 3 ? Pack(g[m - 3][i] + P(i, j) * b)
+                             : Pack(P(i, j) * b);
+      }
+    for (int i = 0; i < 3; ++i) w[i][6] = g[3][i];
   }
 
   template <class Pack>
@@ -140,27 +141,36 @@ struct OnePointHex8 {
   }
 
  private:
-  // Calls body(m, i, component i of dV/dX_m times what X and d hold of it), m < 6, d as above.
+  // Calls body(m, i, component i of 64 dV/dX_m), m < 6. With S_m = X_m + X_(m+3), and m n o cyclic,
+  //   64 dV/dX_m = X_n x X_o - X_(3+n) x X_(3+o) / 3
+  //   64 dV/dX_(3+m) = (X_n x X_o + X_(3+n) x X_(3+o) - S_n x S_o) / 3:
+  // three products for the four that multiply out, as Gauss multiplied complex numbers.
   template <class Pack, class Body>
-  [[gnu::always_inline]] static void for_volume_gradient(const Pack (&X)[6][3],
-                                                         const Pack (&d)[6][3], const Body& body) {
+  [[gnu::always_inline]] static void for_volume_gradient(const Pack (&X)[6][3], const Body& body) {
+    constexpr auto third = real<Pack>(1.0 / 3);
+    Pack S[3][3];
+    for (int m = 0; m < 3; ++m)
+      for (int i = 0; i < 3; ++i) S[m][i] = X[m][i] + X[3 + m][i];
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
       for (int m = 0; m < 3; ++m) {
         const int n = (m + 1) % 3, o = (m + 2) % 3;
-        body(m, i,
-             Pack((X[n][j] * d[o][k] - X[n][k] * d[o][j]) +
-                  (X[3 + o][j] * d[3 + n][k] - X[3 + o][k] * d[3 + n][j])));
-        body(3 + m, i,
-             Pack((X[o][j] * d[3 + n][k] - X[o][k] * d[3 + n][j]) +
-                  (X[n][k] * d[3 + o][j] - X[n][j] * d[3 + o][k])));
+        const Pack of_X = X[n][j] * X[o][k] - X[n][k] * X[o][j];
+        const Pack of_rest = X[3 + n][j] * X[3 + o][k] - X[3 + n][k] * X[3 + o][j];
+        const Pack of_S = S[n][j] * S[o][k] - S[n][k] * S[o][j];
+        body(m, i, Pack(of_X - third * of_rest));
+        body(3 + m, i, Pack(third * ((of_X + of_rest) - of_S)));
       }
     }
   }
 
   template <class Pack>
-  [[gnu::always_inline]] static Pack b_of(const Stash<Pack>& kept, int m, int i) {
-    return kept.get(kept_b + 3 * m + i);
+  [[gnu::always_inline]] static Pack inverse_of(const BlockValues<Pack>& value,
+                                                const Stash<Pack>& kept) {
+    if constexpr (reads_positions<Pack>)
+      return kept.get(kept_inverse);
+    else
+      return value(value_inverse);
   }
   // Of X_3 … X_6.
   template <class Pack>

@@ -40,19 +40,17 @@ struct ElementHex8Full {
   }
 
   template <class Pack>
-  [[gnu::always_inline]] static void force(const BlockValues<Pack>& value, const Stash<Pack>& stash,
-                                           Pack (&f)[8][3]) {
+  [[gnu::always_inline]] static void force_modes(const BlockValues<Pack>& value,
+                                                 const Stash<Pack>& stash,
+                                                 Pack (&w)[3][n_hex_modes]) {
     Pack g[n_hex_modes][3];
     for (auto& mode : g)
       for (Pack& x : mode) x = zero_of(stash.get(0));
     for_points(
         value, [&](const Point<Pack>& point, int k)
                    __attribute__((always_inline)) { add_point(point, stash.get_tensor(k), g); });
-    for (int i = 0; i < 3; ++i) {
-      Pack mode[n_hex_modes];
-      for (int m = 0; m < n_hex_modes; ++m) mode[m] = g[m][i];
-      corners_of_modes(mode, i, f);
-    }
+    for (int i = 0; i < 3; ++i)
+      for (int m = 0; m < n_hex_modes; ++m) w[i][m] = g[m][i];
   }
 
   template <class Pack>

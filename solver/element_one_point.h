@@ -61,6 +61,13 @@ struct OnePoint {
     stash.put_tensor(0, Element::strain(value, u, kept(stash)));
   }
 
+  // What corner forces are made of, of elements that have it (hex8_modes.h). [N]
+  template <class Pack, int n_modes>
+  [[gnu::always_inline]] static void force_modes(const BlockValues<Pack>& value,
+                                                 const Stash<Pack>& stash, Pack (&w)[3][n_modes]) {
+    Element::force_modes(value, kept(stash), stash.get_tensor(0), w);
+  }
+
   // f: corner forces. [N]
   template <class Pack>
   [[gnu::always_inline]] static void force(const BlockValues<Pack>& value, const Stash<Pack>& stash,

@@ -28,8 +28,7 @@ template <class Pack>
 
 // f_a = sum_m S_m,a g_m, the same butterfly backwards.
 template <class Pack>
-[[gnu::always_inline]] inline void corners_of_modes(const Pack (&g)[n_hex_modes], int i,
-                                                    Pack (&f)[8][3]) {
+[[gnu::always_inline]] inline void corners_of_modes(const Pack (&g)[n_hex_modes], Pack (&f)[8]) {
   const Pack high_se = g[1] + g[3], low_se = g[1] - g[3];
   const Pack high_d = g[0] + g[4], low_d = g[0] - g[4];
   const Pack high_de = g[5] + g[6], low_de = g[5] - g[6];
@@ -37,14 +36,14 @@ template <class Pack>
   const Pack s1 = low_se - g[2], s0 = -(low_se + g[2]);
   const Pack d3 = high_d + high_de, d2 = high_d - high_de;
   const Pack d1 = low_d + low_de, d0 = low_d - low_de;
-  f[0][i] = s0 - d0;
-  f[1][i] = s0 + d0;
-  f[2][i] = s1 + d1;
-  f[3][i] = s1 - d1;
-  f[4][i] = s2 - d2;
-  f[5][i] = s2 + d2;
-  f[6][i] = s3 + d3;
-  f[7][i] = s3 - d3;
+  f[0] = s0 - d0;
+  f[1] = s0 + d0;
+  f[2] = s1 + d1;
+  f[3] = s1 - d1;
+  f[4] = s2 - d2;
+  f[5] = s2 + d2;
+  f[6] = s3 + d3;
+  f[7] = s3 - d3;
 }
 
 }  // namespace trocar

@@ -1,8 +1,7 @@
 // The elements' loops over blocks, written once for any pack and element.
 #pragma once
 
-#include "solver/corner_gather.h"
-#include "solver/corner_scatter.h"
+#include "solver/component_scatter.h"
 #include "solver/kernel_groups.h"
 #include "solver/position_gather.h"
 
@@ -43,13 +42,19 @@ struct ElementLoops {
   static constexpr int lanes = block_lanes<Pack>;
 
   static void strain(const BlockTask& task) {
+    if constexpr (n == 8)
+      if (task.u_x != nullptr) return strain_by_component(task);
     for_elements(
         task, [&](const auto& value, const auto& stash, std::int64_t block,
                   int lane) __attribute__((always_inline)) {
           const std::int32_t* corner = corners(task, block, lane);
           Pack u[n][3];
           if constexpr (reads_positions_v<Pack, Element>) {
-            gather_positions(task.position, corner, rows(task, block, lane), u);
+            if (task.position_stride > 0)
+              load_components<Following::anyhow>(
+                  ComponentField<float>{task.position, task.position_stride, corner}, 0, u);
+            else
+              gather_positions(task.position, corner, rows(task, block, lane), u);
             Element::prepare(u, stash);
           } else if constexpr (requires { Element::prepare(value, stash); }) {
             Element::prepare(value, stash);
@@ -63,12 +68,13 @@ struct ElementLoops {
 
   static void force(const BlockTask& task, const std::int32_t* target, void* sum) {
     RealOf<Pack>* const to = static_cast<RealOf<Pack>*>(sum);
+    if (task.sum_stride > 0) return force_by_component(task, target, to);
     for_elements(
         task, [&](const auto& value, const auto& stash, std::int64_t block, int lane)
                   __attribute__((always_inline)) {
                     if (lane == 0) fetch(task, block + task.n_blocks);
                     Pack f[n][3];
-                    Element::force(value, stash, f);
+                    find_force(value, stash, f);
                     add_corners(f, target + block * n * lanes + lane, rows(task, block, lane), to);
                   });
   }
@@ -90,6 +96,86 @@ struct ElementLoops {
   }
 
  private:
+  static void strain_by_component(const BlockTask& task) {
+    for_elements(
+        task, [&](const auto& value, const auto& stash, std::int64_t block,
+                  int lane) __attribute__((always_inline)) {
+          const std::int32_t* const corner = corners(task, block, lane);
+          const int row_break = lane_of_break(task.row_break[block]), k = row_break - lane;
+          const Following following = following_of<Pack>(row_break, lane);
+          if (following == Following::in_a_row)
+            strain_of_group<Following::in_a_row>(task, value, stash, corner, k);
+          else if (following == Following::anyhow)
+            strain_of_seldom<Following::anyhow>(task, value, stash, corner, k);
+          else if constexpr (sizeof(Pack) == 64)
+            strain_of_seldom<Following::in_two_rows>(task, value, stash, corner, k);
+        });
+  }
+  // Out of line, so that what is seldom leaves the instruction cache to the others.
+  template <Following following>
+  [[gnu::noinline]] static void strain_of_seldom(const BlockTask& task,
+                                                 const BlockValues<Pack>& value,
+                                                 const Stash<Pack>& stash,
+                                                 const std::int32_t* corner, int k) {
+    strain_of_group<following>(task, value, stash, corner, k);
+  }
+  // k: where the second row begins.
+  template <Following following>
+  [[gnu::always_inline]] static void strain_of_group(const BlockTask& task,
+                                                     const BlockValues<Pack>& value,
+                                                     const Stash<Pack>& stash,
+                                                     const std::int32_t* corner, int k) {
+    Pack u[n][3];
+    if constexpr (reads_positions_v<Pack, Element>) {
+      load_components<following>(ComponentField<float>{task.position, task.position_stride, corner},
+                                 k, u);
+      Element::prepare(u, stash);
+    } else if constexpr (requires { Element::prepare(value, stash); }) {
+      Element::prepare(value, stash);
+    }
+    load_components<following>(ComponentField<double>{task.u_x, task.u_stride, corner}, k, u);
+    Element::strain(value, u, stash);
+  }
+  [[gnu::always_inline]] static void find_force(const BlockValues<Pack>& value,
+                                                const Stash<Pack>& stash, Pack (&f)[n][3]) {
+    if constexpr (n == 8) {
+      Pack w[3][n_hex_modes], of_corner[n];
+      Element::force_modes(value, stash, w);
+      for (int i = 0; i < 3; ++i) {
+        corners_of_modes(w[i], of_corner);
+        for (int a = 0; a < n; ++a) f[a][i] = of_corner[a];
+      }
+    } else {
+      Element::force(value, stash, f);
+    }
+  }
+  static void force_by_component(const BlockTask& task, const std::int32_t* target,
+                                 RealOf<Pack>* sum) {
+    ComponentSums<Pack, n> sums(sum, task.sum_stride);
+    for_elements(
+        task, [&](const auto& value, const auto& stash, std::int64_t block,
+                  int lane) __attribute__((always_inline)) {
+          if (lane == 0) fetch(task, block + task.n_blocks);
+          const std::int32_t* const to = target + block * n * lanes + lane;
+          const std::uint8_t row_break = task.row_break[block];
+          if constexpr (n == 8) {
+            Pack w[3][n_hex_modes];
+            Element::force_modes(value, stash, w);
+            sums.add(
+                to, row_break, lane, [&](int i, Pack(&f)[n]) __attribute__((always_inline)) {
+                  corners_of_modes(w[i], f);
+                });
+          } else {
+            Pack of_all[n][3];
+            Element::force(value, stash, of_all);
+            sums.add(
+                to, row_break, lane, [&](int i, Pack(&f)[n]) __attribute__((always_inline)) {
+                  for (int a = 0; a < n; ++a) f[a] = of_all[a][i];
+                });
+          }
+        });
+    sums.finish();
+  }
   [[gnu::always_inline]] static BlockValues<Pack> behind_material(const BlockTask& task,
                                                                   const Group<Pack>& group) {
     return {group.value.at + task.n_material_values * lanes};
@@ -108,7 +194,7 @@ struct ElementLoops {
     constexpr int line = 64, n_lines = n_values_of<Pack, Element> + 2;
     const char* const at = static_cast<const char*>(task.data) + block * task.n_values * line;
 #pragma GCC unroll 128
-    for (int k = 0; k < n_lines; ++k) __builtin_prefetch(at + k * line, 0, 2);
+    for (int k = 0; k < n_lines; ++k) __builtin_prefetch(at + k * line, 0, 3);
   }
   // Calls body(the element's constants, stash, block, lane) for every group.
   template <class Body>

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "solver/in_double.h"
+#include "solver/corner_gather.h"
 #include "solver/kernels.h"
 
 namespace trocar {
@@ -25,17 +25,25 @@ struct NodeLoops {
       const std::int64_t i = node[k];
       if constexpr (width == 8)
         if (k + width <= n && follow_each_other(node + k)) {
-          force_of_eight(gravity, task.mass + i, task.sum + 4 * i, task.force + 3 * i);
+          if (task.sum_stride > 0)
+            force_of_components(task, i);
+          else
+            force_of_eight(gravity, task.mass + i, task.sum + 4 * i, task.force + 3 * i);
           k += width;
           continue;
         }
-      force_of_node(task, task.mass[i], task.sum + 4 * i, task.force + 3 * i);
+      if (task.sum_stride > 0)
+        force_of_component_sums(task, i);
+      else
+        force_of_node(task, task.mass[i], task.sum + 4 * i, task.force + 3 * i);
       ++k;
     }
   }
 
   template <class Real>
-  static void add_places(Real* sum, std::int64_t place, const std::int32_t* node, std::int64_t n) {
+  static void add_places(Real* sum, std::int64_t stride, std::int64_t place,
+                         const std::int32_t* node, std::int64_t n) {
+    if (stride > 0) return add_component_places(sum, stride, place, node, n);
     Real* from = sum + 4 * place;
     for (std::int64_t k = 0; k < n; ++k, from += 4) {
       Real* const to = sum + 4 * std::int64_t{node[k]};
@@ -48,6 +56,18 @@ struct NodeLoops {
         for (int j = 0; j < 4; ++j) from[j] = 0;
       }
     }
+  }
+
+  static void split(const double* from, std::int64_t n, double* to, std::int64_t stride) {
+    std::int64_t i = 0;
+    if constexpr (width >= 4)
+      for (; i + width <= n; i += width) {
+        Pack x[3];
+        gather_row(from + 3 * i, x);
+        for (int j = 0; j < 3; ++j) store(to + j * stride + i, x[j]);
+      }
+    for (; i < n; ++i)
+      for (int j = 0; j < 3; ++j) to[j * stride + i] = from[3 * i + j];
   }
 
   static void motion(const NodeMotion& given, std::int64_t begin, std::int64_t end) {
@@ -101,6 +121,53 @@ struct NodeLoops {
       for (int j = 0; j < 3; ++j) force[j] = mass * task.gravity[j] - sum[j];
       for (int j = 0; j < 4; ++j) sum[j] = 0;
     }
+  }
+
+  // Component by component, rounded alike.
+  template <class Real>
+  [[gnu::always_inline]] static void force_of_component_sums(const NodeForces<Real>& task,
+                                                             std::int64_t i) {
+    Real lane[4] = {};
+    for (int j = 0; j < 3; ++j) lane[j] = task.sum[j * task.sum_stride + i];
+    force_of_node(task, task.mass[i], lane, task.force + 3 * i);
+    for (int j = 0; j < 3; ++j) task.sum[j * task.sum_stride + i] = 0;
+  }
+
+  // Of nodes that follow each other, to where they lie node by node.
+  template <class Real>
+  [[gnu::always_inline]] static void force_of_components(const NodeForces<Real>& task,
+                                                         std::int64_t i) {
+    const Pack mass = load<Pack>(task.mass + i);
+    Pack f[3];
+    for (int j = 0; j < 3; ++j) {
+      Real* const sum = task.sum + j * task.sum_stride + i;
+      const double g = task.gravity[j];
+      f[j] = weight_less_sum(mass, Pack{} + g, load_in_double<Pack>(sum));
+      store(sum, PackOf<Real, width>{});
+    }
+    // Each component in the order in which the three registers take it, then blended.
+    const Pack x = __builtin_shufflevector(f[0], f[0], 0, 3, 6, 1, 4, 7, 2, 5);
+    const Pack y = __builtin_shufflevector(f[1], f[1], 5, 0, 3, 6, 1, 4, 7, 2);
+    const Pack z = __builtin_shufflevector(f[2], f[2], 2, 5, 0, 3, 6, 1, 4, 7);
+    const auto blend =
+        [](const Pack& of_0, const Pack& of_1, const Pack& of_2) __attribute__((always_inline)) {
+      const Pack of_01 = __builtin_shufflevector(of_0, of_1, 0, 9, 2, 3, 12, 5, 6, 15);
+      return __builtin_shufflevector(of_01, of_2, 0, 1, 10, 3, 4, 13, 6, 7);
+    };
+    double* const to = task.force + 3 * i;
+    store(to, blend(x, y, z));
+    store(to + width, blend(z, x, y));
+    store(to + 2 * width, blend(y, z, x));
+  }
+
+  template <class Real>
+  static void add_component_places(Real* sum, std::int64_t stride, std::int64_t place,
+                                   const std::int32_t* node, std::int64_t n) {
+    for (int j = 0; j < 3; ++j, sum += stride)
+      for (std::int64_t k = 0; k < n; ++k) {
+        sum[node[k]] += sum[place + k];
+        sum[place + k] = 0;
+      }
   }
 
   static bool follow_each_other(const std::int32_t* node) {
@@ -246,7 +313,8 @@ NodeKernels node_kernels() {
           Loops::template add_places<double>,
           Loops::template add_places<float>,
           Loops::motion,
-          Loops::works};
+          Loops::works,
+          Loops::split};
 }
 
 }  // namespace trocar

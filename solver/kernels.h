@@ -15,11 +15,16 @@ namespace trocar {
 // Blocks of one list that follow each other. `data`, `stash` and what kernels put there are of the
 // list's precision.
 struct BlockTask {
-  const double* u = nullptr;             // (n_local * 3) [m]
-  const float* position = nullptr;       // (n_local * 4) of Model::position [m]
-  const std::int32_t* corner = nullptr;  // [block][corner][lane] local node
-  const std::uint32_t* row = nullptr;    // [eight lanes] of row_order.h
-  const void* data = nullptr;            // [block][value][lane]: the material's, the element's
+  const double* u = nullptr;  // (n_local * 3) [m]
+  // Component i of node k at u_x[i * u_stride + k], for rows; null: there is none.
+  const double* u_x = nullptr;
+  std::int64_t u_stride = 0;
+  const float* position = nullptr;          // Model::position [m]
+  std::int64_t position_stride = 0;         // from component to component; 0: node by node
+  const std::int32_t* corner = nullptr;     // [block][corner][lane] local node
+  const std::uint32_t* row = nullptr;       // [eight lanes] of row_order.h
+  const std::uint8_t* row_break = nullptr;  // [block] of node_layout.h, by component
+  const void* data = nullptr;               // [block][value][lane]: the material's, the element's
   std::int64_t n_blocks = 0;
   std::int64_t n_values = 0, n_material_values = 0;
   // [block][value][lane]: H, then V P, of each point (row by row), then what the element keeps.
@@ -33,11 +38,13 @@ struct BlockTask {
   const double* theta = nullptr;
   std::int64_t n_fields = 0;
   double element_share = 0;
+  std::int64_t sum_stride = 0;  // of a ForceKernel
 };
 
 using ElementKernel = void (*)(const BlockTask& task);
-// Adds corner forces [N] to sum[4 * target + (x, y, z)], element after element; target [block]
-// [corner][lane]; sums are of the list's precision.
+// Adds corner forces [N] to sum[4 * target + (x, y, z)], or to sum[target + (x, y, z) * sum_stride]
+// if that is not 0, element after element; target [block][corner][lane]; sums are of the list's
+// precision.
 using ForceKernel = void (*)(const BlockTask& task, const std::int32_t* target, void* sum);
 // K V (J - 1) or an energy [J] to [block][lane].
 using ValueKernel = void (*)(const BlockTask& task, double* to);
@@ -76,13 +83,15 @@ struct KernelsOfPrecision {
   LawKernels law[n_law_kinds][n_material_models];
 };
 
-// force[3 i + j] = mass[i] gravity[j] - sum[4 i + j], and zero in place of the sum.
+// force[3 i + j] = mass[i] gravity[j] - sum[4 i + j], or sum[i + j sum_stride] if that is not 0,
+// and zero in place of the sum.
 template <class Real>
 struct NodeForces {
   const double* mass;  // [kg]
   double gravity[4];   // and a zero [m/s^2]
   Real* sum;           // [N]
   double* force;       // [N]
+  std::int64_t sum_stride = 0;
 };
 
 // v = keep v + gain force / inertia, zero where a bit of fixed is set; u = u + dt v.
@@ -106,10 +115,10 @@ template <class Real>
 using NodeForceKernel = void (*)(const NodeForces<Real>& task, const std::int32_t* node,
                                  std::int64_t n);
 
-// sum[4 node[k] …] += sum[4 (place + k) …], which becomes zero; no node is among the places.
+// The sum of node[k] += that of place + k, which becomes zero; no node is among the places.
 template <class Real>
-using PlaceKernel = void (*)(Real* sum, std::int64_t place, const std::int32_t* node,
-                             std::int64_t n);
+using PlaceKernel = void (*)(Real* sum, std::int64_t sum_stride, std::int64_t place,
+                             const std::int32_t* node, std::int64_t n);
 
 // The nodes' part of a step.
 struct NodeKernels {
@@ -119,6 +128,8 @@ struct NodeKernels {
   PlaceKernel<float> add_places_of_singles;
   void (*motion)(const NodeMotion& task, std::int64_t begin, std::int64_t end);
   void (*works)(const NodeWorks& task, std::int64_t n);  // of n components
+  // to[i + j * stride] = from[3 i + j], i < n
+  void (*split)(const double* from, std::int64_t n, double* to, std::int64_t stride);
 };
 
 struct Kernels {

@@ -10,6 +10,7 @@
 #include "solver/material_check.h"
 #include "solver/material_setup.h"
 #include "solver/model_lists.h"
+#include "solver/node_layout.h"
 #include "solver/sum_order.h"
 #include "solver/volume_averages.h"
 
@@ -76,8 +77,8 @@ Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> 
   make_lists(source, model);
   fill_blocks(source, model);
   model.n_history = place_history(model.blocks);
-  take_positions(source, model);
   order_sums(model);
+  take_positions(source, model);
   link_volume_averages(mesh, materials, model);
   return model;
 }
@@ -147,7 +148,9 @@ void keep_works(const Model& model, Scratch& scratch) {
 void fit_scratch(const Model& model, Scratch& scratch) {
   const auto n_owned = static_cast<std::size_t>(model.n_owned);
   with_sums(model, scratch,
-            [&](auto& sum) { sum.resize(static_cast<std::size_t>(model.sums.n_places) * 4); });
+            [&](auto& sum) { sum.resize(static_cast<std::size_t>(n_sums(model))); });
+  scratch.u_by_component.resize(
+      static_cast<std::size_t>(first_component(model.sums, model.sums.run_nodes.size())));
   scratch.volume_change.resize(static_cast<std::size_t>(model.averages.n_lanes));
   scratch.force.resize(3 * n_owned);
   scratch.has_force = false;

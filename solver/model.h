@@ -55,6 +55,8 @@ struct ElementBlocks {
   // [block][corner][lane] where its force is added in Scratch::sum; empty: at its node
   std::vector<std::int32_t> target;
   std::vector<std::uint32_t> row;  // (n_blocks * lanes / row_lanes) of row_order.h
+  // (n_blocks) where nodal fields lie by component, see node_layout.h; else empty
+  std::vector<std::uint8_t> row_break;
   // [block][value][lane], see block_data.h; the one of the list's precision, the other is empty.
   AlignedVector<double> data;
   AlignedVector<float> data_single;
@@ -82,15 +84,20 @@ struct VolumeAverages {
 // order are added at the node as long as they are of one run; the others get a place each behind
 // the nodes, and are added up afterwards, in the same order. So the bits don't depend on the number
 // of runs, nor on which elements wait for the halo.
+struct NodeRange {
+  std::int32_t begin = 0, end = 0;  // local nodes
+  bool operator==(const NodeRange&) const = default;
+};
+
 struct SumOrder {
   std::int32_t n_runs = 0;              // those of blocks that read no halo nodes first
   std::int32_t n_inside_runs = 0;       // that many
   std::vector<std::int64_t> run_block;  // (n_runs + 1) first block of each run
   std::int64_t n_places = 0;            // of Scratch::sum, nodes first
-  // Owned nodes that one run alone meets, run by run, ascending by the last block that touches
-  // them: they are finished while they are in the cache.
-  std::vector<std::int32_t> node, last_block;
-  std::vector<std::int32_t> run_first;    // (n_runs + 1) into node
+  // Owned nodes that one run alone meets, ascending by the last block that touches them: they are
+  // finished while they are in the cache.
+  std::vector<std::int32_t> node;
+  std::vector<std::int32_t> block_first;  // (n_blocks of all lists + 1) into node
   std::vector<std::int32_t> shared_node;  // owned nodes that several runs meet
   // (n_places - n_local) nodes of the places behind the nodes, in slots that are added up one after
   // the other: n_slots of owned nodes, then those of halo nodes, ascending in each. Nodes that
@@ -98,6 +105,10 @@ struct SumOrder {
   std::vector<std::int32_t> place_node;
   std::int32_t n_slots = 0;
   std::vector<std::int32_t> slot_first;  // into place_node, and its end
+  // Where sums lie component by component, what the elements of runs inside read: of each run, and
+  // of each stride of it (sum_order.h), run after run.
+  std::vector<NodeRange> run_nodes, stride_nodes;
+  std::vector<std::int32_t> run_stride;  // (n_inside_runs + 1) into stride_nodes
 };
 
 // Nodes of elements whose mass is scaled, in groups that hang together (mass_scaling.h). Each group
@@ -116,7 +127,11 @@ struct Model {
   std::vector<double> inertia;  // (n_owned) mass and d of clusters; empty without, see inertia_of
   MassClusters clusters;
   std::vector<FixedMask> fixed;  // (n_owned)
-  // (n_local * 4) reference positions less the least of the mesh, and a zero, for elements
+  // Whether what kernels add to and take from nodes lies component by component, and not node by
+  // node: where most hexahedra stand in rows, whole registers are added and loaded so.
+  bool is_by_component = false;
+  // Reference positions less the least of the mesh, (n_local * 4) with a zero, or (3 x
+  // component_stride(n_local)) by component, for elements
   // that make their gradients of them (element_hex8.h); empty if there are none. [m]
   AlignedVector<float> position;
   // One a (reads_halo, region, formulation), in this order.
@@ -128,6 +143,12 @@ struct Model {
   VolumeAverages averages;
   SolverOptions options;
 };
+
+// From component to component of n numbers: a row that begins among them may be read whole.
+constexpr std::int64_t component_stride(std::int64_t n) {
+  constexpr std::int64_t line = 8;
+  return (n + 2 * line - 1) / line * line;
+}
 
 inline bool is_fixed(const Model& model, std::int64_t owned, int direction) {
   return (model.fixed[owned] >> direction & 1) != 0;
@@ -184,10 +205,13 @@ State make_state(const Model& model);
 
 // Neither saved nor shown. Allocated once a model.
 struct Scratch {
-  // (n_places * 4) corner forces of each place of SumOrder, all zero between steps; the one of the
-  // model's precision, the other is empty. [N]
+  // (n_places * 4) corner forces of each place of SumOrder, or (3 x component_stride(n_places)) by
+  // component, all zero between steps; the one of the model's precision, the other is empty. [N]
   AlignedVector<double> sum;
   AlignedVector<float> sum_single;
+  // Displacements by component, of the nodes of each run inside, run after run: (3 x
+  // component_stride(n nodes of the run)) [m]
+  AlignedVector<double> u_by_component;
   std::vector<double> volume_change;  // K V (J - 1) of lanes, see VolumeAverages [J]
   std::vector<double> force;          // (n_owned * 3) external - internal force [N]
   // Whether `force` is known to be find_force's of the present displacement, so that the next step

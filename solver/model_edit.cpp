@@ -210,13 +210,13 @@ void edit_model(const ModelSource& source, const ModelEdit& edit, Model& model,
     for (std::int64_t lane = 0; blocks.reads_halo && lane < std::ssize(blocks.element_local);
          ++lane)  // numbers of halo nodes have moved up
       fill_corners(source, lane, blocks);
-  take_positions(source, model);
   if (edit.place_before.empty()) {
     edit_sums(owned, blocks_of(source.part, edit.touching, model), model);
   } else {
     model.sums = {};
     order_sums(model);
   }
+  take_positions(source, model);
   model.averages = {};
   link_volume_averages(source.mesh, source.materials, model);
 }

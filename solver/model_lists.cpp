@@ -172,10 +172,13 @@ void take_positions(const ModelSource& source, Model& model) {
   if (std::none_of(model.blocks.begin(), model.blocks.end(), is_reader)) return;
   Vec3 least = source.mesh.X[0];
   for (const Vec3& X : source.mesh.X) least = least.cwiseMin(X);
-  model.position.resize(static_cast<std::size_t>(model.n_local) * 4);
+  const std::int64_t stride = component_stride(model.n_local);
+  model.position.assign(
+      static_cast<std::size_t>(model.is_by_component ? 3 * stride : 4 * model.n_local), 0);
   for (std::int64_t i = 0; i < model.n_local; ++i) {
     const Vec3 X = source.mesh.X[source.part.node_global[i]] - least;
-    for (int j = 0; j < 3; ++j) model.position[4 * i + j] = static_cast<float>(X[j]);
+    for (int j = 0; j < 3; ++j)
+      model.position[model.is_by_component ? j * stride + i : 4 * i + j] = static_cast<float>(X[j]);
   }
 }
 

@@ -23,6 +23,12 @@ constexpr bool is_row(std::uint32_t row) {
 // Of hexahedra of a box whose nodes are numbered along xi first, then eta, then zeta.
 inline constexpr std::uint32_t box_row = 0x01324576;
 
+// A bit of ElementBlocks::row_break (node_layout.h), and the lane.
+inline constexpr std::uint8_t unpaired = 0x80;
+constexpr int lane_of_break(std::uint8_t row_break) {
+  return row_break & 0x7F;
+}
+
 constexpr int corner_of_row(std::uint32_t row, int k) {
   return static_cast<int>(row >> (4 * k) & 15U);
 }

@@ -15,9 +15,6 @@ namespace trocar {
 
 namespace {
 
-// Blocks between two looks at the nodes.
-constexpr std::int64_t stride_blocks = 4 * stash_blocks;
-
 double* history_at(const ElementBlocks& blocks, std::int64_t block, State& state) {
   return state.history.data() + blocks.first_history + block * blocks.lanes * history_width(blocks);
 }
@@ -29,9 +26,9 @@ struct ThreadWatch {
 };
 
 void add_list(const Model& model, const ElementBlocks& blocks, std::int64_t first, std::int64_t n,
-              State& state, Scratch& scratch, ThreadWatch& watch) {
+              const Components& components, State& state, Scratch& scratch, ThreadWatch& watch) {
   for_strained_blocks(
-      model, blocks, state, first, n,
+      model, blocks, state, components, first, n,
       [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
         if (watch.all != nullptr) watch.all->look(model, blocks, kernels, task, block, watch.least);
         if (blocks.prony.empty() || scratch.is_elastic)
@@ -59,36 +56,76 @@ void for_awake_blocks(const Scratch& scratch, std::int64_t begin, std::int64_t e
   }
 }
 
+// Displacements by component of the nodes that a run meets, taken over as far as they are asked
+// for.
+class RunComponents {
+ public:
+  RunComponents(const Model& model, std::int64_t run, Scratch& scratch) : model_(model), run_(run) {
+    if (!model.is_by_component || run >= model.sums.n_inside_runs) return;
+    const auto k = static_cast<std::size_t>(run);
+    nodes_ = model.sums.run_nodes[k];
+    at_ = scratch.u_by_component.data() + first_component(model.sums, k);
+  }
+
+  // What the run's stride-th stride reads.
+  void take(const State& state, std::int64_t stride) {
+    if (at_ == nullptr) return;
+    const NodeRange asked = model_.sums.stride_nodes[model_.sums.run_stride[run_] + stride];
+    if (taken_.begin == taken_.end) taken_ = {asked.begin, asked.begin};
+    take(state, {asked.begin, taken_.begin});
+    take(state, {taken_.end, asked.end});
+    taken_ = {std::min(taken_.begin, asked.begin), std::max(taken_.end, asked.end)};
+  }
+
+  Components all() const {
+    return at_ == nullptr ? Components{} : Components{at_ - nodes_.begin, run_stride(nodes_)};
+  }
+
+ private:
+  void take(const State& state, const NodeRange& nodes) {
+    if (nodes.begin >= nodes.end) return;
+    active_kernels().nodes.split(state.u.data() + 3 * std::int64_t{nodes.begin},
+                                 nodes.end - nodes.begin, at_ + (nodes.begin - nodes_.begin),
+                                 run_stride(nodes_));
+  }
+
+  const Model& model_;
+  std::int64_t run_;
+  NodeRange nodes_, taken_;
+  double* at_ = nullptr;
+};
+
 // The blocks of one run, and the nodes that only they meet.
 void compute_run(const Model& model, std::int64_t run, State& state, Scratch& scratch,
                  ElementWatch* all) {
   ThreadWatch watch{.all = all, .least = all != nullptr ? all->first() : LeastOfElements{}};
   const SumOrder& sums = model.sums;
+  RunComponents components(model, run, scratch);
   const std::int64_t end = sums.run_block[run + 1];
-  std::int32_t k = sums.run_first[run];
   for (std::int64_t block = sums.run_block[run]; block < end; block += stride_blocks) {
     const std::int64_t next = std::min(end, block + stride_blocks);
     for_awake_blocks(scratch, block, next, [&](std::int64_t begin, std::int64_t awake_end) {
+      components.take(state, (block - sums.run_block[run]) / stride_blocks);
       for_block_range(model, begin, awake_end,
                       [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
-                        add_list(model, blocks, first, n, state, scratch, watch);
+                        add_list(model, blocks, first, n, components.all(), state, scratch, watch);
                       });
     });
-    const std::int32_t first = k;
-    const auto last_block = sums.last_block.begin();
-    k = static_cast<std::int32_t>(
-        std::lower_bound(last_block + first, last_block + sums.run_first[run + 1], next) -
-        last_block);
-    finish_nodes(model, {sums.node.begin() + first, sums.node.begin() + k}, scratch);
+    finish_nodes(
+        model,
+        {sums.node.begin() + sums.block_first[block], sums.node.begin() + sums.block_first[next]},
+        scratch);
   }
   if (all != nullptr) all->take(watch.least);
 }
 
-void add_places(double* sum, std::int64_t place, std::span<const std::int32_t> node) {
-  active_kernels().nodes.add_places(sum, place, node.data(), std::ssize(node));
+void add_places(double* sum, std::int64_t stride, std::int64_t place,
+                std::span<const std::int32_t> node) {
+  active_kernels().nodes.add_places(sum, stride, place, node.data(), std::ssize(node));
 }
-void add_places(float* sum, std::int64_t place, std::span<const std::int32_t> node) {
-  active_kernels().nodes.add_places_of_singles(sum, place, node.data(), std::ssize(node));
+void add_places(float* sum, std::int64_t stride, std::int64_t place,
+                std::span<const std::int32_t> node) {
+  active_kernels().nodes.add_places_of_singles(sum, stride, place, node.data(), std::ssize(node));
 }
 
 // Slot by slot, of the nodes from `first` to `last`.
@@ -102,7 +139,8 @@ void add_slots(const Model& model, std::int32_t first, std::int32_t last, Scratc
       const auto slot_end = sums.place_node.begin() + sums.slot_first[slot + 1];
       const auto begin = std::lower_bound(slot_begin, slot_end, first);
       const auto end = std::upper_bound(begin, slot_end, last);
-      add_places(sum.data(), model.n_local + (begin - sums.place_node.begin()), {begin, end});
+      add_places(sum.data(), sum_stride(model), model.n_local + (begin - sums.place_node.begin()),
+                 {begin, end});
     }
   });
 }
@@ -121,9 +159,17 @@ void clear_halo(const Model& model, Scratch& scratch) {
   const SumOrder& sums = model.sums;
   const std::int64_t of_owned = sums.slot_first.empty() ? 0 : sums.slot_first[sums.n_slots];
   with_sums(model, scratch, [&](auto& sum) {
-    const auto at = [&](std::int64_t place) { return sum.begin() + 4 * place; };
-    std::fill(at(model.n_owned), at(model.n_local), 0);
-    std::fill(at(model.n_local + of_owned), at(sums.n_places), 0);
+    const auto clear = [&](std::int64_t first, std::int64_t last) {
+      if (!model.is_by_component) {
+        std::fill(sum.begin() + 4 * first, sum.begin() + 4 * last, 0);
+        return;
+      }
+      for (std::int64_t j = 0; j < 3; ++j)
+        std::fill(sum.begin() + j * sum_stride(model) + first,
+                  sum.begin() + j * sum_stride(model) + last, 0);
+    };
+    clear(model.n_owned, model.n_local);
+    clear(model.n_local + of_owned, sums.n_places);
   });
 }
 
@@ -133,8 +179,7 @@ void compute_inside_force(const Model& model, State& state, Scratch& scratch, El
   CHECK_OP(std::ssize(state.u), ==, 3 * std::int64_t{model.n_local});
   CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
   CHECK_OP(std::ssize(scratch.force), ==, 3 * std::int64_t{model.n_owned});
-  with_sums(model, scratch,
-            [&](const auto& sum) { CHECK_OP(std::ssize(sum), ==, 4 * model.sums.n_places); });
+  with_sums(model, scratch, [&](const auto& sum) { CHECK_OP(std::ssize(sum), ==, n_sums(model)); });
   CHECK_OP(std::ssize(state.history), ==, model.n_history);
   for (std::size_t k = 0; k < model.blocks.size(); ++k)
     if (!model.blocks[k].prony.empty())
@@ -170,15 +215,17 @@ void find_viscous_force(const Model& model, State& state, Scratch& scratch) {
 
 std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
   const auto bytes = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
-  std::size_t sum =
-      bytes(model.mass) + bytes(model.inertia) + bytes(model.fixed) + bytes(model.position) +
-      bytes(model.sums.node) + bytes(model.sums.last_block) + bytes(model.sums.shared_node) +
-      bytes(model.sums.place_node) + bytes(model.element_step) + bytes(model.averages.offset) +
-      bytes(model.averages.lane) + bytes(model.averages.stiffness) + bytes(scratch.volume_change) +
-      bytes(scratch.sum) + bytes(scratch.sum_single) + bytes(scratch.force);
+  std::size_t sum = bytes(model.mass) + bytes(model.inertia) + bytes(model.fixed) +
+                    bytes(model.position) + bytes(model.sums.node) + bytes(model.sums.block_first) +
+                    bytes(model.sums.shared_node) + bytes(model.sums.place_node) +
+                    bytes(model.element_step) + bytes(model.averages.offset) +
+                    bytes(model.averages.lane) + bytes(model.averages.stiffness) +
+                    bytes(scratch.volume_change) + bytes(scratch.sum) + bytes(scratch.sum_single) +
+                    bytes(scratch.u_by_component) + bytes(scratch.force);
   for (const ElementBlocks& blocks : model.blocks)
     sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.target) +
-           bytes(blocks.row) + bytes(blocks.data) + bytes(blocks.data_single);
+           bytes(blocks.row) + bytes(blocks.row_break) + bytes(blocks.data) +
+           bytes(blocks.data_single);
   const MassClusters& clusters = model.clusters;
   sum += bytes(clusters.offset) + bytes(clusters.node) + bytes(clusters.added) +
          bytes(clusters.total) + bytes(clusters.of_node) + bytes(scratch.given) +

@@ -11,6 +11,7 @@
 #include "base/sort_unique.h"
 #include "base/threads.h"
 #include "solver/block_ranges.h"
+#include "solver/node_layout.h"
 #include "solver/row_order.h"
 #include "solver/sum_places.h"
 
@@ -41,26 +42,20 @@ NodeUse use_of_nodes(const Model& model) {
   return use;
 }
 
-// Own nodes of each run by a counting sort over their last blocks, which ascend from run to run.
+// Own nodes by a counting sort over their last blocks, which ascend from run to run.
 void order_own_nodes(const NodeUse& use, Model& model) {
   SumOrder& sums = model.sums;
   const std::int64_t n_blocks = sums.run_block.back();
-  std::vector<std::int32_t> next(static_cast<std::size_t>(n_blocks) + 1, 0);
+  sums.block_first.assign(static_cast<std::size_t>(n_blocks) + 1, 0);
   const auto is_own = [&](std::int32_t i) { return use.run[i] >= 0; };
   for (std::int32_t i = 0; i < model.n_owned; ++i)
-    if (is_own(i)) ++next[use.last_block[i] + 1];
-  for (std::int64_t block = 0; block < n_blocks; ++block) next[block + 1] += next[block];
-  sums.run_first.resize(static_cast<std::size_t>(sums.n_runs) + 1);
-  for (std::int32_t run = 0; run <= sums.n_runs; ++run)
-    sums.run_first[run] = next[sums.run_block[run]];
+    if (is_own(i)) ++sums.block_first[use.last_block[i] + 1];
+  for (std::int64_t block = 0; block < n_blocks; ++block)
+    sums.block_first[block + 1] += sums.block_first[block];
+  std::vector<std::int32_t> next = sums.block_first;
   sums.node.resize(static_cast<std::size_t>(next.back()));
-  sums.last_block.resize(sums.node.size());
-  for (std::int32_t i = 0; i < model.n_owned; ++i) {
-    if (!is_own(i)) continue;
-    const std::int32_t at = next[use.last_block[i]]++;
-    sums.node[at] = i;
-    sums.last_block[at] = use.last_block[i];
-  }
+  for (std::int32_t i = 0; i < model.n_owned; ++i)
+    if (is_own(i)) sums.node[next[use.last_block[i]]++] = i;
 }
 
 bool has_node(const std::int32_t* corner, int n_corners, int lanes, std::int32_t node) {
@@ -140,34 +135,6 @@ std::vector<std::int32_t> last_blocks(std::span<const std::int32_t> nodes,
   return last;
 }
 
-// Nodes with a last block each, by both.
-class OwnNodes {
- public:
-  OwnNodes(std::size_t most, const SumOrder& from) : from_(from) {
-    node_.reserve(most);
-    last_block_.reserve(most);
-  }
-  void add(std::int32_t block, std::int32_t node) {
-    node_.push_back(node);
-    last_block_.push_back(block);
-  }
-  // Those from `begin` to `end` of before.
-  void add_old(std::ptrdiff_t begin, std::ptrdiff_t end) {
-    node_.insert(node_.end(), from_.node.begin() + begin, from_.node.begin() + end);
-    last_block_.insert(last_block_.end(), from_.last_block.begin() + begin,
-                       from_.last_block.begin() + end);
-  }
-  void move_to(SumOrder& sums) {
-    sums.run_first = {0, static_cast<std::int32_t>(node_.size())};
-    sums.node = std::move(node_);
-    sums.last_block = std::move(last_block_);
-  }
-
- private:
-  const SumOrder& from_;
-  std::vector<std::int32_t> node_, last_block_;
-};
-
 // Own nodes of the one run, after those of `nodes` changed from one of the `blocks` to another: the
 // rest keeps its order. blocks: ascending, counted through all lists.
 void edit_own_nodes(std::span<const std::int32_t> nodes, std::span<const std::int32_t> last_block,
@@ -175,25 +142,33 @@ void edit_own_nodes(std::span<const std::int32_t> nodes, std::span<const std::in
   std::vector<std::pair<std::int32_t, std::int32_t>> changed;  // last block, node
   for (std::size_t k = 0; k < nodes.size(); ++k) changed.emplace_back(last_block[k], nodes[k]);
   std::sort(changed.begin(), changed.end());
-  const auto old = sums.last_block.begin();
-  OwnNodes own(sums.node.size() + nodes.size(), sums);
+  const std::vector<std::int32_t> before = std::move(sums.node), first = sums.block_first;
+  std::vector<std::int32_t>& node = sums.node;
+  node.clear();
+  node.reserve(before.size() + nodes.size());
   auto next = changed.begin();
-  std::ptrdiff_t done = 0;
-  for (const std::int32_t block : blocks) {
-    const auto [begin, end] = std::equal_range(old + done, sums.last_block.end(), block);
-    own.add_old(done, begin - old);
-    done = end - old;
-    for (auto k = begin - old; k < done; ++k) {
-      if (std::binary_search(nodes.begin(), nodes.end(), sums.node[k])) continue;
-      for (; next != changed.end() && *next < std::pair(block, sums.node[k]); ++next)
-        own.add(block, next->second);
-      own.add(block, sums.node[k]);
-    }
-    for (; next != changed.end() && next->first == block; ++next) own.add(block, next->second);
+  std::int32_t done = 0, moved = 0;
+  std::size_t block = 0;  // the next whose first node is to be found
+  const auto go_to = [&](std::size_t end) {
+    node.insert(node.end(), before.begin() + done, before.begin() + first[end]);
+    done = first[end];
+    for (; block <= end; ++block) sums.block_first[block] = first[block] + moved;
+  };
+  for (const std::int32_t edited : blocks) {
+    go_to(static_cast<std::size_t>(edited));
+    std::vector<std::int32_t> own;
+    std::copy_if(
+        before.begin() + done, before.begin() + first[edited + 1], std::back_inserter(own),
+        [&](std::int32_t i) { return !std::binary_search(nodes.begin(), nodes.end(), i); });
+    const std::size_t n_kept = own.size();
+    for (; next != changed.end() && next->first == edited; ++next) own.push_back(next->second);
+    std::inplace_merge(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(n_kept), own.end());
+    node.insert(node.end(), own.begin(), own.end());
+    done = first[edited + 1];
+    moved = static_cast<std::int32_t>(node.size()) - done;
   }
   CHECK(next == changed.end());
-  own.add_old(done, std::ssize(sums.node));
-  own.move_to(sums);
+  go_to(first.size() - 1);
 }
 
 // Of these blocks, and of those that had the last node or have it now.
@@ -246,6 +221,7 @@ void order_sums(Model& model) {
   order_own_nodes(use, model);
   place_shared_corners(use.run, model);
   find_rows(model);
+  lay_out_nodes(model);
 }
 
 void finish_nodes(const Model& model, std::span<const std::int32_t> node, Scratch& scratch) {
@@ -254,7 +230,8 @@ void finish_nodes(const Model& model, std::span<const std::int32_t> node, Scratc
     finish(NodeForces{.mass = model.mass.data(),
                       .gravity = {g.x(), g.y(), g.z(), 0},
                       .sum = sum.data(),
-                      .force = scratch.force.data()},
+                      .force = scratch.force.data(),
+                      .sum_stride = sum_stride(model)},
            node);
   });
 }
@@ -271,6 +248,7 @@ void edit_sums(std::span<const std::int32_t> nodes, std::span<const BlockPlace> 
     edit_own_nodes(nodes, last_blocks(nodes, blocks, first, model), numbers, model.sums);
     model.sums.n_places = model.n_local;
     edit_rows(blocks, model);
+    lay_out_nodes(model);
   } else {
     model.sums = {};
     order_sums(model);

@@ -75,7 +75,7 @@ void find_volume_change(const Model& model, const State& state, bool reads_halo,
       StashBytes unused;
       const FlushSubnormals flush(blocks.precision == Precision::in_single);
       kernels.element.volume_change(
-          block_task(model, blocks, kernels, state, begin, end - begin, unused),
+          block_task(model, blocks, kernels, state, {}, begin, end - begin, unused),
           scratch.volume_change.data() + blocks.first_lane + begin * blocks.lanes);
     });
   }

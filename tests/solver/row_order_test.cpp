@@ -70,6 +70,7 @@ std::vector<double> force_one_by_one(Body body) {
 void expect_same_bits(const Mesh& mesh, Formulation formulation) {
   for (const Precision precision : precisions) {
     Body body = make_body(mesh, {.solver = with(formulation, {.precision = precision})});
+    put_node_by_node(body);
     shake(body.state.u, 5e-4, 11);
     EXPECT_FALSE(rows_of(body).empty());
     for (int i = 0; i < n_simd; ++i) {

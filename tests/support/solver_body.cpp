@@ -33,6 +33,23 @@ Body make_body(Mesh mesh, BodyOptions options, const std::vector<std::int32_t>& 
   return body;
 }
 
+void put_node_by_node(Body& body) {
+  Model& model = body.model;
+  if (!model.is_by_component) return;
+  model.is_by_component = false;
+  model.sums.run_nodes.clear();
+  model.sums.stride_nodes.clear();
+  model.sums.run_stride.clear();
+  for (ElementBlocks& blocks : model.blocks) blocks.row_break.clear();
+  const AlignedVector<float> by_component = model.position;
+  if (!by_component.empty()) model.position.assign(4 * static_cast<std::size_t>(model.n_local), 0);
+  for (std::size_t k = 0; k < model.position.size(); ++k)
+    if (k % 4 < 3)
+      model.position[k] =
+          by_component[k % 4 * static_cast<std::size_t>(component_stride(model.n_local)) + k / 4];
+  body.scratch = make_scratch(model);
+}
+
 Watch look(Body& body) {
   average_volume_change(body.model, body.state, body.scratch);
   return watch(body.model, body.part, body.state);

@@ -50,6 +50,9 @@ std::vector<double> mass_of(const Mesh& mesh, const BodyOptions& options);
 Body make_body(Mesh mesh, BodyOptions options = {}, const std::vector<std::int32_t>& owner = {},
                int rank = 0);
 
+// The same with nodal fields node by node, if they lie component by component (node_layout.h).
+void put_node_by_node(Body& body);
+
 Watch look(Body& body);
 
 // u = field(X) at all local nodes.

@@ -16,6 +16,7 @@ inline void expect_equal(const ElementBlocks& a, const ElementBlocks& b) {
   EXPECT_EQ(a.corner, b.corner);
   EXPECT_EQ(a.target, b.target);
   EXPECT_EQ(a.row, b.row);
+  EXPECT_EQ(a.row_break, b.row_break);
   EXPECT_TRUE(a.data == b.data);
   EXPECT_TRUE(a.data_single == b.data_single);
   EXPECT_EQ(a.first_history, b.first_history);
@@ -29,12 +30,14 @@ inline void expect_equal(const SumOrder& a, const SumOrder& b) {
   EXPECT_EQ(a.run_block, b.run_block);
   EXPECT_EQ(a.n_places, b.n_places);
   EXPECT_EQ(a.node, b.node);
-  EXPECT_EQ(a.last_block, b.last_block);
-  EXPECT_EQ(a.run_first, b.run_first);
+  EXPECT_EQ(a.block_first, b.block_first);
   EXPECT_EQ(a.shared_node, b.shared_node);
   EXPECT_EQ(a.place_node, b.place_node);
   EXPECT_EQ(a.n_slots, b.n_slots);
   EXPECT_EQ(a.slot_first, b.slot_first);
+  EXPECT_EQ(a.run_nodes, b.run_nodes);
+  EXPECT_EQ(a.stride_nodes, b.stride_nodes);
+  EXPECT_EQ(a.run_stride, b.run_stride);
 }
 
 inline void expect_equal(const VolumeAverages& a, const VolumeAverages& b) {
@@ -61,6 +64,7 @@ inline void expect_equal(const Model& a, const Model& b) {
   EXPECT_EQ(a.inertia, b.inertia);
   expect_equal(a.clusters, b.clusters);
   EXPECT_EQ(a.fixed, b.fixed);
+  EXPECT_EQ(a.is_by_component, b.is_by_component);
   EXPECT_TRUE(a.position == b.position);
   EXPECT_EQ(a.element_step, b.element_step);
   EXPECT_EQ(a.n_history, b.n_history);

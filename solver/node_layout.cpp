@@ -1,0 +1,122 @@
+#include "solver/node_layout.h"
+
+#include <algorithm>
+#include <array>
+
+#include "solver/block_ranges.h"
+#include "solver/sum_order.h"
+
+namespace trocar {
+
+namespace {
+
+// Of blocks; below it, what has to be added number by number costs more than rows gain.
+constexpr double least_share_of_rows = 0.75;
+
+// Whether n numbers follow each other but for one that the k-th skips.
+bool follow_each_other(const std::int32_t* number, int n, int k) {
+  for (int lane = 1; lane < n; ++lane)
+    if (number[lane] != number[0] + lane + (lane >= k ? 1 : 0)) return false;
+  return true;
+}
+
+// Whether kernels, which add corners in the order of box_row, give each node its elements' forces
+// in the order of the lanes; start: the first lane's target at each corner.
+bool keeps_order(const std::array<std::int32_t, 8>& start, int n_lanes) {
+  for (int k = 0; k < 8; ++k)
+    for (int l = k + 1; l < 8; ++l) {
+      const std::int32_t ahead =
+          start[corner_of_row(box_row, l)] - start[corner_of_row(box_row, k)];
+      if (0 < ahead && ahead <= n_lanes) return false;
+    }
+  return true;
+}
+
+bool are_pairs(const std::array<std::int32_t, 8>& start) {
+  for (int k = 0; k < 8; k += 2)
+    if (start[corner_of_row(box_row, k)] != start[corner_of_row(box_row, k + 1)] + 1) return false;
+  return true;
+}
+
+std::uint8_t row_break_of(const ElementBlocks& blocks, std::int64_t block) {
+  const int n = blocks.lanes;
+  const std::int64_t first = block * corners_of_block(blocks);
+  const std::int32_t* const node = &blocks.corner[first];
+  int k = 1;
+  while (k < n && node[k] == node[0] + k) ++k;
+  std::array<std::int32_t, 8> start{};
+  for (int a = 0; a < 8; ++a) {
+    const std::int64_t at = first + a * n;
+    if (!follow_each_other(&blocks.corner[at], n, k) ||
+        !follow_each_other(&targets(blocks)[at], n, k))
+      return 0;
+    start[a] = targets(blocks)[at];
+  }
+  if (!keeps_order(start, n)) return 0;
+  return static_cast<std::uint8_t>(are_pairs(start) ? k : k | unpaired);
+}
+
+// Finds row_break of all lists; returns whether most blocks stand in rows.
+bool find_row_breaks(Model& model) {
+  std::int64_t n = 0, n_rows = 0;
+  for (ElementBlocks& blocks : model.blocks) {
+    n += blocks.n_blocks;
+    blocks.row_break.assign(static_cast<std::size_t>(blocks.n_blocks), 0);
+    if (shape_of(blocks.formulation) != ElementType::hex8) continue;
+    for (std::int64_t block = 0; block < blocks.n_blocks; ++block)
+      n_rows += (blocks.row_break[block] = row_break_of(blocks, block)) > 0 ? 1 : 0;
+  }
+  return static_cast<double>(n_rows) > least_share_of_rows * static_cast<double>(n);
+}
+
+NodeRange united(const NodeRange& a, const NodeRange& b) {
+  if (a.begin == a.end) return b;
+  return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
+}
+
+NodeRange nodes_of_blocks(const Model& model, std::int64_t begin, std::int64_t end) {
+  NodeRange nodes;
+  for_block_range(model, begin, end,
+                  [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
+                    const std::int64_t n_corners = corners_of_block(blocks);
+                    const auto [low, high] =
+                        std::minmax_element(blocks.corner.begin() + first * n_corners,
+                                            blocks.corner.begin() + (first + n) * n_corners);
+                    nodes = united(nodes, {*low, *high + 1});
+                  });
+  return nodes;
+}
+
+}  // namespace
+
+void lay_out_nodes(Model& model) {
+  SumOrder& sums = model.sums;
+  sums.run_nodes.clear();
+  sums.stride_nodes.clear();
+  sums.run_stride.clear();
+  model.is_by_component = find_row_breaks(model);
+  if (!model.is_by_component) {
+    for (ElementBlocks& blocks : model.blocks) blocks.row_break = std::vector<std::uint8_t>();
+    return;
+  }
+  sums.run_stride.push_back(0);
+  for (std::int32_t run = 0; run < sums.n_inside_runs; ++run) {
+    NodeRange of_run;
+    for (std::int64_t block = sums.run_block[run]; block < sums.run_block[run + 1];
+         block += stride_blocks) {
+      const std::int64_t end = std::min(block + stride_blocks, sums.run_block[run + 1]);
+      sums.stride_nodes.push_back(nodes_of_blocks(model, block, end));
+      of_run = united(of_run, sums.stride_nodes.back());
+    }
+    sums.run_nodes.push_back(of_run);
+    sums.run_stride.push_back(static_cast<std::int32_t>(sums.stride_nodes.size()));
+  }
+}
+
+std::int64_t first_component(const SumOrder& sums, std::size_t run) {
+  std::int64_t n = 0;
+  for (std::size_t before = 0; before < run; ++before) n += 3 * run_stride(sums.run_nodes[before]);
+  return n;
+}
+
+}  // namespace trocar

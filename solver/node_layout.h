@@ -1,0 +1,35 @@
+// Whether nodal fields of the kernels lie node by node or component by component
+// (Model::is_by_component): these are quicker where most blocks of hexahedra stand in rows of a
+// box. Nodes of a row follow each other at every corner, so that whole registers are loaded and
+// added; where a row ends within a block, the next one begins behind its last node, which lanes
+// skip. ElementBlocks::row_break: the first lane of the second row; all lanes, if one row has them;
+// 0: they stand anyhow. With `unpaired` (row_order.h): forces of neighbouring corners are added at
+// places that are no neighbours, as where several threads meet.
+#pragma once
+
+#include "solver/model.h"
+#include "solver/stash.h"
+
+namespace trocar {
+
+// Blocks between two looks at the nodes.
+inline constexpr std::int64_t stride_blocks = 32;
+
+// Decides, of a model whose runs and targets are known.
+void lay_out_nodes(Model& model);
+
+// Of Scratch::sum, BlockTask::sum_stride; 0: node by node.
+inline std::int64_t sum_stride(const Model& model) {
+  return model.is_by_component ? component_stride(model.sums.n_places) : 0;
+}
+inline std::int64_t n_sums(const Model& model) {
+  return model.is_by_component ? 3 * sum_stride(model) : 4 * model.sums.n_places;
+}
+
+inline std::int64_t run_stride(const NodeRange& nodes) {
+  return component_stride(nodes.end - nodes.begin);
+}
+// Numbers of Scratch::u_by_component before those of a run.
+std::int64_t first_component(const SumOrder& sums, std::size_t run);
+
+}  // namespace trocar

@@ -1,0 +1,109 @@
+// Nodal fields component by component: the same bits as node by node.
+#include "solver/node_layout.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "solver_body.h"
+
+using namespace trocar;
+
+namespace {
+
+Mesh jittered_box(int nx, int ny, int nz) {
+  Mesh mesh = make_box(Vec3(0, 0, 0), .01 * Vec3(nx, ny, nz), {nx, ny, nz}, BoxElements::hex8);
+  Noise noise(5);
+  for (Vec3& X : mesh.X) X += .001 * Vec3(noise(), noise(), noise());
+  return mesh;
+}
+
+// A few blocks stand anyhow.
+Mesh with_disorder(Mesh mesh) {
+  for (std::size_t e = 20; e + 90 < mesh.element_type.size(); e += 90)
+    for (std::size_t a = 0; a < 8; ++a)
+      std::swap(mesh.corner_node[8 * e + a], mesh.corner_node[8 * (e + 3) + a]);
+  return mesh;
+}
+
+// Forces in either layout on every instruction set; whether they lie by component at all.
+bool have_same_bits(const Mesh& mesh, const SolverOptions& solver) {
+  Body by_component = make_body(mesh, {.solver = solver});
+  shake(by_component.state.u, 5e-4, 11);
+  Body node_by_node = by_component;
+  put_node_by_node(node_by_node);
+  for (int i = 0; i < n_simd; ++i) {
+    if (!is_supported(static_cast<Simd>(i))) continue;
+    select_simd(name_of(static_cast<Simd>(i)));
+    EXPECT_GT(largest(force(node_by_node)), 0);
+    for (int again = 0; again < 2; ++again)  // sums have to be zero again
+      EXPECT_EQ(force(by_component), force(node_by_node)) << name_of(static_cast<Simd>(i));
+  }
+  select_simd("auto");
+  return by_component.model.is_by_component;
+}
+
+constexpr Formulation hexahedra[] = {Formulation::hex8_one_point, Formulation::hex8_enhanced,
+                                     Formulation::hex8_full};
+
+}  // namespace
+
+// Rows of every length end anywhere in a block; those of 3 end in it more than once.
+TEST(NodeLayout, by_component_gives_the_bits_of_node_by_node) {
+  for (const Precision precision : precisions)
+    for (int nx = 3; nx <= 24; ++nx) {
+      const bool is_by_component = have_same_bits(jittered_box(nx, 5, 4), {.precision = precision});
+      if (nx >= 16 || nx == 3) {
+        EXPECT_EQ(is_by_component, nx >= 16) << nx;
+      }
+    }
+}
+
+TEST(NodeLayout, by_component_gives_the_bits_of_node_by_node_whatever_the_hexahedron) {
+  for (const Formulation formulation : hexahedra)
+    for (const Precision precision : precisions)
+      for (const int nx : {20, 32})
+        EXPECT_TRUE(have_same_bits(with_disorder(jittered_box(nx, 8, 8)),
+                                   with(formulation, {.precision = precision})));
+}
+
+TEST(NodeLayout, by_component_gives_the_bits_of_node_by_node_on_several_threads) {
+  for (const Precision precision : precisions)
+    for (const int n_threads : {2, 3}) {
+      set_thread_count(n_threads);
+      EXPECT_TRUE(have_same_bits(jittered_box(20, 20, 12), {.precision = precision}));
+    }
+  set_thread_count(1);
+}
+
+TEST(NodeLayout, is_by_component_only_where_most_blocks_are_hexahedra_in_rows) {
+  EXPECT_TRUE(make_body(jittered_box(20, 6, 6)).model.is_by_component);
+  EXPECT_FALSE(make_body(make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {20, 6, 6}, BoxElements::tet4_kuhn))
+                   .model.is_by_component);
+  Mesh disordered = jittered_box(20, 6, 6);
+  for (std::size_t e = 0; e + 8 < disordered.element_type.size(); e += 9)
+    for (std::size_t a = 0; a < 8; ++a)
+      std::swap(disordered.corner_node[8 * e + a], disordered.corner_node[8 * (e + 3) + a]);
+  EXPECT_FALSE(make_body(disordered).model.is_by_component);
+}
+
+// Of elements 0 to 7 all stand in the first row of 20, of 16 to 23 four, of 20 to 27 all in the
+// second one.
+TEST(NodeLayout, tells_where_rows_end) {
+  const Body body = make_body(jittered_box(20, 6, 6));
+  const std::vector<std::uint8_t>& row_break = body.model.blocks[0].row_break;
+  EXPECT_EQ(std::vector<int>(row_break.begin(), row_break.begin() + 6),
+            (std::vector<int>{8, 8, 4, 8, 8, 8}));
+}
+
+// Nodes are taken over stride by stride.
+TEST(NodeLayout, knows_the_nodes_of_each_stride) {
+  const Body body = make_body(jittered_box(20, 20, 3));
+  const SumOrder& sums = body.model.sums;
+  ASSERT_EQ(sums.run_nodes.size(), 1U);
+  EXPECT_EQ(sums.run_nodes[0], (NodeRange{0, body.model.n_local}));
+  ASSERT_EQ(sums.stride_nodes.size(), 5U);  // 150 blocks
+  // 256 elements: 12 rows of 20 and 16 of the next one; nodes of the plane above, too.
+  EXPECT_EQ(sums.stride_nodes[0], (NodeRange{0, 441 + 13 * 21 + 17}));
+  EXPECT_EQ(sums.stride_nodes.back().end, body.model.n_local);
+}
