@@ -55,7 +55,7 @@ double moved_bytes(const Body& body) {
   };
   const Model& model = body.model;
   double sum = bytes(model.mass) + bytes(model.inertia) + bytes(model.fixed) +
-               bytes(model.position) + bytes(model.sums.node) + bytes(model.sums.block_first) +
+               bytes(model.position) + bytes(model.sums.node) + bytes(model.sums.stride_first) +
                2 * (bytes(body.state.u) + bytes(body.state.v) + bytes(body.scratch.sum) +
                     bytes(body.scratch.sum_single) + bytes(body.scratch.u_by_component) +
                     bytes(body.scratch.force));

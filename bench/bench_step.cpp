@@ -9,6 +9,7 @@
 
 #include "base/communicator.h"
 #include "bench/machine.h"
+#include "mesh/renumber.h"
 #include "solver_body.h"
 
 using namespace trocar;
@@ -23,8 +24,8 @@ Mesh make_cube(Formulation formulation, int n_elements) {
   const bool is_hex = shape_of(formulation) == ElementType::hex8;
   const int n =
       std::max(1, static_cast<int>(std::lround(std::cbrt(n_elements / (is_hex ? 1 : 6)))));
-  return make_box(Vec3(0, 0, 0), Vec3(.1, .1, .1), {n, n, n},
-                  is_hex ? BoxElements::hex8 : BoxElements::tet4_kuhn);
+  return interleaved(make_box(Vec3(0, 0, 0), Vec3(.1, .1, .1), {n, n, n},
+                              is_hex ? BoxElements::hex8 : BoxElements::tet4_kuhn));
 }
 
 void run_steps(Body& body, Neighbours& neighbours, int n) {

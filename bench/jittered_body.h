@@ -12,7 +12,8 @@
 
 namespace trocar {
 
-// A cube whose nodes are moved by up to a tenth of a cell, so that no element is a parallelepiped.
+// A cube whose nodes are moved by up to a tenth of a cell, so that no element is a parallelepiped;
+// tetrahedra in the order in which a tissue has them.
 inline Mesh jittered_body(Formulation formulation, int n_elements) {
   const ElementType shape = shape_of(formulation);
   const int per_cell = shape == ElementType::tet4 ? 6 : (shape == ElementType::tri3 ? 2 : 1);
@@ -30,7 +31,7 @@ inline Mesh jittered_body(Formulation formulation, int n_elements) {
       seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
       X[j] += .1 / n * (static_cast<double>(seed >> 11) * 0x1p-53 - .5) * .2;
     }
-  return mesh;
+  return interleaved(mesh);
 }
 
 // How nodes and elements are numbered: as in a box; elements some ten places from where they were,
@@ -60,7 +61,7 @@ inline Mesh in_numbering(Numbering numbering, Mesh mesh) {
   const std::vector<Vec3> X = mesh.X;
   for (std::size_t i = 0; i < X.size(); ++i) mesh.X[std::size_t(number[i])] = X[i];
   for (std::int32_t& i : mesh.corner_node) i = number[std::size_t(i)];
-  return numbering == Numbering::any ? mesh : renumbered(mesh);
+  return numbering == Numbering::any ? mesh : interleaved(renumbered(mesh));
 }
 
 }  // namespace trocar

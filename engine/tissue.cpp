@@ -118,7 +118,7 @@ Mesh read_tissue(const LoadedScene& loaded) {
       mesh = generate_tissue(*tissue.shape);
     } else {
       mesh = read_mesh(scene_path(loaded, tissue.mesh), tissue.scale);
-      if (tissue.is_renumbered) mesh = in_near_order(std::move(mesh));
+      if (tissue.is_renumbered) mesh = in_near_order(mesh);
     }
   } catch (const InputError& trouble) {
     loaded.where.fail(tissue.shape ? "tissue.shape" : "tissue.mesh", trouble.what());

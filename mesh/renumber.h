@@ -13,8 +13,14 @@ double mean_node_span(const Mesh& mesh);
 // depends on the mesh alone. Expects a mesh that no cut has made copies in.
 Mesh renumbered(const Mesh& mesh);
 
+// The same mesh with its tetrahedra in an order in which sixteen one behind the other, as a kernel
+// takes them at once, share few nodes: of each 192, every twelfth first. They then seldom wait for
+// each other's sums at the nodes: 6.0 in place of 6.5 ns an element and step of a body in the
+// cache.
+Mesh interleaved(const Mesh& mesh);
+
 // The mesh itself, unless a new order brings an element's nodes closer together by a quarter: boxes
-// in rows (solver/row_order.h) keep their own.
-Mesh in_near_order(Mesh mesh);
+// in rows (solver/row_order.h) keep their own. Interleaved.
+Mesh in_near_order(const Mesh& mesh);
 
 }  // namespace trocar

@@ -19,14 +19,21 @@ struct Deformation {
 };
 
 template <class Pack>
-[[gnu::always_inline]] inline Deformation<Pack> deformation_of(const Tensor<Pack>& H) {
+[[gnu::always_inline]] inline Deformation<Pack> deformation_of(const Tensor<Pack>& H, const Pack& j,
+                                                               const Isochoric<Pack>& iso) {
   Deformation<Pack> d;
   d.H = H;
   d.change = volume_and_area_change(H);
-  d.iso = isochoric(d.change.j);
+  d.change.j = j;
+  d.iso = iso;
   d.twice_E = twice_green_strain(H);
   d.I1bar_3 = 3.0 * d.iso.q + (1.0 + d.iso.q) * trace(d.twice_E);
   return d;
+}
+template <class Pack>
+[[gnu::always_inline]] inline Deformation<Pack> deformation_of(const Tensor<Pack>& H) {
+  const Pack j = volume_change(H, cofactor(H));
+  return deformation_of(H, j, isochoric(j));
 }
 
 // P = cof F [ shear inverse dev A + pressure I ] = F^-T [ shear dev A + J pressure I ], above the
@@ -79,7 +86,11 @@ struct Decoupled {
   template <class Pack>
   [[gnu::always_inline]] static Tensor<Pack> stress(const Tensor<Pack>& H,
                                                     const BlockValues<Pack>& value) {
-    const Deformation<Pack> d = deformation_of(H);
+    return stress(deformation_of(H), value);
+  }
+  template <class Pack>
+  [[gnu::always_inline]] static Tensor<Pack> stress(const Deformation<Pack>& d,
+                                                    const BlockValues<Pack>& value) {
     return Material::stress_at(d, Pack(value(value_K_V) * d.change.j), value);
   }
 

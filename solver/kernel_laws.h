@@ -29,10 +29,14 @@ struct LawLoops {
   static constexpr int lanes = block_lanes<Pack>;
 
   static void stress(const BlockTask& task) {
-    for_groups<Pack>(
-        task, [&](const Group<Pack>& group, std::int64_t, int) __attribute__((always_inline)) {
-          put_stress(task, group, law_of_kind<kind>(Law<Material, Pack>{group.value}, task, group));
-        });
+    if constexpr (Material::is_decoupled && kind != LawKind::plane_stress)
+      put_decoupled_stress(task);
+    else
+      for_groups<Pack>(
+          task, [&](const Group<Pack>& group, std::int64_t, int) __attribute__((always_inline)) {
+            put_stress(task, group,
+                       law_of_kind<kind>(Law<Material, Pack>{group.value}, task, group));
+          });
   }
 
   static void viscous_stress(const BlockTask& task, const ViscousStep& step, double* history) {
@@ -76,6 +80,29 @@ struct LawLoops {
   }
 
  private:
+  // The powers of J are one long chain of operations: those of several groups go side by side.
+  static void put_decoupled_stress(const BlockTask& task) {
+    constexpr int most = 8;
+    const std::int64_t n_groups = task.n_blocks * groups_of_block<Pack>;
+    Pack j[most];
+    Isochoric<Pack> iso[most];
+    for (std::int64_t point = 0; point < task.n_points; ++point)
+      for (std::int64_t first = 0; first < n_groups; first += most) {
+        const int n = static_cast<int>(n_groups - first < most ? n_groups - first : most);
+        for (int k = 0; k < n; ++k) {
+          const Tensor<Pack> H = group_of<Pack>(task, first + k).stash.get_tensor(point);
+          j[k] = volume_change(H, cofactor(H));
+        }
+        for (int k = 0; k < n; ++k) iso[k] = isochoric(j[k]);
+        for (int k = 0; k < n; ++k) {
+          const Group<Pack> group = group_of<Pack>(task, first + k);
+          const Deformation<Pack> d = deformation_of(group.stash.get_tensor(point), j[k], iso[k]);
+          const auto law = law_of_kind<kind>(Law<Material, Pack>{group.value}, task, group);
+          group.stash.put_tensor(point, law.stress(d));
+        }
+      }
+  }
+
   // Whether any lane's stiffening is above the limit, for all that is known without computing it.
   [[gnu::always_inline]] static bool may_exceed(const Tensor<Pack>& H,
                                                 const BlockValues<Pack>& value, const Pack& limit) {

@@ -18,6 +18,9 @@ struct LawAveragedPressure {
     const Pack j = volume_change(H, cofactor(H));
     return law.stress_at_pressure(H, Pack(law.value(value_K_V) * mixed(j)));
   }
+  [[gnu::always_inline]] Tensor<Pack> stress(const Deformation<Pack>& d) const {
+    return law.stress_at_pressure(d, Pack(law.value(value_K_V) * mixed(d.change.j)));
+  }
 
   // Without the energy at nodes.
   [[gnu::always_inline]] Pack energy(const Tensor<Pack>& H) const {

@@ -18,10 +18,13 @@ struct Law {
   [[gnu::always_inline]] Tensor<Pack> stress(const Tensor<Pack>& H) const {
     return Material::stress(H, value);
   }
-  // At a pressure (times the volume) that others determine, if Material::is_decoupled.
-  [[gnu::always_inline]] Tensor<Pack> stress_at_pressure(const Tensor<Pack>& H,
+  // And at a pressure (times the volume) that others determine, if Material::is_decoupled.
+  [[gnu::always_inline]] Tensor<Pack> stress(const Deformation<Pack>& d) const {
+    return Material::stress(d, value);
+  }
+  [[gnu::always_inline]] Tensor<Pack> stress_at_pressure(const Deformation<Pack>& d,
                                                          const Pack& pressure) const {
-    return Material::stress_at(deformation_of(H), pressure, value);
+    return Material::stress_at(d, pressure, value);
   }
   // Strain energy times the element's volume. [J]
   [[gnu::noinline]] Pack energy(const Tensor<Pack>& H) const { return Material::energy(H, value); }

@@ -89,16 +89,20 @@ struct NodeRange {
   bool operator==(const NodeRange&) const = default;
 };
 
+// Blocks that a run takes between two looks at the nodes: a stride.
+inline constexpr std::int64_t stride_blocks = 32;
+
 struct SumOrder {
-  std::int32_t n_runs = 0;              // those of blocks that read no halo nodes first
-  std::int32_t n_inside_runs = 0;       // that many
-  std::vector<std::int64_t> run_block;  // (n_runs + 1) first block of each run
-  std::int64_t n_places = 0;            // of Scratch::sum, nodes first
-  // Owned nodes that one run alone meets, ascending by the last block that touches them: they are
-  // finished while they are in the cache.
+  std::int32_t n_runs = 0;               // those of blocks that read no halo nodes first
+  std::int32_t n_inside_runs = 0;        // that many
+  std::vector<std::int64_t> run_block;   // (n_runs + 1) first block of each run
+  std::vector<std::int32_t> run_stride;  // (n_runs + 1) first stride of each run
+  std::int64_t n_places = 0;             // of Scratch::sum, nodes first
+  // Owned nodes that one run alone meets, ascending by the last stride that touches them, then by
+  // number: they are finished while they are in the cache.
   std::vector<std::int32_t> node;
-  std::vector<std::int32_t> block_first;  // (n_blocks of all lists + 1) into node
-  std::vector<std::int32_t> shared_node;  // owned nodes that several runs meet
+  std::vector<std::int32_t> stride_first;  // (n_strides + 1) into node
+  std::vector<std::int32_t> shared_node;   // owned nodes that several runs meet
   // (n_places - n_local) nodes of the places behind the nodes, in slots that are added up one after
   // the other: n_slots of owned nodes, then those of halo nodes, ascending in each. Nodes that
   // follow each other so have places that do, for the rows of row_order.h.
@@ -106,9 +110,8 @@ struct SumOrder {
   std::int32_t n_slots = 0;
   std::vector<std::int32_t> slot_first;  // into place_node, and its end
   // Where sums lie component by component, what the elements of runs inside read: of each run, and
-  // of each stride of it (sum_order.h), run after run.
+  // of each of its strides.
   std::vector<NodeRange> run_nodes, stride_nodes;
-  std::vector<std::int32_t> run_stride;  // (n_inside_runs + 1) into stride_nodes
 };
 
 // Nodes of elements whose mass is scaled, in groups that hang together (mass_scaling.h). Each group

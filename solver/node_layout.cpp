@@ -93,13 +93,11 @@ void lay_out_nodes(Model& model) {
   SumOrder& sums = model.sums;
   sums.run_nodes.clear();
   sums.stride_nodes.clear();
-  sums.run_stride.clear();
   model.is_by_component = find_row_breaks(model);
   if (!model.is_by_component) {
     for (ElementBlocks& blocks : model.blocks) blocks.row_break = std::vector<std::uint8_t>();
     return;
   }
-  sums.run_stride.push_back(0);
   for (std::int32_t run = 0; run < sums.n_inside_runs; ++run) {
     NodeRange of_run;
     for (std::int64_t block = sums.run_block[run]; block < sums.run_block[run + 1];
@@ -109,7 +107,6 @@ void lay_out_nodes(Model& model) {
       of_run = united(of_run, sums.stride_nodes.back());
     }
     sums.run_nodes.push_back(of_run);
-    sums.run_stride.push_back(static_cast<std::int32_t>(sums.stride_nodes.size()));
   }
 }
 

@@ -12,9 +12,6 @@
 
 namespace trocar {
 
-// Blocks between two looks at the nodes.
-inline constexpr std::int64_t stride_blocks = 32;
-
 // Decides, of a model whose runs and targets are known.
 void lay_out_nodes(Model& model);
 

@@ -67,10 +67,10 @@ class RunComponents {
     at_ = scratch.u_by_component.data() + first_component(model.sums, k);
   }
 
-  // What the run's stride-th stride reads.
+  // What the stride reads.
   void take(const State& state, std::int64_t stride) {
     if (at_ == nullptr) return;
-    const NodeRange asked = model_.sums.stride_nodes[model_.sums.run_stride[run_] + stride];
+    const NodeRange asked = model_.sums.stride_nodes[stride];
     if (taken_.begin == taken_.end) taken_ = {asked.begin, asked.begin};
     take(state, {asked.begin, taken_.begin});
     take(state, {taken_.end, asked.end});
@@ -101,20 +101,21 @@ void compute_run(const Model& model, std::int64_t run, State& state, Scratch& sc
   ThreadWatch watch{.all = all, .least = all != nullptr ? all->first() : LeastOfElements{}};
   const SumOrder& sums = model.sums;
   RunComponents components(model, run, scratch);
-  const std::int64_t end = sums.run_block[run + 1];
-  for (std::int64_t block = sums.run_block[run]; block < end; block += stride_blocks) {
-    const std::int64_t next = std::min(end, block + stride_blocks);
-    for_awake_blocks(scratch, block, next, [&](std::int64_t begin, std::int64_t awake_end) {
-      components.take(state, (block - sums.run_block[run]) / stride_blocks);
-      for_block_range(model, begin, awake_end,
+  std::int64_t block = sums.run_block[run];
+  for (std::int32_t stride = sums.run_stride[run]; stride < sums.run_stride[run + 1]; ++stride) {
+    const std::int64_t next = std::min(block + stride_blocks, sums.run_block[run + 1]);
+    for_awake_blocks(scratch, block, next, [&](std::int64_t begin, std::int64_t end) {
+      components.take(state, stride);
+      for_block_range(model, begin, end,
                       [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
                         add_list(model, blocks, first, n, components.all(), state, scratch, watch);
                       });
     });
-    finish_nodes(
-        model,
-        {sums.node.begin() + sums.block_first[block], sums.node.begin() + sums.block_first[next]},
-        scratch);
+    finish_nodes(model,
+                 {sums.node.begin() + sums.stride_first[stride],
+                  sums.node.begin() + sums.stride_first[stride + 1]},
+                 scratch);
+    block = next;
   }
   if (all != nullptr) all->take(watch.least);
 }
@@ -215,13 +216,13 @@ void find_viscous_force(const Model& model, State& state, Scratch& scratch) {
 
 std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
   const auto bytes = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
-  std::size_t sum = bytes(model.mass) + bytes(model.inertia) + bytes(model.fixed) +
-                    bytes(model.position) + bytes(model.sums.node) + bytes(model.sums.block_first) +
-                    bytes(model.sums.shared_node) + bytes(model.sums.place_node) +
-                    bytes(model.element_step) + bytes(model.averages.offset) +
-                    bytes(model.averages.lane) + bytes(model.averages.stiffness) +
-                    bytes(scratch.volume_change) + bytes(scratch.sum) + bytes(scratch.sum_single) +
-                    bytes(scratch.u_by_component) + bytes(scratch.force);
+  std::size_t sum =
+      bytes(model.mass) + bytes(model.inertia) + bytes(model.fixed) + bytes(model.position) +
+      bytes(model.sums.node) + bytes(model.sums.stride_first) + bytes(model.sums.shared_node) +
+      bytes(model.sums.place_node) + bytes(model.element_step) + bytes(model.averages.offset) +
+      bytes(model.averages.lane) + bytes(model.averages.stiffness) + bytes(scratch.volume_change) +
+      bytes(scratch.sum) + bytes(scratch.sum_single) + bytes(scratch.u_by_component) +
+      bytes(scratch.force);
   for (const ElementBlocks& blocks : model.blocks)
     sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.target) +
            bytes(blocks.row) + bytes(blocks.row_break) + bytes(blocks.data) +

@@ -19,43 +19,51 @@ namespace trocar {
 
 namespace {
 
+// Of the only run.
+std::int32_t stride_of(std::int64_t block) {
+  return static_cast<std::int32_t>(block / stride_blocks);
+}
+
 struct NodeUse {
-  std::vector<std::int32_t> run, last_block;  // (n_local)
+  std::vector<std::int32_t> run, last_stride;  // (n_local)
 };
 
 // Blocks are counted through all lists.
 NodeUse use_of_nodes(const Model& model) {
   const auto n = static_cast<std::size_t>(model.n_local);
   NodeUse use{std::vector<std::int32_t>(n, no_run), std::vector<std::int32_t>(n)};
+  const SumOrder& sums = model.sums;
   std::int32_t block = 0, run = 0;
   for (const ElementBlocks& blocks : model.blocks) {
     const std::int64_t n_corners = corners_of_block(blocks);
     for (std::int64_t first = 0; first < std::ssize(blocks.corner); first += n_corners, ++block) {
-      while (block >= model.sums.run_block[run + 1]) ++run;
+      while (block >= sums.run_block[run + 1]) ++run;
+      const auto stride = static_cast<std::int32_t>(sums.run_stride[run] +
+                                                    (block - sums.run_block[run]) / stride_blocks);
       for (std::int64_t k = first; k < first + n_corners; ++k) {
         const std::int32_t i = blocks.corner[k];
         use.run[i] = use.run[i] == no_run || use.run[i] == run ? run : several_runs;
-        use.last_block[i] = block;
+        use.last_stride[i] = stride;
       }
     }
   }
   return use;
 }
 
-// Own nodes by a counting sort over their last blocks, which ascend from run to run.
+// Own nodes by a counting sort over their last strides.
 void order_own_nodes(const NodeUse& use, Model& model) {
   SumOrder& sums = model.sums;
-  const std::int64_t n_blocks = sums.run_block.back();
-  sums.block_first.assign(static_cast<std::size_t>(n_blocks) + 1, 0);
+  const std::int32_t n_strides = sums.run_stride.back();
+  sums.stride_first.assign(static_cast<std::size_t>(n_strides) + 1, 0);
   const auto is_own = [&](std::int32_t i) { return use.run[i] >= 0; };
   for (std::int32_t i = 0; i < model.n_owned; ++i)
-    if (is_own(i)) ++sums.block_first[use.last_block[i] + 1];
-  for (std::int64_t block = 0; block < n_blocks; ++block)
-    sums.block_first[block + 1] += sums.block_first[block];
-  std::vector<std::int32_t> next = sums.block_first;
+    if (is_own(i)) ++sums.stride_first[use.last_stride[i] + 1];
+  for (std::int32_t stride = 0; stride < n_strides; ++stride)
+    sums.stride_first[stride + 1] += sums.stride_first[stride];
+  std::vector<std::int32_t> next = sums.stride_first;
   sums.node.resize(static_cast<std::size_t>(next.back()));
   for (std::int32_t i = 0; i < model.n_owned; ++i)
-    if (is_own(i)) sums.node[next[use.last_block[i]]++] = i;
+    if (is_own(i)) sums.node[next[use.last_stride[i]]++] = i;
 }
 
 bool has_node(const std::int32_t* corner, int n_corners, int lanes, std::int32_t node) {
@@ -117,10 +125,10 @@ void finish(const NodeForces<float>& task, std::span<const std::int32_t> node) {
   active_kernels().nodes.force_of_singles(task, node.data(), std::ssize(node));
 }
 
-// Of each of the nodes, counted through all lists; `first` of each list.
-std::vector<std::int32_t> last_blocks(std::span<const std::int32_t> nodes,
-                                      std::span<const BlockPlace> places,
-                                      std::span<const std::int32_t> first, const Model& model) {
+// Strides of the one run: of each of the nodes, the last one; first: blocks before each list.
+std::vector<std::int32_t> last_strides(std::span<const std::int32_t> nodes,
+                                       std::span<const BlockPlace> places,
+                                       std::span<const std::int32_t> first, const Model& model) {
   std::vector<std::int32_t> last(nodes.size(), -1);
   for (const BlockPlace& place : places) {
     const ElementBlocks& blocks = model.blocks[place.list];
@@ -128,33 +136,33 @@ std::vector<std::int32_t> last_blocks(std::span<const std::int32_t> nodes,
     for (std::int64_t k = place.block * n; k < (place.block + 1) * n; ++k) {
       const auto node = std::lower_bound(nodes.begin(), nodes.end(), blocks.corner[k]);
       if (node == nodes.end() || *node != blocks.corner[k]) continue;
-      std::int32_t& block = last[static_cast<std::size_t>(node - nodes.begin())];
-      block = std::max(block, first[place.list] + place.block);
+      std::int32_t& stride = last[static_cast<std::size_t>(node - nodes.begin())];
+      stride = std::max(stride, stride_of(first[place.list] + place.block));
     }
   }
   return last;
 }
 
-// Own nodes of the one run, after those of `nodes` changed from one of the `blocks` to another: the
-// rest keeps its order. blocks: ascending, counted through all lists.
-void edit_own_nodes(std::span<const std::int32_t> nodes, std::span<const std::int32_t> last_block,
-                    std::span<const std::int32_t> blocks, SumOrder& sums) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> changed;  // last block, node
-  for (std::size_t k = 0; k < nodes.size(); ++k) changed.emplace_back(last_block[k], nodes[k]);
+// Own nodes of the one run, after those of `nodes` changed from one of the `strides` to another:
+// the rest keeps its order. strides: ascending.
+void edit_own_nodes(std::span<const std::int32_t> nodes, std::span<const std::int32_t> last_stride,
+                    std::span<const std::int32_t> strides, SumOrder& sums) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> changed;  // last stride, node
+  for (std::size_t k = 0; k < nodes.size(); ++k) changed.emplace_back(last_stride[k], nodes[k]);
   std::sort(changed.begin(), changed.end());
-  const std::vector<std::int32_t> before = std::move(sums.node), first = sums.block_first;
+  const std::vector<std::int32_t> before = std::move(sums.node), first = sums.stride_first;
   std::vector<std::int32_t>& node = sums.node;
   node.clear();
   node.reserve(before.size() + nodes.size());
   auto next = changed.begin();
   std::int32_t done = 0, moved = 0;
-  std::size_t block = 0;  // the next whose first node is to be found
+  std::size_t stride = 0;  // the next whose first node is to be found
   const auto go_to = [&](std::size_t end) {
     node.insert(node.end(), before.begin() + done, before.begin() + first[end]);
     done = first[end];
-    for (; block <= end; ++block) sums.block_first[block] = first[block] + moved;
+    for (; stride <= end; ++stride) sums.stride_first[stride] = first[stride] + moved;
   };
-  for (const std::int32_t edited : blocks) {
+  for (const std::int32_t edited : strides) {
     go_to(static_cast<std::size_t>(edited));
     std::vector<std::int32_t> own;
     std::copy_if(
@@ -195,6 +203,15 @@ void add_runs(std::int64_t n_blocks, SumOrder& sums) {
   sums.n_runs += static_cast<std::int32_t>(n_runs);
 }
 
+void find_strides(SumOrder& sums) {
+  sums.run_stride = {0};
+  for (std::int32_t run = 0; run < sums.n_runs; ++run) {
+    const std::int64_t n = sums.run_block[run + 1] - sums.run_block[run];
+    sums.run_stride.push_back(sums.run_stride.back() +
+                              static_cast<std::int32_t>((n + stride_blocks - 1) / stride_blocks));
+  }
+}
+
 }  // namespace
 
 std::vector<std::size_t> lists_in_order(const std::vector<ElementBlocks>& lists) {
@@ -217,6 +234,7 @@ void order_sums(Model& model) {
   add_runs(n_inside, sums);
   sums.n_inside_runs = sums.n_runs;
   add_runs(count_blocks(model) - n_inside, sums);
+  find_strides(sums);
   const NodeUse use = use_of_nodes(model);
   order_own_nodes(use, model);
   place_shared_corners(use.run, model);
@@ -241,11 +259,12 @@ void edit_sums(std::span<const std::int32_t> nodes, std::span<const BlockPlace> 
   for (ElementBlocks& list : model.blocks) list.target.clear();
   const bool is_one_run = model.sums.n_runs == 1 && model.sums.n_inside_runs == 1;
   if (is_one_run && chunk_count(count_blocks(model)) == 1) {
-    std::vector<std::int32_t> first{0}, numbers;
+    std::vector<std::int32_t> first{0}, strides;
     for (const ElementBlocks& list : model.blocks) first.push_back(first.back() + list.n_blocks);
-    for (const BlockPlace& place : blocks) numbers.push_back(first[place.list] + place.block);
-    sort_unique(numbers);
-    edit_own_nodes(nodes, last_blocks(nodes, blocks, first, model), numbers, model.sums);
+    for (const BlockPlace& place : blocks)
+      strides.push_back(stride_of(first[place.list] + place.block));
+    sort_unique(strides);
+    edit_own_nodes(nodes, last_strides(nodes, blocks, first, model), strides, model.sums);
     model.sums.n_places = model.n_local;
     edit_rows(blocks, model);
     lay_out_nodes(model);

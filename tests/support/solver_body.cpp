@@ -39,7 +39,6 @@ void put_node_by_node(Body& body) {
   model.is_by_component = false;
   model.sums.run_nodes.clear();
   model.sums.stride_nodes.clear();
-  model.sums.run_stride.clear();
   for (ElementBlocks& blocks : model.blocks) blocks.row_break.clear();
   const AlignedVector<float> by_component = model.position;
   if (!by_component.empty()) model.position.assign(4 * static_cast<std::size_t>(model.n_local), 0);

@@ -30,7 +30,7 @@ inline void expect_equal(const SumOrder& a, const SumOrder& b) {
   EXPECT_EQ(a.run_block, b.run_block);
   EXPECT_EQ(a.n_places, b.n_places);
   EXPECT_EQ(a.node, b.node);
-  EXPECT_EQ(a.block_first, b.block_first);
+  EXPECT_EQ(a.stride_first, b.stride_first);
   EXPECT_EQ(a.shared_node, b.shared_node);
   EXPECT_EQ(a.place_node, b.place_node);
   EXPECT_EQ(a.n_slots, b.n_slots);
