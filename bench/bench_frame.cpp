@@ -38,8 +38,7 @@ double seconds_of(const Body& body) {
 
 void run_steps(Simulation& s, std::int64_t n, double dt) {
   for (std::int64_t k = 0; k < n; ++k) {
-    find_force(s.model, s.neighbours, s.state, s.scratch);
-    integrate(s.model, s.scratch, {}, dt, s.state);
+    step_freely(s.model, s.neighbours, dt, s.state, s.scratch);
     start_exchange(s.neighbours, s.state);
   }
   finish_exchange(s.neighbours, s.state);

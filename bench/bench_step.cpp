@@ -31,8 +31,7 @@ Mesh make_cube(Formulation formulation, int n_elements) {
 void run_steps(Body& body, Neighbours& neighbours, int n) {
   for (int k = 0; k < n; ++k) {
     start_exchange(neighbours, body.state);
-    find_force(body.model, neighbours, body.state, body.scratch);
-    integrate(body.model, body.scratch, {}, 1e-9, body.state);
+    step_freely(body.model, neighbours, 1e-9, body.state, body.scratch);
   }
 }
 

@@ -97,7 +97,20 @@ void update_force(Simulation& s, double time, double dt) {
   refine_forces(s, dt);
 }
 
+// Whether nothing but its elements and supports at rest acts on the tissue in a substep.
+bool is_free(const Simulation& s) {
+  return !s.scratch.has_force && !s.energy && !s.multirate && s.loads.is_empty() &&
+         s.holds.prescribed.empty() && s.drag.node.empty() && s.model.clusters.node.empty() &&
+         (!s.contact || s.contact->set.node.empty());
+}
+
 void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
+  if (is_free(s)) {
+    const ForceScope scope(s);
+    step_freely(s.model, s.neighbours, span.dt, s.state, s.scratch);
+    start_exchange(s.neighbours, s.state);
+    return;
+  }
   update_force(s, span.t0 + static_cast<double>(k) * span.dt, span.dt);
   aim_holds(s.holds, s.tools, s.mesh.X, span.t0 + static_cast<double>(k + 1) * span.dt);
   if (s.contact) {

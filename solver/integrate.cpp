@@ -95,14 +95,8 @@ void add_works(const NodeKernels& kernels, double dt_m, const State& state, std:
 void integrate_nodes(const Model& model, const Coefficients& c, double dt, Scratch& scratch,
                      State& state) {
   constexpr std::int64_t at_once = 512;  // nodes, where works are kept
-  const NodeMotion task{.keep = c.keep,
-                        .gain = c.gain,
-                        .dt = dt,
-                        .inertia = inertia_of(model).data(),
-                        .fixed = model.fixed.data(),
-                        .force = scratch.force.data(),
-                        .v = state.v.data(),
-                        .u = state.u.data()};
+  NodeMotion task = free_motion(model, dt, state);
+  task.force = scratch.force.data();
   parallel_for_nodes(model.n_owned, [&](std::int64_t begin, std::int64_t end) {
     const NodeKernels& kernels = active_kernels().nodes;
     if (!scratch.keeps_works) return kernels.motion(task, begin, end);
@@ -168,6 +162,23 @@ void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> p
   for (const PrescribedNode& node : prescribed)
     for (int j = 0; j < 3; ++j)
       if (!is_fixed(model, node.node, j)) state.u[3 * std::int64_t{node.node} + j] = node.u_next[j];
+  end_step(dt, state, scratch);
+}
+
+NodeMotion free_motion(const Model& model, double dt, State& state) {
+  CHECK_OP(dt, >, 0);
+  const Coefficients c = coefficients(model.options.mass_damping, state.last_dt, dt);
+  return {.keep = c.keep,
+          .gain = c.gain,
+          .dt = dt,
+          .inertia = inertia_of(model).data(),
+          .fixed = model.fixed.data(),
+          .force = nullptr,
+          .v = state.v.data(),
+          .u = state.u.data()};
+}
+
+void end_step(double dt, State& state, Scratch& scratch) {
   scratch.has_force = false;
   state.time += dt;
   state.last_dt = dt;

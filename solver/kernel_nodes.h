@@ -13,31 +13,36 @@ namespace trocar {
 
 template <class Pack>
 struct NodeLoops {
-  static constexpr int width = pack_width<Pack>;
+  static constexpr int width = pack_width<Pack>, eight = 8;
 
   // What is constant is copied: memory could change with every store.
   template <class Real>
   static void force(const NodeForces<Real>& given, const std::int32_t* node, std::int64_t n) {
     const NodeForces<Real> task = given;
     const Pack gravity[3] = {gravity_of<0>(task), gravity_of<1>(task), gravity_of<2>(task)};
-    std::int64_t k = 0;
-    while (k < n) {
-      const std::int64_t i = node[k];
-      if constexpr (width == 8)
-        if (k + width <= n && follow_each_other(node + k)) {
-          if (task.sum_stride > 0)
-            force_of_components(task, i);
+    for_pieces(
+        node, n, [&](std::int64_t i, auto is_eight) __attribute__((always_inline)) {
+          find_force(task, gravity, i, is_eight, task.force + 3 * i);
+        });
+  }
+
+  template <class Real>
+  static void step(const NodeForces<Real>& given, const NodeMotion& given_motion,
+                   const std::int32_t* node, std::int64_t n) {
+    const NodeForces<Real> task = given;
+    const NodeMotion motion = given_motion;
+    const Pack gravity[3] = {gravity_of<0>(task), gravity_of<1>(task), gravity_of<2>(task)};
+    for_pieces(
+        node, n, [&](std::int64_t i, auto is_eight) __attribute__((always_inline)) {
+          alignas(64) double force[3 * eight];
+          find_force(task, gravity, i, is_eight, force);
+          Nodes nodes = from(motion, i);
+          nodes.force = force;
+          if constexpr (is_eight)
+            for (int l = 0; l < eight; l += width) move(motion, behind(nodes, l));
           else
-            force_of_eight(gravity, task.mass + i, task.sum + 4 * i, task.force + 3 * i);
-          k += width;
-          continue;
-        }
-      if (task.sum_stride > 0)
-        force_of_component_sums(task, i);
-      else
-        force_of_node(task, task.mass[i], task.sum + 4 * i, task.force + 3 * i);
-      ++k;
-    }
+            move_one(motion, nodes);
+        });
   }
 
   template <class Real>
@@ -74,7 +79,7 @@ struct NodeLoops {
     const NodeMotion task = given;
     std::int64_t i = begin;
     for (; i + width <= end; i += width) move(task, from(task, i));
-    if (i < end) move_last(task, i, static_cast<int>(end - i));
+    for (; i < end; ++i) move_one(task, from(task, i));
   }
 
   static void works(const NodeWorks& given, std::int64_t n) {
@@ -93,17 +98,65 @@ struct NodeLoops {
   };
 
   static Nodes from(const NodeMotion& task, std::int64_t i) {
-    return {task.inertia + i, task.fixed + i, task.force + 3 * i, task.v + 3 * i, task.u + 3 * i};
+    return behind({task.inertia, task.fixed, task.force, task.v, task.u}, i);
+  }
+  static Nodes behind(const Nodes& nodes, std::int64_t i) {
+    return {nodes.inertia + i, nodes.fixed + i, nodes.force + 3 * i, nodes.v + 3 * i,
+            nodes.u + 3 * i};
   }
 
-  // m g - s, rounded once where the instruction set can. A compiler that is left to it may round
-  // one of the two loops twice, as it does when sanitizers look on.
+  // Calls body(first node, whether eight follow each other from there or it is alone), of ascending
+  // nodes.
+  template <class Body>
+  [[gnu::always_inline]] static void for_pieces(const std::int32_t* node, std::int64_t n,
+                                                const Body& body) {
+    for (std::int64_t k = 0; k < n;)
+      if (k + eight <= n && node[k + eight - 1] - node[k] == eight - 1) {
+        body(node[k], std::true_type{});
+        k += eight;
+      } else {
+        body(node[k++], std::false_type{});
+      }
+  }
+
+  // Of the i-th node, or of eight.
+  template <class Real, bool is_eight>
+  [[gnu::always_inline]] static void find_force(const NodeForces<Real>& task,
+                                                const Pack (&gravity)[3], std::int64_t i,
+                                                std::bool_constant<is_eight>, double* force) {
+    if constexpr (is_eight && width == eight) {
+      if (task.sum_stride > 0)
+        force_of_components(task, i, force);
+      else
+        force_of_eight(gravity, task.mass + i, task.sum + 4 * i, force);
+    } else {
+      for (int l = 0; l < (is_eight ? eight : 1); ++l)
+        if (task.sum_stride > 0)
+          force_of_component_sums(task, i + l, force + 3 * l);
+        else
+          force_of_node(task, task.mass[i + l], task.sum + 4 * (i + l), force + 3 * l);
+    }
+  }
+
+  // m g - s and a b + c, rounded once where the instruction set can. A compiler that is left to it
+  // may round one of two loops twice, as it does when sanitizers look on.
   template <class P>
   [[gnu::always_inline]] static P weight_less_sum(const P& m, const P& g, const P& s) {
     if constexpr (pack_width<P> == 8)
       return _mm512_fmsub_pd(m, g, s);
     else
       return _mm256_fmsub_pd(m, g, s);
+  }
+  template <class P>
+  [[gnu::always_inline]] static P product_plus(const P& a, const P& b, const P& c) {
+    if constexpr (width < 4)
+      return a * b + c;
+    else if constexpr (std::is_same_v<P, double>)
+      return __builtin_fma(a, b, c);
+    else if constexpr (width == 8)
+      return _mm512_fmadd_pd(a, b, c);
+    else
+      return _mm256_fmadd_pd(a, b, c);
   }
 
   template <class Real>
@@ -126,17 +179,17 @@ struct NodeLoops {
   // Component by component, rounded alike.
   template <class Real>
   [[gnu::always_inline]] static void force_of_component_sums(const NodeForces<Real>& task,
-                                                             std::int64_t i) {
+                                                             std::int64_t i, double* force) {
     Real lane[4] = {};
     for (int j = 0; j < 3; ++j) lane[j] = task.sum[j * task.sum_stride + i];
-    force_of_node(task, task.mass[i], lane, task.force + 3 * i);
+    force_of_node(task, task.mass[i], lane, force);
     for (int j = 0; j < 3; ++j) task.sum[j * task.sum_stride + i] = 0;
   }
 
   // Of nodes that follow each other, to where they lie node by node.
   template <class Real>
   [[gnu::always_inline]] static void force_of_components(const NodeForces<Real>& task,
-                                                         std::int64_t i) {
+                                                         std::int64_t i, double* force) {
     const Pack mass = load<Pack>(task.mass + i);
     Pack f[3];
     for (int j = 0; j < 3; ++j) {
@@ -154,10 +207,9 @@ struct NodeLoops {
       const Pack of_01 = __builtin_shufflevector(of_0, of_1, 0, 9, 2, 3, 12, 5, 6, 15);
       return __builtin_shufflevector(of_01, of_2, 0, 1, 10, 3, 4, 13, 6, 7);
     };
-    double* const to = task.force + 3 * i;
-    store(to, blend(x, y, z));
-    store(to + width, blend(z, x, y));
-    store(to + 2 * width, blend(y, z, x));
+    store(force, blend(x, y, z));
+    store(force + width, blend(z, x, y));
+    store(force + 2 * width, blend(y, z, x));
   }
 
   template <class Real>
@@ -168,13 +220,6 @@ struct NodeLoops {
         sum[node[k]] += sum[place + k];
         sum[place + k] = 0;
       }
-  }
-
-  static bool follow_each_other(const std::int32_t* node) {
-    const __m256i number = _mm256_loadu_si256(reinterpret_cast<const __m256i_u*>(node));
-    const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-    const __m256i expected = _mm256_add_epi32(_mm256_set1_epi32(node[0]), lane);
-    return _mm256_movemask_epi8(_mm256_cmpeq_epi32(number, expected)) == -1;
   }
 
   // Of the components in the r-th register of three.
@@ -226,7 +271,8 @@ struct NodeLoops {
   [[gnu::always_inline]] static Pack next_velocity(const NodeMotion& task, const Nodes& nodes,
                                                    const Pack& gain) {
     const Pack g = of_components<r>(gain, std::make_index_sequence<width>{});
-    return task.keep * load<Pack>(nodes.v + r * width) + g * load<Pack>(nodes.force + r * width);
+    return product_plus(Pack{} + task.keep, load<Pack>(nodes.v + r * width),
+                        Pack(g * load<Pack>(nodes.force + r * width)));
   }
 
   [[gnu::always_inline]] static void hold(const Nodes& nodes) {
@@ -257,28 +303,25 @@ struct NodeLoops {
       hold(nodes);
       for (int r = 0; r < 3; ++r) v[r] = load<Pack>(nodes.v + r * width);
     }
-    for (int r = 0; r < 3; ++r) store(nodes.u + r * width, Pack(u[r] + task.dt * v[r]));
+    for (int r = 0; r < 3; ++r)
+      store(nodes.u + r * width, product_plus(Pack{} + task.dt, v[r], u[r]));
+  }
+
+  // One node, rounded alike.
+  [[gnu::always_inline]] static void move_one(const NodeMotion& task, const Nodes& nodes) {
+    const double gain = task.gain / *nodes.inertia;
+    for (int j = 0; j < 3; ++j) {
+      const bool is_fixed = (*nodes.fixed >> j & 1) != 0;
+      const double v = product_plus(task.keep, nodes.v[j], gain * nodes.force[j]);
+      nodes.v[j] = is_fixed ? 0 : v;
+      nodes.u[j] = product_plus(task.dt, nodes.v[j], nodes.u[j]);
+    }
   }
 
   // std::copy would be a function that other instruction sets have, too.
   template <class T>
   static void copy(const T* from, int n, T* to) {
     for (int k = 0; k < n; ++k) to[k] = from[k];
-  }
-
-  // Fewer than a register's: in copies, by the same instructions.
-  [[gnu::always_inline]] static void move_last(const NodeMotion& task, std::int64_t i, int n) {
-    double inertia[width], force[3 * width] = {}, v[3 * width] = {}, u[3 * width] = {};
-    std::uint8_t fixed[width] = {};
-    const Nodes nodes = from(task, i);
-    for (int l = 0; l < width; ++l) inertia[l] = l < n ? nodes.inertia[l] : 1;
-    copy(nodes.fixed, n, fixed);
-    copy(nodes.force, 3 * n, force);
-    copy(nodes.v, 3 * n, v);
-    copy(nodes.u, 3 * n, u);
-    move(task, {inertia, fixed, force, v, u});
-    copy(v, 3 * n, nodes.v);
-    copy(u, 3 * n, nodes.u);
   }
 
   [[gnu::always_inline]] static void add_works(const NodeWorks& task, std::int64_t k) {
@@ -310,6 +353,8 @@ NodeKernels node_kernels() {
   using Loops = NodeLoops<Pack>;
   return {Loops::template force<double>,
           Loops::template force<float>,
+          Loops::template step<double>,
+          Loops::template step<float>,
           Loops::template add_places<double>,
           Loops::template add_places<float>,
           Loops::motion,

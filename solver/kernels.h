@@ -111,9 +111,14 @@ struct NodeWorks {
   double *v = nullptr, *swept = nullptr, *work = nullptr;  // [m/s], [m^2/s], [J]
 };
 
+// Nodes ascend.
 template <class Real>
 using NodeForceKernel = void (*)(const NodeForces<Real>& task, const std::int32_t* node,
                                  std::int64_t n);
+// The same and then the motion, which takes the force at once: neither task's `force` is asked for.
+template <class Real>
+using NodeStepKernel = void (*)(const NodeForces<Real>& task, const NodeMotion& motion,
+                                const std::int32_t* node, std::int64_t n);
 
 // The sum of node[k] += that of place + k, which becomes zero; no node is among the places.
 template <class Real>
@@ -124,6 +129,8 @@ using PlaceKernel = void (*)(Real* sum, std::int64_t sum_stride, std::int64_t pl
 struct NodeKernels {
   NodeForceKernel<double> force;
   NodeForceKernel<float> force_of_singles;
+  NodeStepKernel<double> step;
+  NodeStepKernel<float> step_of_singles;
   PlaceKernel<double> add_places;
   PlaceKernel<float> add_places_of_singles;
   void (*motion)(const NodeMotion& task, std::int64_t begin, std::int64_t end);

@@ -69,12 +69,29 @@ void update_volume_change(const Model& model, Neighbours& neighbours, State& sta
   finish_exchange(neighbours, state);
 }
 
+namespace {
+
+void find_force(const Model& model, Neighbours& neighbours, State& state, Scratch& scratch,
+                ElementWatch* watch, const NodeMotion* motion) {
+  if (model.averages.n_fields > 0) average_and_start(model, neighbours, state, scratch);
+  compute_inside_force(model, state, scratch, watch, motion);
+  finish_exchange(neighbours, state);
+  compute_border_force(model, state, scratch, watch, motion);
+}
+
+}  // namespace
+
 void find_force(const Model& model, Neighbours& neighbours, State& state, Scratch& scratch,
                 ElementWatch* watch) {
-  if (model.averages.n_fields > 0) average_and_start(model, neighbours, state, scratch);
-  compute_inside_force(model, state, scratch, watch);
-  finish_exchange(neighbours, state);
-  compute_border_force(model, state, scratch, watch);
+  find_force(model, neighbours, state, scratch, watch, nullptr);
+}
+
+void step_freely(const Model& model, Neighbours& neighbours, double dt, State& state,
+                 Scratch& scratch) {
+  CHECK(!scratch.keeps_works && model.clusters.node.empty());
+  const NodeMotion motion = free_motion(model, dt, state);
+  find_force(model, neighbours, state, scratch, nullptr, &motion);
+  end_step(dt, state, scratch);
 }
 
 }  // namespace trocar

@@ -38,5 +38,10 @@ void update_volume_change(const Model& model, Neighbours& neighbours, State& sta
 // way, averages volume changes and exchanges these, inside first. See compute_force.
 void find_force(const Model& model, Neighbours& neighbours, State& state, Scratch& scratch,
                 ElementWatch* watch = nullptr);
+// find_force and integrate in one pass over the nodes, with the same bits: of a step in which
+// nobody adds to forces or asks for them, nothing is prescribed, no works are kept and no mass is
+// scaled.
+void step_freely(const Model& model, Neighbours& neighbours, double dt, State& state,
+                 Scratch& scratch);
 
 }  // namespace trocar

@@ -87,17 +87,8 @@ NodeRange nodes_of_blocks(const Model& model, std::int64_t begin, std::int64_t e
   return nodes;
 }
 
-}  // namespace
-
-void lay_out_nodes(Model& model) {
+void find_node_ranges(Model& model) {
   SumOrder& sums = model.sums;
-  sums.run_nodes.clear();
-  sums.stride_nodes.clear();
-  model.is_by_component = find_row_breaks(model);
-  if (!model.is_by_component) {
-    for (ElementBlocks& blocks : model.blocks) blocks.row_break = std::vector<std::uint8_t>();
-    return;
-  }
   for (std::int32_t run = 0; run < sums.n_inside_runs; ++run) {
     NodeRange of_run;
     for (std::int64_t block = sums.run_block[run]; block < sums.run_block[run + 1];
@@ -108,6 +99,37 @@ void lay_out_nodes(Model& model) {
     }
     sums.run_nodes.push_back(of_run);
   }
+}
+
+// Whether a run's range has nodes that another run alone meets and moves when it likes.
+bool takes_nodes_of_others(const SumOrder& sums) {
+  for (std::int32_t run = 0; run < sums.n_inside_runs; ++run) {
+    const auto begin = sums.node.begin() + sums.stride_first[sums.run_stride[run]],
+               end = sums.node.begin() + sums.stride_first[sums.run_stride[run + 1]];
+    for (std::int32_t other = 0; other < sums.n_inside_runs; ++other) {
+      const NodeRange& range = sums.run_nodes[other];
+      if (other != run && std::any_of(begin, end, [&](std::int32_t i) {
+            return range.begin <= i && i < range.end;
+          }))
+        return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+void lay_out_nodes(Model& model) {
+  SumOrder& sums = model.sums;
+  sums.run_nodes.clear();
+  sums.stride_nodes.clear();
+  model.is_by_component = find_row_breaks(model);
+  if (model.is_by_component) find_node_ranges(model);
+  model.is_by_component = model.is_by_component && !takes_nodes_of_others(sums);
+  if (model.is_by_component) return;
+  sums.run_nodes.clear();
+  sums.stride_nodes.clear();
+  for (ElementBlocks& blocks : model.blocks) blocks.row_break = std::vector<std::uint8_t>();
 }
 
 std::int64_t first_component(const SumOrder& sums, std::size_t run) {

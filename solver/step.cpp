@@ -97,7 +97,7 @@ class RunComponents {
 
 // The blocks of one run, and the nodes that only they meet.
 void compute_run(const Model& model, std::int64_t run, State& state, Scratch& scratch,
-                 ElementWatch* all) {
+                 ElementWatch* all, const NodeMotion* motion) {
   ThreadWatch watch{.all = all, .least = all != nullptr ? all->first() : LeastOfElements{}};
   const SumOrder& sums = model.sums;
   RunComponents components(model, run, scratch);
@@ -114,7 +114,7 @@ void compute_run(const Model& model, std::int64_t run, State& state, Scratch& sc
     finish_nodes(model,
                  {sums.node.begin() + sums.stride_first[stride],
                   sums.node.begin() + sums.stride_first[stride + 1]},
-                 scratch);
+                 scratch, motion);
     block = next;
   }
   if (all != nullptr) all->take(watch.least);
@@ -146,12 +146,12 @@ void add_slots(const Model& model, std::int32_t first, std::int32_t last, Scratc
   });
 }
 
-void finish_shared_nodes(const Model& model, Scratch& scratch) {
+void finish_shared_nodes(const Model& model, Scratch& scratch, const NodeMotion* motion) {
   const std::vector<std::int32_t>& node = model.sums.shared_node;
   if (node.empty()) return;
   parallel_for(std::ssize(node), [&](std::int64_t first, std::int64_t last) {
     add_slots(model, node[first], node[last - 1], scratch);
-    finish_nodes(model, {node.begin() + first, node.begin() + last}, scratch);
+    finish_nodes(model, {node.begin() + first, node.begin() + last}, scratch, motion);
   });
 }
 
@@ -176,7 +176,8 @@ void clear_halo(const Model& model, Scratch& scratch) {
 
 }  // namespace
 
-void compute_inside_force(const Model& model, State& state, Scratch& scratch, ElementWatch* watch) {
+void compute_inside_force(const Model& model, State& state, Scratch& scratch, ElementWatch* watch,
+                          const NodeMotion* motion) {
   CHECK_OP(std::ssize(state.u), ==, 3 * std::int64_t{model.n_local});
   CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
   CHECK_OP(std::ssize(scratch.force), ==, 3 * std::int64_t{model.n_owned});
@@ -186,14 +187,16 @@ void compute_inside_force(const Model& model, State& state, Scratch& scratch, El
     if (!model.blocks[k].prony.empty())
       scratch.viscous[k] = viscous_step(model.blocks[k].prony, state.time - state.history_time);
   parallel_for_chunks(model.sums.n_inside_runs,
-                      [&](int run) { compute_run(model, run, state, scratch, watch); });
+                      [&](int run) { compute_run(model, run, state, scratch, watch, motion); });
 }
 
-void compute_border_force(const Model& model, State& state, Scratch& scratch, ElementWatch* watch) {
+void compute_border_force(const Model& model, State& state, Scratch& scratch, ElementWatch* watch,
+                          const NodeMotion* motion) {
   const std::int32_t first = model.sums.n_inside_runs;
-  parallel_for_chunks(model.sums.n_runs - first,
-                      [&](int run) { compute_run(model, first + run, state, scratch, watch); });
-  finish_shared_nodes(model, scratch);
+  parallel_for_chunks(model.sums.n_runs - first, [&](int run) {
+    compute_run(model, first + run, state, scratch, watch, motion);
+  });
+  finish_shared_nodes(model, scratch, motion);
   clear_halo(model, scratch);
   state.history_time = state.time;
 }

@@ -11,6 +11,7 @@
 namespace trocar {
 
 class ElementWatch;
+struct NodeMotion;
 
 // state.theta of owned nodes, from u: before compute_force, watch and energy_terms, which read it.
 // The caller exchanges theta (model.averages.n_fields a node) afterwards. Does nothing without
@@ -26,11 +27,12 @@ void average_with_border(const Model& model, State& state, Scratch& scratch);
 // nothing.
 void compute_force(const Model& model, State& state, Scratch& scratch);
 // The same in two halves, the first of which reads no halo nodes. On the way `watch` looks at the
-// elements that don't sleep.
+// elements that don't sleep. With a `motion`, nodes move as soon as their forces are known, while
+// they are in the cache, and scratch.force stays as it is.
 void compute_inside_force(const Model& model, State& state, Scratch& scratch,
-                          ElementWatch* watch = nullptr);
+                          ElementWatch* watch = nullptr, const NodeMotion* motion = nullptr);
 void compute_border_force(const Model& model, State& state, Scratch& scratch,
-                          ElementWatch* watch = nullptr);
+                          ElementWatch* watch = nullptr, const NodeMotion* motion = nullptr);
 
 // scratch.viscous_force: what the present scratch.force of compute_force is more than the force
 // that the laws without relaxation would give. Does nothing unless keep_works asked for it.
@@ -52,6 +54,11 @@ struct PrescribedNode {
 // step. Owned nodes only: the caller exchanges u and v afterwards.
 void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> prescribed,
                double dt, State& state);
+
+// The nodes' part of a step in which nothing is prescribed, no works are kept and no mass is
+// scaled; and the rest of it, after the nodes.
+NodeMotion free_motion(const Model& model, double dt, State& state);
+void end_step(double dt, State& state, Scratch& scratch);
 
 // u_next (n_local * 3) of `nodes` (local, owned) and of prescribed ones: where integrate would take
 // them under scratch.force as it is.

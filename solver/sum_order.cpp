@@ -118,11 +118,22 @@ void find_rows(Model& model) {
   }
 }
 
-void finish(const NodeForces<double>& task, std::span<const std::int32_t> node) {
-  active_kernels().nodes.force(task, node.data(), std::ssize(node));
+template <class Real>
+void finish(NodeForceKernel<Real> force, NodeStepKernel<Real> step, const NodeForces<Real>& task,
+            const NodeMotion* motion, std::span<const std::int32_t> node) {
+  if (motion == nullptr)
+    force(task, node.data(), std::ssize(node));
+  else
+    step(task, *motion, node.data(), std::ssize(node));
 }
-void finish(const NodeForces<float>& task, std::span<const std::int32_t> node) {
-  active_kernels().nodes.force_of_singles(task, node.data(), std::ssize(node));
+void finish(const NodeForces<double>& task, const NodeMotion* motion,
+            std::span<const std::int32_t> node) {
+  finish(active_kernels().nodes.force, active_kernels().nodes.step, task, motion, node);
+}
+void finish(const NodeForces<float>& task, const NodeMotion* motion,
+            std::span<const std::int32_t> node) {
+  finish(active_kernels().nodes.force_of_singles, active_kernels().nodes.step_of_singles, task,
+         motion, node);
 }
 
 // Strides of the one run: of each of the nodes, the last one; first: blocks before each list.
@@ -242,7 +253,8 @@ void order_sums(Model& model) {
   lay_out_nodes(model);
 }
 
-void finish_nodes(const Model& model, std::span<const std::int32_t> node, Scratch& scratch) {
+void finish_nodes(const Model& model, std::span<const std::int32_t> node, Scratch& scratch,
+                  const NodeMotion* motion) {
   const Vec3& g = model.options.gravity;
   with_sums(model, scratch, [&](auto& sum) {
     finish(NodeForces{.mass = model.mass.data(),
@@ -250,7 +262,7 @@ void finish_nodes(const Model& model, std::span<const std::int32_t> node, Scratc
                       .sum = sum.data(),
                       .force = scratch.force.data(),
                       .sum_stride = sum_stride(model)},
-           node);
+           motion, node);
   });
 }
 

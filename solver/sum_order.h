@@ -45,8 +45,10 @@ void with_sums(const Model& model, Scratch& scratch, const Body& body) {
     body(scratch.sum);
 }
 
-// scratch.force of nodes whose sums are complete; the sums become zero.
-void finish_nodes(const Model& model, std::span<const std::int32_t> node, Scratch& scratch);
+// scratch.force of nodes whose sums are complete; the sums become zero. nodes: ascending. With a
+// motion, they move instead.
+void finish_nodes(const Model& model, std::span<const std::int32_t> node, Scratch& scratch,
+                  const NodeMotion* motion = nullptr);
 
 // Lists of the same region and formulation are one behind the other, in the order of the sums; the
 // one that reads halo nodes second.

@@ -8,6 +8,7 @@
 #include "allocation_count.h"
 #include "engine/energy_ledger.h"
 #include "engine_started.h"
+#include "solver_body.h"
 
 namespace trocar {
 namespace {
@@ -49,6 +50,29 @@ TEST(Frame, with_contact_allocates_by_frames_and_not_by_steps) {
   EXPECT_EQ(of_many, of_few);
   EXPECT_GT(many->s->log.rows.back().n_substeps, 3 * few->s->log.rows.back().n_substeps / 2);
   EXPECT_FALSE(many->s->contact->set.constraints.empty());  // it does touch
+}
+
+// Of a free step nodes move as soon as their forces are known; whoever keeps the energies needs the
+// forces. Before the probe touches and while it does.
+TEST(Frame, moves_free_tissue_by_the_bits_of_tissue_whose_energies_are_kept) {
+  std::string text = pressed_text;
+  text.replace(text.find("21 mm"), 5, "26 mm");
+  const auto free = built(text),
+             kept = built(text + "[[output]]\nkind = \"metrics\"\nfile = \"m.csv\"\n");
+  ASSERT_TRUE(kept->s->energy && !free->s->energy);
+  shake(free->s->state.v, .02, 3);
+  kept->s->state = free->s->state;
+  const auto expect_same = [&] {
+    run_frame(*free->s, free->outputs);
+    run_frame(*kept->s, kept->outputs);
+    EXPECT_EQ(free->s->state.u, kept->s->state.u);
+    EXPECT_EQ(free->s->state.v, kept->s->state.v);
+  };
+  expect_same();
+  EXPECT_TRUE(free->s->contact->set.node.empty());
+  while (free->s->contact->set.constraints.empty() && free->s->frame < 60) expect_same();
+  EXPECT_FALSE(free->s->contact->set.constraints.empty());
+  expect_same();
 }
 
 // Free, without damping, bent by some 10 % and in motion; ten steps a frame.

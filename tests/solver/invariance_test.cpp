@@ -26,6 +26,8 @@ static void check_ranks_and_threads(const Mesh& mesh, const SolverOptions& solve
   for (const int n_threads : {2, 3})
     expect_same(run_on_ranks(mesh, solver, 200, 1, n_threads), alone);
   expect_same(run_on_ranks(mesh, solver, 200, 2, 2), alone);
+  for (const auto& [n_ranks, n_threads] : {std::pair{1, 1}, {1, 3}, {3, 1}, {2, 2}})
+    expect_same(run_on_ranks(mesh, solver, 200, n_ranks, n_threads, Motion::at_once), alone);
 }
 
 TEST(Invariance, any_number_of_ranks_and_threads_gives_the_same_bits_after_200_steps) {

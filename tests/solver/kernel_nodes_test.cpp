@@ -135,6 +135,13 @@ static NodeForceKernel<float> force_kernel(const NodeKernels& kernels, float) {
   return kernels.force_of_singles;
 }
 
+static NodeStepKernel<double> step_kernel(const NodeKernels& kernels, double) {
+  return kernels.step;
+}
+static NodeStepKernel<float> step_kernel(const NodeKernels& kernels, float) {
+  return kernels.step_of_singles;
+}
+
 template <class Real>
 static void check_weight_less_sum() {
   for_each_simd([](const NodeKernels& kernels) {
@@ -142,7 +149,7 @@ static void check_weight_less_sum() {
     std::vector<Real> sum;
     std::vector<double> force(12, -1.0);
     for (int k = 0; k < 16; ++k) sum.push_back(static_cast<Real>(k % 4 == 3 ? 77 : k));
-    const std::vector<std::int32_t> node = {3, 1};
+    const std::vector<std::int32_t> node = {1, 3};
     force_kernel(kernels, Real{})(
         {.mass = mass.data(), .gravity = {.5, 0, -8, 0}, .sum = sum.data(), .force = force.data()},
         node.data(), 2);
@@ -161,11 +168,10 @@ TEST(NodeKernels, a_force_is_the_weight_less_the_sum_which_becomes_zero) {
 
 template <class Real>
 static void check_bits_beside_others() {
-  // Nodes in a row; eight whose first and last are as far apart as in a row; the rest.
-  std::vector<std::int32_t> node = {2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14,
-                                    15, 16, 17, 18, 21, 22, 30, 31, 24, 25, 27, 28};
-  for (const std::int32_t i : {0, 1, 19, 20, 23, 26, 29, 32, 33, 34, 35, 36}) node.push_back(i);
-  ASSERT_EQ(std::ssize(node), n_nodes);
+  // Two eights that follow each other, with others before, between and behind.
+  std::vector<std::int32_t> node = {0, 2, 3};
+  for (std::int32_t i = 5; i < n_nodes; ++i)
+    if (i % 13 != 0) node.push_back(i);
   Noise noise(8);
   std::vector<double> mass(n_nodes, 2.0);
   AlignedVector<Real> sum(4 * n_nodes);
@@ -178,18 +184,58 @@ static void check_bits_beside_others() {
     NodeForces<Real> task{.mass = mass.data(), .gravity = {.3, .7, -9.81, 0}};
     task.sum = sum_together.data();
     task.force = together.data();
-    find_force(task, node.data(), n_nodes);
+    find_force(task, node.data(), std::ssize(node));
     task.sum = sum_alone.data();
     task.force = alone.data();
     for (const std::int32_t& i : node) find_force(task, &i, 1);
     EXPECT_EQ(together, alone);
-    EXPECT_TRUE(sum_together == AlignedVector<Real>(4 * n_nodes));
-    for (std::size_t k = 0; k < alone.size(); ++k)  // two roundings of numbers below 32
-      EXPECT_NEAR(together[k], mass[k / 3] * task.gravity[k % 3] - sum[k / 3 * 4 + k % 3], 1e-14);
+    EXPECT_TRUE(sum_together == sum_alone);
+    for (const std::int32_t i : node)
+      for (int j = 0; j < 3; ++j) {
+        EXPECT_EQ(sum_alone[4 * i + j], 0);
+        EXPECT_NEAR(together[3 * i + j], mass[i] * task.gravity[j] - sum[4 * i + j], 1e-14);
+      }  // two roundings of numbers below 32
   });
 }
 
 TEST(NodeKernels, a_nodes_force_has_the_same_bits_whatever_stands_beside_it_in_the_list) {
   check_bits_beside_others<double>();
   check_bits_beside_others<float>();
+}
+
+// As NodeForces takes sums: of nodes, or component by component.
+template <class Real>
+static void check_steps_at_once(bool is_by_component) {
+  std::vector<std::int32_t> node;
+  for (std::int32_t i = 1; i < n_nodes; ++i)
+    if (i % 11 != 0) node.push_back(i);
+  Noise noise(9);
+  AlignedVector<Real> sum(4 * component_stride(n_nodes));
+  for (Real& s : sum) s = static_cast<Real>(noise());
+  for_each_simd([&](const NodeKernels& kernels) {
+    Nodes apart = random_nodes(), at_once = apart;
+    NodeForces<Real> task{.mass = apart.inertia.data(), .gravity = {.3, .7, -9.81, 0}};
+    if (is_by_component) task.sum_stride = component_stride(n_nodes);
+    AlignedVector<Real> sum_apart = sum, sum_at_once = sum;
+    task.sum = sum_apart.data();
+    task.force = apart.force.data();
+    force_kernel(kernels, Real{})(task, node.data(), std::ssize(node));
+    for (const std::int32_t i : node) kernels.motion(motion_of(apart), i, i + 1);
+    task.sum = sum_at_once.data();
+    task.force = nullptr;
+    NodeMotion motion = motion_of(at_once);
+    motion.force = nullptr;
+    step_kernel(kernels, Real{})(task, motion, node.data(), std::ssize(node));
+    EXPECT_EQ(at_once.v, apart.v);
+    EXPECT_EQ(at_once.u, apart.u);
+    EXPECT_TRUE(sum_at_once == sum_apart);
+    EXPECT_NE(at_once.u, random_nodes().u);
+  });
+}
+
+TEST(NodeKernels, a_step_at_once_has_the_bits_of_force_and_motion) {
+  for (const bool is_by_component : {false, true}) {
+    check_steps_at_once<double>(is_by_component);
+    check_steps_at_once<float>(is_by_component);
+  }
 }

@@ -91,6 +91,11 @@ void step(Body& body, double dt) {
   integrate(body.model, body.scratch, {}, dt, body.state);
 }
 
+void step_freely(Body& body, double dt) {
+  Neighbours none;
+  step_freely(body.model, none, dt, body.state, body.scratch);
+}
+
 double step_and_measure(Body& body, const std::function<void()>& step) {
   const double W = stored_energy(body);
   const std::vector<double> before = body.state.v;

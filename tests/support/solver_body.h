@@ -92,6 +92,7 @@ double largest(const std::vector<double>& values);
 double stored_energy(Body& body);
 
 void step(Body& body, double dt);
+void step_freely(Body& body, double dt);
 // A step; the energy at its beginning, with the kinetic part 1/2 m v- · v+ that central differences
 // conserve (numerics 1.1; that of one velocity alone swings with the step).
 double step_and_measure(Body& body, const std::function<void()>& step);

@@ -40,12 +40,16 @@ void average(std::vector<Body>& ranks, const std::vector<std::int32_t>& owner) {
   exchange(ranks, owner, &State::theta, ranks[0].model.averages.n_fields);
 }
 
-void step(std::vector<Body>& ranks, const std::vector<std::int32_t>& owner, double dt) {
+void step(std::vector<Body>& ranks, const std::vector<std::int32_t>& owner, double dt,
+          Motion motion) {
   average(ranks, owner);
-  for (Body& body : ranks) {
-    compute_force(body.model, body.state, body.scratch);
-    integrate(body.model, body.scratch, {}, dt, body.state);
-  }
+  for (Body& body : ranks)
+    if (motion == Motion::at_once) {
+      step_freely(body, dt);
+    } else {
+      compute_force(body.model, body.state, body.scratch);
+      integrate(body.model, body.scratch, {}, dt, body.state);
+    }
   exchange(ranks, owner, &State::u, 3);
   exchange(ranks, owner, &State::v, 3);
 }
@@ -74,14 +78,14 @@ RanksResult collect(const std::vector<Body>& ranks, std::size_t n_nodes) {
 }
 
 RanksResult run_on_ranks(const Mesh& mesh, const SolverOptions& solver, int n_steps, int n_ranks,
-                         int n_threads) {
+                         int n_threads, Motion motion) {
   const int before = thread_count();
   set_thread_count(n_threads);
   const std::vector<std::int32_t> owner = partition_nodes(mesh, n_ranks);
   std::vector<Body> ranks;
   for (int rank = 0; rank < n_ranks; ++rank)
     ranks.push_back(make_body(mesh, options_for(mesh, solver), owner, rank));
-  for (int k = 0; k < n_steps; ++k) step(ranks, owner, 2e-4);
+  for (int k = 0; k < n_steps; ++k) step(ranks, owner, 2e-4, motion);
   average(ranks, owner);
   RanksResult result = collect(ranks, mesh.X.size());
   set_thread_count(before);

@@ -24,11 +24,15 @@ void exchange(std::vector<Body>& ranks, const std::vector<std::int32_t>& owner,
 
 void average(std::vector<Body>& ranks, const std::vector<std::int32_t>& owner);
 
-void step(std::vector<Body>& ranks, const std::vector<std::int32_t>& owner, double dt);
+// How nodes come to their places: in a pass of their own, or as soon as their forces are known.
+enum class Motion { after_forces, at_once };
+
+void step(std::vector<Body>& ranks, const std::vector<std::int32_t>& owner, double dt,
+          Motion motion = Motion::after_forces);
 
 RanksResult collect(const std::vector<Body>& ranks, std::size_t n_nodes);
 
 RanksResult run_on_ranks(const Mesh& mesh, const SolverOptions& solver, int n_steps, int n_ranks,
-                         int n_threads);
+                         int n_threads, Motion motion = Motion::after_forces);
 
 }  // namespace trocar
