@@ -3,9 +3,11 @@
 // multiply-add peak and the memory bandwidth of the same core in the same run, and beside what
 // these allow (roofline: Williams, Waterman and Patterson 2009). JSON to stdout. bench_kernels
 // [elements, about (default 8000)] [material, or "all"] [threads]
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -57,8 +59,7 @@ double moved_bytes(const Body& body) {
   double sum = bytes(model.mass) + bytes(model.inertia) + bytes(model.fixed) +
                bytes(model.position) + bytes(model.sums.node) + bytes(model.sums.stride_first) +
                2 * (bytes(body.state.u) + bytes(body.state.v) + bytes(body.scratch.sum) +
-                    bytes(body.scratch.sum_single) + bytes(body.scratch.u_by_component) +
-                    bytes(body.scratch.force));
+                    bytes(body.scratch.sum_single) + bytes(body.scratch.u_by_component));
   for (const ElementBlocks& blocks : model.blocks)
     sum += bytes(blocks.corner) + bytes(blocks.target) + bytes(blocks.row) +
            bytes(blocks.row_break) + bytes(blocks.data) + bytes(blocks.data_single);
@@ -135,8 +136,13 @@ int main(int argc, char** argv) {
   const int n_elements = argc > 1 ? std::atoi(argv[1]) : 8000;
   const std::string material = argc > 2 ? argv[2] : "neo-hookean";
   set_thread_count(argc > 3 ? std::atoi(argv[3]) : 1);
-  if (n_elements < 1 || thread_count() < 1) {
-    std::fprintf(stderr, "bench_kernels [elements] [material, or all] [threads]\n");
+  const bool is_known =
+      material == "all" ||
+      std::find(std::begin(model_names), std::end(model_names), material) != std::end(model_names);
+  if (n_elements < 1 || thread_count() < 1 || !is_known) {
+    std::fprintf(stderr, "bench_kernels [elements] [material, or all] [threads]; materials:");
+    for (const char* name : model_names) std::fprintf(stderr, " %s", name);
+    std::fprintf(stderr, "\n");
     return 2;
   }
   const Machine machine{peak_gflops(), triad_gbytes()};
