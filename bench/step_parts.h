@@ -18,10 +18,11 @@ enum class Until { strain, law, force };
 // Displacements by component, if the model's fields lie so; it has one run.
 inline Components components_of(Body& body) {
   if (!body.model.is_by_component) return {};
-  const std::int64_t stride = run_stride(body.model.sums.run_nodes.front());
-  active_kernels().nodes.split(body.state.u.data(), body.model.n_local,
-                               body.scratch.u_by_component.data(), stride);
-  return {body.scratch.u_by_component.data(), stride};
+  const std::int64_t stride = component_stride(body.model.n_local);
+  static AlignedVector<double> u;
+  u.resize(static_cast<std::size_t>(3 * stride));
+  active_kernels().nodes.split(body.state.u.data(), body.model.n_local, u.data(), stride);
+  return {u.data(), stride};
 }
 
 inline void run_elements(Body& body, Until last) {

@@ -150,7 +150,7 @@ void fit_scratch(const Model& model, Scratch& scratch) {
   with_sums(model, scratch,
             [&](auto& sum) { sum.resize(static_cast<std::size_t>(n_sums(model))); });
   scratch.u_by_component.resize(
-      static_cast<std::size_t>(first_component(model.sums, model.sums.run_nodes.size())));
+      model.is_by_component ? static_cast<std::size_t>(model.sums.window_first.back()) : 0);
   scratch.volume_change.resize(static_cast<std::size_t>(model.averages.n_lanes));
   scratch.force.resize(3 * n_owned);
   scratch.has_force = false;

@@ -102,16 +102,18 @@ struct SumOrder {
   // number: they are finished while they are in the cache.
   std::vector<std::int32_t> node;
   std::vector<std::int32_t> stride_first;  // (n_strides + 1) into node
-  std::vector<std::int32_t> shared_node;   // owned nodes that several runs meet
+  // Owned nodes that several runs meet or, by component, read; ascending.
+  std::vector<std::int32_t> shared_node;
   // (n_places - n_local) nodes of the places behind the nodes, in slots that are added up one after
   // the other: n_slots of owned nodes, then those of halo nodes, ascending in each. Nodes that
   // follow each other so have places that do, for the rows of row_order.h.
   std::vector<std::int32_t> place_node;
   std::int32_t n_slots = 0;
   std::vector<std::int32_t> slot_first;  // into place_node, and its end
-  // Where sums lie component by component, what the elements of runs inside read: of each run, and
-  // of each of its strides.
-  std::vector<NodeRange> run_nodes, stride_nodes;
+  // Where sums lie component by component: what the elements of each stride of runs inside read, and
+  // (n_inside_runs + 1) where the runs' windows of Scratch::u_by_component begin.
+  std::vector<NodeRange> stride_nodes;
+  std::vector<std::int64_t> window_first;
 };
 
 // Nodes of elements whose mass is scaled, in groups that hang together (mass_scaling.h). Each group
@@ -212,8 +214,7 @@ struct Scratch {
   // component, all zero between steps; the one of the model's precision, the other is empty. [N]
   AlignedVector<double> sum;
   AlignedVector<float> sum_single;
-  // Displacements by component, of the nodes of each run inside, run after run: (3 x
-  // component_stride(n nodes of the run)) [m]
+  // Displacements by component, of a window of the nodes of each run inside, run after run [m]
   AlignedVector<double> u_by_component;
   std::vector<double> volume_change;  // K V (J - 1) of lanes, see VolumeAverages [J]
   std::vector<double> force;          // (n_owned * 3) external - internal force [N]

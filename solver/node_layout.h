@@ -23,10 +23,4 @@ inline std::int64_t n_sums(const Model& model) {
   return model.is_by_component ? 3 * sum_stride(model) : 4 * model.sums.n_places;
 }
 
-inline std::int64_t run_stride(const NodeRange& nodes) {
-  return component_stride(nodes.end - nodes.begin);
-}
-// Numbers of Scratch::u_by_component before those of a run.
-std::int64_t first_component(const SumOrder& sums, std::size_t run);
-
 }  // namespace trocar

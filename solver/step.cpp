@@ -4,11 +4,13 @@
 #include "solver/step.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/check.h"
 #include "solver/block_ranges.h"
 #include "solver/element_watch.h"
 #include "solver/history.h"
+#include "solver/prefetch.h"
 #include "solver/sum_order.h"
 
 namespace trocar {
@@ -26,10 +28,12 @@ struct ThreadWatch {
 };
 
 void add_list(const Model& model, const ElementBlocks& blocks, std::int64_t first, std::int64_t n,
-              const Components& components, State& state, Scratch& scratch, ThreadWatch& watch) {
+              const Components& components, State& state, Scratch& scratch, ThreadWatch& watch,
+              RunPrefetch& prefetch) {
   for_strained_blocks(
       model, blocks, state, components, first, n,
       [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
+        prefetch.beside(blocks, block, task.n_blocks);
         if (watch.all != nullptr) watch.all->look(model, blocks, kernels, task, block, watch.least);
         if (blocks.prony.empty() || scratch.is_elastic)
           kernels.law.stress(task);
@@ -56,42 +60,41 @@ void for_awake_blocks(const Scratch& scratch, std::int64_t begin, std::int64_t e
   }
 }
 
-// Displacements by component of the nodes that a run meets, taken over as far as they are asked
-// for.
+// Displacements by component of nodes that a run meets, taken over as far as they are asked for. A
+// window that slides over the nodes stays in the cache; at its end it begins anew. What is asked
+// for has not moved yet.
 class RunComponents {
  public:
-  RunComponents(const Model& model, std::int64_t run, Scratch& scratch) : model_(model), run_(run) {
+  RunComponents(const Model& model, std::int64_t run, Scratch& scratch) : model_(model) {
     if (!model.is_by_component || run >= model.sums.n_inside_runs) return;
-    const auto k = static_cast<std::size_t>(run);
-    nodes_ = model.sums.run_nodes[k];
-    at_ = scratch.u_by_component.data() + first_component(model.sums, k);
+    const std::int64_t first = model.sums.window_first[run];
+    stride_ = (model.sums.window_first[run + 1] - first) / 3;
+    at_ = scratch.u_by_component.data() + first;
   }
 
   // What the stride reads.
   void take(const State& state, std::int64_t stride) {
     if (at_ == nullptr) return;
     const NodeRange asked = model_.sums.stride_nodes[stride];
-    if (taken_.begin == taken_.end) taken_ = {asked.begin, asked.begin};
-    take(state, {asked.begin, taken_.begin});
-    take(state, {taken_.end, asked.end});
-    taken_ = {std::min(taken_.begin, asked.begin), std::max(taken_.end, asked.end)};
+    if (asked.begin < taken_.begin || component_stride(asked.end - taken_.begin) > stride_)
+      taken_ = {asked.begin, asked.begin};
+    if (taken_.end >= asked.end) return;
+    active_kernels().nodes.split(state.u.data() + 3 * std::int64_t{taken_.end},
+                                 asked.end - taken_.end, at_ + (taken_.end - taken_.begin),
+                                 stride_);
+    taken_.end = asked.end;
   }
 
   Components all() const {
-    return at_ == nullptr ? Components{} : Components{at_ - nodes_.begin, run_stride(nodes_)};
+    return at_ == nullptr ? Components{} : Components{at_ - taken_.begin, stride_};
   }
 
  private:
-  void take(const State& state, const NodeRange& nodes) {
-    if (nodes.begin >= nodes.end) return;
-    active_kernels().nodes.split(state.u.data() + 3 * std::int64_t{nodes.begin},
-                                 nodes.end - nodes.begin, at_ + (nodes.begin - nodes_.begin),
-                                 run_stride(nodes_));
-  }
+  static constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
 
   const Model& model_;
-  std::int64_t run_;
-  NodeRange nodes_, taken_;
+  NodeRange taken_{none, none};
+  std::int64_t stride_ = 0;
   double* at_ = nullptr;
 };
 
@@ -101,15 +104,17 @@ void compute_run(const Model& model, std::int64_t run, State& state, Scratch& sc
   ThreadWatch watch{.all = all, .least = all != nullptr ? all->first() : LeastOfElements{}};
   const SumOrder& sums = model.sums;
   RunComponents components(model, run, scratch);
+  RunPrefetch prefetch(model, run, state, scratch);
   std::int64_t block = sums.run_block[run];
   for (std::int32_t stride = sums.run_stride[run]; stride < sums.run_stride[run + 1]; ++stride) {
     const std::int64_t next = std::min(block + stride_blocks, sums.run_block[run + 1]);
+    prefetch.start(stride);
     for_awake_blocks(scratch, block, next, [&](std::int64_t begin, std::int64_t end) {
       components.take(state, stride);
-      for_block_range(model, begin, end,
-                      [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
-                        add_list(model, blocks, first, n, components.all(), state, scratch, watch);
-                      });
+      for_block_range(
+          model, begin, end, [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
+            add_list(model, blocks, first, n, components.all(), state, scratch, watch, prefetch);
+          });
     });
     finish_nodes(model,
                  {sums.node.begin() + sums.stride_first[stride],

@@ -76,6 +76,37 @@ TEST(NodeLayout, by_component_gives_the_bits_of_node_by_node_on_several_threads)
   set_thread_count(1);
 }
 
+// A window holds 8192 nodes here and the box 18,081; in threads' halves too.
+TEST(NodeLayout, windows_that_begin_anew_keep_the_bits) {
+  const Mesh mesh = jittered_box(20, 6, 122);
+  for (const int n_threads : {1, 2}) {
+    set_thread_count(n_threads);
+    for (const Precision precision : precisions) {
+      EXPECT_TRUE(have_same_bits(mesh, {.precision = precision}));
+      EXPECT_LT(make_body(mesh, {.solver = {.precision = precision}}).scratch.u_by_component.size(),
+                3 * mesh.X.size());
+    }
+  }
+  set_thread_count(1);
+}
+
+// Of bodies that no cache holds, lines are asked for ahead.
+TEST(NodeLayout, large_bodies_have_the_bits_of_steps_without_haste) {
+  const Mesh mesh = jittered_box(52, 52, 52);
+  for (const Precision precision : precisions) {
+    Body body = make_body(mesh, {.solver = {.precision = precision}});
+    EXPECT_GT(memory_bytes(body.model, body.scratch), std::size_t{16} << 20);
+    shake(body.state.u, 5e-4, 11);
+    Body node_by_node = body;
+    put_node_by_node(node_by_node);
+    for (int k = 0; k < 2; ++k) {
+      step_freely(body, 1e-6);
+      step(node_by_node, 1e-6);
+    }
+    EXPECT_EQ(body.state.u, node_by_node.state.u);
+  }
+}
+
 TEST(NodeLayout, is_by_component_only_where_most_blocks_are_hexahedra_in_rows) {
   EXPECT_TRUE(make_body(jittered_box(20, 6, 6)).model.is_by_component);
   EXPECT_FALSE(make_body(make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {20, 6, 6}, BoxElements::tet4_kuhn))
@@ -100,8 +131,6 @@ TEST(NodeLayout, tells_where_rows_end) {
 TEST(NodeLayout, knows_the_nodes_of_each_stride) {
   const Body body = make_body(jittered_box(20, 20, 3));
   const SumOrder& sums = body.model.sums;
-  ASSERT_EQ(sums.run_nodes.size(), 1U);
-  EXPECT_EQ(sums.run_nodes[0], (NodeRange{0, body.model.n_local}));
   ASSERT_EQ(sums.stride_nodes.size(), 5U);  // 150 blocks
   // 256 elements: 12 rows of 20 and 16 of the next one; nodes of the plane above, too.
   EXPECT_EQ(sums.stride_nodes[0], (NodeRange{0, 441 + 13 * 21 + 17}));
