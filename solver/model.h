@@ -110,8 +110,8 @@ struct SumOrder {
   std::vector<std::int32_t> place_node;
   std::int32_t n_slots = 0;
   std::vector<std::int32_t> slot_first;  // into place_node, and its end
-  // Where sums lie component by component: what the elements of each stride of runs inside read, and
-  // (n_inside_runs + 1) where the runs' windows of Scratch::u_by_component begin.
+  // Where sums lie component by component: what the elements of each stride of runs inside read,
+  // and (n_inside_runs + 1) where the runs' windows of Scratch::u_by_component begin.
   std::vector<NodeRange> stride_nodes;
   std::vector<std::int64_t> window_first;
 };
