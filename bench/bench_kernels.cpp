@@ -61,8 +61,10 @@ double moved_bytes(const Body& body) {
                2 * (bytes(body.state.u) + bytes(body.state.v) + bytes(body.scratch.sum) +
                     bytes(body.scratch.sum_single) + bytes(body.scratch.u_by_component));
   for (const ElementBlocks& blocks : model.blocks)
-    sum += bytes(blocks.corner) + bytes(blocks.target) + bytes(blocks.row) +
-           bytes(blocks.row_break) + bytes(blocks.data) + bytes(blocks.data_single);
+    sum += bytes(blocks.data) + bytes(blocks.data_single) +
+           (model.is_by_component
+                ? bytes(blocks.row_break) + bytes(blocks.row_start) + bytes(blocks.row_target)
+                : bytes(blocks.corner) + bytes(blocks.target) + bytes(blocks.row));
   return sum;
 }
 

@@ -88,6 +88,9 @@ inline BlockTask block_task(const Model& model, const ElementBlocks& blocks,
   const bool is_single = blocks.precision == Precision::in_single;
   const ElementKernels& element = kernels.element;
   const bool averages = element.volume_change != nullptr;
+  const auto row_at = [&](const std::vector<std::int32_t>& start) {
+    return start.data() + (start.empty() ? 0 : first * element.n_corners);
+  };
   const int share = element.share > 0 ? kernels.n_material_values + element.share : 0;
   return {.u = state.u.data(),
           .u_x = components.x,
@@ -97,6 +100,8 @@ inline BlockTask block_task(const Model& model, const ElementBlocks& blocks,
           .corner = blocks.corner.data() + first * element.n_corners * blocks.lanes,
           .row = blocks.row.data() + first * blocks.lanes / row_lanes,
           .row_break = blocks.row_break.data() + (blocks.row_break.empty() ? 0 : first),
+          .row_start = row_at(blocks.row_start),
+          .row_target = row_at(blocks.row_target.empty() ? blocks.row_start : blocks.row_target),
           .data = is_single ? static_cast<const void*>(blocks.data_single.data() + at)
                             : static_cast<const void*>(blocks.data.data() + at),
           .n_blocks = n,

@@ -17,27 +17,50 @@ template <class Pack>
   return sizeof(Pack) == 64 ? Following::in_two_rows : Following::anyhow;
 }
 
-// Component i of corner a of lane l at x[i * stride + corner[a * block_lanes + l]].
+// Numbers of the nodes or places that the lanes of a group meet at each corner. In rows those of
+// the block's first lane tell all: a list of 32 bytes a block in place of as many an element.
+struct LaneNumbers {
+  const std::int32_t* all;    // [corner][lane of the block], from the group's first lane on
+  const std::int32_t* start;  // [corner] of the block's first lane
+  int ahead;                  // of the group's first lane, behind `start`
+
+  // Of the group's first lane, which stands in a row.
+  [[gnu::always_inline]] std::int64_t first(int a) const { return std::int64_t{start[a]} + ahead; }
+};
+
+// The group of the block that begins with `lane`; n corners.
+template <class Pack, int n>
+[[gnu::always_inline]] inline LaneNumbers lane_numbers(const std::int32_t* all,
+                                                       const std::int32_t* start,
+                                                       std::int64_t block, int lane,
+                                                       int row_break) {
+  constexpr bool is_whole = pack_width<Pack> == block_lanes<Pack>;
+  return {all + block * n * block_lanes<Pack> + lane, start + block * n,
+          is_whole || lane == 0 ? 0 : lane + (lane >= row_break ? 1 : 0)};
+}
+
+// Component i of corner a at x[i * stride + number].
 template <class Real>
 struct ComponentField {
   const Real* x;
   std::int64_t stride;
-  const std::int32_t* corner;
+  LaneNumbers number;
 };
 
-// Numbers of the lanes from `first` on; node: of all lanes; k: where the second row begins.
-template <Following following, class Part>
-[[gnu::always_inline]] inline Part load_row(const RealOf<Part>* x, const std::int32_t* node,
-                                            int first, int k) {
+// At corner a, of the lanes from `lane` of the group on; k: where the second row begins.
+template <Following following, class Part, int block_lanes>
+[[gnu::always_inline]] inline Part load_row(const RealOf<Part>* x, const LaneNumbers& number, int a,
+                                            int lane, int k) {
   if constexpr (following == Following::anyhow) {
-    RealOf<Part> lane[pack_width<Part>];
-    for (int l = 0; l < pack_width<Part>; ++l) lane[l] = x[node[first + l]];
-    return load<Part>(lane);
+    const std::int32_t* const node = number.all + a * block_lanes + lane;
+    RealOf<Part> of_lane[pack_width<Part>];
+    for (int l = 0; l < pack_width<Part>; ++l) of_lane[l] = x[node[l]];
+    return load<Part>(of_lane);
   }
-  const RealOf<Part>* const at = x + node[0] + first;
+  const RealOf<Part>* const at = x + number.first(a) + lane;
   const Part all = load<Part>(at);
   if constexpr (following == Following::in_two_rows) {
-    const auto second = static_cast<std::uint32_t>(0xFFFF << k >> first);
+    const auto second = static_cast<std::uint32_t>(0xFFFF << k >> lane);
     if constexpr (sizeof(RealOf<Part>) == sizeof(double))
       return _mm512_mask_loadu_pd(all, static_cast<std::uint8_t>(second), at + 1);
     else
@@ -46,29 +69,30 @@ template <Following following, class Part>
   return all;
 }
 
-// One component at one corner; of displacements in single precision the difference to `first`,
+// One component at corner a; of displacements in single precision the difference to corner 0,
 // rounded.
 template <Following following, class Pack>
-[[gnu::always_inline]] inline Pack load_lanes(const double* u, const std::int32_t* node,
-                                              const std::int32_t* first, int k) {
+[[gnu::always_inline]] inline Pack load_lanes(const double* u, const LaneNumbers& node, int a,
+                                              int k) {
+  constexpr int lanes = block_lanes<Pack>;
   if constexpr (sizeof(RealOf<Pack>) == sizeof(double)) {
-    return load_row<following, Pack>(u, node, 0, k);
+    return load_row<following, Pack, lanes>(u, node, a, 0, k);
   } else if constexpr (pack_width<Pack> == 1) {
-    return Pack{static_cast<float>(u[node[0]] - u[first[0]])};
+    return Pack{static_cast<float>(u[node.all[a * lanes]] - u[node.all[0]])};
   } else {
     constexpr int width = pack_width<Pack> / 2;
     using Half = PackOf<double, width>;
     const auto half = [&](int lane) __attribute__((always_inline)) {
-      return in_single(Half(load_row<following, Half>(u, node, lane, k) -
-                            load_row<following, Half>(u, first, lane, k)));
+      return in_single(Half(load_row<following, Half, lanes>(u, node, a, lane, k) -
+                            load_row<following, Half, lanes>(u, node, 0, lane, k)));
     };
     return join<Pack>(half(0), half(width), std::make_index_sequence<pack_width<Pack>>{});
   }
 }
 template <Following following, class Pack>
-[[gnu::always_inline]] inline Pack load_lanes(const float* X, const std::int32_t* node,
-                                              const std::int32_t*, int k) {
-  return load_row<following, Pack>(X, node, 0, k);
+[[gnu::always_inline]] inline Pack load_lanes(const float* X, const LaneNumbers& node, int a,
+                                              int k) {
+  return load_row<following, Pack, block_lanes<Pack>>(X, node, a, 0, k);
 }
 
 // All corners, displacements or reference positions.
@@ -76,8 +100,7 @@ template <Following following, class Pack, class Real, int n>
 [[gnu::always_inline]] inline void load_components(const ComponentField<Real>& field, int k,
                                                    Pack (&x)[n][3]) {
   const auto load_corner = [&](int a, int i) __attribute__((always_inline)) {
-    x[a][i] = load_lanes<following, Pack>(field.x + i * field.stride,
-                                          field.corner + a * block_lanes<Pack>, field.corner, k);
+    x[a][i] = load_lanes<following, Pack>(field.x + i * field.stride, field.number, a, k);
   };
   if constexpr (following == Following::anyhow) {  // seldom: short rather than quick
 #pragma GCC unroll 1

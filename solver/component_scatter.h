@@ -41,10 +41,10 @@ class ComponentSums {
   [[gnu::always_inline]] ComponentSums(Real* sum, std::int64_t stride)
       : sum_(sum), stride_(stride) {}
 
-  // target: of the first lane, the lane-th of a block with this row_break; corners(i, f) gives
-  // component i at each corner.
+  // target: of the group that begins with the lane-th of a block with this row_break; corners(i, f)
+  // gives component i at each corner.
   template <class Corners>
-  [[gnu::always_inline]] void add(const std::int32_t* target, std::uint8_t row_break, int lane,
+  [[gnu::always_inline]] void add(const LaneNumbers& target, std::uint8_t row_break, int lane,
                                   const Corners& corners) {
     const Step step = next_step(target, row_break, lane);
 #pragma GCC unroll 3
@@ -53,7 +53,8 @@ class ComponentSums {
       corners(i, f);
       add_component(f, step, i);
     }
-    last_ = step.is_paired ? target : nullptr;
+    last_ = step.is_paired ? target.start : nullptr;
+    next_ = target.ahead + width + (step.following == Following::in_two_rows ? 1 : 0);
   }
 
   // What still waits.
@@ -69,7 +70,7 @@ class ComponentSums {
   static constexpr int width = pack_width<Pack>, n_pairs = 4, lanes = block_lanes<Pack>;
 
   struct Step {
-    const std::int32_t* target;  // of the first lane
+    LaneNumbers target;
     Following following;
     int k;           // where the second row begins
     bool is_paired;  // and in rows
@@ -78,7 +79,9 @@ class ComponentSums {
 
   Real* sum_;
   std::int64_t stride_;
-  const std::int32_t* last_ = nullptr;  // target of the lanes whose last force waits
+  // Of the block one of whose lanes has a force that waits, for the next place of its row.
+  const std::int32_t* last_ = nullptr;
+  int next_ = 0;
   alignas(64) Real waiting_[3][n_pairs][width];
 
   [[gnu::always_inline]] static int a_of(int pair) {
@@ -88,16 +91,16 @@ class ComponentSums {
     return corner_of_row(box_row, 2 * pair + 1);
   }
 
-  [[gnu::always_inline]] Step next_step(const std::int32_t* target, std::uint8_t row_break,
+  [[gnu::always_inline]] Step next_step(const LaneNumbers& target, std::uint8_t row_break,
                                         int lane) const {
     const int k = lane_of_break(row_break);
     const Following following = following_of<Pack>(k, lane);
     const bool is_paired = following != Following::anyhow && (row_break & unpaired) == 0;
     Step step{target, following, k - lane, is_paired, false};
     if (n != 8 || last_ == nullptr || !is_paired) return step;
-    std::int32_t apart = 0;
+    std::int64_t apart = 0;
     for (int pair = 0; pair < n_pairs; ++pair)
-      apart |= target[b_of(pair) * lanes] - last_[b_of(pair) * lanes + width - 1] - 1;
+      apart |= target.first(b_of(pair)) - (last_[b_of(pair)] + next_);
     step.goes_on = apart == 0;
     return step;
   }
@@ -116,7 +119,7 @@ class ComponentSums {
 
   [[gnu::always_inline]] void add_waiting(int i) {
     for (int pair = 0; pair < n_pairs; ++pair)
-      sum_[i * stride_ + last_[b_of(pair) * lanes + width - 1] + 1] += waiting_[i][pair][width - 1];
+      sum_[i * stride_ + last_[b_of(pair)] + next_] += waiting_[i][pair][width - 1];
   }
 
   // What waits for the first lane, and room for what will wait.
@@ -132,7 +135,7 @@ class ComponentSums {
     for (int pair = 0; pair < n_pairs; ++pair) {
       const Pack &a = f[a_of(pair)], &b = f[b_of(pair)];
       const Pack before = a_lane_up(before_first(step, i, pair, a), a);
-      Real* const to = sum_ + (i * stride_ + step.target[b_of(pair) * lanes]);
+      Real* const to = sum_ + (i * stride_ + step.target.first(b_of(pair)));
       store(to, Pack((load<Pack>(to) + before) + b));
     }
   }
@@ -151,7 +154,7 @@ class ComponentSums {
       before = replaced(before, behind, a_lane_up(before, before));
       before = replaced(before, next, nothing);
       const Pack own = replaced(replaced(b, behind, a_lane_up(b, b)), at, nothing);
-      Real* const to = sum_ + (i * stride_ + step.target[b_of(pair) * lanes]);
+      Real* const to = sum_ + (i * stride_ + step.target.first(b_of(pair)));
       store(to, Pack((load<Pack>(to) + before) + own));
       const Real last_a = step.k == width - 1 ? nothing[0] : a[width - 2];
       to[width] = (to[width] + last_a) + b[width - 1];
@@ -178,12 +181,12 @@ class ComponentSums {
       if (step.following != Following::anyhow) {
         for (int k = 0; k < n; ++k) {
           const int a = corner_of_row(box_row, k);
-          add_corner(load<Pack>(lane[a]), step, sum + step.target[a * lanes]);
+          add_corner(load<Pack>(lane[a]), step, sum + step.target.first(a));
         }
         return;
       }
     for (int l = 0; l < width; ++l)
-      for (int a = 0; a < n; ++a) sum[step.target[a * lanes + l]] += lane[a][l];
+      for (int a = 0; a < n; ++a) sum[step.target.all[a * lanes + l]] += lane[a][l];
   }
 };
 

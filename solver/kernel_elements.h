@@ -52,7 +52,8 @@ struct ElementLoops {
           if constexpr (reads_positions_v<Pack, Element>) {
             if (task.position_stride > 0)
               load_components<Following::anyhow>(
-                  ComponentField<float>{task.position, task.position_stride, corner}, 0, u);
+                  ComponentField<float>{task.position, task.position_stride, {corner, nullptr, 0}},
+                  0, u);
             else
               gather_positions(task.position, corner, rows(task, block, lane), u);
             Element::prepare(u, stash);
@@ -98,42 +99,43 @@ struct ElementLoops {
  private:
   static void strain_by_component(const BlockTask& task) {
     for_elements(
-        task, [&](const auto& value, const auto& stash, std::int64_t block,
-                  int lane) __attribute__((always_inline)) {
-          const std::int32_t* const corner = corners(task, block, lane);
-          const int row_break = lane_of_break(task.row_break[block]), k = row_break - lane;
-          const Following following = following_of<Pack>(row_break, lane);
-          if (following == Following::in_a_row)
-            strain_of_group<Following::in_a_row>(task, value, stash, corner, k);
-          else if (following == Following::anyhow)
-            strain_of_seldom<Following::anyhow>(task, value, stash, corner, k);
-          else if constexpr (sizeof(Pack) == 64)
-            strain_of_seldom<Following::in_two_rows>(task, value, stash, corner, k);
-        });
+        task, [&](const auto& value, const auto& stash, std::int64_t block, int lane)
+                  __attribute__((always_inline)) {
+                    const int row_break = lane_of_break(task.row_break[block]);
+                    const Following following = following_of<Pack>(row_break, lane);
+                    if (following == Following::in_a_row)
+                      strain_of_group<Following::in_a_row>(task, value, stash, block, lane);
+                    else if (following == Following::anyhow)
+                      strain_of_seldom<Following::anyhow>(task, value, stash, block, lane);
+                    else if constexpr (sizeof(Pack) == 64)
+                      strain_of_seldom<Following::in_two_rows>(task, value, stash, block, lane);
+                  });
   }
   // Out of line, so that what is seldom leaves the instruction cache to the others.
   template <Following following>
   [[gnu::noinline]] static void strain_of_seldom(const BlockTask& task,
                                                  const BlockValues<Pack>& value,
-                                                 const Stash<Pack>& stash,
-                                                 const std::int32_t* corner, int k) {
-    strain_of_group<following>(task, value, stash, corner, k);
+                                                 const Stash<Pack>& stash, std::int64_t block,
+                                                 int lane) {
+    strain_of_group<following>(task, value, stash, block, lane);
   }
-  // k: where the second row begins.
   template <Following following>
   [[gnu::always_inline]] static void strain_of_group(const BlockTask& task,
                                                      const BlockValues<Pack>& value,
-                                                     const Stash<Pack>& stash,
-                                                     const std::int32_t* corner, int k) {
+                                                     const Stash<Pack>& stash, std::int64_t block,
+                                                     int lane) {
+    const int row_break = lane_of_break(task.row_break[block]), k = row_break - lane;
+    const LaneNumbers node =
+        lane_numbers<Pack, n>(task.corner, task.row_start, block, lane, row_break);
     Pack u[n][3];
     if constexpr (reads_positions_v<Pack, Element>) {
-      load_components<following>(ComponentField<float>{task.position, task.position_stride, corner},
+      load_components<following>(ComponentField<float>{task.position, task.position_stride, node},
                                  k, u);
       Element::prepare(u, stash);
     } else if constexpr (requires { Element::prepare(value, stash); }) {
       Element::prepare(value, stash);
     }
-    load_components<following>(ComponentField<double>{task.u_x, task.u_stride, corner}, k, u);
+    load_components<following>(ComponentField<double>{task.u_x, task.u_stride, node}, k, u);
     Element::strain(value, u, stash);
   }
   [[gnu::always_inline]] static void find_force(const BlockValues<Pack>& value,
@@ -156,8 +158,9 @@ struct ElementLoops {
         task, [&](const auto& value, const auto& stash, std::int64_t block,
                   int lane) __attribute__((always_inline)) {
           if (lane == 0) fetch(task, block + task.n_blocks);
-          const std::int32_t* const to = target + block * n * lanes + lane;
           const std::uint8_t row_break = task.row_break[block];
+          const LaneNumbers to =
+              lane_numbers<Pack, n>(target, task.row_target, block, lane, lane_of_break(row_break));
           if constexpr (n == 8) {
             Pack w[3][n_hex_modes];
             Element::force_modes(value, stash, w);

@@ -24,7 +24,9 @@ struct BlockTask {
   const std::int32_t* corner = nullptr;     // [block][corner][lane] local node
   const std::uint32_t* row = nullptr;       // [eight lanes] of row_order.h
   const std::uint8_t* row_break = nullptr;  // [block] of node_layout.h, by component
-  const void* data = nullptr;               // [block][value][lane]: the material's, the element's
+  // [block][corner] there: the first lane's node and its place of a ForceKernel's sum
+  const std::int32_t *row_start = nullptr, *row_target = nullptr;
+  const void* data = nullptr;  // [block][value][lane]: the material's, the element's
   std::int64_t n_blocks = 0;
   std::int64_t n_values = 0, n_material_values = 0;
   // [block][value][lane]: H, then V P, of each point (row by row), then what the element keeps.

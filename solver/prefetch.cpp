@@ -57,12 +57,13 @@ void RunPrefetch::start(std::int32_t stride) {
 
 void RunPrefetch::beside(const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
   if (!is_on_) return;
+  fetch_met(met_.take(n));
+  fetch_finished(finished_.take(n));
+  if (model_.is_by_component) return;  // most blocks have short lists
   const std::int64_t n_corners = corners_of_block(blocks);
   const std::int64_t next = std::min<std::int64_t>(first + 2 * n, blocks.n_blocks);
   const std::int64_t n_next = std::min<std::int64_t>(n, blocks.n_blocks - next);
   fetch(blocks.corner.data() + next * n_corners, n_next * n_corners);
-  fetch_met(met_.take(n));
-  fetch_finished(finished_.take(n));
 }
 
 void RunPrefetch::fetch_met(const NodeRange& nodes) const {

@@ -233,8 +233,8 @@ std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
       bytes(scratch.force);
   for (const ElementBlocks& blocks : model.blocks)
     sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.target) +
-           bytes(blocks.row) + bytes(blocks.row_break) + bytes(blocks.data) +
-           bytes(blocks.data_single);
+           bytes(blocks.row) + bytes(blocks.row_break) + bytes(blocks.row_start) +
+           bytes(blocks.row_target) + bytes(blocks.data) + bytes(blocks.data_single);
   const MassClusters& clusters = model.clusters;
   sum += bytes(clusters.offset) + bytes(clusters.node) + bytes(clusters.added) +
          bytes(clusters.total) + bytes(clusters.of_node) + bytes(scratch.given) +

@@ -76,7 +76,7 @@ TEST(NodeLayout, by_component_gives_the_bits_of_node_by_node_on_several_threads)
   set_thread_count(1);
 }
 
-// A window holds 8192 nodes here and the box 18,081; in threads' halves too.
+// A window holds 4096 nodes here and the box 18,081; in threads' halves too.
 TEST(NodeLayout, windows_that_begin_anew_keep_the_bits) {
   const Mesh mesh = jittered_box(20, 6, 122);
   for (const int n_threads : {1, 2}) {

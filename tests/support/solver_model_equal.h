@@ -17,6 +17,8 @@ inline void expect_equal(const ElementBlocks& a, const ElementBlocks& b) {
   EXPECT_EQ(a.target, b.target);
   EXPECT_EQ(a.row, b.row);
   EXPECT_EQ(a.row_break, b.row_break);
+  EXPECT_EQ(a.row_start, b.row_start);
+  EXPECT_EQ(a.row_target, b.row_target);
   EXPECT_TRUE(a.data == b.data);
   EXPECT_TRUE(a.data_single == b.data_single);
   EXPECT_EQ(a.first_history, b.first_history);
