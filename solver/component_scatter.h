@@ -44,8 +44,18 @@ class ComponentSums {
   // target: of the group that begins with the lane-th of a block with this row_break; corners(i, f)
   // gives component i at each corner.
   template <class Corners>
-  [[gnu::always_inline]] void add(const LaneNumbers& target, std::uint8_t row_break, int lane,
+  [[gnu::always_inline]] void add(const LaneNumbers& target, std::uint16_t row_break, int lane,
                                   const Corners& corners) {
+    if constexpr (n == 8 && width > 2)
+      if (unpaired_of_break(row_break) != 0) {
+        Real of_lane[3][n][width];
+        for (int i = 0; i < 3; ++i) {
+          Pack f[n];
+          corners(i, f);
+          for (int a = 0; a < n; ++a) store(of_lane[i][a], f[a]);
+        }
+        return add_unpaired(of_lane, target, row_break, lane);
+      }
     const Step step = next_step(target, row_break, lane);
 #pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) {
@@ -54,7 +64,7 @@ class ComponentSums {
       add_component(f, step, i);
     }
     last_ = step.is_paired ? target.start : nullptr;
-    next_ = target.ahead + width + (step.following == Following::in_two_rows ? 1 : 0);
+    next_ = target.ahead + n_met(step);
   }
 
   // What still waits.
@@ -84,6 +94,10 @@ class ComponentSums {
   int next_ = 0;
   alignas(64) Real waiting_[3][n_pairs][width];
 
+  // Nodes from the first lane's to the next one's behind the last.
+  [[gnu::always_inline]] static int n_met(const Step& step) {
+    return width + (step.following == Following::in_two_rows ? 1 : 0);
+  }
   [[gnu::always_inline]] static int a_of(int pair) {
     return corner_of_row(box_row, 2 * pair);
   }
@@ -91,11 +105,11 @@ class ComponentSums {
     return corner_of_row(box_row, 2 * pair + 1);
   }
 
-  [[gnu::always_inline]] Step next_step(const LaneNumbers& target, std::uint8_t row_break,
+  [[gnu::always_inline]] Step next_step(const LaneNumbers& target, std::uint16_t row_break,
                                         int lane) const {
     const int k = lane_of_break(row_break);
     const Following following = following_of<Pack>(k, lane);
-    const bool is_paired = following != Following::anyhow && (row_break & unpaired) == 0;
+    const bool is_paired = following != Following::anyhow;
     Step step{target, following, k - lane, is_paired, false};
     if (n != 8 || last_ == nullptr || !is_paired) return step;
     std::int64_t apart = 0;
@@ -132,61 +146,74 @@ class ComponentSums {
 
   [[gnu::always_inline]] void add_row(const Pack (&f)[8], const Step& step, int i) {
 #pragma GCC unroll 4
-    for (int pair = 0; pair < n_pairs; ++pair) {
-      const Pack &a = f[a_of(pair)], &b = f[b_of(pair)];
-      const Pack before = a_lane_up(before_first(step, i, pair, a), a);
-      Real* const to = sum_ + (i * stride_ + step.target.first(b_of(pair)));
-      store(to, Pack((load<Pack>(to) + before) + b));
-    }
+    for (int pair = 0; pair < n_pairs; ++pair)
+      add_row_of_pair(f[a_of(pair)], f[b_of(pair)], step, i, pair);
+  }
+  [[gnu::always_inline]] void add_row_of_pair(const Pack& a, const Pack& b, const Step& step, int i,
+                                              int pair) {
+    const Pack before = a_lane_up(before_first(step, i, pair, a), a);
+    Real* const to = sum_ + (i * stride_ + step.target.first(b_of(pair)));
+    store(to, Pack((load<Pack>(to) + before) + b));
   }
 
   // The lanes meet one node more than they are, of which the k-th, where the first row ends, gets
   // nothing from a b and the next one nothing from an a.
   [[gnu::always_inline]] void add_two_rows(const Pack (&f)[8], const Step& step, int i) {
+#pragma GCC unroll 4
+    for (int pair = 0; pair < n_pairs; ++pair)
+      add_two_rows_of_pair(f[a_of(pair)], f[b_of(pair)], step, i, pair);
+  }
+  [[gnu::always_inline]] void add_two_rows_of_pair(const Pack& a, const Pack& b, const Step& step,
+                                                   int i, int pair) {
     const auto at = static_cast<std::uint16_t>(1 << step.k),
                next = static_cast<std::uint16_t>(at << 1),
                behind = static_cast<std::uint16_t>(0xFFFE << step.k);
-    const Pack nothing = -zero_of(f[0]);
-#pragma GCC unroll 4
-    for (int pair = 0; pair < n_pairs; ++pair) {
-      const Pack &a = f[a_of(pair)], &b = f[b_of(pair)];
-      Pack before = a_lane_up(before_first(step, i, pair, a), a);
-      before = replaced(before, behind, a_lane_up(before, before));
-      before = replaced(before, next, nothing);
-      const Pack own = replaced(replaced(b, behind, a_lane_up(b, b)), at, nothing);
-      Real* const to = sum_ + (i * stride_ + step.target.first(b_of(pair)));
-      store(to, Pack((load<Pack>(to) + before) + own));
-      const Real last_a = step.k == width - 1 ? nothing[0] : a[width - 2];
-      to[width] = (to[width] + last_a) + b[width - 1];
-    }
+    const Pack nothing = -zero_of(a);
+    Pack before = a_lane_up(before_first(step, i, pair, a), a);
+    before = replaced(before, behind, a_lane_up(before, before));
+    before = replaced(before, next, nothing);
+    const Pack own = replaced(replaced(b, behind, a_lane_up(b, b)), at, nothing);
+    Real* const to = sum_ + (i * stride_ + step.target.first(b_of(pair)));
+    store(to, Pack((load<Pack>(to) + before) + own));
+    const Real last_a = step.k == width - 1 ? nothing[0] : a[width - 2];
+    to[width] = (to[width] + last_a) + b[width - 1];
   }
 
-  [[gnu::always_inline]] static void add_corner(const Pack& f, const Step& step, Real* to) {
-    if constexpr (sizeof(Pack) == 64)
-      if (step.following == Following::in_two_rows) {
-        const auto at = static_cast<std::uint16_t>(1 << step.k),
-                   behind = static_cast<std::uint16_t>(0xFFFE << step.k);
-        const Pack own = replaced(replaced(f, behind, a_lane_up(f, f)), at, Pack(-zero_of(f)));
-        store(to, Pack(load<Pack>(to) + own));
-        to[width] += f[width - 1];
-        return;
-      }
-    store(to, Pack(load<Pack>(to) + f));
-  }
-
-  // Corner after corner, or element after element; seldom, so out of line.
-  [[gnu::noinline]] void add_others(const Real (&lane)[n][width], const Step& step, int i) {
+  // Element after element; seldom, so out of line.
+  [[gnu::noinline]] void add_others(const Real (&of_lane)[n][width], const Step& step, int i) {
     Real* const sum = sum_ + i * stride_;
-    if constexpr (n == 8 && width > 2)
-      if (step.following != Following::anyhow) {
-        for (int k = 0; k < n; ++k) {
-          const int a = corner_of_row(box_row, k);
-          add_corner(load<Pack>(lane[a]), step, sum + step.target.first(a));
-        }
-        return;
-      }
     for (int l = 0; l < width; ++l)
-      for (int a = 0; a < n; ++a) sum[step.target.all[a * lanes + l]] += lane[a][l];
+      for (int a = 0; a < n; ++a) sum[step.target.all[a * lanes + l]] += of_lane[a][l];
+  }
+
+  // Of a row some of whose pairs are none: these number by number, and nothing waits. As seldom.
+  [[gnu::noinline]] void add_unpaired(const Real (&of_lane)[3][n][width], const LaneNumbers& target,
+                                      std::uint16_t row_break, int lane) {
+    finish();
+    const Step step = next_step(target, row_break, lane);
+    for (int i = 0; i < 3; ++i)
+      if (step.is_paired)
+        for (int pair = 0; pair < n_pairs; ++pair)
+          add_pair(of_lane[i], step, (unpaired_of_break(row_break) >> pair & 1) == 0, i, pair);
+      else
+        add_others(of_lane[i], step, i);
+  }
+  [[gnu::always_inline]] void add_pair(const Real (&of_lane)[n][width], const Step& step,
+                                       bool is_paired, int i, int pair) {
+    const auto& of_a = of_lane[a_of(pair)];
+    const auto& of_b = of_lane[b_of(pair)];
+    if (!is_paired) {
+      for (const int a : {a_of(pair), b_of(pair)})
+        for (int l = 0; l < width; ++l)
+          sum_[i * stride_ + step.target.all[a * lanes + l]] += of_lane[a][l];
+      return;
+    }
+    if (step.following == Following::in_a_row) {
+      add_row_of_pair(load<Pack>(of_a), load<Pack>(of_b), step, i, pair);
+    } else if constexpr (sizeof(Pack) == 64) {
+      add_two_rows_of_pair(load<Pack>(of_a), load<Pack>(of_b), step, i, pair);
+    }
+    sum_[i * stride_ + step.target.first(b_of(pair)) + n_met(step)] += of_a[width - 1];
   }
 };
 

@@ -51,9 +51,7 @@ struct ElementLoops {
           Pack u[n][3];
           if constexpr (reads_positions_v<Pack, Element>) {
             if (task.position_stride > 0)
-              load_components<Following::anyhow>(
-                  ComponentField<float>{task.position, task.position_stride, {corner, nullptr, 0}},
-                  0, u);
+              load_positions(task, block, lane, u);
             else
               gather_positions(task.position, corner, rows(task, block, lane), u);
             Element::prepare(u, stash);
@@ -111,6 +109,21 @@ struct ElementLoops {
                       strain_of_seldom<Following::in_two_rows>(task, value, stash, block, lane);
                   });
   }
+  // By component, for elements whose displacements lie node by node.
+  [[gnu::noinline]] static void load_positions(const BlockTask& task, std::int64_t block, int lane,
+                                               Pack (&X)[n][3]) {
+    const int row_break = lane_of_break(task.row_break[block]), k = row_break - lane;
+    const ComponentField<float> field{
+        task.position, task.position_stride,
+        lane_numbers<Pack, n>(task.corner, task.row_start, block, lane, row_break)};
+    const Following following = following_of<Pack>(row_break, lane);
+    if (following == Following::in_a_row)
+      load_components<Following::in_a_row>(field, k, X);
+    else if (following == Following::anyhow)
+      load_components<Following::anyhow>(field, k, X);
+    else if constexpr (sizeof(Pack) == 64)
+      load_components<Following::in_two_rows>(field, k, X);
+  }
   // Out of line, so that what is seldom leaves the instruction cache to the others.
   template <Following following>
   [[gnu::noinline]] static void strain_of_seldom(const BlockTask& task,
@@ -158,7 +171,7 @@ struct ElementLoops {
         task, [&](const auto& value, const auto& stash, std::int64_t block,
                   int lane) __attribute__((always_inline)) {
           if (lane == 0) fetch(task, block + task.n_blocks);
-          const std::uint8_t row_break = task.row_break[block];
+          const std::uint16_t row_break = task.row_break[block];
           const LaneNumbers to =
               lane_numbers<Pack, n>(target, task.row_target, block, lane, lane_of_break(row_break));
           if constexpr (n == 8) {

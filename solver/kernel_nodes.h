@@ -215,11 +215,20 @@ struct NodeLoops {
   template <class Real>
   static void add_component_places(Real* sum, std::int64_t stride, std::int64_t place,
                                    const std::int32_t* node, std::int64_t n) {
-    for (int j = 0; j < 3; ++j, sum += stride)
-      for (std::int64_t k = 0; k < n; ++k) {
-        sum[node[k]] += sum[place + k];
-        sum[place + k] = 0;
-      }
+    Real* from = sum + place;
+    for_pieces(
+        node, n, [&](std::int64_t i, auto is_eight) __attribute__((always_inline)) {
+          constexpr int n_nodes = is_eight ? eight : 1, at_once = is_eight ? width : 1;
+          using Some = PackOf<Real, at_once>;
+          for (int j = 0; j < 3; ++j)
+            for (int l = 0; l < n_nodes; l += at_once) {
+              Real* const to = sum + j * stride + i + l;
+              Real* const of_place = from + j * stride + l;
+              store(to, Some(load<Some>(to) + load<Some>(of_place)));
+              store(of_place, Some{});
+            }
+          from += n_nodes;
+        });
   }
 
   // Of the components in the r-th register of three.

@@ -25,7 +25,8 @@ bool follow_each_other(const std::int32_t* number, int n, int k) {
 }
 
 // Whether kernels, which add corners in the order of box_row, give each node its elements' forces
-// in the order of the lanes; start: the first lane's target at each corner.
+// in the order of the lanes; start: the first lane's node at each corner. Behind the nodes, a place
+// gets one force.
 bool keeps_order(const std::array<std::int32_t, 8>& start, int n_lanes) {
   for (int k = 0; k < 8; ++k)
     for (int l = k + 1; l < 8; ++l) {
@@ -33,12 +34,6 @@ bool keeps_order(const std::array<std::int32_t, 8>& start, int n_lanes) {
           start[corner_of_row(box_row, l)] - start[corner_of_row(box_row, k)];
       if (0 < ahead && ahead <= n_lanes) return false;
     }
-  return true;
-}
-
-bool are_pairs(const std::array<std::int32_t, 8>& start) {
-  for (int k = 0; k < 8; k += 2)
-    if (start[corner_of_row(box_row, k)] != start[corner_of_row(box_row, k + 1)] + 1) return false;
   return true;
 }
 
@@ -51,22 +46,26 @@ std::vector<std::int32_t> first_lanes(const std::vector<std::int32_t>& number, i
   return first;
 }
 
-std::uint8_t row_break_of(const ElementBlocks& blocks, std::int64_t block) {
+std::uint16_t row_break_of(const ElementBlocks& blocks, std::int64_t block) {
   const int n = blocks.lanes;
-  const std::int64_t first = block * corners_of_block(blocks);
-  const std::int32_t* const node = &blocks.corner[first];
+  const std::int32_t* const node = &blocks.corner[block * corners_of_block(blocks)];
+  const std::int32_t* const target = &targets(blocks)[block * corners_of_block(blocks)];
   int k = 1;
   while (k < n && node[k] == node[0] + k) ++k;
   std::array<std::int32_t, 8> start{};
+  unsigned unpaired = 0;
   for (int a = 0; a < 8; ++a) {
-    const std::int64_t at = first + a * n;
-    if (!follow_each_other(&blocks.corner[at], n, k) ||
-        !follow_each_other(&targets(blocks)[at], n, k))
-      return 0;
-    start[a] = targets(blocks)[at];
+    if (!follow_each_other(node + a * n, n, k)) return 0;
+    start[a] = node[a * n];
   }
   if (!keeps_order(start, n)) return 0;
-  return static_cast<std::uint8_t>(are_pairs(start) ? k : k | unpaired);
+  for (int pair = 0; pair < 4; ++pair) {
+    const std::int32_t* const at = target + corner_of_row(box_row, 2 * pair) * n;
+    const std::int32_t* const beside = target + corner_of_row(box_row, 2 * pair + 1) * n;
+    if (at[0] != beside[0] + 1 || !follow_each_other(at, n, k) || !follow_each_other(beside, n, k))
+      unpaired |= 1U << pair;
+  }
+  return row_break(k, unpaired);
 }
 
 // Finds rows of all lists; returns whether most blocks stand in them.
@@ -174,7 +173,7 @@ void lay_out_nodes(Model& model) {
       blocks.row_start = first_lanes(blocks.corner, blocks.lanes);
       blocks.row_target = first_lanes(blocks.target, blocks.lanes);
     } else {
-      blocks.row_break = std::vector<std::uint8_t>();
+      blocks.row_break = std::vector<std::uint16_t>();
       blocks.row_start = blocks.row_target = std::vector<std::int32_t>();
     }
 }

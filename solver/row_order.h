@@ -23,10 +23,16 @@ constexpr bool is_row(std::uint32_t row) {
 // Of hexahedra of a box whose nodes are numbered along xi first, then eta, then zeta.
 inline constexpr std::uint32_t box_row = 0x01324576;
 
-// A bit of ElementBlocks::row_break (node_layout.h), and the lane.
-inline constexpr std::uint8_t unpaired = 0x80;
-constexpr int lane_of_break(std::uint8_t row_break) {
-  return row_break & 0x7F;
+// ElementBlocks::row_break (node_layout.h): the lane, and a bit for each pair of corners of box_row
+// whose places do not follow each other.
+constexpr std::uint16_t row_break(int lane, unsigned unpaired) {
+  return static_cast<std::uint16_t>(static_cast<unsigned>(lane) | unpaired << 8);
+}
+constexpr int lane_of_break(std::uint16_t row_break) {
+  return row_break & 0xFF;
+}
+constexpr unsigned unpaired_of_break(std::uint16_t row_break) {
+  return row_break >> 8;
 }
 
 constexpr int corner_of_row(std::uint32_t row, int k) {

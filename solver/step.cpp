@@ -154,7 +154,7 @@ void add_slots(const Model& model, std::int32_t first, std::int32_t last, Scratc
 void finish_shared_nodes(const Model& model, Scratch& scratch, const NodeMotion* motion) {
   const std::vector<std::int32_t>& node = model.sums.shared_node;
   if (node.empty()) return;
-  parallel_for(std::ssize(node), [&](std::int64_t first, std::int64_t last) {
+  parallel_for_nodes(std::ssize(node), [&](std::int64_t first, std::int64_t last) {
     add_slots(model, node[first], node[last - 1], scratch);
     finish_nodes(model, {node.begin() + first, node.begin() + last}, scratch, motion);
   });

@@ -122,7 +122,7 @@ TEST(NodeLayout, is_by_component_only_where_most_blocks_are_hexahedra_in_rows) {
 // second one.
 TEST(NodeLayout, tells_where_rows_end) {
   const Body body = make_body(jittered_box(20, 6, 6));
-  const std::vector<std::uint8_t>& row_break = body.model.blocks[0].row_break;
+  const std::vector<std::uint16_t>& row_break = body.model.blocks[0].row_break;
   EXPECT_EQ(std::vector<int>(row_break.begin(), row_break.begin() + 6),
             (std::vector<int>{8, 8, 4, 8, 8, 8}));
 }
