@@ -10,7 +10,10 @@ namespace trocar {
 namespace {
 
 // What a third-level cache holds of a body: below it, prefetches only cost (4 % of a step).
-constexpr std::size_t cached_bytes = 16 << 20;
+constexpr std::size_t cached_bytes = 24 << 20;
+
+// Nodes that a stride meets first; what is more is no row of them.
+constexpr std::int32_t most_met = 4096;
 
 constexpr std::uintptr_t line_bytes = 64;
 
@@ -41,7 +44,7 @@ RunPrefetch::RunPrefetch(const Model& model, std::int64_t run, const State& stat
     : model_(model),
       state_(state),
       scratch_(scratch),
-      end_stride_(model.sums.run_stride[run + 1]),
+      run_(run),
       is_on_(memory_bytes(model, scratch) + 2 * sizeof(double) * state.u.size() > cached_bytes) {}
 
 void RunPrefetch::start(std::int32_t stride) {
@@ -49,10 +52,27 @@ void RunPrefetch::start(std::int32_t stride) {
   const SumOrder& sums = model_.sums;
   const std::int32_t first = sums.stride_first[stride], end = sums.stride_first[stride + 1];
   finished_ = {first, end, share_of(end - first)};
+  const std::int32_t met = std::max(met_end_, end_of_nodes(stride + 1));
   met_ = {};
-  if (stride + 1 == end_stride_ || stride + 1 >= std::ssize(sums.stride_nodes)) return;
-  const std::int32_t known = sums.stride_nodes[stride].end, all = sums.stride_nodes[stride + 1].end;
-  met_ = {known, all, share_of(all - known)};
+  if (met - met_end_ <= most_met) met_ = {met_end_, met, share_of(met - met_end_)};
+  met_end_ = met;
+}
+
+std::int32_t RunPrefetch::end_of_nodes(std::int32_t stride) const {
+  const SumOrder& sums = model_.sums;
+  if (stride >= sums.run_stride[run_ + 1]) return 0;
+  if (stride < std::ssize(sums.stride_nodes)) return sums.stride_nodes[stride].end;
+  const std::int64_t first =
+      sums.run_block[run_] + (stride - sums.run_stride[run_]) * stride_blocks;
+  std::int32_t end = 0;
+  for_block_range(model_, first, std::min(first + stride_blocks, sums.run_block[run_ + 1]),
+                  [&](const ElementBlocks& blocks, std::int64_t begin, std::int64_t n) {
+                    const std::int64_t n_corners = corners_of_block(blocks);
+                    const std::int32_t* const corner = blocks.corner.data() + begin * n_corners;
+                    for (std::int64_t k = 0; k < n * n_corners; k += blocks.lanes)
+                      end = std::max(end, corner[k] + 1);
+                  });
+  return end;
 }
 
 void RunPrefetch::beside(const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
@@ -61,33 +81,39 @@ void RunPrefetch::beside(const ElementBlocks& blocks, std::int64_t first, std::i
   fetch_finished(finished_.take(n));
   if (model_.is_by_component) return;  // most blocks have short lists
   const std::int64_t n_corners = corners_of_block(blocks);
-  const std::int64_t next = std::min<std::int64_t>(first + 2 * n, blocks.n_blocks);
+  const std::int64_t next = std::min<std::int64_t>(first + 2 * stride_blocks, blocks.n_blocks);
   const std::int64_t n_next = std::min<std::int64_t>(n, blocks.n_blocks - next);
   fetch(blocks.corner.data() + next * n_corners, n_next * n_corners);
 }
 
-void RunPrefetch::fetch_met(const NodeRange& nodes) const {
+// Of a nodal field of width numbers a node, by component or else node by node.
+template <class Real>
+void RunPrefetch::fetch_field(const AlignedVector<Real>& field, std::int64_t stride,
+                              const NodeRange& nodes) const {
   const std::int64_t first = nodes.begin, n = nodes.end - nodes.begin;
-  if (n == 0) return;
-  fetch(state_.u.data() + 3 * first, 3 * n);
-  for (int j = 0; j < 3; ++j) {
-    if (!model_.position.empty())
-      fetch(model_.position.data() + j * component_stride(model_.n_local) + first, n);
-    if (scratch_.sum.empty())
-      fetch(scratch_.sum_single.data() + j * sum_stride(model_) + first, n);
-    else
-      fetch(scratch_.sum.data() + j * sum_stride(model_) + first, n);
-  }
+  if (field.empty()) return;
+  if (!model_.is_by_component) return fetch(field.data() + 4 * first, 4 * n);
+  for (std::int64_t j = 0; j < 3; ++j) fetch(field.data() + j * stride + first, n);
 }
 
-// Where they follow each other.
+void RunPrefetch::fetch_met(const NodeRange& nodes) const {
+  if (nodes.begin == nodes.end) return;
+  fetch(state_.u.data() + 3 * std::int64_t{nodes.begin}, 3 * std::int64_t{nodes.end - nodes.begin});
+  fetch_field(model_.position, component_stride(model_.n_local), nodes);
+  fetch_field(scratch_.sum, sum_stride(model_), nodes);
+  fetch_field(scratch_.sum_single, sum_stride(model_), nodes);
+}
+
 void RunPrefetch::fetch_finished(const NodeRange& positions) const {
-  const std::int64_t n = positions.end - positions.begin;
-  if (n == 0) return;
-  const std::int64_t node = model_.sums.node[positions.begin];
-  if (model_.sums.node[positions.end - 1] - node != n - 1) return;
-  fetch(state_.v.data() + 3 * node, 3 * n);
-  fetch(inertia_of(model_).data() + node, n);
+  const std::int32_t* const node = model_.sums.node.data();
+  const auto fetch_nodes = [&](std::int64_t first, std::int64_t n) {
+    fetch(state_.v.data() + 3 * first, 3 * n);
+    fetch(inertia_of(model_).data() + first, n);
+  };
+  const std::int32_t n = positions.end - positions.begin;
+  if (n > 0 && node[positions.end - 1] - node[positions.begin] == n - 1)
+    return fetch_nodes(node[positions.begin], n);
+  for (std::int32_t k = positions.begin; k < positions.end; ++k) fetch_nodes(node[k], 1);
 }
 
 }  // namespace trocar

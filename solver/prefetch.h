@@ -26,16 +26,22 @@ class RunPrefetch {
     NodeRange take(std::int64_t n_blocks);
   };
 
+  // Behind the nodes that the stride meets, by each block's first lane; 0: the run has no such one.
+  std::int32_t end_of_nodes(std::int32_t stride) const;
+  template <class Real>
+  void fetch_field(const AlignedVector<Real>& field, std::int64_t stride,
+                   const NodeRange& nodes) const;
   void fetch_met(const NodeRange& nodes) const;
   void fetch_finished(const NodeRange& positions) const;
 
   const Model& model_;
   const State& state_;
   const Scratch& scratch_;
-  std::int32_t end_stride_ = 0;  // of the run
+  std::int64_t run_;
   bool is_on_;
-  Share met_;       // nodes that the next stride meets first
-  Share finished_;  // those that this one finishes, in SumOrder::node
+  std::int32_t met_end_ = 0;  // behind the nodes that strides up to the next one meet
+  Share met_;                 // nodes that the next stride meets first
+  Share finished_;            // those that this one finishes, in SumOrder::node
 };
 
 }  // namespace trocar
