@@ -1,5 +1,5 @@
-// Where a step's time goes: nanoseconds of its parts per element, one thread, widest registers,
-// neo-Hookean. JSON to stdout. bench_parts [elements, about (default 8000)]
+// Where a step's time goes: nanoseconds of its parts per element, one thread, neo-Hookean. JSON to
+// stdout. bench_parts [elements, about (default 8000)] [instruction set (default the widest)]
 #include <cstdlib>
 
 #include "bench/machine.h"
@@ -10,9 +10,10 @@ using namespace trocar;
 int main(int argc, char** argv) {
   const int n_elements = argc > 1 ? std::atoi(argv[1]) : 8000;
   if (n_elements < 1) {
-    std::fprintf(stderr, "bench_parts [elements]\n");
+    std::fprintf(stderr, "bench_parts [elements] [instruction set]\n");
     return 2;
   }
+  select_simd(argc > 2 ? argv[2] : "auto");
   std::printf("{\"simd\": \"%s\", \"peak_gflops\": %.1f, \"parts\": [", simd_name(), peak_gflops());
   report_parts(n_elements, [](const auto& parts) {
     // In turn, so that all have met the machine at its best.

@@ -9,12 +9,34 @@ namespace trocar {
 // How the lanes of a register follow each other. Those of a block's second row skip a node.
 enum class Following { in_a_row, in_two_rows, anyhow };
 
+// Bit l of `lanes`: lane l is `by`'s.
+template <class Pack, std::size_t... l>
+[[gnu::always_inline]] inline Pack replaced(const Pack& x, std::uint32_t lanes, const Pack& by,
+                                            std::index_sequence<l...>) {
+  using Real = RealOf<Pack>;
+  if constexpr (sizeof(Pack) == 64 && sizeof(Real) == sizeof(double)) {
+    return _mm512_mask_blend_pd(static_cast<std::uint8_t>(lanes), x, by);
+  } else if constexpr (sizeof(Pack) == 64) {
+    return _mm512_mask_blend_ps(static_cast<std::uint16_t>(lanes), x, by);
+  } else if constexpr (sizeof...(l) == 1) {
+    return (lanes & 1) != 0 ? by : x;
+  } else {
+    using Bit = std::conditional_t<sizeof(Real) == sizeof(double), std::uint64_t, std::uint32_t>;
+    using Bits = PackOf<Bit, static_cast<int>(sizeof...(l))>;
+    return ((Bits{} + Bit{lanes}) & Bits{Bit{1} << l...}) != 0 ? by : x;
+  }
+}
+template <class Pack>
+[[gnu::always_inline]] inline Pack replaced(const Pack& x, std::uint32_t lanes, const Pack& by) {
+  return replaced(x, lanes, by, std::make_index_sequence<pack_width<Pack>>{});
+}
+
 // Lanes from `lane` on, of a block with this row_break.
 template <class Pack>
 [[gnu::always_inline]] inline Following following_of(int row_break, int lane) {
   if (pack_width<Pack> <= 2 || row_break == 0) return Following::anyhow;
   if (row_break <= lane || row_break >= lane + pack_width<Pack>) return Following::in_a_row;
-  return sizeof(Pack) == 64 ? Following::in_two_rows : Following::anyhow;
+  return Following::in_two_rows;
 }
 
 // Numbers of the nodes or places that the lanes of a group meet at each corner. In rows those of
@@ -61,7 +83,9 @@ template <Following following, class Part, int block_lanes>
   const Part all = load<Part>(at);
   if constexpr (following == Following::in_two_rows) {
     const auto second = static_cast<std::uint32_t>(0xFFFF << k >> lane);
-    if constexpr (sizeof(RealOf<Part>) == sizeof(double))
+    if constexpr (sizeof(Part) < 64)
+      return replaced(all, second, load<Part>(at + 1));
+    else if constexpr (sizeof(RealOf<Part>) == sizeof(double))
       return _mm512_mask_loadu_pd(all, static_cast<std::uint8_t>(second), at + 1);
     else
       return _mm512_mask_loadu_ps(all, static_cast<std::uint16_t>(second), at + 1);

@@ -19,15 +19,6 @@ template <class Pack>
   return a_lane_up(before, x, std::make_index_sequence<pack_width<Pack>>{});
 }
 
-// Bit l of `lanes`: lane l, of registers that have masks.
-template <class Pack>
-[[gnu::always_inline]] inline Pack replaced(const Pack& x, std::uint16_t lanes, const Pack& by) {
-  if constexpr (sizeof(RealOf<Pack>) == sizeof(double))
-    return _mm512_mask_blend_pd(static_cast<std::uint8_t>(lanes), x, by);
-  else
-    return _mm512_mask_blend_ps(lanes, x, by);
-}
-
 // Adds the forces of groups one behind the other. Corners of a hexahedron in a box come in pairs
 // (a, b), of which a node gets a's force of one element and then b's of the next one. What the last
 // lane has for a waits until the next lanes are there: if they go on in the row, they add it with
@@ -123,8 +114,7 @@ class ComponentSums {
     if constexpr (n == 8 && width > 2) {
       if (last_ != nullptr && !step.goes_on) add_waiting(i);
       if (step.is_paired && step.following == Following::in_a_row) return add_row(f, step, i);
-      if constexpr (sizeof(Pack) == 64)
-        if (step.is_paired) return add_two_rows(f, step, i);
+      if (step.is_paired) return add_two_rows(f, step, i);
     }
     Real lane[n][width];
     for (int a = 0; a < n; ++a) store(lane[a], f[a]);
@@ -210,7 +200,7 @@ class ComponentSums {
     }
     if (step.following == Following::in_a_row) {
       add_row_of_pair(load<Pack>(of_a), load<Pack>(of_b), step, i, pair);
-    } else if constexpr (sizeof(Pack) == 64) {
+    } else {
       add_two_rows_of_pair(load<Pack>(of_a), load<Pack>(of_b), step, i, pair);
     }
     sum_[i * stride_ + step.target.first(b_of(pair)) + n_met(step)] += of_a[width - 1];

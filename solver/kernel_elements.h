@@ -105,7 +105,7 @@ struct ElementLoops {
                       strain_of_group<Following::in_a_row>(task, value, stash, block, lane);
                     else if (following == Following::anyhow)
                       strain_of_seldom<Following::anyhow>(task, value, stash, block, lane);
-                    else if constexpr (sizeof(Pack) == 64)
+                    else
                       strain_of_seldom<Following::in_two_rows>(task, value, stash, block, lane);
                   });
   }
@@ -121,7 +121,7 @@ struct ElementLoops {
       load_components<Following::in_a_row>(field, k, X);
     else if (following == Following::anyhow)
       load_components<Following::anyhow>(field, k, X);
-    else if constexpr (sizeof(Pack) == 64)
+    else
       load_components<Following::in_two_rows>(field, k, X);
   }
   // Out of line, so that what is seldom leaves the instruction cache to the others.

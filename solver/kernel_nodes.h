@@ -8,6 +8,7 @@
 
 #include "solver/corner_gather.h"
 #include "solver/kernels.h"
+#include "solver/node_by_node.h"
 
 namespace trocar {
 
@@ -124,17 +125,17 @@ struct NodeLoops {
   [[gnu::always_inline]] static void find_force(const NodeForces<Real>& task,
                                                 const Pack (&gravity)[3], std::int64_t i,
                                                 std::bool_constant<is_eight>, double* force) {
-    if constexpr (is_eight && width == eight) {
-      if (task.sum_stride > 0)
-        force_of_components(task, i, force);
+    if (task.sum_stride > 0) {
+      if constexpr (is_eight && width > 1)
+        for (int l = 0; l < eight; l += width) force_of_components(task, i + l, force + 3 * l);
       else
-        force_of_eight(gravity, task.mass + i, task.sum + 4 * i, force);
+        for (int l = 0; l < (is_eight ? eight : 1); ++l)
+          force_of_component_sums(task, i + l, force + 3 * l);
+    } else if constexpr (is_eight && width == eight) {
+      force_of_eight(gravity, task.mass + i, task.sum + 4 * i, force);
     } else {
       for (int l = 0; l < (is_eight ? eight : 1); ++l)
-        if (task.sum_stride > 0)
-          force_of_component_sums(task, i + l, force + 3 * l);
-        else
-          force_of_node(task, task.mass[i + l], task.sum + 4 * (i + l), force + 3 * l);
+        force_of_node(task, task.mass[i + l], task.sum + 4 * (i + l), force + 3 * l);
     }
   }
 
@@ -142,7 +143,11 @@ struct NodeLoops {
   // may round one of two loops twice, as it does when sanitizers look on.
   template <class P>
   [[gnu::always_inline]] static P weight_less_sum(const P& m, const P& g, const P& s) {
-    if constexpr (pack_width<P> == 8)
+    if constexpr (width < 4)
+      return m * g - s;
+    else if constexpr (std::is_same_v<P, double>)
+      return __builtin_fma(m, g, -s);
+    else if constexpr (pack_width<P> == 8)
       return _mm512_fmsub_pd(m, g, s);
     else
       return _mm256_fmsub_pd(m, g, s);
@@ -180,10 +185,11 @@ struct NodeLoops {
   template <class Real>
   [[gnu::always_inline]] static void force_of_component_sums(const NodeForces<Real>& task,
                                                              std::int64_t i, double* force) {
-    Real lane[4] = {};
-    for (int j = 0; j < 3; ++j) lane[j] = task.sum[j * task.sum_stride + i];
-    force_of_node(task, task.mass[i], lane, force);
-    for (int j = 0; j < 3; ++j) task.sum[j * task.sum_stride + i] = 0;
+    for (int j = 0; j < 3; ++j) {
+      Real& sum = task.sum[j * task.sum_stride + i];
+      force[j] = weight_less_sum(task.mass[i], task.gravity[j], double{sum});
+      sum = 0;
+    }
   }
 
   // Of nodes that follow each other, to where they lie node by node.
@@ -198,18 +204,7 @@ struct NodeLoops {
       f[j] = weight_less_sum(mass, Pack{} + g, load_in_double<Pack>(sum));
       store(sum, PackOf<Real, width>{});
     }
-    // Each component in the order in which the three registers take it, then blended.
-    const Pack x = __builtin_shufflevector(f[0], f[0], 0, 3, 6, 1, 4, 7, 2, 5);
-    const Pack y = __builtin_shufflevector(f[1], f[1], 5, 0, 3, 6, 1, 4, 7, 2);
-    const Pack z = __builtin_shufflevector(f[2], f[2], 2, 5, 0, 3, 6, 1, 4, 7);
-    const auto blend =
-        [](const Pack& of_0, const Pack& of_1, const Pack& of_2) __attribute__((always_inline)) {
-      const Pack of_01 = __builtin_shufflevector(of_0, of_1, 0, 9, 2, 3, 12, 5, 6, 15);
-      return __builtin_shufflevector(of_01, of_2, 0, 1, 10, 3, 4, 13, 6, 7);
-    };
-    store(force, blend(x, y, z));
-    store(force + width, blend(z, x, y));
-    store(force + 2 * width, blend(y, z, x));
+    store_node_by_node(f, force);
   }
 
   template <class Real>
