@@ -108,6 +108,18 @@ bool keeps_step(const Simulation& s) {
   return s.look.is_done && s.watch.is_finite && s.watch.least_J > 0;
 }
 
+// The same of a body that is made anew, for example as parts change: ranks must not matter.
+bool rebuild_all(std::span<const std::int32_t> nodes, Simulation& s) {
+  if (!s.local_steps) {
+    rebuild_topology(s);
+    return true;
+  }
+  const MultiRatePlan before = s.local_steps->plan;
+  const bool is_given_up = !s.multirate;
+  rebuild_topology(s);
+  return keep_local_steps(before, is_given_up, nodes, s);
+}
+
 // Whether an edit changes no energies but those around it.
 bool keeps_energy(const Simulation& s) {
   return !s.multirate;
@@ -258,8 +270,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   if (is_local) {
     is_step_local &= update_topology(s, {edit.splits, edited.after, nodes, global.x});
   } else {
-    rebuild_topology(s);
-    is_step_local &= !s.local_steps;
+    is_step_local &= rebuild_all(nodes, s);
   }
   restore_strain_energy(adjustable, strain, s.mesh,
                         *make_strained_patch(s, edit, edited.after, nodes, global), global);

@@ -106,8 +106,11 @@ bool is_free(const Simulation& s) {
 
 void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
   if (is_free(s)) {
-    const ForceScope scope(s);
-    step_freely(s.model, s.neighbours, span.dt, s.state, s.scratch);
+    {
+      const ForceScope scope(s);
+      step_freely(s.model, s.neighbours, span.dt, s.state, s.scratch);
+    }
+    const PhaseScope scope(s.timers, phase_exchange);
     start_exchange(s.neighbours, s.state);
     return;
   }

@@ -55,4 +55,11 @@ bool follow_local_steps(std::span<const HexSplit> splits, std::span<const std::i
   return stays;
 }
 
+bool keep_local_steps(const MultiRatePlan& before, bool is_given_up,
+                      std::span<const std::int32_t> nodes, Simulation& s) {
+  const bool stays = is_same_elsewhere(before, s.local_steps->plan, nodes);
+  if (stays && is_given_up) s.multirate.reset();
+  return stays;
+}
+
 }  // namespace trocar

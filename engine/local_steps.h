@@ -25,5 +25,8 @@ void plan_local_steps(Simulation& s);
 // stay so then. Collective.
 bool follow_local_steps(std::span<const HexSplit> splits, std::span<const std::int32_t> elements,
                         std::span<const std::int32_t> nodes, Simulation& s);
+// The same answer after all was planned anew: `before` and whether local steps had been given up.
+bool keep_local_steps(const MultiRatePlan& before, bool is_given_up,
+                      std::span<const std::int32_t> nodes, Simulation& s);
 
 }  // namespace trocar

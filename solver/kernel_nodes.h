@@ -37,8 +37,8 @@ struct NodeLoops {
         node, n, [&](std::int64_t i, auto is_eight) __attribute__((always_inline)) {
           alignas(64) double force[3 * eight];
           find_force(task, gravity, i, is_eight, force);
-          Nodes nodes = from(motion, i);
-          nodes.force = force;
+          const Nodes nodes{motion.inertia + i, motion.fixed + i, force, motion.v + 3 * i,
+                            motion.u + 3 * i};
           if constexpr (is_eight)
             for (int l = 0; l < eight; l += width) move(motion, behind(nodes, l));
           else
@@ -338,7 +338,7 @@ struct NodeLoops {
             Pack(load<Pack>(task.work + k) + task.dt * (v * load<Pack>(task.force + k))));
   }
 
-  // Fewer than a register's, likewise in copies.
+  // Fewer than a register's: in copies, by the same instructions.
   [[gnu::always_inline]] static void add_last_works(const NodeWorks& task, std::int64_t k, int n) {
     double after[width] = {}, force[width] = {}, v[width] = {}, swept[width] = {}, work[width] = {};
     copy(task.after + k, n, after);

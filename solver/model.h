@@ -100,8 +100,8 @@ struct SumOrder {
   std::vector<std::int64_t> run_block;   // (n_runs + 1) first block of each run
   std::vector<std::int32_t> run_stride;  // (n_runs + 1) first stride of each run
   std::int64_t n_places = 0;             // of Scratch::sum, nodes first
-  // Owned nodes that one run alone meets, ascending by the last stride that touches them, then by
-  // number: they are finished while they are in the cache.
+  // Owned nodes that one run alone meets and reads, ascending by the last stride that touches them,
+  // then by number: they are finished while they are in the cache.
   std::vector<std::int32_t> node;
   std::vector<std::int32_t> stride_first;  // (n_strides + 1) into node
   // Owned nodes that several runs meet or, by component, read; ascending.

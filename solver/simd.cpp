@@ -70,12 +70,16 @@ static std::atomic<Simd>& selection() {
   return simd;
 }
 
+Simd active_simd() {
+  return selection().load(std::memory_order_relaxed);
+}
+
 const Kernels& active_kernels() {
-  return kernels_of(selection().load(std::memory_order_relaxed));
+  return kernels_of(active_simd());
 }
 
 const char* simd_name() {
-  return name_of(selection().load());
+  return name_of(active_simd());
 }
 
 void select_simd(const std::string& name) {

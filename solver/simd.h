@@ -13,7 +13,9 @@ const char* name_of(Simd simd);
 bool is_supported(Simd simd);  // by this machine
 const Kernels& kernels_of(Simd simd);
 
-// The one picked by select_simd (step.h), else the widest that the machine has.
+// The one picked by select_simd (step.h), else the widest that the machine has. Tables of others
+// may hold instructions that the machine has not, and so may what makes them.
+Simd active_simd();
 const Kernels& active_kernels();
 
 }  // namespace trocar

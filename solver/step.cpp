@@ -155,6 +155,7 @@ void finish_shared_nodes(const Model& model, Scratch& scratch, const NodeMotion*
   const std::vector<std::int32_t>& node = model.sums.shared_node;
   if (node.empty()) return;
   parallel_for_nodes(std::ssize(node), [&](std::int64_t first, std::int64_t last) {
+    if (first == last) return;
     add_slots(model, node[first], node[last - 1], scratch);
     finish_nodes(model, {node.begin() + first, node.begin() + last}, scratch, motion);
   });
