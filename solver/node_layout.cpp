@@ -132,6 +132,7 @@ bool is_read_by_another(std::int32_t node, std::int32_t run,
 // Nodes that one run alone meets and that lie in the range of another one, which reads but never
 // uses them, are finished with those that several meet, if they are few; returns whether they are.
 bool share_nodes_of_others(const std::vector<NodeRange>& run_nodes, SumOrder& sums) {
+  if (sums.n_inside_runs < 2) return true;
   constexpr std::size_t most = 8;  // one of so many
   std::vector<std::int32_t> own, first = {0}, read;
   for (std::int32_t run = 0; run < sums.n_runs; ++run)

@@ -86,7 +86,7 @@ void RunPrefetch::beside(const ElementBlocks& blocks, std::int64_t first, std::i
   fetch(blocks.corner.data() + next * n_corners, n_next * n_corners);
 }
 
-// Of a nodal field of width numbers a node, by component or else node by node.
+// Of a nodal field by component, or else node by node in fours.
 template <class Real>
 void RunPrefetch::fetch_field(const AlignedVector<Real>& field, std::int64_t stride,
                               const NodeRange& nodes) const {

@@ -1,8 +1,7 @@
 // Cache lines that the next blocks and nodes of a run need, asked for while the blocks before them
 // are computed: of bodies that no cache holds. The nodes' many short streams leave the machine's
-// own prefetchers behind, so that a core would wait for memory in nearly every block: a step of a
-// million hexahedra takes 21.5 ns an element in place of 26.0, in single precision 15.2 in place
-// of 22.1.
+// own prefetchers behind, so that a core would wait for memory in nearly every block
+// (docs/performance.md).
 #pragma once
 
 #include "solver/model.h"

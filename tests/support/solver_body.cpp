@@ -39,7 +39,11 @@ void put_node_by_node(Body& body) {
   model.is_by_component = false;
   model.sums.window_first.clear();
   model.sums.stride_nodes.clear();
-  for (ElementBlocks& blocks : model.blocks) blocks.row_break.clear();
+  for (ElementBlocks& blocks : model.blocks) {
+    blocks.row_break.clear();
+    blocks.row_start.clear();
+    blocks.row_target.clear();
+  }
   const AlignedVector<float> by_component = model.position;
   if (!by_component.empty()) model.position.assign(4 * static_cast<std::size_t>(model.n_local), 0);
   for (std::size_t k = 0; k < model.position.size(); ++k)
