@@ -97,24 +97,29 @@ void update_force(Simulation& s, double time, double dt) {
   refine_forces(s, dt);
 }
 
-// Whether nothing but its elements and supports at rest acts on the tissue in a substep.
-bool is_free(const Simulation& s) {
+void list_waiting(Simulation& s) {
+  s.waiting.node.clear();
+  if (s.contact) s.waiting.node = s.contact->set.local;
+  for (const PrescribedNode& node : s.holds.prescribed) s.waiting.node.push_back(node.node);
+  for (const BladeDrag::Node& node : s.drag.node) s.waiting.node.push_back(node.local);
+  mark_waiting(s.model, s.waiting);
+}
+
+// Whether nothing but elements and supports at rest acts on the nodes that don't wait, so that they
+// can move while their forces are found.
+bool moves_at_once(const Simulation& s) {
   return !s.scratch.has_force && !s.energy && !s.multirate && s.loads.is_empty() &&
-         s.holds.prescribed.empty() && s.drag.node.empty() && s.model.clusters.node.empty() &&
-         (!s.contact || s.contact->set.node.empty());
+         s.model.clusters.node.empty();
 }
 
 void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
-  if (is_free(s)) {
-    {
-      const ForceScope scope(s);
-      step_freely(s.model, s.neighbours, span.dt, s.state, s.scratch);
-    }
-    const PhaseScope scope(s.timers, phase_exchange);
-    start_exchange(s.neighbours, s.state);
-    return;
+  const bool at_once = moves_at_once(s);
+  if (at_once) {
+    const ForceScope scope(s);
+    step_others(s.model, s.neighbours, s.waiting, span.dt, s.state, s.scratch);
+  } else {
+    update_force(s, span.t0 + static_cast<double>(k) * span.dt, span.dt);
   }
-  update_force(s, span.t0 + static_cast<double>(k) * span.dt, span.dt);
   aim_holds(s.holds, s.tools, s.mesh.X, span.t0 + static_cast<double>(k + 1) * span.dt);
   if (s.contact) {
     const PhaseScope scope(s.timers, phase_contact);
@@ -124,7 +129,10 @@ void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
   {
     const PhaseScope scope(s.timers, phase_integrate);
     if (s.energy) note_velocities(s, span.dt);
-    integrate(s.model, s.scratch, s.holds.prescribed, span.dt, s.state);
+    if (at_once)
+      step_waiting(s.model, s.waiting, s.holds.prescribed, span.dt, s.state, s.scratch);
+    else
+      integrate(s.model, s.scratch, s.holds.prescribed, span.dt, s.state);
     add_hold_reactions(s.holds);
   }
   const PhaseScope scope(s.timers, phase_exchange);
@@ -139,6 +147,7 @@ FrameSpan run_substeps(Simulation& s) {
   if (s.contact) detect(s, span);
   if (!s.cuts.empty()) prepare_drag(s, span);
   if (s.sleep) wake_touched(s);
+  list_waiting(s);
   if (s.energy) begin_frame_work(s);
   for (std::int64_t k = 0; k < span.n_substeps; ++k) substep(s, span, k);
   return span;

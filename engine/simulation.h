@@ -112,6 +112,7 @@ struct Simulation : RankBody {
   std::unique_ptr<ContactStage> contact;  // only with instruments
   std::vector<CutStage> cuts;             // one an instrument that cuts
   BladeDrag drag;                         // of this frame
+  WaitingNodes waiting;                   // in this frame: those of contacts, holds and drag
   GlobalState cut_state;                  // of this frame's cuts; kept for its memory
   SurfaceView view;                       // positions of surface nodes, replicated, once a frame
 

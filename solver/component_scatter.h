@@ -96,12 +96,8 @@ class ComponentSums {
   [[gnu::always_inline]] static int n_met(Following following) {
     return width + (following == Following::in_two_rows ? 1 : 0);
   }
-  [[gnu::always_inline]] static int a_of(int pair) {
-    return corner_of_row(box_row, 2 * pair);
-  }
-  [[gnu::always_inline]] static int b_of(int pair) {
-    return corner_of_row(box_row, 2 * pair + 1);
-  }
+  [[gnu::always_inline]] static int a_of(int pair) { return corner_of_row(box_row, 2 * pair); }
+  [[gnu::always_inline]] static int b_of(int pair) { return corner_of_row(box_row, 2 * pair + 1); }
 
   template <Following following, class Corners>
   [[gnu::always_inline]] void add_rows(const LaneNumbers& target, int k, const Corners& corners) {

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "base/check.h"
+#include "base/sort_unique.h"
 #include "solver/block_ranges.h"
 #include "solver/mass_clusters.h"
 #include "solver/step.h"
@@ -67,6 +68,15 @@ void add_reaction(const Model& model, const Coefficients& c, double dt, const St
   }
 }
 
+void add_reactions(const Model& model, const Coefficients& c, double dt, const State& state,
+                   Scratch& scratch, std::span<PrescribedNode> prescribed) {
+  for (PrescribedNode& node : prescribed) {
+    CHECK_OP(node.node, >=, 0);
+    CHECK_OP(node.node, <, model.n_owned);
+    add_reaction(model, c, dt, state, scratch, node);
+  }
+}
+
 // The velocity after the step of a component k = 3 i + j.
 double next_velocity(const Model& model, const Coefficients& c, const Scratch& scratch,
                      const State& state, std::int64_t i, int j) {
@@ -110,6 +120,19 @@ void integrate_nodes(const Model& model, const Coefficients& c, double dt, Scrat
   });
 }
 
+// After the nodes.
+void end_step(const Model& model, std::span<const PrescribedNode> prescribed, double dt,
+              State& state, Scratch& scratch) {
+  // Exactly there, without the rounding of u + dt (u_next - u) / dt.
+  for (const PrescribedNode& node : prescribed)
+    for (int j = 0; j < 3; ++j)
+      if (!is_fixed(model, node.node, j)) state.u[3 * std::int64_t{node.node} + j] = node.u_next[j];
+  scratch.has_force = false;
+  state.time += dt;
+  state.last_dt = dt;
+  ++state.step;
+}
+
 // alpha v·M v dt_m of what clusters have more than mass.
 void add_cluster_damping(const Model& model, const Coefficients& c, Scratch& scratch) {
   const MassClusters& clusters = model.clusters;
@@ -150,19 +173,30 @@ void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> p
                double dt, State& state) {
   CHECK_OP(dt, >, 0);
   const Coefficients c = coefficients(model.options.mass_damping, state.last_dt, dt);
-  for (const PrescribedNode& node : prescribed) {
-    CHECK_OP(node.node, >=, 0);
-    CHECK_OP(node.node, <, model.n_owned);
-  }
   couple_clusters(model, c, dt, state, prescribed, scratch);
-  for (PrescribedNode& node : prescribed) add_reaction(model, c, dt, state, scratch, node);
+  add_reactions(model, c, dt, state, scratch, prescribed);
   integrate_nodes(model, c, dt, scratch, state);
   if (!scratch.cluster_work.empty()) add_cluster_damping(model, c, scratch);
-  // Exactly there, without the rounding of u + dt (u_next - u) / dt.
-  for (const PrescribedNode& node : prescribed)
-    for (int j = 0; j < 3; ++j)
-      if (!is_fixed(model, node.node, j)) state.u[3 * std::int64_t{node.node} + j] = node.u_next[j];
-  end_step(dt, state, scratch);
+  end_step(model, prescribed, dt, state, scratch);
+}
+
+void mark_waiting(const Model& model, WaitingNodes& waiting) {
+  sort_unique(waiting.node);
+  if (waiting.node.empty()) return;
+  CHECK_OP(waiting.node.front(), >=, 0);
+  CHECK_OP(waiting.node.back(), <, model.n_owned);
+  waiting.mask = model.fixed;
+  for (const std::int32_t i : waiting.node) waiting.mask[i] |= waits;
+}
+
+void step_waiting(const Model& model, const WaitingNodes& waiting,
+                  std::span<PrescribedNode> prescribed, double dt, State& state, Scratch& scratch) {
+  NodeMotion task = free_motion(model, dt, state);
+  task.force = scratch.force.data();
+  add_reactions(model, coefficients(model.options.mass_damping, state.last_dt, dt), dt, state,
+                scratch, prescribed);
+  for (const std::int32_t i : waiting.node) active_kernels().nodes.motion(task, i, i + 1);
+  end_step(model, prescribed, dt, state, scratch);
 }
 
 NodeMotion free_motion(const Model& model, double dt, State& state) {
@@ -176,13 +210,6 @@ NodeMotion free_motion(const Model& model, double dt, State& state) {
           .force = nullptr,
           .v = state.v.data(),
           .u = state.u.data()};
-}
-
-void end_step(double dt, State& state, Scratch& scratch) {
-  scratch.has_force = false;
-  state.time += dt;
-  state.last_dt = dt;
-  ++state.step;
 }
 
 std::vector<double> find_damping_work(const Model& model, const Scratch& scratch) {

@@ -39,6 +39,8 @@ struct NodeLoops {
           find_force(task, gravity, i, is_eight, force);
           const Nodes nodes{motion.inertia + i, motion.fixed + i, force, motion.v + 3 * i,
                             motion.u + 3 * i};
+          if (any_waits(nodes, is_eight))
+            return move_others(motion, nodes, is_eight ? eight : 1, task.force + 3 * i);
           if constexpr (is_eight)
             for (int l = 0; l < eight; l += width) move(motion, behind(nodes, l));
           else
@@ -292,6 +294,26 @@ struct NodeLoops {
       for (int l = 0; l < width; ++l) any = static_cast<std::uint8_t>(any | nodes.fixed[l]);
     }
     return any != 0;
+  }
+
+  template <bool is_eight>
+  [[gnu::always_inline]] static bool any_waits(const Nodes& nodes, std::bool_constant<is_eight>) {
+    if constexpr (!is_eight) return (*nodes.fixed & waits) != 0;
+    std::uint64_t all;
+    __builtin_memcpy(&all, nodes.fixed, sizeof all);
+    return __builtin_expect((all & (~std::uint64_t{0} / 0xFF * waits)) != 0, false);
+  }
+
+  // Of n nodes those that don't wait; of the others the force is kept.
+  [[gnu::noinline]] static void move_others(const NodeMotion& task, const Nodes& nodes, int n,
+                                            double* force) {
+    for (int l = 0; l < n; ++l) {
+      const Nodes node = behind(nodes, l);
+      if ((*node.fixed & waits) != 0)
+        copy(node.force, 3, force + 3 * l);
+      else
+        move_one(task, node);
+    }
   }
 
   // All is read before anything is written: where arrays lie a multiple of 4096 bytes apart, a read

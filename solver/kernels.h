@@ -96,11 +96,13 @@ struct NodeForces {
   std::int64_t sum_stride = 0;
 };
 
-// v = keep v + gain force / inertia, zero where a bit of fixed is set; u = u + dt v.
+// v = keep v + gain force / inertia, zero where a bit of fixed is set; u = u + dt v. A node that
+// waits stays, with its force, when the others move.
+inline constexpr std::uint8_t waits = 8;
 struct NodeMotion {
   double keep, gain, dt;
   const double* inertia;      // [kg]
-  const std::uint8_t* fixed;  // FixedMask
+  const std::uint8_t* fixed;  // FixedMask, or waits
   const double* force;        // [N]
   double *v, *u;              // [m/s], [m]
 };
@@ -117,7 +119,8 @@ struct NodeWorks {
 template <class Real>
 using NodeForceKernel = void (*)(const NodeForces<Real>& task, const std::int32_t* node,
                                  std::int64_t n);
-// The same and then the motion, which takes the force at once: neither task's `force` is asked for.
+// The same and then the motion, which takes the force at once: `force` is that of waiting nodes,
+// and motion's is not asked for.
 template <class Real>
 using NodeStepKernel = void (*)(const NodeForces<Real>& task, const NodeMotion& motion,
                                 const std::int32_t* node, std::int64_t n);

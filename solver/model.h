@@ -76,7 +76,7 @@ struct VolumeAverages {
   std::int32_t n_fields = 0;         // the same on all ranks
   std::int64_t n_lanes = 0;          // of the lists concerned
   std::vector<std::int64_t> offset;  // (n_owned * n_fields + 1) into lane
-  std::vector<std::int64_t> lane;    // of Scratch::volume_change, ascending global element number
+  std::vector<std::int32_t> lane;    // of Scratch::volume_change, ascending global element number
   std::vector<double> stiffness;     // (n_owned * n_fields) sum of K V [J]; 0: no such element
   std::vector<double> share;         // (n_fields) s of element_tet4_nodal_pressure.h
 };
@@ -242,6 +242,12 @@ struct Scratch {
   std::vector<std::uint8_t> is_asleep;
 };
 Scratch make_scratch(const Model& model);
+
+// Owned nodes on which more than elements and supports at rest acts in a step.
+struct WaitingNodes {
+  std::vector<std::int32_t> node;  // ascending
+  std::vector<std::uint8_t> mask;  // (n_owned) NodeMotion::fixed with them; empty without any
+};
 // From now on integrate adds up what mass damping takes from each owned node, and what relaxation
 // does if there is any.
 void keep_works(const Model& model, Scratch& scratch);

@@ -23,7 +23,7 @@ void start_theta(const Model& model, Neighbours& neighbours, State& state) {
 }
 
 void average_and_start(const Model& model, Neighbours& neighbours, State& state, Scratch& scratch) {
-  find_inside_volume_change(model, state, scratch);
+  average_inside(model, state, scratch);
   finish_exchange(neighbours, state);
   average_with_border(model, state, scratch);
   start_theta(model, neighbours, state);
@@ -86,12 +86,21 @@ void find_force(const Model& model, Neighbours& neighbours, State& state, Scratc
   find_force(model, neighbours, state, scratch, watch, nullptr);
 }
 
+void step_others(const Model& model, Neighbours& neighbours, const WaitingNodes& waiting, double dt,
+                 State& state, Scratch& scratch) {
+  CHECK(!scratch.keeps_works && model.clusters.node.empty());
+  NodeMotion motion = free_motion(model, dt, state);
+  if (!waiting.node.empty()) {
+    CHECK_OP(std::ssize(waiting.mask), ==, model.n_owned);
+    motion.fixed = waiting.mask.data();
+  }
+  find_force(model, neighbours, state, scratch, nullptr, &motion);
+}
+
 void step_freely(const Model& model, Neighbours& neighbours, double dt, State& state,
                  Scratch& scratch) {
-  CHECK(!scratch.keeps_works && model.clusters.node.empty());
-  const NodeMotion motion = free_motion(model, dt, state);
-  find_force(model, neighbours, state, scratch, nullptr, &motion);
-  end_step(dt, state, scratch);
+  step_others(model, neighbours, {}, dt, state, scratch);
+  step_waiting(model, {}, {}, dt, state, scratch);
 }
 
 }  // namespace trocar

@@ -38,9 +38,12 @@ void update_volume_change(const Model& model, Neighbours& neighbours, State& sta
 // way, averages volume changes and exchanges these, inside first. See compute_force.
 void find_force(const Model& model, Neighbours& neighbours, State& state, Scratch& scratch,
                 ElementWatch* watch = nullptr);
-// find_force and integrate in one pass over the nodes, with the same bits: of a step in which
-// nobody adds to forces or asks for them, nothing is prescribed, no works are kept and no mass is
-// scaled.
+// find_force and integrate in one pass over all nodes but the waiting ones, with the same bits: of
+// a step in which nobody adds to the others' forces or asks for them, no works are kept and no mass
+// is scaled. The step ends with step_waiting; until then the others are ahead.
+void step_others(const Model& model, Neighbours& neighbours, const WaitingNodes& waiting, double dt,
+                 State& state, Scratch& scratch);
+// Both, where none waits.
 void step_freely(const Model& model, Neighbours& neighbours, double dt, State& state,
                  Scratch& scratch);
 

@@ -18,7 +18,7 @@ struct NodeMotion;
 // fields.
 void average_volume_change(const Model& model, State& state, Scratch& scratch);
 // The same in two halves, the first of which reads no halo nodes.
-void find_inside_volume_change(const Model& model, const State& state, Scratch& scratch);
+void average_inside(const Model& model, State& state, Scratch& scratch);
 void average_with_border(const Model& model, State& state, Scratch& scratch);
 
 // scratch.force = mass * gravity - internal force(u), for owned nodes; each node sums its corners
@@ -28,7 +28,7 @@ void average_with_border(const Model& model, State& state, Scratch& scratch);
 void compute_force(const Model& model, State& state, Scratch& scratch);
 // The same in two halves, the first of which reads no halo nodes. On the way `watch` looks at the
 // elements that don't sleep. With a `motion`, nodes move as soon as their forces are known, while
-// they are in the cache, and scratch.force stays as it is.
+// they are in the cache, and scratch.force is that of waiting nodes alone.
 void compute_inside_force(const Model& model, State& state, Scratch& scratch,
                           ElementWatch* watch = nullptr, const NodeMotion* motion = nullptr);
 void compute_border_force(const Model& model, State& state, Scratch& scratch,
@@ -55,10 +55,14 @@ struct PrescribedNode {
 void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> prescribed,
                double dt, State& state);
 
-// The nodes' part of a step in which nothing is prescribed, no works are kept and no mass is
-// scaled; and the rest of it, after the nodes.
+// The nodes' part of a step in which no works are kept and no mass is scaled.
 NodeMotion free_motion(const Model& model, double dt, State& state);
-void end_step(double dt, State& state, Scratch& scratch);
+// Sorts the nodes, each once, and makes their mask; before the first step with them.
+void mark_waiting(const Model& model, WaitingNodes& waiting);
+// What step_others (neighbours.h) leaves to do: integrate of the waiting nodes, among them the
+// prescribed ones.
+void step_waiting(const Model& model, const WaitingNodes& waiting,
+                  std::span<PrescribedNode> prescribed, double dt, State& state, Scratch& scratch);
 
 // u_next (n_local * 3) of `nodes` (local, owned) and of prescribed ones: where integrate would take
 // them under scratch.force as it is.

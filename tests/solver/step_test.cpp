@@ -179,3 +179,47 @@ TEST(Step, is_stable_just_below_the_bound_and_unstable_just_above_the_true_limit
     EXPECT_GT(growth(other, 1.05 * limit, 30), 1e3);
   }
 }
+
+// Forces on a few nodes, and one that is led: all others may move at once.
+static void check_waiting_nodes(const Mesh& mesh, Precision precision) {
+  Body body = make_body(mesh, {.solver = {.mass_damping = 3, .precision = precision}});
+  shake(body.state.u, 1e-4, 3);
+  shake(body.state.v, .1, 4);
+  Body at_once = body;
+  std::vector<PrescribedNode> led = {{.node = 17}}, led_at_once = led;
+  WaitingNodes waiting{.node = {40, 3, 17, 40, body.model.n_owned - 1}};
+  mark_waiting(at_once.model, waiting);
+  EXPECT_EQ(waiting.node, (std::vector<std::int32_t>{3, 17, 40, body.model.n_owned - 1}));
+  const auto push = [&](const Body& of, std::span<PrescribedNode> nodes, Scratch& scratch) {
+    scratch.force[3 * 3 + 1] += 1e-3 * (1 + of.state.u[3 * 3 + 1]);
+    scratch.force[3 * 40] -= 2e-3;
+    nodes[0].u_next = Vec3(1e-4, 2e-4, 3e-4) * static_cast<double>(of.state.step);
+  };
+  Neighbours none;
+  for (int k = 0; k < 5; ++k) {
+    const double dt = 1e-5 * (1 + k);
+    find_force(body.model, none, body.state, body.scratch);
+    push(body, led, body.scratch);
+    integrate(body.model, body.scratch, led, dt, body.state);
+    step_others(at_once.model, none, waiting, dt, at_once.state, at_once.scratch);
+    push(at_once, led_at_once, at_once.scratch);
+    step_waiting(at_once.model, waiting, led_at_once, dt, at_once.state, at_once.scratch);
+    ASSERT_EQ(at_once.state.u, body.state.u);
+    ASSERT_EQ(at_once.state.v, body.state.v);
+    ASSERT_EQ(led_at_once[0].reaction, led[0].reaction);
+  }
+  EXPECT_EQ(at_once.state.time, body.state.time);
+  EXPECT_NE(led[0].reaction, Vec3(0, 0, 0));
+}
+
+TEST(Step, nodes_that_wait_for_other_forces_leave_the_bits_as_they_are) {
+  for (const Precision precision : precisions)
+    for (const int n_threads : {1, 2}) {
+      set_thread_count(n_threads);
+      check_waiting_nodes(block(BoxElements::hex8), precision);
+      check_waiting_nodes(block(BoxElements::tet4_kuhn), precision);
+      check_waiting_nodes(
+          make_box(Vec3(0, 0, 0), Vec3(.1, .1, .1), {20, 18, 18}, BoxElements::hex8), precision);
+    }
+  set_thread_count(1);
+}
