@@ -85,7 +85,10 @@ struct ElementLoops {
   }
 
   static void volume_change(const BlockTask& task, double* to) {
+    // Blocks; what the machine finds by itself makes a step of a million elements a quarter longer.
+    constexpr std::int64_t ahead = 12;
     for_groups<Pack>(task, [&](const Group<Pack>& group, std::int64_t block, int lane) {
+      if (lane == 0) fetch(task, block + ahead);
       Pack u[n][3];
       gather_corners(task.u, corners(task, block, lane), rows(task, block, lane), u);
       const Tensor<Pack> H = ElementTet4::strain(behind_material(task, group), u);

@@ -23,7 +23,7 @@ void start_theta(const Model& model, Neighbours& neighbours, State& state) {
 }
 
 void average_and_start(const Model& model, Neighbours& neighbours, State& state, Scratch& scratch) {
-  average_inside(model, state, scratch);
+  find_inside_volume_change(model, state, scratch);
   finish_exchange(neighbours, state);
   average_with_border(model, state, scratch);
   start_theta(model, neighbours, state);

@@ -18,7 +18,7 @@ struct NodeMotion;
 // fields.
 void average_volume_change(const Model& model, State& state, Scratch& scratch);
 // The same in two halves, the first of which reads no halo nodes.
-void average_inside(const Model& model, State& state, Scratch& scratch);
+void find_inside_volume_change(const Model& model, const State& state, Scratch& scratch);
 void average_with_border(const Model& model, State& state, Scratch& scratch);
 
 // scratch.force = mass * gravity - internal force(u), for owned nodes; each node sums its corners

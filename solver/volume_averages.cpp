@@ -67,51 +67,18 @@ void for_owned_corners(const Model& model, const Body& body) {
   });
 }
 
-// K V (J - 1) of n blocks from the first on.
-void find_volume_change(const Model& model, const ElementBlocks& blocks, std::int64_t first,
-                        std::int64_t n, const State& state, Scratch& scratch) {
-  if (!averages_volume(blocks)) return;
-  StashBytes unused;
-  const FlushSubnormals flush(blocks.precision == Precision::in_single);
-  const BlockKernels kernels = kernels_for(active_kernels(), blocks);
-  kernels.element.volume_change(
-      block_task(model, blocks, kernels, state, {}, first, n, unused),
-      scratch.volume_change.data() + blocks.first_lane + first * blocks.lanes);
-}
-
-// Of nodes all of whose elements' volume changes are known.
-void average_nodes(const Model& model, std::span<const std::int32_t> nodes, const Scratch& scratch,
-                   State& state) {
-  const VolumeAverages& averages = model.averages;
-  const double* const change = scratch.volume_change.data();
-  for (const std::int32_t node : nodes)
-    for (std::int64_t item = std::int64_t{node} * averages.n_fields;
-         item < std::int64_t{node + 1} * averages.n_fields; ++item) {
-      double sum = 0;
-      const std::int32_t* const lane = averages.lane.data() + averages.offset[item];
-      const std::int64_t n_lanes = averages.offset[item + 1] - averages.offset[item];
-#pragma GCC unroll 4
-      for (std::int64_t k = 0; k < n_lanes; ++k) sum += change[lane[k]];
-      state.theta[item] = averages.stiffness[item] > 0 ? sum / averages.stiffness[item] : 0;
-    }
-}
-
-// Of a run of SumOrder: nodes that it alone meets while their elements' volume changes are in the
-// cache.
-void average_run(const Model& model, std::int32_t run, State& state, Scratch& scratch) {
-  const SumOrder& sums = model.sums;
-  std::int64_t block = sums.run_block[run];
-  for (std::int32_t stride = sums.run_stride[run]; stride < sums.run_stride[run + 1]; ++stride) {
-    const std::int64_t next = std::min(block + stride_blocks, sums.run_block[run + 1]);
-    for_block_range(model, block, next,
-                    [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
-                      find_volume_change(model, blocks, first, n, state, scratch);
-                    });
-    average_nodes(model,
-                  {sums.node.begin() + sums.stride_first[stride],
-                   sums.node.begin() + sums.stride_first[stride + 1]},
-                  scratch, state);
-    block = next;
+// K V (J - 1) of the elements that read halo nodes, or of those that don't.
+void find_volume_change(const Model& model, const State& state, bool reads_halo, Scratch& scratch) {
+  for (const ElementBlocks& blocks : model.blocks) {
+    if (!averages_volume(blocks) || blocks.reads_halo != reads_halo) continue;
+    const BlockKernels kernels = kernels_for(active_kernels(), blocks);
+    parallel_for(std::int64_t{blocks.n_blocks}, [&](std::int64_t begin, std::int64_t end) {
+      StashBytes unused;
+      const FlushSubnormals flush(blocks.precision == Precision::in_single);
+      kernels.element.volume_change(
+          block_task(model, blocks, kernels, state, {}, begin, end - begin, unused),
+          scratch.volume_change.data() + blocks.first_lane + begin * blocks.lanes);
+    });
   }
 }
 
@@ -148,27 +115,31 @@ void link_volume_averages(const Mesh& mesh, std::span<const Material> materials,
   link_lanes(model);
 }
 
-void average_inside(const Model& model, State& state, Scratch& scratch) {
-  if (model.averages.n_fields == 0) return;
-  CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
-  parallel_for_chunks(model.sums.n_inside_runs,
-                      [&](int run) { average_run(model, run, state, scratch); });
+void find_inside_volume_change(const Model& model, const State& state, Scratch& scratch) {
+  if (model.averages.n_fields > 0) find_volume_change(model, state, false, scratch);
 }
 
 void average_with_border(const Model& model, State& state, Scratch& scratch) {
-  if (model.averages.n_fields == 0) return;
-  const SumOrder& sums = model.sums;
-  parallel_for_chunks(sums.n_runs - sums.n_inside_runs, [&](int run) {
-    average_run(model, sums.n_inside_runs + run, state, scratch);
-  });
-  parallel_for_nodes(std::ssize(sums.shared_node), [&](std::int64_t begin, std::int64_t end) {
-    average_nodes(model, {sums.shared_node.begin() + begin, sums.shared_node.begin() + end},
-                  scratch, state);
+  const VolumeAverages& averages = model.averages;
+  if (averages.n_fields == 0) return;
+  CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * averages.n_fields);
+  find_volume_change(model, state, true, scratch);
+  const std::int64_t n = std::int64_t{model.n_owned} * averages.n_fields;
+  const double* const change = scratch.volume_change.data();
+  parallel_for_nodes(n, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t item = begin; item < end; ++item) {
+      double sum = 0;
+      const std::int32_t* const lane = averages.lane.data() + averages.offset[item];
+      const std::int64_t n_lanes = averages.offset[item + 1] - averages.offset[item];
+#pragma GCC unroll 4
+      for (std::int64_t k = 0; k < n_lanes; ++k) sum += change[lane[k]];
+      state.theta[item] = averages.stiffness[item] > 0 ? sum / averages.stiffness[item] : 0;
+    }
   });
 }
 
 void average_volume_change(const Model& model, State& state, Scratch& scratch) {
-  average_inside(model, state, scratch);
+  find_inside_volume_change(model, state, scratch);
   average_with_border(model, state, scratch);
 }
 

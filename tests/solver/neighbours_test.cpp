@@ -50,7 +50,7 @@ TEST(Neighbours, the_inside_half_of_volume_changes_reads_no_halo_node) {
     average_volume_change(body.model, body.state, body.scratch);
     const std::vector<double> expected = body.state.theta;
     body.state.u = without_halo(body, u, 3);
-    average_inside(body.model, body.state, body.scratch);
+    find_inside_volume_change(body.model, body.state, body.scratch);
     body.state.u = u;
     average_with_border(body.model, body.state, body.scratch);
     EXPECT_EQ(body.state.theta, expected);
