@@ -16,6 +16,7 @@
 #include "engine/equilibrium.h"
 #include "engine/film_studio.h"
 #include "engine/frame.h"
+#include "engine/frame_report.h"
 #include "engine/resume.h"
 #include "engine/summary.h"
 #include "engine/tissue.h"

@@ -118,6 +118,23 @@ inline BlockTask block_task(const Model& model, const ElementBlocks& blocks,
           .sum_stride = sum_stride(model)};
 }
 
+// On to the blocks behind the task's. What a list has no use for is empty.
+inline void advance(const ElementBlocks& blocks, const BlockKernels& kernels, BlockTask& task) {
+  const std::int64_t n = task.n_blocks, n_corners = n * kernels.element.n_corners;
+  task.corner += n_corners * blocks.lanes;
+  task.row += n * blocks.lanes / row_lanes;
+  if (!blocks.row_break.empty()) {
+    task.row_break += n;
+    task.row_start += n_corners;
+    task.row_target += n_corners;
+  }
+  const std::int64_t n_values = n * kernels.n_values * blocks.lanes;
+  if (blocks.precision == Precision::in_single)
+    task.data = static_cast<const float*>(task.data) + n_values;
+  else
+    task.data = static_cast<const double*>(task.data) + n_values;
+}
+
 // Calls body(kernels, task, block) for the blocks [first, first + n) of a list, some at a time,
 // with their strains in the stash; block is the first of them.
 template <class Body>
@@ -128,11 +145,12 @@ void for_strained_blocks(const Model& model, const ElementBlocks& blocks, const 
   const FlushSubnormals flush(blocks.precision == Precision::in_single);
   const BlockKernels kernels = kernels_for(active_kernels(), blocks);
   const std::int64_t step = blocks_at_once(kernels);
+  BlockTask task = block_task(model, blocks, kernels, state, components, first, step, stash);
   for (std::int64_t at = first; at < first + n; at += step) {
-    const BlockTask task = block_task(model, blocks, kernels, state, components, at,
-                                      std::min(step, first + n - at), stash);
+    task.n_blocks = std::min(step, first + n - at);
     kernels.element.strain(task);
     body(kernels, task, at);
+    advance(blocks, kernels, task);
   }
 }
 template <class Body>

@@ -6,6 +6,7 @@
 
 #include "base/check.h"
 #include "base/threads.h"
+#include "solver/element_list.h"
 #include "solver/history.h"
 #include "solver/material_check.h"
 #include "solver/material_setup.h"

@@ -4,6 +4,7 @@
 
 #include "base/check.h"
 #include "base/timers.h"
+#include "solver/kernels.h"
 #include "solver/step.h"
 
 namespace trocar {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "solver/block_ranges.h"
+#include "solver/element_setup.h"
 #include "solver/sum_order.h"
 
 namespace trocar {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solver/block_ranges.h"
+#include "solver/step.h"
 #include "solver/sum_order.h"
 
 namespace trocar {

@@ -10,6 +10,8 @@
 
 namespace trocar {
 
+struct NodeMotion;
+
 // Fills model.sums and the lists' targets; the model has its blocks and nodes. As many runs inside
 // and at the border as there are threads now.
 void order_sums(Model& model);
