@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "base/digest.h"
 #include "base/reproducible_dot.h"
@@ -59,7 +60,13 @@ Vector inertia_of_components(const Model& model) {
 
 double largest_of(const Vector& x) {
   double largest = 0;
-  for (const double value : x) largest = std::max(largest, std::abs(value));
+  std::mutex mutex;
+  parallel_for_nodes(std::ssize(x), [&](std::int64_t begin, std::int64_t end) {
+    double mine = 0;
+    for (std::int64_t k = begin; k < end; ++k) mine = std::max(mine, std::abs(x[k]));
+    const std::scoped_lock lock(mutex);
+    largest = std::max(largest, mine);
+  });
   return largest;
 }
 
