@@ -80,47 +80,10 @@ struct Components {
   std::int64_t stride = 0;
 };
 
-inline BlockTask block_task(const Model& model, const ElementBlocks& blocks,
-                            const BlockKernels& kernels, const State& state,
-                            const Components& components, std::int64_t first, std::int64_t n,
-                            StashBytes& stash) {
-  const std::int64_t at = first * kernels.n_values * blocks.lanes;
-  const bool is_single = blocks.precision == Precision::in_single;
-  const ElementKernels& element = kernels.element;
-  const bool averages = element.volume_change != nullptr;
-  const auto row_at = [&](const std::vector<std::int32_t>& start) {
-    return start.data() + (start.empty() ? 0 : first * element.n_corners);
-  };
-  const int share = element.share > 0 ? kernels.n_material_values + element.share : 0;
-  return {.u = state.u.data(),
-          .u_x = components.x,
-          .u_stride = components.stride,
-          .position = model.position.data(),
-          .position_stride = model.is_by_component ? component_stride(model.n_local) : 0,
-          .corner = blocks.corner.data() + first * element.n_corners * blocks.lanes,
-          .row = blocks.row.data() + first * blocks.lanes / row_lanes,
-          .row_break = blocks.row_break.data() + (blocks.row_break.empty() ? 0 : first),
-          .row_start = row_at(blocks.row_start),
-          .row_target = row_at(blocks.row_target.empty() ? blocks.row_start : blocks.row_target),
-          .data = is_single ? static_cast<const void*>(blocks.data_single.data() + at)
-                            : static_cast<const void*>(blocks.data.data() + at),
-          .n_blocks = n,
-          .n_values = kernels.n_values,
-          .n_material_values = kernels.n_material_values,
-          .stash = stash.byte,
-          .n_points = element.n_points,
-          .n_stash = element.n_stash,
-          .share = share,
-          .share_stride = element.share_stride,
-          .theta = state.theta.data() + blocks.field,
-          .n_fields = model.averages.n_fields,
-          .element_share = averages ? model.averages.share[blocks.field] : 0,
-          .sum_stride = sum_stride(model)};
-}
-
-// On to the blocks behind the task's. What a list has no use for is empty.
-inline void advance(const ElementBlocks& blocks, const BlockKernels& kernels, BlockTask& task) {
-  const std::int64_t n = task.n_blocks, n_corners = n * kernels.element.n_corners;
+// On by n blocks of the list. What it has no use for is empty.
+inline void advance(const ElementBlocks& blocks, const BlockKernels& kernels, std::int64_t n,
+                    BlockTask& task) {
+  const std::int64_t n_corners = n * kernels.element.n_corners;
   task.corner += n_corners * blocks.lanes;
   task.row += n * blocks.lanes / row_lanes;
   if (!blocks.row_break.empty()) {
@@ -133,6 +96,43 @@ inline void advance(const ElementBlocks& blocks, const BlockKernels& kernels, Bl
     task.data = static_cast<const float*>(task.data) + n_values;
   else
     task.data = static_cast<const double*>(task.data) + n_values;
+}
+
+inline BlockTask block_task(const Model& model, const ElementBlocks& blocks,
+                            const BlockKernels& kernels, const State& state,
+                            const Components& components, std::int64_t first, std::int64_t n,
+                            StashBytes& stash) {
+  const bool is_single = blocks.precision == Precision::in_single;
+  const ElementKernels& element = kernels.element;
+  const bool averages = element.volume_change != nullptr;
+  const int share = element.share > 0 ? kernels.n_material_values + element.share : 0;
+  BlockTask task{
+      .u = state.u.data(),
+      .u_x = components.x,
+      .u_stride = components.stride,
+      .position = model.position.data(),
+      .position_stride = model.is_by_component ? component_stride(model.n_local) : 0,
+      .corner = blocks.corner.data(),
+      .row = blocks.row.data(),
+      .row_break = blocks.row_break.data(),
+      .row_start = blocks.row_start.data(),
+      .row_target = (blocks.row_target.empty() ? blocks.row_start : blocks.row_target).data(),
+      .data = is_single ? static_cast<const void*>(blocks.data_single.data())
+                        : static_cast<const void*>(blocks.data.data()),
+      .n_blocks = n,
+      .n_values = kernels.n_values,
+      .n_material_values = kernels.n_material_values,
+      .stash = stash.byte,
+      .n_points = element.n_points,
+      .n_stash = element.n_stash,
+      .share = share,
+      .share_stride = element.share_stride,
+      .theta = state.theta.data() + blocks.field,
+      .n_fields = model.averages.n_fields,
+      .element_share = averages ? model.averages.share[blocks.field] : 0,
+      .sum_stride = sum_stride(model)};
+  advance(blocks, kernels, first, task);
+  return task;
 }
 
 // Calls body(kernels, task, block) for the blocks [first, first + n) of a list, some at a time,
@@ -150,7 +150,7 @@ void for_strained_blocks(const Model& model, const ElementBlocks& blocks, const 
     task.n_blocks = std::min(step, first + n - at);
     kernels.element.strain(task);
     body(kernels, task, at);
-    advance(blocks, kernels, task);
+    advance(blocks, kernels, task.n_blocks, task);
   }
 }
 template <class Body>

@@ -144,7 +144,7 @@ class ComponentSums {
 
   // Element after element, or of a row some of whose pairs are none these so. Nothing waits.
   [[gnu::noinline]] void add_seldom(const Real (&of_lane)[3][n][width], const LaneNumbers& target,
-                                    const Rows& rows, int unpaired) {
+                                    const Rows& rows, unsigned unpaired) {
     if constexpr (has_pairs)
       if (rows.following != Following::anyhow) {
         begin_anew();

@@ -68,12 +68,10 @@ void add_reaction(const Model& model, const Coefficients& c, double dt, const St
   }
 }
 
-void add_reactions(const Model& model, const Coefficients& c, double dt, const State& state,
-                   Scratch& scratch, std::span<PrescribedNode> prescribed) {
-  for (PrescribedNode& node : prescribed) {
+void check_owned(const Model& model, std::span<const PrescribedNode> prescribed) {
+  for (const PrescribedNode& node : prescribed) {
     CHECK_OP(node.node, >=, 0);
     CHECK_OP(node.node, <, model.n_owned);
-    add_reaction(model, c, dt, state, scratch, node);
   }
 }
 
@@ -173,8 +171,9 @@ void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> p
                double dt, State& state) {
   CHECK_OP(dt, >, 0);
   const Coefficients c = coefficients(model.options.mass_damping, state.last_dt, dt);
+  check_owned(model, prescribed);
   couple_clusters(model, c, dt, state, prescribed, scratch);
-  add_reactions(model, c, dt, state, scratch, prescribed);
+  for (PrescribedNode& node : prescribed) add_reaction(model, c, dt, state, scratch, node);
   integrate_nodes(model, c, dt, scratch, state);
   if (!scratch.cluster_work.empty()) add_cluster_damping(model, c, scratch);
   end_step(model, prescribed, dt, state, scratch);
@@ -193,8 +192,9 @@ void step_waiting(const Model& model, const WaitingNodes& waiting,
                   std::span<PrescribedNode> prescribed, double dt, State& state, Scratch& scratch) {
   NodeMotion task = free_motion(model, dt, state);
   task.force = scratch.force.data();
-  add_reactions(model, coefficients(model.options.mass_damping, state.last_dt, dt), dt, state,
-                scratch, prescribed);
+  check_owned(model, prescribed);
+  const Coefficients c = coefficients(model.options.mass_damping, state.last_dt, dt);
+  for (PrescribedNode& node : prescribed) add_reaction(model, c, dt, state, scratch, node);
   for (const std::int32_t i : waiting.node) active_kernels().nodes.motion(task, i, i + 1);
   end_step(model, prescribed, dt, state, scratch);
 }

@@ -96,9 +96,10 @@ struct NodeForces {
   std::int64_t sum_stride = 0;
 };
 
-// v = keep v + gain force / inertia, zero where a bit of fixed is set; u = u + dt v. A node that
-// waits stays, with its force, when the others move.
+// Beside FixedMask: a node that stays, with its force, when the others move.
 inline constexpr std::uint8_t waits = 8;
+
+// v = keep v + gain force / inertia, zero where a bit of fixed is set; u = u + dt v.
 struct NodeMotion {
   double keep, gain, dt;
   const double* inertia;      // [kg]

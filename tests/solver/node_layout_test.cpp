@@ -95,7 +95,7 @@ TEST(NodeLayout, large_bodies_have_the_same_bits_too) {
   const Mesh mesh = jittered_box(60, 60, 60);
   for (const Precision precision : precisions) {
     Body body = make_body(mesh, {.solver = {.precision = precision}});
-    EXPECT_GT(memory_bytes(body.model, body.scratch), std::size_t{20} << 20);
+    EXPECT_GT(memory_bytes(body.model, body.scratch), std::size_t{24} << 20);
     shake(body.state.u, 5e-4, 11);
     Body node_by_node = body;
     put_node_by_node(node_by_node);
