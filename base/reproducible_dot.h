@@ -8,13 +8,16 @@
 
 namespace trocar {
 
+// The largest size of a component; NaN if one is not finite.
+double largest_size(std::span<const double> x);
+
 // a·b over all ranks with the same bits however the components are spread, and 10 times as fast as
 // an ExactSum of them: products are rounded to multiples of a quantum so coarse that their sums are
 // exact, then what that left is once more (Demmel & Nguyen 2013, "Fast reproducible floating-point
-// summation"). n: components on all ranks, at most 2^30. Error: products' own rounding and at most
-// 12 n^3 2^-104 of the largest of them, 1e-12 for a million; NaN if that one is not finite.
-// Collective.
+// summation"). n: components on all ranks, at most 2^30. `most`: no product is larger, the same on
+// all ranks. Error: products' own rounding and at most 12 n^3 2^-104 of it, 1e-12 for a million;
+// NaN if it is not finite. Collective.
 double reproducible_dot(std::span<const double> a, std::span<const double> b, std::int64_t n,
-                        const Communicator& communicator);
+                        double most, const Communicator& communicator);
 
 }  // namespace trocar

@@ -22,7 +22,7 @@ inline constexpr double unseen_strain = 2e-3;
 // less by the root of the largest growth of an element's omega^2 since then: that of the body has
 // grown by no more (docs/architecture.md measures it). Beyond this growth the body is searched
 // again, as the most stiffened element may be one that does not set the step, and after so many
-// steps, as what has softened is not seen. A search takes as long as some 25 steps.
+// steps, as what has softened is not seen. A search takes as long as some 20 steps.
 inline constexpr double most_growth = 1.1;
 inline constexpr std::int64_t most_steps_of_search = 3000;
 

@@ -34,9 +34,39 @@ void take_growth(double growth, std::int32_t global, LeastOfElements& least) {
 }
 
 constexpr double most_padding = 1e30;
-using Lanes = std::array<double, stash_blocks * lanes_of_block<float>>;
+using Room = std::array<double, stash_blocks * lanes_of_block<float>>;
+
+// Values of elements, whose numbers rise: where they lie, if side by side, or in `room`.
+const double* values_of(std::span<const double> of_all, std::span<const std::int32_t> element,
+                        Room& room) {
+  if (of_all.empty()) return nullptr;
+  const std::size_t n = element.size();
+  if (static_cast<std::size_t>(element[n - 1] - element[0]) == n - 1) return &of_all[element[0]];
+  for (std::size_t lane = 0; lane < n; ++lane) room[lane] = of_all[element[lane]];
+  return room.data();
+}
+
+// Whether no lane can set a least value, as is so nearly everywhere. Growth counts as none below
+// that at rest.
+bool is_none_of_interest(double at_rest, std::size_t n, const Room& enough, const Room& J,
+                         const Room& growth, const LeastOfElements& least) {
+  constexpr double rounding = 1 + 1e-12;
+  std::int64_t n_others = 0;
+  for (std::size_t lane = 0; lane < n; ++lane)
+    n_others += static_cast<std::int64_t>((J[lane] > least.J.value) & (J[lane] < infinity) &
+                                          (rounding * growth[lane] < enough[lane]) &
+                                          (rounding * at_rest < enough[lane]));
+  return n_others == static_cast<std::int64_t>(n);
+}
 
 }  // namespace
+
+// What is known of a task's elements, lane by lane.
+struct ElementWatch::Lanes {
+  double at_rest;         // `growth` of the kernels in the undeformed element
+  const double* step;     // there
+  const double* earlier;  // as in WatchWishes; null where it is empty
+};
 
 void ElementWatch::begin_with(const Model& model, const State& state, std::int32_t element) {
   const auto begin = part_.element_global.begin();
@@ -56,19 +86,16 @@ void ElementWatch::begin_with(const Model& model, const State& state, std::int32
 }
 
 // Growth that sets neither the least step nor the largest growth.
-void ElementWatch::find_enough(const Model& model, std::span<const std::int32_t> element,
-                               double at_rest, const LeastOfElements& least,
+void ElementWatch::find_enough(const Lanes& lanes, const LeastOfElements& least,
                                std::span<double> enough) const {
   const double by_step =
-      wishes_.stiffening.empty() ? at_rest / (least.step.value * least.step.value) : 0;
-  for (std::size_t lane = 0; lane < element.size(); ++lane) {
-    const double step = model.element_step[element[lane]];
-    enough[lane] = step * step * by_step;
-  }
+      wishes_.stiffening.empty() ? lanes.at_rest / (least.step.value * least.step.value) : 0;
+  for (std::size_t lane = 0; lane < enough.size(); ++lane)
+    enough[lane] = lanes.step[lane] * lanes.step[lane] * by_step;
   if (wishes_.earlier.empty()) return;
-  const double by_growth = at_rest * least.growth;
-  for (std::size_t lane = 0; lane < element.size(); ++lane)
-    enough[lane] = std::min(enough[lane], by_growth * wishes_.earlier[element[lane]]);
+  const double by_growth = lanes.at_rest * least.growth;
+  for (std::size_t lane = 0; lane < enough.size(); ++lane)
+    enough[lane] = std::min(enough[lane], by_growth * lanes.earlier[lane]);
 }
 
 void ElementWatch::look(const Model& model, const ElementBlocks& blocks,
@@ -78,19 +105,24 @@ void ElementWatch::look(const Model& model, const ElementBlocks& blocks,
   const auto n_lanes =
       static_cast<std::size_t>(std::min(task.n_blocks * blocks.lanes, blocks.n_elements - begin));
   const std::span element(blocks.element_local.data() + begin, n_lanes);
-  Lanes J, growth, enough;
-  find_enough(model, element, blocks.stiffening_at_rest, least, enough);
+  Room step_room, earlier_room, J, growth, enough;
+  const Lanes lanes{.at_rest = blocks.stiffening_at_rest,
+                    .step = values_of(model.element_step, element, step_room),
+                    .earlier = values_of(wishes_.earlier, element, earlier_room)};
+  find_enough(lanes, least, std::span(enough).first(n_lanes));
   std::fill(enough.begin() + static_cast<std::ptrdiff_t>(n_lanes), enough.end(), most_padding);
   kernels.law.watch(task, enough.data(), J.data(), growth.data());
+  const bool is_asked = !wishes_.stiffening.empty();
+  if (!is_asked && is_none_of_interest(lanes.at_rest, n_lanes, enough, J, growth, least)) return;
   for (std::size_t lane = 0; lane < n_lanes; ++lane) {
-    const std::int32_t k = element[lane];
-    const double step = model.element_step[k];
-    growth[lane] = std::max(1.0, growth[lane] / blocks.stiffening_at_rest);
-    if (!wishes_.stiffening.empty()) wishes_.stiffening[k] = growth[lane];
+    const double step = lanes.step[lane];
+    const std::int32_t global = part_.element_global[element[lane]];
+    growth[lane] = std::max(1.0, growth[lane] / lanes.at_rest);
+    if (is_asked) wishes_.stiffening[element[lane]] = growth[lane];
     if (!is_out_of_question(step, J[lane], growth[lane], least))
-      take_element(step, J[lane], growth[lane], part_.element_global[k], least);
-    if (!wishes_.earlier.empty() && growth[lane] > wishes_.earlier[k] * least.growth)
-      take_growth(growth[lane] / wishes_.earlier[k], part_.element_global[k], least);
+      take_element(step, J[lane], growth[lane], global, least);
+    if (!wishes_.earlier.empty() && growth[lane] > lanes.earlier[lane] * least.growth)
+      take_growth(growth[lane] / lanes.earlier[lane], global, least);
   }
 }
 

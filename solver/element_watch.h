@@ -62,8 +62,9 @@ class ElementWatch {
   Watch result() const;
 
  private:
-  void find_enough(const Model& model, std::span<const std::int32_t> element, double at_rest,
-                   const LeastOfElements& least, std::span<double> enough) const;
+  struct Lanes;
+  void find_enough(const Lanes& lanes, const LeastOfElements& least,
+                   std::span<double> enough) const;
   const Part& part_;
   WatchWishes wishes_;
   LeastOfElements first_, found_;

@@ -16,6 +16,10 @@ namespace {
 
 using Vector = std::vector<double>;
 
+double larger_or_bad(double a, double b) {
+  return a > b || std::isnan(a) ? a : b;
+}
+
 // Vectors are (n_owned * 3).
 struct Search {
   const Model& model;
@@ -26,13 +30,14 @@ struct Search {
   const Communicator& communicator;
   std::int64_t n = 0;              // components on all ranks
   std::vector<std::size_t> fixed;  // components that supports hold
-  Vector inertia;                  // of each component
+  Vector inertia, by_inertia;      // of each component, and one over it
+  double most_inertia = 0;         // on all ranks
   Vector force_at_rest, u, force, room;
 
   std::size_t size() const { return 3 * static_cast<std::size_t>(model.n_owned); }
-  // The same bits on any ranks and threads.
-  double dot(const Vector& a, const Vector& b) const {
-    return reproducible_dot(a, b, n, communicator);
+  // Products are no larger than `most`. The same bits on any ranks and threads.
+  double dot(const Vector& a, const Vector& b, double most) const {
+    return reproducible_dot(a, b, n, most, communicator);
   }
   // Calls body(k) for all components.
   template <class Body>
@@ -43,6 +48,30 @@ struct Search {
                            body(static_cast<std::size_t>(k));
                        });
   }
+  // The same; returns the size of the largest component of what the body writes on all ranks, NaN
+  // if one is not finite. In pieces that are still in the first cache then.
+  template <class Body>
+  double for_components(const Vector& written, const Body& body) const {
+    double most = 0;
+    std::mutex mutex;
+    const auto pieces = [&](std::int64_t begin, std::int64_t end) {
+      constexpr std::int64_t piece = 512;
+      double mine = 0;
+      for (std::int64_t next; begin < end; begin = next) {
+        next = std::min(end, begin + piece);
+        for (std::int64_t k = begin; k < next; ++k) body(static_cast<std::size_t>(k));
+        const auto n_written = static_cast<std::size_t>(next - begin);
+        mine = larger_or_bad(mine, largest_size({written.data() + begin, n_written}));
+      }
+      const std::scoped_lock lock(mutex);
+      most = larger_or_bad(most, mine);
+    };
+    parallel_for_nodes(static_cast<std::int64_t>(size()), pieces);
+    return communicator.all_max(most);
+  }
+  void hold_supports(Vector& x) const {
+    for (const std::size_t k : fixed) x[k] = 0;
+  }
 };
 
 std::vector<std::size_t> fixed_components(const Model& model) {
@@ -52,62 +81,67 @@ std::vector<std::size_t> fixed_components(const Model& model) {
   return fixed;
 }
 
-Vector inertia_of_components(const Model& model) {
-  Vector inertia;
-  for (const double of_node : inertia_of(model)) inertia.insert(inertia.end(), 3, of_node);
-  return inertia;
-}
-
-double largest_of(const Vector& x) {
-  double largest = 0;
-  std::mutex mutex;
-  parallel_for_nodes(std::ssize(x), [&](std::int64_t begin, std::int64_t end) {
-    double mine = 0;
-    for (std::int64_t k = begin; k < end; ++k) mine = std::max(mine, std::abs(x[k]));
-    const std::scoped_lock lock(mutex);
-    largest = std::max(largest, mine);
+void find_inertia(Search& s) {
+  const std::vector<double>& of_node = inertia_of(s.model);
+  s.inertia.resize(s.size());
+  s.by_inertia.resize(s.size());
+  s.most_inertia = s.for_components(s.inertia, [&](std::size_t k) {
+    s.inertia[k] = of_node[k / 3];
+    s.by_inertia[k] = 1 / of_node[k / 3];
   });
-  return largest;
 }
 
-// K x = -(f(u + h x) - f(u)) / h with h so that the largest displacement is the amplitude.
-void apply_stiffness(Search& s, const Vector& x, Vector& Kx) {
-  const double h = s.options.amplitude / s.communicator.all_max(largest_of(x));
-  s.for_components([&](std::size_t k) { s.u[k] = s.state.u[k] + h * x[k]; });
-  s.forces(s.u, s.force);
-  s.for_components([&](std::size_t k) { Kx[k] = -(s.force[k] - s.force_at_rest[k]) / h; });
-  for (const std::size_t k : s.fixed) Kx[k] = 0;
-}
+// A direction as the iteration finds it, before it is made of length one.
+struct Direction {
+  Vector x, Mx;
+  double largest = 0;  // component's size on all ranks
+  double length = 0;   // in M; 0 if there is nothing to divide
+};
 
-// next = M^-1 next - (a x + b last)
-void take_away(Search& s, double a, const Vector& x, double b, const Vector& last, Vector& next) {
-  add_cluster_force(s.model, {}, next, s.room);
-  s.for_components(
-      [&](std::size_t k) { next[k] = next[k] / s.inertia[k] - (a * x[k] + b * last[k]); });
-  for (const std::size_t k : s.fixed) next[k] = 0;
+// `largest` is that of x before supports took their part.
+void measure(const Search& s, double largest, Direction& d) {
+  s.hold_supports(d.x);
+  subtract_cluster_means(s.model, d.x, d.Mx);  // adds as much to M x as it has, at most
+  const double square = s.dot(d.x, d.Mx, 2 * s.most_inertia * largest * largest);
+  d.largest = largest;
+  d.length = square > 0 && std::isfinite(square) ? std::sqrt(square) : 0;
 }
 
 // Within +-1 by the global number alone, so that every mode of vibration has a share.
-Vector noise(const Search& s) {
-  Vector x(s.size());
-  for (std::size_t k = 0; k < x.size(); ++k) {
+void begin_with_noise(const Search& s, Direction& d) {
+  const double largest = s.for_components(d.x, [&](std::size_t k) {
     const auto global = static_cast<std::uint64_t>(s.part.node_global[k / 3]);
     const auto bits = mix64(3 * global + k % 3 + 1) >> 11;
-    x[k] = static_cast<double>(bits) * 0x1p-52 - 1;
-  }
-  for (const std::size_t k : s.fixed) x[k] = 0;
-  return x;
+    d.x[k] = static_cast<double>(bits) * 0x1p-52 - 1;
+    d.Mx[k] = s.inertia[k] * d.x[k];
+  });
+  measure(s, largest, d);
 }
 
-// A vector and its length in M; makes it of length one. False if there is nothing to divide.
-bool normalise(const Search& s, Vector& x, Vector& Mx, double& length) {
-  s.for_components([&](std::size_t k) { Mx[k] = s.inertia[k] * x[k]; });
-  subtract_cluster_means(s.model, x, Mx);
-  const double square = s.dot(x, Mx);
-  length = square > 0 ? std::sqrt(square) : 0;
-  if (!(square > 0) || !std::isfinite(square)) return false;
-  s.for_components([&](std::size_t k) { x[k] /= length; });
-  return true;
+// Kx = -(f(u + h x) - f(u)) / h for x = d / |d|, with h so that the largest displacement is the
+// amplitude. Returns its largest component's size.
+double apply_stiffness(Search& s, const Direction& d, Vector& x, Vector& Kx) {
+  const double by_length = 1 / d.length, h = s.options.amplitude * d.length / d.largest;
+  s.for_components([&](std::size_t k) {
+    x[k] = by_length * d.x[k];
+    s.u[k] = s.state.u[k] + h * x[k];
+  });
+  s.forces(s.u, s.force);
+  const double by_h = -1 / h;
+  const double largest = s.for_components(
+      Kx, [&](std::size_t k) { Kx[k] = by_h * (s.force[k] - s.force_at_rest[k]); });
+  s.hold_supports(Kx);
+  return largest;
+}
+
+// d = M^-1 Kx - (a x + b last), where d.x is Kx.
+void go_on(Search& s, double a, const Vector& x, double b, const Vector& last, Direction& d) {
+  add_cluster_force(s.model, {}, d.x, s.room);
+  const double largest = s.for_components(d.x, [&](std::size_t k) {
+    d.x[k] = s.by_inertia[k] * d.x[k] - (a * x[k] + b * last[k]);
+    d.Mx[k] = s.inertia[k] * d.x[k];
+  });
+  measure(s, largest, d);
 }
 
 // The largest eigenvalue of the tridiagonal matrix of M^-1 K in the directions so far, and how far
@@ -152,29 +186,29 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
            .communicator = communicator,
            .n = 3 * static_cast<std::int64_t>(communicator.all_sum(n_owned)),
            .fixed = fixed_components(model),
-           .inertia = inertia_of_components(model),
            .u = state.u};
+  find_inertia(s);
   s.force_at_rest.assign(options.force.begin(), options.force.end());
   if (s.force_at_rest.empty()) forces(s.u, s.force_at_rest);
-  Vector x = noise(s), last(s.size(), 0.0), next(s.size()), Mx(s.size());
+  Vector x(s.size()), last(s.size(), 0.0);
+  Direction next{.x = Vector(s.size()), .Mx = Vector(s.size())};
   Vector diagonal, beside;  // of the tridiagonal matrix
   HighestFrequency found;
-  double length = 0;
-  if (!normalise(s, x, Mx, length)) return found;
+  begin_with_noise(s, next);
+  if (next.length == 0) return found;
   while (!found.is_converged && found.n_iterations < options.most_iterations) {
-    apply_stiffness(s, x, next);
+    const double by_length = 1 / next.length, largest = by_length * next.largest;
+    const double largest_K = apply_stiffness(s, next, x, next.x);
     ++found.n_iterations;
-    diagonal.push_back(s.dot(x, next));
-    take_away(s, diagonal.back(), x, beside.empty() ? 0 : beside.back(), last, next);
-    const bool goes_on = normalise(s, next, Mx, length);
-    take_ritz_value(diagonal, beside, length, found);
+    diagonal.push_back(s.dot(x, next.x, largest * largest_K));
+    go_on(s, diagonal.back(), x, beside.empty() ? 0 : beside.back(), last, next);
+    take_ritz_value(diagonal, beside, next.length, found);
     found.is_converged =
-        !goes_on ||
+        next.length == 0 ||
         (found.n_iterations >= options.least_iterations && found.residual <= options.tolerance) ||
         is_below_interest(found, options);
-    beside.push_back(length);
+    beside.push_back(next.length);
     last.swap(x);
-    x.swap(next);
   }
   return found;
 }

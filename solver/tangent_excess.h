@@ -41,23 +41,26 @@ template <class Pack>
 // bound may exceed the limit. M = 2 mu max lbar^2, t_i = mu (lbar_i^2 - mean), and with s_i s_j =
 // J / s_k, t_i + t_j = -t_k, r <= 1 + (max s^2 / min s^2 - 1)^2 / 32 beta is at most the largest of
 //   (M - p - t_min) / min s^2,  (M r - p + t_max / 2) max s / J,  (t_max + p) max s / J.
+// The cube root of J is concave and J^(-2/3) convex: 1 - 2 j/3 <= J^(-2/3) <= (1 + j/3) / J.
 template <class Pack>
 [[gnu::always_inline]] inline Pack excess_of_I1bar(const Tensor<Pack>& H, const Pack& K,
                                                    const Pack& mu, const Pack& limit) {
   constexpr bool is_single = sizeof(RealOf<Pack>) == sizeof(float);
   constexpr auto rounding = real<Pack>(1 + (is_single ? 1e-4 : 1e-9));
-  const Deformation<Pack> d = deformation_of(H);
-  const StretchBounds<Pack> s2 = stretch_bounds(d.twice_E);
-  const Pack zero = zero_of(mu), J = 1.0 + d.change.j, p = K * J * d.change.j;
+  const StretchBounds<Pack> s2 = stretch_bounds(twice_green_strain(H));
+  const Pack zero = zero_of(mu), j = volume_change(H, cofactor(H)), J = 1.0 + j, p = K * J * j;
+  const Pack inverse_J = 1.0 / J;
   const Pack most = s2.mean + s2.above, least = s2.mean - s2.below;
   const Pack inverse = 1.0 / least, ratio = (most - least) * inverse;
-  const Pack lbar = mu * (1.0 + d.iso.q), M = 2.0 * lbar * most, t_max = lbar * s2.above;
-  const Pack of_pair = 0.5 * (1.0 + most) * d.iso.inverse;  // >= max s / J
+  const Pack lbar = mu * (1.0 + j * real<Pack>(1.0 / 3)) * inverse_J;
+  const Pack M = 2.0 * lbar * most, t_max = lbar * s2.above;
+  const Pack of_pair = 0.5 * (1.0 + most) * inverse_J;  // >= max s / J
   const Pack r = 1.0 + ratio * ratio * real<Pack>(1.0 / 32);
   Pack beta = larger(zero, Pack(M - p + lbar * s2.below)) * inverse;
   beta = larger(beta, Pack((M * r - p + 0.5 * t_max) * of_pair));
   beta = larger(beta, Pack((t_max + p) * of_pair));
-  const Pack M_low = 2.0 * lbar * (s2.mean + s2.above_low);
+  const Pack lbar_low = mu * (1.0 - j * real<Pack>(2.0 / 3));
+  const Pack M_low = 2.0 * lbar_low * (s2.mean + s2.above_low);
   const Pack alpha =
       larger(zero, Pack(K * J * (2.0 * J - 1.0) - M_low * real<Pack>(1.0 / 3))) * inverse;
   const Pack lambda = larger(zero, Pack(K - real<Pack>(2.0 / 3) * mu));

@@ -20,9 +20,9 @@ bool is_sane(double x) {
 }
 
 bool is_sane(const double* x, std::size_t n) {
-  bool all = true;
-  for (std::size_t k = 0; k < n; ++k) all = all & is_sane(x[k]);
-  return all;
+  std::int64_t n_sane = 0;
+  for (std::size_t k = 0; k < n; ++k) n_sane += static_cast<std::int64_t>(is_sane(x[k]));
+  return n_sane == static_cast<std::int64_t>(n);
 }
 
 }  // namespace

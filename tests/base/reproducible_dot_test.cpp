@@ -17,7 +17,8 @@ namespace {
 const Communicator alone;
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  return reproducible_dot(a, b, static_cast<std::int64_t>(a.size()), alone);
+  return reproducible_dot(a, b, static_cast<std::int64_t>(a.size()),
+                          largest_size(a) * largest_size(b), alone);
 }
 
 // Sizes over 60 powers of two, both signs.
@@ -34,14 +35,10 @@ TEST(ReproducibleDot, agrees_with_an_exact_sum_of_the_products) {
   for (const std::size_t n : {1U, 3U, 4U, 1001U, 300000U}) {
     const std::vector<double> a = random_vector(n, 1), b = random_vector(n, 2);
     ExactSum sum;
-    double largest = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      sum.add(a[k] * b[k]);
-      largest = std::max(largest, std::abs(a[k] * b[k]));
-    }
+    for (std::size_t k = 0; k < n; ++k) sum.add(a[k] * b[k]);
+    const double most = largest_size(a) * largest_size(b);
     const double n3 = std::pow(static_cast<double>(n), 3);
-    EXPECT_NEAR(dot(a, b), sum.value(),
-                12 * n3 * 0x1p-104 * largest + 1e-16 * std::abs(sum.value()));
+    EXPECT_NEAR(dot(a, b), sum.value(), 12 * n3 * 0x1p-104 * most + 1e-16 * std::abs(sum.value()));
   }
 }
 
@@ -73,6 +70,17 @@ TEST(ReproducibleDot, has_the_same_bits_on_any_threads) {
     EXPECT_EQ(dot(a, b), alone_on_it);
   }
   set_thread_count(1);
+}
+
+TEST(LargestSize, is_that_of_either_sign_wherever_it_stands) {
+  for (std::size_t n = 1; n < 20; ++n)
+    for (std::size_t at = 0; at < n; ++at)
+      for (const double largest : {-3.0, 3.0}) {
+        std::vector<double> x(n, 1.0);
+        x[at] = largest;
+        EXPECT_EQ(largest_size(x), 3);
+      }
+  EXPECT_EQ(largest_size({}), 0);
 }
 
 TEST(ReproducibleDot, of_nothing_is_zero_and_of_infinities_not_a_number) {
