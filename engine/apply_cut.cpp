@@ -9,10 +9,10 @@
 #include "base/sort_unique.h"
 #include "engine/apply_cut_energy.h"
 #include "engine/apply_cut_momentum.h"
-#include "engine/apply_cut_patch.h"
 #include "engine/apply_cut_topology.h"
 #include "engine/frame_watch.h"
 #include "engine/mesh_measures.h"
+#include "engine/patch.h"
 #include "mesh/quality.h"
 
 namespace trocar {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/apply_cut_patch.h"
+#include "engine/patch.h"
 
 namespace trocar {
 

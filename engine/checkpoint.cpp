@@ -71,6 +71,9 @@ void restore_searches(const Checkpoint& c, Simulation& s) {
   s.look.is_done = !c.looked_at.empty();
   s.look.step = c.look_step;
   s.look.at_step = c.look_at_step;
+  s.look.growth = c.look_growth;
+  s.look.asked = c.look_asked;
+  s.look.searched = c.searched;
   s.look.stiffening.reset();
   if (c.has_stiffening) find_stiffening_at_look(s);
   if (!c.has_local_steps) s.multirate.reset();  // it was given up
@@ -114,6 +117,9 @@ Checkpoint take_checkpoint(Simulation& s) {
   c.look_step = s.look.step;
   c.look_at_step = s.look.at_step;
   c.has_stiffening = s.look.is_done && s.look.stiffening;
+  c.look_growth = s.look.growth;
+  c.look_asked = s.look.asked;
+  c.searched = s.look.searched;
   c.has_local_steps = s.multirate != nullptr;
   if (s.sleep) c.sleep = gather_sleep(s);
   for (const CutStage& stage : s.cuts) c.cuts.push_back(memory_of(stage));
@@ -163,7 +169,8 @@ FrameStart start_of_frame(const Simulation& s) {
           .look = s.look,
           .sleep = s.sleep,
           .n_events = s.log.events.size(),
-          .n_roll_backs = s.log.n_roll_backs};
+          .n_roll_backs = s.log.n_roll_backs,
+          .searches = s.log.searches};
 }
 
 Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start) {
@@ -177,6 +184,7 @@ Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start) {
   c.is_open = start.is_open;
   c.log.events.resize(start.n_events);
   c.log.n_roll_backs = start.n_roll_backs;
+  c.log.searches = start.searches;
   return c;
 }
 

@@ -49,6 +49,8 @@ struct Checkpoint {
   double look_step = 0;
   std::int64_t look_at_step = 0;
   bool has_stiffening = false, has_local_steps = false;
+  double look_growth = 1, look_asked = 1;
+  std::vector<GrownElement> searched;
   std::vector<double> sleep;  // gather_sleep, empty: nothing ever sleeps
   bool has_energies = false;  // in the rows of the log
   EnergyMemory energy;
@@ -73,6 +75,7 @@ struct FrameStart {
   std::optional<Sleep> sleep;
   std::size_t n_events = 0;
   std::int64_t n_roll_backs = 0;
+  Searches searches;
 };
 FrameStart start_of_frame(const Simulation& s);
 // Of a simulation whose frame failed: its state is back at the frame's beginning, and so is the

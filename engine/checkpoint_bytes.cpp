@@ -10,7 +10,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 8;
+constexpr std::uint32_t checkpoint_format = 9;
 
 static void visit(Saver& a, Mesh& mesh) {
   std::vector<std::byte> bytes = mesh_to_bytes(mesh);
@@ -101,13 +101,21 @@ static void visit(Archive& a, FrameRow& r) {
     r.n_pieces, r.tools, r.support_forces, r.markers, r.seconds);
 }
 template <class Archive>
+static void visit(Archive& a, Searches& n) {
+  a(n.n_of_body, n.n_of_parts);
+}
+template <class Archive>
 static void visit(Archive& a, FrameLog& l) {
-  a(l.rows, l.n_roll_backs, l.n_deadlines_missed, l.least_J, l.least_J_element, l.least_stable_step,
-    l.largest_stable_step, l.events);
+  a(l.rows, l.n_roll_backs, l.n_deadlines_missed, l.searches, l.least_J, l.least_J_element,
+    l.least_stable_step, l.largest_stable_step, l.events);
 }
 template <class Archive>
 static void visit(Archive& a, FrameEdit& e) {
   a(e.frame, e.edit);
+}
+template <class Archive>
+static void visit(Archive& a, GrownElement& e) {
+  a(e.element, e.stiffening);
 }
 template <class Archive>
 static void visit(Archive& a, RecordingMark& m) {
@@ -119,8 +127,8 @@ static void visit(Archive& a, Checkpoint& c) {
   a(c.version, c.simd, c.scene, c.body_crc, c.frame, c.digest, c.mesh, c.fixed, c.duplicate_parent,
     c.duplicate_node, c.time, c.last_dt, c.step, c.step_scale, c.held_step,
     c.stable_step_before_cut, c.watch, c.holds, c.is_open, c.cuts, c.log, c.history, c.history_time,
-    c.looked_at, c.look_step, c.look_at_step, c.has_stiffening, c.has_local_steps, c.sleep,
-    c.has_energies, c.energy, c.recordings);
+    c.looked_at, c.look_step, c.look_at_step, c.has_stiffening, c.look_growth, c.look_asked,
+    c.searched, c.has_local_steps, c.sleep, c.has_energies, c.energy, c.recordings);
 }
 
 static void put_blob(ByteWriter& writer, const Blob& blob) {

@@ -60,11 +60,17 @@ struct FrameEdit {
   MeshEdit edit;
 };
 
+// For the highest frequency, after what a frame has shown.
+struct Searches {
+  std::int64_t n_of_body = 0, n_of_parts = 0;
+};
+
 struct FrameLog {
   std::vector<FrameRow> rows;
   std::vector<FrameEdit> new_edits;  // of this frame
   std::int64_t n_roll_backs = 0;
   std::int64_t n_deadlines_missed = 0;
+  Searches searches;
   double least_J = 1;
   std::int32_t least_J_element = -1;
   double least_stable_step = 0, largest_stable_step = 0;

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "engine/frame_report.h"
+#include "engine/part_search.h"
 #include "engine/suspect.h"
 #include "solver/element_watch.h"
 #include "solver/frequency.h"
@@ -101,14 +102,30 @@ bool follows_search(const Simulation& s) {
          s.state.step - s.look.at_step < most_steps_of_search;
 }
 
+constexpr double beyond_search = std::numeric_limits<double>::infinity();
+
+// Growth since the search of the body by which the step follows from it; beyond_search where the
+// body has to be searched again. Where a part is searched that has stiffened, the step is nearer to
+// what the body allows, but that the rest has softened is not seen.
+double search_if_due(Simulation& s, double growth) {
+  const bool may_be_part = can_search_part(s);
+  const bool is_due = growth > most_growth * s.look.growth ||
+                      (may_be_part && growth > most_growth_of_part * s.look.asked);
+  if (!is_due) return growth;
+  if (!may_be_part || s.state.step - s.look.at_step > most_steps_of_parts) return beyond_search;
+  growth = search_grown_part(s, growth);
+  return growth <= most_growth * s.look.growth ? growth : beyond_search;
+}
+
 // The step of the last search, less by what any element has stiffened since (`growth`, at most of
 // this rank); a new search where that is much, or where the last one was long ago and the tissue
 // may have softened again.
 double step_by_frequency(Simulation& s, double growth) {
   if (follows_search(s)) {
-    growth = s.communicator->all_max(growth);
-    if (growth <= most_growth) return s.look.step / std::sqrt(growth);
+    growth = search_if_due(s, s.communicator->all_max(growth));
+    if (growth < beyond_search) return s.look.step / std::sqrt(growth);
   }
+  ++s.log.searches.n_of_body;
   const double step = step_of_frequency(s);
   std::vector<double> stiffening(s.part.element_global.size());
   watch(s.model, s.part, s.state, stiffening);
@@ -209,6 +226,8 @@ void follow_from_here(Simulation& s, double step) {
   look.step = step;
   look.u.assign(s.state.u.begin(), s.state.u.begin() + 3 * std::ptrdiff_t{s.model.n_owned});
   look.stiffening.reset();
+  look.growth = look.asked = 1;
+  look.searched.clear();
 }
 
 void find_stiffening_at_look(Simulation& s) {
@@ -218,6 +237,7 @@ void find_stiffening_at_look(Simulation& s) {
   update_volume_change(s.model, s.neighbours, there, s.scratch);
   s.look.stiffening.emplace(s.part.element_global.size());
   watch(s.model, s.part, there, *s.look.stiffening);
+  take_searched(s.part, s.look.searched, *s.look.stiffening);
 }
 
 void refine_forces(Simulation& s, double dt) {

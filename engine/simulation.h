@@ -84,6 +84,12 @@ struct ElementLook {
   // not known.
   std::array<std::int32_t, 2> decisive = {-1, -1};
   double reach = 0;  // of a node that strains its elements by less than unseen_strain [m]
+
+  // Searches of parts since then (part_search.h): what the body's omega^2 may have grown by, by the
+  // last one, and growth of the elements at which the last one was thought of.
+  double growth = 1, asked = 1;
+  // What takes the place of these elements' stiffening, by number; the same on all ranks.
+  std::vector<GrownElement> searched;
 };
 
 // The base is this rank's share.

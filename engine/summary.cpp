@@ -227,6 +227,8 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   j["deadlines_missed"] = s.log.n_deadlines_missed;
   j["frame_latency_ms"] = latency_json(s);
   j["roll_backs"] = s.log.n_roll_backs;
+  if (s.scene.solver.stable_step == StableStep::frequency)
+    j["searches"] = {{"body", s.log.searches.n_of_body}, {"parts", s.log.searches.n_of_parts}};
   if (s.multirate)
     j["multirate"] = {{"substeps", s.multirate->steps.gain.size()},
                       {"share_of_elements", s.multirate->share}};

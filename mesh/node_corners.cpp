@@ -79,6 +79,19 @@ std::vector<std::int32_t> elements_around(const NodeCorners& corners,
   return elements;
 }
 
+std::vector<std::int32_t> elements_around(const Mesh& mesh, std::span<const std::int32_t> nodes) {
+  std::vector<std::uint8_t> is_wanted(mesh.X.size());
+  for (const std::int32_t node : nodes) is_wanted[static_cast<std::size_t>(node)] = 1;
+  std::vector<std::int32_t> elements;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    for (const std::int32_t node : mesh.corners(e))
+      if (is_wanted[static_cast<std::size_t>(node)] != 0) {
+        elements.push_back(e);
+        break;
+      }
+  return elements;
+}
+
 std::vector<std::int32_t> edited_elements(const NodeCorners& before, const MeshEdit& edit) {
   const SplitNumbers numbers(edit.splits);
   std::vector<std::int32_t> moved;

@@ -28,6 +28,8 @@ std::vector<std::int32_t> edited_elements(const NodeCorners& before, const MeshE
 // All elements that touch one of the nodes, ascending.
 std::vector<std::int32_t> elements_around(const NodeCorners& corners,
                                           std::span<const std::int32_t> nodes);
+// The same from a pass over all corners.
+std::vector<std::int32_t> elements_around(const Mesh& mesh, std::span<const std::int32_t> nodes);
 // All corners of the elements, ascending.
 std::vector<std::int32_t> nodes_of(const Mesh& mesh, std::span<const std::int32_t> elements);
 

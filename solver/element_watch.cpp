@@ -46,6 +46,14 @@ const double* values_of(std::span<const double> of_all, std::span<const std::int
   return room.data();
 }
 
+// Of the task, from block `first` of the list on, without padding.
+std::span<const std::int32_t> elements_of(const ElementBlocks& blocks, const BlockTask& task,
+                                          std::int64_t first) {
+  const std::int64_t begin = first * blocks.lanes;
+  const std::int64_t n = std::min(task.n_blocks * blocks.lanes, blocks.n_elements - begin);
+  return {blocks.element_local.data() + begin, static_cast<std::size_t>(n)};
+}
+
 // Whether no lane can set a least value, as is so nearly everywhere. Growth counts as none below
 // that at rest.
 bool is_none_of_interest(double at_rest, std::size_t n, const Room& enough, const Room& J,
@@ -101,10 +109,8 @@ void ElementWatch::find_enough(const Lanes& lanes, const LeastOfElements& least,
 void ElementWatch::look(const Model& model, const ElementBlocks& blocks,
                         const BlockKernels& kernels, const BlockTask& task, std::int64_t first,
                         LeastOfElements& least) const {
-  const std::int64_t begin = first * blocks.lanes;
-  const auto n_lanes =
-      static_cast<std::size_t>(std::min(task.n_blocks * blocks.lanes, blocks.n_elements - begin));
-  const std::span element(blocks.element_local.data() + begin, n_lanes);
+  const std::span element = elements_of(blocks, task, first);
+  const std::size_t n_lanes = element.size();
   Room step_room, earlier_room, J, growth, enough;
   const Lanes lanes{.at_rest = blocks.stiffening_at_rest,
                     .step = values_of(model.element_step, element, step_room),
@@ -124,6 +130,37 @@ void ElementWatch::look(const Model& model, const ElementBlocks& blocks,
     if (!wishes_.earlier.empty() && growth[lane] > lanes.earlier[lane] * least.growth)
       take_growth(growth[lane] / lanes.earlier[lane], global, least);
   }
+}
+
+std::vector<GrownElement> find_grown(const Model& model, const Part& part, const State& state,
+                                     std::span<const double> earlier, double growth) {
+  std::vector<GrownElement> grown;
+  std::mutex mutex;
+  const auto look = [&](const ElementBlocks& blocks, const BlockKernels& kernels,
+                        const BlockTask& task, std::int64_t first) {
+    const std::span element = elements_of(blocks, task, first);
+    Room room, enough, J, stiffening;
+    const double* earlier_at = values_of(earlier, element, room);
+    enough.fill(most_padding);
+    for (std::size_t lane = 0; lane < element.size(); ++lane)
+      enough[lane] = blocks.stiffening_at_rest * growth * earlier_at[lane];
+    kernels.law.watch(task, enough.data(), J.data(), stiffening.data());
+    for (std::size_t lane = 0; lane < element.size(); ++lane) {
+      const double s = std::max(1.0, stiffening[lane] / blocks.stiffening_at_rest);
+      if (!(s > growth * earlier_at[lane])) continue;
+      const std::scoped_lock lock(mutex);
+      grown.push_back({part.element_global[element[lane]], s});
+    }
+  };
+  parallel_for(count_blocks(model), [&](std::int64_t begin, std::int64_t end) {
+    for_block_range(
+        model, begin, end, [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
+          for_strained_blocks(model, blocks, state, first, n,
+                              [&](const BlockKernels& kernels, const BlockTask& task,
+                                  std::int64_t block) { look(blocks, kernels, task, block); });
+        });
+  });
+  return grown;
 }
 
 void ElementWatch::take(const LeastOfElements& least) {

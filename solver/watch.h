@@ -27,6 +27,15 @@ struct Watch {
 // one's omega^2 has grown over that at rest, at least 1.
 Watch watch(const Model& model, const Part& part, const State& state,
             std::span<double> stiffening = {});
+// An element that has become stiffer.
+struct GrownElement {
+  std::int32_t element = -1;  // global number
+  double stiffening = 1;      // as above
+};
+// Those of this rank whose stiffening is more than `growth` times that of `earlier` (elements of
+// the part), in any order. Of state.theta and state.u, too.
+std::vector<GrownElement> find_grown(const Model& model, const Part& part, const State& state,
+                                     std::span<const double> earlier, double growth);
 // Global number of the first owned node with a value that is not finite or too large, -1 if none.
 std::int32_t first_bad_node(const Model& model, const Part& part, const State& state);
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "engine/frame.h"
+#include "engine/part_search.h"
 #include "engine_files.h"
 #include "engine_started.h"
 #include "solver/frequency.h"
@@ -29,7 +30,8 @@ Simulation sound_simulation() {
 }
 
 // Irregular tetrahedra or hexahedra, with what they are looked at for.
-std::unique_ptr<Started> block_of(const std::string& elements) {
+std::unique_ptr<Started> block_of(const std::string& elements, int n = 4) {
+  const std::string cells = std::to_string(n);
   return built(R"([time]
 duration = "1 s"
 [tissue.shape]
@@ -39,7 +41,8 @@ cells = [4, 4, 4]
 young_modulus = "3 kPa"
 poisson_ratio = 0.45
 )",
-               {"tissue.shape.elements='" + elements + "'"});
+               {"tissue.shape.elements='" + elements + "'",
+                "tissue.shape.cells=[" + cells + "," + cells + "," + cells + "]"});
 }
 
 // The corners of an element that move as far as they may, in random directions.
@@ -102,6 +105,53 @@ TEST(WatchState, never_gives_a_longer_step_than_a_search_of_the_body_as_it_is) {
     EXPECT_GT(n_searches, 2);
     EXPECT_LT(n_searches, 30);
   }
+}
+
+// Stretches some cells in the middle of the block by `strain` along z.
+void stretch_middle(Simulation& s, double strain) {
+  Box box;
+  for (const Vec3& X : s.mesh.X) box.add(X);
+  const Vec3 middle = (box.low + box.high) / 2;
+  for (std::size_t i = 0; i < s.mesh.X.size(); ++i) {
+    const Vec3 r = s.mesh.X[i] - middle;
+    const double far = r.squaredNorm() / (4 * s.edge_length * s.edge_length);
+    s.state.u[3 * i + 2] = strain * std::exp(-far) * r.z();
+  }
+  s.scratch.has_force = false;
+}
+
+TEST(WatchState, searches_the_part_alone_that_has_stiffened_and_gives_no_longer_step) {
+  for (const auto& [elements, n] : {std::pair("hex8", 24), std::pair("tet4-kuhn", 30)}) {
+    const auto run = block_of(elements, n);
+    Simulation& s = *run->s;
+    const std::int64_t of_body = s.log.searches.n_of_body;
+    double least = 1;
+    for (int k = 1; k <= 20; ++k) {
+      stretch_middle(s, 0.05 * (k <= 15 ? k : 30 - k));
+      s.state.step += 10;
+      watch_state(s);
+      const double whole = search_step(s, search_amplitude(s.model, s.edge_length), Communicator());
+      EXPECT_LT(s.watch.stable_step / whole, frequency_margin) << elements << ' ' << k;
+      const double least_share = k <= 15 ? 1 / std::sqrt(most_growth_of_part) : 0.88;  // it softens
+      EXPECT_GT(s.watch.stable_step / whole, least_share / frequency_margin)
+          << elements << ' ' << k;
+      least = std::min(least, whole / s.look.step);
+    }
+    EXPECT_LT(least, 0.99) << "the body has become no faster";
+    EXPECT_GT(s.log.searches.n_of_parts, 6) << elements;
+    EXPECT_EQ(s.log.searches.n_of_body, of_body) << elements;
+  }
+}
+
+// A part is not asked whether the rest has softened.
+TEST(WatchState, searches_the_body_in_place_of_a_part_long_after) {
+  const auto run = block_of("hex8", 16);
+  Simulation& s = *run->s;
+  s.state.step = s.look.at_step + most_steps_of_parts + 1;
+  stretch_middle(s, 0.3);
+  watch_state(s);
+  EXPECT_EQ(s.log.searches.n_of_parts, 0);
+  EXPECT_EQ(s.look.at_step, s.state.step);
 }
 
 TEST(WatchState, takes_the_growth_of_elements_for_that_of_the_body_between_two_searches) {

@@ -75,6 +75,9 @@ void expect_not_idle(const SmallScene& scene, const nlohmann::json& summary) {
   EXPECT_EQ(n_duplicated > 5, has_blade) << n_duplicated << " nodes were duplicated";
   EXPECT_GT(summary.value("share_asleep_mean", 1.), 0.05);
   EXPECT_EQ(summary.contains("multirate"), scene.name.find("local steps") != std::string::npos);
+  if (scene.name.find("small cells") != std::string::npos) {
+    EXPECT_GT(summary["searches"]["parts"], 0) << summary["searches"];
+  }
   if (summary.contains("added_mass")) {
     EXPECT_GT(summary["added_mass"]["nodes"], 0);
   }
@@ -93,7 +96,7 @@ TEST(StateDigest, of_twenty_small_scenes_in_both_precisions_is_the_same_on_any_r
                    std::to_string(k % 2 + 1) + " threads");
       const nlohmann::json &expected = first[k - k % 2], &found = summaries[k];
       for (const char* const key : {"state_digest", "steps", "stable_step_s", "least_det_F",
-                                    "share_asleep_mean", "multirate", "mesh"})
+                                    "searches", "share_asleep_mean", "multirate", "mesh"})
         EXPECT_EQ(found.value(key, nlohmann::json()), expected.value(key, nlohmann::json())) << key;
       if (ranks > 1 || k % 2 == 1) continue;
       expect_not_idle(cases[k / 2].scene, found);

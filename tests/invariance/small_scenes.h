@@ -52,6 +52,12 @@ inline const std::string late_probe = probe_along(R"(
   { time = 0.7, position = ["18 mm", "-8 mm", "36 mm"] },
   { time = 0.8, position = ["18 mm", "-8 mm", "26 mm"] },
 )");
+// Into small cells, where what it stiffens is a small part of the body.
+inline const std::string slow_probe = probe_along(R"(
+  { time = 0, position = ["18 mm", "-8 mm", "35.2 mm"] },
+  { time = 0.16, position = ["18 mm", "-8 mm", "26 mm"] },
+  { time = 0.3, position = ["18 mm", "-8 mm", "41 mm"] },
+)");
 inline const std::string grasper = grasper_along("9 mm", R"(
   { time = 0, position = ["-44 mm", "34 mm", "48 mm"] },
   { time = 0.1, position = ["-28 mm", "18 mm", "30 mm"], action = "close" },
@@ -217,6 +223,7 @@ inline std::vector<SmallScene> small_scenes() {
   SmallBlock crossed = {.duration = "0.54 s"};
   SmallBlock sleepy = hexahedra(sleep), sleepy_tet = {.duration = "0.9 s", .solver = sleep};
   sleepy.duration = "0.9 s";
+  const SmallBlock small_cells = {.elements = "hex8", .cells = "[36, 24, 18]", .duration = "0.2 s"};
   SmallBlock viscous_hex = hexahedra(), viscous_tet;
   viscous_hex.material = viscous_tet.material = viscous;
   return {
@@ -224,6 +231,7 @@ inline std::vector<SmallScene> small_scenes() {
       {"tet4 with nodal pressures, pressed",
        block({.elements = "tet4-kuhn", .solver = "tetrahedron = \"nodal-pressure\"\n"}) + probe},
       {"hex8, pressed and pulled", block(hexahedra()) + probe + grasper},
+      {"hex8 in small cells, pressed, resumed", block(small_cells) + slow_probe, "0.16 s"},
       {"hex8 enhanced, pulled",
        block(hexahedra("hexahedron = \"enhanced\"\n")) + grasper + moving_support},
       {"hex8 full, pressed and pulled",

@@ -1,5 +1,5 @@
 // The highest frequency that is looked for around an edit alone, against that of the whole body.
-#include "engine/apply_cut_patch.h"
+#include "engine/patch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
-// The stable step after an edit. The highest modes of a mesh are local: one that the edit made
-// faster is found in a patch, the edited elements and some rings around them with all else held.
-// With the step known before, which holds for the rest, that takes a time of the patch's size.
+// A part of the body as one of its own. The highest modes of a mesh are local: one that an edit or
+// a deformation made faster is found in a patch, the elements that changed and some rings around
+// them with all else held. With the step known before, which holds for the rest, that takes a time
+// of the patch's size.
 #pragma once
 
 #include <memory>
@@ -18,7 +19,7 @@ struct Patch : RankBody {
   SubMesh sub;
 };
 
-// Rings of nodes around the edited elements that move in a patch; apply_cut_patch_test.cpp prints
+// Rings of nodes around the changed elements that move in a patch; patch_test.cpp prints
 // what others give.
 inline constexpr int patch_rings = 1;
 
@@ -32,6 +33,11 @@ struct PatchState {
 };
 std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
                                   const PatchState& state);
+
+// These elements and the rings around them as they are, their nodes' velocities zero, without
+// history; null if these are more than `most` elements. Collective.
+std::unique_ptr<Patch> make_present_patch(const Simulation& s,
+                                          std::span<const std::int32_t> elements, std::size_t most);
 
 // All elements of a patch around edited elements that have these nodes.
 std::vector<std::int32_t> elements_of_patch(const Simulation& s,

@@ -1,7 +1,8 @@
-#include "engine/apply_cut_patch.h"
+#include "engine/patch.h"
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "base/check.h"
@@ -16,19 +17,24 @@ namespace trocar {
 
 namespace {
 
+std::vector<std::int32_t> elements_around(const Simulation& s,
+                                          std::span<const std::int32_t> nodes) {
+  return s.corners.first.empty() ? elements_around(s.mesh, nodes)
+                                 : elements_around(s.corners, nodes);
+}
+
 std::vector<std::int32_t> with_rings(const Simulation& s, std::vector<std::int32_t> nodes,
                                      int n_rings) {
-  for (int ring = 0; ring < n_rings; ++ring)
-    nodes = nodes_of(s.mesh, elements_around(s.corners, nodes));
+  for (int ring = 0; ring < n_rings; ++ring) nodes = nodes_of(s.mesh, elements_around(s, nodes));
   return nodes;
 }
 
 // All that the forces of the nodes depend on: pressures averaged at nodes take one ring more.
 std::vector<std::int32_t> elements_of_forces(const Simulation& s,
                                              std::span<const std::int32_t> nodes) {
-  std::vector<std::int32_t> elements = elements_around(s.corners, nodes);
+  std::vector<std::int32_t> elements = elements_around(s, nodes);
   if (s.model.options.tet4 == Formulation::tet4_nodal_pressure)
-    elements = elements_around(s.corners, nodes_of(s.mesh, elements));
+    elements = elements_around(s, nodes_of(s.mesh, elements));
   return elements;
 }
 
@@ -39,7 +45,7 @@ MassScaling take_in_clusters(const Simulation& s, SubMesh& sub) {
     MassScaling scaling =
         find_mass_scaling(sub.mesh, s.materials, s.model.options, s.scene.solver.mass_scaling_step);
     const std::vector<std::int32_t> around =
-        elements_around(s.corners, values_of<std::int32_t>(sub.node, scaling.node));
+        elements_around(s, values_of<std::int32_t>(sub.node, scaling.node));
     std::vector<std::int32_t> grown;
     std::set_union(sub.element.begin(), sub.element.end(), around.begin(), around.end(),
                    std::back_inserter(grown));
@@ -70,10 +76,14 @@ ElementOrigins origins_in_patch(const ElementOrigins& all, const SubMesh& sub) {
   return own;
 }
 
-void set_state(const Simulation& s, const PatchState& state, Patch& patch) {
-  patch.state = make_state(patch.model);
-  patch.state.time = patch.state.history_time = s.state.time;
-  patch.state.last_dt = s.state.last_dt;
+State state_at_rest(const Simulation& s, const Model& model) {
+  State state = make_state(model);
+  state.time = state.history_time = s.state.time;
+  state.last_dt = s.state.last_dt;
+  return state;
+}
+
+void set_state(const PatchState& state, Patch& patch) {
   for (std::size_t i = 0; i < patch.sub.node.size(); ++i) {
     const std::size_t from = 3 * static_cast<std::size_t>(patch.sub.node[i]);
     std::copy_n(&state.global.u[from], 3, &patch.state.u[3 * i]);
@@ -85,8 +95,25 @@ void set_state(const Simulation& s, const PatchState& state, Patch& patch) {
   average_volume_change(patch.model, patch.state, patch.scratch);
 }
 
+// Displacements of the present, from the ranks that own them. Collective.
+void set_present(const Simulation& s, Patch& patch) {
+  std::vector<double> mine;  // place in the patch, displacement
+  for (std::size_t i = 0; i < patch.sub.node.size(); ++i) {
+    const std::int32_t local = s.part.node_local[static_cast<std::size_t>(patch.sub.node[i])];
+    if (local < 0 || local >= s.part.n_owned) continue;
+    mine.push_back(static_cast<double>(i));
+    const auto u = s.state.u.begin() + 3 * std::ptrdiff_t{local};
+    mine.insert(mine.end(), u, u + 3);
+  }
+  const std::vector<double> all = s.communicator->all_gather(mine);
+  for (std::size_t k = 0; k < all.size(); k += 4)
+    std::copy_n(&all[k + 1], 3, &patch.state.u[3 * static_cast<std::size_t>(all[k])]);
+  average_volume_change(patch.model, patch.state, patch.scratch);
+}
+
+// At rest.
 std::unique_ptr<Patch> assemble(const Simulation& s, SubMesh sub, const MassScaling& scaling,
-                                std::span<const FixedMask> fixed, const PatchState& state) {
+                                std::span<const FixedMask> fixed) {
   auto made = std::make_unique<Patch>();
   Patch& patch = *made;
   patch.sub = std::move(sub);
@@ -96,17 +123,27 @@ std::unique_ptr<Patch> assemble(const Simulation& s, SubMesh sub, const MassScal
                             values_of<double>(s.mass, node), s.model.options);
   if (!scaling.node.empty()) scale_mass(scaling, patch.part, patch.model);
   patch.scratch = make_scratch(patch.model);
-  set_state(s, state, patch);
+  patch.state = state_at_rest(s, patch.model);
   return made;
 }
 
-std::unique_ptr<Patch> make_patch_of_nodes(const Simulation& s, std::span<const std::int32_t> free,
-                                           const PatchState& state) {
-  SubMesh sub = make_sub_mesh(s.mesh, elements_of_forces(s, free));
+// Null if these are more than `most` elements.
+std::unique_ptr<Patch> make_patch_of_nodes(
+    const Simulation& s, std::span<const std::int32_t> free,
+    std::size_t most = std::numeric_limits<std::size_t>::max()) {
+  const std::vector<std::int32_t> elements = elements_of_forces(s, free);
+  if (elements.size() > most) return nullptr;
+  SubMesh sub = make_sub_mesh(s.mesh, elements);
   MassScaling scaling;
   if (s.mass_scaling) scaling = take_in_clusters(s, sub);
   const std::vector<FixedMask> fixed = fixed_in_patch(s, sub.node, free);
-  return assemble(s, std::move(sub), scaling, fixed, state);
+  return assemble(s, std::move(sub), scaling, fixed);
+}
+std::unique_ptr<Patch> make_patch_of_nodes(const Simulation& s, std::span<const std::int32_t> free,
+                                           const PatchState& state) {
+  std::unique_ptr<Patch> patch = make_patch_of_nodes(s, free);
+  set_state(state, *patch);
+  return patch;
 }
 
 double sum_of(std::initializer_list<std::span<const double>> lists) {
@@ -123,6 +160,15 @@ std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int3
   return make_patch_of_nodes(s, with_rings(s, nodes_of(s.mesh, edited), state.n_rings), state);
 }
 
+std::unique_ptr<Patch> make_present_patch(const Simulation& s,
+                                          std::span<const std::int32_t> elements,
+                                          std::size_t most) {
+  std::unique_ptr<Patch> patch =
+      make_patch_of_nodes(s, with_rings(s, nodes_of(s.mesh, elements), patch_rings), most);
+  if (patch) set_present(s, *patch);
+  return patch;
+}
+
 std::vector<std::int32_t> elements_of_patch(const Simulation& s,
                                             std::span<const std::int32_t> nodes) {
   std::vector<std::int32_t> elements =
@@ -137,7 +183,9 @@ std::unique_ptr<Patch> make_patch_of(const Simulation& s, std::span<const std::i
                                      const PatchState& state) {
   SubMesh sub = make_sub_mesh(s.mesh, elements);
   const std::vector<FixedMask> fixed = values_of<FixedMask>(s.fixed, sub.node);
-  return assemble(s, std::move(sub), {}, fixed, state);
+  std::unique_ptr<Patch> patch = assemble(s, std::move(sub), {}, fixed);
+  set_state(state, *patch);
+  return patch;
 }
 
 // Terms of what lies beyond the nodes are the same before and after, to the last bit.

@@ -1,0 +1,91 @@
+#include "engine/part_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/frame_watch.h"
+#include "engine/patch.h"
+#include "solver/frequency.h"
+
+namespace trocar {
+
+namespace {
+
+bool is_before(const GrownElement& a, const GrownElement& b) {
+  return a.element < b.element;
+}
+
+// The one list of all ranks in which elements come by number and once.
+void sort_elements(std::vector<GrownElement>& grown) {
+  const auto is_same = [](const GrownElement& a, const GrownElement& b) {
+    return a.element == b.element;
+  };
+  std::stable_sort(grown.begin(), grown.end(), is_before);
+  grown.erase(std::unique(grown.begin(), grown.end(), is_same), grown.end());
+}
+
+// Of all ranks. Collective.
+std::vector<GrownElement> grown_elements(const Simulation& s, double growth) {
+  std::vector<double> pairs;
+  for (const auto& [element, stiffening] :
+       find_grown(s.model, s.part, s.state, *s.look.stiffening, growth))
+    pairs.insert(pairs.end(), {static_cast<double>(element), stiffening});
+  pairs = s.communicator->all_gather(pairs);
+  std::vector<GrownElement> grown;
+  for (std::size_t k = 0; k < pairs.size(); k += 2)
+    grown.push_back({static_cast<std::int32_t>(pairs[k]), pairs[k + 1]});
+  sort_elements(grown);
+  return grown;
+}
+
+// Growth of omega^2 since the search of the body, by that of its part; 0 if that does not end or
+// the part is too large.
+double growth_of_part(const Simulation& s, std::span<const GrownElement> part, double enough) {
+  std::vector<std::int32_t> elements;
+  for (const GrownElement& grown : part) elements.push_back(grown.element);
+  const std::unique_ptr<Patch> patch =
+      make_present_patch(s, elements, static_cast<std::size_t>(largest_part * s.mesh.n_elements()));
+  if (!patch) return 0;
+  const double step = search_step(*patch, search_amplitude(s.model, s.edge_length), Communicator(),
+                                  s.look.step / std::sqrt(enough));
+  return step > 0 ? std::max(1.0, s.look.step * s.look.step / (step * step)) : 0;
+}
+
+// The part counts from here: as having grown by `growth`.
+void follow_part(std::vector<GrownElement> part, double growth, Simulation& s) {
+  for (GrownElement& grown : part) grown.stiffening /= growth;
+  take_searched(s.part, part, *s.look.stiffening);
+  std::vector<GrownElement>& searched = s.look.searched;
+  searched.insert(searched.begin(), part.begin(), part.end());
+  sort_elements(searched);
+}
+
+}  // namespace
+
+bool can_search_part(const Simulation& s) {
+  return s.look.step > 0 && s.look.stiffening && !s.sleep && !s.multirate && !s.mass_scaling &&
+         !is_viscous(s.materials);
+}
+
+double search_grown_part(Simulation& s, double growth) {
+  s.look.asked = growth;
+  constexpr double of_rest = least_growth_of_part;
+  const std::vector<GrownElement> part = grown_elements(s, of_rest);
+  const double of_part = growth_of_part(s, part, of_rest);
+  if (of_part == 0) return growth;
+  ++s.log.searches.n_of_parts;
+  follow_part(part, of_part, s);
+  s.look.growth = of_part;
+  return s.look.asked = std::max(of_rest, of_part);
+}
+
+void take_searched(const Part& part, std::span<const GrownElement> searched,
+                   std::vector<double>& stiffening) {
+  const std::vector<std::int32_t>& all = part.element_global;
+  for (const GrownElement& one : searched) {
+    const auto at = std::lower_bound(all.begin(), all.end(), one.element);
+    if (at != all.end() && *at == one.element) stiffening[at - all.begin()] = one.stiffening;
+  }
+}
+
+}  // namespace trocar
