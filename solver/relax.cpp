@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "base/check.h"
-#include "base/exact_sum.h"
+#include "base/reproducible_dot.h"
 #include "solver/block_ranges.h"
 #include "solver/simd.h"
 
@@ -54,38 +54,37 @@ double greatest_stiffening(const Model& model, const State& state) {
   return most;
 }
 
-// Sums of squares, and the Rayleigh quotient's two parts, over all ranks.
+// Sums of squares, and the Rayleigh quotient's two parts, over all ranks. What is held has no v.
 struct Sums {
   double imbalance, damping, held;  // |f|^2 and |c M v|^2 of free components, |f|^2 of others
   double stiffness, inertia;        // v.(f_before - f) / dt = v.K v and v.M v
 };
 
-struct ExactSums {
-  ExactSum imbalance, damping, held, stiffness, inertia;
-};
-
-Sums total(ExactSums& sums, const Communicator& communicator) {
-  for (ExactSum* sum : {&sums.imbalance, &sums.damping, &sums.held, &sums.stiffness, &sums.inertia})
-    sum->all_sum(communicator);
-  return {sums.imbalance.value(), sums.damping.value(), sums.held.value(), sums.stiffness.value(),
-          sums.inertia.value()};
-}
-
-Sums sum_up(const Relaxer& r, const State& state, const Scratch& scratch,
-            const Communicator& communicator) {
-  ExactSums sums;
-  for (std::size_t k = 0; k < r.is_free.size(); ++k) {
-    const double f = scratch.force[k], v = state.v[k], m = r.mass[k / 3];
-    if (r.is_free[k] == 0) {
-      sums.held.add(f * f);
-      continue;
+Sums sum_up(const State& state, const Scratch& scratch, const Communicator& communicator,
+            Relaxer& r) {
+  const std::size_t n = r.by_mass.size();
+  const std::span v(state.v.data(), n);
+  auto& [imbalance, held, momentum, difference] = r.room;
+  for (std::vector<double>& x : r.room) x.resize(n);
+  parallel_for_nodes(static_cast<std::int64_t>(n), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k < end; ++k) {
+      const double f = scratch.force[k];
+      imbalance[k] = r.by_mass[k] > 0 ? f : 0;
+      held[k] = f - imbalance[k];
+      momentum[k] = r.mass[k / 3] * v[k];
+      difference[k] = r.force_before[k] - f;
     }
-    sums.imbalance.add(f * f);
-    sums.damping.add(r.damping * m * v * (r.damping * m * v));
-    sums.stiffness.add(v * (r.force_before[k] - f));
-    sums.inertia.add(m * v * v);
-  }
-  return total(sums, communicator);
+  });
+  const auto n_all = static_cast<std::int64_t>(communicator.all_sum(n));
+  const auto dot = [&](std::span<const double> a, std::span<const double> b) {
+    const double most = communicator.all_max(largest_size(a) * largest_size(b));
+    return reproducible_dot(a, b, n_all, most, communicator);
+  };
+  return {.imbalance = dot(imbalance, imbalance),
+          .damping = r.damping * r.damping * dot(momentum, momentum),
+          .held = dot(held, held),
+          .stiffness = dot(v, difference),
+          .inertia = dot(v, momentum)};
 }
 
 void update_residual(const Sums& sums, Relaxer& r) {
@@ -103,19 +102,12 @@ void update_damping(const Sums& sums, Relaxer& r) {
   r.damping = 2 * std::sqrt(A0);
 }
 
-// A sum over squares leaves broken values out; the maximum does not.
-bool are_all_finite(const Scratch& scratch, const Communicator& communicator) {
-  double sum = 0;
-  for (const double f : scratch.force) sum += f - f;
-  return communicator.all_max(std::abs(sum)) == 0;
-}
-
 void look(const Model& model, const Scratch& scratch, Communicator& communicator, Relaxer& r,
           State& state) {
   const double stiffening = communicator.all_max(greatest_stiffening(model, state));
-  r.result.is_finite = std::isfinite(stiffening) && are_all_finite(scratch, communicator);
+  const Sums sums = sum_up(state, scratch, communicator, r);
+  r.result.is_finite = std::isfinite(stiffening + sums.imbalance + sums.held);
   if (!r.result.is_finite) return;
-  const Sums sums = sum_up(r, state, scratch, communicator);
   update_residual(sums, r);
   if (r.result.iterations > 0) update_damping(sums, r);
   r.step = step_margin / std::sqrt(stiffening);
@@ -173,14 +165,14 @@ bool is_stopped(const RelaxTask& task, const Communicator& communicator) {
 Relaxer make_relaxer(const Model& model, std::span<const PrescribedNode> prescribed) {
   Relaxer r;
   r.mass = scaled_mass(model);
-  r.force_before.assign(model.mass.size() * 3, 0.0);
-  r.is_free.resize(model.mass.size() * 3);
-  for (std::size_t k = 0; k < r.is_free.size(); ++k)
-    r.is_free[k] = (model.fixed[k / 3] >> k % 3 & 1) == 0 ? 1 : 0;
+  r.by_mass.resize(3 * r.mass.size());
+  for (std::size_t k = 0; k < r.by_mass.size(); ++k)
+    r.by_mass[k] = (model.fixed[k / 3] >> k % 3 & 1) == 0 ? 1 / r.mass[k / 3] : 0;
   for (const PrescribedNode& held : prescribed) {
     CHECK_OP(held.node, <, model.n_owned);
-    std::fill_n(r.is_free.begin() + 3 * std::int64_t{held.node}, 3, std::uint8_t{0});
+    std::fill_n(r.by_mass.begin() + 3 * std::int64_t{held.node}, 3, 0.0);
   }
+  r.force_before.assign(r.by_mass.size(), 0.0);
   return r;
 }
 
@@ -193,10 +185,11 @@ void relax_step(const Model& model, const Scratch& scratch, Communicator& commun
   const double c = r.damping, dt = r.step;
   const double keep = (2 - c * dt) / (2 + c * dt), gain = 2 * dt / (2 + c * dt);
   parallel_for_nodes(model.n_owned, [&](std::int64_t begin, std::int64_t end) {
+    const double *const force = scratch.force.data(), *const by_mass = r.by_mass.data();
+    double *const v = state.v.data(), *const u = state.u.data();
     for (std::int64_t k = 3 * begin; k < 3 * end; ++k) {
-      if (r.is_free[k] == 0) continue;
-      state.v[k] = keep * state.v[k] + gain * scratch.force[k] / r.mass[k / 3];
-      state.u[k] += dt * state.v[k];
+      v[k] = keep * v[k] + gain * force[k] * by_mass[k];
+      u[k] += dt * v[k];
     }
   });
   ++r.result.iterations;

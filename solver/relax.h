@@ -52,12 +52,13 @@ Relaxation relax(const Model& model, const RelaxTask& task, State& state, Scratc
 
 // The same iteration by iteration, for a caller that adds forces of its own (contact).
 struct Relaxer {
-  std::vector<double> mass;           // (n_owned) such that a step of 1 is the limit at rest
-  std::vector<std::uint8_t> is_free;  // (n_owned * 3)
-  std::vector<double> force_before;   // (n_owned * 3) of the iteration before, kept for a look
-  double damping = 0, step = 0;       // c, dt
+  std::vector<double> mass;          // (n_owned) such that a step of 1 is the limit at rest
+  std::vector<double> by_mass;       // (n_owned * 3) one over it; 0 where the component is held
+  std::vector<double> force_before;  // (n_owned * 3) of the iteration before, kept for a look
+  double damping = 0, step = 0;      // c, dt
   double greatest_imbalance = 0;
   Relaxation result;
+  std::vector<double> room[4];  // of a look
 };
 Relaxer make_relaxer(const Model& model, std::span<const PrescribedNode> prescribed);
 // In place of `integrate`, after scratch.force is complete: moves free components of owned nodes.

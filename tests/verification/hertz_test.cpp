@@ -89,7 +89,7 @@ struct Indentation {
       const auto i = static_cast<std::size_t>(set.node[k]);
       set.x_start[k] = set.x_end[k] = body.mesh.X[i] + Vec3::Map(&body.state.u[3 * i]);
       for (std::size_t j = 0; j < 3; ++j)
-        if (relaxer.is_free[3 * i + j] != 0)
+        if (relaxer.by_mass[3 * i + j] > 0)
           set.x_end[k][static_cast<Eigen::Index>(j)] +=
               dt *
               (keep * body.state.v[3 * i + j] + gain * body.scratch.force[3 * i + j] / mass[i]);
