@@ -21,7 +21,7 @@ mode is excited at all: by noise in double, by rounding alone in single precisio
 diverged in single precision after 158,099 steps of a block whose mode at 0.957 of the highest frequency it met; steps below 0.866 leave none. Hence `solver.step_factor = 0.85`.
 
 Local steps (`solver.multirate`) are damped so that 0.85 of their limit leaves none there either (architecture.md). With their step held fixed and twice the amplitude of the rows below (shear strains of 0.1, noise,
-no damping) the body with a sliver kept its energy for 30,000 steps and diverged before 100,000; without local steps it did so at four times the amplitude, after 84,800.
+no damping) a body with a less thin sliver than below kept its energy for 30,000 steps and diverged before 100,000; without local steps it did so at four times the amplitude, after 84,800.
 
 )";
 
