@@ -144,17 +144,30 @@ void go_on(Search& s, double a, const Vector& x, double b, const Vector& last, D
   measure(s, largest, d);
 }
 
-// The largest eigenvalue of the tridiagonal matrix of M^-1 K in the directions so far, and how far
-// its vector is from being one of M^-1 K, where `next` couples the last direction to the next one.
-void take_ritz_value(const Vector& diagonal, const Vector& beside, double next,
-                     HighestFrequency& found) {
-  const auto n = static_cast<Eigen::Index>(diagonal.size());
+// Of the tridiagonal matrix of M^-1 K in the directions so far.
+struct Tridiagonal {
+  Vector diagonal, beside;
+  Eigen::VectorXd values;  // ascending; of all directions but the last one until they are taken
+};
+
+// The largest eigenvalue, and how far its vector is from being one of M^-1 K, where `next` couples
+// the last direction to the next one. The vector's last component follows from the eigenvalues with
+// and without the last direction: |v_m|^2 = prod_(i < m) (w - w'_i) / (w - w_i).
+void take_ritz_value(Tridiagonal& T, double next, HighestFrequency& found) {
+  const auto n = static_cast<Eigen::Index>(T.diagonal.size());
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(Eigen::VectorXd::Map(diagonal.data(), n),
-                                Eigen::VectorXd::Map(beside.data(), n - 1));
-  const double omega2 = solver.eigenvalues()[n - 1];
+  solver.computeFromTridiagonal(Eigen::VectorXd::Map(T.diagonal.data(), n),
+                                Eigen::VectorXd::Map(T.beside.data(), n - 1),
+                                Eigen::EigenvaluesOnly);
+  const Eigen::VectorXd& values = solver.eigenvalues();
+  const double omega2 = values[n - 1];
+  double square = 1;
+  for (Eigen::Index i = 0; i < n - 1; ++i)
+    if (const double of_all = omega2 - values[i]; of_all > 0)
+      square *= std::max(0.0, omega2 - T.values[i]) / of_all;
+  T.values = values;
   found.omega = omega2 > 0 ? std::sqrt(omega2) : 0;
-  found.residual = next * std::abs(solver.eigenvectors()(n - 1, n - 1)) / std::abs(omega2);
+  found.residual = next * std::sqrt(square) / std::abs(omega2);
 }
 
 // No mode can be much above what a few directions of all modes have found where the residual is
@@ -192,7 +205,7 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
   if (s.force_at_rest.empty()) forces(s.u, s.force_at_rest);
   Vector x(s.size()), last(s.size(), 0.0);
   Direction next{.x = Vector(s.size()), .Mx = Vector(s.size())};
-  Vector diagonal, beside;  // of the tridiagonal matrix
+  Tridiagonal T;
   HighestFrequency found;
   begin_with_noise(s, next);
   if (next.length == 0) return found;
@@ -200,14 +213,14 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
     const double by_length = 1 / next.length, largest = by_length * next.largest;
     const double largest_K = apply_stiffness(s, next, x, next.x);
     ++found.n_iterations;
-    diagonal.push_back(s.dot(x, next.x, largest * largest_K));
-    go_on(s, diagonal.back(), x, beside.empty() ? 0 : beside.back(), last, next);
-    take_ritz_value(diagonal, beside, next.length, found);
+    T.diagonal.push_back(s.dot(x, next.x, largest * largest_K));
+    go_on(s, T.diagonal.back(), x, T.beside.empty() ? 0 : T.beside.back(), last, next);
+    take_ritz_value(T, next.length, found);
     found.is_converged =
         next.length == 0 ||
         (found.n_iterations >= options.least_iterations && found.residual <= options.tolerance) ||
         is_below_interest(found, options);
-    beside.push_back(next.length);
+    T.beside.push_back(next.length);
     last.swap(x);
   }
   return found;
