@@ -24,11 +24,14 @@ void sort_elements(std::vector<GrownElement>& grown) {
   grown.erase(std::unique(grown.begin(), grown.end(), is_same), grown.end());
 }
 
-// Of all ranks. Collective.
-std::vector<GrownElement> grown_elements(const Simulation& s, double growth) {
+// Of all ranks; none where a rank alone has more than `most`. Collective.
+std::vector<GrownElement> grown_elements(const Simulation& s, double growth, std::size_t most) {
+  const std::vector<GrownElement> mine =
+      find_grown(s.model, s.part, s.state, *s.look.stiffening, growth, most);
+  if (s.communicator->all_max(static_cast<double>(mine.size())) > static_cast<double>(most))
+    return {};
   std::vector<double> pairs;
-  for (const auto& [element, stiffening] :
-       find_grown(s.model, s.part, s.state, *s.look.stiffening, growth))
+  for (const auto& [element, stiffening] : mine)
     pairs.insert(pairs.end(), {static_cast<double>(element), stiffening});
   pairs = s.communicator->all_gather(pairs);
   std::vector<GrownElement> grown;
@@ -39,12 +42,12 @@ std::vector<GrownElement> grown_elements(const Simulation& s, double growth) {
 }
 
 // Growth of omega^2 since the search of the body, by that of its part; 0 if that does not end or
-// the part is too large.
-double growth_of_part(const Simulation& s, std::span<const GrownElement> part, double enough) {
+// the part has more than `most` elements.
+double growth_of_part(const Simulation& s, std::span<const GrownElement> part, double enough,
+                      std::size_t most) {
   std::vector<std::int32_t> elements;
   for (const GrownElement& grown : part) elements.push_back(grown.element);
-  const std::unique_ptr<Patch> patch =
-      make_present_patch(s, elements, static_cast<std::size_t>(largest_part * s.mesh.n_elements()));
+  const std::unique_ptr<Patch> patch = make_present_patch(s, elements, most);
   if (!patch) return 0;
   const double step = search_step(*patch, search_amplitude(s.model, s.edge_length), Communicator(),
                                   s.look.step / std::sqrt(enough));
@@ -70,8 +73,9 @@ bool can_search_part(const Simulation& s) {
 double search_grown_part(Simulation& s, double growth) {
   s.look.asked = growth;
   constexpr double of_rest = least_growth_of_part;
-  const std::vector<GrownElement> part = grown_elements(s, of_rest);
-  const double of_part = growth_of_part(s, part, of_rest);
+  const auto most = static_cast<std::size_t>(largest_part * s.mesh.n_elements());
+  const std::vector<GrownElement> part = grown_elements(s, of_rest, most);
+  const double of_part = part.empty() ? 0 : growth_of_part(s, part, of_rest, most);
   if (of_part == 0) return growth;
   ++s.log.searches.n_of_parts;
   follow_part(part, of_part, s);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 namespace trocar {
@@ -133,11 +134,14 @@ void ElementWatch::look(const Model& model, const ElementBlocks& blocks,
 }
 
 std::vector<GrownElement> find_grown(const Model& model, const Part& part, const State& state,
-                                     std::span<const double> earlier, double growth) {
+                                     std::span<const double> earlier, double growth,
+                                     std::size_t most) {
   std::vector<GrownElement> grown;
   std::mutex mutex;
+  std::atomic<bool> are_too_many = false;
   const auto look = [&](const ElementBlocks& blocks, const BlockKernels& kernels,
                         const BlockTask& task, std::int64_t first) {
+    if (are_too_many) return;
     const std::span element = elements_of(blocks, task, first);
     Room room, enough, J, stiffening;
     const double* earlier_at = values_of(earlier, element, room);
@@ -150,6 +154,7 @@ std::vector<GrownElement> find_grown(const Model& model, const Part& part, const
       if (!(s > growth * earlier_at[lane])) continue;
       const std::scoped_lock lock(mutex);
       grown.push_back({part.element_global[element[lane]], s});
+      are_too_many = grown.size() > most;
     }
   };
   parallel_for(count_blocks(model), [&](std::int64_t begin, std::int64_t end) {

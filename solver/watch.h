@@ -33,9 +33,11 @@ struct GrownElement {
   double stiffening = 1;      // as above
 };
 // Those of this rank whose stiffening is more than `growth` times that of `earlier` (elements of
-// the part), in any order. Of state.theta and state.u, too.
+// the part), in any order; some more than `most` where there are more. Of state.theta and state.u,
+// too.
 std::vector<GrownElement> find_grown(const Model& model, const Part& part, const State& state,
-                                     std::span<const double> earlier, double growth);
+                                     std::span<const double> earlier, double growth,
+                                     std::size_t most);
 // Global number of the first owned node with a value that is not finite or too large, -1 if none.
 std::int32_t first_bad_node(const Model& model, const Part& part, const State& state);
 
