@@ -85,11 +85,8 @@ double search_grown_part(Simulation& s, double growth) {
 
 void take_searched(const Part& part, std::span<const GrownElement> searched,
                    std::vector<double>& stiffening) {
-  const std::vector<std::int32_t>& all = part.element_global;
-  for (const GrownElement& one : searched) {
-    const auto at = std::lower_bound(all.begin(), all.end(), one.element);
-    if (at != all.end() && *at == one.element) stiffening[at - all.begin()] = one.stiffening;
-  }
+  for (const GrownElement& one : searched)
+    if (const std::int64_t k = part.place_of(one.element); k >= 0) stiffening[k] = one.stiffening;
 }
 
 }  // namespace trocar

@@ -159,4 +159,16 @@ void for_strained_blocks(const Model& model, const ElementBlocks& blocks, const 
   for_strained_blocks(model, blocks, state, {}, first, n, body);
 }
 
+// The same for the blocks in [begin, end) of all lists, with their list first.
+template <class Body>
+void for_strained_block_range(const Model& model, const State& state, std::int64_t begin,
+                              std::int64_t end, const Body& body) {
+  for_block_range(
+      model, begin, end, [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
+        for_strained_blocks(model, blocks, state, first, n,
+                            [&](const BlockKernels& kernels, const BlockTask& task,
+                                std::int64_t block) { body(blocks, kernels, task, block); });
+      });
+}
+
 }  // namespace trocar

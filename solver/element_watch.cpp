@@ -158,12 +158,7 @@ std::vector<GrownElement> find_grown(const Model& model, const Part& part, const
     }
   };
   parallel_for(count_blocks(model), [&](std::int64_t begin, std::int64_t end) {
-    for_block_range(
-        model, begin, end, [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
-          for_strained_blocks(model, blocks, state, first, n,
-                              [&](const BlockKernels& kernels, const BlockTask& task,
-                                  std::int64_t block) { look(blocks, kernels, task, block); });
-        });
+    for_strained_block_range(model, state, begin, end, look);
   });
   return grown;
 }

@@ -76,9 +76,12 @@ Sums sum_up(const State& state, const Scratch& scratch, const Communicator& comm
     }
   });
   const auto n_all = static_cast<std::int64_t>(communicator.all_sum(n));
+  // Of all ranks: what products are rounded to must not depend on how they are spread.
+  const auto largest = [&](std::span<const double> x) {
+    return communicator.all_max(largest_size(x));
+  };
   const auto dot = [&](std::span<const double> a, std::span<const double> b) {
-    const double most = communicator.all_max(largest_size(a) * largest_size(b));
-    return reproducible_dot(a, b, n_all, most, communicator);
+    return reproducible_dot(a, b, n_all, largest(a) * largest(b), communicator);
   };
   return {.imbalance = dot(imbalance, imbalance),
           .damping = r.damping * r.damping * dot(momentum, momentum),

@@ -20,9 +20,9 @@ bool is_sane(double x) {
 }
 
 bool is_sane(const double* x, std::size_t n) {
-  std::int64_t n_sane = 0;
-  for (std::size_t k = 0; k < n; ++k) n_sane += static_cast<std::int64_t>(is_sane(x[k]));
-  return n_sane == static_cast<std::int64_t>(n);
+  bool all = true;
+  for (std::size_t k = 0; k < n; ++k) all = all & is_sane(x[k]);
+  return all;
 }
 
 }  // namespace
@@ -31,14 +31,10 @@ void watch_elements(const Model& model, const State& state, ElementWatch& elemen
   CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
   parallel_for(count_blocks(model), [&](std::int64_t begin, std::int64_t end) {
     LeastOfElements least = elements.first();
-    for_block_range(
-        model, begin, end, [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
-          for_strained_blocks(
-              model, blocks, state, first, n,
-              [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
-                elements.look(model, blocks, kernels, task, block, least);
-              });
-        });
+    for_strained_block_range(
+        model, state, begin, end,
+        [&](const ElementBlocks& blocks, const BlockKernels& kernels, const BlockTask& task,
+            std::int64_t block) { elements.look(model, blocks, kernels, task, block, least); });
     elements.take(least);
   });
 }
