@@ -106,8 +106,10 @@ static void cut_in_motion(const Stroke& stroke, double dt, TetCutter& cutter, tr
                            stroke.blade(double(k + 1) / stroke.n_steps), stroke.normal};
     const std::vector<std::uint8_t> is_held(body.mesh.X.size(), 0);
     CutFigures figures;
+    const std::vector<Vec3> x = present(body);
+    KnownPositions positions(body.mesh, x);
     const MeshEdit edit =
-        cutter.advance(body.mesh, present(body), is_held, sweep, k + 1 == stroke.n_steps, figures);
+        cutter.advance(body.mesh, positions, is_held, sweep, k + 1 == stroke.n_steps, figures);
     const double energy = present_energy(body);
     apply(edit, body);
     if (!edit.is_empty()) {

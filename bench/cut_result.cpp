@@ -108,9 +108,11 @@ static void subdivide_instead(const Mesh& mesh, const Kind& kind,
 static void apply(const MeshEdit& edit, const CutFigures& figures, CutBody& cut) {
   const std::vector<std::int32_t> parent = element_parents(cut.body.mesh, edit);
   cutting_test::apply(edit, figures, cut.body, cut.ledger);
+  if (edit.is_empty()) return;
   std::vector<std::int32_t> origin;
   for (const std::int32_t e : parent) origin.push_back(cut.origin[std::size_t(e)]);
   cut.origin = std::move(origin);
+  cut.boxes = make_element_boxes(cut.body.mesh, cut.body.x);
 }
 
 void run_stroke(const Stroke& stroke, TetCutter& cutter, CutBody& cut, Result& result) {
@@ -120,9 +122,10 @@ void run_stroke(const Stroke& stroke, TetCutter& cutter, CutBody& cut, Result& r
     const BladeSweep sweep{stroke.blade(double(k) / stroke.n_steps),
                            stroke.blade(double(k + 1) / stroke.n_steps), stroke.normal};
     CutFigures figures;
+    KnownPositions positions(body.mesh, body.x, cut.boxes);
     const double start = processor_seconds();
     const MeshEdit edit =
-        cutter.advance(body.mesh, body.x, body.is_held, sweep, k + 1 == stroke.n_steps, figures);
+        cutter.advance(body.mesh, positions, body.is_held, sweep, k + 1 == stroke.n_steps, figures);
     const double seconds = processor_seconds() - start;
     result.seconds += seconds;
     result.longest_advance = std::max(result.longest_advance, seconds);

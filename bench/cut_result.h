@@ -35,7 +35,9 @@ struct CutBody {
   Body body;
   cutting_test::Ledger ledger;
   std::vector<std::int32_t> origin;  // (n_elements) of the uncut body
-  explicit CutBody(const Mesh& mesh) : body(mesh), origin(mesh.element_type.size()) {
+  ElementBoxes boxes;
+  explicit CutBody(const Mesh& mesh)
+      : body(mesh), origin(mesh.element_type.size()), boxes(make_element_boxes(mesh, mesh.X)) {
     std::iota(origin.begin(), origin.end(), 0);
   }
 };

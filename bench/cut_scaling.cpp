@@ -2,6 +2,7 @@
 #include <numeric>
 
 #include "cut_case.h"
+#include "mesh/node_corners.h"
 
 namespace trocar::cut_bench {
 
@@ -27,11 +28,34 @@ static void empty_caches() {
   for (std::size_t i = 0; i < other.size(); i += 8) ++other[i];
 }
 
+// A body that is cut, with what saves looks at all of it.
+struct CutBox {
+  Body body;
+  NodeCorners corners;
+  ElementBoxes boxes;
+
+  explicit CutBox(Mesh mesh)
+      : body(std::move(mesh)),
+        corners(node_corners(body.mesh)),
+        boxes(make_element_boxes(body.mesh, body.x)) {}
+  void apply(const MeshEdit& edit) {
+    std::vector<std::int32_t> nodes;  // moved or new
+    for (const NodeMove& move : edit.moves) nodes.push_back(move.node);
+    const std::int32_t n = body.mesh.n_nodes();
+    for (std::int32_t k = 0; k < std::ssize(edit.duplicate_parent); ++k) nodes.push_back(n + k);
+    apply_edit(edit, body.mesh, corners);
+    cutting_test::Ledger ledger;
+    cutting_test::apply(edit, {}, body, ledger);
+    update_element_boxes(body.mesh, body.x, {{}, nodes, elements_around(corners, nodes)}, boxes);
+  }
+};
+
 // Down to 3 cells under the upper face, then along x; `step` cells an advance.
 static Cost cut_box(int n, double step, bool is_cold) {
   Mesh mesh = make_box({0, 0, 0}, Vec3::Constant(n), {n, n, n}, BoxElements::tet4_kuhn);
   jitter(mesh, 0.2, 1);
-  Body body(std::move(mesh));
+  CutBox box(std::move(mesh));
+  Body& body = box.body;
   TetCutter cutter{CutTetOptions{}};
   Cost cost;
   const double start = processor_seconds();
@@ -47,15 +71,15 @@ static Cost cut_box(int n, double step, bool is_cold) {
     return points;
   };
   const Vec3 normal = Vec3(-0.1, 0.5, 0).normalized();
-  cutting_test::Ledger ledger;
   for (int k = 0; k < n_steps; ++k) {
     CutFigures figures;
+    KnownPositions positions(body.mesh, body.x, box.boxes);
     if (is_cold) empty_caches();
     const double before = processor_seconds();
-    const MeshEdit edit = cutter.advance(body.mesh, body.x, body.is_held,
+    const MeshEdit edit = cutter.advance(body.mesh, positions, body.is_held,
                                          {edge(k), edge(k + 1), normal}, k + 1 == n_steps, figures);
     cost.advances.push_back(processor_seconds() - before);
-    cutting_test::apply(edit, figures, body, ledger);
+    box.apply(edit);
   }
   return cost;
 }

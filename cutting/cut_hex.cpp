@@ -92,20 +92,27 @@ static bool is_bent(const HexTets& tets, std::span<const Vec3> x, std::int32_t h
   return false;
 }
 
-std::vector<std::int32_t> bent_nodes(const HexTets& tets, std::span<const Vec3> x,
+// Of the body's elements.
+static std::vector<std::int32_t> nodes_of(const HexTets& tets,
+                                          std::span<const std::int32_t> elements) {
+  std::vector<std::int32_t> nodes;
+  for (const std::int32_t e : elements)
+    for (std::int32_t s = tets.first[e]; s < tets.first[e + 1]; ++s)
+      nodes.insert(nodes.end(), tets.mesh.corners(s).begin(), tets.mesh.corners(s).end());
+  sort_unique(nodes);
+  return nodes;
+}
+
+std::vector<std::int32_t> bent_nodes(const HexTets& tets, PresentPositions& positions,
                                      std::span<const std::int32_t> element) {
-  std::vector<std::int32_t> hex, node;
+  std::vector<std::int32_t> hex;
   for (const std::int32_t s : element)
     if (const std::int32_t e = tets.source[s]; tets.first[e + 1] - tets.first[e] == n_hex_tets)
       hex.push_back(e);
   sort_unique(hex);
-  for (const std::int32_t e : hex) {
-    if (!is_bent(tets, x, e)) continue;
-    for (std::int32_t s = tets.first[e]; s < tets.first[e + 1]; ++s)
-      node.insert(node.end(), tets.mesh.corners(s).begin(), tets.mesh.corners(s).end());
-  }
-  sort_unique(node);
-  return node;
+  positions.find(nodes_of(tets, hex));
+  std::erase_if(hex, [&](std::int32_t e) { return !is_bent(tets, positions.x(), e); });
+  return nodes_of(tets, hex);
 }
 
 static void add_as_tets(const Mesh& body, std::int32_t e, HexTets& tets) {

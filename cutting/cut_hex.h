@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "base/vec.h"
 #include "cutting/cut_figures.h"
 #include "cutting/cut_index.h"
+#include "cutting/cut_positions.h"
 #include "mesh/edit.h"
 #include "mesh/mesh.h"
 
@@ -35,18 +35,17 @@ std::vector<std::uint8_t> hex_split_ranks(const Mesh& mesh);
 // whole, with all their nodes; ascending.
 std::vector<std::int32_t> whole_hexahedra(const Mesh& mesh);
 
-// Nodes of hexahedra that may not become tetrahedra at the present positions x, as one would be
+// Nodes of hexahedra that may not become tetrahedra at their present positions, as one would be
 // inverted or nearly flat there; of those that elements of tets.mesh (ascending) belong to.
-std::vector<std::int32_t> bent_nodes(const HexTets& tets, std::span<const Vec3> x,
+std::vector<std::int32_t> bent_nodes(const HexTets& tets, PresentPositions& positions,
                                      std::span<const std::int32_t> element);
 
 // Brings `tets` up to date with the body; built anew where somebody else has changed the body.
 void update_hex_tets(const Mesh& body, HexTets& tets);
 
-// `edit` of tets.mesh as one of the body, whose present positions are x; `index` is that of
-// tets.mesh after the edit. Mass is kept region by region. Takes the edit over into `tets`, but not
+// `edit` of tets.mesh as one of the body; `index` is that of tets.mesh after the edit. Mass is kept region by region. Takes the edit over into `tets`, but not
 // into `index`.
-MeshEdit edit_of_body(const Mesh& body, std::span<const Vec3> x, const CutIndex& index,
+MeshEdit edit_of_body(const Mesh& body, PresentPositions& positions, const CutIndex& index,
                       const MeshEdit& edit, HexTets& tets, CutFigures& figures);
 
 }  // namespace trocar

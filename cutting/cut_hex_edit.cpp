@@ -8,6 +8,7 @@
 #include "cutting/cut_hex_shape.h"
 #include "cutting/cut_patch.h"
 #include "mesh/hex_split.h"
+#include "mesh/node_corners.h"
 
 namespace trocar {
 
@@ -273,11 +274,13 @@ static void set_sources(const Translation& t, HexTets& tets) {
   }
 }
 
-MeshEdit edit_of_body(const Mesh& body, std::span<const Vec3> x, const CutIndex& index,
+MeshEdit edit_of_body(const Mesh& body, PresentPositions& positions, const CutIndex& index,
                       const MeshEdit& edit, HexTets& tets, CutFigures& figures) {
-  Translation t{body, x, edit, tets, {}};
+  Translation t{body, positions.x(), edit, tets, {}};
   KeptHexahedra kept;
-  for (const std::int32_t e : touched_hexahedra(t, index)) {
+  const std::vector<std::int32_t> touched = touched_hexahedra(t, index);
+  positions.find(nodes_of(body, touched));
+  for (const std::int32_t e : touched) {
     KeptHex hex;
     if (stays_hexahedron(t, e, hex))
       kept.emplace_back(e, hex);

@@ -8,6 +8,7 @@
 #include "base/sort_unique.h"
 #include "cutting/cut_carry.h"
 #include "cutting/cut_near.h"
+#include "mesh/node_corners.h"
 
 namespace trocar {
 
@@ -195,16 +196,12 @@ static double mean_length(const Mesh& mesh, const std::vector<EdgeUse>& use) {
   return use.empty() ? 0 : sum / static_cast<double>(use.size());
 }
 
-// Where the band begins in the tissue: where the one before it ended. The first one of a stroke may
-// begin anywhere: that is the one look at all nodes.
-static std::vector<std::int32_t> begin_of(const Mesh& mesh, CutIndex& index,
-                                          std::span<const Vec3> x, const Band& band,
-                                          const BladeSweep& sweep, const CutStroke& stroke) {
-  if (stroke.edge.size() != sweep.before.size()) return near_elements(mesh, index, x, box_of(band));
-  std::vector<std::int32_t> begin;
+// Where the band before this one ended in the tissue, if there was one.
+static std::vector<std::int32_t> elements_at_edge(const CutStroke& stroke) {
+  std::vector<std::int32_t> elements;
   for (const BladePoint& p : stroke.edge)
-    if (p.element >= 0) begin.push_back(p.element);
-  return begin;
+    if (p.element >= 0) elements.push_back(p.element);
+  return elements;
 }
 
 // Edges `use` that the band crosses, for each of their elements.
@@ -226,16 +223,22 @@ static std::vector<CutHit> find_hits(const Mesh& mesh, std::span<const Vec3> x, 
   return found;
 }
 
-void add_hits(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x, const BladeSweep& sweep,
-              CutStroke& stroke) {
+void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
+              const BladeSweep& sweep, CutStroke& stroke) {
   const Band swept = make_band(sweep, 0);
-  const std::vector<std::int32_t> begin = begin_of(mesh, index, x, swept, sweep, stroke);
+  // The first band of a stroke may begin anywhere.
+  std::vector<std::int32_t> begin = elements_at_edge(stroke);
+  positions.find(nodes_of(mesh, begin));
+  if (stroke.edge.size() != sweep.before.size())
+    begin = near_elements(mesh, index, positions, box_of(swept));
   if (stroke.mean_edge == 0 && !swept.triangle.empty())
-    stroke.mean_edge =
-        mean_length(mesh, edge_uses(mesh, near_elements(mesh, index, x, box_of(swept), begin)));
+    stroke.mean_edge = mean_length(
+        mesh, edge_uses(mesh, near_elements(mesh, index, positions, box_of(swept), begin)));
+  const std::span<const Vec3> x = positions.x();
   const Band band = make_band(carry_edge(mesh, x, sweep, stroke), overlap * stroke.mean_edge);
   if (band.triangle.empty()) return;
-  const std::vector<std::int32_t> element = near_elements(mesh, index, x, box_of(band), begin);
+  const std::vector<std::int32_t> element =
+      near_elements(mesh, index, positions, box_of(band), begin);
   remember_edge(mesh, x, sweep, element, stroke);
   const std::vector<EdgeUse> use = edge_uses(mesh, element);
   std::vector<CutHit> found = find_hits(mesh, x, band, use);

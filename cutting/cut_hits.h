@@ -1,23 +1,20 @@
 // Which element edges a swept band crosses, and where.
 #pragma once
 
-#include <span>
-
-#include "base/vec.h"
 #include "cutting/blade_sweep.h"
 #include "cutting/cut_index.h"
+#include "cutting/cut_positions.h"
 #include "cutting/cut_stroke.h"
 #include "mesh/mesh.h"
 
 namespace trocar {
 
-// Adds the crossings of the band with the edges of tetrahedra in the present configuration x to
+// Adds the crossings of the band with the edges of tetrahedra in the present configuration to
 // stroke.hit; an edge crossed back loses its crossing. The band begins where the last one ended in
 // the tissue, and a little behind. Every element that shares an edge gets the same decision. Sets
-// stroke.mean_edge near the band. `index` is that of the mesh; edges stretched to three times
-// the longest one's length are not seen.
-void add_hits(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x, const BladeSweep& sweep,
-              CutStroke& stroke);
+// stroke.mean_edge near the band. `index` is that of the mesh.
+void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
+              const BladeSweep& sweep, CutStroke& stroke);
 
 // The longest way that a point of the blade's edge has gone. [m]
 double sweep_length(const BladeSweep& sweep);

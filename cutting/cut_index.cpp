@@ -3,22 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "mesh/facets.h"
 
 namespace trocar {
-
-static double longest_edge(const Mesh& mesh) {
-  double longest = 0;  // squared; diagonals of hexahedra count as edges
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    const std::span<const std::int32_t> c = mesh.corners(e);
-    for (std::size_t a = 0; a < c.size(); ++a)
-      for (std::size_t b = a + 1; b < c.size(); ++b)
-        longest = std::max(longest, (mesh.X[c[a]] - mesh.X[c[b]]).squaredNorm());
-  }
-  return std::sqrt(longest);
-}
 
 bool is_index_of(const CutIndex& index, const Mesh& mesh) {
   return index.star_begin.size() == mesh.X.size() && index.n_elements == mesh.element_type.size() &&
@@ -72,16 +60,13 @@ void update_index(const Mesh& mesh, CutIndex& index) {
     index.star_size[i] = around.offset[i + 1] - around.offset[i];
   index.star_element = std::move(around.element);
   find_surface_nodes(mesh, index);
-  index.clusters = make_clusters(mesh, index);
-  index.longest_edge = longest_edge(mesh);
   index.ring.assign(mesh.X.size(), no_ring);
   index.local.assign(mesh.X.size(), -1);
   index.across.assign(mesh.element_type.size(), {not_known, not_known, not_known, not_known});
   index.local_element.assign(mesh.element_type.size(), -1);
   index.corner_node = mesh.corner_node.data();
   index.n_elements = mesh.element_type.size();
-  for (auto* values : {&index.star_begin, &index.star_size, &index.local, &index.star_element,
-                       &index.clusters.of_node})
+  for (auto* values : {&index.star_begin, &index.star_size, &index.local, &index.star_element})
     leave_room(*values);
   for (auto* values : {&index.ring, &index.is_surface}) leave_room(*values);
 }
@@ -113,18 +98,12 @@ static std::int32_t edited_corner(const Mesh& mesh, const MeshEdit& edit, std::i
   return is_changed ? at->node : mesh.corners(e)[static_cast<std::size_t>(c)];
 }
 
-// A cluster may have no surface of its own.
-static void add_surface_node(std::int32_t i, CutIndex& index) {
-  if (index.is_surface[i] == 0) dissolve_cluster_of(i, index.clusters);
-  index.is_surface[i] = 1;
-}
-
 static void add_opened_facets(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {
   for (const CutFacets& opened : edit.cut_facets)
     for (int f = 0; f < n_facets(mesh.element_type[opened.element]); ++f) {
       if ((opened.mask >> f & 1) == 0) continue;
       for (const int c : facet_corners(mesh.element_type[opened.element], f))
-        if (c >= 0) add_surface_node(edited_corner(mesh, edit, opened.element, c), index);
+        if (c >= 0) index.is_surface[edited_corner(mesh, edit, opened.element, c)] = 1;
     }
 }
 
@@ -139,12 +118,9 @@ void edit_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {
   index.ring.resize(n_nodes, no_ring);
   index.local.resize(n_nodes, -1);
   index.is_surface.resize(n_nodes, 0);
-  add_loose_nodes(n_nodes, index.clusters);
-  for (const NodeMove& move : edit.moves) dissolve_cluster_of(move.node, index.clusters);
   add_opened_facets(mesh, edit, index);
   for (const CornerChange& c : change) {
     const std::int32_t before = mesh.corners(c.element)[static_cast<std::size_t>(c.corner)];
-    dissolve_cluster_of(before, index.clusters);
     forget_across(index, c.element);
     remove_from_star(index, before, c.element);
     if (index.star_size[c.node]++ == 0)

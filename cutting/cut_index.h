@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "cutting/cut_clusters.h"
 #include "mesh/edit.h"
 #include "mesh/mesh.h"
 
@@ -22,11 +21,9 @@ struct WaitingFacet {
 struct CutIndex {
   std::vector<std::int32_t> star_begin, star_size;  // (n_nodes) into star_element
   std::vector<std::int32_t> star_element;           // ascending in each star
-  double longest_edge = 0;                          // when it was built, reference [m]
   // Nodes of facets with one element. Where tetrahedra lie on the quads of a hexahedron, these
   // quads' nodes count too. (n_nodes)
   std::vector<std::uint8_t> is_surface;
-  NodeClusters clusters;
   // The tetrahedron across each facet of a tetrahedron, -1 if there is none, as far as patches have
   // found them. (n_elements)
   std::vector<std::array<std::int32_t, 4>> across;

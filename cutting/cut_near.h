@@ -8,6 +8,7 @@
 
 #include "base/vec.h"
 #include "cutting/cut_index.h"
+#include "cutting/cut_positions.h"
 #include "mesh/mesh.h"
 
 namespace trocar {
@@ -18,13 +19,15 @@ struct BandBox {
   Vec3 low, high;
 };
 
-// Tetrahedra whose corners are not all beyond one side of the box in the present configuration x,
-// ascending: all in the body ...
-std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
-                                        const BandBox& box);
+// Tetrahedra that the box may meet in the present configuration, ascending: their corners are not
+// all beyond one side of it, and their boxes along the axes of space overlap its own. All in the
+// body ...
+std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index,
+                                        PresentPositions& positions, const BandBox& box);
 // ... and those that hang together, through such elements, with the body's surface or with
 // `begin`. What is cut in one piece with the surface or with one of these elements is among them.
-std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
-                                        const BandBox& box, std::span<const std::int32_t> begin);
+std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index,
+                                        PresentPositions& positions, const BandBox& box,
+                                        std::span<const std::int32_t> begin);
 
 }  // namespace trocar

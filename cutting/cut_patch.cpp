@@ -191,7 +191,7 @@ static void number_nodes(CutPatch& patch, const Mesh& mesh, std::span<const std:
   }
 }
 
-CutPatch make_patch(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
+CutPatch make_patch(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
                     std::span<const std::uint8_t> is_held, std::span<const std::int32_t> seeds) {
   const std::vector<std::int32_t> reached = mark_rings(mesh, seeds, index);
   CutPatch patch;
@@ -209,9 +209,10 @@ CutPatch make_patch(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
   patch.is_bent.assign(patch.node.size(), 0);
   for (const std::int32_t i : joined)
     if (index.local[i] >= 0) patch.is_joined[index.local[i]] = 1;
+  positions.find(patch.node);
   for (std::int32_t i = 0; i < patch.n_nodes(); ++i) {
     patch.X.push_back(mesh.X[patch.node[i]]);
-    patch.x.push_back(x[patch.node[i]]);
+    patch.x.push_back(positions.x()[patch.node[i]]);
     const bool is_locked = is_held[patch.node[i]] != 0 || patch.is_joined[i] != 0;
     patch.is_locked.push_back(is_locked ? 1 : 0);
   }

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "base/vec.h"
 #include "cutting/cut_index.h"
+#include "cutting/cut_positions.h"
 #include "mesh/mesh.h"
 
 namespace trocar {
@@ -48,7 +48,7 @@ struct CutPatch {
 
 // Tetrahedra of `mesh` within n_cut_rings of the seeds (global elements, ascending). `index` is
 // that of the mesh.
-CutPatch make_patch(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x,
+CutPatch make_patch(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
                     std::span<const std::uint8_t> is_held, std::span<const std::int32_t> seeds);
 
 // Local number of corner c of the facet opposite to corner f, outward by the right-hand rule.

@@ -41,21 +41,21 @@ static void add_distance(CutSurroundings& around, std::int32_t i) {
                                : std::min(d2 / std::max(slope2, 1e-6), immovable_cost);
 }
 
-static void lock_bent(const HexTets& hexahedra, std::span<const Vec3> x, CutPatch& patch) {
-  for (const std::int32_t node : bent_nodes(hexahedra, x, patch.element))
+static void lock_bent(const HexTets& hexahedra, PresentPositions& positions, CutPatch& patch) {
+  for (const std::int32_t node : bent_nodes(hexahedra, positions, patch.element))
     if (const std::int32_t i = patch.local_node(node); i >= 0)
       patch.is_bent[i] = patch.is_locked[i] = 1;
 }
 
 CutSurroundings survey(const Mesh& mesh, const HexTets* hexahedra, CutIndex& index,
-                       std::span<const Vec3> x, std::span<const std::uint8_t> is_held,
+                       PresentPositions& positions, std::span<const std::uint8_t> is_held,
                        const CutStroke& stroke, bool is_last) {
   CutSurroundings around;
   around.h = stroke.mean_edge;
   const std::vector<std::int32_t> seed = seed_elements(stroke, is_last);
   if (seed.empty()) return around;
-  around.patch = make_patch(mesh, index, x, is_held, seed);
-  if (hexahedra != nullptr) lock_bent(*hexahedra, x, around.patch);
+  around.patch = make_patch(mesh, index, positions, is_held, seed);
+  if (hexahedra != nullptr) lock_bent(*hexahedra, positions, around.patch);
   around.points = surface_points(around.patch, stroke);
   for (std::int32_t i = 0; i < around.patch.n_nodes(); ++i) {
     NodeBoundary boundary;

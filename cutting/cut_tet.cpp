@@ -26,8 +26,9 @@ struct TetCutter::Front {
   CutIndex index;
   HexTets tets;  // only of a body with hexahedra
 
-  MeshEdit advance(const Mesh& mesh, std::span<const Vec3> x, std::span<const std::uint8_t> is_held,
-                   const BladeSweep& sweep, bool is_last, CutFigures& figures);
+  MeshEdit advance(const Mesh& mesh, PresentPositions& positions,
+                   std::span<const std::uint8_t> is_held, const BladeSweep& sweep, bool is_last,
+                   CutFigures& figures);
 };
 
 TetCutter::TetCutter(const CutTetOptions& options)
@@ -87,16 +88,16 @@ static void add_refusals(const std::vector<CutRefusal>& list, CutFigures& figure
 }
 
 // Cuts the tetrahedra of `mesh`.
-MeshEdit TetCutter::Front::advance(const Mesh& mesh, std::span<const Vec3> x,
+MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions,
                                    std::span<const std::uint8_t> is_held, const BladeSweep& sweep,
                                    bool is_last, CutFigures& figures) {
-  add_hits(mesh, index, x, sweep, stroke);
+  add_hits(mesh, index, positions, sweep, stroke);
   stroke.swept += sweep_length(sweep);
   if (!is_last && stroke.swept < options.advance * stroke.mean_edge) return {};
 
   TetCut cut;
   cut.around =
-      survey(mesh, tets.mesh.X.empty() ? nullptr : &tets, index, x, is_held, stroke, is_last);
+      survey(mesh, tets.mesh.X.empty() ? nullptr : &tets, index, positions, is_held, stroke, is_last);
   const bool is_through = is_last && has_gone_through(stroke);
   if (cut.around.patch.n_elements() == 0) {
     if (is_through) add_refusals(missed_places(mesh, cut, stroke), figures);
@@ -138,17 +139,17 @@ void TetCutter::prepare(const Mesh& mesh) {
   update_index(f.tets.mesh, f.index);
 }
 
-MeshEdit TetCutter::advance(const Mesh& mesh, std::span<const Vec3> x,
+MeshEdit TetCutter::advance(const Mesh& mesh, PresentPositions& positions,
                             std::span<const std::uint8_t> is_held, const BladeSweep& sweep,
                             bool is_last, CutFigures& figures) {
-  check_arguments(mesh, x, is_held, sweep);
+  check_arguments(mesh, positions.x(), is_held, sweep);
   figures = {};
   prepare(mesh);
   Front& f = *front_;
-  if (f.tets.mesh.X.empty()) return f.advance(mesh, x, is_held, sweep, is_last, figures);
-  const MeshEdit edit = f.advance(f.tets.mesh, x, is_held, sweep, is_last, figures);
+  if (f.tets.mesh.X.empty()) return f.advance(mesh, positions, is_held, sweep, is_last, figures);
+  const MeshEdit edit = f.advance(f.tets.mesh, positions, is_held, sweep, is_last, figures);
   if (edit.is_empty()) return edit;
-  return edit_of_body(mesh, x, f.index, edit, f.tets, figures);
+  return edit_of_body(mesh, positions, f.index, edit, f.tets, figures);
 }
 
 }  // namespace trocar

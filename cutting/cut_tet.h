@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "base/vec.h"
 #include "cutting/blade_sweep.h"
 #include "cutting/cut_figures.h"
+#include "cutting/cut_positions.h"
 #include "cutting/cut_stroke.h"
 #include "mesh/edit.h"
 #include "mesh/mesh.h"
@@ -45,11 +45,12 @@ class TetCutter {
   void prepare(const Mesh& mesh);
 
   // Takes up the swept band; makes the edit once enough is swept (or is_last: the blade left or
-  // stopped). The edit is empty while it waits. x (n_nodes) present positions; is_held (n_nodes)
-  // nodes that must not be displaced (supports, grasped). Deterministic in its arguments. `figures`
-  // gets the figures of this edit.
-  MeshEdit advance(const Mesh& mesh, std::span<const Vec3> x, std::span<const std::uint8_t> is_held,
-                   const BladeSweep& sweep, bool is_last, CutFigures& figures);
+  // stopped). The edit is empty while it waits. is_held (n_nodes): nodes that must not be displaced
+  // (supports, grasped). Deterministic in its arguments, as is what it asks of `positions`.
+  // `figures` gets the figures of this edit.
+  MeshEdit advance(const Mesh& mesh, PresentPositions& positions,
+                   std::span<const std::uint8_t> is_held, const BladeSweep& sweep, bool is_last,
+                   CutFigures& figures);
 
   // A new stroke: forgets the front (faces that are open stay open).
   void start_stroke();

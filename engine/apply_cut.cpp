@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <utility>
 
 #include "base/log.h"
 #include "base/sort_unique.h"
@@ -155,9 +156,13 @@ bool rebalance(Simulation& s) {
 void move_positions(const MeshEdit& edit, const Mesh& mesh, GlobalState& global) {
   const std::size_t n_before = global.x.size();
   global.x.resize(mesh.X.size());
+  global.is_known.resize(mesh.X.size(), 1);
   const auto place = [&](std::size_t i) { global.x[i] = mesh.X[i] + Vec3::Map(&global.u[3 * i]); };
   for (const NodeMove& move : edit.moves) place(static_cast<std::size_t>(move.node));
-  for (std::size_t i = n_before; i < global.x.size(); ++i) place(i);
+  for (std::size_t i = n_before; i < global.x.size(); ++i) {
+    place(i);
+    global.known.push_back(static_cast<std::int32_t>(i));
+  }
 }
 
 // All that every rank holds of the whole body; returns whether update_topology will do.
@@ -204,7 +209,7 @@ Before measure_before(const Simulation& s, std::span<const std::int32_t> element
 
 // Up to what an edit leaves as it is. Collective.
 double energy_around(Simulation& s, bool is_local, std::span<const std::int32_t> nodes,
-                     const GlobalState& global) {
+                     GlobalState& global) {
   if (!s.energy) return 0;
   return is_local ? patch_energy(s, nodes, {.global = global}) : mechanical_energy(s).sum();
 }
@@ -223,31 +228,36 @@ void add_to_record(const Simulation& s, const Before& before,
 }  // namespace
 
 // scatter_state where the first `n_kept` owned nodes kept their numbers, and all but `nodes` of
-// these what they are.
+// these what they are. Collective among neighbours.
 static void scatter_edited(Simulation& s, std::size_t n_kept, std::span<const std::int32_t> nodes,
                            const GlobalState& global) {
   s.scratch.has_force = false;  // on ranks that have nothing of the edit, too: all exchange alike
   State& state = s.state;
   state.u.resize(3 * s.part.node_global.size());
   state.v.resize(3 * s.part.node_global.size());
+  const auto n_owned = static_cast<std::size_t>(s.part.n_owned);
   const auto take = [&](std::size_t local) {
     const auto from = 3 * static_cast<std::size_t>(s.part.node_global[local]);
     std::copy_n(&global.u[from], 3, &state.u[3 * local]);
     std::copy_n(&global.v[from], 3, &state.v[3 * local]);
   };
   for (const std::int32_t i : nodes)
-    if (const std::int32_t local = s.part.node_local[static_cast<std::size_t>(i)]; local >= 0)
+    if (const std::int32_t local = s.part.node_local[static_cast<std::size_t>(i)];
+        local >= 0 && std::cmp_less(local, n_owned))
       take(static_cast<std::size_t>(local));
-  for (std::size_t local = n_kept; local < s.part.node_global.size(); ++local) take(local);
+  for (std::size_t local = n_kept; local < n_owned; ++local) take(local);
+  start_exchange(s.neighbours, state);
+  finish_exchange(s.neighbours, state);
   const auto n_fields = static_cast<std::size_t>(s.model.averages.n_fields);
   state.theta.assign(s.part.node_global.size() * n_fields, 0.0);
 }
 
 void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutRecord& record) {
   if (s.corners.first.empty()) s.corners = node_corners(s.mesh);
-  if (!global.has_velocities) gather_velocities(s, global);
   const EditedElements edited = find_edited(s.mesh, s.corners, edit);
   std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited.before);
+  find_nodes(s, nodes, global);
+  for (const NodeMove& move : edit.moves) find_nodes(s, s.mesh.corners(move.host), global);
   const Before before = measure_before(s, edited.before, nodes, global);
   bool is_step_local = keeps_step(s);
   const bool is_energy_local = keeps_energy(s);
@@ -263,6 +273,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   const std::vector<std::int32_t> adjustable = adjustable_nodes(s, edit);
   const std::int32_t n_elements = s.mesh.n_elements();
   const bool is_local = edit_whole(edit, edited, global, s);
+  if (!is_local) find_all_nodes(s, global);
   if (!is_local && is_viscous(s.materials)) with_history = all_elements(n_elements);
   CarriedHistory history;
   if (is_viscous(s.materials)) history = carry_history(s, with_history, edit);

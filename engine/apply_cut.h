@@ -10,8 +10,8 @@
 namespace trocar {
 
 // Mesh, mass, owners, part, model, state, surface, holds, contact; linear and angular momentum of
-// the patch are restored by a rigid velocity increment. `global` is carried along, with velocities
-// then. Collective. Adds what it measured to `record`.
+// the patch are restored by a rigid velocity increment. `global` is carried along and gets what is
+// around the edit. Collective. Adds what it measured to `record`.
 void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutRecord& record);
 
 }  // namespace trocar

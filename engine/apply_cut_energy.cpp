@@ -111,7 +111,7 @@ std::vector<std::int32_t> adjustable_nodes(const Simulation& s, const MeshEdit& 
 std::unique_ptr<Patch> make_strained_patch(const Simulation& s, const MeshEdit& edit,
                                            std::span<const std::int32_t> edited,
                                            std::span<const std::int32_t> nodes,
-                                           const GlobalState& global) {
+                                           GlobalState& global) {
   const bool averages = s.model.options.tet4 == Formulation::tet4_nodal_pressure;
   if (edit.splits.empty() && !averages) return make_patch_of(s, edited, {.global = global});
   std::vector<std::int32_t> elements = elements_around(s.corners, nodes);

@@ -24,7 +24,7 @@ std::vector<std::int32_t> adjustable_nodes(const Simulation& s, const MeshEdit& 
 std::unique_ptr<Patch> make_strained_patch(const Simulation& s, const MeshEdit& edit,
                                            std::span<const std::int32_t> edited,
                                            std::span<const std::int32_t> nodes,
-                                           const GlobalState& global);
+                                           GlobalState& global);
 
 // Moves `nodes` of the body (local, their elements complete) until its strain energy is `wanted` up
 // to 0.5 %, or as near as thirty rounds come to it. None leaves an element with less than half of

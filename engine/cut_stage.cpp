@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/box.h"
 #include "base/error.h"
 #include "cutting/cut_plane_reaches.h"
 #include "engine/apply_cut.h"
+#include "engine/body_positions.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "engine/mesh_measures.h"
@@ -28,13 +30,14 @@ Box surface_box(const Simulation& s) {
 }
 
 // Where the blade's edge is inside the tissue; for a plane body its tip alone.
-void locate_edge(Simulation& s, const GlobalState& global, std::span<const Vec3> edge,
+void locate_edge(const Simulation& s, BodyPositions& positions, std::span<const Vec3> edge,
                  CutStage& stage) {
   stage.engaged.clear();
   const bool is_plane = s.mesh.dimension() == 2;
   const std::size_t n = is_plane ? 1 : edge.size();
-  if (s.boxes.is_empty()) s.boxes = make_element_boxes(s.mesh, global.x);
-  for (const Location& location : locate_points(s.mesh, global.x, edge.first(n), s.boxes))
+  const std::span points = edge.first(n);
+  const std::vector<std::int32_t> near = positions.elements_around(box_around(points));
+  for (const Location& location : locate_points(s.mesh, positions.x(), points, near))
     if (location.element >= 0) stage.engaged.push_back(location);
   const double spacing = n > 1 ? (edge[1] - edge[0]).norm() : s.scene.tissue.thickness;
   stage.engaged_length = spacing * static_cast<double>(stage.engaged.size());
@@ -71,12 +74,12 @@ void add_figures(const CutFigures& figures, bool has_edit, CutRecord& record) {
   record.mean_edge = figures.mean_edge;
 }
 
-void note_edit(Simulation& s, const MeshEdit& edit, const CutFigures& figures, GlobalState& global,
+void note_edit(Simulation& s, const MeshEdit& edit, const CutFigures& figures,
                CutRecord& record) {
   add_figures(figures, !edit.is_empty(), record);
   if (edit.is_empty()) return;
   const std::int32_t n_before = s.mesh.n_elements(), n_pieces_before = s.n_pieces;
-  apply_cut(s, edit, global, record);
+  apply_cut(s, edit, s.cut_state, record);
   record.n_pieces = s.n_pieces;
   if (s.n_pieces > n_pieces_before)
     note_event(s, record.end,
@@ -93,23 +96,22 @@ BladeSweep sweep_of(const Tool& tool, const FrameSpan& span) {
 }
 
 void cut_volume(Simulation& s, CutStage& stage, const BladeSweep& sweep, bool is_last,
-                GlobalState& global) {
+                BodyPositions& positions) {
   CutFigures figures;
   const auto is_held = held_nodes(s.holds, s.fixed);
-  const MeshEdit edit = stage.tet.advance(s.mesh, global.x, is_held, sweep, is_last, figures);
-  note_edit(s, edit, figures, global, stage.strokes.back());
+  const MeshEdit edit = stage.tet.advance(s.mesh, positions, is_held, sweep, is_last, figures);
+  note_edit(s, edit, figures, stage.strokes.back());
 }
 
 // In reference positions.
-void take_up_tip(const Simulation& s, const FrameSpan& span, const GlobalState& global,
-                 CutStage& stage) {
+void take_up_tip(const Simulation& s, const FrameSpan& span, CutStage& stage) {
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
   std::vector<Vec3>& path = stage.plane_path;
   if (path.empty()) {
-    const Location start = locate_nearest(s.mesh, global.x, tool.path.at(span.t0).translation);
+    const Location start = locate_nearest(s.mesh, s.cut_state.x, tool.path.at(span.t0).translation);
     path.push_back(interpolate(s.mesh, start, s.mesh.X));
   }
-  const Location place = locate_nearest(s.mesh, global.x, tool.path.at(span.t1).translation);
+  const Location place = locate_nearest(s.mesh, s.cut_state.x, tool.path.at(span.t1).translation);
   const Vec3 point = interpolate(s.mesh, place, s.mesh.X);
   if ((point - path.back()).norm() > 1e-9) path.push_back(point);
 }
@@ -122,12 +124,12 @@ double length_of(const std::vector<Vec3>& path) {
 
 // Along stage.plane_path, which then begins anew at the tip. One that may grow is tried again where
 // it is refused.
-void cut_reach(Simulation& s, CutStage& stage, bool may_grow, double h, GlobalState& global) {
+void cut_reach(Simulation& s, CutStage& stage, bool may_grow, double h) {
   std::vector<Vec3>& path = stage.plane_path;
   const PlaneCut cut =
       cut_plane(s.mesh, path, stage.plane_tip, held_nodes(s.holds, s.fixed), stage.plane);
   if (cut.edit.is_empty() && may_grow) return;
-  note_edit(s, cut.edit, cut.figures, global, stage.strokes.back());
+  note_edit(s, cut.edit, cut.figures, stage.strokes.back());
   // A cut that ends before its path does, at nodes that are held, is not continued.
   const auto X = [&](std::int32_t node) { return s.mesh.X[static_cast<std::size_t>(node)]; };
   const bool is_continued = cut.tip >= 0 && (X(cut.tip) - path.back()).norm() < h;
@@ -137,9 +139,8 @@ void cut_reach(Simulation& s, CutStage& stage, bool may_grow, double h, GlobalSt
 
 // Cuts the tip's path reach by reach, each once it is long enough or the next one begins. Legs
 // shorter than half an edge are left out: the next reach begins where they did.
-void cut_along_tip(Simulation& s, CutStage& stage, const FrameSpan& span, bool is_last,
-                   GlobalState& global) {
-  take_up_tip(s, span, global, stage);
+void cut_along_tip(Simulation& s, CutStage& stage, const FrameSpan& span, bool is_last) {
+  take_up_tip(s, span, stage);
   const double h = mean_edge_length(s.mesh);
   std::vector<std::vector<Vec3>> parts = reaches(stage.plane_path);
   for (std::vector<Vec3>& part : parts) {
@@ -148,7 +149,7 @@ void cut_along_tip(Simulation& s, CutStage& stage, const FrameSpan& span, bool i
     const double length = length_of(part);
     if (length >= (may_grow ? plane_advance : 0.5) * h) {
       stage.plane_path = part;
-      cut_reach(s, stage, may_grow, h, global);
+      cut_reach(s, stage, may_grow, h);
     } else if (may_grow) {
       stage.plane_path = part;
     }
@@ -188,8 +189,9 @@ void add_to_record(double travel, double milliseconds, CutStage& stage) {
   record.deepest = std::max(record.deepest, stage.engaged_length);
 }
 
+// positions: none until a blade is near.
 void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, CutStage& stage,
-                     bool& is_gathered) {
+                     std::optional<BodyPositions>& positions) {
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
   const BladeSweep sweep = sweep_of(tool, span);
   Box blade;
@@ -200,10 +202,8 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
   if (!is_near && !stage.is_in_stroke) return;
 
   const double start = monotonic_seconds();
-  GlobalState& global = s.cut_state;
-  if (!is_gathered) gather_positions(s, global);
-  is_gathered = true;
-  locate_edge(s, global, sweep.after, stage);
+  if (!positions) positions.emplace(s);
+  locate_edge(s, *positions, sweep.after, stage);
   if (!stage.is_in_stroke) {
     if (stage.engaged.empty()) return;
     s.stable_step_before_cut = s.watch.stable_step;
@@ -213,10 +213,10 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
   const bool is_last = leaves_tissue(tool, span, is_near, stage);
   const std::int64_t n_edits = stage.strokes.back().n_edits;
   if (s.mesh.dimension() == 2)
-    cut_along_tip(s, stage, span, is_last, global);
+    cut_along_tip(s, stage, span, is_last);
   else
-    cut_volume(s, stage, sweep, is_last, global);
-  if (stage.strokes.back().n_edits > n_edits) locate_edge(s, global, sweep.after, stage);
+    cut_volume(s, stage, sweep, is_last, *positions);
+  if (stage.strokes.back().n_edits > n_edits) locate_edge(s, *positions, sweep.after, stage);
   add_to_record(way_of_middle(sweep).norm(), 1e3 * (monotonic_seconds() - start), stage);
   if (is_last) end_stroke(s, stage, span.t1);
 }
@@ -226,8 +226,8 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
 void cut_along_blades(Simulation& s, const FrameSpan& span) {
   const PhaseScope scope(s.timers, phase_cut);
   const Box tissue = surface_box(s);
-  bool is_gathered = false;  // by the first blade that is near
-  for (CutStage& stage : s.cuts) cut_along_blade(s, span, tissue, stage, is_gathered);
+  std::optional<BodyPositions> positions;
+  for (CutStage& stage : s.cuts) cut_along_blade(s, span, tissue, stage, positions);
   if (const std::string trouble = find_trouble(s); !trouble.empty())
     throw SimulationError("after the cut at " + number_text(span.t1) + " s: " + trouble);
 }

@@ -1,31 +1,99 @@
 #include "engine/global_state.h"
 
-#include "base/components.h"
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
 #include "engine/simulation.h"
 
 namespace trocar {
 
-void gather_positions(Simulation& s, GlobalState& global) {
-  const PhaseScope scope(s.timers, phase_gather);
-  const std::vector<Vec3>& X = s.mesh.X;
-  all_gather_field(s.part, 3, s.state.u, *s.communicator, global.u);
-  global.x.resize(X.size());
-  components(global.x) =
-      components(X) + Eigen::Map<const Eigen::ArrayXd>(global.u.data(), std::ssize(global.u));
-  global.has_velocities = false;
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+// u and v: of the node.
+void set_node(std::int32_t node, const Vec3& X, const double* u, const double* v,
+              GlobalState& global) {
+  const auto i = static_cast<std::size_t>(node);
+  std::copy_n(u, 3, &global.u[3 * i]);
+  std::copy_n(v, 3, &global.v[3 * i]);
+  global.x[i] = X + Vec3::Map(u);
 }
 
-void gather_velocities(Simulation& s, GlobalState& global) {
-  const PhaseScope scope(s.timers, phase_gather);
-  all_gather_field(s.part, 3, s.state.v, *s.communicator, global.v);
-  global.has_velocities = true;
-}
+}  // namespace
 
 GlobalState gather_state(Simulation& s) {
   GlobalState global;
-  gather_positions(s, global);
-  gather_velocities(s, global);
+  forget_state(s.mesh.X.size(), global);
+  find_all_nodes(s, global);
   return global;
+}
+
+void forget_state(std::size_t n_nodes, GlobalState& global) {
+  constexpr double nowhere[] = {unknown, unknown, unknown};
+  for (const std::int32_t i : global.known) {
+    set_node(i, Vec3::Zero(), nowhere, nowhere, global);
+    global.is_known[static_cast<std::size_t>(i)] = 0;
+  }
+  global.known.clear();
+  global.u.resize(3 * n_nodes, unknown);
+  global.v.resize(3 * n_nodes, unknown);
+  global.x.resize(n_nodes, Vec3::Constant(unknown));
+  global.is_known.resize(n_nodes, 0);
+}
+
+std::vector<double> motion_at(const Simulation& s, std::span<const std::int32_t> nodes) {
+  std::vector<double> mine;
+  std::vector<std::size_t> next(static_cast<std::size_t>(s.communicator->size()) + 1, 0);
+  const auto owner = [&](std::int32_t i) {
+    return static_cast<std::size_t>(s.node_owner[static_cast<std::size_t>(i)]);
+  };
+  for (const std::int32_t i : nodes) {
+    next[owner(i) + 1] += 6;
+    if (std::cmp_not_equal(owner(i), s.communicator->rank())) continue;
+    const auto local = 3 * static_cast<std::size_t>(s.part.node_local[static_cast<std::size_t>(i)]);
+    mine.insert(mine.end(), &s.state.u[local], &s.state.u[local] + 3);
+    mine.insert(mine.end(), &s.state.v[local], &s.state.v[local] + 3);
+  }
+  const std::vector<double> by_owner = s.communicator->all_gather(mine);
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<double> motion;
+  motion.reserve(by_owner.size());
+  for (const std::int32_t i : nodes) {
+    const double* const from = &by_owner[next[owner(i)]];
+    motion.insert(motion.end(), from, from + 6);
+    next[owner(i)] += 6;
+  }
+  return motion;
+}
+
+void find_nodes(const Simulation& s, std::span<const std::int32_t> nodes, GlobalState& global) {
+  const std::size_t n_known = global.known.size();
+  for (const std::int32_t i : nodes) {
+    if (std::exchange(global.is_known[static_cast<std::size_t>(i)], 1) == 0)
+      global.known.push_back(i);
+  }
+  const std::span asked = std::span(global.known).subspan(n_known);
+  if (asked.empty()) return;
+  const std::vector<double> motion = motion_at(s, asked);
+  for (std::size_t k = 0; k < asked.size(); ++k)
+    set_node(asked[k], s.mesh.X[static_cast<std::size_t>(asked[k])], &motion[6 * k],
+             &motion[6 * k + 3], global);
+}
+
+void find_all_nodes(Simulation& s, GlobalState& global) {
+  const PhaseScope scope(s.timers, phase_gather);
+  std::vector<double> u, v;
+  all_gather_field(s.part, 3, s.state.u, *s.communicator, u);
+  all_gather_field(s.part, 3, s.state.v, *s.communicator, v);
+  for (std::size_t i = 0; i < s.part.node_local.size(); ++i) {
+    if (std::exchange(global.is_known[i], 1) != 0) continue;
+    const auto node = static_cast<std::int32_t>(i);
+    global.known.push_back(node);
+    set_node(node, s.mesh.X[i], &u[3 * i], &v[3 * i], global);
+  }
 }
 
 void scatter_state(Simulation& s, const GlobalState& global) {

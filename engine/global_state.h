@@ -1,6 +1,9 @@
-// Displacements, velocities and positions of all nodes on every rank: what cuts look at.
+// Displacements, velocities and positions of nodes on every rank, as far as they were asked for:
+// what cuts look at.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/vec.h"
@@ -9,17 +12,26 @@ namespace trocar {
 
 struct Simulation;
 
+// NaN where nobody has asked.
 struct GlobalState {
   std::vector<double> u, v;  // (n_nodes * 3)
   std::vector<Vec3> x;       // (n_nodes)
-  bool has_velocities = false;
+  std::vector<std::uint8_t> is_known;
+  std::vector<std::int32_t> known;  // in the order they were asked for, and copies of edits
 };
-// Collective.
+// Of all nodes. Collective.
 GlobalState gather_state(Simulation& s);
-// Into vectors that are large enough from the second time on; without velocities. Collective.
-void gather_positions(Simulation& s, GlobalState& global);
-void gather_velocities(Simulation& s, GlobalState& global);
-// This rank's part of it; time, step and last dt stay.
+// Of no node, in the memory that it has.
+void forget_state(std::size_t n_nodes, GlobalState& global);
+// From here on it has these nodes, which are the same on all ranks; those that it has stay as they
+// are. Collective.
+void find_nodes(const Simulation& s, std::span<const std::int32_t> nodes, GlobalState& global);
+void find_all_nodes(Simulation& s, GlobalState& global);
+// This rank's part of it, of all nodes; time, step and last dt stay.
 void scatter_state(Simulation& s, const GlobalState& global);
+
+// (nodes * 6) displacements and velocities, from the ranks that own the nodes, which are the same on
+// all ranks. Collective.
+std::vector<double> motion_at(const Simulation& s, std::span<const std::int32_t> nodes);
 
 }  // namespace trocar

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <ranges>
 
-#include "base/box.h"
+#include "mesh/element_boxes.h"
 #include "mesh/hex_split.h"
 
 namespace trocar {
@@ -93,11 +93,16 @@ std::vector<Location> locate_points(const Mesh& mesh, std::span<const Vec3> x,
 }
 
 std::vector<Location> locate_points(const Mesh& mesh, std::span<const Vec3> x,
-                                    std::span<const Vec3> points, ElementBoxes& boxes) {
+                                    std::span<const Vec3> points,
+                                    std::span<const std::int32_t> near) {
+  return locate_in(mesh, x, points, near);
+}
+
+Box box_around(std::span<const Vec3> points) {
   Box all;
   for (const Vec3& point : points)
     for (const double way : {-2 * margin, 2 * margin}) all.add((point.array() + way).matrix());
-  return locate_in(mesh, x, points, elements_near(mesh, x, all, boxes));
+  return all;
 }
 
 Location locate_nearest(const Mesh& mesh, std::span<const Vec3> x, const Vec3& point) {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/element_boxes.h"
+#include "base/box.h"
 #include "mesh/mesh.h"
 
 namespace trocar {
@@ -19,9 +19,12 @@ struct Location {
 // In positions x; the lowest element number wins on a border. n_elements box tests.
 std::vector<Location> locate_points(const Mesh& mesh, std::span<const Vec3> x,
                                     std::span<const Vec3> points);
-// The same from a look at the nodes and the elements around the points.
+// The same where `near` (ascending) has all elements whose boxes overlap box_around(points).
 std::vector<Location> locate_points(const Mesh& mesh, std::span<const Vec3> x,
-                                    std::span<const Vec3> points, ElementBoxes& boxes);
+                                    std::span<const Vec3> points,
+                                    std::span<const std::int32_t> near);
+// Of the points, and a little more than where they count as inside.
+Box box_around(std::span<const Vec3> points);
 // Of one point; outside the body the element whose least weight is largest (extrapolated weights).
 Location locate_nearest(const Mesh& mesh, std::span<const Vec3> x, const Vec3& point);
 // sum of weight * field at the element's corners.

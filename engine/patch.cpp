@@ -83,7 +83,8 @@ State state_at_rest(const Simulation& s, const Model& model) {
   return state;
 }
 
-void set_state(const PatchState& state, Patch& patch) {
+void set_state(const Simulation& s, const PatchState& state, Patch& patch) {
+  find_nodes(s, patch.sub.node, state.global);
   for (std::size_t i = 0; i < patch.sub.node.size(); ++i) {
     const std::size_t from = 3 * static_cast<std::size_t>(patch.sub.node[i]);
     std::copy_n(&state.global.u[from], 3, &patch.state.u[3 * i]);
@@ -95,19 +96,11 @@ void set_state(const PatchState& state, Patch& patch) {
   average_volume_change(patch.model, patch.state, patch.scratch);
 }
 
-// Displacements of the present, from the ranks that own them. Collective.
+// Displacements of the present. Collective.
 void set_present(const Simulation& s, Patch& patch) {
-  std::vector<double> mine;  // place in the patch, displacement
-  for (std::size_t i = 0; i < patch.sub.node.size(); ++i) {
-    const std::int32_t local = s.part.node_local[static_cast<std::size_t>(patch.sub.node[i])];
-    if (local < 0 || local >= s.part.n_owned) continue;
-    mine.push_back(static_cast<double>(i));
-    const auto u = s.state.u.begin() + 3 * std::ptrdiff_t{local};
-    mine.insert(mine.end(), u, u + 3);
-  }
-  const std::vector<double> all = s.communicator->all_gather(mine);
-  for (std::size_t k = 0; k < all.size(); k += 4)
-    std::copy_n(&all[k + 1], 3, &patch.state.u[3 * static_cast<std::size_t>(all[k])]);
+  const std::vector<double> motion = motion_at(s, patch.sub.node);
+  for (std::size_t i = 0; i < patch.sub.node.size(); ++i)
+    std::copy_n(&motion[6 * i], 3, &patch.state.u[3 * i]);
   average_volume_change(patch.model, patch.state, patch.scratch);
 }
 
@@ -142,7 +135,7 @@ std::unique_ptr<Patch> make_patch_of_nodes(
 std::unique_ptr<Patch> make_patch_of_nodes(const Simulation& s, std::span<const std::int32_t> free,
                                            const PatchState& state) {
   std::unique_ptr<Patch> patch = make_patch_of_nodes(s, free);
-  set_state(state, *patch);
+  set_state(s, state, *patch);
   return patch;
 }
 
@@ -184,7 +177,7 @@ std::unique_ptr<Patch> make_patch_of(const Simulation& s, std::span<const std::i
   SubMesh sub = make_sub_mesh(s.mesh, elements);
   const std::vector<FixedMask> fixed = values_of<FixedMask>(s.fixed, sub.node);
   std::unique_ptr<Patch> patch = assemble(s, std::move(sub), {}, fixed);
-  set_state(state, *patch);
+  set_state(s, state, *patch);
   return patch;
 }
 

@@ -23,10 +23,10 @@ struct Patch : RankBody {
 // what others give.
 inline constexpr int patch_rings = 1;
 
-// After the edit: the state of all nodes, copies of history (history.h; none without viscosity) and
-// the origins of all elements of the patch.
+// After the edit: the state of nodes, which gets those of the patch (all of these collective), copies
+// of history (history.h; none without viscosity) and the origins of all elements of the patch.
 struct PatchState {
-  const GlobalState& global;
+  GlobalState& global;
   std::span<const double> history = {};
   const ElementOrigins* origins = nullptr;
   int n_rings = patch_rings;

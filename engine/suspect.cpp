@@ -102,8 +102,7 @@ std::string cure(const Simulation& s, const std::string& mover) {
 Suspect find_suspect(Simulation& s, const Watch& failed, const FrameSpan& span) {
   const std::vector<std::int32_t> nodes = failed_nodes(s.mesh, failed);
   if (nodes.empty()) return {.place = "", .cure = cure(s, "")};
-  GlobalState global;
-  gather_positions(s, global);
+  const GlobalState global = gather_state(s);
   Vec3 x = Vec3::Zero();
   for (const std::int32_t node : nodes) x += global.x[node] / static_cast<double>(nodes.size());
   Choice choice{.reach = near_edges * s.edge_length, .best = {}};

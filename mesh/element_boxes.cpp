@@ -42,18 +42,6 @@ void fit_parent(std::size_t k, ElementBoxes& boxes) {
   boxes.box[k].add(boxes.box[2 * k + 1]);
 }
 
-void fit_all(const Mesh& mesh, std::span<const Vec3> x, ElementBoxes& boxes) {
-  boxes.x.assign(x.begin(), x.end());
-  const std::size_t n_leaves = boxes.first.size() - 1;
-  for (std::size_t leaf = 0; leaf < n_leaves; ++leaf) fit_leaf(mesh, leaf, boxes);
-  for (std::size_t k = n_leaves; --k > 0;) fit_parent(k, boxes);
-}
-
-// Largest component of a node's way since the boxes were fitted.
-double largest_way(std::span<const Vec3> x, const ElementBoxes& boxes) {
-  return (components(x) - components(boxes.x)).abs().maxCoeff();
-}
-
 // (leaf, first of its tetrahedra) of each split, ascending.
 using SplitLeaves = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
@@ -129,7 +117,7 @@ ElementBoxes make_element_boxes(const Mesh& mesh, std::span<const Vec3> x) {
     for (std::int32_t k = boxes.first[leaf]; k < boxes.first[leaf + 1]; ++k)
       boxes.leaf[static_cast<std::size_t>(boxes.order[static_cast<std::size_t>(k)])] =
           static_cast<std::int32_t>(leaf);
-  fit_all(mesh, x, boxes);
+  fit_element_boxes(mesh, x, boxes);
   return boxes;
 }
 
@@ -153,14 +141,23 @@ void update_element_boxes(const Mesh& mesh, std::span<const Vec3> x, const Boxes
   }
 }
 
-std::vector<std::int32_t> elements_near(const Mesh& mesh, std::span<const Vec3> x, const Box& box,
-                                        ElementBoxes& boxes) {
+double largest_way(std::span<const Vec3> x, const ElementBoxes& boxes) {
   CHECK_OP(boxes.x.size(), ==, x.size());
-  double way = largest_way(x, boxes);
-  if (way > 0.5 * boxes.size) {
-    fit_all(mesh, x, boxes);
-    way = 0;
-  }
+  return (components(x) - components(boxes.x)).abs().maxCoeff();
+}
+
+bool are_outrun(const ElementBoxes& boxes, double way) {
+  return way > 0.5 * boxes.size;
+}
+
+void fit_element_boxes(const Mesh& mesh, std::span<const Vec3> x, ElementBoxes& boxes) {
+  boxes.x.assign(x.begin(), x.end());
+  const std::size_t n_leaves = boxes.first.size() - 1;
+  for (std::size_t leaf = 0; leaf < n_leaves; ++leaf) fit_leaf(mesh, leaf, boxes);
+  for (std::size_t k = n_leaves; --k > 0;) fit_parent(k, boxes);
+}
+
+std::vector<std::int32_t> elements_near(const Box& box, double way, const ElementBoxes& boxes) {
   const double margin = way * (1 + 1e-12);  // its own rounding
   std::vector<std::int32_t> near;
   std::vector<std::size_t> stack{1};

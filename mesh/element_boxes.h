@@ -1,6 +1,5 @@
 // Boxes of elements in a binary tree over them, for positions that move little between two
-// questions: what moved is asked for by a margin, so that a question costs a look at the nodes and
-// what is near.
+// questions: what moved is asked for by a margin, so that a question costs what is near.
 #pragma once
 
 #include <cstdint>
@@ -38,9 +37,14 @@ struct BoxesEdit {
 void update_element_boxes(const Mesh& mesh, std::span<const Vec3> x, const BoxesEdit& edit,
                           ElementBoxes& boxes);
 
-// All elements whose boxes at x overlap `box`, and perhaps some that are near, ascending. Fits the
-// boxes anew where nodes have moved by more than half an element since.
-std::vector<std::int32_t> elements_near(const Mesh& mesh, std::span<const Vec3> x, const Box& box,
-                                        ElementBoxes& boxes);
+// Largest component of the ways of nodes between the boxes' positions and x. [m]
+double largest_way(std::span<const Vec3> x, const ElementBoxes& boxes);
+// Whether nodes have moved so far since the boxes were fitted that they had better be fitted anew.
+bool are_outrun(const ElementBoxes& boxes, double way);
+void fit_element_boxes(const Mesh& mesh, std::span<const Vec3> x, ElementBoxes& boxes);
+
+// All elements whose boxes overlap `box` where no node is more than `way` [m] from the boxes'
+// positions along any axis, and perhaps some that are near, ascending.
+std::vector<std::int32_t> elements_near(const Box& box, double way, const ElementBoxes& boxes);
 
 }  // namespace trocar

@@ -143,7 +143,9 @@ TEST(CutHex, another_cutter_with_the_stroke_goes_on_to_the_same_bits) {
     TetCutter other{CutTetOptions{}};
     other.set_stroke(cutter.stroke());
     CutFigures figures;
-    const MeshEdit again = other.advance(body.mesh, body.x, body.is_held, sweep, k == 24, figures);
+    KnownPositions positions(body.mesh, body.x);
+    const MeshEdit again =
+        other.advance(body.mesh, positions, body.is_held, sweep, k == 24, figures);
     const MeshEdit edit = advance(cutter, body, sweep, k == 24, ledger);
     EXPECT_TRUE(has_same_bits(edit, again)) << k;
     n_edits += edit.splits.empty() ? 0 : 1;
@@ -206,8 +208,9 @@ TEST(CutHex, hexahedra_that_are_bent_stay_hexahedra_and_are_cut_once_they_are_st
             [&](const Vec3& X) { return zigzag(X, straightens && k + 1 == n_steps ? 0 : 0.6); });
       CutFigures figures;
       const BladeSweep sweep{blade(double(k) / n_steps), blade(double(k + 1) / n_steps), normal};
+      KnownPositions positions(body.mesh, body.x);
       const MeshEdit edit =
-          cutter.advance(body.mesh, body.x, body.is_held, sweep, k + 1 == n_steps, figures);
+          cutter.advance(body.mesh, positions, body.is_held, sweep, k + 1 == n_steps, figures);
       apply(edit, figures, body, ledger);
       refusals = figures.refusals;
       EXPECT_GT(least_volume_ratio(body), 0.02) << k;

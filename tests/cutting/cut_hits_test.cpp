@@ -18,6 +18,12 @@ Mesh box() {
   return mesh;
 }
 
+void add_hits(const Mesh& mesh, CutIndex& index, std::span<const Vec3> x, const BladeSweep& sweep,
+              CutStroke& stroke) {
+  KnownPositions positions(mesh, x);
+  trocar::add_hits(mesh, index, positions, sweep, stroke);
+}
+
 BladeSweep sweep_of(const Blade& blade, double from, double to, const Vec3& normal) {
   return {blade(from), blade(to), normal};
 }

@@ -28,7 +28,8 @@ TEST(CutIndex, that_was_edited_knows_no_neighbours_but_those_of_the_edited_mesh)
   const auto find_neighbours = [&](int k) {
     std::vector<std::int32_t> seeds;
     for (std::int32_t e = k % 3; e < body.mesh.n_elements(); e += 100) seeds.push_back(e);
-    make_patch(body.mesh, index, body.x, body.is_held, seeds);
+    KnownPositions positions(body.mesh, body.x);
+    make_patch(body.mesh, index, positions, body.is_held, seeds);
   };
   const auto check = [&] {
     const FacetNeighbours expected = facet_neighbours(body.mesh);
@@ -60,7 +61,8 @@ TEST(CutIndex, gives_a_patch_of_three_rings_around_its_seeds) {
   CutIndex index = index_of(mesh);
   const std::vector<std::uint8_t> is_held(mesh.X.size(), 0);
   const std::vector<std::int32_t> seeds{6 * (4 + 9 * (4 + 9 * 4))};  // in the middle cell
-  const CutPatch patch = make_patch(mesh, index, mesh.X, is_held, seeds);
+  KnownPositions positions(mesh, mesh.X);
+  const CutPatch patch = make_patch(mesh, index, positions, is_held, seeds);
   // Brute force: rings by passes over all elements.
   std::vector<int> ring(mesh.X.size(), 9);
   for (const std::int32_t i : mesh.corners(seeds[0])) ring[i] = 0;

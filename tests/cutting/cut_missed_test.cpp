@@ -42,8 +42,9 @@ Outcome cut_all_but(double top, double bottom) {
       const BladeSweep sweep{edge_at(from + (to - from) * k / n),
                              edge_at(from + (to - from) * (k + 1) / n),
                              Vec3(1, 0, -0.2).normalized()};
+      KnownPositions positions(body.mesh, body.x);
       const MeshEdit edit =
-          cutter.advance(body.mesh, body.x, body.is_held, sweep, is_end && k + 1 == n, figures);
+          cutter.advance(body.mesh, positions, body.is_held, sweep, is_end && k + 1 == n, figures);
       apply(edit, figures, body, ledger);
       outcome.refusals.insert(outcome.refusals.end(), figures.refusals.begin(),
                               figures.refusals.end());

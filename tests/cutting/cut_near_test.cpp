@@ -65,12 +65,13 @@ std::vector<std::int32_t> begin_of(const Mesh& mesh, BandBox box) {
 TEST(NearElements, are_found_from_the_surface_or_the_begin_wherever_a_band_lies) {
   const Mesh mesh = two_blocks();
   CutIndex index = index_of(mesh);
+  KnownPositions positions(mesh, mesh.X);
   std::mt19937 random(1);
   int n_met = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const BandBox box = random_box(random);
-    const auto all = near_elements(mesh, index, mesh.X, box);
-    const auto found = near_elements(mesh, index, mesh.X, box, begin_of(mesh, box));
+    const auto all = near_elements(mesh, index, positions, box);
+    const auto found = near_elements(mesh, index, positions, box, begin_of(mesh, box));
     EXPECT_TRUE(std::ranges::includes(all, found));
     for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
       if (!is_met(mesh, e, box)) continue;
@@ -82,55 +83,50 @@ TEST(NearElements, are_found_from_the_surface_or_the_begin_wherever_a_band_lies)
   EXPECT_TRUE(std::ranges::all_of(index.ring, [](int r) { return r == no_ring; }));
 }
 
-bool is_inside(const BandBox& box, const Vec3& p, double margin) {
-  const Vec3 q = box.axes.transpose() * p;
-  return ((q - box.low).array() >= -margin).all() && ((q - box.high).array() <= margin).all();
-}
-// No side of the box has all corners beyond it.
+// Neither the box's axes nor those of space part them.
 bool may_meet(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x, const BandBox& box) {
-  Vec3 low = Vec3::Constant(1e300), high = -low;
+  Box along_axes, own, around;
   for (const std::int32_t i : mesh.corners(e)) {
-    const Vec3 q = box.axes.transpose() * x[i];
-    low = low.cwiseMin(q);
-    high = high.cwiseMax(q);
+    along_axes.add(box.axes.transpose() * x[i]);
+    own.add(x[i]);
   }
-  return (high.array() >= box.low.array()).all() && (low.array() <= box.high.array()).all();
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec3 p = box.low;
+    for (int d = 0; d < 3; ++d)
+      if ((corner >> d & 1) != 0) p[d] = box.high[d];
+    around.add(box.axes * p);
+  }
+  return along_axes.overlaps({box.low, box.high}) && own.overlaps(around);
 }
 
-// Clusters of nodes leave out none, however the body lies and whatever was cut.
-TEST(NearElements, of_a_cut_and_stretched_body_are_those_that_a_look_at_all_nodes_finds) {
+TEST(NearElements, of_a_cut_and_stretched_body_are_those_that_a_look_at_all_finds) {
   Body body(two_blocks());
   CutIndex index = index_of(body.mesh);
   const Vec3 normal = Vec3(1, 0.3, 0.2).normalized();
   ASSERT_GT(cut_with_index(normal, body, index).n_edits, 3);
-  CutIndex fresh = index_of(body.mesh);
-  fresh.longest_edge = index.longest_edge;           // that of before the cut
   for (std::size_t i = 0; i < body.x.size(); ++i) {  // the halves and the other block far apart
     const double far = normal.dot(body.mesh.X[i] - Vec3(0.5, 0.5, 0.5)) > 0 ? 0.8 : 0;
     body.x[i] = Vec3(2.2 * body.mesh.X[i].x() + far, 0.7 * body.mesh.X[i].y(), body.mesh.X[i].z());
   }
+  KnownPositions positions(body.mesh, body.x);
   std::mt19937 random(2);
   std::size_t n_found = 0;
   for (int trial = 0; trial < 60; ++trial) {
     BandBox box = random_box(random);
     box.low += box.axes.transpose() * Vec3(random() % 5, 0, 0);
     box.high = box.high.cwiseMax(box.low + Vec3::Constant(0.05));
-    const auto all = near_elements(body.mesh, index, body.x, box);
-    const auto found = near_elements(body.mesh, index, body.x, box, {});
-    EXPECT_EQ(all, near_elements(body.mesh, fresh, body.x, box)) << trial;
-    EXPECT_EQ(found, near_elements(body.mesh, fresh, body.x, box, {})) << trial;
-    n_found += found.size();
+    std::vector<std::int32_t> all, at_surface;
     for (std::int32_t e = 0; e < body.mesh.n_elements(); ++e) {
-      bool is_near = false, is_at_surface = false;
-      for (const std::int32_t i : body.mesh.corners(e)) {
-        const bool is_in_box = is_inside(box, body.x[i], 1.75 * index.longest_edge);
-        is_near |= is_in_box;
-        is_at_surface |= is_in_box && fresh.is_surface[i] != 0;
-      }
       if (!may_meet(body.mesh, e, body.x, box)) continue;
-      EXPECT_TRUE(!is_near || std::ranges::binary_search(all, e)) << trial << " " << e;
-      EXPECT_TRUE(!is_at_surface || std::ranges::binary_search(found, e)) << trial << " " << e;
+      all.push_back(e);
+      const auto is_surface = [&](std::int32_t i) { return index.is_surface[i] != 0; };
+      if (std::ranges::any_of(body.mesh.corners(e), is_surface)) at_surface.push_back(e);
     }
+    EXPECT_EQ(near_elements(body.mesh, index, positions, box), all) << trial;
+    const auto found = near_elements(body.mesh, index, positions, box, {});
+    EXPECT_TRUE(std::ranges::includes(found, at_surface)) << trial;
+    EXPECT_TRUE(std::ranges::includes(all, found)) << trial;
+    n_found += found.size();
   }
   EXPECT_GT(n_found, 500U);
 }
@@ -141,9 +137,10 @@ TEST(NearElements, deep_in_the_body_are_found_from_the_begin_only) {
   BandBox box;
   box.axes = Mat3::Identity();
   box.low = box.high = Vec3(0.51, 0.52, 0.53);  // eight cells deep
-  EXPECT_TRUE(near_elements(mesh, index, mesh.X, box, {}).empty());
-  const auto found = near_elements(mesh, index, mesh.X, box, begin_of(mesh, box));
-  EXPECT_EQ(found, near_elements(mesh, index, mesh.X, box));
+  KnownPositions positions(mesh, mesh.X);
+  EXPECT_TRUE(near_elements(mesh, index, positions, box, {}).empty());
+  const auto found = near_elements(mesh, index, positions, box, begin_of(mesh, box));
+  EXPECT_EQ(found, near_elements(mesh, index, positions, box));
   EXPECT_FALSE(found.empty());
 }
 

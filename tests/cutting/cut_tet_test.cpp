@@ -215,12 +215,13 @@ CutFigures cut_through(Body& body, const std::function<void(CutStroke&)>& forget
   const Blade blade = plane_blade({0.52, 0.5, 0.5}, normal, 1.5);
   TetCutter cutter{CutTetOptions{.advance = 100}};
   CutFigures figures;
-  cutter.advance(body.mesh, body.x, body.is_held, {blade(0), blade(1), normal}, false, figures);
+  KnownPositions positions(body.mesh, body.x);
+  cutter.advance(body.mesh, positions, body.is_held, {blade(0), blade(1), normal}, false, figures);
   CutStroke stroke = cutter.stroke();
   forget(stroke);
   cutter.set_stroke(stroke);
   Ledger ledger;
-  const MeshEdit edit = cutter.advance(body.mesh, body.x, body.is_held,
+  const MeshEdit edit = cutter.advance(body.mesh, positions, body.is_held,
                                        {blade(1), blade(1.1), normal}, true, figures);
   apply(edit, figures, body, ledger);
   return figures;

@@ -46,7 +46,8 @@ MeshEdit next_edit(const Simulation& s, const GlobalState& global, TetCutter& cu
     sweep.after.emplace_back(x + 0.006, y, 0.012 + 0.2 * (x + 0.026));
   }
   CutFigures figures;
-  return cutter.advance(s.mesh, global.x, held_nodes(s.holds, s.fixed), sweep, k == n_bands - 1,
+  KnownPositions positions(s.mesh, global.x);
+  return cutter.advance(s.mesh, positions, held_nodes(s.holds, s.fixed), sweep, k == n_bands - 1,
                         figures);
 }
 

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "mesh/element_boxes.h"
 #include "mesh_fixtures.h"
 
 namespace trocar {
@@ -87,17 +88,19 @@ TEST(Locate, finds_the_same_by_boxes_as_without_them) {
   std::uniform_real_distribution<double> place(-0.1, 0.2);
   for (const NamedMesh& named : all_meshes()) {
     const Mesh& mesh = named.mesh;
-    ElementBoxes boxes = make_element_boxes(mesh, mesh.X);
+    const ElementBoxes boxes = make_element_boxes(mesh, mesh.X);
     for (const double strain : {0.0, 0.1, -0.05, 3.0}) {
       std::vector<Vec3> x = mesh.X, points = mesh.X;
       for (Vec3& point : x) point += strain * Vec3(point.y(), point.x(), 0);
       points.insert(points.end(), x.begin(), x.end());
+      const double way = largest_way(x, boxes);
       for (int k = 0; k < 100; ++k) points.emplace_back(place(random), place(random), 0);
       for (std::size_t k = 0; k < points.size(); k += 7) {
         const std::span some =
             std::span(points).subspan(k, std::min<std::size_t>(3, points.size() - k));
         const std::vector<Location> expected = locate_points(mesh, x, some);
-        const std::vector<Location> found = locate_points(mesh, x, some, boxes);
+        const std::vector<Location> found =
+            locate_points(mesh, x, some, elements_near(box_around(some), way, boxes));
         for (std::size_t j = 0; j < some.size(); ++j) {
           EXPECT_EQ(found[j].element, expected[j].element) << named.name;
           EXPECT_EQ(found[j].weight, expected[j].weight) << named.name;

@@ -69,7 +69,7 @@ std::vector<std::int32_t> edited_nodes(const std::vector<Vec3>& X_before, const 
 
 // The body as it is, around these nodes, in n_rings.
 std::unique_ptr<Patch> patch_of(Simulation& s, std::span<const std::int32_t> edited, int n_rings) {
-  const GlobalState global = gather_state(s);
+  GlobalState global = gather_state(s);
   const std::vector<double> history = copy_history(s.model, s.part, s.state);
   const ElementOrigins origins = unedited_elements(s.mesh.n_elements());
   return make_patch(

@@ -16,7 +16,8 @@ CutPatch whole_patch(const Body& body) {
   std::vector<std::int32_t> all(body.mesh.element_type.size());
   std::iota(all.begin(), all.end(), 0);
   CutIndex index = index_of(body.mesh);
-  return make_patch(body.mesh, index, body.x, body.is_held, all);
+  KnownPositions positions(body.mesh, body.x);
+  return make_patch(body.mesh, index, positions, body.is_held, all);
 }
 
 void apply(const MeshEdit& edit, const CutFigures& figures, Body& body, Ledger& ledger) {
@@ -52,7 +53,8 @@ void apply(const MeshEdit& edit, const CutFigures& figures, Body& body, Ledger& 
 MeshEdit advance(TetCutter& cutter, Body& body, const BladeSweep& sweep, bool is_last,
                  Ledger& ledger) {
   CutFigures figures;
-  MeshEdit edit = cutter.advance(body.mesh, body.x, body.is_held, sweep, is_last, figures);
+  KnownPositions positions(body.mesh, body.x);
+  MeshEdit edit = cutter.advance(body.mesh, positions, body.is_held, sweep, is_last, figures);
   apply(edit, figures, body, ledger);
   return edit;
 }

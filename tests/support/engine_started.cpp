@@ -27,7 +27,8 @@ MeshEdit cut_across(const Simulation& s, const GlobalState& global, CutFigures& 
     sweep.after.emplace_back(0.03, y, 0.024);
   }
   TetCutter cutter{CutTetOptions{}};
-  return cutter.advance(s.mesh, global.x, held_nodes(s.holds, s.fixed), sweep, true, figures);
+  KnownPositions positions(s.mesh, global.x);
+  return cutter.advance(s.mesh, positions, held_nodes(s.holds, s.fixed), sweep, true, figures);
 }
 
 }  // namespace trocar
