@@ -43,8 +43,8 @@ std::vector<std::int32_t> bent_nodes(const HexTets& tets, PresentPositions& posi
 // Brings `tets` up to date with the body; built anew where somebody else has changed the body.
 void update_hex_tets(const Mesh& body, HexTets& tets);
 
-// `edit` of tets.mesh as one of the body; `index` is that of tets.mesh after the edit. Mass is kept region by region. Takes the edit over into `tets`, but not
-// into `index`.
+// `edit` of tets.mesh as one of the body; `index` is that of tets.mesh after the edit. Mass is kept
+// region by region. Takes the edit over into `tets`, but not into `index`.
 MeshEdit edit_of_body(const Mesh& body, PresentPositions& positions, const CutIndex& index,
                       const MeshEdit& edit, HexTets& tets, CutFigures& figures);
 

@@ -96,8 +96,8 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
   if (!is_last && stroke.swept < options.advance * stroke.mean_edge) return {};
 
   TetCut cut;
-  cut.around =
-      survey(mesh, tets.mesh.X.empty() ? nullptr : &tets, index, positions, is_held, stroke, is_last);
+  cut.around = survey(mesh, tets.mesh.X.empty() ? nullptr : &tets, index, positions, is_held,
+                      stroke, is_last);
   const bool is_through = is_last && has_gone_through(stroke);
   if (cut.around.patch.n_elements() == 0) {
     if (is_through) add_refusals(missed_places(mesh, cut, stroke), figures);

@@ -74,8 +74,7 @@ void add_figures(const CutFigures& figures, bool has_edit, CutRecord& record) {
   record.mean_edge = figures.mean_edge;
 }
 
-void note_edit(Simulation& s, const MeshEdit& edit, const CutFigures& figures,
-               CutRecord& record) {
+void note_edit(Simulation& s, const MeshEdit& edit, const CutFigures& figures, CutRecord& record) {
   add_figures(figures, !edit.is_empty(), record);
   if (edit.is_empty()) return;
   const std::int32_t n_before = s.mesh.n_elements(), n_pieces_before = s.n_pieces;

@@ -30,8 +30,8 @@ void find_all_nodes(Simulation& s, GlobalState& global);
 // This rank's part of it, of all nodes; time, step and last dt stay.
 void scatter_state(Simulation& s, const GlobalState& global);
 
-// (nodes * 6) displacements and velocities, from the ranks that own the nodes, which are the same on
-// all ranks. Collective.
+// (nodes * 6) displacements and velocities, from the ranks that own the nodes, which are the same
+// on all ranks. Collective.
 std::vector<double> motion_at(const Simulation& s, std::span<const std::int32_t> nodes);
 
 }  // namespace trocar

@@ -23,8 +23,9 @@ struct Patch : RankBody {
 // what others give.
 inline constexpr int patch_rings = 1;
 
-// After the edit: the state of nodes, which gets those of the patch (all of these collective), copies
-// of history (history.h; none without viscosity) and the origins of all elements of the patch.
+// After the edit: the state of nodes, which gets those of the patch (all of these collective),
+// copies of history (history.h; none without viscosity) and the origins of all elements of the
+// patch.
 struct PatchState {
   GlobalState& global;
   std::span<const double> history = {};

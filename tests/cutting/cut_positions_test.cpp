@@ -58,8 +58,8 @@ TEST(PresentPositions, of_nodes_around_the_blade_are_all_that_a_cut_looks_at) {
       const BladeSweep sweep{blade(double(k) / n_steps), blade(double(k + 1) / n_steps), normal};
       AskedPositions positions(body);
       CutFigures figures;
-      const MeshEdit local = asking.advance(body.mesh, positions, body.is_held, sweep,
-                                            k + 1 == n_steps, figures);
+      const MeshEdit local =
+          asking.advance(body.mesh, positions, body.is_held, sweep, k + 1 == n_steps, figures);
       if (k + 1 < n_steps) most_asked = std::max(most_asked, positions.n_asked());
       const MeshEdit edit = advance(cutter, body, sweep, k + 1 == n_steps, ledger);
       EXPECT_EQ(local.duplicate_parent, edit.duplicate_parent);
