@@ -93,14 +93,12 @@ std::array<double, 2> step_seconds(std::array<RankBody*, 2> bodies, Communicator
 }
 
 // Displacements and velocities to all, of which each takes its own.
-double move_seconds(const Mesh& mesh, const RankBody& before, const RankBody& after,
-                    Communicator& ranks) {
+double move_seconds(const RankBody& before, const RankBody& after, Communicator& ranks) {
   const State state = make_state(before.model);
   State moved = make_state(after.model);
   return best_of_ranks(ranks, 20, [&] {
     for (std::vector<double>* field : {&moved.u, &moved.v}) {
-      const std::vector<double> all =
-          all_gather_field(before.part, mesh.n_nodes(), 3, state.u, ranks);
+      const std::vector<double> all = all_gather_field(before.part, 3, state.u, ranks);
       for (std::size_t i = 0; i < after.part.node_global.size(); ++i)
         for (std::size_t j = 0; j < 3; ++j)
           (*field)[3 * i + j] = all[3 * static_cast<std::size_t>(after.part.node_global[i]) + j];
@@ -116,7 +114,7 @@ void report(const Mesh& hexahedra, int n_split, int steps_of_frame, Communicator
   RankBody before = make_rank(mesh, old_owner, ranks.rank()), after;
   const double build =
       best_of_ranks(ranks, 20, [&] { after = make_rank(mesh, owner, ranks.rank()); });
-  const double move = move_seconds(mesh, before, after, ranks);
+  const double move = move_seconds(before, after, ranks);
   const auto [slow, quick] = step_seconds({&before, &after}, ranks);
   const double gain = slow - quick, all = choose + move + build;
   const auto steps = [&](double cost) { return gain > 0 ? cost / gain : INFINITY; };

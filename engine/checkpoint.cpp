@@ -27,9 +27,9 @@ void remember(const CutMemory& memory, CutStage& stage) {
   stage.tet.set_stroke(memory.stroke);
 }
 
-// A field of owned nodes (n_owned * 3) as one of all nodes on every rank. Collective.
+// A field of owned nodes (n_owned * 3) as one of all nodes on the root. Collective.
 std::vector<double> gather_owned(const Simulation& s, std::span<const double> owned) {
-  return all_gather_field(s.part, s.mesh.n_nodes(), 3, owned, *s.communicator);
+  return gather_field(s.part, 3, owned, *s.communicator);
 }
 
 // Back again; empty if the field is.
@@ -86,7 +86,6 @@ void restore_searches(const Checkpoint& c, Simulation& s) {
 }  // namespace
 
 Checkpoint take_checkpoint(Simulation& s) {
-  const GlobalState global = gather_state(s);
   Checkpoint c{.version = version_text(),
                .simd = simd_name(),
                .scene = echo_options(scene_options(), &s.scene),
@@ -97,8 +96,8 @@ Checkpoint take_checkpoint(Simulation& s) {
                .fixed = s.fixed,
                .duplicate_parent = s.duplicate_parent,
                .duplicate_node = s.duplicate_node,
-               .u = global.u,
-               .v = global.v,
+               .u = gather_owned(s, s.state.u),
+               .v = gather_owned(s, s.state.v),
                .time = s.state.time,
                .last_dt = s.state.last_dt,
                .step = s.state.step,
@@ -109,7 +108,7 @@ Checkpoint take_checkpoint(Simulation& s) {
                .holds = s.holds.holds,
                .is_open = s.holds.is_open,
                .log = s.log,
-               .history = s.communicator->all_gather(copy_history(s.model, s.part, s.state)),
+               .history = s.communicator->gather(copy_history(s.model, s.part, s.state)),
                .history_time = s.state.history_time,
                .has_energies = s.energy != nullptr};
   if (s.energy) c.energy = s.energy->memory;

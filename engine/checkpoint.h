@@ -57,7 +57,7 @@ struct Checkpoint {
   std::vector<RecordingMark> recordings;
 };
 
-// Of everything but the recordings. Collective.
+// Of everything but the recordings; fields of nodes and history on the root alone. Collective.
 Checkpoint take_checkpoint(Simulation& s);
 // Puts a simulation that was built from the same scene where the checkpoint was taken. Collective;
 // throws InputError on every rank if body and checkpoint don't belong together.

@@ -85,9 +85,8 @@ void find_nodes(const Simulation& s, std::span<const std::int32_t> nodes, Global
 
 void find_all_nodes(Simulation& s, GlobalState& global) {
   const PhaseScope scope(s.timers, phase_gather);
-  std::vector<double> u, v;
-  all_gather_field(s.part, 3, s.state.u, *s.communicator, u);
-  all_gather_field(s.part, 3, s.state.v, *s.communicator, v);
+  const std::vector<double> u = all_gather_field(s.part, 3, s.state.u, *s.communicator);
+  const std::vector<double> v = all_gather_field(s.part, 3, s.state.v, *s.communicator);
   for (std::size_t i = 0; i < s.part.node_local.size(); ++i) {
     if (std::exchange(global.is_known[i], 1) != 0) continue;
     const auto node = static_cast<std::int32_t>(i);

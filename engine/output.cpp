@@ -176,12 +176,12 @@ void add_film_frame(const Simulation& s, Outputs& outputs, const FrameRow& row) 
   outputs.studio->add(std::move(frame));
 }
 
-// Collective: the displacements come from all ranks.
+// Collective: the displacements come from all ranks to the one with the writer.
 void add_recorded_frame(Simulation& s, OutputSlot& slot, RecordingWriter* writer,
                         const FrameRow& row) {
   RecordedFrame frame{
       .frame = row.frame, .step = row.step, .time = row.time, .digest = state_digest(s)};
-  frame.u = all_gather_field(s.part, s.mesh.n_nodes(), 3, s.state.u, *s.communicator);
+  frame.u = gather_field(s.part, 3, s.state.u, *s.communicator);
   for (const ToolRow& tool : row.tools)
     for (int i = 0; i < 3; ++i) frame.tool_forces.push_back(tool.force[i]);
   if (writer) writer->add(slot.pending, frame);

@@ -226,7 +226,7 @@ std::vector<double> gather_sleep(Simulation& s) {
     local.insert(local.end(), &sleep.watched[3 * i], &sleep.watched[3 * i] + 3);
     local.push_back(sleep.is_asleep[i] != 0 ? -2 - sleep.quiet[i] : sleep.quiet[i]);
   }
-  return all_gather_field(s.part, s.mesh.n_nodes(), 7, local, *s.communicator);
+  return gather_field(s.part, 7, local, *s.communicator);
 }
 
 void restore_sleep(std::span<const double> memory, Simulation& s) {

@@ -52,8 +52,7 @@ void show_awake(Simulation& s);
 void show_asleep(Simulation& s);
 
 // (n_nodes * 7) anchors, watched displacements, quiet frames (-2 less these where it sleeps), for
-// checkpoints.
-// Collective.
+// checkpoints: on the root, empty elsewhere. Collective.
 std::vector<double> gather_sleep(Simulation& s);
 void restore_sleep(std::span<const double> memory, Simulation& s);
 

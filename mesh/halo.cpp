@@ -208,38 +208,53 @@ void HaloExchange::exchange(std::span<double> field, Communicator& communicator)
   finish(fields, communicator);
 }
 
-void all_gather_field(const Part& part, int width, std::span<const double> local,
-                      Communicator& communicator, std::vector<double>& field) {
-  const auto n = static_cast<std::size_t>(width);
-  const std::size_t n_mine = static_cast<std::size_t>(part.n_owned) * n;
-  CHECK_OP(local.size(), >=, n_mine);
-  field.resize(part.node_local.size() * n);
-  if (communicator.size() == 1) {  // owns all nodes, ascending
-    CHECK_OP(n_mine, ==, field.size());
-    std::copy_n(local.begin(), n_mine, field.begin());
-    return;
-  }
-  // Each node travels as its global number (exact in a double) and its values.
+namespace {
+
+// Each owned node as its global number (exact in a double) and its values.
+std::vector<double> records_of_owned(const Part& part, int width, std::span<const double> local) {
+  const auto n = static_cast<std::size_t>(width), n_owned = static_cast<std::size_t>(part.n_owned);
+  CHECK_OP(local.size(), >=, n_owned * n);
   std::vector<double> records;
-  records.reserve(n_mine + static_cast<std::size_t>(part.n_owned));
-  for (std::int32_t k = 0; k < part.n_owned; ++k) {
+  records.reserve(n_owned * (n + 1));
+  for (std::size_t k = 0; k < n_owned; ++k) {
     records.push_back(part.node_global[k]);
-    const double* values = local.data() + n * k;
-    records.insert(records.end(), values, values + n);
+    const auto values = local.subspan(n * k, n);
+    records.insert(records.end(), values.begin(), values.end());
   }
-  records = communicator.all_gather(records);
-  CHECK_OP(records.size(), ==, part.node_local.size() * (n + 1));
-  for (auto record = records.begin(); record != records.end();
-       record += static_cast<std::ptrdiff_t>(n + 1))
-    std::copy_n(record + 1, n, field.begin() + static_cast<std::ptrdiff_t>(*record) * width);
+  return records;
 }
 
-std::vector<double> all_gather_field(const Part& part, std::int32_t n_nodes, int width,
-                                     std::span<const double> local, Communicator& communicator) {
-  CHECK_OP(std::ssize(part.node_local), ==, n_nodes);
-  std::vector<double> field;
-  all_gather_field(part, width, local, communicator, field);
+// Of all nodes.
+std::vector<double> field_of(std::span<const double> records, const Part& part, int width) {
+  const auto n = static_cast<std::size_t>(width);
+  CHECK_OP(records.size(), ==, part.node_local.size() * (n + 1));
+  std::vector<double> field(part.node_local.size() * n);
+  for (std::size_t k = 0; k < records.size(); k += n + 1)
+    std::copy_n(&records[k + 1], n, &field[static_cast<std::size_t>(records[k]) * n]);
   return field;
+}
+
+// Owns all nodes, ascending.
+std::vector<double> field_of_one(const Part& part, int width, std::span<const double> local) {
+  const auto own =
+      local.first(static_cast<std::size_t>(part.n_owned) * static_cast<std::size_t>(width));
+  CHECK_OP(own.size(), ==, part.node_local.size() * static_cast<std::size_t>(width));
+  return {own.begin(), own.end()};
+}
+
+}  // namespace
+
+std::vector<double> all_gather_field(const Part& part, int width, std::span<const double> local,
+                                     const Communicator& communicator) {
+  if (communicator.size() == 1) return field_of_one(part, width, local);
+  return field_of(communicator.all_gather(records_of_owned(part, width, local)), part, width);
+}
+
+std::vector<double> gather_field(const Part& part, int width, std::span<const double> local,
+                                 const Communicator& communicator) {
+  if (communicator.size() == 1) return field_of_one(part, width, local);
+  const std::vector<double> records = communicator.gather(records_of_owned(part, width, local));
+  return communicator.is_root() ? field_of(records, part, width) : std::vector<double>();
 }
 
 }  // namespace trocar

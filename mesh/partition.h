@@ -92,11 +92,11 @@ class HaloExchange {
   std::vector<ExchangeMessage> messages_;
 };
 
-// The whole nodal field (n_nodes * width) on every rank, from the owners' parts; the second one
-// takes the vector that `field` has. Collective.
-std::vector<double> all_gather_field(const Part& part, std::int32_t n_nodes, int width,
-                                     std::span<const double> local, Communicator& communicator);
-void all_gather_field(const Part& part, int width, std::span<const double> local,
-                      Communicator& communicator, std::vector<double>& field);
+// The whole nodal field (n_nodes * width), from the owners' parts: on every rank ...
+std::vector<double> all_gather_field(const Part& part, int width, std::span<const double> local,
+                                     const Communicator& communicator);
+// ... and on the root, empty elsewhere. Both collective.
+std::vector<double> gather_field(const Part& part, int width, std::span<const double> local,
+                                 const Communicator& communicator);
 
 }  // namespace trocar

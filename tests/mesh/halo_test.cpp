@@ -137,23 +137,12 @@ TEST(HaloExchange, alone_leaves_the_field_as_it_is) {
   EXPECT_EQ(field, before);
 }
 
-TEST(AllGatherField, alone_gives_the_field_in_global_order) {
+TEST(GatherField, alone_gives_the_field_in_global_order) {
   const Mesh mesh = make_rectangle(1, 1, 3, 3);
   const Ranks ranks = make_ranks(mesh, 1);
   Communicator alone;
   std::vector<double> field(27);
   for (std::size_t k = 0; k < field.size(); ++k) field[k] = static_cast<double>(k) / 3;
-  EXPECT_EQ(all_gather_field(ranks.part[0], mesh.n_nodes(), 3, field, alone), field);
-}
-
-TEST(AllGatherField, into_a_vector_of_another_field_leaves_nothing_of_it) {
-  const Mesh mesh = make_rectangle(1, 1, 3, 3);
-  const Ranks ranks = make_ranks(mesh, 1);
-  Communicator alone;
-  const std::vector<double> field(27, 2.5);
-  for (const std::size_t n_before : {0U, 5U, 27U, 40U}) {
-    std::vector<double> gathered(n_before, -1);
-    all_gather_field(ranks.part[0], 3, field, alone, gathered);
-    EXPECT_EQ(gathered, field);
-  }
+  EXPECT_EQ(all_gather_field(ranks.part[0], 3, field, alone), field);
+  EXPECT_EQ(gather_field(ranks.part[0], 3, field, alone), field);
 }
