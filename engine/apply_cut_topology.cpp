@@ -46,7 +46,7 @@ void update_least(Simulation& s, const ModelEdit& edit) {
 
 void update_part_and_model(Simulation& s, const ModelEdit& edit) {
   update_part(s.mesh, s.corners, s.node_owner, edit.nodes, s.part);
-  s.halo = make_halo(s.mesh, s.corners, s.node_owner, s.part);
+  update_halo(s.mesh, s.corners, s.node_owner, edit.touching, s.part, s.halo);
   unscale_mass(s.model);
   edit_model({s.mesh, s.part, s.materials, s.model.options, s.fixed, s.mass}, edit, s.model,
              s.state.history);

@@ -155,11 +155,24 @@ Halo make_halo(const Mesh& mesh, std::span<const std::int32_t> node_owner, const
   return make_halo(mesh, part.element_global, node_owner, part, rank);
 }
 
-Halo make_halo(const Mesh& mesh, const NodeCorners& corners,
-               std::span<const std::int32_t> node_owner, const Part& part) {
-  const auto halo_nodes =
-      std::span(part.node_global).subspan(static_cast<std::size_t>(part.n_owned));
-  return make_halo(mesh, elements_around(corners, halo_nodes), node_owner, part, part.rank);
+void update_halo(const Mesh& mesh, const NodeCorners& corners,
+                 std::span<const std::int32_t> node_owner, std::span<const std::int32_t> elements,
+                 const Part& part, Halo& halo) {
+  const auto is_inside = [&](std::int32_t e) {
+    return std::ranges::all_of(mesh.corners(e),
+                               [&](std::int32_t i) { return node_owner[i] == part.rank; });
+  };
+  if (!std::ranges::all_of(elements, is_inside)) {
+    const auto halo_nodes =
+        std::span(part.node_global).subspan(static_cast<std::size_t>(part.n_owned));
+    halo = make_halo(mesh, elements_around(corners, halo_nodes), node_owner, part, part.rank);
+    return;
+  }
+  std::int32_t first = part.n_local();  // halo node, as far as they have not moved up
+  for (const Halo::Neighbour& neighbour : halo.neighbours)
+    first = std::min(first, neighbour.receive.front());
+  for (Halo::Neighbour& neighbour : halo.neighbours)
+    for (std::int32_t& i : neighbour.receive) i += part.n_owned - first;
 }
 
 HaloExchange::HaloExchange(const Halo& halo, int width) : halo_(&halo), width_(width) {

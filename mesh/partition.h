@@ -62,9 +62,11 @@ struct Halo {
 };
 Halo make_halo(const Mesh& mesh, std::span<const std::int32_t> node_owner, const Part& part,
                int rank);
-// The same in time of the halo's.
-Halo make_halo(const Mesh& mesh, const NodeCorners& corners,
-               std::span<const std::int32_t> node_owner, const Part& part);
+// The same after an edit that left all corners their owners, and after update_part: in time of the
+// halo's if one of the elements around the edit has a halo node, else in that of a copy.
+void update_halo(const Mesh& mesh, const NodeCorners& corners,
+                 std::span<const std::int32_t> node_owner, std::span<const std::int32_t> elements,
+                 const Part& part, Halo& halo);
 
 // `width` doubles of each local node.
 struct NodalField {

@@ -213,7 +213,6 @@ void edit_model(const ModelSource& source, const ModelEdit& edit, Model& model,
   if (edit.place_before.empty()) {
     edit_sums(owned, blocks_of(source.part, edit.touching, model), model);
   } else {
-    model.sums = {};
     order_sums(model);
   }
   take_positions(source, model);

@@ -19,16 +19,15 @@ namespace trocar {
 
 namespace {
 
-// Of the only run.
-std::int32_t stride_of(std::int64_t block) {
-  return static_cast<std::int32_t>(block / stride_blocks);
-}
-
 struct NodeUse {
-  std::vector<std::int32_t> run, last_stride;  // (n_local)
+  std::vector<std::int32_t> run, last_stride;  // (nodes)
 };
 
-// Blocks are counted through all lists.
+std::int32_t together(std::int32_t run, std::int32_t other) {
+  return run == no_run || run == other ? other : several_runs;
+}
+
+// Of all nodes. Blocks are counted through all lists.
 NodeUse use_of_nodes(const Model& model) {
   const auto n = static_cast<std::size_t>(model.n_local);
   NodeUse use{std::vector<std::int32_t>(n, no_run), std::vector<std::int32_t>(n)};
@@ -42,7 +41,7 @@ NodeUse use_of_nodes(const Model& model) {
                                                     (block - sums.run_block[run]) / stride_blocks);
       for (std::int64_t k = first; k < first + n_corners; ++k) {
         const std::int32_t i = blocks.corner[k];
-        use.run[i] = use.run[i] == no_run || use.run[i] == run ? run : several_runs;
+        use.run[i] = together(use.run[i], run);
         use.last_stride[i] = stride;
       }
     }
@@ -136,26 +135,46 @@ void finish(const NodeForces<float>& task, const NodeMotion* motion,
          motion, node);
 }
 
-// Strides of the one run: of each of the nodes, the last one; first: blocks before each list.
-std::vector<std::int32_t> last_strides(std::span<const std::int32_t> nodes,
-                                       std::span<const BlockPlace> places,
-                                       std::span<const std::int32_t> first, const Model& model) {
-  std::vector<std::int32_t> last(nodes.size(), -1);
+std::int32_t run_of(std::int64_t block, const SumOrder& sums) {
+  const auto& first = sums.run_block;
+  return static_cast<std::int32_t>(std::upper_bound(first.begin(), first.end(), block) -
+                                   first.begin() - 1);
+}
+std::int32_t stride_of(std::int64_t block, const SumOrder& sums) {
+  const std::int32_t run = run_of(block, sums);
+  return sums.run_stride[run] +
+         static_cast<std::int32_t>((block - sums.run_block[run]) / stride_blocks);
+}
+
+std::vector<std::int64_t> first_blocks(const Model& model) {
+  std::vector<std::int64_t> first{0};
+  for (const ElementBlocks& list : model.blocks) first.push_back(first.back() + list.n_blocks);
+  return first;
+}
+
+// Of these nodes (ascending), all of whose elements are in the blocks.
+NodeUse use_around(std::span<const std::int32_t> nodes, std::span<const BlockPlace> places,
+                   const Model& model) {
+  NodeUse use{std::vector<std::int32_t>(nodes.size(), no_run),
+              std::vector<std::int32_t>(nodes.size(), -1)};
+  const std::vector<std::int64_t> first = first_blocks(model);
   for (const BlockPlace& place : places) {
     const ElementBlocks& blocks = model.blocks[place.list];
-    const std::int64_t n = corners_of_block(blocks);
+    const std::int64_t n = corners_of_block(blocks), block = first[place.list] + place.block;
+    const std::int32_t run = run_of(block, model.sums), stride = stride_of(block, model.sums);
     for (std::int64_t k = place.block * n; k < (place.block + 1) * n; ++k) {
       const auto node = std::lower_bound(nodes.begin(), nodes.end(), blocks.corner[k]);
       if (node == nodes.end() || *node != blocks.corner[k]) continue;
-      std::int32_t& stride = last[static_cast<std::size_t>(node - nodes.begin())];
-      stride = std::max(stride, stride_of(first[place.list] + place.block));
+      const auto i = static_cast<std::size_t>(node - nodes.begin());
+      use.run[i] = together(use.run[i], run);
+      use.last_stride[i] = std::max(use.last_stride[i], stride);
     }
   }
-  return last;
+  return use;
 }
 
-// Own nodes of the one run, after those of `nodes` changed from one of the `strides` to another:
-// the rest keeps its order. strides: ascending.
+// Own nodes, after those of `nodes` changed from one of the `strides` to another: the rest keeps its
+// order. strides: ascending.
 void edit_own_nodes(std::span<const std::int32_t> nodes, std::span<const std::int32_t> last_stride,
                     std::span<const std::int32_t> strides, SumOrder& sums) {
   std::vector<std::pair<std::int32_t, std::int32_t>> changed;  // last stride, node
@@ -190,14 +209,14 @@ void edit_own_nodes(std::span<const std::int32_t> nodes, std::span<const std::in
   go_to(first.size() - 1);
 }
 
-// Of these blocks, and of those that had the last node or have it now.
+// Of these blocks, and of those that have halo nodes, that had the last node or have it now.
 void edit_rows(std::span<const BlockPlace> places, Model& model) {
   const auto find = [&](ElementBlocks& blocks, std::size_t k) {
     blocks.row[k] = row_of(model, blocks, static_cast<std::int64_t>(k) * row_lanes);
   };
   for (ElementBlocks& blocks : model.blocks)
     for (std::size_t k = 0; k < blocks.row.size(); ++k)
-      if (blocks.row[k] == no_row_at_end) find(blocks, k);
+      if (blocks.reads_halo || blocks.row[k] == no_row_at_end) find(blocks, k);
   for (const BlockPlace& place : places) {
     ElementBlocks& blocks = model.blocks[place.list];
     const auto n = static_cast<std::size_t>(blocks.lanes / row_lanes);
@@ -214,13 +233,64 @@ void add_runs(std::int64_t n_blocks, SumOrder& sums) {
   sums.n_runs += static_cast<std::int32_t>(n_runs);
 }
 
-void find_strides(SumOrder& sums) {
+// Runs and their strides alone.
+SumOrder make_runs(const Model& model) {
+  std::int64_t n_inside = 0;
+  for (const ElementBlocks& blocks : model.blocks)
+    if (!blocks.reads_halo) n_inside += blocks.n_blocks;
+  SumOrder sums;
+  sums.run_block = {0};
+  add_runs(n_inside, sums);
+  sums.n_inside_runs = sums.n_runs;
+  add_runs(count_blocks(model) - n_inside, sums);
   sums.run_stride = {0};
   for (std::int32_t run = 0; run < sums.n_runs; ++run) {
     const std::int64_t n = sums.run_block[run + 1] - sums.run_block[run];
     sums.run_stride.push_back(sums.run_stride.back() +
                               static_cast<std::int32_t>((n + stride_blocks - 1) / stride_blocks));
   }
+  return sums;
+}
+
+// After nodes were added behind the owned ones: halo nodes and places have moved up.
+void move_places_up(Model& model) {
+  SumOrder& sums = model.sums;
+  const std::int64_t n_before = sums.n_places - std::ssize(sums.place_node);
+  const auto n_added = static_cast<std::int32_t>(model.n_local - n_before);
+  sums.n_places += n_added;
+  for (std::int32_t& node : sums.place_node)
+    if (node >= model.n_owned - n_added) node += n_added;
+  for (ElementBlocks& list : model.blocks)
+    parallel_for(std::ssize(list.target), [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t k = begin; k < end; ++k)
+        list.target[k] = list.target[k] >= n_before ? list.target[k] + n_added : list.corner[k];
+    });
+}
+
+// Around an edit that no other run and no other rank meets; false if one does.
+bool edit_around(std::span<const std::int32_t> nodes, std::span<const BlockPlace> blocks,
+                 Model& model) {
+  SumOrder& sums = model.sums;
+  const SumOrder runs = make_runs(model);
+  if (runs.run_block != sums.run_block || runs.n_inside_runs != sums.n_inside_runs ||
+      (model.is_by_component && runs.n_runs > 1))
+    return false;
+  for (const BlockPlace& place : blocks)
+    if (model.blocks[place.list].reads_halo) return false;
+  const NodeUse use = use_around(nodes, blocks, model);
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    if (use.run[k] == several_runs || std::ranges::binary_search(sums.shared_node, nodes[k]))
+      return false;
+  const std::vector<std::int64_t> first = first_blocks(model);
+  std::vector<std::int32_t> strides;
+  for (const BlockPlace& place : blocks)
+    strides.push_back(stride_of(first[place.list] + place.block, sums));
+  sort_unique(strides);
+  edit_own_nodes(nodes, use.last_stride, strides, sums);
+  move_places_up(model);
+  edit_rows(blocks, model);
+  lay_out_nodes(model);
+  return true;
 }
 
 }  // namespace
@@ -237,15 +307,7 @@ std::vector<std::size_t> lists_in_order(const std::vector<ElementBlocks>& lists)
 }
 
 void order_sums(Model& model) {
-  std::int64_t n_inside = 0;
-  for (const ElementBlocks& blocks : model.blocks)
-    if (!blocks.reads_halo) n_inside += blocks.n_blocks;
-  SumOrder& sums = model.sums;
-  sums.run_block = {0};
-  add_runs(n_inside, sums);
-  sums.n_inside_runs = sums.n_runs;
-  add_runs(count_blocks(model) - n_inside, sums);
-  find_strides(sums);
+  model.sums = make_runs(model);
   const NodeUse use = use_of_nodes(model);
   order_own_nodes(use, model);
   place_shared_corners(use.run, model);
@@ -268,22 +330,9 @@ void finish_nodes(const Model& model, std::span<const std::int32_t> node, Scratc
 
 void edit_sums(std::span<const std::int32_t> nodes, std::span<const BlockPlace> blocks,
                Model& model) {
+  if (edit_around(nodes, blocks, model)) return;
   for (ElementBlocks& list : model.blocks) list.target.clear();
-  const bool is_one_run = model.sums.n_runs == 1 && model.sums.n_inside_runs == 1;
-  if (is_one_run && chunk_count(count_blocks(model)) == 1) {
-    std::vector<std::int32_t> first{0}, strides;
-    for (const ElementBlocks& list : model.blocks) first.push_back(first.back() + list.n_blocks);
-    for (const BlockPlace& place : blocks)
-      strides.push_back(stride_of(first[place.list] + place.block));
-    sort_unique(strides);
-    edit_own_nodes(nodes, last_strides(nodes, blocks, first, model), strides, model.sums);
-    model.sums.n_places = model.n_local;
-    edit_rows(blocks, model);
-    lay_out_nodes(model);
-  } else {
-    model.sums = {};
-    order_sums(model);
-  }
+  order_sums(model);
 }
 
 }  // namespace trocar
