@@ -2,16 +2,17 @@
 // and 3 deep, in ever larger boxes of elements at rest, through the whole of cut_along_blades
 // (bench_cut times the cut alone). Markdown to stdout.
 // bench_edit [--energy] [--hexahedra] [--viscous] [--sleep] [--scaled] [--local-steps] [--once]
-// [N]...: boxes of N cells a side (default 15, 30); --energy: with the ledger that a metrics output
-// keeps; --hexahedra: of hexahedra, which the blade splits; --viscous: of a material with history;
-// --sleep: what is at rest sleeps; --scaled: elements beside the cut get scaled masses;
-// --local-steps: a sliver far from the cut takes substeps of its own; --once: one run in place of
-// the quickest of five
+// [--threads] [N]...: boxes of N cells a side (default 15, 30); --energy: with the ledger that a
+// metrics output keeps; --hexahedra: of hexahedra, which the blade splits; --viscous: of a material
+// with history; --sleep: what is at rest sleeps; --scaled: elements beside the cut get scaled
+// masses; --local-steps: a sliver far from the cut takes substeps of its own; --once: one run in
+// place of the quickest of five; --threads: on all cores in place of one thread
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
+#include "base/threads.h"
 #include "base/timers.h"
 #include "bench/machine.h"
 #include "bench/usage.h"
@@ -47,7 +48,7 @@ std::string path_of(double top, double shift) {
 struct Trial {
   bool has_energy = false, is_of_hexahedra = false, is_viscous = false, does_sleep = false,
        is_scaled = false, has_local_steps = false;
-  int n_runs = 5;
+  int n_runs = 5, n_threads = 1;
 };
 
 std::string scene_of(int n, const Trial& trial) {
@@ -73,21 +74,30 @@ struct Cost {
   std::vector<double> edits, others;  // frames that edit, others with the blade in the body [s]
 };
 
+// As build leaves it, of a mesh and for threads that have changed.
+void start_anew(Simulation& s) {
+  rebuild_topology(s);
+  s.corners = node_corners(s.mesh);
+  s.boxes = make_element_boxes(s.mesh, s.mesh.X);
+  watch_state(s);
+}
+
 // A face of the inner cell beside the lowest corner comes close to the opposite one.
 void make_sliver(Simulation& s) {
   const Vec3 face = s.mesh.X.front() + Vec3(cell, 1.5 * cell, 1.5 * cell);
   for (Vec3& X : s.mesh.X)
     if ((X - face).norm() < 0.75 * cell) X.x() += 0.98 * cell;
-  rebuild_topology(s);
-  s.corners = node_corners(s.mesh);
-  s.boxes = make_element_boxes(s.mesh, s.mesh.X);
-  watch_state(s);
+  start_anew(s);
   if (!s.multirate) std::fprintf(stderr, "bench_edit: the sliver takes no substeps\n");
 }
 
 Cost cut_box(int n, const Trial& trial) {
   const auto started = built(scene_of(n, trial));
   Simulation& s = *started->s;
+  if (trial.n_threads > 1) {
+    set_thread_count(trial.n_threads);
+    start_anew(s);
+  }
   if (trial.has_local_steps) make_sliver(s);
   if (trial.has_energy) open_energy_ledger(s);
   Cost cost{.n_elements = s.mesh.n_elements()};
@@ -129,7 +139,7 @@ Cost least_cost(int n, const Trial& trial) {
 int main(int argc, char** argv) {
   constexpr const char* usage =
       "bench_edit [--energy] [--hexahedra] [--viscous] [--sleep] "
-      "[--scaled] [--local-steps] [--once] [N]...";
+      "[--scaled] [--local-steps] [--once] [--threads] [N]...";
   if (is_help_asked(argc, argv)) return print_usage(usage, stdout);
   std::vector<int> cells;
   Trial trial;
@@ -148,6 +158,8 @@ int main(int argc, char** argv) {
       trial.has_local_steps = true;
     else if (std::strcmp(argv[k], "--once") == 0)
       trial.n_runs = 1;
+    else if (std::strcmp(argv[k], "--threads") == 0)
+      trial.n_threads = available_cores();
     else if (const int n = std::atoi(argv[k]); n > 0)
       cells.push_back(n);
     else

@@ -94,6 +94,12 @@ struct NodeRange {
 // Blocks that a run takes between two looks at the nodes: a stride.
 inline constexpr std::int64_t stride_blocks = 32;
 
+struct BlockPlace {
+  std::size_t list = 0;
+  std::int32_t block = 0;  // of the list
+  auto operator<=>(const BlockPlace&) const = default;
+};
+
 struct SumOrder {
   std::int32_t n_runs = 0;               // those of blocks that read no halo nodes first
   std::int32_t n_inside_runs = 0;        // that many
@@ -112,6 +118,7 @@ struct SumOrder {
   std::vector<std::int32_t> place_node;
   std::int32_t n_slots = 0;
   std::vector<std::int32_t> slot_first;  // into place_node, and its end
+  std::vector<BlockPlace> place_block;   // with corners that have places; ascending
   // Where sums lie component by component: what the elements of each stride of runs inside read,
   // and (n_inside_runs + 1) where the runs' windows of Scratch::u_by_component begin.
   std::vector<NodeRange> stride_nodes;

@@ -173,8 +173,8 @@ NodeUse use_around(std::span<const std::int32_t> nodes, std::span<const BlockPla
   return use;
 }
 
-// Own nodes, after those of `nodes` changed from one of the `strides` to another: the rest keeps its
-// order. strides: ascending.
+// Own nodes, after those of `nodes` changed from one of the `strides` to another: the rest keeps
+// its order. strides: ascending.
 void edit_own_nodes(std::span<const std::int32_t> nodes, std::span<const std::int32_t> last_stride,
                     std::span<const std::int32_t> strides, SumOrder& sums) {
   std::vector<std::pair<std::int32_t, std::int32_t>> changed;  // last stride, node
@@ -252,19 +252,28 @@ SumOrder make_runs(const Model& model) {
   return sums;
 }
 
-// After nodes were added behind the owned ones: halo nodes and places have moved up.
-void move_places_up(Model& model) {
+// After nodes were added behind the owned ones: halo nodes and places have moved up. blocks: those
+// whose corners have changed, none of which have halo nodes.
+void move_places_up(std::span<const BlockPlace> blocks, Model& model) {
   SumOrder& sums = model.sums;
   const std::int64_t n_before = sums.n_places - std::ssize(sums.place_node);
   const auto n_added = static_cast<std::int32_t>(model.n_local - n_before);
   sums.n_places += n_added;
   for (std::int32_t& node : sums.place_node)
     if (node >= model.n_owned - n_added) node += n_added;
+  const auto move = [&](ElementBlocks& list, std::int64_t block, std::int64_t n_blocks) {
+    const std::int64_t n = corners_of_block(list);
+    for (std::int64_t k = block * n; k < (block + n_blocks) * n; ++k)
+      list.target[k] = list.target[k] >= n_before ? list.target[k] + n_added : list.corner[k];
+  };
   for (ElementBlocks& list : model.blocks)
-    parallel_for(std::ssize(list.target), [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t k = begin; k < end; ++k)
-        list.target[k] = list.target[k] >= n_before ? list.target[k] + n_added : list.corner[k];
-    });
+    if (list.reads_halo && !list.target.empty()) move(list, 0, list.n_blocks);
+  for (const BlockPlace& place : sums.place_block)
+    if (!model.blocks[place.list].reads_halo) move(model.blocks[place.list], place.block, 1);
+  for (const BlockPlace& place : blocks)
+    if (ElementBlocks& list = model.blocks[place.list];
+        !list.target.empty() && !std::ranges::binary_search(sums.place_block, place))
+      move(list, place.block, 1);
 }
 
 // Around an edit that no other run and no other rank meets; false if one does.
@@ -287,7 +296,7 @@ bool edit_around(std::span<const std::int32_t> nodes, std::span<const BlockPlace
     strides.push_back(stride_of(first[place.list] + place.block, sums));
   sort_unique(strides);
   edit_own_nodes(nodes, use.last_stride, strides, sums);
-  move_places_up(model);
+  move_places_up(blocks, model);
   edit_rows(blocks, model);
   lay_out_nodes(model);
   return true;

@@ -16,16 +16,10 @@ struct NodeMotion;
 // and at the border as there are threads now.
 void order_sums(Model& model);
 
-struct BlockPlace {
-  std::size_t list = 0;
-  std::int32_t block = 0;  // of the list
-  bool operator==(const BlockPlace&) const = default;
-};
-// The same after an edit of a model whose sums were in order before it. Where no other run meets the
-// nodes and no list that reads halo nodes, in time of the edit's but for copies of whole numbers and
-// a look at rows.
-// nodes: local numbers of owned ones that meet other elements than before, ascending; blocks: all
-// those with elements at these nodes.
+// The same after an edit of a model whose sums were in order before it. Where no other run meets
+// the nodes and no list that reads halo nodes, in time of the edit's but for copies of whole
+// numbers and a look at rows. nodes: local numbers of owned ones that meet other elements than
+// before, ascending; blocks: all those with elements at these nodes.
 void edit_sums(std::span<const std::int32_t> nodes, std::span<const BlockPlace> blocks,
                Model& model);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "base/sort_unique.h"
 #include "solver/row_order.h"
 #include "solver/sum_order.h"
 
@@ -165,7 +166,11 @@ void place_shared_corners(std::span<const std::int32_t> run, Model& model) {
   for (const auto& [list, at, slot] : later.corners) {
     ElementBlocks& blocks = model.blocks[list];
     blocks.target[at] = place[first[blocks.corner[at]] + slot];
+    const BlockPlace block{list, static_cast<std::int32_t>(at / corners_of_block(blocks))};
+    if (sums.place_block.empty() || sums.place_block.back() != block)
+      sums.place_block.push_back(block);
   }
+  sort_unique(sums.place_block);
 }
 
 }  // namespace trocar

@@ -37,6 +37,7 @@ inline void expect_equal(const SumOrder& a, const SumOrder& b) {
   EXPECT_EQ(a.place_node, b.place_node);
   EXPECT_EQ(a.n_slots, b.n_slots);
   EXPECT_EQ(a.slot_first, b.slot_first);
+  EXPECT_EQ(a.place_block, b.place_block);
   EXPECT_EQ(a.window_first, b.window_first);
   EXPECT_EQ(a.stride_nodes, b.stride_nodes);
   EXPECT_EQ(a.run_stride, b.run_stride);
