@@ -54,6 +54,13 @@ EditedElements find_edited(const Mesh& mesh, const NodeCorners& corners, const M
   return edited;
 }
 
+std::vector<std::int32_t> hosts_of(const MeshEdit& edit) {
+  std::vector<std::int32_t> hosts;
+  for (const NodeMove& move : edit.moves) hosts.push_back(move.host);
+  sort_unique(hosts);
+  return hosts;
+}
+
 // Copies of elements' history before an edit, none without viscosity, and where it goes.
 struct CarriedHistory {
   std::vector<double> copies;
@@ -256,8 +263,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   if (s.corners.first.empty()) s.corners = node_corners(s.mesh);
   const EditedElements edited = find_edited(s.mesh, s.corners, edit);
   std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited.before);
-  find_nodes(s, nodes, global);
-  for (const NodeMove& move : edit.moves) find_nodes(s, s.mesh.corners(move.host), global);
+  find_nodes(s, united(nodes, nodes_of(s.mesh, hosts_of(edit))), global);
   const Before before = measure_before(s, edited.before, nodes, global);
   bool is_step_local = keeps_step(s);
   const bool is_energy_local = keeps_energy(s);

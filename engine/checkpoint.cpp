@@ -69,11 +69,7 @@ void check_machine(const Checkpoint& c) {
 void restore_searches(const Checkpoint& c, Simulation& s) {
   s.look.u = of_owned(c.looked_at, s.part);
   s.look.is_done = !c.looked_at.empty();
-  s.look.step = c.look_step;
-  s.look.at_step = c.look_at_step;
-  s.look.growth = c.look_growth;
-  s.look.asked = c.look_asked;
-  s.look.searched = c.searched;
+  static_cast<SearchMemory&>(s.look) = c.searches;
   s.look.stiffening.reset();
   if (c.has_stiffening) find_stiffening_at_look(s);
   if (!c.has_local_steps) s.multirate.reset();  // it was given up
@@ -113,12 +109,8 @@ Checkpoint take_checkpoint(Simulation& s) {
                .has_energies = s.energy != nullptr};
   if (s.energy) c.energy = s.energy->memory;
   if (s.look.is_done) c.looked_at = gather_owned(s, s.look.u);
-  c.look_step = s.look.step;
-  c.look_at_step = s.look.at_step;
+  c.searches = s.look;
   c.has_stiffening = s.look.is_done && s.look.stiffening;
-  c.look_growth = s.look.growth;
-  c.look_asked = s.look.asked;
-  c.searched = s.look.searched;
   c.has_local_steps = s.multirate != nullptr;
   if (s.sleep) c.sleep = gather_sleep(s);
   for (const CutStage& stage : s.cuts) c.cuts.push_back(memory_of(stage));

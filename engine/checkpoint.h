@@ -44,13 +44,9 @@ struct Checkpoint {
   FrameLog log;                       // without new_edits, which outputs have taken
   std::vector<double> history;        // of viscoelastic elements, see solver/history.h
   double history_time = 0;
-  // ElementLook: u (n_nodes * 3) or empty, and the rest.
-  std::vector<double> looked_at;
-  double look_step = 0;
-  std::int64_t look_at_step = 0;
+  SearchMemory searches;
+  std::vector<double> looked_at;  // ElementLook::u (n_nodes * 3), or empty
   bool has_stiffening = false, has_local_steps = false;
-  double look_growth = 1, look_asked = 1;
-  std::vector<GrownElement> searched;
   std::vector<double> sleep;  // gather_sleep, empty: nothing ever sleeps
   bool has_energies = false;  // in the rows of the log
   EnergyMemory energy;

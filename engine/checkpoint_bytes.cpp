@@ -10,7 +10,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 9;
+constexpr std::uint32_t checkpoint_format = 10;
 
 static void visit(Saver& a, Mesh& mesh) {
   std::vector<std::byte> bytes = mesh_to_bytes(mesh);
@@ -118,6 +118,10 @@ static void visit(Archive& a, GrownElement& e) {
   a(e.element, e.stiffening);
 }
 template <class Archive>
+static void visit(Archive& a, SearchMemory& m) {
+  a(m.at_step, m.step, m.growth, m.asked, m.searched);
+}
+template <class Archive>
 static void visit(Archive& a, RecordingMark& m) {
   a(m.file, m.last_frame, m.pending);
 }
@@ -127,8 +131,8 @@ static void visit(Archive& a, Checkpoint& c) {
   a(c.version, c.simd, c.scene, c.body_crc, c.frame, c.digest, c.mesh, c.fixed, c.duplicate_parent,
     c.duplicate_node, c.time, c.last_dt, c.step, c.step_scale, c.held_step,
     c.stable_step_before_cut, c.watch, c.holds, c.is_open, c.cuts, c.log, c.history, c.history_time,
-    c.looked_at, c.look_step, c.look_at_step, c.has_stiffening, c.look_growth, c.look_asked,
-    c.searched, c.has_local_steps, c.sleep, c.has_energies, c.energy, c.recordings);
+    c.searches, c.looked_at, c.has_stiffening, c.has_local_steps, c.sleep, c.has_energies, c.energy,
+    c.recordings);
 }
 
 static void put_blob(ByteWriter& writer, const Blob& blob) {

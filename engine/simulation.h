@@ -71,12 +71,21 @@ struct Equilibrium {
   double seconds = 0;
 };
 
-// Where the stable step of the body was last found, from which it follows (frame_watch.h).
-struct ElementLook {
-  bool is_done = false;
-  std::int64_t at_step = 0;  // State::step of the last search for the highest frequency
+// Searches for the highest frequency; the same on all ranks.
+struct SearchMemory {
+  std::int64_t at_step = 0;  // State::step of the last one of the body
   double step = 0;           // stable there; 0 without a search, or where it did not end [s]
-  std::vector<double> u;     // (n_owned * 3) there [m]
+  // Searches of parts since then (part_search.h): what the body's omega^2 may have grown by, by the
+  // last one, and growth of the elements at which the last one was thought of.
+  double growth = 1, asked = 1;
+  // What takes the place of these elements' stiffening, by number.
+  std::vector<GrownElement> searched;
+};
+
+// Where the stable step of the body was last found, from which it follows (frame_watch.h).
+struct ElementLook : SearchMemory {
+  bool is_done = false;
+  std::vector<double> u;  // (n_owned * 3) there [m]
   // (n local elements) growth of their omega^2 there; none until it is needed, and the elements are
   // looked at in any case.
   std::optional<std::vector<double>> stiffening;
@@ -84,12 +93,6 @@ struct ElementLook {
   // not known.
   std::array<std::int32_t, 2> decisive = {-1, -1};
   double reach = 0;  // of a node that strains its elements by less than unseen_strain [m]
-
-  // Searches of parts since then (part_search.h): what the body's omega^2 may have grown by, by the
-  // last one, and growth of the elements at which the last one was thought of.
-  double growth = 1, asked = 1;
-  // What takes the place of these elements' stiffening, by number; the same on all ranks.
-  std::vector<GrownElement> searched;
 };
 
 // The base is this rank's share.

@@ -135,11 +135,6 @@ void finish(const NodeForces<float>& task, const NodeMotion* motion,
          motion, node);
 }
 
-std::int32_t run_of(std::int64_t block, const SumOrder& sums) {
-  const auto& first = sums.run_block;
-  return static_cast<std::int32_t>(std::upper_bound(first.begin(), first.end(), block) -
-                                   first.begin() - 1);
-}
 std::int32_t stride_of(std::int64_t block, const SumOrder& sums) {
   const std::int32_t run = run_of(block, sums);
   return sums.run_stride[run] +
@@ -322,6 +317,12 @@ void order_sums(Model& model) {
   place_shared_corners(use.run, model);
   find_rows(model);
   lay_out_nodes(model);
+}
+
+std::int32_t run_of(std::int64_t block, const SumOrder& sums) {
+  const auto& first = sums.run_block;
+  return static_cast<std::int32_t>(std::upper_bound(first.begin(), first.end(), block) -
+                                   first.begin() - 1);
 }
 
 void finish_nodes(const Model& model, std::span<const std::int32_t> node, Scratch& scratch,

@@ -23,6 +23,9 @@ void order_sums(Model& model);
 void edit_sums(std::span<const std::int32_t> nodes, std::span<const BlockPlace> blocks,
                Model& model);
 
+// Of a block, counted through all lists.
+std::int32_t run_of(std::int64_t block, const SumOrder& sums);
+
 inline std::int64_t corners_of_block(const ElementBlocks& blocks) {
   return std::ssize(blocks.corner) / blocks.n_blocks;
 }

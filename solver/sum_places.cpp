@@ -63,10 +63,7 @@ class LaterCorners {
   }
 
   std::int32_t run_of(std::size_t list, std::int64_t lane) const {
-    const std::vector<std::int64_t>& first = model_.sums.run_block;
-    const std::int64_t block = block_of_list_[list] + lane / model_.blocks[list].lanes;
-    return static_cast<std::int32_t>(std::upper_bound(first.begin(), first.end(), block) -
-                                     first.begin() - 1);
+    return trocar::run_of(block_of_list_[list] + lane / model_.blocks[list].lanes, model_.sums);
   }
 
   // Call once a corner.
