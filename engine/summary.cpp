@@ -25,8 +25,9 @@ Json traffic_json(const Traffic& t) {
           {"bytes", t.n_bytes}};
 }
 
-Json mesh_json(const Mesh& mesh, const SceneSolver& solver) {
-  const MeshStatistics m = mesh_statistics(mesh);
+Json mesh_json(const Simulation& s) {
+  const ElementStatistics m = element_statistics(s.mesh);
+  const SceneSolver& solver = s.scene.solver;
   const Formulation of_type[n_element_types] = {solver.triangle, solver.tetrahedron,
                                                 solver.hexahedron};
   Json elements, formulations;
@@ -35,10 +36,10 @@ Json mesh_json(const Mesh& mesh, const SceneSolver& solver) {
       elements[element_type_name(static_cast<ElementType>(type))] = n;
       formulations.push_back(name_of(of_type[type]));
     }
-  return {{"nodes", m.n_nodes},
+  return {{"nodes", s.mesh.n_nodes()},
           {"elements", elements},
           {"formulations", formulations},
-          {"pieces", m.n_pieces},
+          {"pieces", s.n_pieces},
           {"quality_min", m.quality_min}};
 }
 
@@ -211,7 +212,7 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   j["traffic_of_rank_0"] = traffic_json(s.communicator->traffic());
   j["precision"] = name_of(s.scene.solver.precision);
   j["simd"] = simd_name();
-  j["mesh"] = mesh_json(s.mesh, s.scene.solver);
+  j["mesh"] = mesh_json(s);
   j["mass_kg"] = mass.value();
   if (s.added_mass) j["added_mass"] = added_mass_json(*s.added_mass);
   if (s.equilibrium) j["equilibrium"] = equilibrium_json(*s.equilibrium);

@@ -48,7 +48,7 @@ Mesh generate_tissue(const SceneShape& s) {
 }
 
 void place(const SceneTissue& tissue, Mesh& mesh) {
-  const MeshStatistics box = mesh_statistics(mesh);
+  const Box box = bounding_box(mesh);
   const Vec3 centre = 0.5 * (box.low + box.high);
   const double longest = (box.high - box.low).maxCoeff();
   const double factor = tissue.longest_side > 0 ? tissue.longest_side / longest : 1;

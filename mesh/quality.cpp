@@ -90,7 +90,8 @@ static void count_edges(const Mesh& mesh, MeshStatistics& statistics) {
   }
 }
 
-static void count_elements(const Mesh& mesh, MeshStatistics& statistics) {
+ElementStatistics element_statistics(const Mesh& mesh) {
+  ElementStatistics statistics;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
     ++statistics.n_elements_by_type[static_cast<std::size_t>(mesh.element_type[e])];
     statistics.volume += element_volume(mesh, e, mesh.X);
@@ -100,22 +101,28 @@ static void count_elements(const Mesh& mesh, MeshStatistics& statistics) {
     statistics.quality_min = quality;
     statistics.worst_element = e;
   }
+  return statistics;
+}
+
+Box bounding_box(const Mesh& mesh) {
+  Box box;
+  for (const Vec3& X : mesh.X) box.add(X);
+  return box;
 }
 
 MeshStatistics mesh_statistics(const Mesh& mesh) {
-  MeshStatistics statistics;
+  MeshStatistics statistics{element_statistics(mesh)};
   statistics.n_nodes = mesh.n_nodes();
   statistics.n_surface_triangles =
       static_cast<std::int32_t>(boundary_surface(mesh).triangle.size());
   std::vector<std::int32_t> element_piece;
   statistics.n_pieces = mesh_pieces(mesh, element_piece);
-  if (!mesh.X.empty()) statistics.low = statistics.high = mesh.X.front();
-  for (const Vec3& X : mesh.X) {
-    statistics.low = statistics.low.cwiseMin(X);
-    statistics.high = statistics.high.cwiseMax(X);
+  if (!mesh.X.empty()) {
+    const Box box = bounding_box(mesh);
+    statistics.low = box.low;
+    statistics.high = box.high;
   }
   count_edges(mesh, statistics);
-  count_elements(mesh, statistics);
   if (statistics.n_pieces > 1)
     statistics.n_unjoined = count_unjoined(mesh, 1e-6 * statistics.edge_mean);
   return statistics;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/box.h"
 #include "mesh/mesh.h"
 
 namespace trocar {
@@ -19,17 +20,24 @@ double element_quality(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x
 // Least altitude of tri3 and tet4; for hex8 V / largest face area. [m]
 double least_altitude(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x);
 
-struct MeshStatistics {
+struct ElementStatistics {
   std::array<std::int32_t, n_element_types> n_elements_by_type{};
-  std::int32_t n_nodes = 0, n_surface_triangles = 0, n_pieces = 0;
-  std::int32_t n_unjoined = 0;  // nodes of pieces, see count_unjoined; within 1e-6 mean edges
-  double volume = 0;            // [m^3] ([m^2] in 2D)
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();      // bounding box [m]
-  double edge_min = 0, edge_mean = 0, edge_max = 0;  // [m]
+  double volume = 0;  // [m^3] ([m^2] in 2D)
   double quality_min = 0, quality_mean = 0;
   std::int32_t worst_element = 0;
 };
+ElementStatistics element_statistics(const Mesh& mesh);
+
+// With what takes a look at all facets and edges.
+struct MeshStatistics : ElementStatistics {
+  std::int32_t n_nodes = 0, n_surface_triangles = 0, n_pieces = 0;
+  std::int32_t n_unjoined = 0;  // nodes of pieces, see count_unjoined; within 1e-6 mean edges
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();      // bounding box [m]
+  double edge_min = 0, edge_mean = 0, edge_max = 0;  // [m]
+};
 MeshStatistics mesh_statistics(const Mesh& mesh);
+
+Box bounding_box(const Mesh& mesh);
 
 // Every broken invariant, one sentence each, empty if the mesh is sound: corner numbers in range,
 // no repeated corner, positive volume, finite positions, no unreferenced node, no facet of three
