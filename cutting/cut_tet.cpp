@@ -139,6 +139,14 @@ void TetCutter::prepare(const Mesh& mesh) {
   update_index(f.tets.mesh, f.index);
 }
 
+bool TetCutter::meets(const Mesh& mesh, PresentPositions& positions, const BladeSweep& sweep) {
+  prepare(mesh);
+  Front& f = *front_;
+  CutStroke passing;
+  add_hits(f.tets.mesh.X.empty() ? mesh : f.tets.mesh, f.index, positions, sweep, passing);
+  return !passing.hit.empty();
+}
+
 MeshEdit TetCutter::advance(const Mesh& mesh, PresentPositions& positions,
                             std::span<const std::uint8_t> is_held, const BladeSweep& sweep,
                             bool is_last, CutFigures& figures) {

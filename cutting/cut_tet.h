@@ -52,6 +52,9 @@ class TetCutter {
                    std::span<const std::uint8_t> is_held, const BladeSweep& sweep, bool is_last,
                    CutFigures& figures);
 
+  // Whether the swept band crosses an edge of the mesh, which no stroke takes up.
+  bool meets(const Mesh& mesh, PresentPositions& positions, const BladeSweep& sweep);
+
   // A new stroke: forgets the front (faces that are open stay open).
   void start_stroke();
 

@@ -20,6 +20,7 @@ namespace {
 
 constexpr int idle_frames_to_leave =
     3;  // a blade that touches nothing for so long has left the tissue
+constexpr double tip_spacing = 0.25;  // of a plane blade's way, mean edge lengths
 constexpr double plane_advance =
     3.0;  // mean edge lengths of the path that the paper's algorithm takes at a time
 
@@ -41,6 +42,28 @@ void locate_edge(const Simulation& s, BodyPositions& positions, std::span<const 
     if (location.element >= 0) stage.engaged.push_back(location);
   const double spacing = n > 1 ? (edge[1] - edge[0]).norm() : s.scene.tissue.thickness;
   stage.engaged_length = spacing * static_cast<double>(stage.engaged.size());
+}
+
+// The tip of a plane blade, at its way's end and before.
+std::vector<Vec3> way_of_tip(const BladeSweep& sweep, double spacing) {
+  constexpr double most = 1000;
+  const Vec3 way = sweep.after.front() - sweep.before.front();
+  const int n = static_cast<int>(std::ceil(std::clamp(way.norm() / spacing, 1.0, most)));
+  std::vector<Vec3> points;
+  for (int k = 0; k <= n; ++k) points.push_back(sweep.after.front() - way * (1.0 * k / n));
+  return points;
+}
+
+// Whether the blade has met the tissue within the frame: beside where its edge is looked for, and
+// between the frame's begin and its end, too.
+bool has_met(const Simulation& s, BodyPositions& positions, const BladeSweep& sweep,
+             CutStage& stage) {
+  if (!stage.engaged.empty()) return true;
+  if (s.mesh.dimension() == 3) return stage.tet.meets(s.mesh, positions, sweep);
+  const std::vector<Vec3> points = way_of_tip(sweep, tip_spacing * s.edge_length);
+  const std::vector<std::int32_t> near = positions.elements_around(box_around(points));
+  return std::ranges::any_of(locate_points(s.mesh, positions.x(), points, near),
+                             [](const Location& location) { return location.element >= 0; });
 }
 
 void start_stroke(CutStage& stage, const Tool& tool, double time, std::int32_t dimension) {
@@ -173,8 +196,9 @@ Vec3 way_of_middle(const BladeSweep& sweep) {
 }
 
 // True if this is the edge's last frame in the tissue.
-bool leaves_tissue(const Tool& tool, const FrameSpan& span, bool is_near, CutStage& stage) {
-  stage.n_idle_frames = stage.engaged.empty() ? stage.n_idle_frames + 1 : 0;
+bool leaves_tissue(const Tool& tool, const FrameSpan& span, bool is_near, bool is_idle,
+                   CutStage& stage) {
+  stage.n_idle_frames = is_idle ? stage.n_idle_frames + 1 : 0;
   return !is_near || stage.n_idle_frames >= idle_frames_to_leave ||
          !is_cutting(tool, span.t1, span.t1 + (span.t1 - span.t0));
 }
@@ -203,13 +227,14 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
   const double start = monotonic_seconds();
   if (!positions) positions.emplace(s);
   locate_edge(s, *positions, sweep.after, stage);
+  const bool is_idle = !has_met(s, *positions, sweep, stage);
   if (!stage.is_in_stroke) {
-    if (stage.engaged.empty()) return;
+    if (is_idle) return;
     s.stable_step_before_cut = s.watch.stable_step;
     start_stroke(stage, tool, span.t1, s.mesh.dimension());
   }
   stage.strokes.back().end = span.t1;
-  const bool is_last = leaves_tissue(tool, span, is_near, stage);
+  const bool is_last = leaves_tissue(tool, span, is_near, is_idle, stage);
   const std::int64_t n_edits = stage.strokes.back().n_edits;
   if (s.mesh.dimension() == 2)
     cut_along_tip(s, stage, span, is_last);

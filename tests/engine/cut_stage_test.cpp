@@ -48,5 +48,72 @@ TEST(CutStage, sharp_bend_takes_no_edges_from_its_legs) {
   check(14, 18, 26);
 }
 
+// What is left of the strokes of a scalpel with a blade of 30 mm that goes from one place to the
+// other [m] from 0.1 s on; `tissue` is held at a region.
+struct Cut {
+  std::int32_t n_pieces = 0;
+  std::int64_t n_opened = 0, n_refused = 0;
+};
+Cut cut_along(const std::string& tissue, const std::string& from, const std::string& to,
+              double seconds, const std::string& direction, const std::string& held = "z-") {
+  const auto key = [&](double time, const std::string& position) {
+    return "{ time = " + std::to_string(time) + ", position = [" + position +
+           "], direction = " + direction + ", forward = [1, 0, 0] },\n";
+  };
+  const auto started =
+      built("[time]\nduration = 1\nframe_rate = 30\n" + tissue +
+            "[tissue.material]\nyoung_modulus = 5000\n[solver]\nmass_damping = 15\n[[support]]\n"
+            "region = \"" +
+            held + "\"\n[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.03\npath = [\n" +
+            key(0.1, from) + key(0.1 + seconds, to) + "]\n");
+  Simulation& s = *started->s;
+  for (int frame = 0; frame < 18; ++frame) run_frame(s, started->outputs);
+  Cut cut{.n_pieces = s.n_pieces};
+  for (const CutRecord& stroke : s.cuts[0].strokes) {
+    cut.n_opened += stroke.n_opened_facets;
+    cut.n_refused += stroke.n_refused;
+  }
+  return cut;
+}
+
+std::string box_text(const std::string& low, const std::string& high, const std::string& cells) {
+  return "[tissue.shape]\nkind = \"box\"\nelements = \"tet4-kuhn\"\nlow = [" + low + "]\nhigh = [" +
+         high + "]\ncells = [" + cells + "]\n";
+}
+
+// 60 mm in so many seconds, from 0.2 to 1.2 m/s: a column of 8 mm is left behind within a frame.
+TEST(CutStage, cuts_what_the_blade_passes_between_two_frames) {
+  const std::string column = box_text("-0.004, -0.004, 0", "0.004, 0.004, 0.04", "3, 3, 15");
+  for (const double seconds : {0.3, 0.21, 0.12, 0.07, 0.05}) {
+    const Cut cut =
+        cut_along(column, "-0.03, -0.015, 0.02", "0.03, -0.015, 0.021", seconds, "[0, -1, 0]");
+    EXPECT_EQ(cut.n_pieces, 2) << seconds;
+    EXPECT_EQ(cut.n_refused, 0) << seconds;
+  }
+  // Where the blade's tip passes through the tissue the cut ends there, as meant.
+  const std::string sheet = box_text("-0.002, -0.02, 0", "0.002, 0.02, 0.04", "2, 20, 20");
+  const Cut notch = cut_along(sheet, "-0.03, 0, 0.02", "0.03, 0, 0.02", 0.05, "[0, 0, -1]");
+  EXPECT_EQ(notch.n_pieces, 1);
+  EXPECT_GT(notch.n_opened, 20);
+  EXPECT_EQ(notch.n_refused, 0);
+}
+
+TEST(CutStage, cuts_a_membrane_between_the_points_of_the_edge) {
+  const std::string membrane = box_text("-0.03, -0.01, 0", "0.03, 0.01, 0.0003", "30, 10, 1");
+  for (const double tip : {-0.0116, -0.0108}) {
+    const std::string y_z = ", 0, " + std::to_string(tip);
+    const Cut cut = cut_along(membrane, "-0.035" + y_z, "0.035" + y_z, 0.3, "[0, 0, -1]");
+    EXPECT_EQ(cut.n_pieces, 2) << tip;
+  }
+}
+
+TEST(CutStage, cuts_a_plate_that_its_tip_passes_between_two_frames) {
+  const std::string plate =
+      "[tissue]\nthickness = 0.005\n[tissue.shape]\nkind = \"rectangle\"\nhigh = [0.03, 0.02, 0]\n"
+      "cells = [12, 8, 1]\n";
+  const Cut cut = cut_along(plate, "0.014, -0.02, 0", "0.016, 0.04, 0", 0.03, "[0, 0, -1]", "x-");
+  EXPECT_EQ(cut.n_pieces, 2);
+}
+
 }  // namespace
 }  // namespace trocar
