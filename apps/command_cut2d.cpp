@@ -49,7 +49,7 @@ void draw_trial(const Cut2dCommand& command, const std::string& stem, const Cut2
              mesh_svg(trial.after, {}, "After the cut, mode " + command.mode));
 }
 
-void print_trial(const Cut2dTrial& trial) {
+void print_trial(const Cut2dTrial& trial, Cut2dMode mode) {
   std::printf(
       "%s\n%d edges opened, %d nodes and %d elements new, %d nodes moved, %d parts of the path "
       "refused\n"
@@ -57,8 +57,8 @@ void print_trial(const Cut2dTrial& trial) {
       "%.3g "
       "mm\n",
       rows_text({{0, "I", "before", trial.statistics_before, 0, 0, ""},
-                 {0, "NR", "after", trial.statistics_after, trial.best_seconds,
-                  trial.median_seconds, ""}})
+                 {0, mode == Cut2dMode::subdivision ? "OR" : "NR", "after", trial.statistics_after,
+                  trial.best_seconds, trial.median_seconds, ""}})
           .c_str(),
       trial.n_opened_edges, trial.n_new_nodes, trial.n_new_elements, trial.n_moved, trial.n_refused,
       trial.step_ratio, trial.altitude_ratio, 1e3 * trial.largest_deviation);
@@ -91,7 +91,7 @@ ExitCode cut_one(const Cut2dCommand& command) {
   if (command.is_json)
     std::fputs(trial_json(trial, command.mode).c_str(), stdout);
   else
-    print_trial(trial);
+    print_trial(trial, mode_of(command.mode));
   return ExitCode::done;
 }
 

@@ -70,9 +70,9 @@ void print_surface(const std::string& file, double scale) {
   }
   std::printf(
       "%s: a surface, for instruments\n  vertices   %zu\n  triangles  %zu\n  box        %.4g x "
-      "%.4g x %.4g m\n",
+      "%.4g x %.4g m, from (%.4g, %.4g, %.4g) m\n",
       file.c_str(), mesh.X.size(), mesh.triangle.size(), high.x() - low.x(), high.y() - low.y(),
-      high.z() - low.z());
+      high.z() - low.z(), low.x(), low.y(), low.z());
 }
 
 constexpr double sliver_quality = 0.02;
@@ -91,8 +91,9 @@ void print_mesh(const std::string& file, const Mesh& mesh) {
         "  NOT JOINED        %d nodes lie where nodes of other pieces do: the pieces come "
         "apart unless the mesher merges these nodes\n",
         m.n_unjoined);
-  std::printf("  box               %.4g x %.4g x %.4g m\n  volume            %.5g %s\n", size.x(),
-              size.y(), size.z(), m.volume, mesh.dimension() == 2 ? "m^2" : "m^3");
+  std::printf("  box               %.4g x %.4g x %.4g m, from (%.4g, %.4g, %.4g) m\n", size.x(),
+              size.y(), size.z(), m.low.x(), m.low.y(), m.low.z());
+  std::printf("  volume            %.5g %s\n", m.volume, mesh.dimension() == 2 ? "m^2" : "m^3");
   std::printf("  edges             %.3g … %.3g m, mean %.3g m\n", m.edge_min, m.edge_max,
               m.edge_mean);
   std::printf("  quality           least %.3f (element %d), mean %.3f (mean ratio, 1 is ideal)\n",

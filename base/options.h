@@ -104,6 +104,8 @@ std::size_t read_choice(const OptionNode&, const std::vector<std::string>& names
 // TOML texts of values. A number reads back to the same bits; one that is not finite has the text
 // "".
 std::string number_text(double value);
+// Three digits, for sentences.
+std::string short_text(double value);
 std::string numbers_text(std::span<const double> values);
 std::string integers_text(std::span<const int> values);
 std::string quoted_text(const std::string& value);

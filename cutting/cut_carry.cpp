@@ -14,8 +14,6 @@ static constexpr double tolerance = 1e-9;
 // A point outside goes with the element beside it up to this far (barycentric, heights):
 // tissue that runs from the blade and comes back must not pass it uncut.
 static constexpr double reach = 3.0;
-// Between places where an end of the edge is looked for on its way, mean edges.
-static constexpr double end_spacing = 0.25;
 
 static std::array<double, 4> barycentric(const Mesh& mesh, std::int32_t e, std::span<const Vec3> X,
                                          const Vec3& point) {
@@ -64,13 +62,18 @@ static std::vector<Place> find_places(const Mesh& mesh, std::span<const Vec3> x,
   return places;
 }
 
-// Points of the ways of the edge's ends, also between the begin of the sweep and its end.
-static std::vector<Vec3> ways_of_ends(const BladeSweep& sweep, double spacing) {
-  constexpr double most = 1000;
+// Points a little beyond the edge's ends, all along their ways from the begin of the sweep to its
+// end: tissue there stays joined. An end that goes along the surface leaves none.
+static std::vector<Vec3> beyond_ends(const BladeSweep& sweep, double h) {
+  constexpr double spacing = 0.25, beyond = 0.05, most = 1000;  // over h; points
   std::vector<Vec3> points;
-  for (const std::size_t end : {std::size_t{0}, sweep.after.size() - 1}) {
-    const Vec3 from = sweep.before[end], way = sweep.after[end] - from;
-    const int n = spacing > 0 ? static_cast<int>(std::min(way.norm() / spacing, most)) + 1 : 1;
+  const std::size_t last = sweep.after.size() - 1;
+  for (const auto& [end, inner] : {std::pair{std::size_t{0}, std::size_t{1}}, {last, last - 1}}) {
+    const auto past = [&](const std::vector<Vec3>& edge) -> Vec3 {
+      return edge[end] + beyond * h * (edge[end] - edge[inner]).normalized();
+    };
+    const Vec3 from = past(sweep.before), way = past(sweep.after) - from;
+    const int n = h > 0 ? static_cast<int>(std::min(way.norm() / (spacing * h), most)) + 1 : 1;
     for (int k = 1; k <= n; ++k) points.push_back(from + way * (1.0 * k / n));
   }
   return points;
@@ -108,10 +111,10 @@ void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& 
       try_element(mesh, x, stroke.edge[k].element, places[k]);
   stroke.edge.clear();
   for (const Place& place : places) stroke.edge.push_back(place.point);
+  if (is_inside(places.front()) || is_inside(places.back())) stroke.ends_in_tissue = true;
   if (!stroke.ends_in_tissue)
     stroke.ends_in_tissue = std::ranges::any_of(
-        find_places(mesh, x, near, ways_of_ends(sweep, end_spacing * stroke.mean_edge), margin),
-        is_inside);
+        find_places(mesh, x, near, beyond_ends(sweep, stroke.mean_edge), margin), is_inside);
   stroke.at_edge.clear();
   const std::vector<Vec3> points = refined(sweep.after);
   for (const std::int32_t e : near)

@@ -136,13 +136,14 @@ void rename_films(const Simulation& s, Outputs& outputs) {
   }
 }
 
-void open_writers(const Simulation& s, const Checkpoint* resumed, Outputs& outputs) {
+void open_writers(const Simulation& s, const std::string& echo, const Checkpoint* resumed,
+                  Outputs& outputs) {
   make_output_folder(outputs.folder);
   if (resumed)
     rename_films(s, outputs);
   else
     remove_checkpoint(outputs.folder);  // it would not belong to the files that are written now
-  std::ofstream(outputs.folder + "/scene.toml") << echo_options(scene_options(), &s.scene);
+  if (!echo.empty()) std::ofstream(outputs.folder + "/scene.toml") << echo;
   for (const OutputSlot& slot : outputs.slots) {
     std::filesystem::create_directories(std::filesystem::path(slot.file).parent_path());
     outputs.metrics.push_back(slot.kind == OutputKind::metrics ? open_metrics(s, slot, resumed)
@@ -210,7 +211,8 @@ void make_output_folder(const std::string& folder) {
   std::filesystem::remove(probe, trouble);
 }
 
-Outputs open_outputs(Simulation& s, const std::string& folder, const Checkpoint* resumed) {
+Outputs open_outputs(Simulation& s, const std::string& folder, const std::string& echo,
+                     const Checkpoint* resumed) {
   Outputs outputs;
   outputs.folder = folder;
   for (const SceneOutput& output : s.scene.outputs)
@@ -221,7 +223,7 @@ Outputs open_outputs(Simulation& s, const std::string& folder, const Checkpoint*
   std::string error, wrong_input;
   if (s.communicator->is_root()) {
     try {
-      open_writers(s, resumed, outputs);
+      open_writers(s, echo, resumed, outputs);
     } catch (const InputError& trouble) {
       wrong_input = trouble.what();
     } catch (const std::exception& trouble) {

@@ -42,11 +42,13 @@ struct Outputs {
 
 // Throws MachineError if nothing can be written there.
 void make_output_folder(const std::string& folder);
-// Makes the folder and opens all files. Collective; throws MachineError on every rank if the folder
-// can't be written. resumed: where the run goes on, null at time zero: recordings and metrics are
-// cut off there and go on, films and contact sheets get files of their own. Throws InputError on
-// every rank if a recording is not what the checkpoint says.
-Outputs open_outputs(Simulation& s, const std::string& folder, const Checkpoint* resumed);
+// Makes the folder, puts the scene's `echo` there if there is one and opens all files. Collective;
+// throws MachineError on every rank if the folder can't be written. resumed: where the run goes on,
+// null at time zero: recordings and metrics are cut off there and go on, films and contact sheets
+// get files of their own. Throws InputError on every rank if a recording is not what the checkpoint
+// says.
+Outputs open_outputs(Simulation& s, const std::string& folder, const std::string& echo,
+                     const Checkpoint* resumed);
 // Collective.
 void write_outputs(Simulation& s, Outputs& outputs, const FrameRow& row);
 // Waits for encoders and closes files. Throws MachineError on rank 0.

@@ -17,6 +17,7 @@
 #include "engine/film_studio.h"
 #include "engine/frame.h"
 #include "engine/frame_report.h"
+#include "engine/output_check.h"
 #include "engine/resume.h"
 #include "engine/summary.h"
 #include "engine/tissue.h"
@@ -127,10 +128,27 @@ LoadedScene share_scene(const std::string& file, const std::vector<std::string>&
   return mine;
 }
 
+// Throws on every rank what the root finds wrong.
+static void check_outputs(const RunOptions& options, const LoadedScene& loaded,
+                          const Communicator& communicator) {
+  std::string wrong;
+  if (communicator.is_root()) {
+    try {
+      check_inputs_stay(loaded, options.scene_file, options.folder);
+      if (!options.resume) warn_of_outputs(loaded.scene, options.folder);
+    } catch (const InputError& trouble) {
+      wrong = trouble.what();
+    }
+  }
+  wrong = communicator.first_text(wrong);
+  if (!wrong.empty()) throw InputError(wrong);
+}
+
 bool run_scene(const RunOptions& options, Communicator& communicator) {
   const double start = monotonic_seconds();
   listen_to_signals();
   const LoadedScene loaded = share_scene(options.scene_file, options.overrides, communicator);
+  check_outputs(options, loaded, communicator);
   std::optional<Checkpoint> checkpoint;
   if (options.resume) checkpoint = load_checkpoint(options.folder, loaded, communicator);
   const auto simulation = build(loaded, communicator);
@@ -139,7 +157,9 @@ bool run_scene(const RunOptions& options, Communicator& communicator) {
     restore_checkpoint(*checkpoint, *simulation);
   else
     trouble = prepare_start(loaded, *simulation);
-  Outputs outputs = open_outputs(*simulation, options.folder, checkpoint ? &*checkpoint : nullptr);
+  Outputs outputs =
+      open_outputs(*simulation, options.folder, echo_in(options.folder, loaded, options.scene_file),
+                   checkpoint ? &*checkpoint : nullptr);
   RunTimes times{.setup_seconds = monotonic_seconds() - start};
 
   const bool has_begun = trouble.empty();

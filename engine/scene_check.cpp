@@ -64,6 +64,11 @@ void check_supports(const Scene& scene, const SourceMap& where) {
                  "found \"" + support.fix + "\", allowed: some of \"x\", \"y\", \"z\", each once");
     if (!support.path.empty() && letters.size() != 3)
       where.fail(item("support", k) + ".path", "a moving support needs fix = \"xyz\"");
+    if (!support.path.empty() && support.path.front().displacement != Vec3::Zero() &&
+        scene.start.state != StartState::equilibrium)
+      where.fail(item("support", k) + "." + item("path", 0) + ".displacement",
+                 "a support begins where the body is, and this one would jump: the first "
+                 "displacement must be 0, a later one moves it");
     for (std::size_t j = 1; j < support.path.size(); ++j)
       if (!(support.path[j - 1].time < support.path[j].time))
         where.fail(item("support", k) + "." + item("path", j), "the times of a path must ascend");

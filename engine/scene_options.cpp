@@ -236,7 +236,7 @@ Options<SceneInstrument> instrument_options() {
   key.vector("position", &InstrumentKey::position, dim::length, any, "Of the tip.", Need::required);
   key.vector("direction", &InstrumentKey::direction, dim::none, any, "From handle to tip.");
   key.vector("forward", &InstrumentKey::forward, dim::none, any,
-             "Where the cutting edge faces; jaws open across it.");
+             "Where the cutting edge faces; jaws open along it and against it.");
   key.choice(
       "action", &InstrumentKey::action,
       {{"none", GraspAction::none}, {"close", GraspAction::close}, {"open", GraspAction::open}},
@@ -252,12 +252,13 @@ Options<SceneInstrument> instrument_options() {
   i.number("radius", &SceneInstrument::radius, dim::length, positive, "Of the tip and shaft.");
   i.number("length", &SceneInstrument::length, dim::length, positive, "Of the shaft.");
   i.number("blade_length", &SceneInstrument::blade_length, dim::length, positive,
-           "Of a scalpel's straight edge, from the tip up; of scissors, from tip to pivot.");
+           "Of a scalpel's straight edge, from the tip up; of scissors, from tip to pivot: open, "
+           "each stands 0.3 rad off the shaft, and what lies beside them is not cut.");
   i.number("grip_radius", &SceneInstrument::grip_radius, dim::length, positive,
            "A closing grasper holds the nodes within.");
   i.text("mesh", &SceneInstrument::mesh,
          "Surface (.stl, .obj) of the tip instead of the built-in shape; its origin is the tip, "
-         "its +z the shaft.");
+         "its +z the shaft. Tissue feels its convex hull.");
   i.number("scale", &SceneInstrument::scale, dim::length, positive,
            "Length of one unit of that file.");
   i.list("path", &SceneInstrument::path, key, "Key positions.", Need::required);

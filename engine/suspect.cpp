@@ -1,12 +1,12 @@
 #include "engine/suspect.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "base/options.h"
 #include "collision/narrow_phase.h"
 
 namespace trocar {
@@ -14,12 +14,6 @@ namespace trocar {
 namespace {
 
 constexpr double near_edges = 2;  // beyond the way within the frame
-
-std::string short_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 // Nodes of the element, or the node, that is to blame.
 std::vector<std::int32_t> failed_nodes(const Mesh& mesh, const Watch& failed) {

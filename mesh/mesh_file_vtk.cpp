@@ -124,7 +124,7 @@ void read_cells(LegacyReader& r) {
   const std::int64_t size = r.in.integer("the size of CELLS");
   if (!r.has_offset_layout) {
     const std::size_t n_cells = r.in.check_count(n, r.is_binary ? 4 : 2, "cells");
-    split_cells(r, n_cells, read_integers(r, size, VtkNumber{}, "the cells"));
+    split_cells(r, n_cells, read_integers(r, size, VtkNumber{}, "numbers of the cells"));
     return;
   }
   expect_keyword(r.in, "OFFSETS");

@@ -83,7 +83,7 @@ high = ["1 cm", "2 cm", "3 cm"]
 [[support]]
 region = "r"
 fix = "xyz"
-path = [ { time = "100 ms", displacement = ["1 mm", 0, 0] } ]
+path = [ { time = "100 ms", displacement = [0, 0, 0] }, { time = "200 ms", displacement = ["1 mm", 0, 0] } ]
 [[instrument]]
 kind = "grasper"
 name = "g"
@@ -160,7 +160,7 @@ TEST(SceneOptions, every_key_of_the_operation_reaches_its_member_in_si) {
   EXPECT_LT((s.regions[0].high - Vec3(0.01, 0.02, 0.03)).norm(), 1e-17);
   EXPECT_EQ(s.supports.at(0).region, "r");
   EXPECT_DOUBLE_EQ(s.supports[0].path.at(0).time, 0.1);
-  EXPECT_DOUBLE_EQ(s.supports[0].path[0].displacement.x(), 1e-3);
+  EXPECT_DOUBLE_EQ(s.supports[0].path[1].displacement.x(), 1e-3);
   const SceneInstrument& i = s.instruments.at(0);
   EXPECT_EQ(i.kind, InstrumentKind::grasper);
   EXPECT_EQ(i.name, "g");

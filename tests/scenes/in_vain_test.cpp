@@ -118,18 +118,55 @@ TEST(InVain, parts_that_the_mesher_did_not_join_are_warned_of) {
 }
 
 TEST(InVain, pictures_without_tissue_are_warned_of) {
-  const std::string folder = test_folder("empty-pictures");
-  const auto err_with = [&](const std::string& camera) {
-    return told(
-               camera + "[[output]]\nkind = \"frames\"\nfile = \"f\"\nevery = 1\nsize = [64, 48]\n",
-               folder)
+  const auto err_with = [&](const std::string& name, const std::string& camera) {
+    return told(camera +
+                    "[[output]]\nkind = \"frames\"\nfile = \"f\"\nevery = 0.02\nsize = [64, 48]\n",
+                test_folder(name))
         .run.err;
   };
   EXPECT_TRUE(
-      has(err_with("[[camera]]\nname = \"roof\"\neye = [0, 0, 300]\ntarget = [0, 10, 300]\n"),
+      has(err_with("empty-pictures",
+                   "[[camera]]\nname = \"roof\"\neye = [0, 0, 300]\ntarget = [0, 10, 300]\n"),
           "camera \"roof\" looks from (0, 0, 300) to (0, 10, 300) m and sees nothing of the "
           "tissue, which is around (0.01, 0.01, 0.01) m at the start"));
-  EXPECT_EQ(err_with("[[camera]]\neye = [0, -0.1, 0.1]\ntarget = [0, 0, 0]\n"), "");
+  EXPECT_EQ(err_with("pictures", "[[camera]]\neye = [0, -0.1, 0.1]\ntarget = [0, 0, 0]\n"), "");
+}
+
+TEST(InVain, intervals_and_files_of_an_earlier_run_are_told) {
+  const std::string folder = test_folder("intervals");
+  const std::string metrics = "[[output]]\nkind = \"metrics\"\nfile = \"m.csv\"\nevery = ";
+  EXPECT_EQ(told(metrics + "0.02\n", folder).run.err, "");
+  const std::string again = told(metrics + "0.03\n", folder).run.err;
+  EXPECT_TRUE(has(again,
+                  "output[0].every = 0.03 s is no whole number of frames of 50 Hz: it is "
+                  "taken as 0.04 s"))
+      << again;
+  EXPECT_TRUE(has(again, "has files of an earlier run")) << again;
+  EXPECT_TRUE(
+      has(told(metrics + "2\n", folder).run.err,
+          "output[0].every = 2 s is longer than the run: nothing is written into \"m.csv\""));
+}
+
+TEST(InVain, no_run_writes_over_what_it_reads) {
+  const std::string folder = test_folder("inputs-stay");
+  const std::string scene = folder + "/scene.toml",
+                    more = "[[output]]\nkind = \"metrics\"\nfile = ";
+  told("# mine\n", folder);
+  std::ifstream stream(scene);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_TRUE(has(text, "# mine"));
+  write_mesh(make_box(Vec3(0, 0, 0), Vec3(0.02, 0.02, 0.02), {2, 2, 2}, BoxElements::tet4_kuhn),
+             folder + "/organ.msh");
+  const std::string other = folder + "/other.toml";
+  std::ofstream(other) << "[time]\nduration = 0.1\n[tissue]\nmesh = \"organ.msh\"\n"
+                       << more << "\"organ.msh\"\n";
+  const Finished run = run_trocar({"run", other, "-q", "-o", folder}, folder);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_TRUE(has(run.err, "organ.msh, which it reads: choose another folder")) << run.err;
+  // Elsewhere the scene as it was run can be run again.
+  const std::string out = folder + "/out";
+  EXPECT_EQ(run_trocar({"run", other, "-q", "-o", out}, folder).exit_code, 0);
+  EXPECT_EQ(run_trocar({"check", out + "/scene.toml"}, folder).exit_code, 0);
 }
 
 }  // namespace
