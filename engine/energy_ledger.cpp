@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/options.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "engine/simulation.h"
@@ -15,7 +16,7 @@ namespace {
 
 // Numerics 1.2: 5 to 10 %. Of a stiffness that is made up; that of enhanced hexahedra is the
 // material's.
-constexpr double hourglass_alarm = 0.05;
+constexpr double hourglass_alarm = 0.05, balance_alarm = 0.05;
 
 double sum_over_ranks(std::span<const double> terms, const Communicator& communicator) {
   ExactSum sum;
@@ -177,6 +178,38 @@ void report_energies(Simulation& s, FrameRow& row) {
                    "finer one helps, or hexahedra whose hourglass energy is the material's "
                    "(solver.hexahedron = \"enhanced\")");
   ledger.memory.largest_hourglass_share = std::max(ledger.memory.largest_hourglass_share, share);
+}
+
+BalanceError balance_error(std::span<const FrameRow> rows) {
+  BalanceError error;
+  double turned_over = 0, before = 0, largest_jump = 0;
+  for (const FrameRow& row : rows) {
+    error.largest = std::max(error.largest, std::abs(row.energy_error));
+    if (const double jump = std::abs(row.energy_error - before); jump > largest_jump) {
+      largest_jump = jump;
+      error.time = row.time;
+    }
+    before = row.energy_error;
+    const EnergyState& e = row.energy;
+    turned_over = std::max({turned_over, e.kinetic, e.strain, std::abs(e.gravity),
+                            std::abs(row.works.contact), std::abs(row.works.holds),
+                            std::abs(row.works.blade), std::abs(row.works.loads)});
+  }
+  error.share = turned_over > 0 ? error.largest / turned_over : 0;
+  return error;
+}
+
+void note_balance(Simulation& s) {
+  if (!s.energy) return;
+  const BalanceError error = balance_error(s.log.rows);
+  if (error.share <= balance_alarm) return;
+  note_event(s, s.state.time,
+             "the energies do not add up: " + short_text(100 * error.share) +
+                 " % of what was turned over is missing or too much, most of it since " +
+                 short_text(error.time) +
+                 " s. An instrument that goes through the surface does this (a slower path, a "
+                 "larger tip or a finer mesh helps), and so do steps near the limit "
+                 "(solver.step_factor)");
 }
 
 }  // namespace trocar

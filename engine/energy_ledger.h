@@ -9,6 +9,7 @@
 // forces there; strain energy is that of the laws without relaxation.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "base/exact_sum.h"
@@ -57,6 +58,15 @@ void note_velocities(Simulation& s, double dt);
 void add_work(Simulation& s);
 // Adds the frame's work of all ranks to the ledger. Collective.
 void close_frame_work(Simulation& s);
+// What the balance of energies leaves, and where it jumps most from one frame to the next.
+struct BalanceError {
+  double largest = 0, share = 0;  // [J]; of the largest energy turned over
+  double time = 0;                // [s]
+};
+BalanceError balance_error(std::span<const FrameRow> rows);
+// Tells at the end of a run if that is more than 5 %.
+void note_balance(Simulation& s);
+
 // The ledger of the frame into its row; warns once when hourglass energy is above 5 % of what is
 // stored. Collective.
 void report_energies(Simulation& s, FrameRow& row);

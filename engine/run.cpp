@@ -13,6 +13,7 @@
 #include "engine/build.h"
 #include "engine/bytes.h"
 #include "engine/checkpoint_output.h"
+#include "engine/energy_ledger.h"
 #include "engine/equilibrium.h"
 #include "engine/film_studio.h"
 #include "engine/frame.h"
@@ -164,7 +165,10 @@ bool run_scene(const RunOptions& options, Communicator& communicator) {
 
   const bool has_begun = trouble.empty();
   if (has_begun) trouble = run_frames(*simulation, outputs);
-  if (trouble.empty()) note_idle_tools(*simulation);
+  if (trouble.empty()) {
+    note_idle_tools(*simulation);
+    note_balance(*simulation);
+  }
   times.loop_seconds = monotonic_seconds() - start - times.setup_seconds;
   const bool is_stopped_by_signal = trouble == stopped_by_signal;
   finish_outputs(outputs);

@@ -155,14 +155,7 @@ Json equilibrium_json(const Equilibrium& e) {
 
 // What the body holds at the end, the works since the start, and how well the balance closes.
 Json energies_json(const Simulation& s, const FrameRow& last) {
-  double error = 0, turned_over = 0;
-  for (const FrameRow& row : s.log.rows) {
-    error = std::max(error, std::abs(row.energy_error));
-    const EnergyState& e = row.energy;
-    turned_over = std::max({turned_over, e.kinetic, e.strain, std::abs(e.gravity),
-                            std::abs(row.works.contact), std::abs(row.works.holds),
-                            std::abs(row.works.blade), std::abs(row.works.loads)});
-  }
+  const BalanceError error = balance_error(s.log.rows);
   const EnergyState& e = last.energy;
   const EnergyWorks& w = last.works;
   return {{"kinetic", e.kinetic},
@@ -176,8 +169,8 @@ Json energies_json(const Simulation& s, const FrameRow& last) {
           {"damping_work", w.damping},
           {"viscous_work", w.viscous},
           {"cut", w.cut},
-          {"largest_balance_error", error},
-          {"largest_balance_error_share", turned_over > 0 ? error / turned_over : 0},
+          {"largest_balance_error", error.largest},
+          {"largest_balance_error_share", error.share},
           {"largest_hourglass_share", s.energy->memory.largest_hourglass_share}};
 }
 

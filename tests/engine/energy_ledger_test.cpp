@@ -121,5 +121,34 @@ TEST(EnergyLedger, closes_with_viscosity) {
   EXPECT_LT(balance_error({box + "\"hex8\"\n", "", "precision = \"single\"\n"}, 0.2), 1e-3);
 }
 
+TEST(EnergyLedger, tells_when_and_how_much_the_balance_misses) {
+  std::vector<FrameRow> rows(3);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    rows[k].time = 0.1 * static_cast<double>(k + 1);
+    rows[k].energy.strain = 2.0 * static_cast<double>(k + 1);
+    rows[k].works.contact = -8;
+  }
+  rows[0].energy_error = 0.1;
+  rows[1].energy_error = -0.9;
+  rows[2].energy_error = -1.2;
+  const BalanceError error = trocar::balance_error(rows);
+  EXPECT_EQ(error.largest, 1.2);
+  EXPECT_DOUBLE_EQ(error.share, 1.2 / 8);
+  EXPECT_DOUBLE_EQ(error.time, 0.2);
+
+  const auto started = built("[time]\nduration = 1\n" + sheet + "[[support]]\nregion = \"x-\"\n");
+  Simulation& s = *started->s;
+  open_energy_ledger(s);
+  s.log.rows = rows;
+  note_balance(s);
+  ASSERT_EQ(s.log.events.size(), 1U);
+  EXPECT_NE(s.log.events[0].find("15 % of what was turned over"), std::string::npos);
+  EXPECT_NE(s.log.events[0].find("since 0.2 s"), std::string::npos);
+  s.log.rows.pop_back();  // 0.9 of 8 J
+  s.log.rows[1].energy_error = 0.3;
+  note_balance(s);
+  EXPECT_EQ(s.log.events.size(), 1U);
+}
+
 }  // namespace
 }  // namespace trocar
