@@ -103,10 +103,24 @@ void report_stop(const Simulation& s, bool has_begun) {
                 ": --resume goes on from there");
 }
 
-void write_summary(const std::string& text, const std::string& file) {
+// The sentence of what can't be written any more on this rank, "" if all is: the summary still has
+// what the run found.
+std::string trouble_in_closing(Outputs& outputs) {
+  try {
+    finish_outputs(outputs);
+  } catch (const MachineError& trouble) {
+    return trouble.what();
+  }
+  return "";
+}
+
+// unfinished: what could not be written before.
+void write_summary(const std::string& text, const std::string& file,
+                   const std::string& unfinished) {
   std::ofstream stream(file);
-  if (!(stream << text).flush())
-    throw MachineError(file + ": can't be written (disk full or no permission)");
+  if ((stream << text).flush()) return;
+  throw MachineError((unfinished.empty() ? "" : unfinished + "; ") + file +
+                     ": can't be written (disk full or no permission)");
 }
 
 }  // namespace
@@ -171,11 +185,13 @@ bool run_scene(const RunOptions& options, Communicator& communicator) {
   }
   times.loop_seconds = monotonic_seconds() - start - times.setup_seconds;
   const bool is_stopped_by_signal = trouble == stopped_by_signal;
-  finish_outputs(outputs);
+  const std::string unfinished = trouble_in_closing(outputs);
   times.finish_seconds = monotonic_seconds() - start - times.setup_seconds - times.loop_seconds;
   if (outputs.studio) times.drawing_seconds = outputs.studio->seconds();
-  const std::string summary = make_summary(*simulation, times, trouble);
-  if (communicator.is_root()) write_summary(summary, options.folder + "/summary.json");
+  const std::string summary =
+      make_summary(*simulation, times, trouble.empty() ? unfinished : trouble);
+  if (communicator.is_root()) write_summary(summary, options.folder + "/summary.json", unfinished);
+  if (!unfinished.empty()) throw MachineError(unfinished);
   if (is_stopped_by_signal) report_stop(*simulation, has_begun);
   if (!trouble.empty() && !is_stopped_by_signal) throw SimulationError(trouble);
   return !is_stopped_by_signal;

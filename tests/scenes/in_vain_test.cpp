@@ -2,6 +2,7 @@
 // graspers and blades that meet no tissue.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "mesh/generate.h"
@@ -167,6 +168,20 @@ TEST(InVain, no_run_writes_over_what_it_reads) {
   const std::string out = folder + "/out";
   EXPECT_EQ(run_trocar({"run", other, "-q", "-o", out}, folder).exit_code, 0);
   EXPECT_EQ(run_trocar({"check", out + "/scene.toml"}, folder).exit_code, 0);
+}
+
+TEST(InVain, run_whose_last_picture_cannot_be_written_has_its_summary) {
+  const std::string folder = test_folder("no-picture");
+  std::filesystem::create_directories(folder + "/c.png");  // in the picture's place
+  const Told told_of = told(
+      "[[camera]]\neye = [0, -0.1, 0.1]\ntarget = [0, 0, 0]\n[[output]]\nkind = "
+      "\"contact-sheet\"\nfile = \"c.png\"\nevery = 0.02\n",
+      folder);
+  EXPECT_EQ(told_of.run.exit_code, 4) << told_of.run.err;
+  const nlohmann::json summary = read_summary(folder);
+  EXPECT_FALSE(summary["finished"].get<bool>());
+  EXPECT_TRUE(has(summary["trouble"].get<std::string>(), "c.png"));
+  EXPECT_GT(summary["steps"].get<int>(), 0);
 }
 
 }  // namespace
