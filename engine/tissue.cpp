@@ -114,18 +114,17 @@ Mesh read_tissue(const LoadedScene& loaded) {
   const SceneTissue& tissue = loaded.scene.tissue;
   Mesh mesh;
   try {
-    if (tissue.shape) {
-      mesh = generate_tissue(*tissue.shape);
-    } else {
-      mesh = read_mesh(scene_path(loaded, tissue.mesh), tissue.scale);
-      if (tissue.is_renumbered) mesh = in_near_order(mesh);
-    }
+    mesh = tissue.shape ? generate_tissue(*tissue.shape)
+                        : read_mesh(scene_path(loaded, tissue.mesh), tissue.scale);
   } catch (const InputError& trouble) {
     loaded.where.fail(tissue.shape ? "tissue.shape" : "tissue.mesh", trouble.what());
   }
+  const std::vector<std::string> faults = validate(mesh, 3);  // in the file's numbers
+  if (!faults.empty())
+    loaded.where.fail(tissue.shape ? "tissue.shape" : "tissue.mesh",
+                      "the mesh can't be used: " + faults.front());
+  if (!tissue.shape && tissue.is_renumbered) mesh = in_near_order(mesh);
   place(tissue, mesh);
-  const std::vector<std::string> faults = validate(mesh, 3);
-  if (!faults.empty()) loaded.where.fail("tissue", "the mesh can't be used: " + faults.front());
   if (!tissue.shape) {
     warn_of_size(tissue.mesh, "tissue.scale", mesh.X);
     warn_of_pieces(tissue, mesh);
