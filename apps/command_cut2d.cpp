@@ -7,6 +7,7 @@
 #include "base/log.h"
 #include "cutting/cut_plane_paper.h"
 #include "mesh/mesh_file.h"
+#include "mesh/quality.h"
 #include "study/cut2d_json.h"
 #include "study/cut2d_path.h"
 #include "study/cut2d_picture.h"
@@ -68,11 +69,7 @@ void print_trial(const Cut2dTrial& trial, Cut2dMode mode) {
 }
 
 std::string nothing_cut_text(const Mesh& mesh) {
-  Vec3 low = mesh.X.front(), high = low;
-  for (const Vec3& X : mesh.X) {
-    low = low.cwiseMin(X);
-    high = high.cwiseMax(X);
-  }
+  const auto [low, high] = bounding_box(mesh.X);
   char text[200];
   std::snprintf(
       text, sizeof text,

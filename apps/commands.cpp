@@ -63,11 +63,7 @@ bool is_surface_file(const std::string& file) {
 
 void print_surface(const std::string& file, double scale) {
   const TriangleMesh mesh = read_triangle_mesh(file, scale);
-  Vec3 low = mesh.X.front(), high = low;
-  for (const Vec3& X : mesh.X) {
-    low = low.cwiseMin(X);
-    high = high.cwiseMax(X);
-  }
+  const auto [low, high] = bounding_box(mesh.X);
   std::printf(
       "%s: a surface, for instruments\n  vertices   %zu\n  triangles  %zu\n  box        %.4g x "
       "%.4g x %.4g m, from (%.4g, %.4g, %.4g) m\n",

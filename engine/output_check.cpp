@@ -33,7 +33,7 @@ std::vector<std::string> meshes(const LoadedScene& loaded) {
 
 void refuse(const std::string& input, const std::string& folder) {
   throw InputError("the run would write over " + input +
-                   ", which it reads: choose another folder " + "than \"" + folder +
+                   ", which it reads: choose another folder than \"" + folder +
                    "\" with -o, or another name for the output");
 }
 
@@ -80,14 +80,14 @@ void warn_of_outputs(const Scene& scene, const std::string& folder) {
     const std::string key = "output[" + std::to_string(k) + "].every";
     if (output.every > time.duration)
       log_warning(key + " = " + short_text(output.every) +
-                  " s is longer than the run: nothing is " + "written into \"" + output.file +
-                  "\"");
+                  " s is longer than the run: nothing is written into \"" + output.file + "\"");
     else if (output.every > 0)
       warn_of_rounding(key, output.every, time.frame_rate);
   }
   if (fs::exists(folder + "/summary.json"))
-    log_warning("\"" + folder + "\" has files of an earlier run: those that this one does not " +
-                "write stay beside its own");
+    log_warning(
+        "\"" + folder +
+        "\" has files of an earlier run: those that this one does not write stay beside its own");
 }
 
 }  // namespace trocar

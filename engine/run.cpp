@@ -145,18 +145,12 @@ LoadedScene share_scene(const std::string& file, const std::vector<std::string>&
 
 // Throws on every rank what the root finds wrong.
 static void check_outputs(const RunOptions& options, const LoadedScene& loaded,
-                          const Communicator& communicator) {
-  std::string wrong;
-  if (communicator.is_root()) {
-    try {
-      check_inputs_stay(loaded, options.scene_file, options.folder);
-      if (!options.resume) warn_of_outputs(loaded.scene, options.folder);
-    } catch (const InputError& trouble) {
-      wrong = trouble.what();
-    }
-  }
-  wrong = communicator.first_text(wrong);
-  if (!wrong.empty()) throw InputError(wrong);
+                          Communicator& communicator) {
+  read_on_root(communicator, [&] {
+    check_inputs_stay(loaded, options.scene_file, options.folder);
+    if (!options.resume) warn_of_outputs(loaded.scene, options.folder);
+    return std::vector<std::byte>();
+  });
 }
 
 bool run_scene(const RunOptions& options, Communicator& communicator) {

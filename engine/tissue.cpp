@@ -48,7 +48,7 @@ Mesh generate_tissue(const SceneShape& s) {
 }
 
 void place(const SceneTissue& tissue, Mesh& mesh) {
-  const Box box = bounding_box(mesh);
+  const Box box = bounding_box(mesh.X);
   const Vec3 centre = 0.5 * (box.low + box.high);
   const double longest = (box.high - box.low).maxCoeff();
   const double factor = tissue.longest_side > 0 ? tissue.longest_side / longest : 1;
@@ -144,12 +144,8 @@ std::string scene_path(const LoadedScene& loaded, const std::string& file) {
 
 void warn_of_size(const std::string& file, const std::string& key, std::span<const Vec3> X) {
   constexpr double smallest = 5e-4, largest = 3;  // [m]
-  Vec3 low = X.front(), high = low;
-  for (const Vec3& point : X) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  const double longest = (high - low).maxCoeff();
+  const Box box = bounding_box(X);
+  const double longest = (box.high - box.low).maxCoeff();
   if (longest >= smallest && longest <= largest) return;
   char size[32];
   std::snprintf(size, sizeof size, "%.3g", longest);

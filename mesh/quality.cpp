@@ -104,9 +104,9 @@ ElementStatistics element_statistics(const Mesh& mesh) {
   return statistics;
 }
 
-Box bounding_box(const Mesh& mesh) {
+Box bounding_box(std::span<const Vec3> points) {
   Box box;
-  for (const Vec3& X : mesh.X) box.add(X);
+  for (const Vec3& point : points) box.add(point);
   return box;
 }
 
@@ -118,7 +118,7 @@ MeshStatistics mesh_statistics(const Mesh& mesh) {
   std::vector<std::int32_t> element_piece;
   statistics.n_pieces = mesh_pieces(mesh, element_piece);
   if (!mesh.X.empty()) {
-    const Box box = bounding_box(mesh);
+    const Box box = bounding_box(mesh.X);
     statistics.low = box.low;
     statistics.high = box.high;
   }

@@ -37,7 +37,7 @@ struct MeshStatistics : ElementStatistics {
 };
 MeshStatistics mesh_statistics(const Mesh& mesh);
 
-Box bounding_box(const Mesh& mesh);
+Box bounding_box(std::span<const Vec3> points);
 
 // Every broken invariant, one sentence each, empty if the mesh is sound: corner numbers in range,
 // no repeated corner, positive volume, finite positions, no unreferenced node, no facet of three

@@ -141,18 +141,11 @@ std::int32_t stride_of(std::int64_t block, const SumOrder& sums) {
          static_cast<std::int32_t>((block - sums.run_block[run]) / stride_blocks);
 }
 
-std::vector<std::int64_t> first_blocks(const Model& model) {
-  std::vector<std::int64_t> first{0};
-  for (const ElementBlocks& list : model.blocks) first.push_back(first.back() + list.n_blocks);
-  return first;
-}
-
-// Of these nodes (ascending), all of whose elements are in the blocks.
+// Of these nodes (ascending), all of whose elements are in the blocks; first: of each list.
 NodeUse use_around(std::span<const std::int32_t> nodes, std::span<const BlockPlace> places,
-                   const Model& model) {
+                   std::span<const std::int64_t> first, const Model& model) {
   NodeUse use{std::vector<std::int32_t>(nodes.size(), no_run),
               std::vector<std::int32_t>(nodes.size(), -1)};
-  const std::vector<std::int64_t> first = first_blocks(model);
   for (const BlockPlace& place : places) {
     const ElementBlocks& blocks = model.blocks[place.list];
     const std::int64_t n = corners_of_block(blocks), block = first[place.list] + place.block;
@@ -281,11 +274,11 @@ bool edit_around(std::span<const std::int32_t> nodes, std::span<const BlockPlace
     return false;
   for (const BlockPlace& place : blocks)
     if (model.blocks[place.list].reads_halo) return false;
-  const NodeUse use = use_around(nodes, blocks, model);
+  const std::vector<std::int64_t> first = first_blocks(model);
+  const NodeUse use = use_around(nodes, blocks, first, model);
   for (std::size_t k = 0; k < nodes.size(); ++k)
     if (use.run[k] == several_runs || std::ranges::binary_search(sums.shared_node, nodes[k]))
       return false;
-  const std::vector<std::int64_t> first = first_blocks(model);
   std::vector<std::int32_t> strides;
   for (const BlockPlace& place : blocks)
     strides.push_back(stride_of(first[place.list] + place.block, sums));
@@ -317,6 +310,12 @@ void order_sums(Model& model) {
   place_shared_corners(use.run, model);
   find_rows(model);
   lay_out_nodes(model);
+}
+
+std::vector<std::int64_t> first_blocks(const Model& model) {
+  std::vector<std::int64_t> first{0};
+  for (const ElementBlocks& list : model.blocks) first.push_back(first.back() + list.n_blocks);
+  return first;
 }
 
 std::int32_t run_of(std::int64_t block, const SumOrder& sums) {

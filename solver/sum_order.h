@@ -23,7 +23,9 @@ void order_sums(Model& model);
 void edit_sums(std::span<const std::int32_t> nodes, std::span<const BlockPlace> blocks,
                Model& model);
 
-// Of a block, counted through all lists.
+// (n_lists + 1) The first block of each list, counted through all lists, and their end.
+std::vector<std::int64_t> first_blocks(const Model& model);
+// Of a block, counted so.
 std::int32_t run_of(std::int64_t block, const SumOrder& sums);
 
 inline std::int64_t corners_of_block(const ElementBlocks& blocks) {

@@ -29,10 +29,11 @@ class LaterCorners {
   std::vector<std::int32_t> n_slots;  // (n_local)
 
   LaterCorners(std::span<const std::int32_t> run, const Model& model)
-      : n_slots(run.size(), 0), model_(model), run_(run), run_of_first_(run.size(), no_run) {
-    block_of_list_ = {0};
-    for (const ElementBlocks& blocks : model.blocks)
-      block_of_list_.push_back(block_of_list_.back() + blocks.n_blocks);
+      : n_slots(run.size(), 0),
+        model_(model),
+        run_(run),
+        block_of_list_(first_blocks(model)),
+        run_of_first_(run.size(), no_run) {
     std::vector<std::int64_t> next_lane(model.blocks.size(), 0);
     for_lanes_in_order(model.blocks, [&](std::size_t list, std::int64_t lane) {
       if (lane < next_lane[list]) return;
