@@ -12,14 +12,19 @@ namespace trocar {
 
 namespace {
 
-constexpr std::int64_t hull_steps = 8;  // from look to look
-constexpr double closing_speed = 2;     // that a look reckons with until the next one [m/s]
+// A triangle whose corners lie on a tool is left to these, where it reaches into the tool by less
+// than this of its own size and faces it as they do.
+constexpr double flat_enough = 1e-3, as_steep = 0.99;
 constexpr int most_rounds = 30;
 constexpr double good_enough = 1e-3;  // change in a round / deepest point at the start
 
-std::array<Vec3, 3> corners_of(const ContactSet& set, const ContactSet::Item& item) {
-  return {set.x_end[to_size(item.place[0])], set.x_end[to_size(item.place[1])],
-          set.x_end[to_size(item.place[2])]};
+std::array<Vec3, 3> corners_of(std::span<const Vec3> x, const ContactSet::Item& item) {
+  return {x[to_size(item.place[0])], x[to_size(item.place[1])], x[to_size(item.place[2])]};
+}
+
+// How far forces take a node in the step, those of contact left out.
+double forced_way(const ContactSet& set, std::int32_t place) {
+  return (set.x_end[to_size(place)] - set.x_ahead[to_size(place)]).norm();
 }
 
 const ToolMotion& tool_of(const ContactStep& step, const ContactSet::Item& item) {
@@ -29,6 +34,24 @@ const ToolMotion& tool_of(const ContactStep& step, const ContactSet::Item& item)
 // The displacement of a tool's point in the step. arm: from the tool's origin to it.
 Vec3 motion_of(const ToolMotion& tool, const Vec3& arm, const ContactStep& step) {
   return step.dt * (tool.velocity + tool.angular_velocity.cross(arm));
+}
+
+// Whether the conditions of its corners keep a triangle out of the tool, too.
+bool is_kept_by_corners(const ContactSet& set, const ContactConstraint& c, double lack) {
+  double size2 = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::size_t i = to_size(c.place[a]);
+    if (c.weight[a] == 0) continue;
+    const DeepestPiece& deepest = set.deepest[i];
+    if (deepest.item < 0 || deepest.touch.normal.dot(c.normal) < as_steep) return false;
+    const Contact &contact = set.items[to_size(deepest.item)].contact,
+                  &own = set.items[to_size(c.item)].contact;
+    if (contact.tool != own.tool || contact.piece != own.piece) return false;
+    lack += c.weight[a] * deepest.touch.gap;
+    const Vec3& next = set.x_end[to_size(c.place[(a + 1) % 3])];
+    size2 = std::max(size2, (set.x_end[i] - next).squaredNorm());
+  }
+  return lack < flat_enough * std::sqrt(size2);
 }
 
 void add_triangle(const ContactStep& step, double release, std::int32_t k, ContactSet& set) {
@@ -44,19 +67,29 @@ void add_triangle(const ContactStep& step, double release, std::int32_t k, Conta
   Vec3 x = Vec3::Zero();
   for (std::size_t a = 0; a < 3; ++a) x += c.weight[a] * set.x_end[to_size(c.place[a])];
   const double gap = c.normal.dot(x - (arm + tool.pose.translation));
+  if (gap >= 0 || is_kept_by_corners(set, c, -gap)) return;
   add_constraint(gap, release, motion_of(tool, arm, step), c, set);
+}
+
+// At the end of the step, along the normal where the node would be without forces.
+std::optional<NodeTouch> look_at_node(const ContactDetector& detector, const Contact& contact,
+                                      const Pose& pose, std::int32_t place, const ContactSet& set) {
+  const std::size_t i = to_size(place);
+  std::optional<NodeTouch> touch =
+      detector.touch_node(contact, set.x_ahead[i], pose, forced_way(set, place));
+  if (touch) touch->gap += touch->normal.dot(set.x_end[i] - set.x_ahead[i]);
+  return touch;
 }
 
 void find_deepest(const ContactDetector& detector, const ContactStep& step, ContactSet& set) {
   std::fill(set.deepest.begin(), set.deepest.end(), DeepestPiece{});
   for (ContactSet::BesidePiece& b : set.beside) {
     const ContactSet::Item& item = set.items[to_size(b.item)];
-    b.touch =
-        detector.touch_node(item.contact, set.x_end[to_size(b.place)], tool_of(step, item).pose);
+    b.touch = look_at_node(detector, item.contact, tool_of(step, item).pose, b.place, set);
   }
   for (std::size_t k = 0; k < set.items.size(); ++k) {
     const ContactSet::Item& item = set.items[k];
-    const std::array<Vec3, 3> x = corners_of(set, item);
+    const std::array<Vec3, 3> x = corners_of(set.x_ahead, item);
     const Vec3 facet = (x[1] - x[0]).cross(x[2] - x[0]);
     for (std::size_t a = 0; a < 3; ++a) {
       const std::optional<NodeTouch>& found = set.beside[to_size(item.beside[a])].touch;
@@ -125,14 +158,13 @@ double project(double friction, ContactConstraint& c, std::span<Vec3> move) {
 void look_again(const ContactDetector& detector, const ContactStep& step, ContactSet& set) {
   for (ContactSet::BesidePiece& b : set.beside)
     b.local =
-        tool_of(step, set.items[to_size(b.item)]).pose.apply_inverse(set.x_end[to_size(b.place)]);
+        tool_of(step, set.items[to_size(b.item)]).pose.apply_inverse(set.x_ahead[to_size(b.place)]);
   for (ContactSet::Item& item : set.items) {
-    const bool is_hull = detector.is_hull(item.contact);
-    if (is_hull && step.number % hull_steps != 0) continue;
-    const double margin = is_hull ? closing_speed * hull_steps * step.dt : 0;
     const auto local = [&](std::size_t a) { return set.beside[to_size(item.beside[a])].local; };
-    item.is_near = detector.update({corners_of(set, item), {local(0), local(1), local(2)}},
-                                   tool_of(step, item).pose, margin, item.contact);
+    double forced = 0;
+    for (const std::int32_t place : item.place) forced = std::max(forced, forced_way(set, place));
+    item.is_near = detector.update({corners_of(set.x_ahead, item), {local(0), local(1), local(2)}},
+                                   tool_of(step, item).pose, forced, item.contact);
   }
 }
 

@@ -31,14 +31,15 @@ struct ContactStep {
   double response = 0;                // displacement in the step of 1 kg under 1 N [s^2]
 };
 
-// Looks at the triangles anew where they are at the end of the step: weights, points, normals.
-// Hulls, which cost fifty times as much, only in every eighth step: between two looks their points
-// and normals move with the tool.
+// Looks at the triangles anew, weights, points and normals, where they would be at the end of the
+// step if nothing forced them (x_ahead): tissue that presses against a tool lies on it there.
+// Pressed by its forces, without those of contact, it may be on the tool's other side. Near are
+// those that these forces could take to the tool.
 void look_again(const ContactDetector& detector, const ContactStep& step, ContactSet& set);
 
 // set.force and the items' reaction_sum. Two kinds of contact points x: the nearest point of each
 // triangle, and each node (in the piece that it is deepest in, if its triangle sees that from
-// outside). With the gap g = n·(x - y) at the end of the step and g0 at its beginning, y of the
+// outside), both as they lie at x_ahead. Of a triangle that lies flat on a tool the nodes do. With the gap g = n·(x - y) at the end of the step and g0 at its beginning, y of the
 // tool: g >= min(0, g0 + release_speed dt) where g0 < 0, g >= 0 elsewhere. Slip of x along the
 // surface is stopped with at most mu times the normal impulse. Between tissue and tissue x - y is a
 // node less the nearest point of the nearest triangle, and n this triangle's normal: both sides'

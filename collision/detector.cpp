@@ -266,16 +266,12 @@ bool ContactDetector::update(const Corners& corners, const Pose& pose, double ma
 }
 
 std::optional<NodeTouch> ContactDetector::touch_node(const Contact& contact, const Vec3& x,
-                                                     const Pose& pose) const {
+                                                     const Pose& pose, double margin) const {
   if (!state_->plane.node.empty()) return std::nullopt;
   const PieceCore& core = state_->core_of(contact);
   const SignedDistance found = signed_distance(core, pose.apply_inverse(x));
-  if (!(found.gap < 0) || !is_flat_enough(core, found.normal, found.gap)) return std::nullopt;
+  if (!(found.gap < margin) || !is_flat_enough(core, found.normal, found.gap)) return std::nullopt;
   return NodeTouch{.normal = pose.rotation * found.normal, .gap = found.gap};
-}
-
-bool ContactDetector::is_hull(const Contact& contact) const {
-  return state_->core_of(contact).hull.has_value();
 }
 
 }  // namespace trocar

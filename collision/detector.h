@@ -74,12 +74,10 @@ class ContactDetector {
     std::array<Vec3, 3> x, local;  // in the world and in the tool's frame [m]
   };
   bool update(const Corners& corners, const Pose& pose, double margin, Contact& contact) const;
-  // Where x lies in the contact's piece. Of a hull: the nearest of its faces. Nothing on plane
-  // meshes.
-  std::optional<NodeTouch> touch_node(const Contact& contact, const Vec3& x,
-                                      const Pose& pose) const;
-  // A hull: Bullet needs 2 us where closed forms need some tens of ns.
-  bool is_hull(const Contact& contact) const;
+  // Where x lies in the contact's piece, nothing where its gap is `margin` or more. Of a hull: the
+  // nearest of its faces. Nothing on plane meshes.
+  std::optional<NodeTouch> touch_node(const Contact& contact, const Vec3& x, const Pose& pose,
+                                      double margin) const;
 
  private:
   struct State;

@@ -38,6 +38,7 @@ void ContactBench::place() {
     const auto i = static_cast<std::size_t>(set.node[k]);
     set.x_start[k] = X[i] + Vec3::Map(&u[3 * i]);
     set.x_end[k] = X[i] + Vec3::Map(&u_next[3 * i]);
+    set.x_ahead[k] = set.x_start[k] + dt * Vec3::Map(&v[3 * i]);
   }
 }
 
