@@ -1,11 +1,11 @@
 // Legacy VTK files: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <optional>
 
 #include "base/quoted.h"
 #include "mesh/mesh_file_formats.h"
-#include "mesh/vtk_cells.h"
+#include "mesh/vtk_legacy_data.h"
 
 namespace trocar {
 
@@ -17,38 +17,15 @@ struct LegacyReader {
   VtkCells cells;
   bool is_binary = false;  // in.is_binary while inside binary data
   bool has_offset_layout = false;
+  std::optional<std::int64_t> n_data;  // of points or cells, once their data begin
   bool has_points = false, has_cells = false, has_types = false;
 };
 
-// Keywords count in any case.
-std::string upper(std::string_view word) {
-  std::string text(word);
-  for (char& c : text)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return text;
-}
-
 void expect_keyword(ByteReader& in, std::string_view expected) {
-  if (upper(in.peek_word()) == expected)
+  if (upper_case(in.peek_word()) == expected)
     in.word("a keyword");
   else
     in.expect_word(expected);
-}
-
-VtkNumber number_type(ByteReader& in) {
-  const std::string_view name = in.word("a type of numbers");
-  const std::optional<VtkNumber> number = find_vtk_number(name);
-  if (!number) in.fail("there is no type of numbers called " + in_quotes(name));
-  return *number;
-}
-
-// Binary data begin in the line below their header and are big endian.
-void begin_data(LegacyReader& r) {
-  if (!r.is_binary) return;
-  if (!r.in.is_at_line_end()) r.in.fail("nothing may stand before the binary data in its line");
-  r.in.line();
-  r.in.is_binary = true;
-  r.in.swaps_bytes = std::endian::native == std::endian::little;
 }
 
 std::size_t check_numbers(const LegacyReader& r, std::int64_t n, const VtkNumber& number,
@@ -59,7 +36,7 @@ std::size_t check_numbers(const LegacyReader& r, std::int64_t n, const VtkNumber
 std::vector<std::int32_t> read_integers(LegacyReader& r, std::int64_t count,
                                         const VtkNumber& number, const char* what) {
   if (number.is_float) r.in.fail(std::string(what) + " should be integers");
-  begin_data(r);
+  begin_data(r.in, r.is_binary);
   std::vector<std::int32_t> values(check_numbers(r, count, number, what));
   for (std::int32_t& value : values) {
     const std::int64_t wide =
@@ -83,8 +60,8 @@ void read_points(LegacyReader& r) {
   if (r.has_points) r.in.fail("POINTS stands here again");
   r.has_points = true;
   const std::int64_t count = r.in.integer("the number of points");
-  const VtkNumber number = number_type(r.in);
-  begin_data(r);
+  const VtkNumber number = read_number_type(r.in);
+  begin_data(r.in, r.is_binary);
   const std::size_t n = r.in.check_count(count, 3 * (r.is_binary ? number.n_bytes : 2), "points");
   if (n > 0x7fffffff) r.in.fail("there are more than 2147483647 points");
   r.mesh.X.reserve(n);
@@ -128,10 +105,10 @@ void read_cells(LegacyReader& r) {
     return;
   }
   expect_keyword(r.in, "OFFSETS");
-  VtkNumber number = number_type(r.in);
+  VtkNumber number = read_number_type(r.in);
   r.cells.offset = read_integers(r, n, number, "the offsets");
   expect_keyword(r.in, "CONNECTIVITY");
-  number = number_type(r.in);
+  number = read_number_type(r.in);
   r.cells.connectivity = read_integers(r, size, number, "the connectivity");
 }
 
@@ -144,36 +121,6 @@ void read_types(LegacyReader& r) {
   r.cells.type = read_integers(r, n, VtkNumber{}, "the cell types");
 }
 
-// Names and units of the array above, up to an empty line.
-void skip_metadata(ByteReader& in) {
-  in.line();
-  while (in.n_left() > 0 && !in.line().empty()) continue;
-}
-
-void skip_field_array(LegacyReader& r) {
-  if (upper(r.in.peek_word()) == "METADATA") skip_metadata(r.in);
-  r.in.word("the name of an array");
-  const std::size_t width =
-      r.in.check_count(r.in.integer("a number of components"), 1, "components");
-  const std::int64_t n_tuples = r.in.integer("a number of tuples");
-  r.in.check_count(n_tuples, 1, "tuples");
-  const VtkNumber number = number_type(r.in);
-  begin_data(r);
-  const std::size_t n_bytes = r.is_binary ? number.n_bytes : 2;
-  const std::size_t n =
-      r.in.check_count(n_tuples, std::max<std::size_t>(1, width) * n_bytes, "tuples") * width;
-  if (r.is_binary) r.in.take(n * n_bytes, "an array");
-  for (std::size_t k = 0; k < n && !r.is_binary; ++k) r.in.word("a number of an array");
-  r.in.is_binary = false;
-}
-
-void skip_field(LegacyReader& r) {
-  r.in.word("the name of a field");
-  const std::size_t n =
-      r.in.check_count(r.in.integer("the number of arrays"), 4, "arrays of a field");
-  for (std::size_t k = 0; k < n; ++k) skip_field_array(r);
-}
-
 void read_header(LegacyReader& r) {
   const std::string_view first = r.in.line();
   constexpr std::string_view start = "# vtk DataFile Version ";
@@ -184,19 +131,30 @@ void read_header(LegacyReader& r) {
   if (version.empty() || version[0] < '1' || version[0] > '5')
     r.in.fail("version " + in_quotes(version) + " is not one of 1.0 to 5.1");
   r.in.line();
-  const std::string format = upper(r.in.word("ASCII or BINARY"));
+  const std::string format = upper_case(r.in.word("ASCII or BINARY"));
   if (format != "ASCII" && format != "BINARY")
     r.in.fail("ASCII or BINARY should stand here, not " + in_quotes(format));
   r.is_binary = format == "BINARY";
   expect_keyword(r.in, "DATASET");
-  const std::string kind = upper(r.in.word("a kind of data set"));
+  const std::string kind = upper_case(r.in.word("a kind of data set"));
   if (kind != "UNSTRUCTURED_GRID")
     r.in.fail("the data set is " + in_quotes(kind) + "; only UNSTRUCTURED_GRID is read");
 }
 
-// False where the data on points and cells begin, which are of no use here.
-bool read_section(LegacyReader& r) {
-  const std::string keyword = upper(r.in.word("a section"));
+// Data on points and cells are of no use here.
+void skip_data(LegacyReader& r, const std::string& keyword) {
+  if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
+    r.n_data = r.in.integer("the number of points or cells with data");
+    if (*r.n_data < 0) r.in.fail("the number of points or cells is negative");
+  } else if (!r.n_data) {
+    r.in.fail("POINTS, CELLS or CELL_TYPES should stand here, not " + in_quotes(keyword));
+  } else if (!skip_attribute(r.in, r.is_binary, keyword, *r.n_data)) {
+    r.in.fail("SCALARS, VECTORS, FIELD or other data should stand here, not " + in_quotes(keyword));
+  }
+}
+
+void read_section(LegacyReader& r) {
+  const std::string keyword = upper_case(r.in.word("a section"));
   if (keyword == "POINTS")
     read_points(r);
   else if (keyword == "CELLS")
@@ -206,12 +164,9 @@ bool read_section(LegacyReader& r) {
   else if (keyword == "METADATA")
     skip_metadata(r.in);
   else if (keyword == "FIELD")
-    skip_field(r);
-  else if (keyword == "POINT_DATA" || keyword == "CELL_DATA")
-    return false;
+    skip_field(r.in, r.is_binary);
   else
-    r.in.fail("POINTS, CELLS or CELL_TYPES should stand here, not " + in_quotes(keyword));
-  return true;
+    skip_data(r, keyword);
 }
 
 }  // namespace
@@ -221,7 +176,7 @@ RawMesh read_legacy_vtk(ByteReader& in) {
   r.mesh.file = in.file();
   r.mesh.tag_word = "cell";
   read_header(r);
-  while (!in.is_at_end() && read_section(r)) continue;
+  while (!in.is_at_end()) read_section(r);
   const char* missing = !r.has_points ? "POINTS" : !r.has_cells ? "CELLS" : "CELL_TYPES";
   if (!r.has_points || !r.has_cells || !r.has_types)
     in.fail_file(std::string("holds no ") + missing);

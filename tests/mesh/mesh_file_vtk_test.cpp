@@ -46,6 +46,72 @@ TEST(LegacyVtk, vertices_and_lines_are_left_out) {
   EXPECT_EQ(mesh.n_nodes(), 4);
 }
 
+// A tetrahedron with every kind of data; `number` and `text` write those of an array.
+template <class Number, class Text>
+std::string with_data(const std::string& head, const Number& number, const Text& text) {
+  const auto numbers = [&](int n, const std::string& type) {
+    std::string all;
+    for (int k = 0; k < n; ++k) all += number(type);
+    return all + "\n";
+  };
+  return head + "CELL_DATA 1\nSCALARS a float 2\nLOOKUP_TABLE default\n" + numbers(2, "float") +
+         "SCALARS b int\n" + numbers(1, "int") + "COLOR_SCALARS c 3\n" + numbers(3, "colour") +
+         "FIELD f 2\ng 2 1 double\n" + numbers(2, "double") + "h 1 2 string\n" + text("two") +
+         text("words here") + "POINT_DATA 4\nVECTORS d double\n" + numbers(12, "double") +
+         "NORMALS e float\n" + numbers(12, "float") + "TENSORS i float\n" + numbers(36, "float") +
+         "TEXTURE_COORDINATES j 2 float\n" + numbers(8, "float") + "LOOKUP_TABLE k 2\n" +
+         numbers(8, "colour") +
+         "METADATA\nINFORMATION 0\n\nGLOBAL_IDS l "
+         "int\n" +
+         numbers(4, "int");
+}
+
+std::string ascii_with_data() {
+  return with_data(
+      ascii("POINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n"),
+      [](const std::string&) { return "1.5 "; },
+      [](const std::string& text) { return text + "\n"; });
+}
+
+// A big-endian number of `n` bytes.
+std::string big_endian(std::uint64_t value, int n) {
+  std::string bytes;
+  for (int k = n - 1; k >= 0; --k) bytes += static_cast<char>(value >> (8 * k));
+  return bytes;
+}
+
+std::string binary_with_data() {
+  std::string head = vtk_head("3.0", "BINARY") + "POINTS 4 char\n";
+  head += std::string("\0\0\0\1\0\0\0\1\0\0\0\1", 12) + "\nCELLS 1 5\n";
+  for (const std::uint64_t k : {4, 0, 1, 2, 3}) head += big_endian(k, 4);
+  return with_data(
+      head + "\nCELL_TYPES 1\n" + big_endian(10, 4) + "\n",
+      [](const std::string& type) {
+        return big_endian(7, type == "colour" ? 1 : type == "double" ? 8 : 4);
+      },
+      // The length in one byte or in two.
+      [](const std::string& text) {
+        const auto n = text.size();
+        return (n < 4 ? big_endian(3 << 6 | n, 1) : big_endian(2 << 14 | n, 2)) + text;
+      });
+}
+
+// Up to within the data of cells and points: the tetrahedron alone is a whole file.
+TEST(LegacyVtk, a_file_cut_off_within_the_data_of_cells_or_points_is_refused) {
+  for (const std::string& whole : {ascii_with_data(), binary_with_data()}) {
+    EXPECT_EQ(accepted(whole).n_elements(), 1);
+    int n_accepted = 0;
+    for (std::size_t n = whole.find("SCALARS") + 1; n < whole.size(); ++n) {
+      const TemporaryFolder folder;
+      const std::string file = folder.file("a.vtk", whole.substr(0, n));
+      n_accepted += error_of([&] { read_mesh(file, 1); }).empty() ? 1 : 0;
+    }
+    // Between two arrays, where a line may also lack its end, and within the last number.
+    EXPECT_LE(n_accepted, 40) << whole.size();
+    EXPECT_NE(refusal(whole.substr(0, whole.find("NORMALS") + 30)), "");
+  }
+}
+
 TEST(LegacyVtk, keywords_count_in_any_case) {
   EXPECT_EQ(accepted("# vtk DataFile Version 2.0\nt\nascii\ndataset unstructured_grid\n" +
                      cube_points + "cells 1 5\n4 0 1 2 4\ncell_types 1\n10\n")

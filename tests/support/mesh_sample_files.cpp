@@ -109,7 +109,8 @@ std::string vtk_head(const std::string& version, const std::string& kind) {
 std::string vtk_4_ascii() {
   return vtk_head("3.0", "ASCII") +
          "POINTS 6 float\n0 0 0 1 0 0 0 1 0\n0 0 1 1 1 1 7 7 7\n\nCELLS 3 14\n3 0 1 2\n4 0 1 2 3\n"
-         "4 1 2 3 4\n\nCELL_TYPES 3\n5\n10\n10\nCELL_DATA 3\nSCALARS s float 1\n";
+         "4 1 2 3 4\n\nCELL_TYPES 3\n5\n10\n10\nCELL_DATA 3\nSCALARS s float 1\n"
+         "LOOKUP_TABLE default\n0.5 nan 2\n";
 }
 
 std::string vtk_5_ascii() {
