@@ -26,7 +26,8 @@ Cut2dMode mode_of(const std::string& name) {
 
 Mesh mesh_of(const Cut2dCommand& command) {
   if (command.configuration > 0) return paper_mesh(command.configuration);
-  Mesh mesh = read_mesh(command.mesh_file, read_scale(command.mesh_scale));
+  const std::string scale = command.mesh_scale.empty() ? "1 mm" : command.mesh_scale;
+  Mesh mesh = read_mesh(command.mesh_file, read_scale(scale));
   if (mesh.dimension() != 2)
     throw InputError(command.mesh_file +
                      ": cut2d needs a mesh of triangles in a plane z = const, nothing else");
@@ -148,6 +149,8 @@ void check_combination(const Cut2dCommand& command) {
     throw InputError("cut2d: --table1 and --sweep exclude each other");
   if (has_own && (has_mesh || !command.paths.empty() || !command.arcs.empty()))
     throw InputError("cut2d: --table1 and --sweep bring their own meshes and cuts");
+  if (!command.mesh_scale.empty() && command.mesh_file.empty())
+    throw InputError("cut2d: --scale belongs to --mesh: the paper's meshes have their own size");
   if (!has_own && !has_mesh)
     throw InputError("cut2d: name a mesh with --config or --mesh, or ask for --table1 or --sweep");
   if (!command.is_sweep && !command.docs_folder.empty())

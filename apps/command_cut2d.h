@@ -10,8 +10,8 @@
 namespace trocar {
 
 struct Cut2dCommand {
-  int configuration = 0;  // 0: mesh_file
-  std::string mesh_file, mesh_scale = "1 mm";
+  int configuration = 0;              // 0: mesh_file
+  std::string mesh_file, mesh_scale;  // scale "": not given
   std::vector<std::string> paths, arcs;
   std::string mode = "robust";
   int repetitions = 0;

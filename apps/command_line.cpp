@@ -176,8 +176,8 @@ void add_cut2d(CLI::App& app, CommandLine& line) {
   cut2d->add_option("--config", c.configuration, "Mesh (and cut) of the paper's configuration")
       ->check(CLI::Range(1, 6));
   cut2d->add_option("--mesh", c.mesh_file, "Own mesh of triangles (.msh, .vtk, .vtu)");
-  cut2d->add_option("--scale", c.mesh_scale, "Length of one unit of the file")
-      ->capture_default_str();
+  cut2d->add_option("--scale", c.mesh_scale,
+                    "Length of one unit of the file of --mesh; 1 mm if absent");
   cut2d
       ->add_option("--path", c.paths,
                    "Cut through these points in mm: 'x,y x,y …'; several are cut one after another")

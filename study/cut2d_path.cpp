@@ -11,6 +11,8 @@ namespace trocar {
 
 namespace {
 
+// Of a coordinate: squares and products of lengths stay exact enough and far from an overflow.
+constexpr double farthest = 1e9;   // [mm]
 constexpr double straight = 1e-9;  // sine of the turn of three points that count as one line
 
 double read_number(const std::string& text, const std::string& point) {
@@ -19,6 +21,9 @@ double read_number(const std::string& text, const std::string& point) {
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
     throw InputError("a point of a path is two numbers in mm as in 17.8,35.2, not " +
                      in_quotes(point));
+  if (std::abs(value) > farthest)
+    throw InputError("a point of a path lies within 1e9 mm of the axes, " + in_quotes(point) +
+                     " does not: are its numbers in mm?");
   return value;
 }
 

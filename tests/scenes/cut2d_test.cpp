@@ -86,6 +86,17 @@ TEST(Cut2d, wrong_command_lines_are_explained_in_one_sentence) {
   }
 }
 
+TEST(Cut2d, a_scale_without_a_mesh_and_a_point_without_end_are_refused) {
+  const std::string folder = test_folder("cut2d-scale");
+  const Finished scaled = run_trocar({"cut2d", "--config", "2", "--scale", "3 mm"}, folder);
+  EXPECT_EQ(scaled.exit_code, 2);
+  EXPECT_NE(scaled.err.find("--scale belongs to --mesh"), std::string::npos) << scaled.err;
+  const Finished far = run_trocar({"cut2d", "--config", "2", "--path", "1e300,1 3,4"}, folder);
+  EXPECT_EQ(far.exit_code, 2);
+  EXPECT_NE(far.err.find("within 1e9 mm of the axes, \"1e300,1\" does not"), std::string::npos)
+      << far.err;
+}
+
 TEST(Cut2d, a_path_beside_the_mesh_is_told_where_the_mesh_lies) {
   const std::string folder = test_folder("cut2d-beside");
   const Finished cut = run_trocar({"cut2d", "--config", "2", "--path", "500,500 600,600"}, folder);
