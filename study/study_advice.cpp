@@ -40,6 +40,15 @@ std::string run_text(const Study& study, const Target& target, const Run& run) {
          error_text(target, error_as(run, target)) + " for " + cost_text(study, run);
 }
 
+// A run of another method beside the best one, which the figures may not tell from it.
+std::string next_text(const Study& study, const Target& target, const Run& best, const Run& next) {
+  const double ratio = cost_of(study, next) / cost_of(study, best);
+  const bool costs_the_same = ratio <= scatter && ratio >= 1 / scatter;
+  return (costs_the_same ? "; within 5 % of this cost, which is no difference here, is "
+                         : "; next best is ") +
+         run_text(study, target, next);
+}
+
 const Run* nearest_run(const Study& study) {
   const Run* nearest = nullptr;
   for (const Run& run : study.runs)
@@ -127,7 +136,7 @@ std::string advice(const Study& study, const Target& target) {
            run_text(study, target, *nearest) + ".";
   std::string text = "For " + goal + " error at least cost use " + run_text(study, target, *best);
   if (const Run* next = cheapest_within(study, target, method_text(*best)))
-    text += "; next best is " + run_text(study, target, *next);
+    text += next_text(study, target, *best, *next);
   return text + ".";
 }
 

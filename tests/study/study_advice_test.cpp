@@ -37,6 +37,18 @@ TEST(StudyAdvice, the_sentence_names_run_step_error_cost_and_the_next_best) {
             "time a simulated second.");
 }
 
+TEST(StudyAdvice, a_method_that_costs_the_same_within_the_scatter_is_not_called_dearer) {
+  Study study = made_up_study();
+  const auto with_cost = [&](double ratio) {
+    study.runs[2].outcome.stepping_seconds = ratio * study.runs[5].outcome.stepping_seconds;
+    return advice(study, read_target("10 mm"));
+  };
+  const std::string same = "; within 5 % of this cost, which is no difference here, is ";
+  EXPECT_NE(with_cost(1.04).find(same), std::string::npos) << with_cost(1.04);
+  EXPECT_NE(with_cost(0.96).find(same), std::string::npos) << with_cost(0.96);
+  EXPECT_NE(with_cost(1.06).find("; next best is "), std::string::npos) << with_cost(1.06);
+}
+
 TEST(StudyAdvice, a_target_out_of_reach_is_said_to_be) {
   const std::string sentence = advice(made_up_study(), read_target("0.1 %"));
   EXPECT_NE(sentence.find("No run of this sweep is within 0.1 %"), std::string::npos) << sentence;
