@@ -9,6 +9,7 @@
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/on_root.h"
 #include "cutting/cut_hex.h"
 #include "engine/body_check.h"
 #include "engine/bytes.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "base/on_root.h"
 #include "engine/checkpoint_file.h"
 
 namespace trocar {
@@ -40,16 +40,7 @@ void write_checkpoint(Simulation& s, Outputs& outputs, const FrameStart* failed)
   const double start = monotonic_seconds();
   Checkpoint checkpoint = failed ? take_checkpoint_of_start(s, *failed) : take_checkpoint(s);
   checkpoint.recordings = recording_marks(s, outputs);
-  std::string error;
-  if (s.communicator->is_root()) {
-    try {
-      save(std::move(checkpoint), outputs);
-    } catch (const MachineError& trouble) {
-      error = trouble.what();
-    }
-  }
-  error = s.communicator->first_text(error);
-  if (!error.empty()) throw SharedMachineError(error);
+  on_root(*s.communicator, [&] { save(std::move(checkpoint), outputs); });
   outputs.last_checkpoint = s.frame;
   s.timers.add(phase_checkpoint, monotonic_seconds() - start);
 }

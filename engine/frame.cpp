@@ -197,8 +197,8 @@ void run_frame(Simulation& s, Outputs& outputs) {
   if (needs_surface(s, outputs)) refresh_surface(s);
   report_state(s, row);
   row.seconds = monotonic_seconds() - start;
-  write_outputs(s, outputs, row);
   s.log.rows.push_back(std::move(row));
+  write_outputs(s, outputs, s.log.rows.back());
   if (is_checkpoint_due(s)) write_checkpoint(s, outputs);
   wait_for_deadline(s, s.log.rows.back());
 }

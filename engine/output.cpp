@@ -9,6 +9,7 @@
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/on_root.h"
 #include "engine/apply_cut.h"
 #include "engine/checkpoint.h"
 #include "engine/checkpoint_file.h"
@@ -143,7 +144,7 @@ void open_writers(const Simulation& s, const std::string& echo, const Checkpoint
     rename_films(s, outputs);
   else
     remove_checkpoint(outputs.folder);  // it would not belong to the files that are written now
-  if (!echo.empty()) std::ofstream(outputs.folder + "/scene.toml") << echo;
+  if (!echo.empty()) write_text_file(outputs.folder + "/scene.toml", echo);
   for (const OutputSlot& slot : outputs.slots) {
     std::filesystem::create_directories(std::filesystem::path(slot.file).parent_path());
     outputs.metrics.push_back(slot.kind == OutputKind::metrics ? open_metrics(s, slot, resumed)
@@ -177,15 +178,20 @@ void add_film_frame(const Simulation& s, Outputs& outputs, const FrameRow& row) 
   outputs.studio->add(std::move(frame));
 }
 
-// Collective: the displacements come from all ranks to the one with the writer.
-void add_recorded_frame(Simulation& s, OutputSlot& slot, RecordingWriter* writer,
-                        const FrameRow& row) {
+// The displacements come from all ranks to the one with the writer. Collective.
+void add_recorded_frame(Simulation& s, Outputs& outputs, std::size_t k, const FrameRow& row) {
+  OutputSlot& slot = outputs.slots[k];
   RecordedFrame frame{
       .frame = row.frame, .step = row.step, .time = row.time, .digest = state_digest(s)};
   frame.u = gather_field(s.part, 3, s.state.u, *s.communicator);
   for (const ToolRow& tool : row.tools)
     for (int i = 0; i < 3; ++i) frame.tool_forces.push_back(tool.force[i]);
-  if (writer) writer->add(slot.pending, frame);
+  on_root(*s.communicator, [&] {
+    // One that fails is left as a kill would leave it, without an end that it has not come to.
+    std::unique_ptr<RecordingWriter> writer = std::move(outputs.recordings[k]);
+    writer->add(slot.pending, frame);
+    outputs.recordings[k] = std::move(writer);
+  });
   slot.pending.clear();
   slot.last_frame = row.frame;
 }
@@ -211,6 +217,14 @@ void make_output_folder(const std::string& folder) {
   std::filesystem::remove(probe, trouble);
 }
 
+void write_text_file(const std::string& file, const std::string& text) {
+  std::ofstream stream(file);
+  if ((stream << text).flush()) return;
+  std::error_code ignored;  // what is wrong is told below
+  if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
+  throw MachineError(file + ": can't be written (disk full or no permission)");
+}
+
 Outputs open_outputs(Simulation& s, const std::string& folder, const std::string& echo,
                      const Checkpoint* resumed) {
   Outputs outputs;
@@ -220,35 +234,21 @@ Outputs open_outputs(Simulation& s, const std::string& folder, const std::string
                              .file = folder + "/" + output.file,
                              .interval = interval_of(output, s.scene.time.frame_rate)});
   if (resumed) take_over_marks(s.scene, *resumed, outputs);
-  std::string error, wrong_input;
-  if (s.communicator->is_root()) {
-    try {
-      open_writers(s, echo, resumed, outputs);
-    } catch (const InputError& trouble) {
-      wrong_input = trouble.what();
-    } catch (const std::exception& trouble) {
-      error = trouble.what();
-    }
-  }
-  wrong_input = s.communicator->first_text(wrong_input);
-  error = s.communicator->first_text(error);
-  if (!wrong_input.empty()) throw InputError(wrong_input);
-  if (!error.empty()) throw SharedMachineError(error);
+  on_root(*s.communicator, [&] { open_writers(s, echo, resumed, outputs); });
   return outputs;
 }
 
 void write_outputs(Simulation& s, Outputs& outputs, const FrameRow& row) {
   const PhaseScope scope(s.timers, phase_output);
   hand_out_edits(s, outputs);
-  for (std::size_t k = 0; k < outputs.slots.size(); ++k) {
-    OutputSlot& slot = outputs.slots[k];
-    if (!slot.is_due(row.frame)) continue;
-    if (slot.kind == OutputKind::recording)
-      add_recorded_frame(s, slot,
-                         outputs.recordings.empty() ? nullptr : outputs.recordings[k].get(), row);
-    if (!outputs.metrics.empty() && outputs.metrics[k]) outputs.metrics[k]->add(row);
-  }
-  if (outputs.studio) add_film_frame(s, outputs, row);
+  for (std::size_t k = 0; k < outputs.slots.size(); ++k)
+    if (outputs.slots[k].kind == OutputKind::recording && outputs.slots[k].is_due(row.frame))
+      add_recorded_frame(s, outputs, k, row);
+  on_root(*s.communicator, [&] {
+    for (std::size_t k = 0; k < outputs.metrics.size(); ++k)
+      if (outputs.metrics[k] && outputs.slots[k].is_due(row.frame)) outputs.metrics[k]->add(row);
+    if (outputs.studio) add_film_frame(s, outputs, row);
+  });
 }
 
 void finish_outputs(Outputs& outputs) {

@@ -42,6 +42,8 @@ struct Outputs {
 
 // Throws MachineError if nothing can be written there.
 void make_output_folder(const std::string& folder);
+// Throws MachineError if the file can't be written, and leaves none then.
+void write_text_file(const std::string& file, const std::string& text);
 // Makes the folder, puts the scene's `echo` there if there is one and opens all files. Collective;
 // throws MachineError on every rank if the folder can't be written. resumed: where the run goes on,
 // null at time zero: recordings and metrics are cut off there and go on, films and contact sheets
@@ -49,7 +51,7 @@ void make_output_folder(const std::string& folder);
 // says.
 Outputs open_outputs(Simulation& s, const std::string& folder, const std::string& echo,
                      const Checkpoint* resumed);
-// Collective.
+// Collective; throws SharedMachineError on every rank if something can't be written.
 void write_outputs(Simulation& s, Outputs& outputs, const FrameRow& row);
 // Waits for encoders and closes files. Throws MachineError on rank 0.
 void finish_outputs(Outputs& outputs);

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/on_root.h"
 #include "engine/checkpoint_file.h"
 #include "engine/frame_report.h"
 #include "engine/tissue.h"

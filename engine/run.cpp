@@ -5,17 +5,19 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
+#include <memory>
 #include <optional>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/on_root.h"
 #include "engine/build.h"
 #include "engine/bytes.h"
 #include "engine/checkpoint_output.h"
 #include "engine/energy_ledger.h"
 #include "engine/equilibrium.h"
 #include "engine/film_studio.h"
+#include "engine/folder_lock.h"
 #include "engine/frame.h"
 #include "engine/frame_report.h"
 #include "engine/output_check.h"
@@ -41,6 +43,7 @@ void listen_to_signals() {
   stop_asked = false;
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) std::signal(signal, ask_to_stop);
   if (std::signal(SIGHUP, ask_to_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
+  std::signal(SIGXFSZ, SIG_IGN);  // a file grown to its limit is a write that fails
 }
 
 bool is_stopped(const Communicator& communicator) {
@@ -59,36 +62,76 @@ std::string progress_note(const Simulation& s, double start) {
   return note;
 }
 
-// All frames, until the end, a signal or trouble, and the checkpoint there; the sentence of the
-// trouble, "" if none.
-std::string run_frames(Simulation& s, Outputs& outputs) {
+// How a run ended, and the sentence that says why if it did not go through.
+struct Ending {
+  ExitCode code = ExitCode::done;
+  std::string sentence;
+};
+
+// Of a machine that fails, beside what may have ended the run before.
+void add_failure(const std::string& failure, Ending& ending) {
+  if (failure.empty()) return;
+  ending.code = ExitCode::machine;
+  if (ending.sentence.find(failure) != std::string::npos) return;
+  ending.sentence += (ending.sentence.empty() ? "" : "; ") + failure;
+}
+
+// What rank 0 can't write any more, "" if all is well: the run still tells what it found.
+// Collective.
+template <class Write>
+std::string failure_of(const Write& write) {
+  try {
+    write();
+  } catch (const SharedMachineError& failure) {
+    return failure.what();
+  }
+  return "";
+}
+
+// Outputs that can't be written end the run without a checkpoint, which would count them as
+// written.
+Ending run_frame_or_end(Simulation& s, Outputs& outputs) {
+  const FrameStart frame_start = start_of_frame(s);
+  try {
+    run_frame(s, outputs);
+  } catch (const SimulationError& trouble) {
+    Ending ending{.code = ExitCode::simulation, .sentence = trouble.what()};
+    add_failure(failure_of([&] { write_checkpoint(s, outputs, &frame_start); }), ending);
+    return ending;
+  } catch (const SharedMachineError& failure) {
+    return {.code = ExitCode::machine,
+            .sentence = failure.what() + std::string("; the run ends after frame ") +
+                        std::to_string(s.frame)};
+  }
+  return {};
+}
+
+// All frames, until the end, a signal or trouble, and the checkpoint there.
+Ending run_frames(Simulation& s, Outputs& outputs) {
   const auto n_frames = std::llround(s.scene.time.duration * s.scene.time.frame_rate);
   ProgressBar bar(s.scene.name);
   const double start = monotonic_seconds();
   s.start_seconds = start - static_cast<double>(s.frame) / s.scene.time.frame_rate;
   while (s.frame < n_frames && !is_stopped(*s.communicator)) {
-    const FrameStart frame_start = start_of_frame(s);
-    try {
-      run_frame(s, outputs);
-    } catch (const SimulationError& trouble) {
-      write_checkpoint(s, outputs, &frame_start);
-      return trouble.what();
-    }
+    Ending ending = run_frame_or_end(s, outputs);
+    if (ending.code != ExitCode::done) return ending;
     bar.update(static_cast<double>(s.frame) / static_cast<double>(n_frames),
                progress_note(s, start));
   }
-  write_checkpoint(s, outputs);
-  return s.frame < n_frames ? stopped_by_signal : "";
+  Ending ending;
+  if (s.frame < n_frames) ending = {ExitCode::stopped, stopped_by_signal};
+  add_failure(failure_of([&] { write_checkpoint(s, outputs); }), ending);
+  return ending;
 }
 
-// What comes before the first frame if the scene asks for it; the sentence of the trouble, "" if
-// none.
-std::string prepare_start(const LoadedScene& loaded, Simulation& s) {
-  if (s.scene.start.state != StartState::equilibrium) return "";
+// What comes before the first frame if the scene asks for it.
+Ending prepare_start(const LoadedScene& loaded, Simulation& s) {
+  if (s.scene.start.state != StartState::equilibrium) return {};
   try {
-    return start_in_equilibrium(loaded, s, &stop_asked) ? "" : stopped_by_signal;
+    if (start_in_equilibrium(loaded, s, &stop_asked)) return {};
+    return {ExitCode::stopped, stopped_by_signal};
   } catch (const SimulationError& trouble) {
-    return trouble.what();
+    return {ExitCode::simulation, trouble.what()};
   }
 }
 
@@ -101,26 +144,6 @@ void report_stop(const Simulation& s, bool has_begun) {
   else if (s.scene.checkpoint.every > 0)
     log_warning("stopped by a signal after frame " + std::to_string(s.frame) +
                 ": --resume goes on from there");
-}
-
-// The sentence of what can't be written any more on this rank, "" if all is: the summary still has
-// what the run found.
-std::string trouble_in_closing(Outputs& outputs) {
-  try {
-    finish_outputs(outputs);
-  } catch (const MachineError& trouble) {
-    return trouble.what();
-  }
-  return "";
-}
-
-// unfinished: what could not be written before.
-void write_summary(const std::string& text, const std::string& file,
-                   const std::string& unfinished) {
-  std::ofstream stream(file);
-  if ((stream << text).flush()) return;
-  throw MachineError((unfinished.empty() ? "" : unfinished + "; ") + file +
-                     ": can't be written (disk full or no permission)");
 }
 
 }  // namespace
@@ -143,52 +166,68 @@ LoadedScene share_scene(const std::string& file, const std::vector<std::string>&
   return mine;
 }
 
-// Throws on every rank what the root finds wrong.
-static void check_outputs(const RunOptions& options, const LoadedScene& loaded,
-                          Communicator& communicator) {
-  read_on_root(communicator, [&] {
+// The root's claim on the folder, in which nothing that the run reads is written over. Throws on
+// every rank what the root finds wrong. Collective.
+static std::unique_ptr<FolderLock> claim_folder(const RunOptions& options,
+                                                const LoadedScene& loaded,
+                                                Communicator& communicator) {
+  std::unique_ptr<FolderLock> lock;
+  on_root(communicator, [&] {
     check_inputs_stay(loaded, options.scene_file, options.folder);
+    if (!options.resume) make_output_folder(options.folder);
+    lock = std::make_unique<FolderLock>(options.folder);
     if (!options.resume) warn_of_outputs(loaded.scene, options.folder);
-    return std::vector<std::byte>();
   });
+  return lock;
+}
+
+// Closes all files and writes the summary, whatever ended the frames. lock: of the root; times: of
+// what came before. Collective.
+static void finish_run(Simulation& s, Outputs& outputs, FolderLock* lock, RunTimes& times,
+                       Ending& ending) {
+  const Communicator& communicator = *s.communicator;
+  const double start = monotonic_seconds();
+  add_failure(failure_of([&] { on_root(communicator, [&] { finish_outputs(outputs); }); }), ending);
+  times.finish_seconds = monotonic_seconds() - start;
+  if (outputs.studio) times.drawing_seconds = outputs.studio->seconds();
+  const std::string summary = make_summary(s, times, ending.sentence);
+  const auto write_summary = [&] {
+    lock->give_up_room();
+    write_text_file(outputs.folder + "/summary.json", summary);
+  };
+  add_failure(failure_of([&] { on_root(communicator, write_summary); }), ending);
 }
 
 bool run_scene(const RunOptions& options, Communicator& communicator) {
   const double start = monotonic_seconds();
   listen_to_signals();
   const LoadedScene loaded = share_scene(options.scene_file, options.overrides, communicator);
-  check_outputs(options, loaded, communicator);
+  const auto lock = claim_folder(options, loaded, communicator);
   std::optional<Checkpoint> checkpoint;
   if (options.resume) checkpoint = load_checkpoint(options.folder, loaded, communicator);
   const auto simulation = build(loaded, communicator);
-  std::string trouble;
+  Ending ending;
   if (checkpoint)
     restore_checkpoint(*checkpoint, *simulation);
   else
-    trouble = prepare_start(loaded, *simulation);
+    ending = prepare_start(loaded, *simulation);
   Outputs outputs =
       open_outputs(*simulation, options.folder, echo_in(options.folder, loaded, options.scene_file),
                    checkpoint ? &*checkpoint : nullptr);
   RunTimes times{.setup_seconds = monotonic_seconds() - start};
 
-  const bool has_begun = trouble.empty();
-  if (has_begun) trouble = run_frames(*simulation, outputs);
-  if (trouble.empty()) {
+  const bool has_begun = ending.code == ExitCode::done;
+  if (has_begun) ending = run_frames(*simulation, outputs);
+  if (ending.code == ExitCode::done) {
     note_idle_tools(*simulation);
     note_balance(*simulation);
   }
   times.loop_seconds = monotonic_seconds() - start - times.setup_seconds;
-  const bool is_stopped_by_signal = trouble == stopped_by_signal;
-  const std::string unfinished = trouble_in_closing(outputs);
-  times.finish_seconds = monotonic_seconds() - start - times.setup_seconds - times.loop_seconds;
-  if (outputs.studio) times.drawing_seconds = outputs.studio->seconds();
-  const std::string summary =
-      make_summary(*simulation, times, trouble.empty() ? unfinished : trouble);
-  if (communicator.is_root()) write_summary(summary, options.folder + "/summary.json", unfinished);
-  if (!unfinished.empty()) throw MachineError(unfinished);
-  if (is_stopped_by_signal) report_stop(*simulation, has_begun);
-  if (!trouble.empty() && !is_stopped_by_signal) throw SimulationError(trouble);
-  return !is_stopped_by_signal;
+  finish_run(*simulation, outputs, lock.get(), times, ending);
+  if (ending.code == ExitCode::machine) throw SharedMachineError(ending.sentence);
+  if (ending.code == ExitCode::simulation) throw SimulationError(ending.sentence);
+  if (ending.code == ExitCode::stopped) report_stop(*simulation, has_begun);
+  return ending.code == ExitCode::done;
 }
 
 }  // namespace trocar

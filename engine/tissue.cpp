@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "base/log.h"
+#include "base/on_root.h"
 #include "cutting/cut_hex.h"
 #include "engine/bytes.h"
 #include "engine/mesh_measures.h"

@@ -18,22 +18,4 @@ std::string scene_path(const LoadedScene& loaded, const std::string& file);
 // the file has another unit, as a rule, than `key` of the scene says.
 void warn_of_size(const std::string& file, const std::string& key, std::span<const Vec3> X);
 
-// Runs `read` on rank 0 and hands its InputError to everyone; its bytes too. Collective.
-template <class Read>
-std::vector<std::byte> read_on_root(Communicator& communicator, const Read& read) {
-  std::vector<std::byte> bytes;
-  std::string error;
-  if (communicator.is_root()) {
-    try {
-      bytes = read();
-    } catch (const InputError& trouble) {
-      error = trouble.what();
-    }
-  }
-  error = communicator.first_text(error);
-  if (!error.empty()) throw InputError(error);
-  communicator.broadcast(bytes);
-  return bytes;
-}
-
 }  // namespace trocar
