@@ -147,6 +147,26 @@ void check_no_output_lies_in_a_file(const Scene& scene, const SourceMap& where) 
                    "\"" + scene.outputs[k].file + "\" lies in \"" + file + "\", which is a file");
 }
 
+// "000042.png"
+bool is_name_of_frame(const std::string& name) {
+  return name.size() > 4 && name.ends_with(".png") &&
+         name.find_first_not_of("0123456789") == name.size() - 4;
+}
+
+// Others may lie among the pictures of a frames output, but not under the name of one.
+void check_no_output_is_a_frame(const Scene& scene, const SourceMap& where) {
+  std::set<std::string> folders;
+  for (const SceneOutput& output : scene.outputs)
+    if (output.kind == OutputKind::frames) folders.insert(plain_file(output));
+  for (std::size_t k = 0; k < scene.outputs.size(); ++k) {
+    const std::filesystem::path file(plain_file(scene.outputs[k]));
+    if (folders.contains(file.parent_path().string()) && is_name_of_frame(file.filename().string()))
+      where.fail(item("output", k) + ".file",
+                 "\"" + scene.outputs[k].file + "\" has the name of a picture of the frames in \"" +
+                     file.parent_path().string() + "\", which would be written over it");
+  }
+}
+
 void check_outputs(const Scene& scene, const SourceMap& where) {
   std::set<std::string> files;
   for (std::size_t k = 0; k < scene.outputs.size(); ++k) {
@@ -156,7 +176,8 @@ void check_outputs(const Scene& scene, const SourceMap& where) {
       where.fail(path + ".file",
                  "\"" + output.file + "\" must be a relative path inside the output folder");
     const std::string plain = plain_file(output);
-    if (plain == "summary.json" || plain == "scene.toml" || plain.starts_with("checkpoint.bin"))
+    if (plain == "summary.json" || plain == "scene.toml" || plain == ".trocar-lock" ||
+        plain.starts_with("checkpoint.bin"))
       where.fail(path + ".file", "\"" + plain + "\" is written by every run: choose another name");
     if (!files.insert(plain).second)
       where.fail(path + ".file", "two outputs write \"" + output.file + "\"");
@@ -229,6 +250,7 @@ LoadedScene load_scene(const std::string& file, const std::vector<std::string>& 
   check_cameras(scene, located.where);
   check_outputs(scene, located.where);
   check_no_output_lies_in_a_file(scene, located.where);
+  check_no_output_is_a_frame(scene, located.where);
   check_start(scene, located.where);
   check_contact(scene, located.where);
   std::string folder = std::filesystem::path(file).parent_path().string();

@@ -153,6 +153,13 @@ Json equilibrium_json(const Equilibrium& e) {
   return {{"iterations", e.iterations}, {"residual", e.residual}, {"seconds", e.seconds}};
 }
 
+// Without an element where none is deformed.
+Json least_det_F_json(const FrameLog& log) {
+  Json least = {{"value", log.least_J}};
+  if (log.least_J_element >= 0) least["element"] = log.least_J_element;
+  return least;
+}
+
 // What the body holds at the end, the works since the start, and how well the balance closes.
 Json energies_json(const Simulation& s, const FrameRow& last) {
   const BalanceError error = balance_error(s.log.rows);
@@ -227,7 +234,7 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
     j["multirate"] = {{"substeps", s.multirate->steps.gain.size()},
                       {"share_of_elements", s.multirate->share}};
   if (s.sleep) j["share_asleep_mean"] = mean_share_asleep(s.log.rows);
-  j["least_det_F"] = {{"value", s.log.least_J}, {"element", s.log.least_J_element}};
+  j["least_det_F"] = least_det_F_json(s.log);
   j["instruments"] = tools_json(s);
   if (s.energy) j["supports"] = supports_json(s);
   j["wound"] = {{"partner_nodes", s.duplicate_node.size()},

@@ -141,7 +141,7 @@ TEST(SceneCheck, refuses_two_outputs_of_one_name_however_it_is_written) {
 }
 
 TEST(SceneCheck, refuses_outputs_that_would_overwrite_the_files_of_every_run) {
-  for (const std::string file : {"summary.json", "scene.toml", "./summary.json"})
+  for (const std::string file : {"summary.json", "scene.toml", "./summary.json", ".trocar-lock"})
     expect_error(output_text("metrics", file), "is written by every run");
 }
 
@@ -150,6 +150,16 @@ TEST(SceneCheck, refuses_an_output_inside_a_file) {
   expect_error(output_text("metrics", "summary.json/a"), "lies in \"summary.json\"");
   EXPECT_EQ(scene_error(scene_text(camera_text + output_text("frames", "a") +
                                    output_text("metrics", "a/b") + output_text("metrics", "ab"))),
+            "");
+}
+
+TEST(SceneCheck, refuses_an_output_under_the_name_of_a_picture_of_a_frames_output) {
+  const std::string frames = camera_text + output_text("frames", "a/f");
+  expect_error(frames + output_text("metrics", "a/f/000002.png"), "has the name of a picture");
+  expect_error(output_text("metrics", "./a//f/12.png") + frames, "has the name of a picture");
+  EXPECT_EQ(scene_error(scene_text(frames + output_text("metrics", "a/f/2.csv") +
+                                   output_text("contact-sheet", "a/f/all.png") +
+                                   output_text("contact-sheet", "a/000002.png"))),
             "");
 }
 
