@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/log.h"
+#include "engine/support_check.h"
 #include "solver/material_check.h"
 
 namespace trocar {
@@ -69,6 +70,7 @@ void check_converted(const LoadedScene& loaded, const Simulation& s) {
 }  // namespace
 
 void check_body(const LoadedScene& loaded, const Simulation& s) {
+  check_supports(loaded, s.mesh);
   check_loads(loaded, s);
   check_markers(loaded, s);
   check_converted(loaded, s);

@@ -189,6 +189,7 @@ void build_instruments(const LoadedScene& loaded, Simulation& s) {
                    .has_tissue = has_tissue});
   s.contact->motion.resize(s.tools.size());
   s.contact_reach = 0.5 * edge;
+  warn_of_hasty_jaws(s.scene);
   build_cuts(s);
 }
 

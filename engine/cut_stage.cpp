@@ -1,6 +1,7 @@
 #include "engine/cut_stage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -72,6 +73,26 @@ void start_stroke(CutStage& stage, const Tool& tool, double time, std::int32_t d
   stage.strokes.push_back({.tool = tool.name, .start = time});
   if (dimension == 3) stage.tet.start_stroke();
   stage.plane_tip = -1;
+}
+
+// Whether the tissue goes on beyond an end of the edge.
+bool goes_on_beside(const Simulation& s, BodyPositions& positions, const std::vector<Vec3>& edge) {
+  const std::array<Vec3, 2> ends = {edge.front(), edge.back()};
+  const std::vector<std::int32_t> near = positions.elements_around(box_around(ends));
+  return std::ranges::any_of(locate_points(s.mesh, positions.x(), ends, near),
+                             [](const Location& location) { return location.element >= 0; });
+}
+
+// Where the jaws of scissors begin to have tissue beside them: once a closing, as a rule.
+void note_tissue_beside(Simulation& s, const CutStage& stage, double time, const BladeSweep& sweep,
+                        BodyPositions& positions) {
+  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  if (tool.kind != InstrumentKind::scissors || !goes_on_beside(s, positions, sweep.after)) return;
+  if (stage.strokes.back().start < time && goes_on_beside(s, positions, sweep.before)) return;
+  note_event(s, time,
+             tool.name +
+                 " leaves tissue uncut that lies beside its open jaws: a longer blade_length "
+                 "opens wider, and further closings cut further");
 }
 
 void add_figures(const CutFigures& figures, bool has_edit, CutRecord& record) {
@@ -234,6 +255,7 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
     start_stroke(stage, tool, span.t1, s.mesh.dimension());
   }
   stage.strokes.back().end = span.t1;
+  note_tissue_beside(s, stage, span.t1, sweep, *positions);
   const bool is_last = leaves_tissue(tool, span, is_near, is_idle, stage);
   const std::int64_t n_edits = stage.strokes.back().n_edits;
   if (s.mesh.dimension() == 2)

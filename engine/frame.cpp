@@ -10,6 +10,7 @@
 #include "engine/checkpoint_output.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
+#include "engine/linear_range.h"
 #include "solver/step.h"
 
 namespace trocar {
@@ -190,6 +191,7 @@ void run_frame(Simulation& s, Outputs& outputs) {
   const FrameSpan span = step_safely(s);
   s.held_step = std::min(s.watch.stable_step, held_step + step_rise / s.scene.time.frame_rate);
   if (s.energy) close_frame_work(s);
+  watch_linear_range(s, span.t1);
   FrameRow row = report_forces(s, span);
   if (!s.cuts.empty()) cut_along_blades(s, span);
   if (s.sleep) fall_asleep(s);

@@ -110,11 +110,18 @@ void report_state(Simulation& s, FrameRow& row) {
   keep_extremes(s);
 }
 
-void note_event(Simulation& s, double time, const std::string& event) {
+static const std::string& add_event(Simulation& s, double time, const std::string& event) {
   char stamp[32];
   std::snprintf(stamp, sizeof stamp, "%.3f s: ", time);
-  s.log.events.push_back(stamp + event);
-  log_info(stamp + event);
+  return s.log.events.emplace_back(stamp + event);
+}
+
+void note_event(Simulation& s, double time, const std::string& event) {
+  log_info(add_event(s, time, event));
+}
+
+void warn_event(Simulation& s, double time, const std::string& event) {
+  log_warning(add_event(s, time, event));
 }
 
 void note_grasp(Simulation& s, double time, const GraspAct& act) {

@@ -16,6 +16,8 @@ FrameRow report_forces(Simulation& s, const FrameSpan& span);
 void report_state(Simulation& s, FrameRow& row);
 // To the log of the summary and, on rank 0, to the terminal.
 void note_event(Simulation& s, double time, const std::string& event);
+// The same as a warning.
+void warn_event(Simulation& s, double time, const std::string& event);
 void note_grasp(Simulation& s, double time, const GraspAct& act);
 // At the end of a run: blades that have cut nothing, and probes that have touched nothing.
 void note_idle_tools(Simulation& s);

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "base/log.h"
+#include "base/options.h"
 #include "collision/closest_point.h"
 #include "engine/frame_report.h"
 
@@ -34,7 +36,34 @@ double depth_in_body(const Surface& surface, std::span<const Vec3> x, const Vec3
   return angle > 2 * std::numbers::pi ? distance : 0;
 }
 
+void warn_if_hasty(const SceneInstrument& instrument, const std::string& place, double wait) {
+  const bool has_blades = instrument.kind == InstrumentKind::scissors;
+  log_warning(place + ": \"" + instrument.name + "\" turns its jaws round after " +
+              short_text(wait) + " s, but they take " + short_text(jaw_time) + " s: " +
+              (has_blades ? "they don't close fully, and leave uncut what is left between them"
+                          : "it takes hold and lets go at the keys all the same, but pictures show "
+                            "jaws that turn round halfway") +
+              "; let more time pass between the two actions");
+}
+
 }  // namespace
+
+void warn_of_hasty_jaws(const Scene& scene) {
+  constexpr double rounding = 1e-9;
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k) {
+    const InstrumentKey* last = nullptr;  // that turned the jaws round
+    const std::vector<InstrumentKey>& path = scene.instruments[k].path;
+    for (std::size_t j = 0; j < path.size(); ++j) {
+      if (path[j].action == GraspAction::none) continue;
+      if (last && last->action == path[j].action) continue;
+      if (last && path[j].time - last->time < jaw_time - rounding)
+        warn_if_hasty(scene.instruments[k],
+                      "instrument[" + std::to_string(k) + "].path[" + std::to_string(j) + "]",
+                      path[j].time - last->time);
+      last = &path[j];
+    }
+  }
+}
 
 // Contacts are sought at the surface: a tip that is well inside meets none, so it is looked for.
 void check_instruments_outside(const LoadedScene& loaded, double allowed, const std::string& what,

@@ -1,4 +1,5 @@
-// Instruments begin outside of the tissue: one that is inside would have to be pushed out.
+// Instruments begin outside of the tissue: one that is inside would have to be pushed out. Their
+// jaws need time.
 #pragma once
 
 #include <string>
@@ -12,5 +13,8 @@ namespace trocar {
 // `allowed` [m] into the body as it lies at time zero. `what`: the body, in the sentence.
 void check_instruments_outside(const LoadedScene& loaded, double allowed, const std::string& what,
                                Simulation& s);
+
+// Warns of jaws that have to turn round before they have closed or opened.
+void warn_of_hasty_jaws(const Scene& scene);
 
 }  // namespace trocar

@@ -136,8 +136,9 @@ Tool make_tool(const SceneInstrument& s, const TriangleMesh& mesh, double edge_s
 double jaw_opening(const Tool& tool, double time) {
   double opening = 1;
   for (const InstrumentKey& key : tool.keys) {
-    if (key.action == GraspAction::none || key.time - 0.2 > time) continue;
-    const double done = std::min(1.0, (time - key.time + 0.2) / 0.2);  // the jaws meet at the key
+    if (key.action == GraspAction::none || key.time - jaw_time > time) continue;
+    const double done =
+        std::min(1.0, (time - key.time + jaw_time) / jaw_time);  // the jaws meet at the key
     opening =
         key.action == GraspAction::close ? std::min(opening, 1 - done) : std::max(opening, done);
   }

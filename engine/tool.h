@@ -41,7 +41,9 @@ inline constexpr int first_working_piece = 1;
 // the points of a cutting edge [m].
 Tool make_tool(const SceneInstrument& instrument, const TriangleMesh& mesh, double edge_spacing);
 
-// How far the jaws are open at a time, 1 open … 0 closed, moving for 0.2 s around the keys.
+// Jaws take this time to close or to open. [s]
+inline constexpr double jaw_time = 0.2;
+// How far the jaws are open at a time, 1 open … 0 closed; they have moved at the keys.
 double jaw_opening(const Tool& tool, double time);
 // Pose of a part: the tool's, with a jaw's turn.
 Pose part_pose(const Tool& tool, const ToolPart& part, double time);

@@ -1,6 +1,7 @@
 // What scissors divide when they close.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "engine_scene.h"
@@ -73,6 +74,18 @@ TEST(Scissors, cut_a_slit_into_a_plate_that_is_wider_than_they_open) {
            s.mesh.X.size() - static_cast<std::size_t>(s.cuts[0].strokes[0].n_duplicated);
        i < s.mesh.X.size(); ++i)
     EXPECT_LT(std::abs(s.mesh.X[i].x()), 0.0053 + 1.25e-3);
+}
+
+// The plate is told of once a closing, the strip that lies between the blades not at all.
+TEST(Scissors, tell_of_tissue_that_lies_beside_their_jaws) {
+  for (const double width : {0.03, 0.005}) {
+    const auto started = run_to(0.45, snip_text(width, "close"));
+    const std::vector<std::string>& events = started->s->log.events;
+    EXPECT_EQ(std::ranges::count_if(
+                  events,
+                  [](const std::string& event) { return contains(event, "beside its open jaws"); }),
+              width > 0.02 ? 1 : 0);
+  }
 }
 
 TEST(Scissors, that_only_open_cut_nothing) {

@@ -1,6 +1,9 @@
 // What a scene asks for in vain is told: loads on what can't move, markers without metrics,
 // graspers and blades that meet no tissue.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -182,6 +185,112 @@ TEST(InVain, run_whose_last_picture_cannot_be_written_has_its_summary) {
   EXPECT_FALSE(summary["finished"].get<bool>());
   EXPECT_TRUE(has(summary["trouble"].get<std::string>(), "c.png"));
   EXPECT_GT(summary["steps"].get<int>(), 0);
+}
+
+const std::string pictures =
+    "[[camera]]\neye = [0, -0.1, 0.1]\ntarget = [0, 0, 0]\n[[output]]\nkind = \"frames\"\nfile = "
+    "\"f\"\nsize = [64, 48]\n";
+
+// Of one rank and of two: the others must learn of the failure and not wait.
+TEST(InVain, run_whose_output_fails_in_the_middle_has_its_summary_and_is_resumed) {
+  for (const int ranks : {1, 2}) {
+    const std::string folder = test_folder("no-third-picture");
+    const std::string in_the_way = folder + "/f/000003.png";
+    std::filesystem::create_directories(in_the_way);
+    std::ofstream(folder + "/s.toml") << block << pictures
+                                      << "[[output]]\nkind = \"recording\"\nfile = \"r.trocar\"\n"
+                                         "[checkpoint]\nevery = 0.02\n";
+    std::vector<std::string> words = {"run",   folder + "/s.toml", "-q", "-o", folder,
+                                      "--set", "time.duration=2"};
+    const Finished run = run_trocar_on(ranks, words, folder);
+    EXPECT_EQ(run.exit_code, 4) << run.err;
+    EXPECT_TRUE(has(run.err, "000003.png: Is a directory; the run ends after frame ")) << run.err;
+    const nlohmann::json summary = read_summary(folder);
+    ASSERT_FALSE(summary.is_discarded());
+    EXPECT_FALSE(summary["finished"].get<bool>());
+    EXPECT_TRUE(has(summary["trouble"].get<std::string>(), "000003.png"));
+    EXPECT_GE(summary["frames"].get<int>(), 3);
+    EXPECT_LT(summary["frames"].get<int>(), 100);
+    std::filesystem::remove(in_the_way);
+    words.emplace_back("--resume");
+    EXPECT_EQ(run_trocar(words, folder).exit_code, 0);
+    EXPECT_EQ(read_summary(folder)["frames"].get<int>(), 100);
+  }
+}
+
+TEST(InVain, second_run_in_a_folder_in_use_is_refused) {
+  const std::string folder = test_folder("in-use");
+  const int other = open((folder + "/.trocar-lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  ASSERT_EQ(flock(other, LOCK_EX), 0);
+  for (const int ranks : {1, 2}) {
+    std::ofstream(folder + "/s.toml") << block;
+    const Finished run =
+        run_trocar_on(ranks, {"run", folder + "/s.toml", "-q", "-o", folder}, folder);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_TRUE(has(run.err, "is in use by another run: choose another one with -o")) << run.err;
+    EXPECT_TRUE(read_summary(folder).is_discarded());
+  }
+  close(other);
+  EXPECT_EQ(told("", folder).run.exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder + "/.trocar-lock"));
+}
+
+TEST(InVain, supports_of_the_same_nodes_are_told) {
+  const auto run_with = [](const std::string& support) {
+    return told("[[support]]\nregion = " + support + "\n", test_folder("two-supports")).run;
+  };
+  EXPECT_TRUE(has(run_with("\"z-\"").err,
+                  "support[1] adds nothing: its nodes (region \"z-\") are held in the same way "
+                  "without it, by support[0]"));
+  const std::string path =
+      "path = [{ time = 0, displacement = [0, 0, 0] }, { time = 0.06, displacement = ";
+  const Finished against = run_with("\"z-\"\n" + path + "[0.001, 0, 0] }]");
+  EXPECT_EQ(against.exit_code, 2);
+  EXPECT_TRUE(has(against.err,
+                  "support[1]: all its 25 nodes (region \"z-\") are held by support[0], which "
+                  "moves them otherwise"))
+      << against.err;
+  // The edge of five nodes that two sides of the block share.
+  EXPECT_TRUE(has(run_with("\"x+\"\n" + path + "[0.001, 0, 0] }]").err,
+                  "support[1]: support[0] holds 5 of its 25 nodes otherwise, and has them"));
+  EXPECT_EQ(run_with("\"x+\"\nfix = \"x\"").err, "");
+}
+
+TEST(InVain, of_two_motions_of_a_region_the_second_is_refused_unless_it_is_the_same) {
+  const auto err_with = [](const std::string& first, const std::string& second) {
+    const auto support = [](const std::string& z) {
+      return "[[support]]\nregion = \"z+\"\npath = [{ time = 0, displacement = [0, 0, 0] }, { time "
+             "= 0.06, displacement = [0, 0, " +
+             z + "] }]\n";
+    };
+    return told(support(first) + support(second), test_folder("two-motions")).run.err;
+  };
+  EXPECT_TRUE(has(err_with("0.001", "-0.001"), "support[2]: all its 25 nodes"));
+  EXPECT_TRUE(has(err_with("0.001", "0.001"), "support[2] adds nothing"));
+}
+
+TEST(InVain, jaws_that_cannot_follow_are_told) {
+  const auto err_with = [](const std::string& open_at) {
+    const std::string pose = "position = [0, 0, 0.1]";
+    return told("[[instrument]]\nkind = \"scissors\"\npath = [{ time = 0, " + pose +
+                    " }, { time = 0.3, " + pose + ", action = \"close\" }, { time = " + open_at +
+                    ", " + pose + ", action = \"open\" }]\n",
+                test_folder("hasty"))
+        .run.err;
+  };
+  EXPECT_TRUE(has(err_with("0.35"),
+                  "instrument[0].path[2]: \"scissors\" turns its jaws round after 0.05 s, but they "
+                  "take 0.2 s: they don't close fully"))
+      << err_with("0.35");
+  EXPECT_EQ(err_with("0.5"), "");
+}
+
+TEST(InVain, body_that_nothing_deforms_names_no_least_element) {
+  const std::string folder = test_folder("at-rest");
+  told("", folder);
+  const nlohmann::json least = read_summary(folder)["least_det_F"];
+  EXPECT_EQ(least["value"], 1.0);
+  EXPECT_FALSE(least.contains("element"));
 }
 
 }  // namespace

@@ -100,6 +100,26 @@ TEST(Trouble, hourglass_energy_of_the_material_is_no_trouble) {
   EXPECT_EQ(summary["events"].size(), 0u);
 }
 
+TEST(Trouble, linear_material_beyond_small_strains_is_warned_of_once) {
+  const auto summary_of = [](const std::string& modulus) {
+    const std::string folder = test_folder("linear");
+    std::string scene = std::regex_replace(bar, std::regex("neo-hookean"), "linear");
+    scene = std::regex_replace(scene, std::regex("10 kPa"), modulus);
+    EXPECT_EQ(run_text(scene, folder).exit_code, 0);
+    return read_summary(folder);
+  };
+  // At rest the end is turned by 2 rho g L^3 / (E h^2), 24 degrees at 100 kPa and a quarter of one
+  // at 10 MPa, in its first swing by up to twice as much; the range ends at 5.7 degrees.
+  const nlohmann::json soft = summary_of("100 kPa");
+  EXPECT_TRUE(has_event(soft, "the linear material is used beyond small strains and rotations"));
+  EXPECT_EQ(std::count_if(soft["events"].begin(), soft["events"].end(),
+                          [](const nlohmann::json& event) {
+                            return event.get<std::string>().find("linear") != std::string::npos;
+                          }),
+            1);
+  EXPECT_FALSE(has_event(summary_of("10 MPa"), "linear"));
+}
+
 // At 2.6 m/s the steps of the frame's beginning are too long for what happens within it.
 TEST(Trouble, in_a_frame_is_answered_by_rolling_back_and_going_on_with_half_the_step) {
   const std::string folder = test_folder("rolled-back");

@@ -1,0 +1,116 @@
+#include "engine/linear_range.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "base/options.h"
+#include "base/threads.h"
+#include "engine/frame_report.h"
+#include "solver/hex8_reference.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr const char* beyond = "the linear material is used beyond small strains and rotations";
+
+struct Strained {
+  double norm = 0;            // of the displacement gradient
+  std::int32_t element = -1;  // global number
+
+  void take(double other, std::int32_t number) {
+    if (other < norm || (other == norm && (element < 0 || number > element))) return;
+    norm = other;
+    element = number;
+  }
+};
+
+// Derivatives of a field at the element's centre by its reference coordinates, but for a factor.
+template <class Value>
+Mat3 derivatives(ElementType type, std::span<const std::int32_t> corners, const Value& value) {
+  Mat3 by_reference = Mat3::Zero();
+  if (type == ElementType::hex8) {
+    for (int a = 0; a < 8; ++a)
+      for (int k = 0; k < 3; ++k)
+        by_reference.col(k) += hex_corner_xi[a][k] * value(corners[static_cast<std::size_t>(a)]);
+    return by_reference;
+  }
+  for (std::size_t k = 1; k < corners.size(); ++k)
+    by_reference.col(static_cast<Eigen::Index>(k) - 1) = value(corners[k]) - value(corners[0]);
+  return by_reference;
+}
+
+// H = du/dX at the centre of an element of this rank; of a plane element in its plane.
+Mat3 displacement_gradient(const Simulation& s, std::int32_t e) {
+  const ElementType type = s.mesh.element_type[static_cast<std::size_t>(e)];
+  const auto corners = s.mesh.corners(e);
+  Mat3 dX = derivatives(type, corners,
+                        [&](std::int32_t i) { return s.mesh.X[static_cast<std::size_t>(i)]; });
+  if (type == ElementType::tri3) dX.col(2) = Vec3::UnitZ();
+  const Mat3 du = derivatives(type, corners, [&](std::int32_t i) -> Vec3 {
+    return Vec3::Map(
+        &s.state.u[3 * static_cast<std::size_t>(s.part.node_local[static_cast<std::size_t>(i)])]);
+  });
+  return du * dX.inverse();
+}
+
+// The largest singular value, which that of all components bounds; 0 where it is not above `enough`
+// in any case.
+double norm_above(const Mat3& H, double enough) {
+  if (!(H.squaredNorm() > enough * enough)) return 0;
+  Eigen::SelfAdjointEigenSolver<Mat3> squares;
+  squares.computeDirect(H.transpose() * H, Eigen::EigenvaluesOnly);
+  return std::sqrt(squares.eigenvalues()[2]);
+}
+
+bool is_linear(const Simulation& s, std::int32_t e) {
+  const auto region = static_cast<std::size_t>(s.mesh.element_region[static_cast<std::size_t>(e)]);
+  return s.materials[region].model == MaterialModel::linear;
+}
+
+Strained most_strained(const Simulation& s) {
+  Strained most;
+  std::mutex mutex;
+  const auto n = static_cast<std::int64_t>(s.part.element_global.size());
+  parallel_for(n, [&](std::int64_t begin, std::int64_t end) {
+    Strained mine;
+    for (std::int64_t k = begin; k < end; ++k) {
+      const std::int32_t e = s.part.element_global[static_cast<std::size_t>(k)];
+      if (is_linear(s, e)) mine.take(norm_above(displacement_gradient(s, e), mine.norm), e);
+    }
+    const std::scoped_lock lock(mutex);
+    if (mine.element >= 0) most.take(mine.norm, mine.element);
+  });
+  return most;
+}
+
+// The log remembers, over a resumption too.
+bool is_told(const Simulation& s) {
+  return std::any_of(s.log.events.begin(), s.log.events.end(), [](const std::string& event) {
+    return event.find(beyond) != std::string::npos;
+  });
+}
+
+}  // namespace
+
+void watch_linear_range(Simulation& s, double time) {
+  const bool has_linear =
+      std::any_of(s.materials.begin(), s.materials.end(),
+                  [](const Material& m) { return m.model == MaterialModel::linear; });
+  if (!has_linear || is_told(s)) return;
+  const Strained mine = most_strained(s);
+  const double norm = s.communicator->all_max(mine.norm);
+  if (norm <= linear_range) return;
+  constexpr double none = 1e18;
+  const double element = s.communicator->all_min(mine.norm == norm ? mine.element : none);
+  warn_event(s, time,
+             std::string(beyond) + ": the displacement gradient of element " +
+                 std::to_string(static_cast<std::int64_t>(element)) + " is " + short_text(norm) +
+                 ", and beyond " + short_text(linear_range) +
+                 " its forces are wrong by a tenth or more; tissue.material.model = "
+                 "\"neo-hookean\" is for large ones");
+}
+
+}  // namespace trocar
