@@ -33,6 +33,9 @@ struct ContactSet {
     std::array<std::int32_t, 3> place{};   // of its corners in the nodes below
     std::array<std::int32_t, 3> beside{};  // of its corners in `beside`
     bool is_near = true;                   // at the last look
+    // Of a hull's last look: the corners in the tool's frame, and how far it saw [m].
+    std::array<Vec3, 3> seen{};
+    double sight = -1;
     Vec3 reaction_sum = Vec3::Zero();      // on the tool, over the steps so far [N]
   };
   struct TissueItem {

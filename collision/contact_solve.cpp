@@ -15,6 +15,8 @@ namespace {
 // A triangle whose corners lie on a tool is left to these, where it reaches into the tool by less
 // than this of its own size and faces it as they do.
 constexpr double flat_enough = 1e-3, as_steep = 0.99;
+// Of a triangle's size: what it may move beside a hull between two looks, which take Bullet 2 us.
+constexpr double same_place = 0.02;
 constexpr int most_rounds = 30;
 constexpr double good_enough = 1e-3;  // change in a round / deepest point at the start
 
@@ -155,6 +157,22 @@ double project(double friction, ContactConstraint& c, std::span<Vec3> move) {
 
 }  // namespace
 
+namespace {
+
+// At a hull, which then sees as far as needed until the triangle has moved.
+bool has_to_look(const std::array<Vec3, 3>& corners, double& forced, ContactSet::Item& item) {
+  const double size = (corners[1] - corners[0]).norm(), slack = same_place * size;
+  double moved = 0;
+  for (std::size_t a = 0; a < 3; ++a)
+    moved = std::max(moved, (corners[a] - item.seen[a]).norm());
+  if (moved <= slack && forced + moved <= item.sight) return false;
+  item.seen = corners;
+  item.sight = forced = 2 * forced + slack;
+  return true;
+}
+
+}  // namespace
+
 void look_again(const ContactDetector& detector, const ContactStep& step, ContactSet& set) {
   for (ContactSet::BesidePiece& b : set.beside)
     b.local =
@@ -163,7 +181,9 @@ void look_again(const ContactDetector& detector, const ContactStep& step, Contac
     const auto local = [&](std::size_t a) { return set.beside[to_size(item.beside[a])].local; };
     double forced = 0;
     for (const std::int32_t place : item.place) forced = std::max(forced, forced_way(set, place));
-    item.is_near = detector.update({corners_of(set.x_ahead, item), {local(0), local(1), local(2)}},
+    const std::array<Vec3, 3> corners = {local(0), local(1), local(2)};
+    if (detector.is_hull(item.contact) && !has_to_look(corners, forced, item)) continue;
+    item.is_near = detector.update({corners_of(set.x_ahead, item), corners},
                                    tool_of(step, item).pose, forced, item.contact);
   }
 }

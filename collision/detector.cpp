@@ -274,4 +274,8 @@ std::optional<NodeTouch> ContactDetector::touch_node(const Contact& contact, con
   return NodeTouch{.normal = pose.rotation * found.normal, .gap = found.gap};
 }
 
+bool ContactDetector::is_hull(const Contact& contact) const {
+  return state_->core_of(contact).hull.has_value();
+}
+
 }  // namespace trocar

@@ -78,6 +78,7 @@ class ContactDetector {
   // nearest of its faces. Nothing on plane meshes.
   std::optional<NodeTouch> touch_node(const Contact& contact, const Vec3& x, const Pose& pose,
                                       double margin) const;
+  bool is_hull(const Contact& contact) const;
 
  private:
   struct State;
