@@ -36,7 +36,7 @@ struct ContactSet {
     // Of a hull's last look: the corners in the tool's frame, and how far it saw [m].
     std::array<Vec3, 3> seen{};
     double sight = -1;
-    Vec3 reaction_sum = Vec3::Zero();      // on the tool, over the steps so far [N]
+    Vec3 reaction_sum = Vec3::Zero();  // on the tool, over the steps so far [N]
   };
   struct TissueItem {
     std::array<std::int32_t, 4> place{};  // of the node and the corners of the triangle

@@ -163,8 +163,7 @@ namespace {
 bool has_to_look(const std::array<Vec3, 3>& corners, double& forced, ContactSet::Item& item) {
   const double size = (corners[1] - corners[0]).norm(), slack = same_place * size;
   double moved = 0;
-  for (std::size_t a = 0; a < 3; ++a)
-    moved = std::max(moved, (corners[a] - item.seen[a]).norm());
+  for (std::size_t a = 0; a < 3; ++a) moved = std::max(moved, (corners[a] - item.seen[a]).norm());
   if (moved <= slack && forced + moved <= item.sight) return false;
   item.seen = corners;
   item.sight = forced = 2 * forced + slack;
