@@ -91,9 +91,9 @@ Skin cut_skin(Looks k, float depth) {
   s.albedo *= 0.75 + 0.50 * k.fine.r + 0.9 * (k.near.r - 0.5);
   // A vessel runs where both fields vanish; cut across it shows a pale wall around a dark opening.
   float tube = length(k.near.ba - 0.5);
-  float wall = 1.0 - smoothstep(0.040, 0.060, tube), opening = 1.0 - smoothstep(0.020, 0.034, tube);
+  float wall = 1.0 - smoothstep(0.040, 0.060, tube), opening = 1.0 - smoothstep(0.012, 0.032, tube);
   s.albedo = mix(s.albedo, vec3(0.42, 0.20, 0.16), 0.6 * wall);
-  s.albedo = mix(s.albedo, vec3(0.07, 0.005, 0.006), opening);
+  s.albedo = mix(s.albedo, vec3(0.17, 0.012, 0.013), 0.85 * opening);
   // Blood seeps over it.
   float blood = smoothstep(0.44, 0.64, 0.6 * k.near.r + 0.4 * k.fine.r);
   s.albedo = mix(s.albedo, vec3(0.34, 0.010, 0.011), 0.62 * blood);
