@@ -182,6 +182,15 @@ FrameSpan step_safely(Simulation& s) {
   }
 }
 
+// What roll-backs have taken from the step comes back as slowly as the stable step rises.
+void recover_step_scale(Simulation& s, const FrameSpan& span) {
+  if (s.step_scale == 1) return;
+  s.step_scale += step_rise * (span.t1 - span.t0) / s.held_step;
+  if (s.step_scale < 1) return;
+  s.step_scale = 1;
+  note_event(s, span.t1, "the step is whole again");
+}
+
 }  // namespace
 
 void run_frame(Simulation& s, Outputs& outputs) {
@@ -190,6 +199,7 @@ void run_frame(Simulation& s, Outputs& outputs) {
   const double held_step = stable_step(s);
   const FrameSpan span = step_safely(s);
   s.held_step = std::min(s.watch.stable_step, held_step + step_rise / s.scene.time.frame_rate);
+  recover_step_scale(s, span);
   if (s.energy) close_frame_work(s);
   watch_linear_range(s, span.t1);
   FrameRow row = report_forces(s, span);

@@ -134,7 +134,7 @@ struct Simulation : RankBody {
   std::optional<LocalStepPlan> local_steps;  // only if the scene asks for it; replicated
   std::unique_ptr<MultiRate> multirate;      // of it, if it saves work
   std::optional<Sleep> sleep;                // only if the scene asks for it
-  double step_scale = 1;                     // halved by each roll-back
+  double step_scale = 1;                     // halved by each roll-back, then rises slowly
   // The stable step falls at once and rises slowly (step_rise in frame.cpp). [s]
   double held_step = std::numeric_limits<double>::infinity();
   Watch watch;  // of the last frame, over all ranks

@@ -130,6 +130,21 @@ TEST(Frame, does_not_let_the_step_drive_a_body_that_swings_without_damping) {
   EXPECT_EQ(s.log.n_roll_backs, 0);
 }
 
+// A moment's trouble is not paid for to the end of the run.
+TEST(Frame, takes_up_the_whole_step_again_after_a_roll_back) {
+  const auto started = swinging_block();
+  Simulation& s = *started->s;
+  s.step_scale = 0.5;
+  run_frame(s, started->outputs);
+  const double rise = s.step_scale - 0.5;
+  EXPECT_GT(rise, 0);
+  EXPECT_LE(rise, 1.01e-4 / 40 / s.held_step);  // of the frame's 1/40 s
+  for (int frame = 0; frame < 1 / rise && s.step_scale < 1; ++frame)
+    run_frame(s, started->outputs);
+  EXPECT_EQ(s.step_scale, 1);
+  EXPECT_TRUE(contains(s.log.events.back(), "the step is whole again"));
+}
+
 TEST(Frame, takes_a_shorter_step_at_once_and_a_longer_one_slowly) {
   const auto started = swinging_block();
   Simulation& s = *started->s;
