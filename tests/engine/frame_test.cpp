@@ -139,8 +139,7 @@ TEST(Frame, takes_up_the_whole_step_again_after_a_roll_back) {
   const double rise = s.step_scale - 0.5;
   EXPECT_GT(rise, 0);
   EXPECT_LE(rise, 1.01e-4 / 40 / s.held_step);  // of the frame's 1/40 s
-  for (int frame = 0; frame < 1 / rise && s.step_scale < 1; ++frame)
-    run_frame(s, started->outputs);
+  for (int frame = 0; frame < 1 / rise && s.step_scale < 1; ++frame) run_frame(s, started->outputs);
   EXPECT_EQ(s.step_scale, 1);
   EXPECT_TRUE(contains(s.log.events.back(), "the step is whole again"));
 }
