@@ -182,6 +182,21 @@ FrameSpan step_safely(Simulation& s) {
   }
 }
 
+// Out of jaws that hold less than it pulls.
+void let_slip(Simulation& s, const FrameSpan& span, const FrameRow& row) {
+  for (std::size_t k = 0; k < s.tools.size(); ++k) {
+    const double most = s.tools[k].grip_force, pull = row.tools[k].force.norm();
+    if (most == 0 || pull <= most) continue;
+    const int n = release(s.holds, static_cast<std::int32_t>(k));
+    if (n == 0) continue;
+    localise_holds(s.holds, s.part);
+    note_event(s, span.t1,
+               "tissue slips out of " + s.tools[k].name + ", " + std::to_string(n) +
+                   " nodes: it pulls with " + number_text(pull) + " N, grip_force is " +
+                   number_text(most) + " N");
+  }
+}
+
 // What roll-backs have taken from the step comes back as slowly as the stable step rises.
 void recover_step_scale(Simulation& s, const FrameSpan& span) {
   if (s.step_scale == 1) return;
@@ -203,6 +218,7 @@ void run_frame(Simulation& s, Outputs& outputs) {
   if (s.energy) close_frame_work(s);
   watch_linear_range(s, span.t1);
   FrameRow row = report_forces(s, span);
+  let_slip(s, span, row);
   if (!s.cuts.empty()) cut_along_blades(s, span);
   if (s.sleep) fall_asleep(s);
   ++s.frame;

@@ -12,10 +12,6 @@ bool acts_within(const InstrumentKey& key, double t0, double t1) {
   return key.action != GraspAction::none && key.time > t0 && key.time <= t1;
 }
 
-void release(Holds& holds, std::int32_t tool) {
-  std::erase_if(holds.holds, [&](const Hold& hold) { return hold.tool == tool; });
-}
-
 GraspAct grasp(Holds& holds, const Tool& tool, std::int32_t number, const Pose& pose,
                std::span<const Vec3> x, std::span<const std::uint8_t> fixed) {
   const std::vector<std::uint8_t> is_held = held_nodes(holds, fixed);
@@ -48,6 +44,11 @@ std::vector<std::uint8_t> held_nodes(const Holds& holds, std::span<const std::ui
   std::transform(fixed.begin(), fixed.end(), is_held.begin(), holds_in_plane);
   for (const Hold& hold : holds.holds) is_held[static_cast<std::size_t>(hold.node)] = 1;
   return is_held;
+}
+
+int release(Holds& holds, std::int32_t tool) {
+  return static_cast<int>(
+      std::erase_if(holds.holds, [&](const Hold& hold) { return hold.tool == tool; }));
 }
 
 bool will_act(std::span<const Tool> tools, double t0, double t1) {

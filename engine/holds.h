@@ -50,6 +50,8 @@ struct GraspAct {
 std::vector<GraspAct> act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,
                                    std::span<const Vec3> x, std::span<const std::uint8_t> fixed);
 bool will_act(std::span<const Tool> tools, double t0, double t1);
+// Lets go of all that the tool holds: how many nodes.
+int release(Holds& holds, std::int32_t tool);
 
 // After a change of part, holds or topology.
 void localise_holds(Holds& holds, const Part& part);

@@ -157,6 +157,7 @@ struct SceneInstrument {
   double length = 0.15;
   double blade_length = 0.02;
   double grip_radius = 6e-3;
+  double grip_force = 0;
   std::string mesh;
   double scale = 1;
   std::vector<InstrumentKey> path;

@@ -256,6 +256,9 @@ Options<SceneInstrument> instrument_options() {
            "each stands 0.3 rad off the shaft, and what lies beside them is not cut.");
   i.number("grip_radius", &SceneInstrument::grip_radius, dim::length, positive,
            "A closing grasper holds the nodes within.");
+  i.number("grip_force", &SceneInstrument::grip_force, dim::force, not_negative,
+           "Tissue that pulls at a grasper with more, in the mean of a frame, slips out of its "
+           "jaws, all at once. 0: they hold whatever pulls.");
   i.text("mesh", &SceneInstrument::mesh,
          "Surface (.stl, .obj) of the tip instead of the built-in shape; its origin is the tip, "
          "its +z the shaft. Tissue feels its convex hull.");

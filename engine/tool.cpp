@@ -66,6 +66,7 @@ void make_grasper(Tool& tool, const SceneInstrument& s) {
   const double jaw = 0.022, thick = 0.55 * s.radius;
   tool.hinge_height = jaw;
   tool.grip_radius = s.grip_radius;
+  tool.grip_force = s.grip_force;
   tool.closed_share = 0.15;
   // Open jaws for contact: capsules from the hinge to the two tips.
   ConvexPiece upper{.points = {Vec3(0, 0, jaw), Vec3(jaw_slope * jaw, 0, 0)},

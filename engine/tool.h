@@ -29,6 +29,7 @@ struct Tool {
   // line from blade to blade through the tips when open; cutting_edge() takes it towards the pivot.
   std::vector<Vec3> edge;
   double grip_radius = 0;     // grasper [m]
+  double grip_force = 0;      // that it holds, 0: any [N]
   double hinge_height = 0;    // jaws turn about the y axis here [m]
   double closed_share = 0.1;  // of the angle of open jaws that is left when they are closed
 };

@@ -91,6 +91,7 @@ radius = "4 mm"
 length = "20 cm"
 blade_length = "1 cm"
 grip_radius = "7 mm"
+grip_force = "2 N"
 mesh = "g.stl"
 scale = "1 mm"
 [[instrument.path]]
@@ -168,6 +169,7 @@ TEST(SceneOptions, every_key_of_the_operation_reaches_its_member_in_si) {
   EXPECT_DOUBLE_EQ(i.length, 0.2);
   EXPECT_DOUBLE_EQ(i.blade_length, 0.01);
   EXPECT_DOUBLE_EQ(i.grip_radius, 7e-3);
+  EXPECT_DOUBLE_EQ(i.grip_force, 2);
   EXPECT_EQ(i.mesh, "g.stl");
   EXPECT_DOUBLE_EQ(i.scale, 1e-3);
   EXPECT_EQ(i.path.at(0).time, 0.5);

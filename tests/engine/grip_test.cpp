@@ -1,0 +1,58 @@
+// Graspers that pull harder than they grip.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "engine_started.h"
+
+namespace trocar {
+namespace {
+
+// A bar of 60 x 12 x 12 mm, held at one end; a grasper takes the other end and pulls it out by
+// 30 mm in half a second.
+std::unique_ptr<Started> pulled_bar(const std::string& grip) {
+  return built(
+      "[time]\nduration = 10\n[tissue.shape]\nkind = \"box\"\nlow = [0, 0, 0]\n"
+      "high = [0.06, 0.012, 0.012]\ncells = [15, 3, 3]\n[tissue.material]\nyoung_modulus = 10000\n"
+      "[solver]\nmass_damping = 20\n[[support]]\nregion = \"x-\"\n[[instrument]]\n"
+      "kind = \"grasper\"\n" +
+      grip +
+      "path = [{ time = 0, position = [0.058, 0.006, 0.0135] }, { time = 0.3, position = [0.058, "
+      "0.006, 0.0135], action = \"close\" }, { time = 0.8, position = [0.088, 0.006, 0.0135] }]\n");
+}
+
+TEST(GripForce, lets_tissue_slip_that_pulls_harder) {
+  const auto bar = pulled_bar("grip_force = \"0.3 N\"\n");
+  Simulation& s = *bar->s;
+  bool was_held = false;
+  double before = 0;
+  for (int frame = 0; frame < 27; ++frame) {
+    run_frame(s, bar->outputs);
+    const FrameRow& row = s.log.rows.back();
+    const double pull = row.tools[0].force.norm();
+    if (pull > 0.3) {
+      EXPECT_LE(before, 0.3);
+      EXPECT_TRUE(s.holds.holds.empty());
+      EXPECT_TRUE(s.holds.prescribed.empty());
+      EXPECT_TRUE(contains(s.log.events.back(), "tissue slips out of grasper"))
+          << s.log.events.back();
+    }
+    EXPECT_TRUE(before <= 0.3 || row.n_held == 0) << row.n_held;
+    was_held = was_held || row.n_held > 3;
+    before = std::max(before, pull);
+  }
+  EXPECT_TRUE(was_held);
+  EXPECT_GT(before, 0.3);
+  EXPECT_LT(before, 0.36);  // what a frame adds
+  EXPECT_EQ(s.log.rows.back().tools[0].force, Vec3::Zero());
+}
+
+TEST(GripForce, is_without_bound_if_absent) {
+  const auto bar = pulled_bar("");
+  for (int frame = 0; frame < 27; ++frame) run_frame(*bar->s, bar->outputs);
+  EXPECT_GT(bar->s->log.rows.back().tools[0].force.norm(), 0.36);
+  EXPECT_GT(bar->s->log.rows.back().n_held, 3);
+}
+
+}  // namespace
+}  // namespace trocar
