@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/log.h"
+#include "base/options.h"
 #include "engine/apply_cut.h"
 #include "engine/checkpoint_output.h"
 #include "engine/frame_report.h"
@@ -192,8 +193,8 @@ void let_slip(Simulation& s, const FrameSpan& span, const FrameRow& row) {
     localise_holds(s.holds, s.part);
     note_event(s, span.t1,
                "tissue slips out of " + s.tools[k].name + ", " + std::to_string(n) +
-                   " nodes: it pulls with " + number_text(pull) + " N, grip_force is " +
-                   number_text(most) + " N");
+                   " nodes: it pulls with " + short_text(pull) + " N, grip_force is " +
+                   short_text(most) + " N");
   }
 }
 
