@@ -17,6 +17,7 @@ namespace {
 constexpr double flat_enough = 1e-3, as_steep = 0.99;
 // Of a triangle's size: what it may move beside a hull between two looks, which take Bullet 2 us.
 constexpr double same_place = 0.02;
+constexpr double as_a_lip = 0.5;  // cosine at which a lip of a wound faces a blade's flank
 constexpr int most_rounds = 30;
 constexpr double good_enough = 1e-3;  // change in a round / deepest point at the start
 
@@ -36,6 +37,11 @@ const ToolMotion& tool_of(const ContactStep& step, const ContactSet::Item& item)
 // The displacement of a tool's point in the step. arm: from the tool's origin to it.
 Vec3 motion_of(const ToolMotion& tool, const Vec3& arm, const ContactStep& step) {
   return step.dt * (tool.velocity + tool.angular_velocity.cross(arm));
+}
+
+bool is_at_front(const ContactSet& set, const ContactSet::Item& item) {
+  return std::ranges::any_of(item.beside,
+                             [&](std::int32_t b) { return set.beside[to_size(b)].is_front; });
 }
 
 // Whether the conditions of its corners keep a triangle out of the tool, too.
@@ -69,32 +75,62 @@ void add_triangle(const ContactStep& step, double release, std::int32_t k, Conta
   Vec3 x = Vec3::Zero();
   for (std::size_t a = 0; a < 3; ++a) x += c.weight[a] * set.x_end[to_size(c.place[a])];
   const double gap = c.normal.dot(x - (arm + tool.pose.translation));
-  if (gap >= 0 || is_kept_by_corners(set, c, -gap)) return;
+  if (gap >= 0 || is_at_front(set, item) || is_kept_by_corners(set, c, -gap)) return;
   add_constraint(gap, release, motion_of(tool, arm, step), c, set);
 }
 
 // At the end of the step, along the normal where the node would be without forces.
 std::optional<NodeTouch> look_at_node(const ContactDetector& detector, const Contact& contact,
-                                      const Pose& pose, std::int32_t place, const ContactSet& set) {
-  const std::size_t i = to_size(place);
-  std::optional<NodeTouch> touch =
-      detector.touch_node(contact, set.x_ahead[i], pose, forced_way(set, place));
+                                      const Pose& pose, const ContactSet::BesidePiece& beside,
+                                      const ContactSet& set) {
+  const std::size_t i = to_size(beside.place);
+  std::optional<NodeTouch> touch = detector.touch_node(contact, {set.x_ahead[i], beside.facing},
+                                                       pose, forced_way(set, beside.place));
   if (touch) touch->gap += touch->normal.dot(set.x_end[i] - set.x_ahead[i]);
   return touch;
 }
 
+Vec3 facet_of(const ContactSet& set, const ContactSet::Item& item) {
+  const std::array<Vec3, 3> x = corners_of(set.x_ahead, item);
+  return (x[1] - x[0]).cross(x[2] - x[0]);
+}
+
+// Where the tissue's surface at the nodes looks, and which are the fronts of wounds.
+void face_nodes(const ContactDetector& detector, const ContactStep& step, ContactSet& set) {
+  for (ContactSet::BesidePiece& b : set.beside) {
+    b.facing.setZero();
+    b.lip = 0;
+    b.is_front = false;
+  }
+  for (const ContactSet::Item& item : set.items) {
+    const Vec3 facet = facet_of(set, item);
+    const Vec3 flank = tool_of(step, item).pose.rotation * Vec3::UnitY();
+    const bool is_lip =
+        detector.is_blade(item.contact) && std::abs(flank.dot(facet)) > as_a_lip * facet.norm();
+    for (const std::int32_t k : item.beside) {
+      ContactSet::BesidePiece& b = set.beside[to_size(k)];
+      const bool is_opposite = flank.dot(facet) * b.lip < 0;
+      if (is_lip && is_opposite) b.is_front = true;
+      if (is_lip && b.lip == 0) b.lip = flank.dot(facet);
+      b.facing += facet;
+    }
+  }
+}
+
 void find_deepest(const ContactDetector& detector, const ContactStep& step, ContactSet& set) {
   std::fill(set.deepest.begin(), set.deepest.end(), DeepestPiece{});
+  face_nodes(detector, step, set);
   for (ContactSet::BesidePiece& b : set.beside) {
     const ContactSet::Item& item = set.items[to_size(b.item)];
-    b.touch = look_at_node(detector, item.contact, tool_of(step, item).pose, b.place, set);
+    b.touch = look_at_node(detector, item.contact, tool_of(step, item).pose, b, set);
   }
   for (std::size_t k = 0; k < set.items.size(); ++k) {
     const ContactSet::Item& item = set.items[k];
-    const std::array<Vec3, 3> x = corners_of(set.x_ahead, item);
-    const Vec3 facet = (x[1] - x[0]).cross(x[2] - x[0]);
+    const Vec3 facet = facet_of(set, item);
     for (std::size_t a = 0; a < 3; ++a) {
-      const std::optional<NodeTouch>& found = set.beside[to_size(item.beside[a])].touch;
+      const ContactSet::BesidePiece& beside = set.beside[to_size(item.beside[a])];
+      const std::optional<NodeTouch>& found = beside.touch;
+      if (beside.is_front) continue;
       DeepestPiece& of_node = set.deepest[to_size(item.place[a])];
       if (found && found->gap < of_node.touch.gap && found->normal.dot(facet) < 0)
         of_node = {.item = static_cast<std::int32_t>(k), .touch = *found};

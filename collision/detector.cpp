@@ -16,9 +16,22 @@ namespace trocar {
 
 namespace {
 
+constexpr double squarely = 0.3;  // cosine at which tissue faces a blade's flank
+
 // Not with the edge of a blade.
 bool is_flat_enough(const PieceCore& core, const Vec3& local_normal, double gap) {
   return std::abs(local_normal.y()) >= core.least_flatness && gap >= -core.deepest;
+}
+
+// Of a point inside a blade, from the flank that `facing` looks against, in the tool's frame. None
+// is zero: at the front of a wound tissue faces neither.
+SignedDistance distance_from_flank(const PieceCore& core, const Vec3& x, const Vec3& facing) {
+  for (std::size_t k = 0; k < core.faces.normal.size(); ++k) {
+    const Vec3& n = core.faces.normal[k];
+    if (std::abs(n.y()) >= core.least_flatness && n.dot(facing) < -squarely * facing.norm())
+      return SignedDistance{.normal = n, .gap = n.dot(x) - core.faces.offset[k] - core.radius};
+  }
+  return {};
 }
 
 // A piece in its pose, and everything that is the same for all its candidates.
@@ -265,13 +278,21 @@ bool ContactDetector::update(const Corners& corners, const Pose& pose, double ma
   return is_flat_enough(core, contact.normal, contact.gap);
 }
 
-std::optional<NodeTouch> ContactDetector::touch_node(const Contact& contact, const Vec3& x,
-                                                     const Pose& pose, double margin) const {
+std::optional<NodeTouch> ContactDetector::touch_node(const Contact& contact,
+                                                     const SurfaceNode& node, const Pose& pose,
+                                                     double margin) const {
   if (!state_->plane.node.empty()) return std::nullopt;
   const PieceCore& core = state_->core_of(contact);
-  const SignedDistance found = signed_distance(core, pose.apply_inverse(x));
+  const Vec3 x = pose.apply_inverse(node.x);
+  SignedDistance found = signed_distance(core, x);
+  if (core.least_flatness > 0 && found.gap < 0)
+    found = distance_from_flank(core, x, pose.rotation.conjugate() * node.facing);
   if (!(found.gap < margin) || !is_flat_enough(core, found.normal, found.gap)) return std::nullopt;
   return NodeTouch{.normal = pose.rotation * found.normal, .gap = found.gap};
+}
+
+bool ContactDetector::is_blade(const Contact& contact) const {
+  return state_->core_of(contact).least_flatness > 0;
 }
 
 bool ContactDetector::is_hull(const Contact& contact) const {

@@ -74,11 +74,16 @@ class ContactDetector {
     std::array<Vec3, 3> x, local;  // in the world and in the tool's frame [m]
   };
   bool update(const Corners& corners, const Pose& pose, double margin, Contact& contact) const;
-  // Where x lies in the contact's piece, nothing where its gap is `margin` or more. Of a hull: the
-  // nearest of its faces. Nothing on plane meshes.
-  std::optional<NodeTouch> touch_node(const Contact& contact, const Vec3& x, const Pose& pose,
-                                      double margin) const;
+  // Where a node lies in the contact's piece, nothing where its gap is `margin` or more. Of a hull:
+  // the nearest of its faces, of a blade the flank that the tissue faces: nodes of both lips of a
+  // fresh wound lie in the middle of it. Nothing on plane meshes.
+  struct SurfaceNode {
+    Vec3 x, facing;  // facing: out of the tissue, of any length
+  };
+  std::optional<NodeTouch> touch_node(const Contact& contact, const SurfaceNode& node,
+                                      const Pose& pose, double margin) const;
   bool is_hull(const Contact& contact) const;
+  bool is_blade(const Contact& contact) const;
 
  private:
   struct State;

@@ -1,0 +1,58 @@
+// A blade thicker than the wound that it makes: its flanks between the lips.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine_started.h"
+
+namespace trocar {
+namespace {
+
+struct OnBlade {
+  double along = 0;                  // mean force against the blade's way [N]
+  double aside = 0, most_aside = 0;  // mean and largest across it [N]
+};
+
+// A stiff block is parted 20 mm deep in its plane of symmetry, without resistance against the edge.
+OnBlade cut_in_the_middle(double friction) {
+  const auto block = built(
+      "[time]\nduration = 10\nframe_rate = 60\n[tissue.shape]\nkind = \"box\"\nelements = "
+      "\"hex8\"\n"
+      "low = [-0.04, -0.015, 0]\nhigh = [0.04, 0.015, 0.04]\ncells = [16, 6, 8]\n"
+      "[tissue.material]\nyoung_modulus = 60000\n[solver]\nmass_damping = 30\n[contact]\n"
+      "friction = " +
+      std::to_string(friction) +
+      "\n[[support]]\nregion = \"z-\"\n[[support]]\nregion = \"y-\"\n[[support]]\nregion = \"y+\"\n"
+      "[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.04\npath = [{ time = 0.1, position = "
+      "[-0.06, 0, 0.02] }, { time = 1.1, position = [0.06, 0, 0.02] }]\n");
+  constexpr int n_frames = 68;
+  OnBlade force;
+  for (int frame = 0; frame < n_frames; ++frame) {
+    run_frame(*block->s, block->outputs);
+    const Vec3& f = block->s->log.rows.back().tools[0].force;
+    force.along -= f.x() / n_frames;
+    force.aside += f.y() / n_frames;
+    force.most_aside = std::max(force.most_aside, std::abs(f.y()));
+  }
+  EXPECT_GT(block->s->mesh.n_nodes(), 17 * 7 * 9 + 10);  // it was cut
+  return force;
+}
+
+// Nodes at the front of the wound were pushed to one flank or the other: by 0.1 N.
+TEST(ContactOfABlade, does_not_push_the_front_of_its_wound_aside) {
+  const OnBlade smooth = cut_in_the_middle(0);
+  std::printf("aside %.2g N in the mean, %.2g N at most, along %.2g N\n", smooth.aside,
+              smooth.most_aside, smooth.along);
+  EXPECT_LT(std::abs(smooth.aside), 1e-3);
+  EXPECT_LT(smooth.most_aside, 0.02);
+  EXPECT_LT(std::abs(smooth.along), 1e-3);
+  const OnBlade rough = cut_in_the_middle(0.2);
+  std::printf("with friction: aside %.2g N in the mean, along %.2g N\n", rough.aside, rough.along);
+  EXPECT_LT(std::abs(rough.aside), 1e-3);
+  EXPECT_GE(rough.along, 0);
+}
+
+}  // namespace
+}  // namespace trocar
