@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/options.h"
 #include "engine/frame_report.h"
 #include "engine/part_search.h"
 #include "engine/suspect.h"
@@ -297,8 +298,9 @@ std::string go_back(Simulation& s, const FrameSpan& span, const Watch& failed,
 
 void repeat_frame(Simulation& s, const FrameSpan& span, int tries) {
   const std::string trouble = "the tissue's stable step fell to " +
-                              number_text(s.watch.stable_step) + " s, below the step of " +
-                              number_text(span.dt) + " s";
+                              short_text(s.watch.stable_step) + " s, " +
+                              (s.watch.stable_step < span.dt ? "below" : "too near") +
+                              " the step of " + short_text(span.dt) + " s";
   note_event(s, span.t0, go_back(s, span, s.watch, trouble, tries));
 }
 

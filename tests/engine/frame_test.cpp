@@ -93,8 +93,8 @@ poisson_ratio = 0.45
 density = "1000 kg/m^3"
 )";
 
-std::unique_ptr<Started> swinging_block() {
-  auto started = built(swinging_text);
+std::unique_ptr<Started> swinging_block(const std::vector<std::string>& overrides = {}) {
+  auto started = built(swinging_text, overrides);
   Simulation& s = *started->s;
   for (std::size_t i = 0; i < s.mesh.X.size(); ++i) {
     const double x = s.mesh.X[i].x() / 0.04, y = s.mesh.X[i].y() / 0.04, z = s.mesh.X[i].z() / 0.04;
@@ -128,6 +128,19 @@ TEST(Frame, does_not_let_the_step_drive_a_body_that_swings_without_damping) {
   }
   EXPECT_LT(most, 1.4 * first);
   EXPECT_EQ(s.log.n_roll_backs, 0);
+}
+
+// Its limit may have been lower within the frame.
+TEST(Frame, is_done_again_where_its_step_comes_near_the_limit) {
+  const auto started = swinging_block({"time.frame_rate=10"});
+  Simulation& s = *started->s;
+  run_frame(s, started->outputs);
+  s.scene.solver.step_factor = 0.9;                 // as was asked for, so that 0.95 is the most
+  s.held_step = s.watch.stable_step *= 0.96 / 0.9;  // more than the tissue has
+  run_frame(s, started->outputs);
+  ASSERT_GE(s.log.n_roll_backs, 1);
+  EXPECT_TRUE(contains(s.log.events[0], "too near the step of")) << s.log.events[0];
+  EXPECT_LE(s.log.rows.back().dt, 0.95 * s.watch.stable_step);
 }
 
 // A moment's trouble is not paid for to the end of the run.
