@@ -6,7 +6,9 @@
 
 #include "base/log.h"
 #include "engine/support_check.h"
+#include "engine/unused_keys.h"
 #include "solver/material_check.h"
+#include "solver/material_response.h"
 
 namespace trocar {
 
@@ -67,6 +69,20 @@ void check_converted(const LoadedScene& loaded, const Simulation& s) {
   }
 }
 
+void warn_of_softening(const SceneMaterial& material, const std::string& path) {
+  if (const std::string softening = softening_of(to_material(material)); !softening.empty())
+    log_warning(path + ": with these constants " + softening +
+                ": tissue strained so far gives way without end, and the run fails there; choose "
+                "constants whose stress grows up to the strains of the scene");
+}
+
+void check_materials_harden(const Scene& scene) {
+  warn_of_softening(scene.tissue.material, "tissue.material");
+  for (std::size_t k = 0; k < scene.tissue.region_materials.size(); ++k)
+    warn_of_softening(scene.tissue.region_materials[k].material,
+                      "tissue.region_material[" + std::to_string(k) + "].material");
+}
+
 }  // namespace
 
 void check_body(const LoadedScene& loaded, const Simulation& s) {
@@ -74,6 +90,8 @@ void check_body(const LoadedScene& loaded, const Simulation& s) {
   check_loads(loaded, s);
   check_markers(loaded, s);
   check_converted(loaded, s);
+  check_materials_harden(s.scene);
+  for (const std::string& sentence : unused_keys(s.scene, s.mesh)) log_warning(sentence);
 }
 
 }  // namespace trocar

@@ -6,8 +6,9 @@
 
 namespace trocar {
 
-// Supports, loads, markers, and materials of what a cut makes. Throws InputError, naming the key,
-// where the scene can't be run as it is; warns where a part of it does nothing.
+// Supports, loads, markers, materials and those of what a cut makes, unused keys. Throws
+// InputError, naming the key, where the scene can't be run as it is; warns where a part of it does
+// nothing.
 void check_body(const LoadedScene& loaded, const Simulation& s);
 
 }  // namespace trocar

@@ -1,0 +1,95 @@
+#include "solver/material_response.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "solver/block_data.h"
+#include "solver/material_list.h"
+#include "solver/material_setup.h"
+
+namespace trocar {
+
+namespace {
+
+// A displacement gradient H = F - I and how F changes along the path.
+struct PathPoint {
+  Mat3 H = Mat3::Zero(), dF = Mat3::Zero();
+};
+
+// F = diag(s, 1/sqrt(s), 1/sqrt(s))
+PathPoint stretched(double s) {
+  const double across = 1 / std::sqrt(s);
+  return {.H = Vec3(s - 1, across - 1, across - 1).asDiagonal(),
+          .dF = Vec3(1, -0.5 * across / s, -0.5 * across / s).asDiagonal()};
+}
+
+// F = I + g e1 (x) e2
+PathPoint sheared(double g) {
+  PathPoint point;
+  point.H(0, 1) = g;
+  point.dF(0, 1) = 1;
+  return point;
+}
+
+template <class Law>
+double stress_along(const Material& material, const PathPoint& at) {
+  std::array<double, std::size_t{max_material_values} * block_lanes<double>> number{};
+  std::array<double, max_material_values> value{};
+  fill_material(material, 1, unit_fibre(material), value);
+  for (std::size_t k = 0; k < value.size(); ++k) number[k * block_lanes<double>] = value[k];
+  Tensor<double> H{};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) H.v[i][j] = at.H(i, j);
+  const Tensor<double> P = Law::stress(H, BlockValues<double>{number.data()});
+  double sum = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) sum += P.v[i][j] * at.dF(i, j);
+  return sum;
+}
+
+// P : dF/ds, the nominal stress that does the work of the path. [Pa]
+template <class... Laws>
+double stress_along(const Material& material, const PathPoint& at, TypeList<Laws...>) {
+  double stress = 0;
+  ((Laws::model == material.model ? static_cast<void>(stress = stress_along<Laws>(material, at))
+                                  : static_cast<void>(0)),
+   ...);
+  return stress;
+}
+
+constexpr double grows = std::numeric_limits<double>::infinity();
+
+// The first of `n` steps from `from` to `to` in which stress moves against them; `grows` if none.
+template <class Path>
+double first_softening(const Material& material, Path path, double from, double to) {
+  constexpr int n = 80;
+  double before = stress_along(material, path(from), MaterialList{});
+  for (int k = 1; k <= n; ++k) {
+    const double s = from + (to - from) * k / n;
+    const double stress = stress_along(material, path(s), MaterialList{});
+    if (!((stress - before) * (to - from) > 0)) return s;
+    before = stress;
+  }
+  return grows;
+}
+
+}  // namespace
+
+std::string softening_of(const Material& material) {
+  if (material.model == MaterialModel::linear ||
+      material.model == MaterialModel::st_venant_kirchhoff)
+    return {};
+  char text[160] = "";
+  const auto look = [&](double at, const char* strain) {
+    if (text[0] == 0 && at < grows)
+      std::snprintf(text, sizeof text, "its stress falls beyond a %s of %.3g", strain, at);
+  };
+  look(first_softening(material, stretched, 1, largest_stretch), "stretch");
+  look(first_softening(material, stretched, 1, least_stretch), "compression to a stretch");
+  look(first_softening(material, sheared, 0, largest_shear), "shear");
+  return text;
+}
+
+}  // namespace trocar
