@@ -54,6 +54,29 @@ void complete_materials(SceneTissue& tissue, const SourceMap& where) {
                       tissue.region_materials[k].material);
 }
 
+void check_regions(const Scene& scene, const SourceMap& where) {
+  for (std::size_t k = 0; k < scene.regions.size(); ++k)
+    for (int j = 0; j < 3; ++j)
+      if (const SceneRegion& region = scene.regions[k]; region.low[j] > region.high[j])
+        where.fail(item("region", k), "low is above high along " + std::string(1, "xyz"[j]) +
+                                          ", so that the box holds nothing: exchange them");
+}
+
+// Names become columns of tables and words of messages.
+void check_names(const Scene& scene, const SourceMap& where) {
+  const auto check = [&](const std::string& name, const std::string& key) {
+    if (std::any_of(name.begin(), name.end(),
+                    [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; }))
+      where.fail(key, "a name must not have line breaks, tabs or other control characters");
+  };
+  for (std::size_t k = 0; k < scene.regions.size(); ++k)
+    check(scene.regions[k].name, item("region", k) + ".name");
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+    check(scene.instruments[k].name, item("instrument", k) + ".name");
+  for (std::size_t k = 0; k < scene.markers.size(); ++k)
+    check(scene.markers[k].name, item("marker", k) + ".name");
+}
+
 void check_supports(const Scene& scene, const SourceMap& where) {
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
     const SceneSupport& support = scene.supports[k];
@@ -186,6 +209,10 @@ void check_outputs(const Scene& scene, const SourceMap& where) {
     const bool is_known =
         std::any_of(scene.cameras.begin(), scene.cameras.end(),
                     [&](const SceneCamera& c) { return c.name == output.camera; });
+    const std::string ending = std::filesystem::path(plain).extension().string();
+    if (output.kind == OutputKind::contact_sheet && !ending.empty() && ending != ".png")
+      where.fail(path + ".file", "a contact sheet is a PNG picture, and \"" + output.file +
+                                     "\" has another ending: end it in .png");
     if (is_picture && scene.cameras.empty()) where.fail(path, "a picture needs a [[camera]]");
     if (is_picture && !output.camera.empty() && !is_known)
       where.fail(path + ".camera", "there is no camera \"" + output.camera + "\"");
@@ -243,6 +270,8 @@ LoadedScene load_scene(const std::string& file, const std::vector<std::string>& 
   check_tissue(scene, located.where);
   check_shortcuts(scene, located.where);
   complete_materials(located.value.tissue, located.where);
+  check_names(scene, located.where);
+  check_regions(scene, located.where);
   check_supports(scene, located.where);
   check_loads(scene, located.where);
   check_markers(scene, located.where);

@@ -207,7 +207,8 @@ Options<SceneSupport> support_options() {
   key.vector("displacement", &SupportKey::displacement, dim::length, any,
              "From the first position.", Need::required);
   Options<SceneSupport> s("Holds or moves a region.");
-  s.text("region", &SceneSupport::region, "Region of the mesh or of [[region]].", Need::required);
+  s.text("region", &SceneSupport::region,
+         "Region of the mesh, of its surface or of its volumes, or of [[region]].", Need::required);
   s.text("fix", &SceneSupport::fix, "Which components: some of \"xyz\".");
   s.list("path", &SceneSupport::path, key, "Prescribed motion (needs fix = \"xyz\").");
   return s;
@@ -218,7 +219,8 @@ Options<SceneLoad> load_options() {
   key.number("time", &LoadKey::time, dim::time, not_negative, "Time.", Need::required);
   key.number("factor", &LoadKey::factor, dim::none, any, "Of force and pressure.", Need::required);
   Options<SceneLoad> l("Pushes or pulls a region.");
-  l.text("region", &SceneLoad::region, "Region of the mesh or of [[region]].", Need::required);
+  l.text("region", &SceneLoad::region,
+         "Region of the mesh, of its surface or of its volumes, or of [[region]].", Need::required);
   l.vector("force", &SceneLoad::force, dim::force, any,
            "Of the whole region, in a fixed direction; spread over the faces of the surface that "
            "lie in the region, or evenly over its nodes where there are none.");

@@ -76,11 +76,30 @@ void add_regions(const LoadedScene& loaded, Mesh& mesh) {
   }
 }
 
+// Nodes of a region of elements, such as a physical volume of Gmsh, as a set. Of no use to others
+// than supports and loads that name it.
+void add_volume_region(const std::string& name, Mesh& mesh) {
+  const auto at = std::ranges::find(mesh.region_name, name);
+  if (name.empty() || at == mesh.region_name.end() || find_node_set(mesh, name)) return;
+  std::vector<std::uint8_t> is_in(mesh.X.size(), 0);
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    if (mesh.element_region[static_cast<std::size_t>(e)] == at - mesh.region_name.begin())
+      for (const std::int32_t node : mesh.corners(e)) is_in[static_cast<std::size_t>(node)] = 1;
+  NodeSet set{.name = name, .node = {}};
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
+    if (is_in[static_cast<std::size_t>(i)] != 0) set.node.push_back(i);
+  mesh.node_sets.push_back(std::move(set));
+}
+
 std::string known_regions(const Mesh& mesh) {
-  std::string names;
-  for (const NodeSet& set : mesh.node_sets)
-    names += (names.empty() ? "" : ", ") + ("\"" + set.name + "\"");
-  return names.empty() ? "none" : names;
+  std::string list;
+  const auto add = [&](const std::string& name) {
+    if (!name.empty()) list += (list.empty() ? "\"" : ", \"") + name + "\"";
+  };
+  for (const NodeSet& set : mesh.node_sets) add(set.name);
+  for (const std::string& name : mesh.region_name)
+    if (!find_node_set(mesh, name)) add(name);
+  return list.empty() ? "none" : list;
 }
 
 // Of supports or loads.
@@ -132,6 +151,8 @@ Mesh read_tissue(const LoadedScene& loaded) {
   }
   if (is_cut(loaded.scene)) mesh.hex_split_rank = hex_split_ranks(mesh);
   add_regions(loaded, mesh);
+  for (const SceneSupport& support : loaded.scene.supports) add_volume_region(support.region, mesh);
+  for (const SceneLoad& load : loaded.scene.loads) add_volume_region(load.region, mesh);
   check_regions(loaded, "support", loaded.scene.supports, mesh);
   check_regions(loaded, "load", loaded.scene.loads, mesh);
   return mesh;

@@ -197,5 +197,27 @@ TEST(SceneCheck, says_which_line_is_wrong) {
   EXPECT_TRUE(contains(input_error_of([&] { load_scene(file, {}); }), file + ":7:"));
 }
 
+TEST(SceneCheck, needs_a_region_with_low_below_high) {
+  expect_error("[[region]]\nname = \"r\"\nlow = [0, 2, 0]\nhigh = [1, 1, 1]\n",
+               "low is above high along y, so that the box holds nothing: exchange them");
+  EXPECT_EQ(scene_error(scene_text("[[region]]\nname = \"r\"\nlow = [0, 1, 0]\nhigh = [1, 1, "
+                                   "1]\n")),
+            "");
+}
+
+TEST(SceneCheck, refuses_names_with_line_breaks) {
+  expect_error(instrument_text("probe") + "name = \"a\\nb\"\n", "a name must not have line breaks");
+  expect_error("[[marker]]\nname = \"a\\tb\"\nposition = [0, 0, 0]\n",
+               "a name must not have line breaks");
+}
+
+TEST(SceneCheck, refuses_a_contact_sheet_that_is_not_called_a_png) {
+  const auto sheet = [](const std::string& file) {
+    return camera_text + "[[output]]\nkind = \"contact-sheet\"\nfile = \"" + file + "\"\n";
+  };
+  expect_error(sheet("a.jpg"), "a contact sheet is a PNG picture, and \"a.jpg\"");
+  EXPECT_EQ(scene_error(scene_text(sheet("a.png"))), "");
+}
+
 }  // namespace
 }  // namespace trocar
