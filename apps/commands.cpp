@@ -94,7 +94,13 @@ void print_mesh(const std::string& file, const Mesh& mesh) {
               m.edge_mean);
   std::printf("  quality           least %.3f (element %d), mean %.3f (mean ratio, 1 is ideal)\n",
               m.quality_min, m.worst_element, m.quality_mean);
-  if (m.quality_min < sliver_quality)
+  const bool is_hexahedron =
+      mesh.element_type[static_cast<std::size_t>(m.worst_element)] == ElementType::hex8;
+  if (m.quality_min <= 0 && is_hexahedron)
+    std::printf(
+        "  CORNERS           of hexahedra lie beyond the plane of their neighbours (quality below "
+        "0): no inverted elements, but hexahedron = \"full\" is not for them\n");
+  else if (m.quality_min < sliver_quality)
     std::printf("  SLIVERS           below a quality of %g: a few elements make every step small\n",
                 sliver_quality);
   for (const NodeSet& set : mesh.node_sets)
