@@ -60,7 +60,7 @@ void add_machine_options(CLI::App& app, MachineOptions& machine) {
   app.add_option("--simd", machine.simd,
                  "Instruction set of the kernels: auto, scalar, sse2, avx2, avx512 (bits are "
                  "promised per set)");
-  app.add_flag("-q,--quiet", machine.is_quiet, "Errors only");
+  app.add_flag("-q,--quiet", machine.is_quiet, "Warnings and errors only");
 }
 
 void add_scene_options(CLI::App& app, RunOptions& run) {
@@ -135,7 +135,7 @@ void add_study(CLI::App& app, CommandLine& line) {
       ->allow_extra_args(false);
   study->add_option("--simd", line.machine.simd, "Instruction set of the kernels")
       ->capture_default_str();
-  study->add_flag("-q,--quiet", line.machine.is_quiet, "Errors only");
+  study->add_flag("-q,--quiet", line.machine.is_quiet, "Warnings and errors only");
   study->footer(examples_study);
   study->callback([&] { line.command = Command::study; });
 }
