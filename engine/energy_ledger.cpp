@@ -159,6 +159,11 @@ void close_frame_work(Simulation& s) {
   ledger.memory.works.viscous += sum_over_ranks(s.scratch.viscous_work, *s.communicator);
 }
 
+// Beside energies of motion and height; what a body that falls freely stores is rounding.
+static double least_stored(const EnergyState& energy) {
+  return 1e-6 * std::max(energy.kinetic, std::abs(energy.gravity));
+}
+
 void report_energies(Simulation& s, FrameRow& row) {
   EnergyLedger& ledger = *s.energy;
   row.energy = mechanical_energy(s);
@@ -167,8 +172,8 @@ void report_energies(Simulation& s, FrameRow& row) {
   row.energy_error = row.energy.sum() - ledger.memory.initial - row.works.sum();
   const double stored = row.energy.strain + row.energy.hourglass;
   ledger.memory.largest_stored = std::max(ledger.memory.largest_stored, stored);
-  if (stored < 0.01 * ledger.memory.largest_stored || !(stored > 0))
-    return;  // next to nothing is stored
+  const double least = std::max(0.01 * ledger.memory.largest_stored, least_stored(row.energy));
+  if (stored < least || !(stored > 0)) return;  // next to nothing is stored
   const double share = row.energy.hourglass / stored;
   if (share > hourglass_alarm && ledger.memory.largest_hourglass_share <= hourglass_alarm &&
       s.scene.solver.hexahedron == Formulation::hex8_one_point)

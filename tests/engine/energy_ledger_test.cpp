@@ -150,5 +150,18 @@ TEST(EnergyLedger, tells_when_and_how_much_the_balance_misses) {
   EXPECT_EQ(s.log.events.size(), 1U);
 }
 
+// Strains of a free fall are rounding, and so is what of them is hourglass energy.
+TEST(EnergyLedger, says_nothing_of_hourglass_energy_in_free_fall) {
+  const auto started = built(
+      "[time]\nduration = 0.5\n[tissue.shape]\nkind = \"box\"\ncells = [3, 4, 5]\n[solver]\n"
+      "gravity = [0, 0, -9.81]\n" +
+      metrics);
+  Simulation& s = *started->s;
+  while (s.frame < 10) run_frame(s, started->outputs);
+  EXPECT_GT(s.log.rows.back().energy.kinetic, 1);
+  EXPECT_EQ(s.log.events, std::vector<std::string>());
+  EXPECT_EQ(s.energy->memory.largest_hourglass_share, 0);
+}
+
 }  // namespace
 }  // namespace trocar
