@@ -20,15 +20,14 @@ BladeDrag::Node& node_of(BladeDrag& drag, std::int32_t tool, std::int32_t local)
 void add_engaged_edge(const EngagedEdge& edge, const Mesh& mesh, const Part& part,
                       double resistance, BladeDrag& drag) {
   const double speed = edge.velocity.norm();
-  if (edge.place.empty() || resistance == 0 || !(speed > 0)) return;
-  const double most = resistance * edge.length / static_cast<double>(edge.place.size());
-  for (const Location& location : edge.place) {
+  if (resistance == 0 || !(speed > 0)) return;
+  for (const auto& [location, length] : edge.piece) {
     const auto corner = mesh.corners(location.element);
     for (std::size_t a = 0; a < corner.size(); ++a) {
       const std::int32_t local = part.node_local[static_cast<std::size_t>(corner[a])];
       if (local < 0 || local >= part.n_owned) continue;
       BladeDrag::Node& node = node_of(drag, edge.tool, local);
-      node.most += location.weight[a] * most;
+      node.most += location.weight[a] * resistance * length;
       node.speed = speed;
       node.direction = edge.velocity / speed;
     }

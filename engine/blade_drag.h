@@ -19,11 +19,10 @@
 
 namespace trocar {
 
-// Where an edge is inside tissue: places, each for the same length of edge [m].
+// Where an edge is inside tissue.
 struct EngagedEdge {
   std::int32_t tool = 0;
-  std::span<const Location> place;
-  double length = 0;
+  std::span<const SegmentPiece> piece;
   Vec3 velocity = Vec3::Zero();  // of the edge's middle [m/s]
 };
 

@@ -10,7 +10,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 10;
+constexpr std::uint32_t checkpoint_format = 11;
 
 static void visit(Saver& a, Mesh& mesh) {
   std::vector<std::byte> bytes = mesh_to_bytes(mesh);
@@ -66,9 +66,12 @@ static void visit(Archive& a, Location& l) {
   a(l.element, l.weight);
 }
 template <class Archive>
+static void visit(Archive& a, SegmentPiece& p) {
+  a(p.middle, p.length);
+}
+template <class Archive>
 static void visit(Archive& a, CutMemory& m) {
-  a(m.stroke, m.plane_path, m.plane_tip, m.is_in_stroke, m.n_idle_frames, m.strokes, m.engaged,
-    m.engaged_length);
+  a(m.stroke, m.plane_path, m.plane_tip, m.is_in_stroke, m.n_idle_frames, m.strokes, m.engaged);
 }
 template <class Archive>
 static void visit(Archive& a, Hold& h) {
@@ -97,8 +100,8 @@ static void visit(Archive& a, EnergyMemory& m) {
 template <class Archive>
 static void visit(Archive& a, FrameRow& r) {
   a(r.frame, r.step, r.n_substeps, r.time, r.dt, r.stable_step, r.least_J, r.asleep, r.energy,
-    r.works, r.energy_error, r.wound_width, r.wound_width_mean, r.n_contacts, r.n_held, r.n_edits,
-    r.n_pieces, r.tools, r.support_forces, r.markers, r.seconds);
+    r.works, r.energy_error, r.wound_width, r.wound_width_mean, r.n_contacts, r.n_tissue_contacts,
+    r.n_held, r.n_edits, r.n_pieces, r.tools, r.support_forces, r.markers, r.seconds);
 }
 template <class Archive>
 static void visit(Archive& a, Searches& n) {

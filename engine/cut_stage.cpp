@@ -31,18 +31,22 @@ Box surface_box(const Simulation& s) {
   return box;
 }
 
-// Where the blade's edge is inside the tissue; for a plane body its tip alone.
+// Where the blade's edge is inside the tissue; for a plane body its tip alone, which is as long as
+// the body is thick.
 void locate_edge(const Simulation& s, BodyPositions& positions, std::span<const Vec3> edge,
                  CutStage& stage) {
   stage.engaged.clear();
-  const bool is_plane = s.mesh.dimension() == 2;
-  const std::size_t n = is_plane ? 1 : edge.size();
-  const std::span points = edge.first(n);
-  const std::vector<std::int32_t> near = positions.elements_around(box_around(points));
-  for (const Location& location : locate_points(s.mesh, positions.x(), points, near))
-    if (location.element >= 0) stage.engaged.push_back(location);
-  const double spacing = n > 1 ? (edge[1] - edge[0]).norm() : s.scene.tissue.thickness;
-  stage.engaged_length = spacing * static_cast<double>(stage.engaged.size());
+  if (s.mesh.dimension() == 2) {
+    const std::span tip = edge.first(1);
+    const std::vector<std::int32_t> near = positions.elements_around(box_around(tip));
+    const Location at = locate_points(s.mesh, positions.x(), tip, near)[0];
+    if (at.element >= 0)
+      stage.engaged.push_back({.middle = at, .length = s.scene.tissue.thickness});
+    return;
+  }
+  const std::array<Vec3, 2> ends = {edge.front(), edge.back()};
+  const std::vector<std::int32_t> near = positions.elements_around(box_around(ends));
+  stage.engaged = locate_segment(s.mesh, positions.x(), ends, near);
 }
 
 // The tip of a plane blade, at its way's end and before.
@@ -123,7 +127,6 @@ void note_edit(Simulation& s, const MeshEdit& edit, const CutFigures& figures, C
   if (edit.is_empty()) return;
   const std::int32_t n_before = s.mesh.n_elements(), n_pieces_before = s.n_pieces;
   apply_cut(s, edit, s.cut_state, record);
-  record.n_pieces = s.n_pieces;
   if (s.n_pieces > n_pieces_before)
     note_event(s, record.end,
                record.tool + " frees a piece: the body is in " + std::to_string(s.n_pieces));
@@ -199,11 +202,14 @@ void cut_along_tip(Simulation& s, CutStage& stage, const FrameSpan& span, bool i
   }
 }
 
-void end_stroke(const Simulation& s, CutStage& stage, double time) {
+void end_stroke(CutStage& stage) {
   stage.is_in_stroke = false;
   stage.plane_path.clear();
-  stage.strokes.back().end = time;
-  stage.strokes.back().scene_step_ratio = s.watch.stable_step / s.stable_step_before_cut;
+}
+
+void note_body(const Simulation& s, CutRecord& record) {
+  record.n_pieces = s.n_pieces;
+  record.scene_step_ratio = s.watch.stable_step / s.stable_step_before_cut;
 }
 
 Vec3 middle(const std::vector<Vec3>& points) {
@@ -230,7 +236,9 @@ void add_to_record(double travel, double milliseconds, CutStage& stage) {
   record.worst_milliseconds = std::max(record.worst_milliseconds, milliseconds);
   if (stage.engaged.empty()) return;
   record.blade_travel += travel;
-  record.deepest = std::max(record.deepest, stage.engaged_length);
+  double length = 0;
+  for (const SegmentPiece& piece : stage.engaged) length += piece.length;
+  record.deepest = std::max(record.deepest, length);
 }
 
 // positions: none until a blade is near.
@@ -264,7 +272,8 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
     cut_volume(s, stage, sweep, is_last, *positions);
   if (stage.strokes.back().n_edits > n_edits) locate_edge(s, *positions, sweep.after, stage);
   add_to_record(way_of_middle(sweep).norm(), 1e3 * (monotonic_seconds() - start), stage);
-  if (is_last) end_stroke(s, stage, span.t1);
+  note_body(s, stage.strokes.back());
+  if (is_last) end_stroke(stage);
 }
 
 }  // namespace
@@ -284,8 +293,7 @@ void prepare_drag(Simulation& s, const FrameSpan& span) {
     const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
     if (stage.engaged.empty() || !is_cutting(tool, span.t0, span.t1)) continue;
     add_engaged_edge({.tool = stage.tool,
-                      .place = stage.engaged,
-                      .length = stage.engaged_length,
+                      .piece = stage.engaged,
                       .velocity = way_of_middle(sweep_of(tool, span)) / (span.t1 - span.t0)},
                      s.mesh, s.part, s.scene.cutting.resistance, s.drag);
   }

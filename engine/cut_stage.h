@@ -21,13 +21,13 @@ struct CutRecord {
   std::int64_t n_edits = 0, n_refused = 0, n_beside = 0;  // n_beside: see CutFigures
   std::vector<CutRefusal> refusals;
   std::int64_t n_moved = 0, n_duplicated = 0, n_opened_facets = 0;
-  std::int64_t n_pieces = 1;  // of the whole body after the stroke
+  std::int64_t n_pieces = 1;  // of the whole body after the stroke, or so far
   std::int64_t n_elements_added = 0, n_elements_dissolved = 0;
   std::int64_t n_turned = 0, n_chips = 0, n_pulled_back = 0;  // rungs of the ladder: see CutFigures
   std::int64_t n_converted = 0, n_kept_hexahedra = 0;  // see CutFigures; kept ones once an edit
   double stable_step_ratio =
       1;  // least stable step after / before, of the elements around, worst edit
-  double scene_step_ratio = 1;  // of the whole body, after / before the stroke
+  double scene_step_ratio = 1;  // of the whole body, after or so far / before the stroke
   double least_quality = 1;
   double mass_change = 0;            // largest |relative| of an edit
   double momentum_change = 0;        // |P after - P before| / sum |m v| around the cut, largest
@@ -45,9 +45,8 @@ struct CutProgress {
   bool is_in_stroke = false;
   int n_idle_frames = 0;
   std::vector<CutRecord> strokes;
-  // Edge points inside the tissue this frame, where the blade's resistance acts.
-  std::vector<Location> engaged;
-  double engaged_length = 0;  // [m]
+  // Of the edge, what is inside the tissue this frame, where the blade's resistance acts.
+  std::vector<SegmentPiece> engaged;
 };
 
 struct CutStage : CutProgress {

@@ -24,7 +24,7 @@ struct EnergyState {
 
 // Work done on the body since the start. [J]
 struct EnergyWorks {
-  double contact = 0;  // instruments that touch it
+  double contact = 0;  // instruments that touch it, and tissue that touches tissue
   double holds = 0;    // grasped nodes and moving supports
   double blade = 0;    // the resistance to blades
   double loads = 0;
@@ -47,7 +47,9 @@ struct FrameRow {
   EnergyWorks works;
   double energy_error = 0;
   double wound_width = 0, wound_width_mean = 0;  // [m] distance of partner nodes, largest and mean
-  std::int64_t n_contacts = 0, n_held = 0, n_edits = 0, n_pieces = 1;
+  std::int64_t n_contacts = 0;                   // of instruments
+  std::int64_t n_tissue_contacts = 0;            // of tissue with tissue
+  std::int64_t n_held = 0, n_edits = 0, n_pieces = 1;
   std::vector<ToolRow> tools;
   std::vector<Vec3> markers;         // positions; with metrics [m]
   std::vector<Vec3> support_forces;  // of the tissue on each, mean over the frame; with metrics [N]

@@ -90,7 +90,10 @@ FrameRow report_forces(Simulation& s, const FrameSpan& span) {
                .time = span.t1,
                .dt = span.dt};
   sum_forces(s, span, row);
-  if (s.contact) row.n_contacts = static_cast<std::int64_t>(s.contact->contacts.size());
+  if (s.contact) {
+    row.n_contacts = static_cast<std::int64_t>(s.contact->contacts.size());
+    row.n_tissue_contacts = static_cast<std::int64_t>(s.contact->tissue.size());
+  }
   row.n_held = static_cast<std::int64_t>(s.holds.holds.size());
   return row;
 }
@@ -142,7 +145,7 @@ void note_grasp(Simulation& s, double time, const GraspAct& act) {
 static void note_idle_blades(Simulation& s) {
   for (const CutStage& stage : s.cuts) {
     if (std::any_of(stage.strokes.begin(), stage.strokes.end(),
-                    [](const CutRecord& stroke) { return stroke.n_edits > 0; }))
+                    [](const CutRecord& stroke) { return stroke.n_opened_facets > 0; }))
       continue;
     const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
     const char* const why = !stage.strokes.empty() ? "its strokes in the summary say where it was"

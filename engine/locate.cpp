@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <ranges>
+#include <tuple>
 
 #include "mesh/element_boxes.h"
 #include "mesh/hex_split.h"
@@ -85,7 +86,66 @@ std::vector<Location> locate_in(const Mesh& mesh, std::span<const Vec3> x,
   return location;
 }
 
+// Shares of a segment's way, 0 at its begin, and the element that has it.
+struct Stretch {
+  double begin = 0, end = 1;
+  std::int32_t element = -1;
+};
+
+// Takes from the stretch what is outside a simplex: weights are linear along the segment.
+void clip(std::span<const std::int32_t> corner, std::span<const Vec3> x,
+          const std::array<Vec3, 2>& segment, Stretch& stretch) {
+  const std::array<double, 4> first = barycentric(corner, x, segment[0]),
+                              last = barycentric(corner, x, segment[1]);
+  for (std::size_t a = 0; a < corner.size(); ++a) {
+    const double from = first[a] + margin, to = last[a] + margin;
+    if (from < 0 && to < 0) stretch.end = -1;
+    if (from < 0 && to >= 0) stretch.begin = std::max(stretch.begin, from / (from - to));
+    if (from >= 0 && to < 0) stretch.end = std::min(stretch.end, from / (from - to));
+  }
+}
+
+void add_stretches(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x,
+                   const std::array<Vec3, 2>& segment, std::vector<Stretch>& stretches) {
+  const auto add = [&](std::span<const std::int32_t> corner) {
+    Stretch stretch{.element = e};
+    clip(corner, x, segment, stretch);
+    if (stretch.begin < stretch.end) stretches.push_back(stretch);
+  };
+  const std::span<const std::int32_t> corner = mesh.corners(e);
+  if (mesh.element_type[static_cast<std::size_t>(e)] != ElementType::hex8) return add(corner);
+  for (const std::array<int, 4>& tet : hex_tets(mesh, e)) {
+    std::array<std::int32_t, 4> node{};
+    for (std::size_t a = 0; a < 4; ++a) node[a] = corner[static_cast<std::size_t>(tet[a])];
+    add(node);
+  }
+}
+
 }  // namespace
+
+std::vector<SegmentPiece> locate_segment(const Mesh& mesh, std::span<const Vec3> x,
+                                         const std::array<Vec3, 2>& segment,
+                                         std::span<const std::int32_t> near) {
+  std::vector<Stretch> stretches;
+  const Box all = box_around(segment);
+  for (const std::int32_t e : near)
+    if (element_box(mesh, e, x).overlaps(all, margin))
+      add_stretches(mesh, e, x, segment, stretches);
+  std::ranges::sort(stretches, {}, [](const Stretch& s) { return std::tuple(s.begin, s.element); });
+  const Vec3 way = segment[1] - segment[0];
+  std::vector<SegmentPiece> pieces;
+  double done = 0;
+  for (const Stretch& stretch : stretches) {
+    const double begin = std::max(done, stretch.begin);
+    if (stretch.end <= begin + margin) continue;
+    const Vec3 middle = segment[0] + 0.5 * (begin + stretch.end) * way;
+    pieces.push_back({.middle = {.element = stretch.element,
+                                 .weight = weights_of(mesh, stretch.element, x, middle).weight},
+                      .length = (stretch.end - begin) * way.norm()});
+    done = stretch.end;
+  }
+  return pieces;
+}
 
 std::vector<Location> locate_points(const Mesh& mesh, std::span<const Vec3> x,
                                     std::span<const Vec3> points) {

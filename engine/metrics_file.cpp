@@ -25,7 +25,8 @@ MetricsFile::MetricsFile(const std::string& file, std::span<const Tool> tools,
   stream_ << "time_s,frame,step,substeps,dt_s,stable_step_s,least_J,kinetic_J,strain_J,hourglass_J,"
              "gravity_J,contact_work_J,hold_work_J,blade_work_J,load_work_J,damping_work_J,viscous_"
              "work_J,"
-             "cut_energy_J,energy_error_J,contacts,held_nodes,cut_edits,pieces,wound_width_m,"
+             "cut_energy_J,energy_error_J,contacts,tissue_contacts,held_nodes,cut_edits,pieces,"
+             "wound_width_m,"
              "wound_width_mean_m,frame_seconds";
   for (const Tool& tool : tools)
     for (const char* column : {"_x_m", "_y_m", "_z_m", "_force_x_N", "_force_y_N", "_force_z_N"})
@@ -47,8 +48,8 @@ void MetricsFile::add(const FrameRow& row) {
                              row.works.contact, row.works.holds, row.works.blade, row.works.loads,
                              row.works.damping, row.works.viscous, row.works.cut, row.energy_error})
     stream_ << ',' << number_text(value);
-  stream_ << ',' << row.n_contacts << ',' << row.n_held << ',' << row.n_edits << ','
-          << row.n_pieces;
+  stream_ << ',' << row.n_contacts << ',' << row.n_tissue_contacts << ',' << row.n_held << ','
+          << row.n_edits << ',' << row.n_pieces;
   for (const double value : {row.wound_width, row.wound_width_mean, row.seconds})
     stream_ << ',' << number_text(value);
   for (const ToolRow& tool : row.tools)

@@ -50,38 +50,44 @@ Json refusals_json(const CutRecord& c) {
   return list;
 }
 
-Json stroke_json(const CutRecord& c) {
-  return {{"tool", c.tool},
-          {"start_s", c.start},
-          {"end_s", c.end},
-          {"edits", c.n_edits},
-          {"refused", c.n_refused},
-          {"refusals", refusals_json(c)},
-          {"nodes_beside_blade", c.n_beside},
-          {"elements_turned", c.n_turned},
-          {"chips", c.n_chips},
-          {"nodes_pulled_back", c.n_pulled_back},
-          {"nodes_moved", c.n_moved},
-          {"nodes_duplicated", c.n_duplicated},
-          {"facets_opened", c.n_opened_facets},
-          {"pieces", c.n_pieces},
-          {"elements_added", c.n_elements_added},
-          {"elements_dissolved", c.n_elements_dissolved},
-          {"hexahedra_converted", c.n_converted},
-          {"hexahedra_kept", c.n_kept_hexahedra},
-          {"stable_step_ratio", c.stable_step_ratio},
-          {"scene_stable_step_ratio", c.scene_step_ratio},
+Json edits_json(const CutRecord& c) {
+  return {{"stable_step_ratio", c.stable_step_ratio},
           {"quality_min", c.least_quality},
           {"mass_change", c.mass_change},
           {"momentum_change", c.momentum_change},
           {"kinetic_energy_change_J", c.kinetic_energy_change},
           {"deviation_max_m", c.largest_deviation},
           {"deviation_mean_m", c.mean_deviation},
-          {"edge_mean_m", c.mean_edge},
-          {"blade_travel_m", c.blade_travel},
-          {"edge_inside_max_m", c.deepest},
-          {"milliseconds", c.milliseconds},
-          {"milliseconds_worst", c.worst_milliseconds}};
+          {"edge_mean_m", c.mean_edge}};
+}
+
+// Without what only edits have.
+Json stroke_json(const CutRecord& c) {
+  Json stroke = {{"tool", c.tool},
+                 {"start_s", c.start},
+                 {"end_s", c.end},
+                 {"edits", c.n_edits},
+                 {"refused", c.n_refused},
+                 {"refusals", refusals_json(c)},
+                 {"nodes_beside_blade", c.n_beside},
+                 {"elements_turned", c.n_turned},
+                 {"chips", c.n_chips},
+                 {"nodes_pulled_back", c.n_pulled_back},
+                 {"nodes_moved", c.n_moved},
+                 {"nodes_duplicated", c.n_duplicated},
+                 {"facets_opened", c.n_opened_facets},
+                 {"pieces", c.n_pieces},
+                 {"elements_added", c.n_elements_added},
+                 {"elements_dissolved", c.n_elements_dissolved},
+                 {"hexahedra_converted", c.n_converted},
+                 {"hexahedra_kept", c.n_kept_hexahedra},
+                 {"scene_stable_step_ratio", c.scene_step_ratio},
+                 {"blade_travel_m", c.blade_travel},
+                 {"edge_inside_max_m", c.deepest},
+                 {"milliseconds", c.milliseconds},
+                 {"milliseconds_worst", c.worst_milliseconds}};
+  if (c.n_edits > 0) stroke.update(edits_json(c));
+  return stroke;
 }
 
 Json cuts_json(const Simulation& s) {

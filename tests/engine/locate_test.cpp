@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
 #include <random>
 
 #include "mesh/element_boxes.h"
@@ -133,6 +135,57 @@ TEST(LocateNearest, extrapolates_outside_exactly_for_linear_fields) {
       ASSERT_GE(found.element, 0);
       // Barycentric coordinates are affine; weights of a few tens magnify roundings of 1e-15.
       EXPECT_LT((interpolate(mesh, found, field) - linear(point)).norm(), 1e-12) << named.name;
+    }
+  }
+}
+
+double length_of(const std::vector<SegmentPiece>& pieces) {
+  double length = 0;
+  for (const SegmentPiece& piece : pieces) length += piece.length;
+  return length;
+}
+
+std::vector<SegmentPiece> located(const Mesh& mesh, const std::array<Vec3, 2>& segment) {
+  std::vector<std::int32_t> all(static_cast<std::size_t>(mesh.n_elements()));
+  std::iota(all.begin(), all.end(), 0);
+  return locate_segment(mesh, mesh.X, segment, all);
+}
+
+// By the closed form of a box: a vertical segment that ends above it is inside by its depth. On
+// planes and edges of the grid, too, where elements share it.
+TEST(LocateSegment, is_as_long_as_the_segment_is_deep_in_a_box) {
+  for (const BoxElements elements : {BoxElements::hex8, BoxElements::tet4_kuhn}) {
+    const Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(0.1, 0.1, 0.1), {5, 5, 5}, elements);
+    for (const double x : {0.033, 0.04, 0.1})
+      for (const double y : {0.051, 0.06, 0.0})
+        for (const double depth : {0.0, 0.003, 0.02, 0.0777})
+          EXPECT_NEAR(length_of(located(mesh, {Vec3(x, y, 0.1 - depth), Vec3(x, y, 0.15)})), depth,
+                      1e-10)
+              << x << " " << y << " " << depth;
+  }
+}
+
+// The pieces are in the elements that hold their middles, and a segment within a convex body has
+// all of its length.
+TEST(LocateSegment, pieces_lie_in_their_elements_and_make_up_an_inner_segment) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> unit(0.021, 0.079);
+  Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(0.1, 0.1, 0.1), {4, 4, 4}, BoxElements::tet4_five);
+  jitter(mesh, 0.1, 3);
+  for (int k = 0; k < 100; ++k) {
+    const auto point = [&] { return Vec3(unit(random), unit(random), unit(random)); };
+    const std::array<Vec3, 2> segment = {point(), point()};
+    const double length = (segment[1] - segment[0]).norm();
+    const std::vector<SegmentPiece> pieces = located(mesh, segment);
+    EXPECT_NEAR(length_of(pieces), length, 1e-9 * length);
+    double done = 0;
+    for (const SegmentPiece& piece : pieces) {
+      const Vec3 middle =
+          segment[0] + (done + piece.length / 2) / length * (segment[1] - segment[0]);
+      EXPECT_LT((interpolate(mesh, piece.middle, mesh.X) - middle).norm(), 1e-11);
+      EXPECT_GE(*std::min_element(piece.middle.weight.begin(), piece.middle.weight.begin() + 4),
+                -1e-11);
+      done += piece.length;
     }
   }
 }

@@ -63,6 +63,7 @@ FrameRow example_row() {
                .wound_width = 4,
                .wound_width_mean = 5,
                .n_contacts = 6,
+               .n_tissue_contacts = 37,
                .n_held = 7,
                .n_edits = 8,
                .n_pieces = 28,
@@ -114,6 +115,7 @@ TEST(MetricsFile, has_each_value_of_a_row_under_its_column) {
                                                                 {"wound_width_m", 4},
                                                                 {"wound_width_mean_m", 5},
                                                                 {"contacts", 6},
+                                                                {"tissue_contacts", 37},
                                                                 {"held_nodes", 7},
                                                                 {"cut_edits", 8},
                                                                 {"pieces", 28},
@@ -161,7 +163,7 @@ TEST(MetricsFile, keeps_its_columns_whatever_an_instrument_is_called) {
   }
   const std::vector<std::string> text = lines(read_text(file));
   EXPECT_EQ(fields(text[0]).size(), fields(text[1]).size());
-  EXPECT_EQ(fields(text[0])[26], "left, \"old\" probe_x_m");
+  EXPECT_EQ(fields(text[0])[27], "left, \"old\" probe_x_m");
 }
 
 TEST(MetricsFile, says_which_file_can_not_be_written) {

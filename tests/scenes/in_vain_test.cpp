@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "mesh/element_boxes.h"
 #include "mesh/generate.h"
 #include "mesh/mesh_file.h"
 #include "mesh_joined.h"
@@ -291,6 +292,81 @@ TEST(InVain, body_that_nothing_deforms_names_no_least_element) {
   const nlohmann::json least = read_summary(folder)["least_det_F"];
   EXPECT_EQ(least["value"], 1.0);
   EXPECT_FALSE(least.contains("element"));
+}
+
+TEST(InVain, keys_without_effect_and_constants_that_soften_are_warned_of) {
+  const Finished run =
+      told(
+          "[solver]\ntetrahedron = \"nodal-pressure\"\n[[output]]\nkind = \"metrics\"\nfile = "
+          "\"m.csv\"\nsize = [64, 48]\n",
+          test_folder("unused"))
+          .run;
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_TRUE(has(run.err, "solver.tetrahedron has no effect: the body has no tetrahedra"))
+      << run.err;
+  EXPECT_TRUE(has(run.err, "output[0].size has no effect: only pictures have it")) << run.err;
+  const std::string folder = test_folder("softens");
+  const Finished softens = run_trocar(
+      {"run", config("block_hex.toml"), "-q", "-o", folder, "--set", "time.duration=0.1", "--set",
+       "output=[]", "--set", "tissue.material={model = 'yeoh', c1 = 900, c2 = -5000}"},
+      folder);
+  EXPECT_TRUE(has(softens.err,
+                  "tissue.material: with these constants its stress falls beyond a "
+                  "stretch of"))
+      << softens.err;
+}
+
+// The edge stays within the body, which opens nowhere.
+TEST(InVain, blade_that_opens_no_face_has_cut_nothing) {
+  const Told all = told(
+      "[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.004\npath = [{ time = 0, position = "
+      "[0.01, 0.01, 0.008] }, { time = 0.04, position = [0.012, 0.01, 0.008] }]\n",
+      test_folder("opens-nothing"));
+  EXPECT_TRUE(has(all.events, "scalpel has cut nothing: its strokes in the summary")) << all.events;
+}
+
+// The blade dips into one of two bodies by a hundredth of an edge.
+TEST(InVain, stroke_without_an_edit_tells_no_figures_of_edits) {
+  const std::string folder = test_folder("no-edit");
+  const auto box = [](double x) {
+    return make_box(Vec3(x, 0, 0), Vec3(x + 0.02, 0.02, 0.02), {2, 2, 2}, BoxElements::tet4_kuhn);
+  };
+  write_mesh(joined(box(0), box(0.03)), folder + "/two.msh");
+  std::ofstream(folder + "/s.toml")
+      << "[time]\nduration = 0.3\n[tissue]\nmesh = \"two.msh\"\n[[instrument]]\nkind = "
+         "\"scalpel\"\npath = [{ time = 0, position = [-0.01, 0.011, 0.012] }, { time = 0.1, "
+         "position = [0.0001, 0.011, 0.012] }, { time = 0.2, position = [-0.01, 0.011, 0.012] }]\n";
+  const Finished run = run_trocar({"run", folder + "/s.toml", "-q", "-o", folder}, folder);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json cuts = read_summary(folder)["cuts"];
+  ASSERT_EQ(cuts.size(), 1u);
+  ASSERT_EQ(cuts[0]["edits"], 0);
+  EXPECT_EQ(cuts[0]["pieces"], 2);
+  for (const char* const key : {"quality_min", "edge_mean_m", "deviation_max_m", "mass_change"})
+    EXPECT_FALSE(cuts[0].contains(key)) << key;
+}
+
+TEST(InVain, volumes_of_a_mesh_file_are_regions_of_supports_and_loads) {
+  const std::string folder = test_folder("volumes");
+  Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(0.02, 0.02, 0.02), {2, 2, 2}, BoxElements::tet4_kuhn);
+  mesh.region_name = {"upper", "floor"};
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    mesh.element_region[static_cast<std::size_t>(e)] =
+        element_box(mesh, e, mesh.X).high.z() < 0.011 ? 1 : 0;
+  write_mesh(mesh, folder + "/m.msh");
+  const auto run_with = [&](const std::string& region) {
+    std::ofstream(folder + "/s.toml")
+        << "[time]\nduration = 0.1\n[tissue]\nmesh = \"m.msh\"\n[[support]]\nregion = \"" + region +
+               "\"\n[[load]]\nregion = \"floor\"\nforce = [0, 0, 1]\n";
+    return run_trocar({"run", folder + "/s.toml", "-q", "-o", folder}, folder);
+  };
+  // Nodes of the lower half are all held, so that the load on them moves nothing.
+  const Finished held = run_with("floor");
+  EXPECT_EQ(held.exit_code, 0) << held.err;
+  EXPECT_TRUE(has(held.err, "load[0] moves nothing: supports hold all nodes of region \"floor\""))
+      << held.err;
+  const std::string err = run_with("flor").err;
+  EXPECT_TRUE(has(err, "the body has no region \"flor\"") && has(err, "\"upper\"")) << err;
 }
 
 }  // namespace
