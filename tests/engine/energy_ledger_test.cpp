@@ -154,10 +154,10 @@ TEST(EnergyLedger, tells_when_and_how_much_the_balance_misses) {
 TEST(EnergyLedger, says_nothing_of_hourglass_energy_in_free_fall) {
   const auto started = built(
       "[time]\nduration = 0.5\n[tissue.shape]\nkind = \"box\"\ncells = [3, 4, 5]\n[solver]\n"
-      "gravity = [0, 0, -9.81]\n" +
+      "gravity = [0.3, 1.1, -9.7]\n" +
       metrics);
   Simulation& s = *started->s;
-  while (s.frame < 10) run_frame(s, started->outputs);
+  while (s.frame < 14) run_frame(s, started->outputs);
   EXPECT_GT(s.log.rows.back().energy.kinetic, 1);
   EXPECT_EQ(s.log.events, std::vector<std::string>());
   EXPECT_EQ(s.energy->memory.largest_hourglass_share, 0);
