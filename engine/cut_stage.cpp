@@ -202,6 +202,27 @@ void cut_along_tip(Simulation& s, CutStage& stage, const FrameSpan& span, bool i
   }
 }
 
+// Whether a scalpel goes more than 60 degrees aside of where its edge faces, or backwards; ways
+// along the edge don't count.
+bool is_askew(const Tool& tool, const FrameSpan& span, const BladeSweep& sweep) {
+  constexpr double facing = 0.5;
+  if (tool.kind != InstrumentKind::scalpel) return false;
+  const Mat3 frame = tool.path.at(0.5 * (span.t0 + span.t1)).rotation.toRotationMatrix();
+  const Vec3 way = way_of_middle(sweep);
+  const Vec3 across = way - frame.col(2).dot(way) * frame.col(2);
+  return frame.col(0).dot(across) < facing * across.norm();
+}
+
+// An edge cuts whichever way it moves: a robot's wrong turn about its shaft would not show.
+void note_askew(Simulation& s, const CutRecord& record) {
+  if (2 * record.n_askew <= record.n_edits) return;
+  note_event(s, record.end,
+             record.tool +
+                 " has cut with its edge turned by more than 60 degrees from its way in " +
+                 std::to_string(record.n_askew) + " of " + std::to_string(record.n_edits) +
+                 " edits: it cuts all the same, but a blade would not (`forward` in its path)");
+}
+
 void end_stroke(CutStage& stage) {
   stage.is_in_stroke = false;
   stage.plane_path.clear();
@@ -270,10 +291,16 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
     cut_along_tip(s, stage, span, is_last);
   else
     cut_volume(s, stage, sweep, is_last, *positions);
-  if (stage.strokes.back().n_edits > n_edits) locate_edge(s, *positions, sweep.after, stage);
+  CutRecord& record = stage.strokes.back();
+  if (record.n_edits > n_edits) {
+    locate_edge(s, *positions, sweep.after, stage);
+    if (is_askew(tool, span, sweep)) record.n_askew += record.n_edits - n_edits;
+  }
   add_to_record(way_of_middle(sweep).norm(), 1e3 * (monotonic_seconds() - start), stage);
-  note_body(s, stage.strokes.back());
-  if (is_last) end_stroke(stage);
+  note_body(s, record);
+  if (!is_last) return;
+  note_askew(s, record);
+  end_stroke(stage);
 }
 
 }  // namespace

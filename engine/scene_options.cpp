@@ -238,7 +238,9 @@ Options<SceneInstrument> instrument_options() {
   key.vector("position", &InstrumentKey::position, dim::length, any, "Of the tip.", Need::required);
   key.vector("direction", &InstrumentKey::direction, dim::none, any, "From handle to tip.");
   key.vector("forward", &InstrumentKey::forward, dim::none, any,
-             "Where the cutting edge faces; jaws open along it and against it.");
+             "Where the cutting edge faces; jaws open along it and against it. A scalpel cuts "
+             "whichever way "
+             "it moves; one that goes more than 60 degrees aside of it is told of.");
   key.choice(
       "action", &InstrumentKey::action,
       {{"none", GraspAction::none}, {"close", GraspAction::close}, {"open", GraspAction::open}},

@@ -67,6 +67,7 @@ Json stroke_json(const CutRecord& c) {
                  {"start_s", c.start},
                  {"end_s", c.end},
                  {"edits", c.n_edits},
+                 {"edits_askew", c.n_askew},
                  {"refused", c.n_refused},
                  {"refusals", refusals_json(c)},
                  {"nodes_beside_blade", c.n_beside},

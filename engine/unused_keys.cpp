@@ -117,6 +117,8 @@ Uses of_instrument(const SceneInstrument& i, const std::string& path) {
        "only scalpels and scissors have blades"},
       {path + ".grip_radius", i.grip_radius != d.grip_radius, i.kind == InstrumentKind::grasper,
        "only graspers grip"},
+      {path + ".grip_force", i.grip_force != d.grip_force, i.kind == InstrumentKind::grasper,
+       "only graspers grip"},
       {path + ".scale", i.scale != d.scale, !i.mesh.empty(), "only a mesh file is read with it"}};
 }
 

@@ -1,5 +1,7 @@
 #include "engine/cut_stage.h"
 
+#include <algorithm>
+
 #include "engine/simulation.h"
 #include "engine_started.h"
 
@@ -113,6 +115,28 @@ TEST(CutStage, cuts_a_plate_that_its_tip_passes_between_two_frames) {
       "cells = [12, 8, 1]\n";
   const Cut cut = cut_along(plate, "0.014, -0.02, 0", "0.016, 0.04, 0", 0.03, "[0, 0, -1]", "x-");
   EXPECT_EQ(cut.n_pieces, 2);
+}
+
+// It cuts all the same, and says so.
+TEST(CutStage, tells_of_a_scalpel_whose_edge_does_not_face_its_way) {
+  for (const std::string forward : {"[0, 1, 0]", "[0.8, 0.6, 0]", "[1, 0, 0]", "[0, -1, 0]"}) {
+    std::string text = plate_text({{30, -3}, {30, 20}});
+    const std::string direction = "direction = [0, 0, -1]";
+    for (std::size_t at = text.find(direction); at != std::string::npos;
+         at = text.find(direction, at + 1))
+      text.insert(at + direction.size(), ", forward = " + forward);
+    const auto started = built(text);
+    Simulation& s = *started->s;
+    for (int frame = 0; frame < 45; ++frame) run_frame(s, started->outputs);
+    const CutRecord& stroke = s.cuts[0].strokes.at(0);
+    ASSERT_GT(stroke.n_edits, 1) << forward;
+    const bool is_askew = forward != "[0, 1, 0]" && forward != "[0.8, 0.6, 0]";
+    EXPECT_EQ(stroke.n_askew, is_askew ? stroke.n_edits : 0) << forward;
+    const auto is_told = [](const std::string& event) {
+      return contains(event, "turned by more than 60 degrees from its way");
+    };
+    EXPECT_EQ(std::ranges::count_if(s.log.events, is_told), is_askew ? 1 : 0) << forward;
+  }
 }
 
 }  // namespace

@@ -277,7 +277,8 @@ TEST(RepeatFrame, keeps_the_new_stable_step_and_the_scale_and_says_why) {
   EXPECT_EQ(s.step_scale, scale);
   EXPECT_EQ(s.watch.stable_step, 1e-4);
   EXPECT_EQ(s.log.n_roll_backs, 1);
-  EXPECT_TRUE(contains(s.log.events.back(), "stable step fell to 0.0001 s, below the step of 0.0002"))
+  EXPECT_TRUE(
+      contains(s.log.events.back(), "stable step fell to 0.0001 s, below the step of 0.0002"))
       << s.log.events.back();
   s.watch.stable_element = -1;  // not known
   EXPECT_THROW(repeat_frame(s, {.dt = 2e-4}, most_roll_backs), SimulationError);
