@@ -202,27 +202,6 @@ void cut_along_tip(Simulation& s, CutStage& stage, const FrameSpan& span, bool i
   }
 }
 
-// Whether a scalpel goes more than 60 degrees aside of where its edge faces, or backwards; ways
-// along the edge don't count.
-bool is_askew(const Tool& tool, const FrameSpan& span, const BladeSweep& sweep) {
-  constexpr double facing = 0.5;
-  if (tool.kind != InstrumentKind::scalpel) return false;
-  const Mat3 frame = tool.path.at(0.5 * (span.t0 + span.t1)).rotation.toRotationMatrix();
-  const Vec3 way = way_of_middle(sweep);
-  const Vec3 across = way - frame.col(2).dot(way) * frame.col(2);
-  return frame.col(0).dot(across) < facing * across.norm();
-}
-
-// An edge cuts whichever way it moves: a robot's wrong turn about its shaft would not show.
-void note_askew(Simulation& s, const CutRecord& record) {
-  if (2 * record.n_askew <= record.n_edits) return;
-  note_event(s, record.end,
-             record.tool +
-                 " has cut with its edge turned by more than 60 degrees from its way in " +
-                 std::to_string(record.n_askew) + " of " + std::to_string(record.n_edits) +
-                 " edits: it cuts all the same, but a blade would not (`forward` in its path)");
-}
-
 void end_stroke(CutStage& stage) {
   stage.is_in_stroke = false;
   stage.plane_path.clear();
@@ -241,6 +220,27 @@ Vec3 middle(const std::vector<Vec3>& points) {
 
 Vec3 way_of_middle(const BladeSweep& sweep) {
   return middle(sweep.after) - middle(sweep.before);
+}
+
+// Whether a scalpel goes more than 60 degrees aside of where its edge faces, or backwards; ways
+// along the edge don't count.
+bool is_askew(const Tool& tool, const FrameSpan& span, const BladeSweep& sweep) {
+  constexpr double facing = 0.5;
+  if (tool.kind != InstrumentKind::scalpel) return false;
+  const Mat3 frame = tool.path.at(0.5 * (span.t0 + span.t1)).rotation.toRotationMatrix();
+  const Vec3 way = way_of_middle(sweep);
+  const Vec3 across = way - frame.col(2).dot(way) * frame.col(2);
+  return frame.col(0).dot(across) < facing * across.norm();
+}
+
+// An edge cuts whichever way it moves: a robot's wrong turn about its shaft would not show.
+void note_askew(Simulation& s, const CutRecord& record) {
+  if (record.n_askew == 0 || 2 * record.n_askew < record.n_edits) return;
+  note_event(s, record.end,
+             record.tool +
+                 " has cut with its edge turned by more than 60 degrees from its way in " +
+                 std::to_string(record.n_askew) + " of " + std::to_string(record.n_edits) +
+                 " edits: it cuts all the same, but a blade would not (`forward` in its path)");
 }
 
 // True if this is the edge's last frame in the tissue.

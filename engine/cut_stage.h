@@ -21,7 +21,7 @@ struct CutRecord {
   std::int64_t n_edits = 0, n_refused = 0, n_beside = 0;  // n_beside: see CutFigures
   std::vector<CutRefusal> refusals;
   std::int64_t n_moved = 0, n_duplicated = 0, n_opened_facets = 0;
-  std::int64_t n_askew = 0;  // edits of an edge that did not face its way
+  std::int64_t n_askew = 0;   // edits of an edge that did not face its way
   std::int64_t n_pieces = 1;  // of the whole body after the stroke, or so far
   std::int64_t n_elements_added = 0, n_elements_dissolved = 0;
   std::int64_t n_turned = 0, n_chips = 0, n_pulled_back = 0;  // rungs of the ladder: see CutFigures
