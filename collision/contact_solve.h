@@ -39,12 +39,13 @@ void look_again(const ContactDetector& detector, const ContactStep& step, Contac
 
 // set.force and the items' reaction_sum. Two kinds of contact points x: the nearest point of each
 // triangle, and each node (in the piece that it is deepest in, if its triangle sees that from
-// outside), both as they lie at x_ahead. Of a triangle that lies flat on a tool the nodes do. With
-// the gap g = n·(x - y) at the end of the step and g0 at its beginning, y of the tool: g >= min(0,
-// g0 + release_speed dt) where g0 < 0, g >= 0 elsewhere. Slip of x along the surface is stopped
-// with at most mu times the normal impulse. Between tissue and tissue x - y is a node less the
-// nearest point of the nearest triangle, and n this triangle's normal: both sides' nodes are kept
-// out of the other's triangles, edges may cross. Solved by projections, contact after contact
+// outside), both as they lie at x_ahead. Of a triangle that lies flat on a tool the nodes do. Nodes
+// that face both flanks of a blade, the front of its wound, touch neither, nor do their triangles.
+// With the gap g = n·(x - y) at the end of the step and g0 at its beginning, y of the tool: g >=
+// min(0, g0 + release_speed dt) where g0 < 0, g >= 0 elsewhere. Slip of x along the surface is
+// stopped with at most mu times the normal impulse. Between tissue and tissue x - y is a node less
+// the nearest point of the nearest triangle, and n this triangle's normal: both sides' nodes are
+// kept out of the other's triangles, edges may cross. Solved by projections, contact after contact
 // (Gauss-Seidel), at most 30 times round.
 void solve_contacts(const ContactDetector& detector, const ContactStep& step,
                     const ContactOptions& options, ContactSet& set);
