@@ -156,9 +156,12 @@ FrameSpan run_substeps(Simulation& s) {
 }
 
 // The limit may have been lower within the frame than it is at its end: of a frame whose step was
-// 0.985 of it there, elements had swung up by a third of the body's energy before.
+// 0.985 of it there, elements had swung up by a third of the body's energy before. Bounds of single
+// elements are below the limit anyway.
 bool was_stable(const Simulation& s, const FrameSpan& span) {
-  const double most = 0.5 * (1 + s.scene.solver.step_factor);
+  const SceneSolver& solver = s.scene.solver;
+  const bool is_limit = solver.stable_step == StableStep::frequency;
+  const double most = is_limit ? 0.5 * (1 + solver.step_factor) : 1;
   return span.dt <= most * s.watch.stable_step;
 }
 
