@@ -106,6 +106,8 @@ std::size_t read_choice(const OptionNode&, const std::vector<std::string>& names
 std::string number_text(double value);
 // Three digits, for sentences.
 std::string short_text(double value);
+// Of an item of a list in the scene: "support[2]".
+std::string item_path(const std::string& list, std::size_t number);
 std::string numbers_text(std::span<const double> values);
 std::string integers_text(std::span<const int> values);
 std::string quoted_text(const std::string& value);

@@ -44,6 +44,10 @@ static std::string list_text(std::span<const Value> values, const Text& text_of)
   return list;
 }
 
+std::string item_path(const std::string& list, std::size_t number) {
+  return list + "[" + std::to_string(number) + "]";
+}
+
 std::string numbers_text(std::span<const double> values) {
   return list_text(values, number_text);
 }

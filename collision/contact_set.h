@@ -48,9 +48,9 @@ struct ContactSet {
     std::int32_t item = 0;  // the first
     std::int32_t place = 0;
     Vec3 local = Vec3::Zero();  // x_ahead in the tool's frame [m]
-    // Out of the tissue: area normals of the items that have it. Of those that face a blade's
-    // flank, the first one's part along its normal; where others have the opposite sign, the node
-    // is the front of a wound, and the blade thicker than that is wide. [m^2]
+    // At a blade, out of the tissue: area normals of the items that have it. Of those that face a
+    // blade's flank, the first one's part along its normal; where others have the opposite sign,
+    // the node is the front of a wound, and the blade thicker than that is wide. [m^2]
     Vec3 facing = Vec3::Zero();
     double lip = 0;
     bool is_front = false;

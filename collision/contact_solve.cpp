@@ -95,7 +95,7 @@ Vec3 facet_of(const ContactSet& set, const ContactSet::Item& item) {
   return (x[1] - x[0]).cross(x[2] - x[0]);
 }
 
-// Where the tissue's surface at the nodes looks, and which are the fronts of wounds.
+// Where the tissue's surface at nodes beside blades looks, and which are the fronts of wounds.
 void face_nodes(const ContactDetector& detector, const ContactStep& step, ContactSet& set) {
   for (ContactSet::BesidePiece& b : set.beside) {
     b.facing.setZero();
@@ -103,16 +103,17 @@ void face_nodes(const ContactDetector& detector, const ContactStep& step, Contac
     b.is_front = false;
   }
   for (const ContactSet::Item& item : set.items) {
+    if (!detector.is_blade(item.contact)) continue;
     const Vec3 facet = facet_of(set, item);
     const Vec3 flank = tool_of(step, item).pose.rotation * Vec3::UnitY();
-    const bool is_lip =
-        detector.is_blade(item.contact) && std::abs(flank.dot(facet)) > as_a_lip * facet.norm();
+    const double along_flank = flank.dot(facet);
+    const bool is_lip = std::abs(along_flank) > as_a_lip * facet.norm();
     for (const std::int32_t k : item.beside) {
       ContactSet::BesidePiece& b = set.beside[to_size(k)];
-      const bool is_opposite = flank.dot(facet) * b.lip < 0;
-      if (is_lip && is_opposite) b.is_front = true;
-      if (is_lip && b.lip == 0) b.lip = flank.dot(facet);
       b.facing += facet;
+      if (!is_lip) continue;
+      if (along_flank * b.lip < 0) b.is_front = true;
+      if (b.lip == 0) b.lip = along_flank;
     }
   }
 }

@@ -32,13 +32,12 @@ void check_loads(const LoadedScene& loaded, const Simulation& s) {
     const SceneLoad& load = s.scene.loads[k];
     const NodeSet& region = *find_node_set(s.mesh, load.region);
     if (load.pressure != 0 && loaded_faces(s.mesh, s.surface, region).empty())
-      loaded.where.fail("load[" + std::to_string(k) + "].region",
+      loaded.where.fail(item_path("load", k) + ".region",
                         "no face of the surface lies in region \"" + load.region +
                             "\" with all its nodes: nothing for the pressure to act on");
     if (!can_move(s, load, region))
-      log_warning("load[" + std::to_string(k) +
-                  "] moves nothing: supports hold all nodes of region \"" + load.region +
-                  "\", or the body is plane and the force across it");
+      log_warning(item_path("load", k) + " moves nothing: supports hold all nodes of region \"" +
+                  load.region + "\", or the body is plane and the force across it");
   }
 }
 
@@ -49,7 +48,7 @@ void check_markers(const LoadedScene& loaded, const Simulation& s) {
   for (std::size_t k = 0; k < s.markers.size(); ++k)
     if (s.markers[k].element < 0)
       loaded.where.fail(
-          "marker[" + std::to_string(k) + "].position",
+          item_path("marker", k) + ".position",
           "marker \"" + s.scene.markers[k].name + "\" lies outside the undeformed body");
 }
 
@@ -80,7 +79,7 @@ void check_materials_harden(const Scene& scene) {
   warn_of_softening(scene.tissue.material, "tissue.material");
   for (std::size_t k = 0; k < scene.tissue.region_materials.size(); ++k)
     warn_of_softening(scene.tissue.region_materials[k].material,
-                      "tissue.region_material[" + std::to_string(k) + "].material");
+                      item_path("tissue.region_material", k) + ".material");
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ std::vector<Material> region_materials(const LoadedScene& loaded, const Mesh& me
     const SceneRegionMaterial& other = tissue.region_materials[k];
     const auto at = std::find(mesh.region_name.begin(), mesh.region_name.end(), other.region);
     if (at == mesh.region_name.end())
-      loaded.where.fail("tissue.region_material[" + std::to_string(k) + "].region",
+      loaded.where.fail(item_path("tissue.region_material", k) + ".region",
                         "the mesh has no region \"" + other.region + "\"");
     materials[static_cast<std::size_t>(at - mesh.region_name.begin())] =
         to_material(other.material);
@@ -84,11 +84,11 @@ TriangleMesh load_tool_mesh(const LoadedScene& loaded, std::size_t k, Communicat
       const TriangleMesh surface =
           read_triangle_mesh(scene_path(loaded, instrument.mesh), instrument.scale);
       carrier.X = surface.X;
-      warn_of_size(instrument.mesh, "instrument[" + std::to_string(k) + "].scale", carrier.X);
+      warn_of_size(instrument.mesh, item_path("instrument", k) + ".scale", carrier.X);
       for (const auto& triangle : surface.triangle)
         add_element(carrier, ElementType::tri3, triangle);
     } catch (const InputError& trouble) {
-      loaded.where.fail("instrument[" + std::to_string(k) + "].mesh", trouble.what());
+      loaded.where.fail(item_path("instrument", k) + ".mesh", trouble.what());
     }
     return mesh_to_bytes(carrier);
   });
@@ -160,7 +160,7 @@ void check_blade_length(const LoadedScene& loaded, std::size_t k, double edge) {
                 "the blade is longer than 100,000 edges of the mesh, which have %.3g m: does its "
                 "unit fit the mesh's?",
                 edge);
-  loaded.where.fail("instrument[" + std::to_string(k) + "].blade_length", sentence);
+  loaded.where.fail(item_path("instrument", k) + ".blade_length", sentence);
 }
 
 void build_instruments(const LoadedScene& loaded, Simulation& s) {
@@ -168,7 +168,7 @@ void build_instruments(const LoadedScene& loaded, Simulation& s) {
   for (std::size_t k = 0; k < s.scene.instruments.size(); ++k) {
     const SceneInstrument& instrument = s.scene.instruments[k];
     if (s.mesh.dimension() == 2 && instrument.kind == InstrumentKind::scissors)
-      loaded.where.fail("instrument[" + std::to_string(k) + "].kind",
+      loaded.where.fail(item_path("instrument", k) + ".kind",
                         "scissors cut volumes only: a scalpel cuts this plane body");
     check_blade_length(loaded, k, edge);
     s.tools.push_back(

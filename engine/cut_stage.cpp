@@ -31,15 +31,25 @@ Box surface_box(const Simulation& s) {
   return box;
 }
 
+// Of points within a frame's reach of a blade.
+std::vector<Location> locate_beside(const Simulation& s, BodyPositions& positions,
+                                    std::span<const Vec3> points) {
+  const std::vector<std::int32_t> near = positions.elements_around(box_around(points));
+  return locate_points(s.mesh, positions.x(), points, near);
+}
+
+bool is_one_inside(const Simulation& s, BodyPositions& positions, std::span<const Vec3> points) {
+  return std::ranges::any_of(locate_beside(s, positions, points),
+                             [](const Location& location) { return location.element >= 0; });
+}
+
 // Where the blade's edge is inside the tissue; for a plane body its tip alone, which is as long as
 // the body is thick.
 void locate_edge(const Simulation& s, BodyPositions& positions, std::span<const Vec3> edge,
                  CutStage& stage) {
   stage.engaged.clear();
   if (s.mesh.dimension() == 2) {
-    const std::span tip = edge.first(1);
-    const std::vector<std::int32_t> near = positions.elements_around(box_around(tip));
-    const Location at = locate_points(s.mesh, positions.x(), tip, near)[0];
+    const Location at = locate_beside(s, positions, edge.first(1))[0];
     if (at.element >= 0)
       stage.engaged.push_back({.middle = at, .length = s.scene.tissue.thickness});
     return;
@@ -65,10 +75,7 @@ bool has_met(const Simulation& s, BodyPositions& positions, const BladeSweep& sw
              CutStage& stage) {
   if (!stage.engaged.empty()) return true;
   if (s.mesh.dimension() == 3) return stage.tet.meets(s.mesh, positions, sweep);
-  const std::vector<Vec3> points = way_of_tip(sweep, tip_spacing * s.edge_length);
-  const std::vector<std::int32_t> near = positions.elements_around(box_around(points));
-  return std::ranges::any_of(locate_points(s.mesh, positions.x(), points, near),
-                             [](const Location& location) { return location.element >= 0; });
+  return is_one_inside(s, positions, way_of_tip(sweep, tip_spacing * s.edge_length));
 }
 
 void start_stroke(CutStage& stage, const Tool& tool, double time, std::int32_t dimension) {
@@ -81,10 +88,7 @@ void start_stroke(CutStage& stage, const Tool& tool, double time, std::int32_t d
 
 // Whether the tissue goes on beyond an end of the edge.
 bool goes_on_beside(const Simulation& s, BodyPositions& positions, const std::vector<Vec3>& edge) {
-  const std::array<Vec3, 2> ends = {edge.front(), edge.back()};
-  const std::vector<std::int32_t> near = positions.elements_around(box_around(ends));
-  return std::ranges::any_of(locate_points(s.mesh, positions.x(), ends, near),
-                             [](const Location& location) { return location.element >= 0; });
+  return is_one_inside(s, positions, std::array<Vec3, 2>{edge.front(), edge.back()});
 }
 
 // Where the jaws of scissors begin to have tissue beside them: once a closing, as a rule.

@@ -57,8 +57,7 @@ void warn_of_hasty_jaws(const Scene& scene) {
       if (path[j].action == GraspAction::none) continue;
       if (last && last->action == path[j].action) continue;
       if (last && path[j].time - last->time < jaw_time - rounding)
-        warn_if_hasty(scene.instruments[k],
-                      "instrument[" + std::to_string(k) + "].path[" + std::to_string(j) + "]",
+        warn_if_hasty(scene.instruments[k], item_path("instrument", k) + "." + item_path("path", j),
                       path[j].time - last->time);
       last = &path[j];
     }
@@ -82,7 +81,7 @@ void check_instruments_outside(const LoadedScene& loaded, double allowed, const 
     if (depth[k] <= allowed) continue;
     char text[40];
     std::snprintf(text, sizeof text, "%.3g m", depth[k]);
-    loaded.where.fail("instrument[" + std::to_string(k) + "].path[0].position",
+    loaded.where.fail(item_path("instrument", k) + ".path[0].position",
                       "\"" + tool.name + "\" reaches " + text + " into " + what);
   }
 }

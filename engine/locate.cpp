@@ -44,14 +44,19 @@ Weights simplex_weights(std::span<const std::int32_t> corner, std::span<const Ve
   return w;
 }
 
+std::array<std::int32_t, 4> nodes_of(const std::array<int, 4>& tet,
+                                     std::span<const std::int32_t> corner) {
+  std::array<std::int32_t, 4> node{};
+  for (std::size_t a = 0; a < 4; ++a) node[a] = corner[static_cast<std::size_t>(tet[a])];
+  return node;
+}
+
 // Of the tetrahedron of the hexahedron whose least weight is largest.
 Weights hexahedron_weights(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x,
                            const Vec3& p) {
   Weights best;
   for (const std::array<int, 4>& tet : hex_tets(mesh, e)) {
-    std::array<std::int32_t, 4> node{};
-    for (std::size_t a = 0; a < 4; ++a) node[a] = mesh.corners(e)[static_cast<std::size_t>(tet[a])];
-    const Weights w = simplex_weights(node, x, p);
+    const Weights w = simplex_weights(nodes_of(tet, mesh.corners(e)), x, p);
     if (w.least <= best.least) continue;
     best = {.least = w.least};
     for (std::size_t a = 0; a < 4; ++a) best.weight[static_cast<std::size_t>(tet[a])] = w.weight[a];
@@ -114,11 +119,7 @@ void add_stretches(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x,
   };
   const std::span<const std::int32_t> corner = mesh.corners(e);
   if (mesh.element_type[static_cast<std::size_t>(e)] != ElementType::hex8) return add(corner);
-  for (const std::array<int, 4>& tet : hex_tets(mesh, e)) {
-    std::array<std::int32_t, 4> node{};
-    for (std::size_t a = 0; a < 4; ++a) node[a] = corner[static_cast<std::size_t>(tet[a])];
-    add(node);
-  }
+  for (const std::array<int, 4>& tet : hex_tets(mesh, e)) add(nodes_of(tet, corner));
 }
 
 }  // namespace

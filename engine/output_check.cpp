@@ -77,7 +77,7 @@ void warn_of_outputs(const Scene& scene, const std::string& folder) {
   warn_of_rounding("time.duration", time.duration, time.frame_rate);
   for (std::size_t k = 0; k < scene.outputs.size(); ++k) {
     const SceneOutput& output = scene.outputs[k];
-    const std::string key = "output[" + std::to_string(k) + "].every";
+    const std::string key = item_path("output", k) + ".every";
     if (output.every > time.duration)
       log_warning(key + " = " + short_text(output.every) +
                   " s is longer than the run: nothing is written into \"" + output.file + "\"");

@@ -11,10 +11,6 @@ namespace trocar {
 
 namespace {
 
-std::string item(const char* list, std::size_t k) {
-  return std::string(list) + "[" + std::to_string(k) + "]";
-}
-
 void check_tissue(const Scene& scene, const SourceMap& where) {
   const SceneTissue& tissue = scene.tissue;
   if (tissue.mesh.empty() == !tissue.shape)
@@ -50,7 +46,7 @@ void check_shortcuts(const Scene& scene, const SourceMap& where) {
 void complete_materials(SceneTissue& tissue, const SourceMap& where) {
   complete_material(where, "tissue.material", tissue.material);
   for (std::size_t k = 0; k < tissue.region_materials.size(); ++k)
-    complete_material(where, item("tissue.region_material", k) + ".material",
+    complete_material(where, item_path("tissue.region_material", k) + ".material",
                       tissue.region_materials[k].material);
 }
 
@@ -58,8 +54,8 @@ void check_regions(const Scene& scene, const SourceMap& where) {
   for (std::size_t k = 0; k < scene.regions.size(); ++k)
     for (int j = 0; j < 3; ++j)
       if (const SceneRegion& region = scene.regions[k]; region.low[j] > region.high[j])
-        where.fail(item("region", k), "low is above high along " + std::string(1, "xyz"[j]) +
-                                          ", so that the box holds nothing: exchange them");
+        where.fail(item_path("region", k), "low is above high along " + std::string(1, "xyz"[j]) +
+                                               ", so that the box holds nothing: exchange them");
 }
 
 // Names become columns of tables and words of messages.
@@ -70,11 +66,11 @@ void check_names(const Scene& scene, const SourceMap& where) {
       where.fail(key, "a name must not have line breaks, tabs or other control characters");
   };
   for (std::size_t k = 0; k < scene.regions.size(); ++k)
-    check(scene.regions[k].name, item("region", k) + ".name");
+    check(scene.regions[k].name, item_path("region", k) + ".name");
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
-    check(scene.instruments[k].name, item("instrument", k) + ".name");
+    check(scene.instruments[k].name, item_path("instrument", k) + ".name");
   for (std::size_t k = 0; k < scene.markers.size(); ++k)
-    check(scene.markers[k].name, item("marker", k) + ".name");
+    check(scene.markers[k].name, item_path("marker", k) + ".name");
 }
 
 void check_supports(const Scene& scene, const SourceMap& where) {
@@ -83,18 +79,19 @@ void check_supports(const Scene& scene, const SourceMap& where) {
     const std::set<char> letters(support.fix.begin(), support.fix.end());
     if (support.fix.empty() || letters.size() != support.fix.size() ||
         support.fix.find_first_not_of("xyz") != std::string::npos)
-      where.fail(item("support", k) + ".fix",
+      where.fail(item_path("support", k) + ".fix",
                  "found \"" + support.fix + "\", allowed: some of \"x\", \"y\", \"z\", each once");
     if (!support.path.empty() && letters.size() != 3)
-      where.fail(item("support", k) + ".path", "a moving support needs fix = \"xyz\"");
+      where.fail(item_path("support", k) + ".path", "a moving support needs fix = \"xyz\"");
     if (!support.path.empty() && support.path.front().displacement != Vec3::Zero() &&
         scene.start.state != StartState::equilibrium)
-      where.fail(item("support", k) + "." + item("path", 0) + ".displacement",
+      where.fail(item_path("support", k) + "." + item_path("path", 0) + ".displacement",
                  "a support begins where the body is, and this one would jump: the first "
                  "displacement must be 0, a later one moves it");
     for (std::size_t j = 1; j < support.path.size(); ++j)
       if (!(support.path[j - 1].time < support.path[j].time))
-        where.fail(item("support", k) + "." + item("path", j), "the times of a path must ascend");
+        where.fail(item_path("support", k) + "." + item_path("path", j),
+                   "the times of a path must ascend");
   }
 }
 
@@ -102,10 +99,11 @@ void check_loads(const Scene& scene, const SourceMap& where) {
   for (std::size_t k = 0; k < scene.loads.size(); ++k) {
     const SceneLoad& load = scene.loads[k];
     if (load.force == Vec3::Zero() && load.pressure == 0)
-      where.fail(item("load", k), "a load needs a force or a pressure");
+      where.fail(item_path("load", k), "a load needs a force or a pressure");
     for (std::size_t j = 1; j < load.path.size(); ++j)
       if (!(load.path[j - 1].time < load.path[j].time))
-        where.fail(item("load", k) + "." + item("path", j), "the times of a path must ascend");
+        where.fail(item_path("load", k) + "." + item_path("path", j),
+                   "the times of a path must ascend");
   }
 }
 
@@ -113,8 +111,9 @@ void check_markers(const Scene& scene, const SourceMap& where) {
   std::set<std::string> names;
   for (std::size_t k = 0; k < scene.markers.size(); ++k)
     if (!names.insert(scene.markers[k].name).second)
-      where.fail(item("marker", k) + ".name", "two markers are called \"" + scene.markers[k].name +
-                                                  "\": give each its own name");
+      where.fail(
+          item_path("marker", k) + ".name",
+          "two markers are called \"" + scene.markers[k].name + "\": give each its own name");
 }
 
 void check_key(const InstrumentKey& key, const std::string& name, const SourceMap& where) {
@@ -130,19 +129,19 @@ void check_instruments(Scene& scene, const SourceMap& where) {
   std::set<std::string> names;
   for (std::size_t k = 0; k < scene.instruments.size(); ++k) {
     SceneInstrument& instrument = scene.instruments[k];
-    const std::string path = item("instrument", k);
+    const std::string path = item_path("instrument", k);
     if (instrument.name.empty()) instrument.name = kinds[static_cast<int>(instrument.kind)];
     if (!names.insert(instrument.name).second)
       where.fail(path, "two instruments are called \"" + instrument.name + "\": give each a name");
     if (instrument.path.empty()) where.fail(path + ".path", "a path needs at least one key");
     for (std::size_t j = 0; j < instrument.path.size(); ++j) {
-      check_key(instrument.path[j], path + "." + item("path", j), where);
+      check_key(instrument.path[j], path + "." + item_path("path", j), where);
       if (j > 0 && !(instrument.path[j - 1].time < instrument.path[j].time))
-        where.fail(path + "." + item("path", j), "the times of a path must ascend");
+        where.fail(path + "." + item_path("path", j), "the times of a path must ascend");
       const bool has_jaws =
           instrument.kind == InstrumentKind::grasper || instrument.kind == InstrumentKind::scissors;
       if (instrument.path[j].action != GraspAction::none && !has_jaws)
-        where.fail(path + "." + item("path", j) + ".action",
+        where.fail(path + "." + item_path("path", j) + ".action",
                    "only graspers and scissors open and close");
     }
   }
@@ -166,7 +165,7 @@ void check_no_output_lies_in_a_file(const Scene& scene, const SourceMap& where) 
   for (std::size_t k = 0; k < scene.outputs.size(); ++k)
     for (const std::string& file : files)
       if (plain_file(scene.outputs[k]).starts_with(file + "/"))
-        where.fail(item("output", k) + ".file",
+        where.fail(item_path("output", k) + ".file",
                    "\"" + scene.outputs[k].file + "\" lies in \"" + file + "\", which is a file");
 }
 
@@ -184,7 +183,7 @@ void check_no_output_is_a_frame(const Scene& scene, const SourceMap& where) {
   for (std::size_t k = 0; k < scene.outputs.size(); ++k) {
     const std::filesystem::path file(plain_file(scene.outputs[k]));
     if (folders.contains(file.parent_path().string()) && is_name_of_frame(file.filename().string()))
-      where.fail(item("output", k) + ".file",
+      where.fail(item_path("output", k) + ".file",
                  "\"" + scene.outputs[k].file + "\" has the name of a picture of the frames in \"" +
                      file.parent_path().string() + "\", which would be written over it");
   }
@@ -194,7 +193,7 @@ void check_outputs(const Scene& scene, const SourceMap& where) {
   std::set<std::string> files;
   for (std::size_t k = 0; k < scene.outputs.size(); ++k) {
     const SceneOutput& output = scene.outputs[k];
-    const std::string path = item("output", k);
+    const std::string path = item_path("output", k);
     if (!stays_inside(output.file))
       where.fail(path + ".file",
                  "\"" + output.file + "\" must be a relative path inside the output folder");
@@ -224,12 +223,12 @@ void check_cameras(const Scene& scene, const SourceMap& where) {
   for (std::size_t k = 0; k < scene.cameras.size(); ++k) {
     const SceneCamera& camera = scene.cameras[k];
     if (!names.insert(camera.name).second)
-      where.fail(item("camera", k),
+      where.fail(item_path("camera", k),
                  "two cameras are called \"" + camera.name + "\": give each a name");
     const Vec3 view = camera.target - camera.eye;
     if (view.norm() < 1e-9 ||
         view.cross(camera.up).norm() < 1e-6 * view.norm() * std::max(1e-9, camera.up.norm()))
-      where.fail(item("camera", k),
+      where.fail(item_path("camera", k),
                  "eye and target must differ and up must not point along the view");
   }
 }

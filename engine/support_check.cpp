@@ -27,7 +27,7 @@ struct Overlap {
 };
 
 std::string name_of(std::int32_t support) {
-  return "support[" + std::to_string(support) + "]";
+  return item_path("support", static_cast<std::size_t>(support));
 }
 
 bool rests_along(const SceneSupport& support, int axis) {

@@ -61,7 +61,7 @@ void add_regions(const LoadedScene& loaded, Mesh& mesh) {
   for (std::size_t k = 0; k < loaded.scene.regions.size(); ++k) {
     const SceneRegion& region = loaded.scene.regions[k];
     if (find_node_set(mesh, region.name))
-      loaded.where.fail("region[" + std::to_string(k) + "].name",
+      loaded.where.fail(item_path("region", k) + ".name",
                         "the body has a region \"" + region.name + "\" already");
     NodeSet set{.name = region.name, .node = {}};
     for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) {
@@ -70,7 +70,7 @@ void add_regions(const LoadedScene& loaded, Mesh& mesh) {
         set.node.push_back(i);
     }
     if (set.node.empty())
-      loaded.where.fail("region[" + std::to_string(k) + "]",
+      loaded.where.fail(item_path("region", k),
                         "region \"" + region.name + "\" holds no node of the mesh");
     mesh.node_sets.push_back(std::move(set));
   }
@@ -109,7 +109,7 @@ void check_regions(const LoadedScene& loaded, const std::string& list, const Ite
   for (std::size_t k = 0; k < items.size(); ++k)
     if (!find_node_set(mesh, items[k].region))
       loaded.where.fail(
-          list + "[" + std::to_string(k) + "].region",
+          item_path(list, k) + ".region",
           "the body has no region \"" + items[k].region + "\"; it has " + known_regions(mesh));
 }
 

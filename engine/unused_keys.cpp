@@ -139,21 +139,20 @@ std::vector<std::string> unused_keys(const Scene& scene, const Mesh& mesh) {
       if (use.is_given && !use.has_effect)
         sentences.push_back(use.key + " has no effect: " + use.needs + "; leave it out");
   };
-  const auto number = [](std::size_t k) { return "[" + std::to_string(k) + "]"; };
   tell(of_tissue(scene, mesh));
   tell(of_shape(scene));
   tell(of_material(scene.tissue.material, "tissue.material"));
   for (std::size_t k = 0; k < scene.tissue.region_materials.size(); ++k)
     tell(of_material(scene.tissue.region_materials[k].material,
-                     "tissue.region_material" + number(k) + ".material"));
+                     item_path("tissue.region_material", k) + ".material"));
   tell(of_solver(scene, mesh));
   tell(of_contact(scene));
   tell(of_cutting(scene, mesh));
   tell(of_start(scene));
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
-    tell(of_instrument(scene.instruments[k], "instrument" + number(k)));
+    tell(of_instrument(scene.instruments[k], item_path("instrument", k)));
   for (std::size_t k = 0; k < scene.outputs.size(); ++k)
-    tell(of_output(scene.outputs[k], "output" + number(k)));
+    tell(of_output(scene.outputs[k], item_path("output", k)));
   return sentences;
 }
 
