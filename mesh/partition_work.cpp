@@ -15,7 +15,7 @@ constexpr int row_lanes = 8;
 // never stand in any.
 constexpr double outside_row = 1.4;
 
-// Elements of a part that are computed together: inside or on the border, ascending.
+// Elements of a part that are computed together, ascending.
 struct Lanes {
   std::array<std::int32_t, row_lanes> element{};
   int n = 0;
@@ -26,29 +26,27 @@ class WorkCount {
   WorkCount(const Mesh& mesh, std::span<const std::int32_t> node_owner, int n_parts)
       : mesh_(mesh),
         owner_(node_owner),
-        inside_(static_cast<std::size_t>(n_parts)),
-        border_(inside_.size()),
-        work_(inside_.size(), 0) {
+        next_(static_cast<std::size_t>(n_parts)),
+        work_(next_.size(), 0) {
     std::vector<std::int32_t> parts;
     for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
       parts.clear();
       for (const std::int32_t i : mesh.corners(e)) parts.push_back(owner_[i]);
       sort_unique(parts);
-      for (const std::int32_t part : parts) add(e, part, parts.size() > 1 ? border_ : inside_);
+      for (const std::int32_t part : parts) add(e, part);
     }
-    for (std::int32_t part = 0; part < n_parts; ++part)
-      for (Lanes* lanes : {&inside_[part], &border_[part]}) finish(part, *lanes);
+    for (std::int32_t part = 0; part < n_parts; ++part) finish(part, next_[part]);
   }
   double most() const { return *std::max_element(work_.begin(), work_.end()); }
 
  private:
   const Mesh& mesh_;
   std::span<const std::int32_t> owner_;
-  std::vector<Lanes> inside_, border_;
+  std::vector<Lanes> next_;
   std::vector<double> work_;
 
-  void add(std::int32_t e, std::int32_t part, std::vector<Lanes>& of) {
-    Lanes& lanes = of[part];
+  void add(std::int32_t e, std::int32_t part) {
+    Lanes& lanes = next_[part];
     if (lanes.n > 0 && mesh_.element_type[lanes.element[0]] != mesh_.element_type[e])
       finish(part, lanes);
     lanes.element[lanes.n++] = e;

@@ -38,7 +38,7 @@ void make_lists(const ModelSource& source, Model& model) {
   const auto key_of = [&](std::int32_t k) {
     return list_key(source, source.part.element_global[k]);
   };
-  const std::size_t n_keys = 2 * n_formulations * source.materials.size();
+  const std::size_t n_keys = n_formulations * source.materials.size();
   std::vector<std::int32_t> count(n_keys), next(n_keys), list_of_key(n_keys);
   for (std::int32_t k = 0; k < source.n_elements(); ++k) ++count[key_of(k)];
   for (std::size_t key = 0; key < n_keys; ++key) {
@@ -151,7 +151,7 @@ void fit_scratch(const Model& model, Scratch& scratch) {
   with_sums(model, scratch,
             [&](auto& sum) { sum.resize(static_cast<std::size_t>(n_sums(model))); });
   scratch.u_by_component.resize(
-      model.is_by_component ? static_cast<std::size_t>(model.sums.window_first.back()) : 0);
+      model.is_by_component ? static_cast<std::size_t>(model.sums.window.back().at) : 0);
   scratch.volume_change.resize(static_cast<std::size_t>(model.averages.n_lanes));
   scratch.force.resize(3 * n_owned);
   scratch.has_force = false;

@@ -37,14 +37,12 @@ struct SolverOptions {
   Formulation hex8 = Formulation::hex8_one_point;
 };
 
-// All elements of one formulation and region on this rank that read halo nodes, or that don't,
-// ascending global number, padded to whole blocks with the corners of the last one and constants of
-// zero (which make no force).
+// All elements of one formulation and region on this rank, ascending global number, padded to whole
+// blocks with the corners of the last one and constants of zero (which make no force).
 struct ElementBlocks {
   Formulation formulation = Formulation::tet4;
   Precision precision = Precision::in_double;
   std::int32_t region = 0;  // index of its material
-  bool reads_halo = false;
   MaterialModel material = MaterialModel::neo_hookean;
   double stiffening_at_rest = 1;  // in element_step already (material_setup.h)
   std::int32_t n_elements = 0;
@@ -85,7 +83,7 @@ struct VolumeAverages {
 // of blocks (counted through all lists). At a node that several runs meet, the first corners of the
 // order are added at the node as long as they are of one run; the others get a place each behind
 // the nodes, and are added up afterwards, in the same order. So the bits don't depend on the number
-// of runs, nor on which elements wait for the halo.
+// of runs.
 struct NodeRange {
   std::int32_t begin = 0, end = 0;  // local nodes
   bool operator==(const NodeRange&) const = default;
@@ -94,6 +92,22 @@ struct NodeRange {
 // Blocks that a run takes between two looks at the nodes: a stride.
 inline constexpr std::int64_t stride_blocks = 32;
 
+// What a stride reads of displacements by component; `halo` is empty where it would lie behind
+// `own`, which has it then.
+struct StrideNodes {
+  NodeRange own, halo;
+  bool operator==(const StrideNodes&) const = default;
+};
+
+// Where a run's displacements by component begin in Scratch::u_by_component, and the node that they
+// begin with, if they are of all its nodes and don't slide.
+struct ComponentWindow {
+  static constexpr std::int32_t slides = -1;
+  std::int64_t at = 0;
+  std::int32_t first_node = slides;
+  bool operator==(const ComponentWindow&) const = default;
+};
+
 struct BlockPlace {
   std::size_t list = 0;
   std::int32_t block = 0;  // of the list
@@ -101,11 +115,13 @@ struct BlockPlace {
 };
 
 struct SumOrder {
-  std::int32_t n_runs = 0;               // those of blocks that read no halo nodes first
-  std::int32_t n_inside_runs = 0;        // that many
+  std::int32_t n_runs = 0;
   std::vector<std::int64_t> run_block;   // (n_runs + 1) first block of each run
   std::vector<std::int32_t> run_stride;  // (n_runs + 1) first stride of each run
-  std::int64_t n_places = 0;             // of Scratch::sum, nodes first
+  // Blocks that read halo nodes, ascending; and strides of a single run before the first of them.
+  std::vector<BlockPlace> halo_block;
+  std::int32_t n_strides_before_halo = 0;
+  std::int64_t n_places = 0;  // of Scratch::sum, nodes first
   // Owned nodes that one run alone meets and reads, ascending by the last stride that touches them,
   // then by number: they are finished while they are in the cache.
   std::vector<std::int32_t> node;
@@ -119,10 +135,9 @@ struct SumOrder {
   std::int32_t n_slots = 0;
   std::vector<std::int32_t> slot_first;  // into place_node, and its end
   std::vector<BlockPlace> place_block;   // with corners that have places; ascending
-  // Where sums lie component by component: what the elements of each stride of runs inside read,
-  // and (n_inside_runs + 1) where the runs' windows of Scratch::u_by_component begin.
-  std::vector<NodeRange> stride_nodes;
-  std::vector<std::int64_t> window_first;
+  // Where sums lie component by component: of each stride, and of each run and the end.
+  std::vector<StrideNodes> stride_nodes;
+  std::vector<ComponentWindow> window;
 };
 
 // Nodes of elements whose mass is scaled, in groups that hang together (mass_scaling.h). Each group
@@ -148,7 +163,7 @@ struct Model {
   // component_stride(n_local)) by component, for elements
   // that make their gradients of them (element_hex8.h); empty if there are none. [m]
   AlignedVector<float> position;
-  // One a (reads_halo, region, formulation), in this order.
+  // One a (region, formulation), in this order, which is that of the sums.
   std::vector<ElementBlocks> blocks;
   SumOrder sums;
   // (n local elements) stable step of the undeformed element (numerics 1.5) [s]
@@ -223,7 +238,7 @@ struct Scratch {
   // component, all zero between steps; the one of the model's precision, the other is empty. [N]
   AlignedVector<double> sum;
   AlignedVector<float> sum_single;
-  // Displacements by component, of a window of the nodes of each run inside, run after run [m]
+  // Displacements by component, of a window of the nodes of each run, run after run [m]
   AlignedVector<double> u_by_component;
   std::vector<double> volume_change;  // K V (J - 1) of lanes, see VolumeAverages [J]
   std::vector<double> force;          // (n_owned * 3) external - internal force [N]

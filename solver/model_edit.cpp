@@ -65,6 +65,22 @@ void refill(const ModelSource& source, std::int32_t k, Model& model) {
     fill_corners(source, lane, blocks);
 }
 
+void refill_corners(const ModelSource& source, const BlockPlace& place, Model& model) {
+  ElementBlocks& blocks = model.blocks[place.list];
+  for (std::int64_t lane = 0; lane < blocks.lanes; ++lane)
+    fill_corners(source, std::int64_t{place.block} * blocks.lanes + lane, blocks);
+}
+
+// Whether none of these that the part has reads halo nodes.
+bool are_inside(const ModelSource& source, std::span<const std::int32_t> elements) {
+  return std::ranges::all_of(elements, [&](std::int32_t e) {
+    return source.part.place_of(e) < 0 ||
+           std::ranges::all_of(source.mesh.corners(e), [&](std::int32_t i) {
+             return source.part.node_local[i] < source.part.n_owned;
+           });
+  });
+}
+
 // Elements of a list after an edit, and the lanes that they had in it; -1: new ones.
 struct Lanes {
   std::vector<std::int32_t> element;  // positions in Part::element_global, ascending
@@ -134,7 +150,6 @@ ElementBlocks shortened(const Lanes& lanes, ElementBlocks list) {
   list.n_elements = static_cast<std::int32_t>(lanes.element.size());
   list.n_blocks = (list.n_elements + list.lanes - 1) / list.lanes;
   list.element_local.resize(static_cast<std::size_t>(list.n_blocks * list.lanes));
-  list.target.clear();
   return list;
 }
 
@@ -175,7 +190,7 @@ void move_lists(const ModelSource& source, std::span<const std::int32_t> place_b
       place_after[place_before[k]] = k;
     else
       added[list_key(source, source.part.element_global[k])].push_back(k);
-  for (ElementBlocks& list : model.blocks) before[list_key(source, list)] = std::move(list);
+  for (ElementBlocks& list : model.blocks) before[list_key(list)] = std::move(list);
   for (const auto& [key, elements] : added) before.try_emplace(key);
   model.blocks.clear();
   std::vector<double> moved;
@@ -198,7 +213,12 @@ void move_lists(const ModelSource& source, std::span<const std::int32_t> place_b
 void edit_model(const ModelSource& source, const ModelEdit& edit, Model& model,
                 std::vector<double>& history) {
   CHECK(model.clusters.node.empty());
-  if (!edit.place_before.empty()) move_lists(source, edit.place_before, model, history);
+  const bool has_splits = !edit.place_before.empty();
+  if (has_splits) move_lists(source, edit.place_before, model, history);
+  // Numbers of halo nodes have moved up.
+  for (const BlockPlace& place :
+       has_splits ? blocks_with_halo(model, model.n_owned) : model.sums.halo_block)
+    refill_corners(source, place, model);
   resize_nodes(source.part, model);
   const FixedMask plane = held_by_plane(source.mesh);
   const std::vector<std::int32_t> owned = owned_of(source.part, edit.nodes);
@@ -206,15 +226,10 @@ void edit_model(const ModelSource& source, const ModelEdit& edit, Model& model,
   for (const std::int32_t e : edit.elements)
     if (const std::int64_t k = source.part.place_of(e); k >= 0)
       refill(source, static_cast<std::int32_t>(k), model);
-  for (ElementBlocks& blocks : model.blocks)
-    for (std::int64_t lane = 0; blocks.reads_halo && lane < std::ssize(blocks.element_local);
-         ++lane)  // numbers of halo nodes have moved up
-      fill_corners(source, lane, blocks);
-  if (edit.place_before.empty()) {
-    edit_sums(owned, blocks_of(source.part, edit.touching, model), model);
-  } else {
+  if (has_splits || !are_inside(source, edit.touching))
     order_sums(model);
-  }
+  else
+    edit_sums(owned, blocks_of(source.part, edit.touching, model), model);
   take_positions(source, model);
   model.averages = {};
   link_volume_averages(source.mesh, source.materials, model);

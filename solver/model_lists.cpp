@@ -20,18 +20,8 @@ Formulation formulation_of(const ModelSource& source, std::int32_t e) {
   return of_shape[static_cast<int>(source.mesh.element_type[e])];
 }
 
-bool reads_halo(const ModelSource& source, std::int32_t e) {
-  const std::span<const std::int32_t> node = source.mesh.corners(e);
-  return std::any_of(node.begin(), node.end(), [&](std::int32_t i) {
-    return source.part.node_local[i] >= source.part.n_owned;
-  });
-}
-
-std::size_t key_of(std::size_t n_regions, bool reads_halo, std::int32_t region,
-                   Formulation formulation) {
-  const std::size_t first = reads_halo ? n_regions : 0;
-  return (first + static_cast<std::size_t>(region)) * n_formulations +
-         static_cast<std::size_t>(formulation);
+std::size_t key_of(std::int32_t region, Formulation formulation) {
+  return static_cast<std::size_t>(region) * n_formulations + static_cast<std::size_t>(formulation);
 }
 
 // Unit vector.
@@ -61,20 +51,17 @@ void fill_values(const ModelSource& source, std::int32_t e, const ElementConstan
 }  // namespace
 
 std::size_t list_key(const ModelSource& source, std::int32_t e) {
-  return key_of(source.materials.size(), reads_halo(source, e), source.mesh.element_region[e],
-                formulation_of(source, e));
+  return key_of(source.mesh.element_region[e], formulation_of(source, e));
 }
 
-std::size_t list_key(const ModelSource& source, const ElementBlocks& blocks) {
-  return key_of(source.materials.size(), blocks.reads_halo, blocks.region, blocks.formulation);
+std::size_t list_key(const ElementBlocks& blocks) {
+  return key_of(blocks.region, blocks.formulation);
 }
 
 ElementBlocks empty_blocks(const ModelSource& source, std::size_t key, std::int32_t n_elements) {
   ElementBlocks blocks;
-  const std::size_t n_regions = source.materials.size();
   blocks.formulation = static_cast<Formulation>(key % n_formulations);
-  blocks.region = static_cast<std::int32_t>(key / n_formulations % n_regions);
-  blocks.reads_halo = key / n_formulations >= n_regions;
+  blocks.region = static_cast<std::int32_t>(key / n_formulations);
   const Material& material = source.materials[static_cast<std::size_t>(blocks.region)];
   blocks.material = material.model;
   blocks.stiffening_at_rest = stiffening_at_rest(material);

@@ -11,7 +11,7 @@ namespace trocar {
 
 // Of the list that an element of the mesh belongs to; lists are in the order of their keys.
 std::size_t list_key(const ModelSource& source, std::int32_t e);
-std::size_t list_key(const ModelSource& source, const ElementBlocks& blocks);
+std::size_t list_key(const ElementBlocks& blocks);
 
 // With room for its lanes, all numbers zero.
 ElementBlocks empty_blocks(const ModelSource& source, std::size_t key, std::int32_t n_elements);

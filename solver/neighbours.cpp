@@ -24,9 +24,9 @@ void start_theta(const Model& model, Neighbours& neighbours, State& state) {
 }
 
 void average_and_start(const Model& model, Neighbours& neighbours, State& state, Scratch& scratch) {
-  find_inside_volume_change(model, state, scratch);
+  begin_volume_change(model, state, scratch);
   finish_exchange(neighbours, state);
-  average_with_border(model, state, scratch);
+  end_volume_change(model, state, scratch);
   start_theta(model, neighbours, state);
 }
 
@@ -75,9 +75,9 @@ namespace {
 void find_force(const Model& model, Neighbours& neighbours, State& state, Scratch& scratch,
                 ElementWatch* watch, const NodeMotion* motion) {
   if (model.averages.n_fields > 0) average_and_start(model, neighbours, state, scratch);
-  compute_inside_force(model, state, scratch, watch, motion);
+  begin_force(model, state, scratch, watch, motion);
   finish_exchange(neighbours, state);
-  compute_border_force(model, state, scratch, watch, motion);
+  end_force(model, state, scratch, watch, motion);
 }
 
 }  // namespace

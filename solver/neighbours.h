@@ -1,6 +1,7 @@
-// How a step talks to the ranks around it. What border nodes do travels while the elements that
-// read no halo nodes are computed: one message a neighbour and step (two with averaged volume
-// changes), no collective, no allocation.
+// How a step talks to the ranks around it: one message a neighbour and step (two with averaged
+// volume changes), no collective, no allocation. What border nodes do travels while the elements
+// before the first one that reads halo nodes are computed. So of parts in the order of their
+// numbers each follows the one before by the time of a message, and none waits.
 #pragma once
 
 #include <optional>

@@ -93,25 +93,31 @@ NodeRange united(const NodeRange& a, const NodeRange& b) {
   return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
 }
 
-NodeRange nodes_of_blocks(const Model& model, std::int64_t begin, std::int64_t end) {
-  NodeRange nodes;
+StrideNodes united(const StrideNodes& a, const StrideNodes& b) {
+  return {united(a.own, b.own), united(a.halo, b.halo)};
+}
+
+StrideNodes nodes_of_blocks(const Model& model, std::int64_t begin, std::int64_t end) {
+  StrideNodes nodes;
   for_block_range(model, begin, end,
                   [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
                     const std::int64_t n_corners = corners_of_block(blocks);
-                    const auto [low, high] =
-                        std::minmax_element(blocks.corner.begin() + first * n_corners,
-                                            blocks.corner.begin() + (first + n) * n_corners);
-                    nodes = united(nodes, {*low, *high + 1});
+                    for (std::int64_t k = first * n_corners; k < (first + n) * n_corners; ++k) {
+                      const std::int32_t i = blocks.corner[k];
+                      NodeRange& of = i < model.n_owned ? nodes.own : nodes.halo;
+                      of = united(of, {i, i + 1});
+                    }
                   });
-  return nodes;
+  if (nodes.own.end < nodes.halo.begin || nodes.halo == NodeRange{}) return nodes;
+  return {united(nodes.own, nodes.halo), {}};
 }
 
-// Finds the nodes of all strides inside; returns those of their runs.
-std::vector<NodeRange> find_stride_nodes(Model& model) {
+// Finds the nodes of all strides; returns those of their runs.
+std::vector<StrideNodes> find_stride_nodes(Model& model) {
   SumOrder& sums = model.sums;
-  std::vector<NodeRange> run_nodes;
-  for (std::int32_t run = 0; run < sums.n_inside_runs; ++run) {
-    NodeRange of_run;
+  std::vector<StrideNodes> run_nodes;
+  for (std::int32_t run = 0; run < sums.n_runs; ++run) {
+    StrideNodes of_run;
     for (std::int64_t block = sums.run_block[run]; block < sums.run_block[run + 1];
          block += stride_blocks) {
       const std::int64_t end = std::min(block + stride_blocks, sums.run_block[run + 1]);
@@ -124,23 +130,23 @@ std::vector<NodeRange> find_stride_nodes(Model& model) {
 }
 
 bool is_read_by_another(std::int32_t node, std::int32_t run,
-                        const std::vector<NodeRange>& run_nodes) {
+                        const std::vector<StrideNodes>& run_nodes) {
   for (std::int32_t other = 0; other < std::ssize(run_nodes); ++other)
-    if (other != run && run_nodes[other].begin <= node && node < run_nodes[other].end) return true;
+    if (other != run && run_nodes[other].own.begin <= node && node < run_nodes[other].own.end)
+      return true;
   return false;
 }
 
 // Nodes that one run alone meets and that lie in the range of another one, which reads but never
 // uses them, are finished with those that several meet, if they are few; returns whether they are.
-bool share_nodes_of_others(const std::vector<NodeRange>& run_nodes, SumOrder& sums) {
-  if (sums.n_inside_runs < 2) return true;
+bool share_nodes_of_others(const std::vector<StrideNodes>& run_nodes, SumOrder& sums) {
+  if (sums.n_runs < 2) return true;
   constexpr std::size_t most = 8;  // one of so many
   std::vector<std::int32_t> own, first = {0}, read;
   for (std::int32_t run = 0; run < sums.n_runs; ++run)
     for (std::int32_t stride = sums.run_stride[run]; stride < sums.run_stride[run + 1]; ++stride) {
       for (std::int32_t k = sums.stride_first[stride]; k < sums.stride_first[stride + 1]; ++k)
-        (run < sums.n_inside_runs && is_read_by_another(sums.node[k], run, run_nodes) ? read : own)
-            .push_back(sums.node[k]);
+        (is_read_by_another(sums.node[k], run, run_nodes) ? read : own).push_back(sums.node[k]);
       first.push_back(static_cast<std::int32_t>(own.size()));
     }
   if (most * read.size() > own.size()) return false;
@@ -151,17 +157,22 @@ bool share_nodes_of_others(const std::vector<NodeRange>& run_nodes, SumOrder& su
   return true;
 }
 
-void place_windows(const std::vector<NodeRange>& run_nodes, SumOrder& sums) {
-  sums.window_first = {0};
-  for (std::int32_t run = 0; run < sums.n_inside_runs; ++run) {
-    std::int32_t widest = 0;
-    for (std::int32_t stride = sums.run_stride[run]; stride < sums.run_stride[run + 1]; ++stride)
-      widest = std::max(widest, sums.stride_nodes[stride].end - sums.stride_nodes[stride].begin);
-    const std::int64_t n =
-        std::min<std::int64_t>(std::max(least_window, strides_of_window * widest),
-                               run_nodes[run].end - run_nodes[run].begin);
-    sums.window_first.push_back(sums.window_first.back() + 3 * component_stride(n));
+// Windows do not slide where halo nodes lie far behind the others.
+void place_windows(const std::vector<StrideNodes>& run_nodes, SumOrder& sums) {
+  std::int64_t at = 0;
+  for (std::int32_t run = 0; run < sums.n_runs; ++run) {
+    const auto& [own, halo] = run_nodes[run];
+    const bool slides = halo == NodeRange{};
+    std::int32_t n = std::max(own.end, halo.end) - own.begin, widest = 0;
+    for (std::int32_t stride = sums.run_stride[run]; stride < sums.run_stride[run + 1]; ++stride) {
+      const NodeRange& of_stride = sums.stride_nodes[stride].own;
+      widest = std::max(widest, of_stride.end - of_stride.begin);
+    }
+    if (slides) n = std::min(n, std::max(least_window, strides_of_window * widest));
+    sums.window.push_back({at, slides ? ComponentWindow::slides : own.begin});
+    at += 3 * component_stride(n);
   }
+  sums.window.push_back({at});
 }
 
 }  // namespace
@@ -169,10 +180,10 @@ void place_windows(const std::vector<NodeRange>& run_nodes, SumOrder& sums) {
 void lay_out_nodes(Model& model) {
   SumOrder& sums = model.sums;
   sums.stride_nodes.clear();
-  sums.window_first.clear();
+  sums.window.clear();
   model.is_by_component = has_wide_registers() && find_rows_of_box(model);
   if (model.is_by_component) {
-    const std::vector<NodeRange> run_nodes = find_stride_nodes(model);
+    const std::vector<StrideNodes> run_nodes = find_stride_nodes(model);
     model.is_by_component = share_nodes_of_others(run_nodes, sums);
     if (model.is_by_component) place_windows(run_nodes, sums);
   }

@@ -62,7 +62,7 @@ void RunPrefetch::start(std::int32_t stride) {
 std::int32_t RunPrefetch::end_of_nodes(std::int32_t stride) const {
   const SumOrder& sums = model_.sums;
   if (stride >= sums.run_stride[run_ + 1]) return 0;
-  if (stride < std::ssize(sums.stride_nodes)) return sums.stride_nodes[stride].end;
+  if (stride < std::ssize(sums.stride_nodes)) return sums.stride_nodes[stride].own.end;
   const std::int64_t first =
       sums.run_block[run_] + (stride - sums.run_stride[run_]) * stride_blocks;
   std::int32_t end = 0;

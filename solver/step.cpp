@@ -66,47 +66,66 @@ void for_awake_blocks(const Scratch& scratch, std::int64_t begin, std::int64_t e
 class RunComponents {
  public:
   RunComponents(const Model& model, std::int64_t run, Scratch& scratch) : model_(model) {
-    if (!model.is_by_component || run >= model.sums.n_inside_runs) return;
-    const std::int64_t first = model.sums.window_first[run];
-    stride_ = (model.sums.window_first[run + 1] - first) / 3;
-    at_ = scratch.u_by_component.data() + first;
+    if (!model.is_by_component) return;
+    const ComponentWindow& window = model.sums.window[run];
+    stride_ = (model.sums.window[run + 1].at - window.at) / 3;
+    at_ = scratch.u_by_component.data() + window.at;
+    slides_ = window.first_node == ComponentWindow::slides;
+    if (!slides_) first_ = window.first_node;
   }
 
   // What the stride reads.
   void take(const State& state, std::int64_t stride) {
     if (at_ == nullptr) return;
-    const NodeRange asked = model_.sums.stride_nodes[stride];
-    if (asked.begin < taken_.begin || component_stride(asked.end - taken_.begin) > stride_)
-      taken_ = {asked.begin, asked.begin};
-    if (taken_.end >= asked.end) return;
-    active_kernels().nodes.split(state.u.data() + 3 * std::int64_t{taken_.end},
-                                 asked.end - taken_.end, at_ + (taken_.end - taken_.begin),
-                                 stride_);
-    taken_.end = asked.end;
+    const auto& [own, halo] = model_.sums.stride_nodes[stride];
+    if (slides_ && (own.begin < first_ || component_stride(own.end - first_) > stride_)) {
+      first_ = own.begin;
+      own_ = {};
+    }
+    extend(state, own, own_);
+    extend(state, halo, halo_);
   }
 
   Components all() const {
-    return at_ == nullptr ? Components{} : Components{at_ - taken_.begin, stride_};
+    return at_ == nullptr ? Components{} : Components{at_ - first_, stride_};
   }
 
  private:
-  static constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
-
   const Model& model_;
-  NodeRange taken_{none, none};
+  bool slides_ = true;
+  std::int32_t first_ = std::numeric_limits<std::int32_t>::max();  // node at at_
+  NodeRange own_, halo_;                                           // that are taken
   std::int64_t stride_ = 0;
   double* at_ = nullptr;
+
+  // taken: one range that asked overlaps or touches, or none.
+  void extend(const State& state, const NodeRange& asked, NodeRange& taken) {
+    if (asked.begin == asked.end) return;
+    if (taken.begin == taken.end) taken = {asked.begin, asked.begin};
+    copy(state, {asked.begin, taken.begin});
+    copy(state, {taken.end, asked.end});
+    taken = {std::min(asked.begin, taken.begin), std::max(asked.end, taken.end)};
+  }
+  void copy(const State& state, const NodeRange& nodes) {
+    if (nodes.begin >= nodes.end) return;
+    active_kernels().nodes.split(state.u.data() + 3 * std::int64_t{nodes.begin},
+                                 nodes.end - nodes.begin, at_ + (nodes.begin - first_), stride_);
+  }
 };
 
-// The blocks of one run, and the nodes that only they meet.
-void compute_run(const Model& model, std::int64_t run, State& state, Scratch& scratch,
-                 ElementWatch* all, const NodeMotion* motion) {
+struct Strides {
+  std::int32_t begin = 0, end = 0;
+};
+
+// The blocks of these strides of a run, and the nodes that then are complete.
+void compute_run(const Model& model, std::int64_t run, const Strides& strides, State& state,
+                 Scratch& scratch, ElementWatch* all, const NodeMotion* motion) {
   ThreadWatch watch{.all = all, .least = all != nullptr ? all->first() : LeastOfElements{}};
   const SumOrder& sums = model.sums;
   RunComponents components(model, run, scratch);
   RunPrefetch prefetch(model, run, state, scratch);
-  std::int64_t block = sums.run_block[run];
-  for (std::int32_t stride = sums.run_stride[run]; stride < sums.run_stride[run + 1]; ++stride) {
+  std::int64_t block = sums.run_block[run] + stride_blocks * (strides.begin - sums.run_stride[run]);
+  for (std::int32_t stride = strides.begin; stride < strides.end; ++stride) {
     const std::int64_t next = std::min(block + stride_blocks, sums.run_block[run + 1]);
     prefetch.start(stride);
     for_awake_blocks(scratch, block, next, [&](std::int64_t begin, std::int64_t end) {
@@ -182,8 +201,8 @@ void clear_halo(const Model& model, Scratch& scratch) {
 
 }  // namespace
 
-void compute_inside_force(const Model& model, State& state, Scratch& scratch, ElementWatch* watch,
-                          const NodeMotion* motion) {
+void begin_force(const Model& model, State& state, Scratch& scratch, ElementWatch* watch,
+                 const NodeMotion* motion) {
   CHECK_OP(std::ssize(state.u), ==, 3 * std::int64_t{model.n_local});
   CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * model.averages.n_fields);
   CHECK_OP(std::ssize(scratch.force), ==, 3 * std::int64_t{model.n_owned});
@@ -192,15 +211,18 @@ void compute_inside_force(const Model& model, State& state, Scratch& scratch, El
   for (std::size_t k = 0; k < model.blocks.size(); ++k)
     if (!model.blocks[k].prony.empty())
       scratch.viscous[k] = viscous_step(model.blocks[k].prony, state.time - state.history_time);
-  parallel_for_chunks(model.sums.n_inside_runs,
-                      [&](int run) { compute_run(model, run, state, scratch, watch, motion); });
+  const std::int32_t n = model.sums.n_strides_before_halo;
+  if (n > 0) compute_run(model, 0, {0, n}, state, scratch, watch, motion);
 }
 
-void compute_border_force(const Model& model, State& state, Scratch& scratch, ElementWatch* watch,
-                          const NodeMotion* motion) {
-  const std::int32_t first = model.sums.n_inside_runs;
-  parallel_for_chunks(model.sums.n_runs - first, [&](int run) {
-    compute_run(model, first + run, state, scratch, watch, motion);
+void end_force(const Model& model, State& state, Scratch& scratch, ElementWatch* watch,
+               const NodeMotion* motion) {
+  const SumOrder& sums = model.sums;
+  parallel_for_chunks(sums.n_runs, [&](int run) {
+    const Strides strides{std::max(sums.run_stride[run], sums.n_strides_before_halo),
+                          sums.run_stride[run + 1]};
+    if (strides.begin < strides.end)
+      compute_run(model, run, strides, state, scratch, watch, motion);
   });
   finish_shared_nodes(model, scratch, motion);
   clear_halo(model, scratch);
@@ -208,8 +230,8 @@ void compute_border_force(const Model& model, State& state, Scratch& scratch, El
 }
 
 void compute_force(const Model& model, State& state, Scratch& scratch) {
-  compute_inside_force(model, state, scratch);
-  compute_border_force(model, state, scratch);
+  begin_force(model, state, scratch);
+  end_force(model, state, scratch);
 }
 
 void find_viscous_force(const Model& model, State& state, Scratch& scratch) {
@@ -228,10 +250,10 @@ std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
   std::size_t sum =
       bytes(model.mass) + bytes(model.inertia) + bytes(model.fixed) + bytes(model.position) +
       bytes(model.sums.node) + bytes(model.sums.stride_first) + bytes(model.sums.shared_node) +
-      bytes(model.sums.place_node) + bytes(model.element_step) + bytes(model.averages.offset) +
-      bytes(model.averages.lane) + bytes(model.averages.stiffness) + bytes(scratch.volume_change) +
-      bytes(scratch.sum) + bytes(scratch.sum_single) + bytes(scratch.u_by_component) +
-      bytes(scratch.force);
+      bytes(model.sums.place_node) + bytes(model.sums.halo_block) + bytes(model.element_step) +
+      bytes(model.averages.offset) + bytes(model.averages.lane) + bytes(model.averages.stiffness) +
+      bytes(scratch.volume_change) + bytes(scratch.sum) + bytes(scratch.sum_single) +
+      bytes(scratch.u_by_component) + bytes(scratch.force);
   for (const ElementBlocks& blocks : model.blocks)
     sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.target) +
            bytes(blocks.row) + bytes(blocks.row_break) + bytes(blocks.row_start) +

@@ -17,22 +17,23 @@ struct NodeMotion;
 // The caller exchanges theta (model.averages.n_fields a node) afterwards. Does nothing without
 // fields.
 void average_volume_change(const Model& model, State& state, Scratch& scratch);
-// The same in two halves, the first of which reads no halo nodes.
-void find_inside_volume_change(const Model& model, const State& state, Scratch& scratch);
-void average_with_border(const Model& model, State& state, Scratch& scratch);
+// The same in two parts, the first of which reads no halo nodes.
+void begin_volume_change(const Model& model, const State& state, Scratch& scratch);
+void end_volume_change(const Model& model, State& state, Scratch& scratch);
 
 // scratch.force = mass * gravity - internal force(u), for owned nodes; each node sums its corners
 // list by list (region, then formulation), ascending by global element number. Brings the history
 // of viscoelastic elements to state.time: a second call at the same time and displacement changes
 // nothing.
 void compute_force(const Model& model, State& state, Scratch& scratch);
-// The same in two halves, the first of which reads no halo nodes. On the way `watch` looks at the
-// elements that don't sleep. With a `motion`, nodes move as soon as their forces are known, while
-// they are in the cache, and scratch.force is that of waiting nodes alone.
-void compute_inside_force(const Model& model, State& state, Scratch& scratch,
-                          ElementWatch* watch = nullptr, const NodeMotion* motion = nullptr);
-void compute_border_force(const Model& model, State& state, Scratch& scratch,
-                          ElementWatch* watch = nullptr, const NodeMotion* motion = nullptr);
+// The same in two parts, the first of which reads no halo nodes: of one thread, all strides before
+// the first one that does, of several nothing. On the way `watch` looks at the elements that don't
+// sleep. With a `motion`, nodes move as soon as their forces are known, while they are in the
+// cache, and scratch.force is that of waiting nodes alone.
+void begin_force(const Model& model, State& state, Scratch& scratch, ElementWatch* watch = nullptr,
+                 const NodeMotion* motion = nullptr);
+void end_force(const Model& model, State& state, Scratch& scratch, ElementWatch* watch = nullptr,
+               const NodeMotion* motion = nullptr);
 
 // scratch.viscous_force: what the present scratch.force of compute_force is more than the force
 // that the laws without relaxation would give. Does nothing unless keep_works asked for it.

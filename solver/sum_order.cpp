@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <numeric>
-#include <tuple>
 #include <utility>
 
 #include "base/check.h"
@@ -204,33 +202,23 @@ void edit_rows(std::span<const BlockPlace> places, Model& model) {
   };
   for (ElementBlocks& blocks : model.blocks)
     for (std::size_t k = 0; k < blocks.row.size(); ++k)
-      if (blocks.reads_halo || blocks.row[k] == no_row_at_end) find(blocks, k);
-  for (const BlockPlace& place : places) {
-    ElementBlocks& blocks = model.blocks[place.list];
-    const auto n = static_cast<std::size_t>(blocks.lanes / row_lanes);
-    for (std::size_t k = 0; k < n; ++k) find(blocks, static_cast<std::size_t>(place.block) * n + k);
-  }
+      if (blocks.row[k] == no_row_at_end) find(blocks, k);
+  for (const std::span of : {places, std::span<const BlockPlace>(model.sums.halo_block)})
+    for (const BlockPlace& place : of) {
+      ElementBlocks& blocks = model.blocks[place.list];
+      const auto n = static_cast<std::size_t>(blocks.lanes / row_lanes);
+      for (std::size_t k = 0; k < n; ++k)
+        find(blocks, static_cast<std::size_t>(place.block) * n + k);
+    }
 }
 
-// As many as there are threads now.
-void add_runs(std::int64_t n_blocks, SumOrder& sums) {
-  if (n_blocks == 0) return;
-  const std::int64_t first = sums.run_block.back(), n_runs = chunk_count(n_blocks);
-  for (std::int64_t run = 1; run <= n_runs; ++run)
-    sums.run_block.push_back(first + run * n_blocks / n_runs);
-  sums.n_runs += static_cast<std::int32_t>(n_runs);
-}
-
-// Runs and their strides alone.
+// Runs and their strides alone: as many as there are threads now.
 SumOrder make_runs(const Model& model) {
-  std::int64_t n_inside = 0;
-  for (const ElementBlocks& blocks : model.blocks)
-    if (!blocks.reads_halo) n_inside += blocks.n_blocks;
   SumOrder sums;
-  sums.run_block = {0};
-  add_runs(n_inside, sums);
-  sums.n_inside_runs = sums.n_runs;
-  add_runs(count_blocks(model) - n_inside, sums);
+  const std::int64_t n_blocks = count_blocks(model);
+  sums.n_runs = n_blocks == 0 ? 0 : chunk_count(n_blocks);
+  for (std::int64_t run = 0; run <= sums.n_runs; ++run)
+    sums.run_block.push_back(n_blocks == 0 ? 0 : run * n_blocks / sums.n_runs);
   sums.run_stride = {0};
   for (std::int32_t run = 0; run < sums.n_runs; ++run) {
     const std::int64_t n = sums.run_block[run + 1] - sums.run_block[run];
@@ -240,8 +228,17 @@ SumOrder make_runs(const Model& model) {
   return sums;
 }
 
+// Of one run; several wait for all halo nodes.
+std::int32_t strides_before_halo(const Model& model) {
+  const SumOrder& sums = model.sums;
+  if (sums.n_runs != 1) return 0;
+  if (sums.halo_block.empty()) return sums.run_stride.back();
+  const BlockPlace& first = sums.halo_block.front();
+  return static_cast<std::int32_t>((first_blocks(model)[first.list] + first.block) / stride_blocks);
+}
+
 // After nodes were added behind the owned ones: halo nodes and places have moved up. blocks: those
-// whose corners have changed, none of which have halo nodes.
+// whose corners have changed.
 void move_places_up(std::span<const BlockPlace> blocks, Model& model) {
   SumOrder& sums = model.sums;
   const std::int64_t n_before = sums.n_places - std::ssize(sums.place_node);
@@ -249,31 +246,25 @@ void move_places_up(std::span<const BlockPlace> blocks, Model& model) {
   sums.n_places += n_added;
   for (std::int32_t& node : sums.place_node)
     if (node >= model.n_owned - n_added) node += n_added;
-  const auto move = [&](ElementBlocks& list, std::int64_t block, std::int64_t n_blocks) {
+  const auto move = [&](ElementBlocks& list, std::int64_t block) {
     const std::int64_t n = corners_of_block(list);
-    for (std::int64_t k = block * n; k < (block + n_blocks) * n; ++k)
+    for (std::int64_t k = block * n; k < (block + 1) * n; ++k)
       list.target[k] = list.target[k] >= n_before ? list.target[k] + n_added : list.corner[k];
   };
-  for (ElementBlocks& list : model.blocks)
-    if (list.reads_halo && !list.target.empty()) move(list, 0, list.n_blocks);
-  for (const BlockPlace& place : sums.place_block)
-    if (!model.blocks[place.list].reads_halo) move(model.blocks[place.list], place.block, 1);
-  for (const BlockPlace& place : blocks)
-    if (ElementBlocks& list = model.blocks[place.list];
-        !list.target.empty() && !std::ranges::binary_search(sums.place_block, place))
-      move(list, place.block, 1);
+  if (sums.n_runs < 2) return;
+  std::vector<BlockPlace> places(blocks.begin(), blocks.end());
+  places.insert(places.end(), sums.place_block.begin(), sums.place_block.end());
+  places.insert(places.end(), sums.halo_block.begin(), sums.halo_block.end());
+  sort_unique(places);
+  for (const BlockPlace& place : places) move(model.blocks[place.list], place.block);
 }
 
-// Around an edit that no other run and no other rank meets; false if one does.
+// Around an edit that no other run meets; false if one does.
 bool edit_around(std::span<const std::int32_t> nodes, std::span<const BlockPlace> blocks,
                  Model& model) {
   SumOrder& sums = model.sums;
   const SumOrder runs = make_runs(model);
-  if (runs.run_block != sums.run_block || runs.n_inside_runs != sums.n_inside_runs ||
-      (model.is_by_component && runs.n_runs > 1))
-    return false;
-  for (const BlockPlace& place : blocks)
-    if (model.blocks[place.list].reads_halo) return false;
+  if (runs.run_block != sums.run_block || (model.is_by_component && runs.n_runs > 1)) return false;
   const std::vector<std::int64_t> first = first_blocks(model);
   const NodeUse use = use_around(nodes, blocks, first, model);
   for (std::size_t k = 0; k < nodes.size(); ++k)
@@ -292,19 +283,25 @@ bool edit_around(std::span<const std::int32_t> nodes, std::span<const BlockPlace
 
 }  // namespace
 
-std::vector<std::size_t> lists_in_order(const std::vector<ElementBlocks>& lists) {
-  std::vector<std::size_t> order(lists.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto key = [&](std::size_t k) {
-    return std::tuple(lists[k].region, lists[k].formulation, lists[k].reads_halo);
-  };
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-  return order;
+std::vector<BlockPlace> blocks_with_halo(const Model& model, std::int32_t n_owned) {
+  std::vector<BlockPlace> places;
+  for (std::size_t list = 0; list < model.blocks.size(); ++list) {
+    const ElementBlocks& blocks = model.blocks[list];
+    const std::int64_t n = corners_of_block(blocks);
+    for (std::int32_t block = 0; block < blocks.n_blocks; ++block) {
+      const auto corner = blocks.corner.begin() + block * n;
+      if (std::any_of(corner, corner + n, [&](std::int32_t i) { return i >= n_owned; }))
+        places.push_back({list, block});
+    }
+  }
+  return places;
 }
 
 void order_sums(Model& model) {
+  for (ElementBlocks& blocks : model.blocks) blocks.target.clear();
   model.sums = make_runs(model);
+  if (model.n_local > model.n_owned) model.sums.halo_block = blocks_with_halo(model, model.n_owned);
+  model.sums.n_strides_before_halo = strides_before_halo(model);
   const NodeUse use = use_of_nodes(model);
   order_own_nodes(use, model);
   place_shared_corners(use.run, model);
@@ -339,9 +336,7 @@ void finish_nodes(const Model& model, std::span<const std::int32_t> node, Scratc
 
 void edit_sums(std::span<const std::int32_t> nodes, std::span<const BlockPlace> blocks,
                Model& model) {
-  if (edit_around(nodes, blocks, model)) return;
-  for (ElementBlocks& list : model.blocks) list.target.clear();
-  order_sums(model);
+  if (!edit_around(nodes, blocks, model)) order_sums(model);
 }
 
 }  // namespace trocar

@@ -12,16 +12,19 @@ namespace trocar {
 
 struct NodeMotion;
 
-// Fills model.sums and the lists' targets; the model has its blocks and nodes. As many runs inside
-// and at the border as there are threads now.
+// Fills model.sums and the lists' targets; the model has its blocks and nodes. As many runs as
+// there are threads now.
 void order_sums(Model& model);
 
-// The same after an edit of a model whose sums were in order before it. Where no other run meets
-// the nodes and no list that reads halo nodes, in time of the edit's but for copies of whole
-// numbers and a look at rows. nodes: local numbers of owned ones that meet other elements than
-// before, ascending; blocks: all those with elements at these nodes.
+// The same after an edit of a model whose sums were in order before it, around which no element
+// reads halo nodes. Where no other run meets the nodes, in time of the edit's but for copies of
+// whole numbers and a look at rows. nodes: local numbers of owned ones that meet other elements
+// than before, ascending; blocks: all those with elements at these nodes.
 void edit_sums(std::span<const std::int32_t> nodes, std::span<const BlockPlace> blocks,
                Model& model);
+
+// Blocks with corners that are not among the first n_owned nodes; ascending.
+std::vector<BlockPlace> blocks_with_halo(const Model& model, std::int32_t n_owned);
 
 // (n_lists + 1) The first block of each list, counted through all lists, and their end.
 std::vector<std::int64_t> first_blocks(const Model& model);
@@ -51,33 +54,14 @@ void with_sums(const Model& model, Scratch& scratch, const Body& body) {
 void finish_nodes(const Model& model, std::span<const std::int32_t> node, Scratch& scratch,
                   const NodeMotion* motion = nullptr);
 
-// Lists of the same region and formulation are one behind the other, in the order of the sums; the
-// one that reads halo nodes second.
-std::vector<std::size_t> lists_in_order(const std::vector<ElementBlocks>& lists);
-
-inline bool are_one_kind(const ElementBlocks& a, const ElementBlocks& b) {
-  return a.region == b.region && a.formulation == b.formulation;
-}
-
 // Calls body(list, lane) in the order of the sums: region, formulation, global element number,
-// padding after the element that it repeats. However the elements are spread over ranks and lists,
-// a node meets its own in this order.
+// padding after the element that it repeats. However the elements are spread over ranks, a node
+// meets its own in this order.
 template <class Body>
 void for_lanes_in_order(const std::vector<ElementBlocks>& lists, const Body& body) {
-  const std::vector<std::size_t> order = lists_in_order(lists);
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const std::size_t a = order[k];
-    const bool is_pair = k + 1 < order.size() && are_one_kind(lists[a], lists[order[k + 1]]);
-    const std::size_t b = is_pair ? order[++k] : a;
-    const auto& first = lists[a].element_local;
-    const auto& second = lists[b].element_local;
-    const std::size_t n = first.size(), m = is_pair ? second.size() : 0;
-    for (std::size_t i = 0, j = 0; i < n || j < m;)
-      if (j == m || (i < n && first[i] < second[j]))
-        body(a, static_cast<std::int64_t>(i++));
-      else
-        body(b, static_cast<std::int64_t>(j++));
-  }
+  for (std::size_t list = 0; list < lists.size(); ++list)
+    for (std::int64_t lane = 0; lane < std::ssize(lists[list].element_local); ++lane)
+      body(list, lane);
 }
 
 }  // namespace trocar

@@ -67,19 +67,24 @@ void for_owned_corners(const Model& model, const Body& body) {
   });
 }
 
-// K V (J - 1) of the elements that read halo nodes, or of those that don't.
-void find_volume_change(const Model& model, const State& state, bool reads_halo, Scratch& scratch) {
-  for (const ElementBlocks& blocks : model.blocks) {
-    if (!averages_volume(blocks) || blocks.reads_halo != reads_halo) continue;
-    const BlockKernels kernels = kernels_for(active_kernels(), blocks);
-    parallel_for(std::int64_t{blocks.n_blocks}, [&](std::int64_t begin, std::int64_t end) {
-      StashBytes unused;
-      const FlushSubnormals flush(blocks.precision == Precision::in_single);
-      kernels.element.volume_change(
-          block_task(model, blocks, kernels, state, {}, begin, end - begin, unused),
-          scratch.volume_change.data() + blocks.first_lane + begin * blocks.lanes);
-    });
-  }
+// K V (J - 1) of the elements of the list's blocks in [first, last).
+void find_volume_change(const Model& model, const ElementBlocks& blocks, std::int64_t first,
+                        std::int64_t last, const State& state, Scratch& scratch) {
+  if (!averages_volume(blocks)) return;
+  const BlockKernels kernels = kernels_for(active_kernels(), blocks);
+  parallel_for(last - first, [&](std::int64_t begin, std::int64_t end) {
+    StashBytes unused;
+    const FlushSubnormals flush(blocks.precision == Precision::in_single);
+    kernels.element.volume_change(
+        block_task(model, blocks, kernels, state, {}, first + begin, end - begin, unused),
+        scratch.volume_change.data() + blocks.first_lane + (first + begin) * blocks.lanes);
+  });
+}
+
+// The first block that reads halo nodes, or behind all.
+BlockPlace first_with_halo(const Model& model) {
+  const std::vector<BlockPlace>& places = model.sums.halo_block;
+  return places.empty() ? BlockPlace{model.blocks.size(), 0} : places.front();
 }
 
 void link_lanes(Model& model) {
@@ -115,15 +120,22 @@ void link_volume_averages(const Mesh& mesh, std::span<const Material> materials,
   link_lanes(model);
 }
 
-void find_inside_volume_change(const Model& model, const State& state, Scratch& scratch) {
-  if (model.averages.n_fields > 0) find_volume_change(model, state, false, scratch);
+void begin_volume_change(const Model& model, const State& state, Scratch& scratch) {
+  if (model.averages.n_fields == 0) return;
+  const BlockPlace halo = first_with_halo(model);
+  for (std::size_t list = 0; list < model.blocks.size() && list <= halo.list; ++list)
+    find_volume_change(model, model.blocks[list], 0,
+                       list < halo.list ? model.blocks[list].n_blocks : halo.block, state, scratch);
 }
 
-void average_with_border(const Model& model, State& state, Scratch& scratch) {
+void end_volume_change(const Model& model, State& state, Scratch& scratch) {
   const VolumeAverages& averages = model.averages;
   if (averages.n_fields == 0) return;
   CHECK_OP(std::ssize(state.theta), ==, std::int64_t{model.n_local} * averages.n_fields);
-  find_volume_change(model, state, true, scratch);
+  const BlockPlace halo = first_with_halo(model);
+  for (std::size_t list = halo.list; list < model.blocks.size(); ++list)
+    find_volume_change(model, model.blocks[list], list == halo.list ? halo.block : 0,
+                       model.blocks[list].n_blocks, state, scratch);
   const std::int64_t n = std::int64_t{model.n_owned} * averages.n_fields;
   const double* const change = scratch.volume_change.data();
   parallel_for_nodes(n, [&](std::int64_t begin, std::int64_t end) {
@@ -139,8 +151,8 @@ void average_with_border(const Model& model, State& state, Scratch& scratch) {
 }
 
 void average_volume_change(const Model& model, State& state, Scratch& scratch) {
-  find_inside_volume_change(model, state, scratch);
-  average_with_border(model, state, scratch);
+  begin_volume_change(model, state, scratch);
+  end_volume_change(model, state, scratch);
 }
 
 }  // namespace trocar

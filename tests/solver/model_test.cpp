@@ -134,8 +134,9 @@ TEST(BuildModel, rows_stay_rows_on_any_ranks_and_threads) {
       const std::vector<std::int32_t> owner = partition_nodes(mesh, n_ranks);
       for (int rank = 0; rank < n_ranks; ++rank) {
         const Body body = make_body(mesh, {}, owner, rank);
-        EXPECT_EQ(body.model.blocks.size(), n_ranks > 1 ? 2U : 1U);
-        EXPECT_EQ(body.model.sums.shared_node.empty(), n_ranks * n_threads == 1);
+        EXPECT_EQ(body.model.blocks.size(), 1U);
+        EXPECT_EQ(body.model.sums.halo_block.empty(), n_ranks == 1);
+        EXPECT_EQ(body.model.sums.shared_node.empty(), n_threads == 1);
         for (const ElementBlocks& blocks : body.model.blocks)
           EXPECT_TRUE(std::ranges::all_of(blocks.row, [](auto row) { return row == box_row; }));
       }

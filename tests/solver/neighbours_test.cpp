@@ -1,4 +1,4 @@
-// A step in two halves, the first of which knows nothing of halo nodes. MPI's own part is tested
+// A step in two parts, the first of which knows nothing of halo nodes. MPI's own part is tested
 // through mpirun in tests/invariance.
 #include "solver/neighbours.h"
 
@@ -11,9 +11,15 @@
 
 using namespace trocar;
 
-static Body first_of_two(const Mesh& mesh, const SolverOptions& solver) {
-  Body body = make_body(mesh, options_for(mesh, solver), partition_nodes(mesh, 2), 0);
-  EXPECT_GT(body.model.n_local, body.model.n_owned);
+// Of a box whose nodes are shared out in the order of their numbers.
+static Body first_of_two(BoxElements elements, const SolverOptions& solver) {
+  const Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(.1, .1, .2), {16, 10, 20}, elements);
+  std::vector<std::int32_t> owner;
+  for (const Vec3& X : mesh.X) owner.push_back(X.z() < .105 ? 0 : 1);
+  Body body = make_body(mesh, {.solver = solver}, owner, 0);
+  const SumOrder& sums = body.model.sums;
+  EXPECT_GT(sums.n_strides_before_halo, 0);
+  EXPECT_LT(sums.n_strides_before_halo, sums.run_stride.back());
   shake(body.state.u, 1e-4, 7);
   return body;
 }
@@ -24,10 +30,13 @@ static std::vector<double> without_halo(const Body& body, std::vector<double> fi
   return field;
 }
 
-TEST(Neighbours, the_inside_half_of_a_force_reads_no_halo_node) {
+TEST(Neighbours, the_first_part_of_a_force_reads_no_halo_node) {
   for (const Precision precision : precisions)
-    for (const Formulation tet4 : {Formulation::tet4, Formulation::tet4_nodal_pressure}) {
-      Body body = first_of_two(mixed_mesh(), {.precision = precision, .tet4 = tet4});
+    for (const Formulation formulation :
+         {Formulation::tet4, Formulation::tet4_nodal_pressure, Formulation::hex8_one_point}) {
+      const bool is_hex = shape_of(formulation) == ElementType::hex8;
+      Body body = first_of_two(is_hex ? BoxElements::hex8 : BoxElements::tet4_kuhn,
+                               with(formulation, {.precision = precision}));
       average_volume_change(body.model, body.state, body.scratch);
       shake(body.state.theta, 1e-3, 8);
       compute_force(body.model, body.state, body.scratch);
@@ -35,24 +44,24 @@ TEST(Neighbours, the_inside_half_of_a_force_reads_no_halo_node) {
       const State whole = body.state;
       body.state.u = without_halo(body, whole.u, 3);
       body.state.theta = without_halo(body, whole.theta, body.model.averages.n_fields);
-      compute_inside_force(body.model, body.state, body.scratch);
+      begin_force(body.model, body.state, body.scratch);
       body.state = whole;
-      compute_border_force(body.model, body.state, body.scratch);
+      end_force(body.model, body.state, body.scratch);
       EXPECT_EQ(body.scratch.force, expected);
     }
 }
 
-TEST(Neighbours, the_inside_half_of_volume_changes_reads_no_halo_node) {
+TEST(Neighbours, the_first_part_of_volume_changes_reads_no_halo_node) {
   for (const Precision precision : precisions) {
-    Body body = first_of_two(mixed_mesh(),
+    Body body = first_of_two(BoxElements::tet4_kuhn,
                              {.precision = precision, .tet4 = Formulation::tet4_nodal_pressure});
     const std::vector<double> u = body.state.u;
     average_volume_change(body.model, body.state, body.scratch);
     const std::vector<double> expected = body.state.theta;
     body.state.u = without_halo(body, u, 3);
-    find_inside_volume_change(body.model, body.state, body.scratch);
+    begin_volume_change(body.model, body.state, body.scratch);
     body.state.u = u;
-    average_with_border(body.model, body.state, body.scratch);
+    end_volume_change(body.model, body.state, body.scratch);
     EXPECT_EQ(body.state.theta, expected);
   }
 }

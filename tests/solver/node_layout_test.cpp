@@ -133,6 +133,6 @@ TEST(NodeLayout, knows_the_nodes_of_each_stride) {
   const SumOrder& sums = body.model.sums;
   ASSERT_EQ(sums.stride_nodes.size(), 5U);  // 150 blocks
   // 256 elements: 12 rows of 20 and 16 of the next one; nodes of the plane above, too.
-  EXPECT_EQ(sums.stride_nodes[0], (NodeRange{0, 441 + 13 * 21 + 17}));
-  EXPECT_EQ(sums.stride_nodes.back().end, body.model.n_local);
+  EXPECT_EQ(sums.stride_nodes[0], (StrideNodes{{0, 441 + 13 * 21 + 17}, {}}));
+  EXPECT_EQ(sums.stride_nodes.back().own.end, body.model.n_local);
 }

@@ -37,7 +37,7 @@ void put_node_by_node(Body& body) {
   Model& model = body.model;
   if (!model.is_by_component) return;
   model.is_by_component = false;
-  model.sums.window_first.clear();
+  model.sums.window.clear();
   model.sums.stride_nodes.clear();
   for (ElementBlocks& blocks : model.blocks) {
     blocks.row_break.clear();

@@ -10,7 +10,6 @@ namespace trocar {
 inline void expect_equal(const ElementBlocks& a, const ElementBlocks& b) {
   EXPECT_EQ(a.formulation, b.formulation);
   EXPECT_EQ(a.region, b.region);
-  EXPECT_EQ(a.reads_halo, b.reads_halo);
   EXPECT_EQ(a.n_elements, b.n_elements);
   EXPECT_EQ(a.element_local, b.element_local);
   EXPECT_EQ(a.corner, b.corner);
@@ -28,7 +27,8 @@ inline void expect_equal(const ElementBlocks& a, const ElementBlocks& b) {
 
 inline void expect_equal(const SumOrder& a, const SumOrder& b) {
   EXPECT_EQ(a.n_runs, b.n_runs);
-  EXPECT_EQ(a.n_inside_runs, b.n_inside_runs);
+  EXPECT_EQ(a.halo_block, b.halo_block);
+  EXPECT_EQ(a.n_strides_before_halo, b.n_strides_before_halo);
   EXPECT_EQ(a.run_block, b.run_block);
   EXPECT_EQ(a.n_places, b.n_places);
   EXPECT_EQ(a.node, b.node);
@@ -38,7 +38,7 @@ inline void expect_equal(const SumOrder& a, const SumOrder& b) {
   EXPECT_EQ(a.n_slots, b.n_slots);
   EXPECT_EQ(a.slot_first, b.slot_first);
   EXPECT_EQ(a.place_block, b.place_block);
-  EXPECT_EQ(a.window_first, b.window_first);
+  EXPECT_EQ(a.window, b.window);
   EXPECT_EQ(a.stride_nodes, b.stride_nodes);
   EXPECT_EQ(a.run_stride, b.run_stride);
 }
