@@ -6,7 +6,7 @@
 
 namespace trocar {
 
-// How the lanes of a register follow each other. Those of a block's second row skip a node.
+// How the lanes of a register follow each other. Those of a block's second row skip some nodes.
 enum class Following { in_a_row, in_two_rows, anyhow };
 
 // Bit l of `lanes`: lane l is `by`'s.
@@ -45,6 +45,7 @@ struct LaneNumbers {
   const std::int32_t* all;    // [corner][lane of the block], from the group's first lane on
   const std::int32_t* start;  // [corner] of the block's first lane
   int ahead;                  // of the group's first lane, behind `start`
+  int skip;                   // of a second row
 
   // Of the group's first lane, which stands in a row.
   [[gnu::always_inline]] std::int64_t first(int a) const { return std::int64_t{start[a]} + ahead; }
@@ -55,10 +56,11 @@ template <class Pack, int n>
 [[gnu::always_inline]] inline LaneNumbers lane_numbers(const std::int32_t* all,
                                                        const std::int32_t* start,
                                                        std::int64_t block, int lane,
-                                                       int row_break) {
+                                                       std::uint32_t row_break) {
   constexpr bool is_whole = pack_width<Pack> == block_lanes<Pack>;
+  const int skip = skip_of_break(row_break);
   return {all + block * n * block_lanes<Pack> + lane, start + block * n,
-          is_whole || lane == 0 ? 0 : lane + (lane >= row_break ? 1 : 0)};
+          is_whole || lane == 0 ? 0 : lane + (lane >= lane_of_break(row_break) ? skip : 0), skip};
 }
 
 // Component i of corner a at x[i * stride + number].
@@ -83,12 +85,13 @@ template <Following following, class Part, int block_lanes>
   const Part all = load<Part>(at);
   if constexpr (following == Following::in_two_rows) {
     const auto second = static_cast<std::uint32_t>(0xFFFF << k >> lane);
+    const RealOf<Part>* const behind = at + number.skip;
     if constexpr (sizeof(Part) < 64)
-      return replaced(all, second, load<Part>(at + 1));
+      return replaced(all, second, load<Part>(behind));
     else if constexpr (sizeof(RealOf<Part>) == sizeof(double))
-      return _mm512_mask_loadu_pd(all, static_cast<std::uint8_t>(second), at + 1);
+      return _mm512_mask_loadu_pd(all, static_cast<std::uint8_t>(second), behind);
     else
-      return _mm512_mask_loadu_ps(all, static_cast<std::uint16_t>(second), at + 1);
+      return _mm512_mask_loadu_ps(all, static_cast<std::uint16_t>(second), behind);
   }
   return all;
 }

@@ -48,15 +48,16 @@ class ComponentSums {
   // target: of the group that begins with the lane-th of a block with this row_break; corners(i, f)
   // gives component i at each corner.
   template <class Corners>
-  [[gnu::always_inline]] void add(const LaneNumbers& target, std::uint16_t row_break, int lane,
+  [[gnu::always_inline]] void add(const LaneNumbers& target, std::uint32_t row_break, int lane,
                                   const Corners& corners) {
     const int k = lane_of_break(row_break) - lane;
     const Following following = following_of<Pack>(lane_of_break(row_break), lane);
+    const bool is_paired = following != Following::anyhow && unpaired_of_break(row_break) == 0;
     if constexpr (has_pairs)
-      if (following != Following::anyhow && unpaired_of_break(row_break) == 0) {
+      if (is_paired) {
         if (following == Following::in_a_row)
           return add_rows<Following::in_a_row>(target, k, corners);
-        return add_rows<Following::in_two_rows>(target, k, corners);
+        if (target.skip == 1) return add_rows<Following::in_two_rows>(target, k, corners);
       }
     Real of_lane[3][n][width];
     for (int i = 0; i < 3; ++i) {
@@ -64,6 +65,8 @@ class ComponentSums {
       corners(i, f);
       for (int a = 0; a < n; ++a) store(of_lane[i][a], f[a]);
     }
+    if constexpr (has_pairs)
+      if (is_paired) return add_rows_apart(of_lane, target, k);
     add_seldom(of_lane, target, {following, k}, unpaired_of_break(row_break));
   }
 
@@ -93,8 +96,8 @@ class ComponentSums {
   alignas(64) Real waiting_[3][n_pairs][width];
 
   // Nodes from the first lane's to the next one's behind the last.
-  [[gnu::always_inline]] static int n_met(Following following) {
-    return width + (following == Following::in_two_rows ? 1 : 0);
+  [[gnu::always_inline]] static int n_met(Following following, const LaneNumbers& target) {
+    return width + (following == Following::in_two_rows ? target.skip : 0);
   }
   [[gnu::always_inline]] static int a_of(int pair) { return corner_of_row(box_row, 2 * pair); }
   [[gnu::always_inline]] static int b_of(int pair) { return corner_of_row(box_row, 2 * pair + 1); }
@@ -103,10 +106,7 @@ class ComponentSums {
   [[gnu::always_inline]] void add_rows(const LaneNumbers& target, int k, const Corners& corners) {
     const std::int64_t stride = stride_;
     Real* to[n_pairs];
-    for (int pair = 0; pair < n_pairs; ++pair) to[pair] = sum_ + target.first(b_of(pair));
-    bool goes_on = true;
-    for (int pair = 0; pair < n_pairs; ++pair) goes_on = goes_on & (to[pair] == next_[pair]);
-    if (!goes_on) begin_anew();
+    find_pairs(target, to);
 #pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) {
       Pack f[n];
@@ -116,7 +116,27 @@ class ComponentSums {
         add_pair<following>(f[a_of(pair)], f[b_of(pair)], k, waiting_[i][pair],
                             to[pair] + i * stride);
     }
-    for (int pair = 0; pair < n_pairs; ++pair) next_[pair] = to[pair] + n_met(following);
+    for (int pair = 0; pair < n_pairs; ++pair) next_[pair] = to[pair] + n_met(following, target);
+  }
+  [[gnu::always_inline]] void find_pairs(const LaneNumbers& target, Real* (&to)[n_pairs]) {
+    for (int pair = 0; pair < n_pairs; ++pair) to[pair] = sum_ + target.first(b_of(pair));
+    bool goes_on = true;
+    for (int pair = 0; pair < n_pairs; ++pair) goes_on = goes_on & (to[pair] == next_[pair]);
+    if (!goes_on) begin_anew();
+  }
+
+  // Two rows that do not follow each other, as at the end of a layer: 0.3 us less than number by
+  // number, which 13 blocks of each half of 8,000 elements felt.
+  [[gnu::noinline]] void add_rows_apart(const Real (&of_lane)[3][n][width],
+                                        const LaneNumbers& target, int k) {
+    Real* to[n_pairs];
+    find_pairs(target, to);
+    for (int i = 0; i < 3; ++i)
+      for (int pair = 0; pair < n_pairs; ++pair)
+        add_pair_apart(load<Pack>(of_lane[i][a_of(pair)]), load<Pack>(of_lane[i][b_of(pair)]), k,
+                       target.skip, waiting_[i][pair], to[pair] + i * stride_);
+    for (int pair = 0; pair < n_pairs; ++pair)
+      next_[pair] = to[pair] + n_met(Following::in_two_rows, target);
   }
 
   // Two rows meet one node more than they have lanes, of which the k-th, where the first row ends,
@@ -140,6 +160,32 @@ class ComponentSums {
     finish();
     for (int i = 0; i < 3; ++i)
       for (int pair = 0; pair < n_pairs; ++pair) store(waiting_[i][pair], -Pack{});
+  }
+
+  // The same where the second row begins `skip` nodes further on.
+  [[gnu::always_inline]] static void add_pair_apart(const Pack& a, const Pack& b, int k, int skip,
+                                                    Real* waiting, Real* to) {
+    const Pack before = a_lane_up(load<Pack>(waiting), a), nothing = -zero_of(a);
+    store(waiting, a);
+    const std::uint32_t of_first = (2U << k) - 1, second = ~0U << k;
+    add_lanes(replaced(before, ~of_first, nothing), replaced(b, second, nothing), of_first, to);
+    add_lanes(replaced(before, of_first, nothing), replaced(b, ~second, nothing), second,
+              to + skip);
+  }
+  // a, then b; other lanes than these stay unwritten.
+  [[gnu::always_inline]] static void add_lanes(const Pack& a, const Pack& b, std::uint32_t lanes,
+                                               Real* to) {
+    const Pack sum = (load<Pack>(to) + a) + b;
+    if constexpr (sizeof(Pack) == 64 && sizeof(Real) == sizeof(double)) {
+      _mm512_mask_storeu_pd(to, static_cast<std::uint8_t>(lanes), sum);
+    } else if constexpr (sizeof(Pack) == 64) {
+      _mm512_mask_storeu_ps(to, static_cast<std::uint16_t>(lanes), sum);
+    } else {
+      Real of_lane[width];
+      store(of_lane, sum);
+      for (int l = 0; l < width; ++l)
+        if ((lanes >> l & 1) != 0) to[l] = of_lane[l];
+    }
   }
 
   // Element after element, or of a row some of whose pairs are none these so. Nothing waits.
@@ -170,9 +216,11 @@ class ComponentSums {
     Real* const to = sum_ + (i * stride_ + target.first(b_of(pair)));
     if (rows.following == Following::in_a_row)
       add_pair<Following::in_a_row>(a, b, rows.k, waiting_[i][pair], to);
-    else
+    else if (target.skip == 1)
       add_pair<Following::in_two_rows>(a, b, rows.k, waiting_[i][pair], to);
-    to[n_met(rows.following)] += of_a[width - 1];
+    else
+      add_pair_apart(a, b, rows.k, target.skip, waiting_[i][pair], to);
+    to[n_met(rows.following, target)] += of_a[width - 1];
   }
   [[gnu::always_inline]] Real& sum_at(int i, const LaneNumbers& target, int a, int l) {
     return sum_[i * stride_ + target.all[a * lanes + l]];

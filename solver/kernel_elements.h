@@ -102,8 +102,8 @@ struct ElementLoops {
     for_elements(
         task, [&](const auto& value, const auto& stash, std::int64_t block, int lane)
                   __attribute__((always_inline)) {
-                    const int row_break = lane_of_break(task.row_break[block]);
-                    const Following following = following_of<Pack>(row_break, lane);
+                    const Following following =
+                        following_of<Pack>(lane_of_break(task.row_break[block]), lane);
                     if (following == Following::in_a_row)
                       strain_of_group<Following::in_a_row>(task, value, stash, block, lane);
                     else if (following == Following::anyhow)
@@ -115,11 +115,12 @@ struct ElementLoops {
   // By component, for elements whose displacements lie node by node.
   [[gnu::noinline]] static void load_positions(const BlockTask& task, std::int64_t block, int lane,
                                                Pack (&X)[n][3]) {
-    const int row_break = lane_of_break(task.row_break[block]), k = row_break - lane;
+    const std::uint32_t row_break = task.row_break[block];
+    const int k = lane_of_break(row_break) - lane;
     const ComponentField<float> field{
         task.position, task.position_stride,
         lane_numbers<Pack, n>(task.corner, task.row_start, block, lane, row_break)};
-    const Following following = following_of<Pack>(row_break, lane);
+    const Following following = following_of<Pack>(lane_of_break(row_break), lane);
     if (following == Following::in_a_row)
       load_components<Following::in_a_row>(field, k, X);
     else if (following == Following::anyhow)
@@ -140,7 +141,8 @@ struct ElementLoops {
                                                      const BlockValues<Pack>& value,
                                                      const Stash<Pack>& stash, std::int64_t block,
                                                      int lane) {
-    const int row_break = lane_of_break(task.row_break[block]), k = row_break - lane;
+    const std::uint32_t row_break = task.row_break[block];
+    const int k = lane_of_break(row_break) - lane;
     const LaneNumbers node =
         lane_numbers<Pack, n>(task.corner, task.row_start, block, lane, row_break);
     Pack u[n][3];
@@ -174,9 +176,9 @@ struct ElementLoops {
         task, [&](const auto& value, const auto& stash, std::int64_t block,
                   int lane) __attribute__((always_inline)) {
           if (lane == 0) fetch(task, block + task.n_blocks);
-          const std::uint16_t row_break = task.row_break[block];
+          const std::uint32_t row_break = task.row_break[block];
           const LaneNumbers to =
-              lane_numbers<Pack, n>(target, task.row_target, block, lane, lane_of_break(row_break));
+              lane_numbers<Pack, n>(target, task.row_target, block, lane, row_break);
           if constexpr (n == 8) {
             Pack w[3][n_hex_modes];
             Element::force_modes(value, stash, w);

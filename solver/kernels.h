@@ -23,7 +23,7 @@ struct BlockTask {
   std::int64_t position_stride = 0;          // from component to component; 0: node by node
   const std::int32_t* corner = nullptr;      // [block][corner][lane] local node
   const std::uint32_t* row = nullptr;        // [eight lanes] of row_order.h
-  const std::uint16_t* row_break = nullptr;  // [block] of node_layout.h, by component
+  const std::uint32_t* row_break = nullptr;  // [block] of node_layout.h, by component
   // [block][corner] there: the first lane's node and its place of a ForceKernel's sum
   const std::int32_t *row_start = nullptr, *row_target = nullptr;
   const void* data = nullptr;  // [block][value][lane]: the material's, the element's

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "solver/block_ranges.h"
 #include "solver/element_setup.h"
@@ -18,22 +19,29 @@ constexpr double least_share_of_rows = 0.75;
 // elements, 2 21.8, all nodes 22.4; and as many as the second cache holds along with the rest.
 constexpr std::int32_t strides_of_window = 3, least_window = 4096;
 
-// Whether n numbers follow each other but for one that the k-th skips.
-bool follow_each_other(const std::int32_t* number, int n, int k) {
+// Where the second of two rows begins, and how many numbers are skipped there.
+struct RowEnd {
+  int lane = 0;
+  std::int32_t skip = 0;
+};
+
+// Whether n numbers follow each other so.
+bool follow_each_other(const std::int32_t* number, int n, const RowEnd& end) {
   for (int lane = 1; lane < n; ++lane)
-    if (number[lane] != number[0] + lane + (lane >= k ? 1 : 0)) return false;
+    if (number[lane] != number[0] + lane + (lane >= end.lane ? end.skip : 0)) return false;
   return true;
 }
 
 // Whether kernels, which add corners in the order of box_row, give each node its elements' forces
 // in the order of the lanes; start: the first lane's node at each corner. Behind the nodes, a place
 // gets one force.
-bool keeps_order(const std::array<std::int32_t, 8>& start, int n_lanes) {
+bool keeps_order(const std::array<std::int32_t, 8>& start, int n_lanes, const RowEnd& end) {
   for (int k = 0; k < 8; ++k)
     for (int l = k + 1; l < 8; ++l) {
       const std::int32_t ahead =
           start[corner_of_row(box_row, l)] - start[corner_of_row(box_row, k)];
-      if (0 < ahead && ahead <= n_lanes) return false;
+      if (0 < ahead && ahead < n_lanes) return false;
+      if (0 < ahead - end.skip && ahead - end.skip < n_lanes) return false;
     }
   return true;
 }
@@ -47,26 +55,29 @@ std::vector<std::int32_t> first_lanes(const std::vector<std::int32_t>& number, i
   return first;
 }
 
-std::uint16_t row_break_of(const ElementBlocks& blocks, std::int64_t block) {
+std::uint32_t row_break_of(const ElementBlocks& blocks, std::int64_t block) {
   const int n = blocks.lanes;
   const std::int32_t* const node = &blocks.corner[block * corners_of_block(blocks)];
   const std::int32_t* const target = &targets(blocks)[block * corners_of_block(blocks)];
-  int k = 1;
-  while (k < n && node[k] == node[0] + k) ++k;
+  RowEnd end{.lane = 1};
+  while (end.lane < n && node[end.lane] == node[0] + end.lane) ++end.lane;
+  if (end.lane < n) end.skip = node[end.lane] - node[0] - end.lane;
+  if (end.skip < 0 || std::cmp_greater(end.skip, max_skip)) return 0;
   std::array<std::int32_t, 8> start{};
   unsigned unpaired = 0;
   for (int a = 0; a < 8; ++a) {
-    if (!follow_each_other(node + a * n, n, k)) return 0;
+    if (!follow_each_other(node + a * n, n, end)) return 0;
     start[a] = node[a * n];
   }
-  if (!keeps_order(start, n)) return 0;
+  if (!keeps_order(start, n, end)) return 0;
   for (int pair = 0; pair < 4; ++pair) {
     const std::int32_t* const at = target + corner_of_row(box_row, 2 * pair) * n;
     const std::int32_t* const beside = target + corner_of_row(box_row, 2 * pair + 1) * n;
-    if (at[0] != beside[0] + 1 || !follow_each_other(at, n, k) || !follow_each_other(beside, n, k))
+    if (at[0] != beside[0] + 1 || !follow_each_other(at, n, end) ||
+        !follow_each_other(beside, n, end))
       unpaired |= 1U << pair;
   }
-  return row_break(k, unpaired);
+  return row_break(end.lane, unpaired, static_cast<std::uint32_t>(end.skip));
 }
 
 // Finds rows of all lists; returns whether most blocks stand in them.
@@ -193,7 +204,7 @@ void lay_out_nodes(Model& model) {
       blocks.row_start = first_lanes(blocks.corner, blocks.lanes);
       blocks.row_target = first_lanes(blocks.target, blocks.lanes);
     } else {
-      blocks.row_break = std::vector<std::uint16_t>();
+      blocks.row_break = std::vector<std::uint32_t>();
       blocks.row_start = blocks.row_target = std::vector<std::int32_t>();
     }
 }

@@ -2,9 +2,9 @@
 // (Model::is_by_component): these are quicker where most blocks of hexahedra stand in rows of a
 // box. Nodes of a row follow each other at every corner, so that whole registers are loaded and
 // added; where a row ends within a block, the next one begins behind its last node, which lanes
-// skip. ElementBlocks::row_break (row_order.h): the first lane of the second row; all lanes, if one
-// row has them; 0: they stand anyhow. Where several threads meet, places of some pairs of
-// neighbouring corners stand anyhow.
+// skip, or further on, where a layer of the box ends. ElementBlocks::row_break (row_order.h): the
+// first lane of the second row; all lanes, if one row has them; 0: they stand anyhow. Where several
+// threads meet, places of some pairs of neighbouring corners stand anyhow.
 #pragma once
 
 #include "solver/model.h"

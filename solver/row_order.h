@@ -23,16 +23,20 @@ constexpr bool is_row(std::uint32_t row) {
 // Of hexahedra of a box whose nodes are numbered along xi first, then eta, then zeta.
 inline constexpr std::uint32_t box_row = 0x01324576;
 
-// ElementBlocks::row_break (node_layout.h): the lane, and a bit for each pair of corners of box_row
-// whose places do not follow each other.
-constexpr std::uint16_t row_break(int lane, unsigned unpaired) {
-  return static_cast<std::uint16_t>(static_cast<unsigned>(lane) | unpaired << 8);
+// ElementBlocks::row_break (node_layout.h): the lane, a bit for each pair of corners of box_row
+// whose places do not follow each other, and how many nodes are skipped (at most max_skip).
+inline constexpr std::uint32_t max_skip = 0xFFFF;
+constexpr std::uint32_t row_break(int lane, unsigned unpaired, std::uint32_t skip) {
+  return static_cast<std::uint32_t>(lane) | unpaired << 8 | skip << 16;
 }
-constexpr int lane_of_break(std::uint16_t row_break) {
-  return row_break & 0xFF;
+constexpr int lane_of_break(std::uint32_t row_break) {
+  return static_cast<int>(row_break & 0xFF);
 }
-constexpr unsigned unpaired_of_break(std::uint16_t row_break) {
-  return row_break >> 8;
+constexpr unsigned unpaired_of_break(std::uint32_t row_break) {
+  return row_break >> 8 & 0xFF;
+}
+constexpr int skip_of_break(std::uint32_t row_break) {
+  return static_cast<int>(row_break >> 16);
 }
 
 constexpr int corner_of_row(std::uint32_t row, int k) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "solver/row_order.h"
 #include "solver_body.h"
 
 using namespace trocar;
@@ -122,9 +123,24 @@ TEST(NodeLayout, is_by_component_only_where_most_blocks_are_hexahedra_in_rows) {
 // second one.
 TEST(NodeLayout, tells_where_rows_end) {
   const Body body = make_body(jittered_box(20, 6, 6));
-  const std::vector<std::uint16_t>& row_break = body.model.blocks[0].row_break;
-  EXPECT_EQ(std::vector<int>(row_break.begin(), row_break.begin() + 6),
-            (std::vector<int>{8, 8, 4, 8, 8, 8}));
+  const std::vector<std::uint32_t>& row_break = body.model.blocks[0].row_break;
+  std::vector<int> lane, skip;
+  for (int block = 0; block < 16; ++block) {
+    lane.push_back(lane_of_break(row_break[block]));
+    skip.push_back(skip_of_break(row_break[block]));
+  }
+  // The first layer ends with element 119, the last of a block; of elements 8 k to 8 k + 7 a row
+  // ends behind number 19, 39, …
+  EXPECT_EQ(lane, (std::vector<int>{8, 8, 4, 8, 8, 8, 8, 4, 8, 8, 8, 8, 4, 8, 8, 8}));
+  EXPECT_EQ(skip, (std::vector<int>{0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0}));
+}
+
+// A layer of 20 x 5 elements ends behind the fourth of a block; its last row of nodes is skipped.
+TEST(NodeLayout, tells_where_layers_end) {
+  const Body body = make_body(jittered_box(20, 5, 6));
+  const std::uint32_t row_break = body.model.blocks[0].row_break[12];
+  EXPECT_EQ(lane_of_break(row_break), 4);
+  EXPECT_EQ(skip_of_break(row_break), 1 + 21);
 }
 
 // Nodes are taken over stride by stride.
