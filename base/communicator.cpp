@@ -21,7 +21,7 @@
 namespace trocar {
 
 // MPI is done with a message only when the other rank has looked, so that a wait for it would hold
-// up whoever is ahead: what is sent has a copy until the exchange after the next. By then a
+// up whoever is ahead: what is sent keeps its room until the exchange after the next. By then a
 // neighbour has answered, and so has looked.
 struct Communicator::Handle {
   struct Sends {
@@ -219,22 +219,24 @@ void receive(MPI_Comm group, std::span<const ExchangeMessage> messages,
               exchange_tag, group, &requests.emplace_back());
 }
 
-// From copies in `values`, once those that it had are no longer needed.
-void send(MPI_Comm group, std::span<const ExchangeMessage> messages, std::vector<double>& values,
+void send(MPI_Comm group, std::span<const ExchangeMessage> messages,
           std::vector<MPI_Request>& requests) {
-  wait_politely(requests);
-  values.clear();
   for (const ExchangeMessage& message : messages)
-    values.insert(values.end(), message.send.begin(), message.send.end());
-  const double* first = values.data();
-  for (const ExchangeMessage& message : messages) {
-    MPI_Isend(first, count_of(message.send.size()), MPI_DOUBLE, message.rank, exchange_tag, group,
-              &requests.emplace_back());
-    first += message.send.size();
-  }
+    MPI_Isend(message.send.data(), count_of(message.send.size()), MPI_DOUBLE, message.rank,
+              exchange_tag, group, &requests.emplace_back());
 }
 
 }  // namespace
+
+std::span<double> Communicator::room_to_send(std::size_t n) {
+  if (handle_) {
+    std::swap(handle_->sends[0], handle_->sends[1]);
+    wait_politely(handle_->sends[1].requests);
+  }
+  std::vector<double>& room = handle_ ? handle_->sends[1].values : alone_;
+  room.resize(n);
+  return room;
+}
 
 void Communicator::start_exchange(std::span<const ExchangeMessage> messages) {
   ++traffic_.n_exchanges;
@@ -243,8 +245,8 @@ void Communicator::start_exchange(std::span<const ExchangeMessage> messages) {
   if (!handle_) return exchange_with_self(messages);
   CHECK(handle_->receives.empty());  // the exchange before this one is finished
   receive(handle_->group, messages, handle_->receives);
-  std::swap(handle_->sends[0], handle_->sends[1]);
-  send(handle_->group, messages, handle_->sends[1].values, handle_->sends[1].requests);
+  CHECK(handle_->sends[1].requests.empty());  // room was asked for
+  send(handle_->group, messages, handle_->sends[1].requests);
 }
 
 void Communicator::finish_exchange() {

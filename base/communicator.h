@@ -11,7 +11,8 @@
 
 namespace trocar {
 
-// One neighbour's part of an exchange; what is received lives until finish_exchange.
+// One neighbour's part of an exchange. `send` lies in room_to_send; what is received lives until
+// finish_exchange.
 struct ExchangeMessage {
   int rank = 0;
   std::span<const double> send;
@@ -55,6 +56,9 @@ class Communicator {
   std::string first_text(const std::string& text) const;
 
   // Non-blocking neighbour exchange, one at a time; no allocation after the first two of a size.
+  // First the room for what all messages send, which stays as it is until the exchange after the
+  // next.
+  std::span<double> room_to_send(std::size_t n);
   void start_exchange(std::span<const ExchangeMessage> messages);
   void finish_exchange();
 
@@ -62,6 +66,7 @@ class Communicator {
   friend class MpiSession;
   struct Handle;
   std::unique_ptr<Handle> handle_;
+  std::vector<double> alone_;  // room_to_send without MPI
   int rank_ = 0;
   int size_ = 1;
   mutable Traffic traffic_;

@@ -33,9 +33,10 @@ double best_of_ranks(const Communicator& ranks, int n, double (*clock)(), const 
 
 // Both ranks send so many bytes to each other.
 double exchange_seconds(Communicator& ranks, std::size_t n_bytes) {
-  std::vector<double> send(n_bytes / sizeof(double), 1.0), receive(send.size());
-  const ExchangeMessage messages[] = {{1 - ranks.rank(), send, receive}};
+  std::vector<double> receive(n_bytes / sizeof(double));
   return best_of_ranks(ranks, n_bytes > 100000 ? 20 : 1000, monotonic_seconds, [&] {
+    const ExchangeMessage messages[] = {
+        {1 - ranks.rank(), ranks.room_to_send(receive.size()), receive}};
     ranks.start_exchange(messages);
     ranks.finish_exchange();
   });

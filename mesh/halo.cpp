@@ -175,44 +175,67 @@ void update_halo(const Mesh& mesh, const NodeCorners& corners,
     for (std::int32_t& i : neighbour.receive) i += part.n_owned - first;
 }
 
-HaloExchange::HaloExchange(const Halo& halo, int width) : halo_(&halo), width_(width) {
-  std::size_t n_send = 0, n_receive = 0;
+static std::vector<NodeRange> ranges_of(std::span<const std::int32_t> nodes) {
+  std::vector<NodeRange> ranges;
+  for (const std::int32_t i : nodes)
+    if (ranges.empty() || ranges.back().end != i)
+      ranges.push_back({i, i + 1});
+    else
+      ++ranges.back().end;
+  return ranges;
+}
+
+HaloExchange::HaloExchange(const Halo& halo, int width) : width_(width) {
+  const auto n_values = [&](const std::vector<std::int32_t>& nodes) {
+    return nodes.size() * static_cast<std::size_t>(width);
+  };
+  std::size_t n_receive = 0;
   for (const Halo::Neighbour& neighbour : halo.neighbours) {
-    n_send += neighbour.send.size();
-    n_receive += neighbour.receive.size();
+    neighbours_.push_back({neighbour.rank, n_values(neighbour.send), n_values(neighbour.receive),
+                           ranges_of(neighbour.send), ranges_of(neighbour.receive)});
+    n_receive += n_values(neighbour.receive);
   }
-  send_.resize(n_send * static_cast<std::size_t>(width));
-  receive_.resize(n_receive * static_cast<std::size_t>(width));
-  messages_.resize(halo.neighbours.size());
+  receive_.resize(n_receive);
+  messages_.resize(neighbours_.size());
+}
+
+// Calls body(values of the nodes that follow each other), field by field.
+template <class Body>
+static void for_values(std::span<const NodalField> fields, std::span<const NodeRange> ranges,
+                       const Body& body) {
+  for (const NodalField& field : fields)
+    for (const NodeRange& nodes : ranges) {
+      const auto width = static_cast<std::size_t>(field.width);
+      body(field.values.subspan(width * static_cast<std::size_t>(nodes.begin),
+                                width * static_cast<std::size_t>(nodes.end - nodes.begin)));
+    }
 }
 
 void HaloExchange::start(std::span<const NodalField> fields, Communicator& communicator) {
-  const auto width = static_cast<std::size_t>(width_);
-  double *send = send_.data(), *receive = receive_.data();
+  std::size_t n_send = 0;
+  for (const Ranges& neighbour : neighbours_) n_send += neighbour.n_send;
+  const std::span<double> room = communicator.room_to_send(n_send);
+  double *send = room.data(), *receive = receive_.data();
   for (std::size_t k = 0; k < messages_.size(); ++k) {
-    const Halo::Neighbour& neighbour = halo_->neighbours[k];
-    const std::size_t n_send = neighbour.send.size() * width;
-    const std::size_t n_receive = neighbour.receive.size() * width;
-    messages_[k] = {neighbour.rank, {send, n_send}, {receive, n_receive}};
-    for (const std::int32_t i : neighbour.send)
-      for (const NodalField& field : fields)
-        send =
-            std::copy_n(field.values.data() + std::ptrdiff_t{field.width} * i, field.width, send);
-    receive += n_receive;
+    const Ranges& neighbour = neighbours_[k];
+    messages_[k] = {neighbour.rank, {send, neighbour.n_send}, {receive, neighbour.n_receive}};
+    for_values(fields, neighbour.send, [&](std::span<const double> values) {
+      send = std::copy(values.begin(), values.end(), send);
+    });
+    receive += neighbour.n_receive;
   }
-  CHECK_OP(send - send_.data(), ==, std::ssize(send_));  // the fields have `width` numbers
+  CHECK_OP(send - room.data(), ==, std::ssize(room));  // the fields have `width` numbers
   communicator.start_exchange(messages_);
 }
 
 void HaloExchange::finish(std::span<const NodalField> fields, Communicator& communicator) {
   communicator.finish_exchange();
   const double* received = receive_.data();
-  for (const Halo::Neighbour& neighbour : halo_->neighbours)
-    for (const std::int32_t i : neighbour.receive)
-      for (const NodalField& field : fields) {
-        std::copy_n(received, field.width, field.values.data() + std::ptrdiff_t{field.width} * i);
-        received += field.width;
-      }
+  for (const Ranges& neighbour : neighbours_)
+    for_values(fields, neighbour.receive, [&](std::span<double> values) {
+      std::copy_n(received, values.size(), values.begin());
+      received += values.size();
+    });
 }
 
 void HaloExchange::exchange(std::span<double> field, Communicator& communicator) {

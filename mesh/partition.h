@@ -74,6 +74,12 @@ struct NodalField {
   int width = 0;
 };
 
+// Nodes that follow each other.
+struct NodeRange {
+  std::int32_t begin = 0, end = 0;  // local
+  bool operator==(const NodeRange&) const = default;
+};
+
 // Keeps the buffers of the exchange of fields of `width` doubles a node in all.
 class HaloExchange {
  public:
@@ -88,9 +94,15 @@ class HaloExchange {
   void exchange(std::span<double> field, Communicator& communicator);
 
  private:
-  const Halo* halo_;
+  // Nodes of a neighbour's message, field after field in it.
+  struct Ranges {
+    int rank = 0;
+    std::size_t n_send = 0, n_receive = 0;
+    std::vector<NodeRange> send, receive;
+  };
   int width_;
-  std::vector<double> send_, receive_;
+  std::vector<Ranges> neighbours_;
+  std::vector<double> receive_;
   std::vector<ExchangeMessage> messages_;
 };
 

@@ -84,11 +84,6 @@ struct VolumeAverages {
 // order are added at the node as long as they are of one run; the others get a place each behind
 // the nodes, and are added up afterwards, in the same order. So the bits don't depend on the number
 // of runs.
-struct NodeRange {
-  std::int32_t begin = 0, end = 0;  // local nodes
-  bool operator==(const NodeRange&) const = default;
-};
-
 // Blocks that a run takes between two looks at the nodes: a stride.
 inline constexpr std::int64_t stride_blocks = 32;
 

@@ -1,8 +1,10 @@
 // Whether a rank gets its neighbour's message, and is rid of its own, while the neighbour is busy
 // with something else: otherwise each exchange would wait for the slower one of two ranks.
 // scripts/on_ranks 2 slow_rank; exit code 1 if it has to wait.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <span>
 #include <thread>
 
 #include "base/communicator.h"
@@ -14,7 +16,8 @@ int main(int argc, char** argv) {
   MpiSession session(&argc, &argv);
   Communicator& ranks = session.world();
   constexpr double busy = 0.5;
-  const std::vector<double> send(8000, ranks.rank());
+  const std::span<double> send = ranks.room_to_send(8000);
+  std::ranges::fill(send, ranks.rank());
   std::vector<double> receive(send.size(), -1);
   const ExchangeMessage messages[] = {{1 - ranks.rank(), send, receive}};
   ranks.barrier();
