@@ -45,8 +45,9 @@ void check_markers(const LoadedScene& loaded, const Simulation& s) {
   if (!s.markers.empty() && !has_metrics(s.scene))
     log_warning(
         "markers do nothing: there is no [[output]] of kind \"metrics\" to tell where they are");
-  for (std::size_t k = 0; k < s.markers.size(); ++k)
-    if (s.markers[k].element < 0)
+  const std::vector<Location> markers = locate_markers(s.scene.markers, s.mesh);
+  for (std::size_t k = 0; k < markers.size(); ++k)
+    if (markers[k].element < 0)
       loaded.where.fail(
           item_path("marker", k) + ".position",
           "marker \"" + s.scene.markers[k].name + "\" lies outside the undeformed body");

@@ -308,7 +308,7 @@ void rebuild_topology(Simulation& s) {
 void follow_model(Simulation& s) {
   s.rest_step = s.communicator->all_min(s.least_element_step.value());
   localise_holds(s.holds, s.part);
-  s.markers = locate_markers(s.scene.markers, s.mesh);
+  s.markers = follow_markers(s.scene.markers, s.mesh);
   localise_loads(s.scene.loads, s.mesh, s.surface, s.part, s.loads);
   if (s.energy) localise_supports(s.scene.supports, s.mesh, s.part, s.energy->support_forces);
   // A component r of displacements strains tetrahedra by at most 4 sqrt(3) r / h, hexahedra at

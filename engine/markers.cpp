@@ -11,6 +11,13 @@ std::vector<Location> locate_markers(std::span<const SceneMarker> markers, const
   return locate_points(mesh, mesh.X, points);
 }
 
+std::vector<Location> follow_markers(std::span<const SceneMarker> markers, const Mesh& mesh) {
+  std::vector<Location> locations = locate_markers(markers, mesh);
+  for (std::size_t k = 0; k < locations.size(); ++k)
+    if (locations[k].element < 0) locations[k] = locate_nearest(mesh, mesh.X, markers[k].position);
+  return locations;
+}
+
 std::vector<Vec3> marker_positions(std::span<const Location> markers, const Mesh& mesh,
                                    const Part& part, std::span<const double> u,
                                    const Communicator& communicator) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "engine/equilibrium.h"
@@ -88,6 +89,41 @@ TEST(Markers, stay_where_they_are_beside_a_cut_that_moves_nodes_and_follow_their
     EXPECT_LT((moved.front() - after.front() - away).norm(), 1e-12);
     EXPECT_LT((moved.back() - after.back()).norm(), 1e-12);
   }
+}
+
+std::string ball_text(const std::string& markers) {
+  return "[time]\nduration = 1\nframe_rate = 100\n[tissue.shape]\nkind = \"ball\"\n"
+         "centre = [0, 0, 0.015]\nradius = 0.015\ncells = [6, 6, 6]\nelements = \"hex8\"\n"
+         "[tissue.material]\nyoung_modulus = 6000\n"
+         "[[output]]\nkind = \"metrics\"\nfile = \"m.csv\"\n" +
+         markers;
+}
+
+// Nodes of the surface slide on it: some markers, 10 um deep in the middle of triangles, then lie
+// outside all elements. The body is at rest.
+TEST(Markers, stay_on_a_curved_surface_whose_nodes_a_cut_moves) {
+  std::string markers;
+  std::vector<Vec3> X;
+  const auto plain = built(ball_text(""));
+  const Mesh& uncut = plain->s->mesh;
+  const Vec3 centre(0, 0, 0.015);
+  for (const std::array<std::int32_t, 3>& triangle : plain->s->surface.triangle) {
+    const Vec3 middle = (uncut.X[triangle[0]] + uncut.X[triangle[1]] + uncut.X[triangle[2]]) / 3;
+    X.push_back(middle - 1e-5 * (middle - centre).normalized());
+    markers += marker(std::to_string(X.size()), X.back());
+  }
+  const auto ball = built(ball_text(markers));
+  Simulation& s = *ball->s;
+  GlobalState global = gather_state(s);
+  CutFigures figures;
+  CutRecord record;
+  apply_cut(s, cut_across(s, global, figures), global, record);
+  EXPECT_GT(figures.n_moved, 0);
+  const auto is_outside = [](const Location& location) { return location.element < 0; };
+  EXPECT_TRUE(std::ranges::any_of(locate_markers(s.scene.markers, s.mesh), is_outside));
+  const std::vector<Vec3> x =
+      marker_positions(s.markers, s.mesh, s.part, s.state.u, *s.communicator);
+  for (std::size_t k = 0; k < x.size(); ++k) EXPECT_LT((x[k] - X[k]).norm(), 1e-6) << k;
 }
 
 TEST(Markers, are_refused_outside_the_body_and_by_the_same_name) {
