@@ -97,7 +97,6 @@ ContactSet prepare_contacts(const FoundContacts& contacts, std::span<const std::
   add_items(contacts, set);
   set.x_start.resize(set.node.size());
   set.x_end.resize(set.node.size());
-  set.x_ahead.resize(set.node.size());
   set.force.assign(set.node.size(), Vec3::Zero());
   set.constraints.reserve(set.items.size() + 2 * set.node.size());
   set.deepest.resize(set.node.size());

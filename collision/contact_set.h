@@ -47,7 +47,9 @@ struct ContactSet {
   struct BesidePiece {
     std::int32_t item = 0;  // the first
     std::int32_t place = 0;
-    Vec3 local = Vec3::Zero();  // x_ahead in the tool's frame [m]
+    // Where it would be at the end of the step if it moved with the tool, also in the tool's frame:
+    // what presses against a tool lies on it there. [m]
+    Vec3 x = Vec3::Zero(), local = Vec3::Zero();
     // At a blade, out of the tissue: area normals of the items that have it. Of those that face a
     // blade's flank, the first one's part along its normal; where others have the opposite sign,
     // the node is the front of a wound, and the blade thicker than that is wide. [m^2]
@@ -77,12 +79,10 @@ struct ContactSet {
   std::vector<std::int32_t> node;          // global numbers
   std::vector<double> inverse_mass;        // 0: nothing moves it [1/kg]
   std::vector<std::int32_t> owned, local;  // of owned ones: places here, and local numbers
-  // Positions around the step, without contact at its end, and where nodes would be there that went
-  // on with their velocities: what presses against a tool lies on it there. [m]
-  std::vector<Vec3> x_start, x_end, x_ahead;
-  std::vector<Vec3> force;       // of the last step [N]
-  Halo halo;                     // among the ranks that hold nodes, in places
-  bool is_counted_here = false;  // this rank reports the reactions
+  std::vector<Vec3> x_start, x_end;  // positions around the step, without contact at its end [m]
+  std::vector<Vec3> force;           // of the last step [N]
+  Halo halo;                         // among the ranks that hold nodes, in places
+  bool is_counted_here = false;      // this rank reports the reactions
   // Of the step that is being solved; steps allocate nothing.
   // With room for one an item and two a node.
   std::vector<ContactConstraint> constraints;

@@ -21,13 +21,14 @@ constexpr double as_a_lip = 0.5;  // cosine at which a lip of a wound faces a bl
 constexpr int most_rounds = 30;
 constexpr double good_enough = 1e-3;  // change in a round / deepest point at the start
 
-std::array<Vec3, 3> corners_of(std::span<const Vec3> x, const ContactSet::Item& item) {
-  return {x[to_size(item.place[0])], x[to_size(item.place[1])], x[to_size(item.place[2])]};
-}
-
-// How far forces take a node in the step, those of contact left out.
-double forced_way(const ContactSet& set, std::int32_t place) {
-  return (set.x_end[to_size(place)] - set.x_ahead[to_size(place)]).norm();
+ContactDetector::Corners corners_of(const ContactSet& set, const ContactSet::Item& item) {
+  ContactDetector::Corners corners;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const ContactSet::BesidePiece& b = set.beside[to_size(item.beside[a])];
+    corners.x[a] = b.x;
+    corners.local[a] = b.local;
+  }
+  return corners;
 }
 
 const ToolMotion& tool_of(const ContactStep& step, const ContactSet::Item& item) {
@@ -37,6 +38,11 @@ const ToolMotion& tool_of(const ContactStep& step, const ContactSet::Item& item)
 // The displacement of a tool's point in the step. arm: from the tool's origin to it.
 Vec3 motion_of(const ToolMotion& tool, const Vec3& arm, const ContactStep& step) {
   return step.dt * (tool.velocity + tool.angular_velocity.cross(arm));
+}
+
+// How far the node goes from where the tool would take it, contact left out.
+double own_way(const ContactSet& set, const ContactSet::BesidePiece& b) {
+  return (set.x_end[to_size(b.place)] - b.x).norm();
 }
 
 bool is_at_front(const ContactSet& set, const ContactSet::Item& item) {
@@ -79,19 +85,18 @@ void add_triangle(const ContactStep& step, double release, std::int32_t k, Conta
   add_constraint(gap, release, motion_of(tool, arm, step), c, set);
 }
 
-// At the end of the step, along the normal where the node would be without forces.
+// At the end of the step, along the normal where the node would be that moved with the tool.
 std::optional<NodeTouch> look_at_node(const ContactDetector& detector, const Contact& contact,
                                       const Pose& pose, const ContactSet::BesidePiece& beside,
                                       const ContactSet& set) {
-  const std::size_t i = to_size(beside.place);
-  std::optional<NodeTouch> touch = detector.touch_node(contact, {set.x_ahead[i], beside.facing},
-                                                       pose, forced_way(set, beside.place));
-  if (touch) touch->gap += touch->normal.dot(set.x_end[i] - set.x_ahead[i]);
+  std::optional<NodeTouch> touch =
+      detector.touch_node(contact, {beside.x, beside.facing}, pose, own_way(set, beside));
+  if (touch) touch->gap += touch->normal.dot(set.x_end[to_size(beside.place)] - beside.x);
   return touch;
 }
 
 Vec3 facet_of(const ContactSet& set, const ContactSet::Item& item) {
-  const std::array<Vec3, 3> x = corners_of(set.x_ahead, item);
+  const std::array<Vec3, 3> x = corners_of(set, item).x;
   return (x[1] - x[0]).cross(x[2] - x[0]);
 }
 
@@ -197,30 +202,36 @@ double project(double friction, ContactConstraint& c, std::span<Vec3> move) {
 namespace {
 
 // At a hull, which then sees as far as needed until the triangle has moved.
-bool has_to_look(const std::array<Vec3, 3>& corners, double& forced, ContactSet::Item& item) {
+bool has_to_look(const std::array<Vec3, 3>& corners, double& way, ContactSet::Item& item) {
   const double size = (corners[1] - corners[0]).norm(), slack = same_place * size;
   double moved = 0;
   for (std::size_t a = 0; a < 3; ++a) moved = std::max(moved, (corners[a] - item.seen[a]).norm());
-  if (moved <= slack && forced + moved <= item.sight) return false;
+  if (moved <= slack && way + moved <= item.sight) return false;
   item.seen = corners;
-  item.sight = forced = 2 * forced + slack;
+  item.sight = way = 2 * way + slack;
   return true;
 }
 
 }  // namespace
 
+void place_beside(const ContactStep& step, ContactSet& set) {
+  for (ContactSet::BesidePiece& b : set.beside) {
+    const ToolMotion& tool = tool_of(step, set.items[to_size(b.item)]);
+    const Vec3& x = set.x_start[to_size(b.place)];
+    b.x = x + motion_of(tool, x - tool.pose.translation, step);
+    b.local = tool.pose.apply_inverse(b.x);
+  }
+}
+
 void look_again(const ContactDetector& detector, const ContactStep& step, ContactSet& set) {
-  for (ContactSet::BesidePiece& b : set.beside)
-    b.local =
-        tool_of(step, set.items[to_size(b.item)]).pose.apply_inverse(set.x_ahead[to_size(b.place)]);
+  place_beside(step, set);
   for (ContactSet::Item& item : set.items) {
-    const auto local = [&](std::size_t a) { return set.beside[to_size(item.beside[a])].local; };
-    double forced = 0;
-    for (const std::int32_t place : item.place) forced = std::max(forced, forced_way(set, place));
-    const std::array<Vec3, 3> corners = {local(0), local(1), local(2)};
-    if (detector.is_hull(item.contact) && !has_to_look(corners, forced, item)) continue;
-    item.is_near = detector.update({corners_of(set.x_ahead, item), corners},
-                                   tool_of(step, item).pose, forced, item.contact);
+    double way = 0;
+    for (const std::int32_t b : item.beside)
+      way = std::max(way, own_way(set, set.beside[to_size(b)]));
+    const ContactDetector::Corners corners = corners_of(set, item);
+    if (detector.is_hull(item.contact) && !has_to_look(corners.local, way, item)) continue;
+    item.is_near = detector.update(corners, tool_of(step, item).pose, way, item.contact);
   }
 }
 

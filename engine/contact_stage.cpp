@@ -52,26 +52,23 @@ void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const 
   stage.set = prepare_contacts({stage.contacts, stage.tissue}, body.node_owner, body.part,
                                body.rank, body.mass, is_held);
   stage.u_next.resize(3 * body.part.node_global.size());
-  stage.exchange.emplace(stage.set.halo, 9);
-  stage.positions.resize(9 * stage.set.node.size());
+  stage.exchange.emplace(stage.set.halo, 6);
+  stage.positions.resize(6 * stage.set.node.size());
 }
 
-void share_positions(ContactStage& stage, std::span<const Vec3> X, const ContactMotion& motion,
+void share_positions(ContactStage& stage, std::span<const Vec3> X, std::span<const double> u,
                      Communicator& communicator) {
   for (std::size_t k = 0; k < stage.set.local.size(); ++k) {
     const auto from = 3 * static_cast<std::size_t>(stage.set.local[k]);
-    const auto to = 9 * static_cast<std::size_t>(stage.set.owned[k]);
-    const Eigen::Map<const Vec3> u(&motion.u[from]), v(&motion.v[from]);
-    Vec3::Map(&stage.positions[to]) = u;
+    const auto to = 6 * static_cast<std::size_t>(stage.set.owned[k]);
+    Vec3::Map(&stage.positions[to]) = Vec3::Map(&u[from]);
     Vec3::Map(&stage.positions[to + 3]) = Vec3::Map(&stage.u_next[from]);
-    Vec3::Map(&stage.positions[to + 6]) = u + motion.dt * v;
   }
   stage.exchange->exchange(stage.positions, communicator);
   for (std::size_t k = 0; k < stage.set.node.size(); ++k) {
     const Vec3& x = X[static_cast<std::size_t>(stage.set.node[k])];
-    stage.set.x_start[k] = x + Vec3::Map(&stage.positions[9 * k]);
-    stage.set.x_end[k] = x + Vec3::Map(&stage.positions[9 * k + 3]);
-    stage.set.x_ahead[k] = x + Vec3::Map(&stage.positions[9 * k + 6]);
+    stage.set.x_start[k] = x + Vec3::Map(&stage.positions[6 * k]);
+    stage.set.x_end[k] = x + Vec3::Map(&stage.positions[6 * k + 3]);
   }
 }
 

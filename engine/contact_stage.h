@@ -26,7 +26,7 @@ struct ContactStage {
   ContactSet set;                  // those that this rank works on
   std::vector<double> u_next;      // (n_local * 3) of its owned nodes, without contact [m]
   std::optional<HaloExchange> exchange;
-  std::vector<double> positions;   // (set.node.size() * 9) that travel
+  std::vector<double> positions;   // (set.node.size() * 6) that travel
   std::vector<ToolMotion> motion;  // (n_tools) at the end of the substep
 };
 
@@ -53,14 +53,9 @@ struct ContactBody {
 };
 // What graspers and supports hold doesn't yield to contact.
 void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds);
-// Of a rank's nodes, before a step: u [m], v [m/s] (n_local * 3).
-struct ContactMotion {
-  std::span<const double> u, v;
-  double dt = 0;
-};
-// Positions of the set's nodes from their motion and u_next, on all ranks that work on them.
-// Collective among these. X (n_nodes).
-void share_positions(ContactStage& stage, std::span<const Vec3> X, const ContactMotion& motion,
+// Positions of the set's nodes from their displacements before a step (n_local * 3) and u_next, on
+// all ranks that work on them. Collective among these. X (n_nodes).
+void share_positions(ContactStage& stage, std::span<const Vec3> X, std::span<const double> u,
                      Communicator& communicator);
 
 // Of the last step, to the nodes of this rank: force (n_owned * 3).

@@ -77,7 +77,7 @@ void resolve_contacts(Simulation& s, const FrameSpan& span, std::int64_t k) {
   move_tools(s.tools, span.t0 + static_cast<double>(k + 1) * span.dt, span.dt, contact.motion);
   predict(s.model, s.scratch, s.holds.prescribed, contact.set.local, span.dt, s.state,
           contact.u_next);
-  share_positions(contact, s.mesh.X, {s.state.u, s.state.v, span.dt}, *s.communicator);
+  share_positions(contact, s.mesh.X, s.state.u, *s.communicator);
   const ContactStep step = {.tools = contact.motion,
                             .number = k,
                             .dt = span.dt,

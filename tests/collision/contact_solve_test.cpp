@@ -255,7 +255,6 @@ TEST(SolveContacts, gives_every_rank_that_holds_nodes_the_same_forces) {
         const std::int32_t i = set.node[k];
         set.x_start[k] = mesh.X[static_cast<std::size_t>(i)];
         set.x_end[k] = set.x_start[k] + Vec3(moved(i, 0), moved(i, 1), moved(i, 2));
-        set.x_ahead[k] = set.x_end[k];
       }
       const ContactStep step = {.tools = tools, .dt = 1e-4, .response = 1e-8};
       look_again(detector, step, set);

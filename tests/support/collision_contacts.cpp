@@ -38,12 +38,12 @@ void ContactBench::place() {
     const auto i = static_cast<std::size_t>(set.node[k]);
     set.x_start[k] = X[i] + Vec3::Map(&u[3 * i]);
     set.x_end[k] = X[i] + Vec3::Map(&u_next[3 * i]);
-    set.x_ahead[k] = set.x_start[k] + dt * Vec3::Map(&v[3 * i]);
   }
 }
 
 void ContactBench::add_forces() {
   place();
+  place_beside(contact_step(), set);
   solve_contacts(detector, contact_step(), options, set);
   force.assign(force.size(), 0.0);
   for (std::size_t k = 0; k < set.node.size(); ++k)

@@ -88,7 +88,6 @@ struct Indentation {
     for (std::size_t k = 0; k < set.node.size(); ++k) {
       const auto i = static_cast<std::size_t>(set.node[k]);
       set.x_start[k] = set.x_end[k] = body.mesh.X[i] + Vec3::Map(&body.state.u[3 * i]);
-      set.x_ahead[k] = set.x_start[k] + dt * Vec3::Map(&body.state.v[3 * i]);
       for (std::size_t j = 0; j < 3; ++j)
         if (relaxer.by_mass[3 * i + j] > 0)
           set.x_end[k][static_cast<Eigen::Index>(j)] +=
