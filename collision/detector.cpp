@@ -299,4 +299,8 @@ bool ContactDetector::is_hull(const Contact& contact) const {
   return state_->core_of(contact).hull.has_value();
 }
 
+double ContactDetector::radius(const Contact& contact) const {
+  return state_->core_of(contact).radius;
+}
+
 }  // namespace trocar

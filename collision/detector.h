@@ -83,6 +83,8 @@ class ContactDetector {
   std::optional<NodeTouch> touch_node(const Contact& contact, const SurfaceNode& node,
                                       const Pose& pose, double margin) const;
   bool is_hull(const Contact& contact) const;
+  // Of the contact's piece: a sphere's, a capsule's, or by which a hull is thickened [m]
+  double radius(const Contact& contact) const;
   bool is_blade(const Contact& contact) const;
 
  private:

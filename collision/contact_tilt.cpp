@@ -1,0 +1,89 @@
+#include "collision/contact_tilt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace trocar {
+
+namespace {
+
+// Of the power method, from random numbers: 2 % below the frequency and less.
+constexpr int rounds = 30;
+
+// F R grad N_a . grad N_b = turn * edge[a] . edge[b]: gradients stand upright on the edges opposite
+// the corners.
+struct Tilt {
+  std::array<std::int32_t, 3> place{};
+  std::array<Vec3, 3> edge;
+  double turn = 0;
+};
+
+// moment: F R [N m]
+Tilt make_tilt(const ContactSet::Item& item, double moment, const ContactSet& set) {
+  constexpr double flat = 1e-9;  // on plane meshes the third corner is a copy
+  Tilt tilt{.place = item.place};
+  std::array<Vec3, 3> x;
+  for (std::size_t a = 0; a < 3; ++a) x[a] = set.x_start[to_size(item.place[a])];
+  double longest2 = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    tilt.edge[a] = x[(a + 2) % 3] - x[(a + 1) % 3];
+    longest2 = std::max(longest2, tilt.edge[a].squaredNorm());
+  }
+  const double twice_area = tilt.edge[0].cross(tilt.edge[1]).norm();
+  if (twice_area > flat * longest2) {
+    tilt.turn = moment / (twice_area * twice_area);
+    return tilt;
+  }
+  tilt.edge = {Vec3::UnitX(), -Vec3::UnitX(), Vec3::Zero()};
+  tilt.turn = moment / longest2;
+  return tilt;
+}
+
+std::vector<Tilt> find_tilts(const ContactDetector& detector, std::int64_t n_steps,
+                             const ContactSet& set) {
+  std::vector<Tilt> tilts;
+  for (const ContactSet::Item& item : set.items) {
+    const double force = item.reaction_sum.norm() / static_cast<double>(n_steps);
+    if (const double moment = force * detector.radius(item.contact); moment > 0)
+      tilts.push_back(make_tilt(item, moment, set));
+  }
+  return tilts;
+}
+
+}  // namespace
+
+double tilt_frequency2(const ContactDetector& detector, std::int64_t n_steps,
+                       const ContactSet& set) {
+  const std::vector<Tilt> tilts = find_tilts(detector, n_steps, set);
+  if (tilts.empty()) return 0;
+  std::vector<double> u(set.node.size()), force(set.node.size());
+  std::uint32_t noise = 1;
+  for (double& of_node : u)
+    of_node = static_cast<double>((noise = noise * 1664525 + 1013904223) >> 8);
+  double omega2 = 0;
+  for (int round = 0; round < rounds; ++round) {
+    std::ranges::fill(force, 0);
+    for (const Tilt& tilt : tilts) {
+      Vec3 slope = Vec3::Zero();
+      for (std::size_t a = 0; a < 3; ++a) slope += u[to_size(tilt.place[a])] * tilt.edge[a];
+      for (std::size_t a = 0; a < 3; ++a)
+        force[to_size(tilt.place[a])] += tilt.turn * tilt.edge[a].dot(slope);
+    }
+    // Rayleigh's quotient of M^-1 K in the metric of M, over nodes that move.
+    double stored = 0, swung = 0, largest = 0;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      const double a = set.inverse_mass[i] * force[i];
+      if (set.inverse_mass[i] > 0) swung += u[i] * u[i] / set.inverse_mass[i];
+      stored += u[i] * force[i];
+      largest = std::max(largest, std::abs(a));
+      u[i] = a;
+    }
+    if (largest == 0) return omega2;
+    omega2 = stored / swung;
+    for (double& of_node : u) of_node /= largest;
+  }
+  return omega2;
+}
+
+}  // namespace trocar
