@@ -35,7 +35,12 @@ class Communicator {
   int rank() const { return rank_; }
   int size() const { return size_; }
   bool is_root() const { return rank_ == 0; }
-  const Traffic& traffic() const { return traffic_; }
+  // With that of groups.
+  Traffic traffic() const;
+
+  // These ranks, ascending, as a communicator of their own, in which they have the same order. All
+  // of them call this, others don't. Made once: it lives as long as this one.
+  const Communicator& group(std::span<const int> ranks);
 
   // Collective: every rank calls these with the same kind of argument.
   // A NaN on any rank makes the minimum and the maximum NaN; -0 counts as less than +0.
@@ -65,6 +70,7 @@ class Communicator {
  private:
   friend class MpiSession;
   struct Handle;
+  Communicator make_group(std::span<const int> ranks) const;
   std::unique_ptr<Handle> handle_;
   std::vector<double> alone_;  // room_to_send without MPI
   int rank_ = 0;

@@ -150,8 +150,12 @@ static HexTets make_hex_tets(const Mesh& body) {
   return tets;
 }
 
+bool are_tets_of(const HexTets& tets, const Mesh& body) {
+  return tets.mesh.X.size() == body.X.size() && tets.first.size() == body.element_type.size() + 1;
+}
+
 void update_hex_tets(const Mesh& body, HexTets& tets) {
-  if (tets.mesh.X.size() == body.X.size() && tets.first.size() == body.element_type.size() + 1)
+  if (are_tets_of(tets, body))
     tets.mesh.X = body.X;
   else
     tets = make_hex_tets(body);

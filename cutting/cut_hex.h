@@ -40,8 +40,14 @@ std::vector<std::int32_t> whole_hexahedra(const Mesh& mesh);
 std::vector<std::int32_t> bent_nodes(const HexTets& tets, PresentPositions& positions,
                                      std::span<const std::int32_t> element);
 
+// Whether `tets` are of the body, as far as numbers tell: edits that keep these only move nodes.
+bool are_tets_of(const HexTets& tets, const Mesh& body);
+
 // Brings `tets` up to date with the body; built anew where somebody else has changed the body.
 void update_hex_tets(const Mesh& body, HexTets& tets);
+
+// An edit of tets.mesh, which splits these of the body's hexahedra, taken over into `tets`.
+void edit_hex_tets(std::span<const HexSplit> splits, const MeshEdit& edit, HexTets& tets);
 
 // `edit` of tets.mesh as one of the body; `index` is that of tets.mesh after the edit. Mass is kept
 // region by region. Takes the edit over into `tets`, but not into `index`.

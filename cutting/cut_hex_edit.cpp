@@ -259,19 +259,25 @@ static std::vector<DensityChange> density_changes(const Translation& t, const Cu
 }
 
 // Of the tetrahedra, in the body after the edit.
-static void set_sources(const Translation& t, HexTets& tets) {
-  const SplitNumbers numbers(t.splits);
+static void set_sources(std::span<const HexSplit> splits, HexTets& tets) {
+  if (splits.empty()) return;
+  const SplitNumbers numbers(splits);
   const auto count_up = [](auto begin, std::int32_t first) {
     std::iota(begin, begin + n_hex_tets, first);
   };
   numbers.renumber(tets.source);
-  for (const HexSplit& split : t.splits)
+  for (const HexSplit& split : splits)
     count_up(tets.source.begin() + tets.first[split.element], numbers.after(split.element));
-  spread_over_splits(t.splits, tets.first);
-  for (const HexSplit& split : t.splits) {
+  spread_over_splits(splits, tets.first);
+  for (const HexSplit& split : splits) {
     const auto first = tets.first.begin() + numbers.after(split.element);
     count_up(first, *first);
   }
+}
+
+void edit_hex_tets(std::span<const HexSplit> splits, const MeshEdit& edit, HexTets& tets) {
+  set_sources(splits, tets);
+  apply_edit(edit, tets.mesh);
 }
 
 MeshEdit edit_of_body(const Mesh& body, PresentPositions& positions, const CutIndex& index,
@@ -296,8 +302,7 @@ MeshEdit edit_of_body(const Mesh& body, PresentPositions& positions, const CutIn
   result.density = density_changes(t, index, kept);
   figures.n_converted = static_cast<std::int32_t>(t.splits.size());
   figures.n_kept_hexahedra = static_cast<std::int32_t>(kept.size());
-  if (!t.splits.empty()) set_sources(t, tets);
-  apply_edit(edit, tets.mesh);
+  edit_hex_tets(t.splits, edit, tets);
   return result;
 }
 

@@ -1,5 +1,5 @@
 // Where a body's nodes are, from whoever knows: of one that lies on several ranks, what is around a
-// blade goes to all of them and the rest stays where it is.
+// blade goes to those that cut and the rest stays where it is.
 #pragma once
 
 #include <cstdint>

@@ -147,17 +147,33 @@ bool TetCutter::meets(const Mesh& mesh, PresentPositions& positions, const Blade
   return !passing.hit.empty();
 }
 
-MeshEdit TetCutter::advance(const Mesh& mesh, PresentPositions& positions,
-                            std::span<const std::uint8_t> is_held, const BladeSweep& sweep,
-                            bool is_last, CutFigures& figures) {
+bool TetCutter::is_prepared(const Mesh& mesh) const {
+  const Front& f = *front_;
+  if (f.tets.mesh.X.empty()) return is_index_of(f.index, mesh);
+  return are_tets_of(f.tets, mesh) && is_index_of(f.index, f.tets.mesh);
+}
+
+void TetCutter::follow(const Mesh& mesh, const CutterEdit& edit) {
+  Front& f = *front_;
+  if (!is_prepared(mesh)) return;
+  if (f.tets.mesh.X.empty()) return edit_index(mesh, edit, f.index);
+  edit_index(f.tets.mesh, edit.tets, f.index);
+  edit_hex_tets(edit.splits, edit.tets, f.tets);
+}
+
+CutterEdit TetCutter::advance(const Mesh& mesh, PresentPositions& positions,
+                              std::span<const std::uint8_t> is_held, const BladeSweep& sweep,
+                              bool is_last, CutFigures& figures) {
   check_arguments(mesh, positions.x(), is_held, sweep);
   figures = {};
   prepare(mesh);
   Front& f = *front_;
-  if (f.tets.mesh.X.empty()) return f.advance(mesh, positions, is_held, sweep, is_last, figures);
-  const MeshEdit edit = f.advance(f.tets.mesh, positions, is_held, sweep, is_last, figures);
-  if (edit.is_empty()) return edit;
-  return edit_of_body(mesh, positions, f.index, edit, f.tets, figures);
+  if (f.tets.mesh.X.empty())
+    return {f.advance(mesh, positions, is_held, sweep, is_last, figures), {}};
+  MeshEdit edit = f.advance(f.tets.mesh, positions, is_held, sweep, is_last, figures);
+  if (edit.is_empty()) return {edit, {}};
+  MeshEdit of_body = edit_of_body(mesh, positions, f.index, edit, f.tets, figures);
+  return {std::move(of_body), std::move(edit)};
 }
 
 }  // namespace trocar

@@ -33,6 +33,11 @@ struct CutTetOptions {
   CutStages stages = CutStages::barrier;
 };
 
+// Of the mesh, and of the tetrahedra that the cutter sees in its place, none without hexahedra.
+struct CutterEdit : MeshEdit {
+  MeshEdit tets;
+};
+
 // One blade's cut from its entry into tissue to its exit.
 class TetCutter {
  public:
@@ -43,14 +48,19 @@ class TetCutter {
   // Looks at the whole mesh once; without it, the first advance does. From then on an advance costs
   // what it touches.
   void prepare(const Mesh& mesh);
+  bool is_prepared(const Mesh& mesh) const;
+
+  // Takes up what another cutter makes of `mesh`, which is before that edit: one that was prepared
+  // stays so.
+  void follow(const Mesh& mesh, const CutterEdit& edit);
 
   // Takes up the swept band; makes the edit once enough is swept (or is_last: the blade left or
   // stopped). The edit is empty while it waits. is_held (n_nodes): nodes that must not be displaced
   // (supports, grasped). Deterministic in its arguments, as is what it asks of `positions`.
   // `figures` gets the figures of this edit.
-  MeshEdit advance(const Mesh& mesh, PresentPositions& positions,
-                   std::span<const std::uint8_t> is_held, const BladeSweep& sweep, bool is_last,
-                   CutFigures& figures);
+  CutterEdit advance(const Mesh& mesh, PresentPositions& positions,
+                     std::span<const std::uint8_t> is_held, const BladeSweep& sweep, bool is_last,
+                     CutFigures& figures);
 
   // Whether the swept band crosses an edge of the mesh, which no stroke takes up.
   bool meets(const Mesh& mesh, PresentPositions& positions, const BladeSweep& sweep);

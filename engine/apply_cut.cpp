@@ -263,7 +263,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   if (s.corners.first.empty()) s.corners = node_corners(s.mesh);
   const EditedElements edited = find_edited(s.mesh, s.corners, edit);
   std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited.before);
-  find_nodes(s, united(nodes, nodes_of(s.mesh, hosts_of(edit))), global);
+  find_nodes(s, united(nodes, nodes_of(s.mesh, hosts_of(edit))), *s.communicator, global);
   const Before before = measure_before(s, edited.before, nodes, global);
   bool is_step_local = keeps_step(s);
   const bool is_energy_local = keeps_energy(s);

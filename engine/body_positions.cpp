@@ -21,26 +21,21 @@ double largest_own_way(const Simulation& s) {
 
 }  // namespace
 
-BodyPositions::BodyPositions(Simulation& s) : s_(s) {
+double begin_positions(Simulation& s) {
   forget_state(s.mesh.X.size(), s.cut_state);
-  if (!s.boxes.is_empty()) way_ = s.communicator->all_max(largest_own_way(s));
+  const double way = s.boxes.is_empty() ? 0 : s.communicator->all_max(largest_own_way(s));
+  const bool are_fit = !s.boxes.is_empty() && !are_outrun(s.boxes, way);
   // In the plane, places beside the body are looked for in all of it.
-  if (s.mesh.dimension() == 2 || are_outrun(s.boxes, way_)) find_all_nodes(s, s.cut_state);
-  if (!are_outrun(s.boxes, way_)) return;
-  fit_element_boxes(s.mesh, x(), s.boxes);
-  way_ = 0;
-}
-
-void BodyPositions::find(std::span<const std::int32_t> nodes) {
-  find_nodes(s_, nodes, s_.cut_state);
+  if (s.mesh.dimension() == 2 || !are_fit) find_all_nodes(s, s.cut_state);
+  if (are_fit) return way;
+  if (s.boxes.is_empty())
+    s.boxes = make_element_boxes(s.mesh, s.cut_state.x);
+  else
+    fit_element_boxes(s.mesh, s.cut_state.x, s.boxes);
+  return 0;
 }
 
 std::vector<std::int32_t> BodyPositions::elements_around(const Box& box) {
-  if (s_.boxes.is_empty()) {
-    find_all_nodes(s_, s_.cut_state);
-    s_.boxes = make_element_boxes(s_.mesh, x());
-    way_ = 0;
-  }
   std::vector<std::int32_t> elements = elements_near(box, way_, s_.boxes);
   find(nodes_of(s_.mesh, elements));
   return elements;

@@ -1,27 +1,33 @@
-// Where nodes are while blades cut: what is around a blade comes to all ranks, which cut alike, and
-// the rest stays with the ranks that own it.
+// Where nodes are while blades cut: what is around a blade comes to the ranks that cut, and the
+// rest stays with the ranks that own it.
 #pragma once
 
 #include "cutting/cut_positions.h"
+#include "engine/cut_group.h"
 #include "engine/simulation.h"
 
 namespace trocar {
 
-// In s.cut_state, from the state that the simulation has when it is made. All members are
-// collective.
+// Begins s.cut_state anew, from the present state, and fits s.boxes where they are outrun. Returns
+// the way of nodes since that (elements_near). Collective.
+double begin_positions(Simulation& s);
+
+// In s.cut_state; way: of s.boxes. All members are called by all ranks of the group alike.
 class BodyPositions final : public PresentPositions {
  public:
-  explicit BodyPositions(Simulation& s);
+  BodyPositions(Simulation& s, const CutGroup& group, double way)
+      : s_(s), group_(group), way_(way) {}
 
   std::span<const Vec3> x() const override { return s_.cut_state.x; }
-  void find(std::span<const std::int32_t> nodes) override;
+  void find(std::span<const std::int32_t> nodes) override { group_.find(nodes); }
   std::vector<std::int32_t> nodes_near(const Box& box) override;
   // The elements whose nodes these are.
   std::vector<std::int32_t> elements_around(const Box& box);
 
  private:
   Simulation& s_;
-  double way_ = 0;  // of s.boxes, see elements_near
+  const CutGroup& group_;
+  double way_ = 0;
 };
 
 }  // namespace trocar

@@ -146,8 +146,7 @@ void build_cuts(Simulation& s) {
     if (s.mesh.dimension() == 2) s.cuts.back().plane = plane_cut_options(cutting, s.mesh);
   }
   if (!s.cuts.empty()) warn_of_whole_hexahedra(s);
-  if (s.mesh.dimension() == 3)
-    for (CutStage& stage : s.cuts) stage.tet.prepare(s.mesh);
+  prepare_cutters(s);
 }
 
 // The edge has points half an element's edge apart, of which each frame makes a band.

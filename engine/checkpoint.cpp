@@ -1,5 +1,6 @@
 #include "engine/checkpoint.h"
 
+#include <array>
 #include <numeric>
 
 #include "base/check.h"
@@ -25,6 +26,7 @@ CutMemory memory_of(const CutStage& stage) {
 void remember(const CutMemory& memory, CutStage& stage) {
   static_cast<CutProgress&>(stage) = memory;
   stage.tet.set_stroke(memory.stroke);
+  stage.keepers.clear();
 }
 
 // A field of owned nodes (n_owned * 3) as one of all nodes on the root. Collective.
@@ -82,6 +84,8 @@ void restore_searches(const Checkpoint& c, Simulation& s) {
 }  // namespace
 
 Checkpoint take_checkpoint(Simulation& s) {
+  constexpr std::array<int, 1> root = {0};
+  for (CutStage& stage : s.cuts) bring_stroke(s, root, stage);
   Checkpoint c{.version = version_text(),
                .simd = simd_name(),
                .scene = echo_options(scene_options(), &s.scene),
@@ -138,6 +142,7 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
     restore_history(s.model, s.part, c.history, unedited_elements(s.mesh.n_elements()), s.state);
   if (s.sleep) restore_sleep(c.sleep, s);
   for (std::size_t k = 0; k < s.cuts.size(); ++k) remember(c.cuts[k], s.cuts[k]);
+  prepare_cutters(s);
   s.step_scale = c.step_scale;
   s.held_step = c.held_step;
   s.stable_step_before_cut = c.stable_step_before_cut;

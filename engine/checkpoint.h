@@ -53,7 +53,8 @@ struct Checkpoint {
   std::vector<RecordingMark> recordings;
 };
 
-// Of everything but the recordings; fields of nodes and history on the root alone. Collective.
+// Of everything but the recordings; fields of nodes, history and strokes on the root alone.
+// Collective.
 Checkpoint take_checkpoint(Simulation& s);
 // Puts a simulation that was built from the same scene where the checkpoint was taken. Collective;
 // throws InputError on every rank if body and checkpoint don't belong together.

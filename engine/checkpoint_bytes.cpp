@@ -2,7 +2,7 @@
 // are shuffled, and all the rest), checksum of everything before it.
 #include "base/digest.h"
 #include "base/error.h"
-#include "engine/archive.h"
+#include "engine/archive_cut.h"
 #include "engine/blob.h"
 #include "engine/checkpoint.h"
 #include "mesh/quality.h"
@@ -10,7 +10,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 11;
+constexpr std::uint32_t checkpoint_format = 12;
 
 static void visit(Saver& a, Mesh& mesh) {
   std::vector<std::byte> bytes = mesh_to_bytes(mesh);
@@ -21,53 +21,14 @@ static void visit(Loader& a, Mesh& mesh) {
   a(bytes);
   mesh = mesh_from_bytes(bytes);
 }
-static void visit(Saver& a, MeshEdit& edit) {
-  std::vector<std::byte> bytes = edit_to_bytes(edit);
-  a(bytes);
-}
-static void visit(Loader& a, MeshEdit& edit) {
-  std::vector<std::byte> bytes;
-  a(bytes);
-  edit = edit_from_bytes(bytes);
-}
-
-template <class Archive>
-static void visit(Archive& a, CutHit& h) {
-  a(h.element, h.edge, h.is_first_plus, h.X, h.N);
-}
-template <class Archive, class T>
-static void visit(Archive& a, OfElement<T>& entry) {
-  a(entry.element, entry.value);
-}
-template <class Archive>
-static void visit(Archive& a, BladePoint& p) {
-  a(p.element, p.is_inside, p.X, p.x);
-}
-template <class Archive>
-static void visit(Archive& a, CutStroke& s) {
-  a(s.hit, s.side, s.opened, s.step, s.surface_node, s.parted_node, s.fresh, s.unfinished, s.edge,
-    s.at_edge, s.ends_in_tissue, s.mean_edge, s.swept);
-}
-template <class Archive>
-static void visit(Archive& a, CutRefusal& r) {
-  a(r.X, r.reason);
-}
 template <class Archive>
 static void visit(Archive& a, CutRecord& r) {
   a(r.tool, r.start, r.end, r.n_edits, r.n_refused, r.n_moved, r.n_duplicated, r.n_opened_facets,
-    r.n_askew, r.n_pieces, r.n_elements_added, r.n_elements_dissolved, r.n_converted,
+    r.n_ranks, r.n_askew, r.n_pieces, r.n_elements_added, r.n_elements_dissolved, r.n_converted,
     r.n_kept_hexahedra, r.stable_step_ratio, r.scene_step_ratio, r.least_quality, r.mass_change,
     r.momentum_change, r.kinetic_energy_change, r.largest_deviation, r.mean_deviation, r.mean_edge,
     r.n_beside, r.n_turned, r.n_chips, r.n_pulled_back, r.refusals, r.blade_travel, r.deepest,
     r.milliseconds, r.worst_milliseconds);
-}
-template <class Archive>
-static void visit(Archive& a, Location& l) {
-  a(l.element, l.weight);
-}
-template <class Archive>
-static void visit(Archive& a, SegmentPiece& p) {
-  a(p.middle, p.length);
 }
 template <class Archive>
 static void visit(Archive& a, CutMemory& m) {

@@ -1,15 +1,14 @@
 #include "engine/cut_stage.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <optional>
 
 #include "base/box.h"
 #include "base/error.h"
+#include "base/sort_unique.h"
 #include "cutting/cut_plane_reaches.h"
 #include "engine/apply_cut.h"
-#include "engine/body_positions.h"
+#include "engine/cut_look.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "engine/mesh_measures.h"
@@ -19,9 +18,6 @@ namespace trocar {
 
 namespace {
 
-constexpr int idle_frames_to_leave =
-    3;  // a blade that touches nothing for so long has left the tissue
-constexpr double tip_spacing = 0.25;  // of a plane blade's way, mean edge lengths
 constexpr double plane_advance =
     3.0;  // mean edge lengths of the path that the paper's algorithm takes at a time
 
@@ -31,76 +27,11 @@ Box surface_box(const Simulation& s) {
   return box;
 }
 
-// Of points within a frame's reach of a blade.
-std::vector<Location> locate_beside(const Simulation& s, BodyPositions& positions,
-                                    std::span<const Vec3> points) {
-  const std::vector<std::int32_t> near = positions.elements_around(box_around(points));
-  return locate_points(s.mesh, positions.x(), points, near);
-}
-
-bool is_one_inside(const Simulation& s, BodyPositions& positions, std::span<const Vec3> points) {
-  return std::ranges::any_of(locate_beside(s, positions, points),
-                             [](const Location& location) { return location.element >= 0; });
-}
-
-// Where the blade's edge is inside the tissue; for a plane body its tip alone, which is as long as
-// the body is thick.
-void locate_edge(const Simulation& s, BodyPositions& positions, std::span<const Vec3> edge,
-                 CutStage& stage) {
-  stage.engaged.clear();
-  if (s.mesh.dimension() == 2) {
-    const Location at = locate_beside(s, positions, edge.first(1))[0];
-    if (at.element >= 0)
-      stage.engaged.push_back({.middle = at, .length = s.scene.tissue.thickness});
-    return;
-  }
-  const std::array<Vec3, 2> ends = {edge.front(), edge.back()};
-  const std::vector<std::int32_t> near = positions.elements_around(box_around(ends));
-  stage.engaged = locate_segment(s.mesh, positions.x(), ends, near);
-}
-
-// The tip of a plane blade, at its way's end and before.
-std::vector<Vec3> way_of_tip(const BladeSweep& sweep, double spacing) {
-  constexpr double most = 1000;
-  const Vec3 way = sweep.after.front() - sweep.before.front();
-  const int n = static_cast<int>(std::ceil(std::clamp(way.norm() / spacing, 1.0, most)));
-  std::vector<Vec3> points;
-  for (int k = 0; k <= n; ++k) points.push_back(sweep.after.front() - way * (1.0 * k / n));
-  return points;
-}
-
-// Whether the blade has met the tissue within the frame: beside where its edge is looked for, and
-// between the frame's begin and its end, too.
-bool has_met(const Simulation& s, BodyPositions& positions, const BladeSweep& sweep,
-             CutStage& stage) {
-  if (!stage.engaged.empty()) return true;
-  if (s.mesh.dimension() == 3) return stage.tet.meets(s.mesh, positions, sweep);
-  return is_one_inside(s, positions, way_of_tip(sweep, tip_spacing * s.edge_length));
-}
-
-void start_stroke(CutStage& stage, const Tool& tool, double time, std::int32_t dimension) {
+void start_stroke(CutStage& stage, const Tool& tool, double time) {
   stage.is_in_stroke = true;
   stage.n_idle_frames = 0;
   stage.strokes.push_back({.tool = tool.name, .start = time});
-  if (dimension == 3) stage.tet.start_stroke();
   stage.plane_tip = -1;
-}
-
-// Whether the tissue goes on beyond an end of the edge.
-bool goes_on_beside(const Simulation& s, BodyPositions& positions, const std::vector<Vec3>& edge) {
-  return is_one_inside(s, positions, std::array<Vec3, 2>{edge.front(), edge.back()});
-}
-
-// Where the jaws of scissors begin to have tissue beside them: once a closing, as a rule.
-void note_tissue_beside(Simulation& s, const CutStage& stage, double time, const BladeSweep& sweep,
-                        BodyPositions& positions) {
-  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
-  if (tool.kind != InstrumentKind::scissors || !goes_on_beside(s, positions, sweep.after)) return;
-  if (stage.strokes.back().start < time && goes_on_beside(s, positions, sweep.before)) return;
-  note_event(s, time,
-             tool.name +
-                 " leaves tissue uncut that lies beside its open jaws: a longer blade_length "
-                 "opens wider, and further closings cut further");
 }
 
 void add_figures(const CutFigures& figures, bool has_edit, CutRecord& record) {
@@ -143,14 +74,6 @@ BladeSweep sweep_of(const Tool& tool, const FrameSpan& span) {
   return {.before = cutting_edge(tool, span.t0),
           .after = cutting_edge(tool, span.t1),
           .normal = tool.path.at(0.5 * (span.t0 + span.t1)).rotation * Vec3::UnitY()};
-}
-
-void cut_volume(Simulation& s, CutStage& stage, const BladeSweep& sweep, bool is_last,
-                BodyPositions& positions) {
-  CutFigures figures;
-  const auto is_held = held_nodes(s.holds, s.fixed);
-  const MeshEdit edit = stage.tet.advance(s.mesh, positions, is_held, sweep, is_last, figures);
-  note_edit(s, edit, figures, stage.strokes.back());
 }
 
 // In reference positions.
@@ -247,14 +170,6 @@ void note_askew(Simulation& s, const CutRecord& record) {
                  " edits: it cuts all the same, but a blade would not (`forward` in its path)");
 }
 
-// True if this is the edge's last frame in the tissue.
-bool leaves_tissue(const Tool& tool, const FrameSpan& span, bool is_near, bool is_idle,
-                   CutStage& stage) {
-  stage.n_idle_frames = is_idle ? stage.n_idle_frames + 1 : 0;
-  return !is_near || stage.n_idle_frames >= idle_frames_to_leave ||
-         !is_cutting(tool, span.t1, span.t1 + (span.t1 - span.t0));
-}
-
 void add_to_record(double travel, double milliseconds, CutStage& stage) {
   CutRecord& record = stage.strokes.back();
   record.milliseconds += milliseconds;
@@ -266,43 +181,84 @@ void add_to_record(double travel, double milliseconds, CutStage& stage) {
   record.deepest = std::max(record.deepest, length);
 }
 
-// positions: none until a blade is near.
-void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, CutStage& stage,
-                     std::optional<BodyPositions>& positions) {
+BladeWay way_of_blade(const Tool& tool, const FrameSpan& span, const Box& tissue) {
+  BladeWay way{.span = span, .sweep = sweep_of(tool, span), .box = {}};
+  for (const Vec3& point : way.sweep.after) way.box.add(point);
+  for (const Vec3& point : way.sweep.before) way.box.add(point);
+  way.is_near = way.box.overlaps(tissue) && is_cutting(tool, span.t0, span.t1);
+  return way;
+}
+
+void note_beside(Simulation& s, double time, const Tool& tool) {
+  note_event(s, time,
+             tool.name +
+                 " leaves tissue uncut that lies beside its open jaws: a longer blade_length "
+                 "opens wider, and further closings cut further");
+}
+
+// What the group's cutters have made, on all ranks.
+void take_over(Simulation& s, const CutGroup& group, const BladeLook& look, CutStage& stage) {
+  stage.keepers = group.is_everyone() ? std::vector<int>() : group.ranks();
+  if (!look.edit.is_empty())
+    for (CutStage& other : s.cuts)
+      if (&other != &stage || !group.has_this_rank()) other.tet.follow(s.mesh, look.edit);
+  note_edit(s, look.edit, look.figures, stage.strokes.back());
+}
+
+// After an edit.
+void locate_edge_anew(Simulation& s, const BladeWay& blade, double& way, CutStage& stage) {
+  if (s.boxes.is_empty()) way = begin_positions(s);
+  const CutGroup group(s, ranks_around(s, blade.box, way, stage));
+  BodyPositions positions(s, group, way);
+  stage.engaged = found_by<std::vector<SegmentPiece>>(
+      group, [&] { return locate_edge(s, positions, blade.sweep.after); });
+}
+
+// Whether the blade is in a stroke then.
+bool take_up_stroke(Simulation& s, const BladeWay& blade, const BladeLook& look, CutStage& stage) {
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
-  const BladeSweep sweep = sweep_of(tool, span);
-  Box blade;
-  for (const Vec3& point : sweep.after) blade.add(point);
-  for (const Vec3& point : sweep.before) blade.add(point);
-  const bool is_near = blade.overlaps(tissue) && is_cutting(tool, span.t0, span.t1);
+  stage.engaged = look.engaged;
+  if (!stage.is_in_stroke) {
+    if (!look.has_met) return false;
+    s.stable_step_before_cut = s.watch.stable_step;
+    start_stroke(stage, tool, blade.span.t1);
+  }
+  stage.n_idle_frames = look.has_met ? 0 : stage.n_idle_frames + 1;
+  stage.strokes.back().end = blade.span.t1;
+  if (look.is_beside) note_beside(s, blade.span.t1, tool);
+  return true;
+}
+
+// way: see begin_positions; none until a blade is near.
+void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, CutStage& stage,
+                     std::optional<double>& way) {
+  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  const BladeWay blade = way_of_blade(tool, span, tissue);
   stage.engaged.clear();
-  if (!is_near && !stage.is_in_stroke) return;
+  if (!blade.is_near && !stage.is_in_stroke) return;
 
   const double start = monotonic_seconds();
-  if (!positions) positions.emplace(s);
-  locate_edge(s, *positions, sweep.after, stage);
-  const bool is_idle = !has_met(s, *positions, sweep, stage);
-  if (!stage.is_in_stroke) {
-    if (is_idle) return;
-    s.stable_step_before_cut = s.watch.stable_step;
-    start_stroke(stage, tool, span.t1, s.mesh.dimension());
-  }
-  stage.strokes.back().end = span.t1;
-  note_tissue_beside(s, stage, span.t1, sweep, *positions);
-  const bool is_last = leaves_tissue(tool, span, is_near, is_idle, stage);
+  if (!way || s.boxes.is_empty()) way = begin_positions(s);
+  const CutGroup group(s, ranks_around(s, blade.box, *way, stage));
+  bring_stroke(s, group.ranks(), stage);
+  BodyPositions positions(s, group, *way);
+  const auto look =
+      found_by<BladeLook>(group, [&] { return look_and_cut(s, blade, stage, positions); });
+  if (!take_up_stroke(s, blade, look, stage)) return;
   const std::int64_t n_edits = stage.strokes.back().n_edits;
   if (s.mesh.dimension() == 2)
-    cut_along_tip(s, stage, span, is_last);
+    cut_along_tip(s, stage, span, look.is_last);
   else
-    cut_volume(s, stage, sweep, is_last, *positions);
+    take_over(s, group, look, stage);
   CutRecord& record = stage.strokes.back();
+  record.n_ranks = std::max<std::int64_t>(record.n_ranks, std::ssize(group.ranks()));
   if (record.n_edits > n_edits) {
-    locate_edge(s, *positions, sweep.after, stage);
-    if (is_askew(tool, span, sweep)) record.n_askew += record.n_edits - n_edits;
+    locate_edge_anew(s, blade, *way, stage);
+    if (is_askew(tool, span, blade.sweep)) record.n_askew += record.n_edits - n_edits;
   }
-  add_to_record(way_of_middle(sweep).norm(), 1e3 * (monotonic_seconds() - start), stage);
+  add_to_record(way_of_middle(blade.sweep).norm(), 1e3 * (monotonic_seconds() - start), stage);
   note_body(s, record);
-  if (!is_last) return;
+  if (!look.is_last) return;
   note_askew(s, record);
   end_stroke(stage);
 }
@@ -312,10 +268,44 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
 void cut_along_blades(Simulation& s, const FrameSpan& span) {
   const PhaseScope scope(s.timers, phase_cut);
   const Box tissue = surface_box(s);
-  std::optional<BodyPositions> positions;
-  for (CutStage& stage : s.cuts) cut_along_blade(s, span, tissue, stage, positions);
+  std::optional<double> way;
+  for (CutStage& stage : s.cuts) cut_along_blade(s, span, tissue, stage, way);
   if (const std::string trouble = find_trouble(s); !trouble.empty())
     throw SimulationError("after the cut at " + number_text(span.t1) + " s: " + trouble);
+}
+
+void prepare_cutters(Simulation& s) {
+  if (s.mesh.dimension() == 2) return;
+  for (CutStage& stage : s.cuts) stage.tet.prepare(s.mesh);
+}
+
+// Of `root`, a number among these ranks.
+static void share_stroke(const Communicator& ranks, int root, CutStage& stage) {
+  CutStroke stroke = stage.tet.stroke();
+  Saver save;
+  if (ranks.rank() == root) save(stroke);
+  std::vector<std::byte> bytes = save.take();
+  ranks.broadcast(bytes, root);
+  if (ranks.rank() == root) return;
+  Loader load(bytes);
+  load(stroke);
+  stage.tet.set_stroke(std::move(stroke));
+}
+
+void bring_stroke(const Simulation& s, std::span<const int> ranks, CutStage& stage) {
+  std::vector<int>& keepers = stage.keepers;
+  if (keepers.empty() || std::ranges::includes(keepers, ranks)) return;
+  const auto is_keeper = [&](int rank) { return std::ranges::binary_search(keepers, rank); };
+  const auto first = std::ranges::find_if(ranks, is_keeper);
+  if (first == ranks.end()) {
+    share_stroke(*s.communicator, keepers.front(), stage);
+    keepers.clear();
+    return;
+  }
+  if (std::ranges::binary_search(ranks, s.communicator->rank()))
+    share_stroke(s.communicator->group(ranks), static_cast<int>(first - ranks.begin()), stage);
+  keepers.insert(keepers.end(), ranks.begin(), ranks.end());
+  sort_unique(keepers);
 }
 
 void prepare_drag(Simulation& s, const FrameSpan& span) {

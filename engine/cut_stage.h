@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "cutting/cut_plane.h"
@@ -21,6 +22,7 @@ struct CutRecord {
   std::int64_t n_edits = 0, n_refused = 0, n_beside = 0;  // n_beside: see CutFigures
   std::vector<CutRefusal> refusals;
   std::int64_t n_moved = 0, n_duplicated = 0, n_opened_facets = 0;
+  std::int64_t n_ranks = 0;   // that cut together, at most
   std::int64_t n_askew = 0;   // edits of an edge that did not face its way
   std::int64_t n_pieces = 1;  // of the whole body after the stroke, or so far
   std::int64_t n_elements_added = 0, n_elements_dissolved = 0;
@@ -52,12 +54,22 @@ struct CutProgress {
 
 struct CutStage : CutProgress {
   std::int32_t tool = 0;
-  TetCutter tet;
+  TetCutter tet;             // its stroke: on the keepers, the ranks that cut last
+  std::vector<int> keepers;  // ascending; none: all ranks
+  // How far around the blade the owners of nodes cut with it, mean longest sides of elements: what
+  // a cut looks at beyond that has to be asked of all ranks.
+  double margin = 2;
   CutPlaneOptions plane;
 };
 
 // Cuts along all blades' motion in the frame and applies the edits. Collective.
 void cut_along_blades(Simulation& s, const FrameSpan& span);
+
+// All cutters' looks at the whole mesh, one each: from here on they follow its edits.
+void prepare_cutters(Simulation& s);
+
+// From here on the stage's cutter has its stroke on these ranks (ascending). Collective.
+void bring_stroke(const Simulation& s, std::span<const int> ranks, CutStage& stage);
 
 // Takes down which nodes engaged edges drag along in the frame.
 void prepare_drag(Simulation& s, const FrameSpan& span);

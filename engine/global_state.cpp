@@ -44,7 +44,8 @@ void forget_state(std::size_t n_nodes, GlobalState& global) {
   global.is_known.resize(n_nodes, 0);
 }
 
-std::vector<double> motion_at(const Simulation& s, std::span<const std::int32_t> nodes) {
+std::vector<double> motion_at(const Simulation& s, std::span<const std::int32_t> nodes,
+                              const Communicator& ranks) {
   std::vector<double> mine;
   std::vector<std::size_t> next(static_cast<std::size_t>(s.communicator->size()) + 1, 0);
   const auto owner = [&](std::int32_t i) {
@@ -57,7 +58,8 @@ std::vector<double> motion_at(const Simulation& s, std::span<const std::int32_t>
     mine.insert(mine.end(), &s.state.u[local], &s.state.u[local] + 3);
     mine.insert(mine.end(), &s.state.v[local], &s.state.v[local] + 3);
   }
-  const std::vector<double> by_owner = s.communicator->all_gather(mine);
+  const std::vector<double> by_owner =
+      ranks.all_gather(mine);  // in their order, which is the world's
   std::partial_sum(next.begin(), next.end(), next.begin());
   std::vector<double> motion;
   motion.reserve(by_owner.size());
@@ -69,7 +71,8 @@ std::vector<double> motion_at(const Simulation& s, std::span<const std::int32_t>
   return motion;
 }
 
-void find_nodes(const Simulation& s, std::span<const std::int32_t> nodes, GlobalState& global) {
+void find_nodes(const Simulation& s, std::span<const std::int32_t> nodes, const Communicator& ranks,
+                GlobalState& global) {
   const std::size_t n_known = global.known.size();
   for (const std::int32_t i : nodes) {
     if (std::exchange(global.is_known[static_cast<std::size_t>(i)], 1) == 0)
@@ -77,7 +80,7 @@ void find_nodes(const Simulation& s, std::span<const std::int32_t> nodes, Global
   }
   const std::span asked = std::span(global.known).subspan(n_known);
   if (asked.empty()) return;
-  const std::vector<double> motion = motion_at(s, asked);
+  const std::vector<double> motion = motion_at(s, asked, ranks);
   for (std::size_t k = 0; k < asked.size(); ++k)
     set_node(asked[k], s.mesh.X[static_cast<std::size_t>(asked[k])], &motion[6 * k],
              &motion[6 * k + 3], global);

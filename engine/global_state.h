@@ -1,4 +1,4 @@
-// Displacements, velocities and positions of nodes on every rank, as far as they were asked for:
+// Displacements, velocities and positions of nodes on this rank, as far as it asked for them:
 // what cuts look at.
 #pragma once
 
@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/communicator.h"
 #include "base/vec.h"
 
 namespace trocar {
@@ -23,15 +24,17 @@ struct GlobalState {
 GlobalState gather_state(Simulation& s);
 // Of no node, in the memory that it has.
 void forget_state(std::size_t n_nodes, GlobalState& global);
-// From here on it has these nodes, which are the same on all ranks; those that it has stay as they
-// are. Collective.
-void find_nodes(const Simulation& s, std::span<const std::int32_t> nodes, GlobalState& global);
+// From here on it has these nodes; those that it has stay as they are. Nodes and what it has are
+// the same on all of these ranks, which own all that are new. Collective among them.
+void find_nodes(const Simulation& s, std::span<const std::int32_t> nodes, const Communicator& ranks,
+                GlobalState& global);
 void find_all_nodes(Simulation& s, GlobalState& global);
 // This rank's part of it, of all nodes; time, step and last dt stay.
 void scatter_state(Simulation& s, const GlobalState& global);
 
-// (nodes * 6) displacements and velocities, from the ranks that own the nodes, which are the same
-// on all ranks. Collective.
-std::vector<double> motion_at(const Simulation& s, std::span<const std::int32_t> nodes);
+// (nodes * 6) displacements and velocities, on these ranks, which own all the nodes. Collective
+// among them.
+std::vector<double> motion_at(const Simulation& s, std::span<const std::int32_t> nodes,
+                              const Communicator& ranks);
 
 }  // namespace trocar

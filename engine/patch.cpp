@@ -84,7 +84,7 @@ State state_at_rest(const Simulation& s, const Model& model) {
 }
 
 void set_state(const Simulation& s, const PatchState& state, Patch& patch) {
-  find_nodes(s, patch.sub.node, state.global);
+  find_nodes(s, patch.sub.node, *s.communicator, state.global);
   for (std::size_t i = 0; i < patch.sub.node.size(); ++i) {
     const std::size_t from = 3 * static_cast<std::size_t>(patch.sub.node[i]);
     std::copy_n(&state.global.u[from], 3, &patch.state.u[3 * i]);
@@ -98,7 +98,7 @@ void set_state(const Simulation& s, const PatchState& state, Patch& patch) {
 
 // Displacements of the present. Collective.
 void set_present(const Simulation& s, Patch& patch) {
-  const std::vector<double> motion = motion_at(s, patch.sub.node);
+  const std::vector<double> motion = motion_at(s, patch.sub.node, *s.communicator);
   for (std::size_t i = 0; i < patch.sub.node.size(); ++i)
     std::copy_n(&motion[6 * i], 3, &patch.state.u[3 * i]);
   average_volume_change(patch.model, patch.state, patch.scratch);

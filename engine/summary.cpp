@@ -78,6 +78,7 @@ Json stroke_json(const CutRecord& c) {
                  {"nodes_duplicated", c.n_duplicated},
                  {"facets_opened", c.n_opened_facets},
                  {"pieces", c.n_pieces},
+                 {"ranks", c.n_ranks},
                  {"elements_added", c.n_elements_added},
                  {"elements_dissolved", c.n_elements_dissolved},
                  {"hexahedra_converted", c.n_converted},

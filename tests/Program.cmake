@@ -40,3 +40,8 @@ add_executable(slow_rank invariance/slow_rank.cpp)
 target_link_libraries(slow_rank PRIVATE base test_options)
 add_test(NAME invariance/a_rank_exchanges_while_the_other_is_busy COMMAND ${TROCAR_ON_RANKS} 2 $<TARGET_FILE:slow_rank>)
 set_tests_properties(invariance/a_rank_exchanges_while_the_other_is_busy PROPERTIES TIMEOUT 60)
+
+add_executable(cut_on_ranks invariance/cut_on_ranks.cpp)
+target_link_libraries(cut_on_ranks PRIVATE test_support_engine test_options GTest::gtest)
+add_test(NAME invariance/ranks_around_the_blade_cut COMMAND ${TROCAR_ON_RANKS} 4 $<TARGET_FILE:cut_on_ranks>)
+set_tests_properties(invariance/ranks_around_the_blade_cut PROPERTIES ${many_ranks_properties})

@@ -93,6 +93,11 @@ TEST_P(OneRank, exchanges_with_itself_in_order_and_again) {
   ranks().finish_exchange();
 }
 
+TEST_P(OneRank, is_the_group_of_itself) {
+  const int itself[] = {0};
+  EXPECT_EQ(&ranks().group(itself), &ranks());
+}
+
 INSTANTIATE_TEST_SUITE_P(, OneRank, testing::Bool(), [](const auto& test) {
   return std::string(test.param ? "with_mpi" : "without_mpi");
 });

@@ -153,6 +153,34 @@ TEST(CutHex, another_cutter_with_the_stroke_goes_on_to_the_same_bits) {
   EXPECT_GT(n_edits, 3);
 }
 
+// Of tetrahedra and of hexahedra. Every second edit is made by the other one.
+TEST(CutHex, a_cutter_that_follows_edits_makes_the_next_without_a_look_at_the_whole_mesh) {
+  for (const BoxElements elements : {BoxElements::tet4_five, BoxElements::hex8}) {
+    const Blade blade = plane_blade({0.02, 0.05, 0}, tilted, 1);
+    Body body(make_box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, {6, 6, 6}, elements));
+    Body alone = body;
+    TetCutter cutters[] = {TetCutter(CutTetOptions{}), TetCutter(CutTetOptions{})},
+              cutter_alone{CutTetOptions{}};
+    for (TetCutter& cutter : cutters) cutter.prepare(body.mesh);
+    Ledger ledger, ledger_alone;
+    for (int k = 0; k < 25; ++k) {
+      const BladeSweep sweep{blade(k / 25.0), blade((k + 1) / 25.0), tilted};
+      TetCutter &first = cutters[ledger.n_edits % 2], &second = cutters[1 - ledger.n_edits % 2];
+      EXPECT_TRUE(first.is_prepared(body.mesh)) << k;
+      CutFigures figures;
+      KnownPositions positions(body.mesh, body.x);
+      const CutterEdit edit =
+          first.advance(body.mesh, positions, body.is_held, sweep, k == 24, figures);
+      second.follow(body.mesh, edit);
+      second.set_stroke(first.stroke());
+      apply(edit, figures, body, ledger);
+      EXPECT_TRUE(has_same_bits(edit, advance(cutter_alone, alone, sweep, k == 24, ledger_alone)));
+      EXPECT_TRUE(second.is_prepared(body.mesh)) << k;
+    }
+    EXPECT_GT(ledger.n_edits, 3);
+  }
+}
+
 TEST(CutHex, cuts_that_cross_leave_quarters) {
   Body body(hex_block(0));
   const Vec3 other = tilted.unitOrthogonal();

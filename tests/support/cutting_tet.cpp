@@ -50,11 +50,11 @@ void apply(const MeshEdit& edit, const CutFigures& figures, Body& body, Ledger& 
   total.mean_edge = figures.mean_edge;
 }
 
-MeshEdit advance(TetCutter& cutter, Body& body, const BladeSweep& sweep, bool is_last,
-                 Ledger& ledger) {
+CutterEdit advance(TetCutter& cutter, Body& body, const BladeSweep& sweep, bool is_last,
+                   Ledger& ledger) {
   CutFigures figures;
   KnownPositions positions(body.mesh, body.x);
-  MeshEdit edit = cutter.advance(body.mesh, positions, body.is_held, sweep, is_last, figures);
+  CutterEdit edit = cutter.advance(body.mesh, positions, body.is_held, sweep, is_last, figures);
   apply(edit, figures, body, ledger);
   return edit;
 }

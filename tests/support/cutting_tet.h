@@ -52,8 +52,8 @@ struct Ledger {
 // An edit, applied to mesh and positions as engine does it.
 void apply(const MeshEdit& edit, const CutFigures& figures, Body& body, Ledger& ledger);
 
-MeshEdit advance(TetCutter& cutter, Body& body, const BladeSweep& sweep, bool is_last,
-                 Ledger& ledger);
+CutterEdit advance(TetCutter& cutter, Body& body, const BladeSweep& sweep, bool is_last,
+                   Ledger& ledger);
 
 // The edge of a blade at time t in [0, 1], present configuration.
 using Blade = std::function<std::vector<Vec3>(double t)>;

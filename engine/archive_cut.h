@@ -1,0 +1,62 @@
+// What cuts are made of, for archives: in checkpoints, and on its way between ranks.
+#pragma once
+
+#include "cutting/cut_figures.h"
+#include "cutting/cut_stroke.h"
+#include "cutting/cut_tet.h"
+#include "engine/archive.h"
+#include "engine/locate.h"
+
+namespace trocar {
+
+inline void visit(Saver& a, MeshEdit& edit) {
+  std::vector<std::byte> bytes = edit_to_bytes(edit);
+  a(bytes);
+}
+inline void visit(Loader& a, MeshEdit& edit) {
+  std::vector<std::byte> bytes;
+  a(bytes);
+  edit = edit_from_bytes(bytes);
+}
+template <class Archive>
+void visit(Archive& a, CutterEdit& edit) {
+  visit(a, static_cast<MeshEdit&>(edit));
+  visit(a, edit.tets);
+}
+template <class Archive>
+void visit(Archive& a, CutHit& h) {
+  a(h.element, h.edge, h.is_first_plus, h.X, h.N);
+}
+template <class Archive, class T>
+void visit(Archive& a, OfElement<T>& entry) {
+  a(entry.element, entry.value);
+}
+template <class Archive>
+void visit(Archive& a, BladePoint& p) {
+  a(p.element, p.is_inside, p.X, p.x);
+}
+template <class Archive>
+void visit(Archive& a, CutStroke& s) {
+  a(s.hit, s.side, s.opened, s.step, s.surface_node, s.parted_node, s.fresh, s.unfinished, s.edge,
+    s.at_edge, s.ends_in_tissue, s.mean_edge, s.swept);
+}
+template <class Archive>
+void visit(Archive& a, CutRefusal& r) {
+  a(r.X, r.reason);
+}
+template <class Archive>
+void visit(Archive& a, CutFigures& f) {
+  a(f.n_opened_facets, f.n_moved, f.n_duplicated, f.n_refused, f.least_quality, f.largest_deviation,
+    f.mean_deviation, f.n_beside, f.n_turned, f.n_chips, f.n_pulled_back, f.n_inverted,
+    f.n_converted, f.n_kept_hexahedra, f.refusals, f.mean_edge);
+}
+template <class Archive>
+void visit(Archive& a, Location& l) {
+  a(l.element, l.weight);
+}
+template <class Archive>
+void visit(Archive& a, SegmentPiece& p) {
+  a(p.middle, p.length);
+}
+
+}  // namespace trocar

@@ -1,0 +1,77 @@
+// The ranks that work on a cut: the owners of what is around the blade. They tell each other where
+// nodes are and decide alike. The others wait, tell of nodes of theirs if the cut looks farther
+// than was thought, and take over what comes out.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "engine/archive.h"
+#include "engine/simulation.h"
+
+namespace trocar {
+
+class CutGroup {
+ public:
+  // ranks: ascending, one at least, the same on all ranks.
+  CutGroup(Simulation& s, std::vector<int> ranks);
+
+  const std::vector<int>& ranks() const { return ranks_; }
+  bool is_everyone() const;
+  bool has_this_rank() const { return members_ != nullptr; }
+
+  // From here on s.cut_state has these nodes on the group's ranks, all of which call this and no
+  // others.
+  void find(std::span<const std::int32_t> nodes) const;
+
+  // How the work ended: all of the group tell it and all others hear it, who until then answer what
+  // the group asks for, and throw its error if it has one. No rank knows of any node from then on.
+  struct Outcome {
+    enum class Kind : std::uint8_t { done, input_error, simulation_error };
+    Kind kind = Kind::done;
+    std::string trouble;
+    std::vector<std::byte> found;
+  };
+  void tell(Outcome outcome) const;
+  std::vector<std::byte> hear() const;
+
+ private:
+  void say(std::vector<std::byte>& bytes) const;
+
+  Simulation& s_;
+  std::vector<int> ranks_;
+  const Communicator* members_ = nullptr;  // on these alone
+};
+
+// What `work` finds on the group's ranks, on all ranks, which throw its errors alike. Collective.
+template <class Found, class Work>
+Found found_by(const CutGroup& group, const Work& work) {
+  using Kind = CutGroup::Outcome::Kind;
+  if (group.is_everyone()) return work();
+  Found found;
+  if (!group.has_this_rank()) {
+    const std::vector<std::byte> bytes = group.hear();
+    Loader load(bytes);
+    load(found);
+    return found;
+  }
+  try {
+    found = work();
+  } catch (const InputError& trouble) {
+    group.tell({.kind = Kind::input_error, .trouble = trouble.what(), .found = {}});
+    throw;
+  } catch (const SimulationError& trouble) {
+    group.tell({.kind = Kind::simulation_error, .trouble = trouble.what(), .found = {}});
+    throw;
+  }
+  Saver save;
+  save(found);
+  group.tell({.found = save.take()});
+  return found;
+}
+
+}  // namespace trocar

@@ -1,0 +1,114 @@
+#include "engine/cut_look.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace trocar {
+
+namespace {
+
+constexpr int idle_frames_to_leave =
+    3;  // a blade that touches nothing for so long has left the tissue
+constexpr double tip_spacing = 0.25;  // of a plane blade's way, mean edge lengths
+
+// Of points within a frame's reach of a blade.
+std::vector<Location> locate_beside(const Simulation& s, BodyPositions& positions,
+                                    std::span<const Vec3> points) {
+  const std::vector<std::int32_t> near = positions.elements_around(box_around(points));
+  return locate_points(s.mesh, positions.x(), points, near);
+}
+
+bool is_one_inside(const Simulation& s, BodyPositions& positions, std::span<const Vec3> points) {
+  return std::ranges::any_of(locate_beside(s, positions, points),
+                             [](const Location& location) { return location.element >= 0; });
+}
+
+// The tip of a plane blade, at its way's end and before.
+std::vector<Vec3> way_of_tip(const BladeSweep& sweep, double spacing) {
+  constexpr double most = 1000;
+  const Vec3 way = sweep.after.front() - sweep.before.front();
+  const int n = static_cast<int>(std::ceil(std::clamp(way.norm() / spacing, 1.0, most)));
+  std::vector<Vec3> points;
+  for (int k = 0; k <= n; ++k) points.push_back(sweep.after.front() - way * (1.0 * k / n));
+  return points;
+}
+
+// Whether the blade has met tissue beside where its edge is looked for, and between the frame's
+// begin and its end.
+bool has_passed(const Simulation& s, BodyPositions& positions, const BladeSweep& sweep,
+                CutStage& stage) {
+  if (s.mesh.dimension() == 3) return stage.tet.meets(s.mesh, positions, sweep);
+  return is_one_inside(s, positions, way_of_tip(sweep, tip_spacing * s.edge_length));
+}
+
+// Whether the tissue goes on beyond an end of the edge.
+bool goes_on_beside(const Simulation& s, BodyPositions& positions, const std::vector<Vec3>& edge) {
+  return is_one_inside(s, positions, std::array<Vec3, 2>{edge.front(), edge.back()});
+}
+
+// Once a closing, as a rule.
+bool begins_beside(const Simulation& s, const CutStage& stage, const BladeSweep& sweep,
+                   BodyPositions& positions) {
+  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  return tool.kind == InstrumentKind::scissors && goes_on_beside(s, positions, sweep.after) &&
+         !(stage.is_in_stroke && goes_on_beside(s, positions, sweep.before));
+}
+
+// True if this is the edge's last frame in the tissue.
+bool leaves_tissue(const Simulation& s, const CutStage& stage, const BladeWay& way, bool has_met) {
+  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  const FrameSpan& span = way.span;
+  return !way.is_near || (!has_met && stage.n_idle_frames + 1 >= idle_frames_to_leave) ||
+         !is_cutting(tool, span.t1, span.t1 + (span.t1 - span.t0));
+}
+
+}  // namespace
+
+std::vector<SegmentPiece> locate_edge(const Simulation& s, BodyPositions& positions,
+                                      std::span<const Vec3> edge) {
+  if (s.mesh.dimension() == 2) {
+    const Location at = locate_beside(s, positions, edge.first(1))[0];
+    if (at.element < 0) return {};
+    return {{.middle = at, .length = s.scene.tissue.thickness}};
+  }
+  const std::array<Vec3, 2> ends = {edge.front(), edge.back()};
+  const std::vector<std::int32_t> near = positions.elements_around(box_around(ends));
+  return locate_segment(s.mesh, positions.x(), ends, near);
+}
+
+BladeLook look_and_cut(const Simulation& s, const BladeWay& way, CutStage& stage,
+                       BodyPositions& positions) {
+  const BladeSweep& sweep = way.sweep;
+  BladeLook look{.engaged = locate_edge(s, positions, sweep.after)};
+  look.has_met = !look.engaged.empty() || has_passed(s, positions, sweep, stage);
+  if (!stage.is_in_stroke && !look.has_met) return look;
+  look.is_beside = begins_beside(s, stage, sweep, positions);
+  look.is_last = leaves_tissue(s, stage, way, look.has_met);
+  if (s.mesh.dimension() == 2) return look;
+  if (!stage.is_in_stroke) stage.tet.start_stroke();
+  look.edit = stage.tet.advance(s.mesh, positions, held_nodes(s.holds, s.fixed), sweep,
+                                look.is_last, look.figures);
+  return look;
+}
+
+std::vector<int> ranks_around(const Simulation& s, const Box& blade, double way,
+                              const CutStage& stage) {
+  const bool are_all = s.mesh.dimension() == 2 || s.communicator->size() == 1;
+  std::vector<std::uint8_t> is_around(static_cast<std::size_t>(s.communicator->size()),
+                                      are_all ? 1 : 0);
+  const auto mark = [&](int rank) { is_around[static_cast<std::size_t>(rank)] = 1; };
+  if (!are_all)
+    for (const std::int32_t e : elements_near(blade, way + stage.margin * s.boxes.size, s.boxes))
+      for (const std::int32_t i : s.mesh.corners(e))
+        mark(s.node_owner[static_cast<std::size_t>(i)]);
+  if (std::ranges::count(is_around, 0) == std::ssize(is_around))
+    mark(stage.keepers.empty() ? 0 : stage.keepers.front());
+  std::vector<int> ranks(is_around.size());
+  std::iota(ranks.begin(), ranks.end(), 0);
+  std::erase_if(ranks, [&](int r) { return is_around[static_cast<std::size_t>(r)] == 0; });
+  return ranks;
+}
+
+}  // namespace trocar

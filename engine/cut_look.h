@@ -1,0 +1,45 @@
+// What a blade meets within a frame and, of a body in space, the edit that it makes: what the ranks
+// around it find for all others.
+#pragma once
+
+#include "engine/archive_cut.h"
+#include "engine/body_positions.h"
+
+namespace trocar {
+
+// A blade's way within a frame.
+struct BladeWay {
+  FrameSpan span;
+  BladeSweep sweep;
+  Box box;               // around the sweep
+  bool is_near = false;  // to the tissue, and cutting
+};
+
+struct BladeLook {
+  std::vector<SegmentPiece> engaged;
+  bool has_met = false;    // the tissue, or some of it since the frame's begin
+  bool is_beside = false;  // tissue begins to lie beside open jaws
+  bool is_last = false;    // frame of the stroke
+  CutterEdit edit;
+  CutFigures figures;
+};
+template <class Archive>
+void visit(Archive& a, BladeLook& l) {
+  a(l.engaged, l.has_met, l.is_beside, l.is_last, l.edit, l.figures);
+}
+
+// Where the blade's edge is inside the tissue; for a plane body its tip alone, which is as long as
+// the body is thick.
+std::vector<SegmentPiece> locate_edge(const Simulation& s, BodyPositions& positions,
+                                      std::span<const Vec3> edge);
+
+// Begins a stroke of stage.tet where there is none and the blade has met the tissue, and takes it
+// on by the blade's way.
+BladeLook look_and_cut(const Simulation& s, const BladeWay& way, CutStage& stage,
+                       BodyPositions& positions);
+
+// The ranks that own nodes around a blade, or one of those that cut before; in the plane all.
+std::vector<int> ranks_around(const Simulation& s, const Box& blade, double way,
+                              const CutStage& stage);
+
+}  // namespace trocar
