@@ -46,11 +46,10 @@ void detect_tissue(ContactStage& stage, const SurfaceView& view, double time, do
 void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds) {
   stage.set = {};
   if (stage.contacts.empty() && stage.tissue.empty()) return;
-  std::vector<std::uint8_t> is_held(body.mass.size(), 0);
-  for (std::size_t i = 0; i < is_held.size(); ++i) is_held[i] = (body.fixed[i] & 7) == 7;
-  for (const Hold& hold : holds.holds) is_held[static_cast<std::size_t>(hold.node)] = 1;
+  std::vector<FixedMask> held(body.fixed.begin(), body.fixed.end());
+  for (const Hold& hold : holds.holds) held[static_cast<std::size_t>(hold.node)] = all_components;
   stage.set = prepare_contacts({stage.contacts, stage.tissue}, body.node_owner, body.part,
-                               body.rank, body.mass, is_held);
+                               body.rank, body.mass, held);
   stage.u_next.resize(3 * body.part.node_global.size());
   stage.exchange.emplace(stage.set.halo, 9);
   stage.positions.resize(9 * stage.set.node.size());

@@ -216,7 +216,7 @@ TEST(PrepareFrameContacts, starts_each_frame_without_reactions_and_moves_nothing
                          c.holds);
   const ContactSet& set = c.stage.set;
   ASSERT_EQ(set.items.size(), c.stage.contacts.size());
-  const std::array<double, 3> expected = {0, 1e3, 0};
+  const std::array<Vec3, 3> expected = {Vec3::Zero(), Vec3(0, 0, 1e3), Vec3::Zero()};
   for (std::size_t a = 0; a < 3; ++a)
     EXPECT_EQ(set.inverse_mass[static_cast<std::size_t>(set.items[0].place[a])], expected[a]);
   for (const ContactSet::Item& item : set.items) EXPECT_EQ(item.reaction_sum, Vec3(Vec3::Zero()));
