@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "mesh/generate.h"
 
@@ -120,16 +121,28 @@ Case lying_grasper() {
                                                      .forward = Vec3(1, 0, 0)}));
 }
 
-TEST(ContactStage, closed_jaws_do_not_touch_and_open_ones_do) {
+std::set<std::int32_t> pieces_of(const std::vector<Contact>& contacts) {
+  std::set<std::int32_t> pieces;
+  for (const Contact& contact : contacts) pieces.insert(contact.piece);
+  return pieces;
+}
+
+TEST(ContactStage, closed_jaws_touch_in_place_of_open_ones) {
   Case c = lying_grasper();
-  const std::vector<Contact> open = c.detect();
-  EXPECT_FALSE(std::all_of(open.begin(), open.end(), is_shaft));
-  EXPECT_TRUE(std::any_of(open.begin(), open.end(), is_shaft));
+  EXPECT_EQ(pieces_of(c.detect()), (std::set<std::int32_t>{0, 1, 2}));
   c.holds.is_open[0] = 0;
-  const std::vector<Contact>& closed = c.detect();
-  EXPECT_TRUE(std::all_of(closed.begin(), closed.end(), is_shaft));
-  EXPECT_EQ(static_cast<std::ptrdiff_t>(closed.size()),
-            std::count_if(open.begin(), open.end(), is_shaft));
+  EXPECT_EQ(pieces_of(c.detect()), (std::set<std::int32_t>{0, 3}));
+}
+
+// As deep as their axis lies.
+TEST(ContactStage, tissue_between_closed_jaws_does_not_touch_them) {
+  Case c = lying_grasper();
+  c.holds.is_open[0] = 0;
+  ASSERT_EQ(pieces_of(c.detect()).count(3), 1U);
+  SceneInstrument lower{.kind = InstrumentKind::grasper, .name = "tool"};
+  lower.path = {{.position = Vec3(0.003, -0.03, 0), .direction = Vec3(0, -1, 0)}};
+  c.tools[0] = make_tool(lower, {}, 1e-3);
+  EXPECT_EQ(pieces_of(c.detect(0)).count(3), 0U);
 }
 
 TEST(ContactStage, a_shaft_does_not_touch_what_its_closed_jaws_hold) {
