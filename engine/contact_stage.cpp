@@ -30,7 +30,7 @@ void detect_contacts(ContactStage& stage, std::span<const Tool> tools, const Hol
   std::vector<double> margins;
   for (const Tool& tool : tools) {
     poses.push_back(tool.path.at(span.t0));
-    margins.push_back(tool.path.travel(span.t0, span.t1, 0.02) + reach_extra);
+    margins.push_back(tool.path.travel(span.t0, span.t1, tool.box) + reach_extra);
   }
   stage.detector.detect(view.x, poses, margins, stage.contacts);
   std::erase_if(stage.contacts, [&](const Contact& contact) {

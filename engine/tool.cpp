@@ -138,6 +138,14 @@ void use_mesh(Tool& tool, const TriangleMesh& mesh) {
   tool.own_mesh = mesh;
 }
 
+Box box_round(const ToolShape& shape) {
+  Box box;
+  for (const ConvexPiece& piece : shape.pieces)
+    for (const Vec3& point : piece.points)
+      for (const double side : {-piece.radius, piece.radius}) box.add(point + Vec3::Constant(side));
+  return box;
+}
+
 }  // namespace
 
 Tool make_tool(const SceneInstrument& s, const TriangleMesh& mesh, double edge_spacing) {
@@ -147,6 +155,7 @@ Tool make_tool(const SceneInstrument& s, const TriangleMesh& mesh, double edge_s
   if (s.kind == InstrumentKind::grasper) make_grasper(tool, s);
   if (s.kind == InstrumentKind::scissors) make_scissors(tool, s, edge_spacing);
   if (!mesh.X.empty()) use_mesh(tool, mesh);
+  tool.box = box_round(tool.shape);
   return tool;
 }
 

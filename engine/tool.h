@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/box.h"
 #include "collision/tool_shape.h"
 #include "engine/scene.h"
 #include "engine/tool_path.h"
@@ -26,6 +27,7 @@ struct Tool {
   ToolPath path;
   std::vector<InstrumentKey> keys;
   ToolShape shape;
+  Box box;  // round the shape, in the tool's frame [m]
   std::vector<ToolPart> parts;
   TriangleMesh own_mesh;  // the user's surface, empty where the shape is built in
   // Scalpel: the straight cutting edge, from the tip up, in the tool's frame [m]. Scissors: the

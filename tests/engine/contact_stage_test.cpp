@@ -68,6 +68,20 @@ TEST(ContactStage, looks_as_far_as_the_tool_travels_in_the_frame) {
   EXPECT_FALSE(c.detect().empty());
 }
 
+// The end of a shaft of 150 mm that turns about its tip, 140 mm beside the middle of the slab.
+TEST(ContactStage, looks_as_far_as_the_end_of_the_shaft_travels) {
+  SceneInstrument turning{.name = "p", .length = 0.15};
+  const Vec3 tip(-0.14, 0.002, 0.01);
+  turning.path = {{.time = 0, .position = tip, .direction = Vec3(-1, 0, 0)},
+                  {.time = 0.033, .position = tip, .direction = Vec3(-1, 0, 0.1)}};
+  for (InstrumentKey& key : turning.path) key.forward = Vec3(0, 1, 0);
+  Case c(make_tool(turning, {}, 1e-3));
+  EXPECT_FALSE(c.detect().empty());
+  turning.path.pop_back();
+  c.tools[0] = make_tool(turning, {}, 1e-3);
+  EXPECT_TRUE(c.detect().empty());
+}
+
 // Contacts of the slab as it lies, looked at anew.
 std::vector<Contact> touching(Case& c) {
   std::vector<Contact> found;

@@ -88,6 +88,16 @@ TEST(Tool, closed_jaws_lie_between_the_open_ones) {
   }
 }
 
+TEST(Tool, the_box_round_a_tool_holds_its_thickened_pieces) {
+  for (const InstrumentKind kind : {InstrumentKind::probe, InstrumentKind::grasper}) {
+    const Tool tool = make_tool(instrument(kind), {}, 1e-3);
+    double low = 0;
+    for (const ConvexPiece& piece : tool.shape.pieces) low = std::min(low, lowest(piece, 0));
+    EXPECT_EQ(tool.box.low.x(), low);
+    EXPECT_GE(tool.box.high.z(), tool.shape.pieces[0].points[1].z());
+  }
+}
+
 TEST(Tool, a_surface_of_the_users_own_replaces_the_working_piece_and_the_picture) {
   const TriangleMesh own = make_box_surface(Vec3(-1e-3, -1e-3, 0), Vec3(1e-3, 1e-3, 5e-3));
   const Tool tool = make_tool(instrument(InstrumentKind::probe), own, 1e-3);
