@@ -58,6 +58,18 @@ bool will_act(std::span<const Tool> tools, double t0, double t1) {
   return false;
 }
 
+double largest_travel(const Holds& holds, std::span<const Tool> tools, double t0, double t1) {
+  double most = 0;
+  for (const DisplacementPath& path : holds.paths) most = std::max(most, path.travel(t0, t1));
+  for (std::size_t k = 0; k < tools.size(); ++k) {
+    const auto is_its = [&](const Hold& hold) { return hold.tool == static_cast<int>(k); };
+    if (std::ranges::none_of(holds.holds, is_its)) continue;
+    const Vec3 grip = Vec3::Constant(tools[k].grip_radius);
+    most = std::max(most, tools[k].path.travel(t0, t1, {-grip, grip}));
+  }
+  return most;
+}
+
 std::vector<GraspAct> act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,
                                    std::span<const Vec3> x, std::span<const std::uint8_t> fixed) {
   std::vector<GraspAct> acts;

@@ -112,4 +112,12 @@ Vec3 DisplacementPath::at(double time) const {
   return interpolate(time_, position_, slope_, time);
 }
 
+double DisplacementPath::travel(double t0, double t1) const {
+  if (time_.empty()) return 0;
+  double way = 0;
+  for (int k = 1; k <= samples; ++k)
+    way += (at(t0 + (t1 - t0) * k / samples) - at(t0 + (t1 - t0) * (k - 1) / samples)).norm();
+  return way;
+}
+
 }  // namespace trocar

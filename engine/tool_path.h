@@ -31,6 +31,7 @@ class DisplacementPath {
  public:
   explicit DisplacementPath(const std::vector<SupportKey>& keys);
   Vec3 at(double time) const;
+  double travel(double t0, double t1) const;  // as of a tool's point
 
  private:
   std::vector<double> time_;

@@ -147,6 +147,19 @@ TEST(HeldNodes, are_those_supported_in_x_or_y_and_the_held) {
     EXPECT_EQ(is_held[i] != 0, std::count(expected.begin(), expected.end(), i) > 0) << i;
 }
 
+TEST(LargestTravel, is_of_supports_and_of_graspers_that_hold) {
+  Case c;
+  EXPECT_EQ(largest_travel(c.holds, c.tools, 0, 1), 0);
+  c.act(0.9, 1);
+  // From 20 mm to 30 mm without a turn.
+  EXPECT_NEAR(largest_travel(c.holds, c.tools, 0, 1), 0.01, 1e-16);
+  EXPECT_GT(largest_travel(c.holds, c.tools, 1, 2),
+            (Vec3(0.05, 0.06, 0.02) - Vec3(0.03, 0.02, 0)).norm());
+  const std::vector<SupportKey> keys = {{.time = 0}, {.time = 1, .displacement = Vec3(0, 0.05, 0)}};
+  c.holds.paths = {DisplacementPath({}), DisplacementPath(keys)};
+  EXPECT_NEAR(largest_travel(c.holds, c.tools, 0, 1), 0.05, 1e-16);
+}
+
 // All nodes belong to this rank.
 Part whole_part(const Mesh& mesh) {
   const std::vector<std::int32_t> owner(mesh.X.size(), 0);
