@@ -32,16 +32,18 @@ GraspAct grasp(Holds& holds, const Tool& tool, std::int32_t number, const Pose& 
 }
 
 // A plane body is fixed across its plane everywhere: that holds nothing.
-std::uint8_t holds_in_plane(FixedMask fixed) {
-  constexpr FixedMask in_plane = 3;
-  return (fixed & in_plane) != 0 ? 1 : 0;
+FixedMask holding_components(std::span<const FixedMask> fixed) {
+  unsigned everywhere = all_components;
+  for (const FixedMask mask : fixed) everywhere &= mask;
+  return everywhere == all_components ? all_components : all_components & ~everywhere;
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> held_nodes(const Holds& holds, std::span<const std::uint8_t> fixed) {
   std::vector<std::uint8_t> is_held(fixed.size());
-  std::transform(fixed.begin(), fixed.end(), is_held.begin(), holds_in_plane);
+  const FixedMask holding = holding_components(fixed);
+  for (std::size_t i = 0; i < fixed.size(); ++i) is_held[i] = (fixed[i] & holding) != 0;
   for (const Hold& hold : holds.holds) is_held[static_cast<std::size_t>(hold.node)] = 1;
   return is_held;
 }

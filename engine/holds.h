@@ -33,7 +33,8 @@ struct Holds {
   std::vector<std::uint8_t> is_open;       // (n_tools) last action done was not `close`
 };
 
-// 1 for each node (n_nodes) that is held by anything or supported in x or y.
+// 1 for each node (n_nodes) that is held by anything or supported in a component in which not all
+// nodes are.
 std::vector<std::uint8_t> held_nodes(const Holds& holds, std::span<const std::uint8_t> fixed);
 
 // What a grasper did: closed on so many nodes, or opened.
