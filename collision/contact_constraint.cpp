@@ -11,31 +11,44 @@ namespace {
 
 constexpr double furthest = 4;  // that a contact moves a node, in what it lacks
 
+// n·M^-1 n, by the bits 1 / m where nothing is supported.
+double yield_along(const Vec3& n, const Vec3& inverse_mass) {
+  double held = 0;  // of the square of n
+  for (int j = 0; j < 3; ++j)
+    if (inverse_mass[j] == 0) held += n[j] * n[j];
+  return inverse_mass.maxCoeff() * std::max(0.0, 1 - held);
+}
+
 }  // namespace
 
 void add_constraint(double gap, double release, const Vec3& away, ContactConstraint& c,
                     ContactSet& set) {
   Vec3 relative = -away;
-  double inverse = 0, lightest = 0;
+  double inverse = 0, along_n = 0, lightest = 0;
   for (std::size_t a = 0; a < 4; ++a) {
     const std::size_t i = to_size(c.place[a]);
     relative += c.weight[a] * (set.x_end[i] - set.x_start[i]);
-    c.lever[a] = c.weight[a] * set.inverse_mass[i];
-    inverse += c.weight[a] * c.weight[a] * set.inverse_mass[i];
-    lightest = std::max(lightest, std::abs(c.weight[a]) * set.inverse_mass[i]);
+    const Vec3& by_mass = set.inverse_mass[i];
+    c.lever[a] = c.weight[a] * by_mass;
+    inverse += c.weight[a] * c.weight[a] * by_mass.maxCoeff();
+    along_n += c.weight[a] * c.weight[a] * yield_along(c.normal, by_mass);
+    lightest = std::max(lightest, std::abs(c.weight[a]) * by_mass.maxCoeff());
   }
   const double closing = c.normal.dot(relative), before = gap - closing;
   const double least = before < 0 ? std::min(0.0, before + release) : 0.0;
   c.lack = least - gap;
-  if (!(c.lack > 0 && inverse > 0)) return;
+  if (!(c.lack > 0 && along_n > 0)) return;
   c.slip = relative - closing * c.normal;
-  c.felt_mass = 1 / inverse;
-  c.most_push = furthest * c.lack / lightest;
+  c.felt_mass = 1 / along_n;
+  c.slip_mass = 1 / inverse;
+  // Towards a normal along which supports hold all nodes it fades to the nothing of held ones.
+  c.most_push = furthest * c.lack / lightest * std::min(1.0, furthest * along_n / inverse);
   set.constraints.push_back(c);
 }
 
 void apply_impulse(const ContactConstraint& c, const Vec3& impulse, ContactSet& set) {
-  for (std::size_t a = 0; a < 4; ++a) set.move[to_size(c.place[a])] += c.lever[a] * impulse;
+  for (std::size_t a = 0; a < 4; ++a)
+    set.move[to_size(c.place[a])] += c.lever[a].cwiseProduct(impulse);
 }
 
 Vec3 at_most(const Vec3& v, double most) {

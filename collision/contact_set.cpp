@@ -80,18 +80,24 @@ void add_items(const FoundContacts& contacts, ContactSet& set) {
   }
 }
 
+Vec3 inverse_mass(double mass, unsigned held) {
+  Vec3 by_mass;
+  for (int j = 0; j < 3; ++j) by_mass[j] = (held >> j & 1U) != 0 ? 0 : 1 / mass;
+  return by_mass;
+}
+
 }  // namespace
 
 ContactSet prepare_contacts(const FoundContacts& contacts, std::span<const std::int32_t> node_owner,
                             const Part& part, int rank, std::span<const double> mass,
-                            std::span<const std::uint8_t> is_held) {
+                            std::span<const std::uint8_t> held) {
   ContactSet set{.node = nodes_of(contacts)};
   for (const std::int32_t i : set.node) {
     if (node_owner[to_size(i)] == rank) {
       set.owned.push_back(static_cast<std::int32_t>(set.inverse_mass.size()));
       set.local.push_back(part.node_local[to_size(i)]);
     }
-    set.inverse_mass.push_back(is_held[to_size(i)] != 0 ? 0 : 1 / mass[to_size(i)]);
+    set.inverse_mass.push_back(inverse_mass(mass[to_size(i)], held[to_size(i)]));
   }
   if (set.owned.empty()) return {};
   add_items(contacts, set);

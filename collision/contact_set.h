@@ -77,7 +77,7 @@ struct ContactSet {
   std::vector<TissueNode> tissue_node;
   // Nodes of the items, ascending by global number.
   std::vector<std::int32_t> node;          // global numbers
-  std::vector<double> inverse_mass;        // 0: nothing moves it [1/kg]
+  std::vector<Vec3> inverse_mass;          // by component, 0: nothing moves it so [1/kg]
   std::vector<std::int32_t> owned, local;  // of owned ones: places here, and local numbers
   std::vector<Vec3> x_start, x_end;  // positions around the step, without contact at its end [m]
   std::vector<Vec3> force;           // of the last step [N]
@@ -91,9 +91,10 @@ struct ContactSet {
   std::vector<Vec3> move;              // (node.size()) [m]
 };
 
-// node_owner, mass [kg], is_held (nothing moves the node): (n_nodes) global.
+// node_owner, mass [kg], held (components in which nothing moves the node, bit 0 for x): (n_nodes)
+// global.
 ContactSet prepare_contacts(const FoundContacts& contacts, std::span<const std::int32_t> node_owner,
                             const Part& part, int rank, std::span<const double> mass,
-                            std::span<const std::uint8_t> is_held);
+                            std::span<const std::uint8_t> held);
 
 }  // namespace trocar

@@ -176,7 +176,7 @@ struct Moves {
     return c.weight[0] * of[0] + c.weight[1] * of[1] + c.weight[2] * of[2] + c.weight[3] * of[3];
   }
   void add(const ContactConstraint& c, const Vec3& impulse) {
-    for (std::size_t a = 0; a < 4; ++a) of[a] += c.lever[a] * impulse;
+    for (std::size_t a = 0; a < 4; ++a) of[a] += c.lever[a].cwiseProduct(impulse);
   }
 };
 
@@ -190,7 +190,7 @@ double project(double friction, ContactConstraint& c, std::span<Vec3> move) {
   moves.add(c, (push - c.push) * c.normal);
   c.push = push;
   const Vec3 now = moves.extra(c), along = now - c.normal.dot(now) * c.normal;
-  const Vec3 drag = at_most(c.drag - c.felt_mass * (c.slip + along), friction * push);
+  const Vec3 drag = at_most(c.drag - c.slip_mass * (c.slip + along), friction * push);
   moves.add(c, drag - c.drag);
   c.drag = drag;
   moves.put_back(c, move);
@@ -261,7 +261,7 @@ void solve_contacts(const ContactDetector& detector, const ContactStep& step,
     const Vec3 force = (c.push * c.normal + c.drag) / step.response;
     Vec3 sum = Vec3::Zero();
     for (std::size_t a = 0; a < 4; ++a) {
-      if (set.inverse_mass[to_size(c.place[a])] == 0) continue;
+      if (set.inverse_mass[to_size(c.place[a])].maxCoeff() == 0) continue;
       set.force[to_size(c.place[a])] += c.weight[a] * force;
       sum += c.weight[a] * force;
     }

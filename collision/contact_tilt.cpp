@@ -73,8 +73,8 @@ double tilt_frequency2(const ContactDetector& detector, std::int64_t n_steps,
     // Rayleigh's quotient of M^-1 K in the metric of M, over nodes that move.
     double stored = 0, swung = 0, largest = 0;
     for (std::size_t i = 0; i < u.size(); ++i) {
-      const double a = set.inverse_mass[i] * force[i];
-      if (set.inverse_mass[i] > 0) swung += u[i] * u[i] / set.inverse_mass[i];
+      const double by_mass = set.inverse_mass[i].maxCoeff(), a = by_mass * force[i];
+      if (by_mass > 0) swung += u[i] * u[i] / by_mass;
       stored += u[i] * force[i];
       largest = std::max(largest, std::abs(a));
       u[i] = a;

@@ -7,10 +7,14 @@ namespace trocar {
 
 namespace {
 
-bool is_inside_jaws(const Contact& contact, const Holds& holds) {
-  const bool is_closed = !holds.is_open[static_cast<std::size_t>(contact.tool)];
-  if (!is_closed) return false;
-  if (contact.piece >= first_working_piece) return true;
+bool can_touch(const Tool& tool, bool is_open, const Contact& contact) {
+  const auto piece = static_cast<std::size_t>(contact.piece);
+  if (piece < first_working_piece) return true;
+  if (is_open) return piece < tool.open_end;
+  return piece >= tool.closed_begin && contact.gap > -tool.caught;
+}
+
+bool is_held(const Holds& holds, const Contact& contact) {
   return std::any_of(contact.node.begin(), contact.node.end(), [&](std::int32_t node) {
     const auto hold = std::lower_bound(holds.holds.begin(), holds.holds.end(), node,
                                        [](const Hold& h, std::int32_t n) { return h.node < n; });
@@ -26,11 +30,14 @@ void detect_contacts(ContactStage& stage, std::span<const Tool> tools, const Hol
   std::vector<double> margins;
   for (const Tool& tool : tools) {
     poses.push_back(tool.path.at(span.t0));
-    margins.push_back(tool.path.travel(span.t0, span.t1, 0.02) + reach_extra);
+    margins.push_back(tool.path.travel(span.t0, span.t1, tool.box) + reach_extra);
   }
   stage.detector.detect(view.x, poses, margins, stage.contacts);
-  std::erase_if(stage.contacts,
-                [&](const Contact& contact) { return is_inside_jaws(contact, holds); });
+  std::erase_if(stage.contacts, [&](const Contact& contact) {
+    const auto tool = static_cast<std::size_t>(contact.tool);
+    const bool is_open = holds.is_open[tool] != 0;
+    return !can_touch(tools[tool], is_open, contact) || (!is_open && is_held(holds, contact));
+  });
 }
 
 void detect_tissue(ContactStage& stage, const SurfaceView& view, double time, double reach) {
@@ -46,11 +53,10 @@ void detect_tissue(ContactStage& stage, const SurfaceView& view, double time, do
 void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds) {
   stage.set = {};
   if (stage.contacts.empty() && stage.tissue.empty()) return;
-  std::vector<std::uint8_t> is_held(body.mass.size(), 0);
-  for (std::size_t i = 0; i < is_held.size(); ++i) is_held[i] = (body.fixed[i] & 7) == 7;
-  for (const Hold& hold : holds.holds) is_held[static_cast<std::size_t>(hold.node)] = 1;
+  std::vector<FixedMask> held(body.fixed.begin(), body.fixed.end());
+  for (const Hold& hold : holds.holds) held[static_cast<std::size_t>(hold.node)] = all_components;
   stage.set = prepare_contacts({stage.contacts, stage.tissue}, body.node_owner, body.part,
-                               body.rank, body.mass, is_held);
+                               body.rank, body.mass, held);
   stage.u_next.resize(3 * body.part.node_global.size());
   stage.exchange.emplace(stage.set.halo, 6);
   stage.positions.resize(6 * stage.set.node.size());

@@ -51,7 +51,7 @@ struct ContactBody {
   std::span<const double> mass;         // [kg]
   std::span<const std::uint8_t> fixed;  // supported components
 };
-// What graspers and supports hold doesn't yield to contact.
+// What graspers and supports hold, in the components in which they do, doesn't yield to contact.
 void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds);
 // Positions of the set's nodes from their displacements before a step (n_local * 3) and u_next, on
 // all ranks that work on them. Collective among these. X (n_nodes).

@@ -56,8 +56,10 @@ void grasp(Simulation& s, const FrameSpan& span) {
 void detect(Simulation& s, const FrameSpan& span) {
   const PhaseScope scope(s.timers, phase_detect);
   const double time = span.t1 - span.t0;
+  // Supports and graspers that set out within the frame take tissue along.
+  const double moved = largest_travel(s.holds, s.tools, span.t0, span.t1);
   detect_contacts(*s.contact, s.tools, s.holds, s.view, span,
-                  s.contact_reach + largest_speed(s) * time);
+                  s.contact_reach + largest_speed(s) * time + moved);
   if (s.contact->has_tissue) {
     gather_velocities(s.view, s.state.v, *s.communicator);
     detect_tissue(*s.contact, s.view, time, s.contact_reach);

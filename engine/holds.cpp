@@ -32,16 +32,18 @@ GraspAct grasp(Holds& holds, const Tool& tool, std::int32_t number, const Pose& 
 }
 
 // A plane body is fixed across its plane everywhere: that holds nothing.
-std::uint8_t holds_in_plane(FixedMask fixed) {
-  constexpr FixedMask in_plane = 3;
-  return (fixed & in_plane) != 0 ? 1 : 0;
+FixedMask holding_components(std::span<const FixedMask> fixed) {
+  unsigned everywhere = all_components;
+  for (const FixedMask mask : fixed) everywhere &= mask;
+  return everywhere == all_components ? all_components : all_components & ~everywhere;
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> held_nodes(const Holds& holds, std::span<const std::uint8_t> fixed) {
   std::vector<std::uint8_t> is_held(fixed.size());
-  std::transform(fixed.begin(), fixed.end(), is_held.begin(), holds_in_plane);
+  const FixedMask holding = holding_components(fixed);
+  for (std::size_t i = 0; i < fixed.size(); ++i) is_held[i] = (fixed[i] & holding) != 0;
   for (const Hold& hold : holds.holds) is_held[static_cast<std::size_t>(hold.node)] = 1;
   return is_held;
 }
@@ -56,6 +58,18 @@ bool will_act(std::span<const Tool> tools, double t0, double t1) {
     for (const InstrumentKey& key : tool.keys)
       if (acts_within(key, t0, t1)) return true;
   return false;
+}
+
+double largest_travel(const Holds& holds, std::span<const Tool> tools, double t0, double t1) {
+  double most = 0;
+  for (const DisplacementPath& path : holds.paths) most = std::max(most, path.travel(t0, t1));
+  for (std::size_t k = 0; k < tools.size(); ++k) {
+    const auto is_its = [&](const Hold& hold) { return hold.tool == static_cast<int>(k); };
+    if (std::ranges::none_of(holds.holds, is_its)) continue;
+    const Vec3 grip = Vec3::Constant(tools[k].grip_radius);
+    most = std::max(most, tools[k].path.travel(t0, t1, {-grip, grip}));
+  }
+  return most;
 }
 
 std::vector<GraspAct> act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,

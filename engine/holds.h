@@ -33,7 +33,8 @@ struct Holds {
   std::vector<std::uint8_t> is_open;       // (n_tools) last action done was not `close`
 };
 
-// 1 for each node (n_nodes) that is held by anything or supported in x or y.
+// 1 for each node (n_nodes) that is held by anything or supported in a component in which not all
+// nodes are.
 std::vector<std::uint8_t> held_nodes(const Holds& holds, std::span<const std::uint8_t> fixed);
 
 // What a grasper did: closed on so many nodes, or opened.
@@ -50,6 +51,9 @@ struct GraspAct {
 std::vector<GraspAct> act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,
                                    std::span<const Vec3> x, std::span<const std::uint8_t> fixed);
 bool will_act(std::span<const Tool> tools, double t0, double t1);
+// The longest way in [t0, t1] of what moves as it is told: of supports, and of all within the grip
+// radius of the tip of graspers that hold something. [m]
+double largest_travel(const Holds& holds, std::span<const Tool> tools, double t0, double t1);
 // Lets go of all that the tool holds: how many nodes.
 int release(Holds& holds, std::int32_t tool);
 

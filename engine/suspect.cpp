@@ -54,7 +54,8 @@ void look_at_tools(std::span<const Tool> tools, const Vec3& x, const FrameSpan& 
     const Vec3 local = pose.rotation.conjugate() * (x - pose.translation);
     for (const ConvexPiece& piece : tool.shape.pieces)
       choice.offer({.gap = std::max(0.0, signed_distance(make_core(piece), local).gap),
-                    .way = tool.path.travel(span.t0, span.t1, std::max(0.0, local.z())),
+                    .way = tool.path.travel(span.t0, span.t1,
+                                            {Vec3::Zero(), Vec3(0, 0, std::max(0.0, local.z()))}),
                     .name = "\"" + tool.name + "\"",
                     .how = "from "});
   }
@@ -67,7 +68,7 @@ void look_at_holds(const Simulation& s, std::span<const Vec3> all, const Vec3& x
     if (hold.tool >= 0) {
       const Tool& tool = s.tools[static_cast<std::size_t>(hold.tool)];
       found.name = "\"" + tool.name + "\"";
-      found.way = tool.path.travel(span.t0, span.t1, 0);
+      found.way = tool.path.travel(span.t0, span.t1, {Vec3::Zero(), Vec3::Zero()});
     } else {
       const auto support = static_cast<std::size_t>(hold.support);
       const DisplacementPath& path = s.holds.paths[support];

@@ -12,6 +12,9 @@ constexpr double jaw_angle = 0.30;  // of each open jaw [rad]
 constexpr double jaw_slope = jaw_angle + jaw_angle * jaw_angle * jaw_angle / 3;  // its tangent
 constexpr double first_crossing = 0.15;  // of scissors' blades from the pivot, over their length
 
+// Of the depth at which the middle of closed jaws lies.
+constexpr double caught_share = 0.5;
+
 ConvexPiece shaft_piece(double from, double to, double radius) {
   return {.points = {Vec3(0, 0, from), Vec3(0, 0, to)}, .radius = radius};
 }
@@ -52,6 +55,13 @@ void make_scalpel(Tool& tool, const SceneInstrument& s, double edge_spacing) {
   for (int k = 0; k <= n; ++k) tool.edge.emplace_back(0, 0, length * k / n);
 }
 
+// A capsule from the hinge to the tip, in place of the open jaws.
+void add_closed_jaws(Tool& tool, double radius) {
+  tool.open_end = tool.closed_begin = tool.shape.pieces.size();
+  tool.caught = caught_share * radius;
+  tool.shape.pieces.push_back(shaft_piece(0, tool.hinge_height, radius));
+}
+
 void add_hinge_and_shaft(Tool& tool, const SceneInstrument& s) {
   const double jaw = tool.hinge_height;
   add_part(tool, make_capsule_surface(Vec3(0, -0.9 * s.radius, jaw), Vec3(0, 0.9 * s.radius, jaw),
@@ -74,6 +84,7 @@ void make_grasper(Tool& tool, const SceneInstrument& s) {
   ConvexPiece lower = upper;
   lower.points[1].x() *= -1;
   tool.shape.pieces = {shaft_piece(jaw + s.radius, s.length, s.radius), upper, lower};
+  add_closed_jaws(tool, thick);
   for (const int side : {1, -1}) {
     const double in = 0.02 * thick * side, out = thick * side, w = 0.7 * s.radius;
     TriangleMesh plate =
@@ -108,18 +119,31 @@ void make_scissors(Tool& tool, const SceneInstrument& s, double edge_spacing) {
     if (side < 0) std::reverse(outline.begin(), outline.end());
     add_part(tool, make_plate_surface(outline, -Vec3::UnitY(), shown), side);
   }
+  add_closed_jaws(tool, shown);
   add_hinge_and_shaft(tool, s);
   const double reach = jaw_slope * length;
   const int n = std::max(2, static_cast<int>(std::ceil(2 * reach / edge_spacing)));
   for (int k = 0; k <= n; ++k) tool.edge.emplace_back(reach * (2.0 * k / n - 1), 0, 0);
 }
 
-// The user's surface replaces the working piece: its hull touches, its triangles show.
+// The user's surface replaces the working piece: its hull touches, its triangles show. It has no
+// jaws that open.
 void use_mesh(Tool& tool, const TriangleMesh& mesh) {
   tool.shape.pieces.resize(first_working_piece);
   tool.shape.pieces.push_back({.points = mesh.X, .radius = 0});
+  tool.open_end = no_piece;
+  tool.closed_begin = tool.kind == InstrumentKind::grasper ? first_working_piece : no_piece;
+  tool.caught = std::numeric_limits<double>::infinity();
   tool.parts = {{.surface = mesh, .jaw = 0}};
   tool.own_mesh = mesh;
+}
+
+Box box_round(const ToolShape& shape) {
+  Box box;
+  for (const ConvexPiece& piece : shape.pieces)
+    for (const Vec3& point : piece.points)
+      for (const double side : {-piece.radius, piece.radius}) box.add(point + Vec3::Constant(side));
+  return box;
 }
 
 }  // namespace
@@ -131,6 +155,7 @@ Tool make_tool(const SceneInstrument& s, const TriangleMesh& mesh, double edge_s
   if (s.kind == InstrumentKind::grasper) make_grasper(tool, s);
   if (s.kind == InstrumentKind::scissors) make_scissors(tool, s, edge_spacing);
   if (!mesh.X.empty()) use_mesh(tool, mesh);
+  tool.box = box_round(tool.shape);
   return tool;
 }
 

@@ -1,9 +1,11 @@
 // An instrument of the scene: its path, its shape for contact, its look, its cutting edge.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "base/box.h"
 #include "collision/tool_shape.h"
 #include "engine/scene.h"
 #include "engine/tool_path.h"
@@ -17,12 +19,15 @@ struct ToolPart {
   int jaw = 0;           // 0: fixed to the shaft; +1, -1: jaws
 };
 
+inline constexpr std::size_t no_piece = std::numeric_limits<std::size_t>::max();
+
 struct Tool {
   InstrumentKind kind = InstrumentKind::probe;
   std::string name;
   ToolPath path;
   std::vector<InstrumentKey> keys;
   ToolShape shape;
+  Box box;  // round the shape, in the tool's frame [m]
   std::vector<ToolPart> parts;
   TriangleMesh own_mesh;  // the user's surface, empty where the shape is built in
   // Scalpel: the straight cutting edge, from the tip up, in the tool's frame [m]. Scissors: the
@@ -32,6 +37,11 @@ struct Tool {
   double grip_force = 0;      // that it holds, 0: any [N]
   double hinge_height = 0;    // jaws turn about the y axis here [m]
   double closed_share = 0.1;  // of the angle of open jaws that is left when they are closed
+  // Of the working pieces of the shape those before open_end touch while the jaws are open, those
+  // from closed_begin on while they are closed.
+  std::size_t open_end = no_piece, closed_begin = no_piece;
+  // As deep in closed jaws tissue lies between them, and does not touch. [m]
+  double caught = std::numeric_limits<double>::infinity();
 };
 
 // Shape index of the first piece that closes with the jaws (grasper) / of the blade (scalpel);

@@ -1,11 +1,14 @@
 #include "engine/tool_path.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace trocar {
 
 namespace {
+
+constexpr int samples = 4;  // of a travel
 
 // Slopes of a monotone cubic through the keys; zero at both ends and at turning points.
 std::vector<Vec3> monotone_slopes(const std::vector<double>& time, const std::vector<Vec3>& value) {
@@ -82,18 +85,19 @@ Pose ToolPath::at(double time) const {
   return pose;
 }
 
-double ToolPath::travel(double t0, double t1, double reach) const {
-  constexpr int samples = 4;
-  const Vec3 far(0, 0, reach);
-  Pose last = at(t0);
-  double tip = 0, top = 0;
-  for (int k = 1; k <= samples; ++k) {
-    const Pose pose = at(t0 + (t1 - t0) * k / samples);
-    tip += (pose.translation - last.translation).norm();
-    top += (pose.apply(far) - last.apply(far)).norm();
-    last = pose;
+double ToolPath::travel(double t0, double t1, const Box& box) const {
+  std::array<Pose, samples + 1> poses;
+  for (int k = 0; k <= samples; ++k) poses[k] = at(t0 + (t1 - t0) * k / samples);
+  double most = 0;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    Vec3 point;
+    for (unsigned j = 0; j < 3; ++j) point[j] = (corner >> j & 1U) != 0 ? box.high[j] : box.low[j];
+    double way = 0;
+    for (int k = 1; k <= samples; ++k)
+      way += (poses[k].apply(point) - poses[k - 1].apply(point)).norm();
+    most = std::max(most, way);
   }
-  return std::max(tip, top);
+  return most;
 }
 
 DisplacementPath::DisplacementPath(const std::vector<SupportKey>& keys) {
@@ -106,6 +110,14 @@ DisplacementPath::DisplacementPath(const std::vector<SupportKey>& keys) {
 
 Vec3 DisplacementPath::at(double time) const {
   return interpolate(time_, position_, slope_, time);
+}
+
+double DisplacementPath::travel(double t0, double t1) const {
+  if (time_.empty()) return 0;
+  double way = 0;
+  for (int k = 1; k <= samples; ++k)
+    way += (at(t0 + (t1 - t0) * k / samples) - at(t0 + (t1 - t0) * (k - 1) / samples)).norm();
+  return way;
 }
 
 }  // namespace trocar

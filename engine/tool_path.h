@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "base/box.h"
 #include "base/vec.h"
 #include "engine/scene.h"
 
@@ -15,9 +16,9 @@ class ToolPath {
  public:
   explicit ToolPath(const std::vector<InstrumentKey>& keys);
   Pose at(double time) const;  // constant before the first key and after the last
-  // Largest distance that the tip and a point `reach` up the shaft travel in [t0, t1], from
-  // `samples` positions. [m]
-  double travel(double t0, double t1, double reach) const;
+  // Largest distance that a point of the box, in the instrument's frame, travels in [t0, t1], from
+  // `samples` positions: that of a corner. [m]
+  double travel(double t0, double t1, const Box& box) const;
 
  private:
   std::vector<double> time_;
@@ -30,6 +31,7 @@ class DisplacementPath {
  public:
   explicit DisplacementPath(const std::vector<SupportKey>& keys);
   Vec3 at(double time) const;
+  double travel(double t0, double t1) const;  // as of a tool's point
 
  private:
   std::vector<double> time_;

@@ -126,5 +126,32 @@ TEST(ContactOfAPress, of_a_probe_at_rest_comes_to_rest) {
   }
 }
 
+// Along z, at the end, of a probe that presses a block by 5 mm at its middle y = 0. The tetrahedra
+// of both halves mirror each other.
+double press_by_halves(double low_y, int cells, const std::string& mirror) {
+  const auto block = built(
+      "[time]\nduration = 10\nframe_rate = 60\n[tissue.shape]\nkind = \"box\"\n"
+      "elements = \"tet4-five\"\nlow = [-0.024, " +
+      std::to_string(low_y) + ", 0]\nhigh = [0.024, 0.02, 0.02]\ncells = [8, " +
+      std::to_string(cells) +
+      ", 4]\n[tissue.material]\nyoung_modulus = 5000\n[solver]\nmass_damping = 60\n"
+      "stable_step = \"element-bound\"\n[contact]\nfriction = 0\n[[support]]\nregion = \"z-\"\n" +
+      mirror +
+      "[[instrument]]\nkind = \"probe\"\nradius = 0.006\npath = [{ time = 0, position = "
+      "[0.001, 0, 0.021] }, { time = 0.4, position = [0.001, 0, 0.015] }]\n");
+  for (int frame = 0; frame < 36; ++frame) run_frame(*block->s, block->outputs);
+  return block->s->log.rows.back().tools[0].force.z();
+}
+
+// While contact took the nodes of the mirror plane for free ones, the half had less than half.
+TEST(ContactOfAPress, has_half_its_force_at_half_a_symmetric_body) {
+  const double whole = press_by_halves(-0.02, 8, ""),
+               half = press_by_halves(0, 4, "[[support]]\nregion = \"y-\"\nfix = \"y\"\n");
+  std::printf("whole %.5f N, half %.5f N, %.4f of it\n", whole, half, half / whole);
+  ASSERT_GT(whole, 0.1);
+  // Contacts are solved to 1e-3 of the deepest point.
+  EXPECT_NEAR(half / whole, 0.5, 1e-3);
+}
+
 }  // namespace
 }  // namespace trocar

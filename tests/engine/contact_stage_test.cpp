@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "mesh/generate.h"
 
@@ -67,6 +68,20 @@ TEST(ContactStage, looks_as_far_as_the_tool_travels_in_the_frame) {
   EXPECT_FALSE(c.detect().empty());
 }
 
+// The end of a shaft of 150 mm that turns about its tip, 140 mm beside the middle of the slab.
+TEST(ContactStage, looks_as_far_as_the_end_of_the_shaft_travels) {
+  SceneInstrument turning{.name = "p", .length = 0.15};
+  const Vec3 tip(-0.14, 0.002, 0.01);
+  turning.path = {{.time = 0, .position = tip, .direction = Vec3(-1, 0, 0)},
+                  {.time = 0.033, .position = tip, .direction = Vec3(-1, 0, 0.1)}};
+  for (InstrumentKey& key : turning.path) key.forward = Vec3(0, 1, 0);
+  Case c(make_tool(turning, {}, 1e-3));
+  EXPECT_FALSE(c.detect().empty());
+  turning.path.pop_back();
+  c.tools[0] = make_tool(turning, {}, 1e-3);
+  EXPECT_TRUE(c.detect().empty());
+}
+
 // Contacts of the slab as it lies, looked at anew.
 std::vector<Contact> touching(Case& c) {
   std::vector<Contact> found;
@@ -120,16 +135,28 @@ Case lying_grasper() {
                                                      .forward = Vec3(1, 0, 0)}));
 }
 
-TEST(ContactStage, closed_jaws_do_not_touch_and_open_ones_do) {
+std::set<std::int32_t> pieces_of(const std::vector<Contact>& contacts) {
+  std::set<std::int32_t> pieces;
+  for (const Contact& contact : contacts) pieces.insert(contact.piece);
+  return pieces;
+}
+
+TEST(ContactStage, closed_jaws_touch_in_place_of_open_ones) {
   Case c = lying_grasper();
-  const std::vector<Contact> open = c.detect();
-  EXPECT_FALSE(std::all_of(open.begin(), open.end(), is_shaft));
-  EXPECT_TRUE(std::any_of(open.begin(), open.end(), is_shaft));
+  EXPECT_EQ(pieces_of(c.detect()), (std::set<std::int32_t>{0, 1, 2}));
   c.holds.is_open[0] = 0;
-  const std::vector<Contact>& closed = c.detect();
-  EXPECT_TRUE(std::all_of(closed.begin(), closed.end(), is_shaft));
-  EXPECT_EQ(static_cast<std::ptrdiff_t>(closed.size()),
-            std::count_if(open.begin(), open.end(), is_shaft));
+  EXPECT_EQ(pieces_of(c.detect()), (std::set<std::int32_t>{0, 3}));
+}
+
+// As deep as their axis lies.
+TEST(ContactStage, tissue_between_closed_jaws_does_not_touch_them) {
+  Case c = lying_grasper();
+  c.holds.is_open[0] = 0;
+  ASSERT_EQ(pieces_of(c.detect()).count(3), 1U);
+  SceneInstrument lower{.kind = InstrumentKind::grasper, .name = "tool"};
+  lower.path = {{.position = Vec3(0.003, -0.03, 0), .direction = Vec3(0, -1, 0)}};
+  c.tools[0] = make_tool(lower, {}, 1e-3);
+  EXPECT_EQ(pieces_of(c.detect(0)).count(3), 0U);
 }
 
 TEST(ContactStage, a_shaft_does_not_touch_what_its_closed_jaws_hold) {
@@ -216,7 +243,7 @@ TEST(PrepareFrameContacts, starts_each_frame_without_reactions_and_moves_nothing
                          c.holds);
   const ContactSet& set = c.stage.set;
   ASSERT_EQ(set.items.size(), c.stage.contacts.size());
-  const std::array<double, 3> expected = {0, 1e3, 0};
+  const std::array<Vec3, 3> expected = {Vec3::Zero(), Vec3(0, 0, 1e3), Vec3::Zero()};
   for (std::size_t a = 0; a < 3; ++a)
     EXPECT_EQ(set.inverse_mass[static_cast<std::size_t>(set.items[0].place[a])], expected[a]);
   for (const ContactSet::Item& item : set.items) EXPECT_EQ(item.reaction_sum, Vec3(Vec3::Zero()));

@@ -134,17 +134,42 @@ TEST(Grasp, tells_how_far_the_nearest_free_node_is) {
   EXPECT_TRUE(std::isinf(acts()[0].nearest));
 }
 
-TEST(HeldNodes, are_those_supported_in_x_or_y_and_the_held) {
+void expect_held(const Case& c, const std::vector<std::size_t>& expected) {
+  const std::vector<std::uint8_t> is_held = held_nodes(c.holds, c.fixed);
+  for (std::size_t i = 0; i < is_held.size(); ++i)
+    EXPECT_EQ(is_held[i] != 0, std::count(expected.begin(), expected.end(), i) > 0) << i;
+}
+
+TEST(HeldNodes, are_those_supported_in_any_component_and_the_held) {
   Case c;
   c.fixed[1] = 1;
   c.fixed[2] = 2;
-  c.fixed[3] = 4;  // across the plane of a plane body: not held by that
+  c.fixed[3] = 4;
   c.fixed[4] = 7;
   c.holds.holds = {{.node = 5, .tool = 1}};
-  const std::vector<std::uint8_t> is_held = held_nodes(c.holds, c.fixed);
-  const std::vector<std::size_t> expected = {1, 2, 4, 5};
-  for (std::size_t i = 0; i < is_held.size(); ++i)
-    EXPECT_EQ(is_held[i] != 0, std::count(expected.begin(), expected.end(), i) > 0) << i;
+  expect_held(c, {1, 2, 3, 4, 5});
+}
+
+TEST(HeldNodes, of_a_plane_body_are_not_those_that_only_its_plane_holds) {
+  Case c;
+  std::fill(c.fixed.begin(), c.fixed.end(), FixedMask{4});
+  c.fixed[1] = 5;
+  c.fixed[2] = 6;
+  c.fixed[4] = 7;
+  expect_held(c, {1, 2, 4});
+}
+
+TEST(LargestTravel, is_of_supports_and_of_graspers_that_hold) {
+  Case c;
+  EXPECT_EQ(largest_travel(c.holds, c.tools, 0, 1), 0);
+  c.act(0.9, 1);
+  // From 20 mm to 30 mm without a turn.
+  EXPECT_NEAR(largest_travel(c.holds, c.tools, 0, 1), 0.01, 1e-16);
+  EXPECT_GT(largest_travel(c.holds, c.tools, 1, 2),
+            (Vec3(0.05, 0.06, 0.02) - Vec3(0.03, 0.02, 0)).norm());
+  const std::vector<SupportKey> keys = {{.time = 0}, {.time = 1, .displacement = Vec3(0, 0.05, 0)}};
+  c.holds.paths = {DisplacementPath({}), DisplacementPath(keys)};
+  EXPECT_NEAR(largest_travel(c.holds, c.tools, 0, 1), 0.05, 1e-16);
 }
 
 // All nodes belong to this rank.

@@ -175,8 +175,9 @@ TEST(ToolPath, travel_is_the_length_of_a_straight_way) {
   const std::vector<InstrumentKey> keys = {{.time = 0},
                                            {.time = 2, .position = Vec3(0, 0.03, 0.04)}};
   const ToolPath path(keys);
-  EXPECT_NEAR(path.travel(0, 2, 0.1), 0.05, 1e-16);
-  EXPECT_EQ(path.travel(2, 5, 0.1), 0);
+  const Box box{Vec3(-0.01, 0, 0), Vec3(0.02, 0.01, 0.1)};
+  EXPECT_NEAR(path.travel(0, 2, box), 0.05, 1e-16);
+  EXPECT_EQ(path.travel(2, 5, box), 0);
 }
 
 // A turn by the angle a about the tip moves a point at `reach` along chords, which are at most the
@@ -187,9 +188,10 @@ TEST(ToolPath, travel_counts_the_turn_of_the_shaft) {
       {.time = 0, .direction = Vec3(0, 0, -1)},
       {.time = 1, .direction = Vec3(0, std::sin(a), -std::cos(a))}};
   const ToolPath path(keys);
-  EXPECT_LE(path.travel(0, 1, reach), reach * a);
-  EXPECT_GE(path.travel(0, 1, reach), 2 * reach * std::sin(a / 2));
-  EXPECT_EQ(path.travel(0, 1, 0), 0);
+  const Box shaft{Vec3::Zero(), Vec3(0, 0, reach)}, tip{Vec3::Zero(), Vec3::Zero()};
+  EXPECT_LE(path.travel(0, 1, shaft), reach * a);
+  EXPECT_GE(path.travel(0, 1, shaft), 2 * reach * std::sin(a / 2));
+  EXPECT_EQ(path.travel(0, 1, tip), 0);
 }
 
 TEST(DisplacementPath, follows_the_same_rule_as_a_tool) {

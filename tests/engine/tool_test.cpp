@@ -65,12 +65,37 @@ TEST(Tool, the_body_of_a_blade_lies_behind_its_edge) {
 
 TEST(Tool, the_jaws_of_a_grasper_mirror_each_other) {
   const Tool tool = make_tool(instrument(InstrumentKind::grasper), {}, 1e-3);
-  ASSERT_EQ(tool.shape.pieces.size(), 3u);
+  ASSERT_EQ(tool.shape.pieces.size(), 4u);
   const ConvexPiece &upper = tool.shape.pieces[1], &lower = tool.shape.pieces[2];
   for (std::size_t k = 0; k < upper.points.size(); ++k)
     EXPECT_EQ(upper.points[k],
               Vec3(-lower.points[k].x(), lower.points[k].y(), lower.points[k].z()));
   EXPECT_GT(upper.points[1].x(), 0);
+}
+
+TEST(Tool, closed_jaws_lie_between_the_open_ones) {
+  for (const InstrumentKind kind : {InstrumentKind::grasper, InstrumentKind::scissors}) {
+    const Tool tool = make_tool(instrument(kind), {}, 1e-3);
+    ASSERT_EQ(tool.shape.pieces.size(), tool.closed_begin + 1);
+    EXPECT_EQ(tool.open_end, tool.closed_begin);
+    const ConvexPiece& closed = tool.shape.pieces.back();
+    for (const Vec3& point : closed.points) {
+      EXPECT_EQ(point.x(), 0);
+      EXPECT_LE(point.z(), tool.hinge_height);
+    }
+    EXPECT_GT(lowest(closed, 0), lowest(tool.shape.pieces[2], 0));
+    EXPECT_LT(tool.caught, closed.radius);
+  }
+}
+
+TEST(Tool, the_box_round_a_tool_holds_its_thickened_pieces) {
+  for (const InstrumentKind kind : {InstrumentKind::probe, InstrumentKind::grasper}) {
+    const Tool tool = make_tool(instrument(kind), {}, 1e-3);
+    double low = 0;
+    for (const ConvexPiece& piece : tool.shape.pieces) low = std::min(low, lowest(piece, 0));
+    EXPECT_EQ(tool.box.low.x(), low);
+    EXPECT_GE(tool.box.high.z(), tool.shape.pieces[0].points[1].z());
+  }
 }
 
 TEST(Tool, a_surface_of_the_users_own_replaces_the_working_piece_and_the_picture) {

@@ -26,11 +26,11 @@ ContactBench::ContactBench(std::vector<Vec3> X_, std::vector<double> mass_)
       force(3 * X.size()),
       part(whole_part(static_cast<std::int32_t>(X.size()))) {}
 
-void ContactBench::prepare(const std::vector<Contact>& contacts, std::vector<std::uint8_t> is_held,
+void ContactBench::prepare(const std::vector<Contact>& contacts, std::vector<std::uint8_t> held,
                            const std::vector<TissuePair>& tissue) {
-  is_held.resize(mass.size());
+  held.resize(mass.size());
   set = prepare_contacts({contacts, tissue}, std::vector<std::int32_t>(mass.size(), 0), part, 0,
-                         mass, is_held);
+                         mass, held);
 }
 
 void ContactBench::place() {

@@ -26,7 +26,8 @@ struct ContactBench {
 
   ContactBench(std::vector<Vec3> X_, std::vector<double> mass_);
 
-  void prepare(const std::vector<Contact>& contacts, std::vector<std::uint8_t> is_held = {},
+  // held: components of each node, those of further nodes none.
+  void prepare(const std::vector<Contact>& contacts, std::vector<std::uint8_t> held = {},
                const std::vector<TissuePair>& tissue = {});
   ContactStep contact_step() const { return {.tools = tools, .dt = dt, .response = dt * dt}; }
   void place();

@@ -75,10 +75,8 @@ struct Indentation {
       return std::any_of(c.node.begin(), c.node.end(),
                          [&](std::int32_t i) { return body.mesh.X[i].z() < -1e-9; });
     });
-    std::vector<std::uint8_t> is_held(mass.size());
-    for (std::size_t i = 0; i < is_held.size(); ++i) is_held[i] = body.model.fixed[i] == 7;
     set = prepare_contacts({contacts}, std::vector<std::int32_t>(mass.size(), 0), body.part, 0,
-                           mass, is_held);
+                           mass, body.model.fixed);
   }
   // Before relax_step, whose prediction it makes.
   void add_force(const Relaxer& relaxer, std::int64_t number, Body& body) {

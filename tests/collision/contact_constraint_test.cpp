@@ -1,0 +1,85 @@
+// What contact does with nodes that supports hold in some components.
+#include "collision/contact_constraint.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "collision_contacts.h"
+
+namespace trocar {
+namespace {
+
+constexpr std::uint8_t held_in_y = 2, held_in_z = 4;
+constexpr double lack = 1e-6, mass = 1e-4;
+
+// A node of which the step lacks `lack` along n.
+ContactBench lacking_node(const Vec3& n, std::uint8_t held, double friction) {
+  ContactBench bench({Vec3::Zero()}, {mass});
+  bench.options.friction = friction;
+  const Vec3 u = -lack * n;
+  bench.u_next = {u.x(), u.y(), u.z()};
+  bench.prepare({node_contact(0, n)}, {held});
+  return bench;
+}
+
+TEST(ContactConstraint, lets_a_node_yield_in_the_components_that_are_free) {
+  const Vec3 n(0.48, 0.6, 0.64);
+  ContactBench bench = lacking_node(n, held_in_y, 0);
+  bench.add_forces();
+  const Vec3 force = Vec3::Map(bench.force.data());
+  const Vec3 moved = bench.dt * bench.dt / mass * Vec3(force.x(), 0, force.z());
+  EXPECT_NEAR(n.dot(moved), lack, 1e-6 * lack);
+  EXPECT_NEAR(force.normalized().dot(n), 1, 1e-14);  // the support takes its share
+  EXPECT_EQ(bench.reaction(), Vec3(-force));
+}
+
+// A mirror plane y = 0 cuts an edge of two equal nodes in half and leaves half of each one on it.
+TEST(ContactConstraint, of_half_a_mirrored_pair_has_half_the_force) {
+  const Vec3 n(0, 0.6, 0.8), mirrored(0, -0.6, 0.8);
+  const auto lowered = [](std::vector<double> masses) {
+    ContactBench bench({Vec3::Zero(), Vec3(0, 0.01, 0), Vec3(0, -0.01, 0)}, std::move(masses));
+    bench.options.friction = 0;
+    bench.u_next = {0, 0, -lack, 0, 0, -lack, 0, 0, -lack};
+    return bench;
+  };
+  const Contact right{.node = {0, 1, 1}, .weight = {0.7, 0.3, 0}, .normal = n},
+      left{.node = {0, 2, 2}, .weight = {0.7, 0.3, 0}, .normal = mirrored};
+  ContactBench whole = lowered({2 * mass, mass, mass}), half = lowered({mass, mass, mass});
+  whole.prepare({right, left});
+  half.prepare({right}, {held_in_y});
+  for (Contact* c : {&whole.set.items[0].contact, &half.set.items[0].contact})
+    c->point.y() = 0.003;  // that the plane goes through the edge
+  whole.set.items[1].contact.point.y() = -0.003;
+  whole.add_forces();
+  half.add_forces();
+  ASSERT_GT(half.reaction().norm(), 0);
+  // Rounds end where one changes less than 1e-3 of the deepest point.
+  EXPECT_NEAR(half.reaction().z() / whole.reaction().z(), 0.5, 2e-3);
+}
+
+TEST(ContactConstraint, has_all_the_friction_along_a_component_that_is_held) {
+  ContactBench bench = lacking_node(Vec3::UnitZ(), held_in_y, 0.3);
+  bench.tools[0].velocity = Vec3(0, 1, 0);
+  bench.add_forces();
+  EXPECT_NEAR(bench.force[1], 0.3 * bench.force[2], 1e-12 * bench.force[2]);
+  EXPECT_NEAR(bench.force[2] * bench.dt * bench.dt / mass, lack, 1e-9 * lack);
+}
+
+TEST(ContactConstraint, fades_where_supports_hold_along_its_normal) {
+  ContactBench held = lacking_node(Vec3::UnitZ(), held_in_z, 0);
+  held.add_forces();
+  EXPECT_EQ(held.force[2], 0);
+  double before = 0;
+  for (const double x : {1e-6, 1e-4, 1e-2, 0.3, 0.6}) {
+    ContactBench bench = lacking_node(Vec3(x, 0, std::sqrt(1 - x * x)), held_in_z, 0);
+    bench.add_forces();
+    const double free_force = lack * mass / (bench.dt * bench.dt), force = bench.reaction().norm();
+    EXPECT_GT(force, before);
+    EXPECT_LE(force, std::min(4.0, 17 * x * x) * free_force);
+    before = force;
+  }
+}
+
+}  // namespace
+}  // namespace trocar
