@@ -14,6 +14,7 @@
 #include "engine/frame_watch.h"
 #include "engine/mesh_measures.h"
 #include "engine/simulation.h"
+#include "engine/tissue_way.h"
 
 namespace trocar {
 
@@ -25,10 +26,19 @@ constexpr double tip_spacing = 0.25;  // of a plane blade's way, mean edge lengt
 constexpr double plane_advance =
     3.0;  // mean edge lengths of the path that the paper's algorithm takes at a time
 
-Box surface_box(const Simulation& s) {
+// Where the tissue has been within the frame, and how far it has come at most.
+struct FrameTissue {
   Box box;
-  for (const std::int32_t node : s.view.node) box.add(s.view.x[static_cast<std::size_t>(node)]);
-  return box;
+  double way = 0;  // [m]
+};
+
+FrameTissue tissue_in_frame(const Simulation& s) {
+  FrameTissue tissue{.box = {}, .way = largest_surface_way(s)};
+  for (const std::int32_t node : s.view.node)
+    tissue.box.add(s.view.x[static_cast<std::size_t>(node)]);
+  tissue.box.low.array() -= tissue.way;
+  tissue.box.high.array() += tissue.way;
+  return tissue;
 }
 
 // Of points within a frame's reach of a blade.
@@ -59,10 +69,16 @@ void locate_edge(const Simulation& s, BodyPositions& positions, std::span<const 
   stage.engaged = locate_segment(s.mesh, positions.x(), ends, near);
 }
 
+// Where a plane blade's tip was at the frame's begin, as the tissue sees it.
+Vec3 first_tip(const BladeSweep& sweep) {
+  if (sweep.tissue_way.empty()) return sweep.before.front();
+  return sweep.before.front() + sweep.tissue_way.front();
+}
+
 // The tip of a plane blade, at its way's end and before.
 std::vector<Vec3> way_of_tip(const BladeSweep& sweep, double spacing) {
   constexpr double most = 1000;
-  const Vec3 way = sweep.after.front() - sweep.before.front();
+  const Vec3 way = sweep.after.front() - first_tip(sweep);
   const int n = static_cast<int>(std::ceil(std::clamp(way.norm() / spacing, 1.0, most)));
   std::vector<Vec3> points;
   for (int k = 0; k <= n; ++k) points.push_back(sweep.after.front() - way * (1.0 * k / n));
@@ -84,6 +100,7 @@ void start_stroke(CutStage& stage, const Tool& tool, double time, std::int32_t d
   stage.strokes.push_back({.tool = tool.name, .start = time});
   if (dimension == 3) stage.tet.start_stroke();
   stage.plane_tip = -1;
+  stage.tissue_velocity.setZero();
 }
 
 // Whether the tissue goes on beyond an end of the edge.
@@ -145,6 +162,26 @@ BladeSweep sweep_of(const Tool& tool, const FrameSpan& span) {
           .normal = tool.path.at(0.5 * (span.t0 + span.t1)).rotation * Vec3::UnitY()};
 }
 
+// What a blade does within a frame.
+struct BladeFrame {
+  BladeSweep sweep;
+  bool is_near = false;  // to the tissue, and cutting
+};
+
+BladeFrame frame_of_blade(Simulation& s, const FrameSpan& span, const FrameTissue& tissue,
+                          const CutStage& stage, std::optional<BodyPositions>& positions) {
+  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  BladeFrame frame{.sweep = sweep_of(tool, span)};
+  Box blade;
+  for (const Vec3& point : frame.sweep.after) blade.add(point);
+  for (const Vec3& point : frame.sweep.before) blade.add(point);
+  frame.is_near = blade.overlaps(tissue.box) && is_cutting(tool, span.t0, span.t1);
+  if (!frame.is_near || tissue.way == 0) return frame;
+  if (!positions) positions.emplace(s);
+  frame.sweep.tissue_way = ways_beside(s, *positions, frame.sweep, tissue.way);
+  return frame;
+}
+
 void cut_volume(Simulation& s, CutStage& stage, const BladeSweep& sweep, bool is_last,
                 BodyPositions& positions) {
   CutFigures figures;
@@ -154,14 +191,13 @@ void cut_volume(Simulation& s, CutStage& stage, const BladeSweep& sweep, bool is
 }
 
 // In reference positions.
-void take_up_tip(const Simulation& s, const FrameSpan& span, CutStage& stage) {
-  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+void take_up_tip(const Simulation& s, const BladeSweep& sweep, CutStage& stage) {
   std::vector<Vec3>& path = stage.plane_path;
   if (path.empty()) {
-    const Location start = locate_nearest(s.mesh, s.cut_state.x, tool.path.at(span.t0).translation);
+    const Location start = locate_nearest(s.mesh, s.cut_state.x, first_tip(sweep));
     path.push_back(interpolate(s.mesh, start, s.mesh.X));
   }
-  const Location place = locate_nearest(s.mesh, s.cut_state.x, tool.path.at(span.t1).translation);
+  const Location place = locate_nearest(s.mesh, s.cut_state.x, sweep.after.front());
   const Vec3 point = interpolate(s.mesh, place, s.mesh.X);
   if ((point - path.back()).norm() > 1e-9) path.push_back(point);
 }
@@ -189,8 +225,8 @@ void cut_reach(Simulation& s, CutStage& stage, bool may_grow, double h) {
 
 // Cuts the tip's path reach by reach, each once it is long enough or the next one begins. Legs
 // shorter than half an edge are left out: the next reach begins where they did.
-void cut_along_tip(Simulation& s, CutStage& stage, const FrameSpan& span, bool is_last) {
-  take_up_tip(s, span, stage);
+void cut_along_tip(Simulation& s, CutStage& stage, const BladeSweep& sweep, bool is_last) {
+  take_up_tip(s, sweep, stage);
   const double h = mean_edge_length(s.mesh);
   std::vector<std::vector<Vec3>> parts = reaches(stage.plane_path);
   for (std::vector<Vec3>& part : parts) {
@@ -226,13 +262,23 @@ Vec3 way_of_middle(const BladeSweep& sweep) {
   return middle(sweep.after) - middle(sweep.before);
 }
 
-// Whether a scalpel goes more than 60 degrees aside of where its edge faces, or backwards; ways
-// along the edge don't count.
-bool is_askew(const Tool& tool, const FrameSpan& span, const BladeSweep& sweep) {
+// What sticks to the blade or springs back from it for a moment is not what it moves against: that
+// is how the tissue came, and what it does in the long run.
+void follow_tissue(const Simulation& s, double time, bool was_engaged, CutStage& stage) {
+  constexpr double memory = 0.3;  // [s]
+  if (stage.engaged.empty()) return;
+  const double share = was_engaged ? time / (memory + time) : 1;
+  stage.tissue_velocity += share * (velocity_along(s, stage.engaged) - stage.tissue_velocity);
+}
+
+// Whether a scalpel goes more than 60 degrees aside of where its edge faces, or backwards, as the
+// tissue sees it; ways along the edge don't count.
+bool is_askew(const Tool& tool, const FrameSpan& span, const BladeSweep& sweep,
+              const CutStage& stage) {
   constexpr double facing = 0.5;
   if (tool.kind != InstrumentKind::scalpel) return false;
   const Mat3 frame = tool.path.at(0.5 * (span.t0 + span.t1)).rotation.toRotationMatrix();
-  const Vec3 way = way_of_middle(sweep);
+  const Vec3 way = way_of_middle(sweep) - (span.t1 - span.t0) * stage.tissue_velocity;
   const Vec3 across = way - frame.col(2).dot(way) * frame.col(2);
   return frame.col(0).dot(across) < facing * across.norm();
 }
@@ -267,14 +313,11 @@ void add_to_record(double travel, double milliseconds, CutStage& stage) {
 }
 
 // positions: none until a blade is near.
-void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, CutStage& stage,
+void cut_along_blade(Simulation& s, const FrameSpan& span, const BladeFrame& frame, CutStage& stage,
                      std::optional<BodyPositions>& positions) {
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
-  const BladeSweep sweep = sweep_of(tool, span);
-  Box blade;
-  for (const Vec3& point : sweep.after) blade.add(point);
-  for (const Vec3& point : sweep.before) blade.add(point);
-  const bool is_near = blade.overlaps(tissue) && is_cutting(tool, span.t0, span.t1);
+  const auto& [sweep, is_near] = frame;
+  const bool was_engaged = stage.is_in_stroke && !stage.engaged.empty();
   stage.engaged.clear();
   if (!is_near && !stage.is_in_stroke) return;
 
@@ -287,18 +330,19 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
     s.stable_step_before_cut = s.watch.stable_step;
     start_stroke(stage, tool, span.t1, s.mesh.dimension());
   }
+  follow_tissue(s, span.t1 - span.t0, was_engaged, stage);
   stage.strokes.back().end = span.t1;
   note_tissue_beside(s, stage, span.t1, sweep, *positions);
   const bool is_last = leaves_tissue(tool, span, is_near, is_idle, stage);
   const std::int64_t n_edits = stage.strokes.back().n_edits;
   if (s.mesh.dimension() == 2)
-    cut_along_tip(s, stage, span, is_last);
+    cut_along_tip(s, stage, sweep, is_last);
   else
     cut_volume(s, stage, sweep, is_last, *positions);
   CutRecord& record = stage.strokes.back();
   if (record.n_edits > n_edits) {
     locate_edge(s, *positions, sweep.after, stage);
-    if (is_askew(tool, span, sweep)) record.n_askew += record.n_edits - n_edits;
+    if (is_askew(tool, span, sweep, stage)) record.n_askew += record.n_edits - n_edits;
   }
   add_to_record(way_of_middle(sweep).norm(), 1e3 * (monotonic_seconds() - start), stage);
   note_body(s, record);
@@ -311,9 +355,13 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
 
 void cut_along_blades(Simulation& s, const FrameSpan& span) {
   const PhaseScope scope(s.timers, phase_cut);
-  const Box tissue = surface_box(s);
+  const FrameTissue tissue = tissue_in_frame(s);
   std::optional<BodyPositions> positions;
-  for (CutStage& stage : s.cuts) cut_along_blade(s, span, tissue, stage, positions);
+  std::vector<BladeFrame> frames;  // all before the first edit: see ways_beside
+  for (const CutStage& stage : s.cuts)
+    frames.push_back(frame_of_blade(s, span, tissue, stage, positions));
+  for (std::size_t k = 0; k < s.cuts.size(); ++k)
+    cut_along_blade(s, span, frames[k], s.cuts[k], positions);
   if (const std::string trouble = find_trouble(s); !trouble.empty())
     throw SimulationError("after the cut at " + number_text(span.t1) + " s: " + trouble);
 }
@@ -325,7 +373,8 @@ void prepare_drag(Simulation& s, const FrameSpan& span) {
     if (stage.engaged.empty() || !is_cutting(tool, span.t0, span.t1)) continue;
     add_engaged_edge({.tool = stage.tool,
                       .piece = stage.engaged,
-                      .velocity = way_of_middle(sweep_of(tool, span)) / (span.t1 - span.t0)},
+                      .velocity = way_of_middle(sweep_of(tool, span)) / (span.t1 - span.t0),
+                      .tissue_velocity = stage.tissue_velocity},
                      s.mesh, s.part, s.scene.cutting.resistance, s.drag);
   }
 }
