@@ -208,14 +208,19 @@ double length_of(const std::vector<Vec3>& path) {
   return length;
 }
 
-// Along stage.plane_path, which then begins anew at the tip. One that may grow is tried again where
-// it is refused.
+// Along stage.plane_path, which then begins anew at the tip, or where its rest does. One that may
+// grow is tried again where it is refused.
 void cut_reach(Simulation& s, CutStage& stage, bool may_grow, double h) {
   std::vector<Vec3>& path = stage.plane_path;
   const PlaneCut cut =
       cut_plane(s.mesh, path, stage.plane_tip, held_nodes(s.holds, s.fixed), stage.plane);
   if (cut.edit.is_empty() && may_grow) return;
   note_edit(s, cut.edit, cut.figures, stage.strokes.back());
+  if (!cut.rest.empty()) {
+    stage.plane_tip = cut.tip;
+    path = cut.rest;
+    return;
+  }
   // A cut that ends before its path does, at nodes that are held, is not continued.
   const auto X = [&](std::int32_t node) { return s.mesh.X[static_cast<std::size_t>(node)]; };
   const bool is_continued = cut.tip >= 0 && (X(cut.tip) - path.back()).norm() < h;

@@ -126,6 +126,37 @@ TEST(CutStage, cuts_a_plate_that_its_tip_passes_between_two_frames) {
   EXPECT_EQ(cut.n_pieces, 2);
 }
 
+// Across and, lifted in between, upwards, 5 mm aside on its way. Reaches of the path end anywhere
+// beside the slit.
+TEST(CutStage, crosses_its_own_slit_in_a_plate) {
+  std::string corners;
+  for (const std::string low :
+       {"[-1, -1, -1]", "[0.057, -1, -1]", "[-1, 0.049, -1]", "[0.057, 0.049, -1]"}) {
+    const std::string high = std::string(contains(low, "[0.057") ? "[1, " : "[0.003, ") +
+                             (contains(low, " 0.049") ? "1, 1]" : "0.003, 1]");
+    const std::string name = "\"corner" + std::to_string(corners.size()) + "\"\n";
+    corners += "[[region]]\nname = " + name + "low = " + low + "\nhigh = " + high +
+               "\n[[support]]\nregion = " + name;
+  }
+  for (const double x : {25.0, 28.0, 30.0, 31.5, 32.8}) {
+    const std::string way = key(0.05, -5, 20, 0) + key(0.6, 65, 30, 0) + key(0.7, 65, 30, 20);
+    const std::string then = key(0.9, x, -6, 20) + key(1, x, -6, 0) + key(1.8, x - 5, 65, 0);
+    const auto started = built(
+        "[time]\nduration = 2\nframe_rate = 30\n[tissue]\nthickness = 0.005\n[tissue.shape]\n"
+        "kind = \"triangular-rectangle\"\nhigh = [0.06, 0.052, 0]\ncells = [25, 26, 1]\n"
+        "[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\n[solver]\nmass_damping = "
+        "20\n"
+        "[cutting]\nresistance = 0\n" +
+        corners +
+        "[[instrument]]\nkind = \"scalpel\"\nradius = 0.001\nblade_length = 0.008\npath = [\n" +
+        facing(way, "[1, 0, 0]") + facing(then, "[0, 1, 0]") + "]\n");
+    Simulation& s = *started->s;
+    while (s.frame < 56) run_frame(s, started->outputs);
+    EXPECT_EQ(s.n_pieces, 4) << x;
+    for (const CutRecord& stroke : s.cuts[0].strokes) EXPECT_EQ(stroke.n_refused, 0) << x;
+  }
+}
+
 // 60 mm between tissue that supports move at both ends and a blade of 40 mm, in 0.6 s; `share`: the
 // blade's part of the motion.
 struct Meeting {
