@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 
 #include "base/box.h"
@@ -13,6 +12,7 @@
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "engine/mesh_measures.h"
+#include "engine/plane_tip.h"
 #include "engine/simulation.h"
 #include "engine/tissue_way.h"
 
@@ -21,7 +21,8 @@ namespace trocar {
 namespace {
 
 constexpr int idle_frames_to_leave =
-    3;  // a blade that touches nothing for so long has left the tissue
+    3;                              // a blade that touches nothing for so long has left the tissue
+constexpr double least_way = 1e-9;  // of a blade within a frame, else it rests [m]
 constexpr double tip_spacing = 0.25;  // of a plane blade's way, mean edge lengths
 constexpr double plane_advance =
     3.0;  // mean edge lengths of the path that the paper's algorithm takes at a time
@@ -67,22 +68,6 @@ void locate_edge(const Simulation& s, BodyPositions& positions, std::span<const 
   const std::array<Vec3, 2> ends = {edge.front(), edge.back()};
   const std::vector<std::int32_t> near = positions.elements_around(box_around(ends));
   stage.engaged = locate_segment(s.mesh, positions.x(), ends, near);
-}
-
-// Where a plane blade's tip was at the frame's begin, as the tissue sees it.
-Vec3 first_tip(const BladeSweep& sweep) {
-  if (sweep.tissue_way.empty()) return sweep.before.front();
-  return sweep.before.front() + sweep.tissue_way.front();
-}
-
-// The tip of a plane blade, at its way's end and before.
-std::vector<Vec3> way_of_tip(const BladeSweep& sweep, double spacing) {
-  constexpr double most = 1000;
-  const Vec3 way = sweep.after.front() - first_tip(sweep);
-  const int n = static_cast<int>(std::ceil(std::clamp(way.norm() / spacing, 1.0, most)));
-  std::vector<Vec3> points;
-  for (int k = 0; k <= n; ++k) points.push_back(sweep.after.front() - way * (1.0 * k / n));
-  return points;
 }
 
 // Whether the blade has met the tissue within the frame: beside where its edge is looked for, and
@@ -156,9 +141,15 @@ void note_edit(Simulation& s, const MeshEdit& edit, const CutFigures& figures, C
   record.n_elements_dissolved += std::max<std::int64_t>(-difference, 0);
 }
 
-BladeSweep sweep_of(const Tool& tool, const FrameSpan& span) {
-  return {.before = cutting_edge(tool, span.t0),
-          .after = cutting_edge(tool, span.t1),
+// Of a plane body's blade the tip alone.
+BladeSweep sweep_of(const Simulation& s, const Tool& tool, const FrameSpan& span) {
+  const auto edge_at = [&](double time) {
+    std::vector<Vec3> edge = cutting_edge(tool, time);
+    if (s.mesh.dimension() == 2) edge = {tip_in_plane(edge, s.scene.tissue.thickness)};
+    return edge;
+  };
+  return {.before = edge_at(span.t0),
+          .after = edge_at(span.t1),
           .normal = tool.path.at(0.5 * (span.t0 + span.t1)).rotation * Vec3::UnitY()};
 }
 
@@ -171,7 +162,7 @@ struct BladeFrame {
 BladeFrame frame_of_blade(Simulation& s, const FrameSpan& span, const FrameTissue& tissue,
                           const CutStage& stage, std::optional<BodyPositions>& positions) {
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
-  BladeFrame frame{.sweep = sweep_of(tool, span)};
+  BladeFrame frame{.sweep = sweep_of(s, tool, span)};
   Box blade;
   for (const Vec3& point : frame.sweep.after) blade.add(point);
   for (const Vec3& point : frame.sweep.before) blade.add(point);
@@ -190,16 +181,17 @@ void cut_volume(Simulation& s, CutStage& stage, const BladeSweep& sweep, bool is
   note_edit(s, edit, figures, stage.strokes.back());
 }
 
-// In reference positions.
+// In reference positions; a tip that has left the plane ends its path.
 void take_up_tip(const Simulation& s, const BladeSweep& sweep, CutStage& stage) {
   std::vector<Vec3>& path = stage.plane_path;
   if (path.empty()) {
     const Location start = locate_nearest(s.mesh, s.cut_state.x, first_tip(sweep));
     path.push_back(interpolate(s.mesh, start, s.mesh.X));
   }
+  if (sweep.after.front().z() != 0) return;
   const Location place = locate_nearest(s.mesh, s.cut_state.x, sweep.after.front());
   const Vec3 point = interpolate(s.mesh, place, s.mesh.X);
-  if ((point - path.back()).norm() > 1e-9) path.push_back(point);
+  if ((point - path.back()).norm() > least_way) path.push_back(point);
 }
 
 double length_of(const std::vector<Vec3>& path) {
@@ -285,7 +277,7 @@ bool is_askew(const Tool& tool, const FrameSpan& span, const BladeSweep& sweep,
   const Mat3 frame = tool.path.at(0.5 * (span.t0 + span.t1)).rotation.toRotationMatrix();
   const Vec3 way = way_of_middle(sweep) - (span.t1 - span.t0) * stage.tissue_velocity;
   const Vec3 across = way - frame.col(2).dot(way) * frame.col(2);
-  return frame.col(0).dot(across) < facing * across.norm();
+  return across.norm() > least_way && frame.col(0).dot(across) < facing * across.norm();
 }
 
 // An edge cuts whichever way it moves: a robot's wrong turn about its shaft would not show.
@@ -378,7 +370,7 @@ void prepare_drag(Simulation& s, const FrameSpan& span) {
     if (stage.engaged.empty() || !is_cutting(tool, span.t0, span.t1)) continue;
     add_engaged_edge({.tool = stage.tool,
                       .piece = stage.engaged,
-                      .velocity = way_of_middle(sweep_of(tool, span)) / (span.t1 - span.t0),
+                      .velocity = way_of_middle(sweep_of(s, tool, span)) / (span.t1 - span.t0),
                       .tissue_velocity = stage.tissue_velocity},
                      s.mesh, s.part, s.scene.cutting.resistance, s.drag);
   }

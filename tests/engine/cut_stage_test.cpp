@@ -157,6 +157,24 @@ TEST(CutStage, crosses_its_own_slit_in_a_plate) {
   }
 }
 
+// Half of its 5 mm lies above z = 0. A blade of 20 mm that hangs down farther goes through it
+// higher up.
+TEST(CutStage, cuts_a_plate_at_every_depth_of_its_tip_within_or_below_it) {
+  const auto n_cut = [](double z) {
+    std::string text = plate_text({{30, -3}, {30, 43}});
+    const std::string height = "\"0.000000 mm\"], direction";
+    for (std::size_t at = text.find(height); at != std::string::npos;
+         at = text.find(height, at + 1))
+      text.replace(at + 1, 8, std::to_string(z));
+    const auto started = built(text);
+    Simulation& s = *started->s;
+    while (s.frame < 66) run_frame(s, started->outputs);
+    return s.n_pieces;
+  };
+  for (const double z : {0.0, 1e-6, 0.5, -0.5, 2.4, -2.4, -6.0, -19.0}) EXPECT_EQ(n_cut(z), 2) << z;
+  for (const double z : {2.6, 6.0, -23.0}) EXPECT_EQ(n_cut(z), 1) << z;
+}
+
 // 60 mm between tissue that supports move at both ends and a blade of 40 mm, in 0.6 s; `share`: the
 // blade's part of the motion.
 struct Meeting {
