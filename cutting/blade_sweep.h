@@ -15,6 +15,8 @@ struct BladeSweep {
   std::vector<Vec3> before;
   std::vector<Vec3> after;
   Vec3 normal = Vec3::UnitZ();
+  // Of the tissue that each point comes nearest to, between the two moments; none: at rest. [m]
+  std::vector<Vec3> tissue_way = {};
 };
 
 }  // namespace trocar

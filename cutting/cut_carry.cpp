@@ -121,11 +121,19 @@ void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& 
     if (holds_some(mesh, x, e, points)) stroke.at_edge.push_back(e);
 }
 
+bool is_remembered(const CutStroke& stroke, const BladeSweep& sweep) {
+  const auto is_near = [](const BladePoint& p) { return p.element >= 0; };
+  return stroke.edge.size() == sweep.before.size() && std::ranges::any_of(stroke.edge, is_near);
+}
+
 BladeSweep carry_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
                       const CutStroke& stroke) {
   BladeSweep carried = sweep;
-  if (stroke.edge.size() != sweep.before.size()) return carried;
-  constexpr std::size_t none = ~std::size_t{0};
+  if (!is_remembered(stroke, sweep)) {
+    for (std::size_t k = 0; k < sweep.tissue_way.size(); ++k)
+      carried.before[k] += sweep.tissue_way[k];
+    return carried;
+  }
   std::vector<Vec3> way(stroke.edge.size(), Vec3::Zero());
   std::vector<std::size_t> inside;
   for (std::size_t k = 0; k < way.size(); ++k) {
@@ -135,14 +143,14 @@ BladeSweep carry_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSwee
     inside.push_back(k);
   }
   for (std::size_t k = 0; k < way.size(); ++k) {
-    std::size_t nearest = none, least = none;
+    std::size_t nearest = 0, least = way.size();
     for (const std::size_t j : inside) {
       const std::size_t distance = j > k ? j - k : k - j;
       if (distance >= least) continue;
       least = distance;
       nearest = j;
     }
-    if (nearest != none) carried.before[k] += way[nearest];
+    carried.before[k] += way[nearest];
   }
   return carried;
 }

@@ -1,6 +1,6 @@
 // Where the blade's edge ended in the tissue. Tissue moves between two frames, so the next band
 // must begin at the material points where the last one ended, not where they were: else strips
-// between bands stay joined.
+// between bands stay joined. A blade that tissue moves onto cuts like one that moves into tissue.
 #pragma once
 
 #include <span>
@@ -12,13 +12,17 @@
 
 namespace trocar {
 
-// The sweep with `before` carried along with the tissue since the last frame. Points far
-// outside follow the nearest other one.
+// Whether the edge was in the tissue or beside it when it was last remembered.
+bool is_remembered(const CutStroke& stroke, const BladeSweep& sweep);
+
+// The sweep as the tissue sees it: `before` is carried along with the tissue since the edge was
+// remembered. Points far outside follow the nearest other one; while all are, the tissue's way
+// within the frame is that of the sweep.
 BladeSweep carry_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
                       const CutStroke& stroke);
 
-// Takes down the material points of sweep.after and the elements that the edge is in. `near`:
-// elements that may hold some.
+// Takes down the material points of sweep.after and the elements that the edge is in. The sweep: as
+// the tissue sees it. `near`: elements that may hold some.
 void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
                    std::span<const std::int32_t> near, CutStroke& stroke);
 

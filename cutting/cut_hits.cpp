@@ -14,8 +14,12 @@ namespace trocar {
 
 // Part of the mean edge by which a band begins behind its begin.
 static constexpr double overlap = 0.15;
+// Part of the mean edge below which a way counts as rest. An edge that rests in tissue is left
+// where it was remembered, so that slow ways add up and vibrations cut nothing.
+static constexpr double least_way = 1e-3;
 
-double sweep_length(const BladeSweep& sweep) {
+// The longest way of a point of the edge. [m]
+static double sweep_length(const BladeSweep& sweep) {
   double longest = 0;
   for (std::size_t k = 0; k < sweep.before.size(); ++k)
     longest = std::max(longest, (sweep.after[k] - sweep.before[k]).norm());
@@ -225,21 +229,28 @@ static std::vector<CutHit> find_hits(const Mesh& mesh, std::span<const Vec3> x, 
 
 void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
               const BladeSweep& sweep, CutStroke& stroke) {
-  const Band swept = make_band(sweep, 0);
-  // The first band of a stroke may begin anywhere.
   std::vector<std::int32_t> begin = elements_at_edge(stroke);
   positions.find(nodes_of(mesh, begin));
+  const BladeSweep seen = carry_edge(mesh, positions.x(), sweep, stroke);
+  const double way = sweep_length(seen);
+  if (is_remembered(stroke, sweep) && way < least_way * stroke.mean_edge) {
+    for (std::size_t k = 0; k < stroke.edge.size(); ++k) stroke.edge[k].x = sweep.after[k];
+    return;
+  }
+  stroke.swept += way;
+  const Band swept = make_band(seen, 0);
+  // The first band of a stroke may begin anywhere.
   if (stroke.edge.size() != sweep.before.size())
     begin = near_elements(mesh, index, positions, box_of(swept));
-  if (stroke.mean_edge == 0 && !swept.triangle.empty())
+  if (stroke.mean_edge == 0)
     stroke.mean_edge = mean_length(
         mesh, edge_uses(mesh, near_elements(mesh, index, positions, box_of(swept), begin)));
   const std::span<const Vec3> x = positions.x();
-  const Band band = make_band(carry_edge(mesh, x, sweep, stroke), overlap * stroke.mean_edge);
-  if (band.triangle.empty()) return;
+  const Band band = make_band(seen, overlap * stroke.mean_edge);
   const std::vector<std::int32_t> element =
       near_elements(mesh, index, positions, box_of(band), begin);
-  remember_edge(mesh, x, sweep, element, stroke);
+  remember_edge(mesh, x, seen, element, stroke);
+  if (band.triangle.empty()) return;
   const std::vector<EdgeUse> use = edge_uses(mesh, element);
   std::vector<CutHit> found = find_hits(mesh, x, band, use);
   if (found.empty()) return;

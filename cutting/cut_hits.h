@@ -12,11 +12,9 @@ namespace trocar {
 // Adds the crossings of the band with the edges of tetrahedra in the present configuration to
 // stroke.hit; an edge crossed back loses its crossing. The band begins where the last one ended in
 // the tissue, and a little behind. Every element that shares an edge gets the same decision. Sets
-// stroke.mean_edge near the band. `index` is that of the mesh.
+// stroke.mean_edge near the band and adds the way in the tissue to stroke.swept. `index` is that of
+// the mesh.
 void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
               const BladeSweep& sweep, CutStroke& stroke);
-
-// The longest way that a point of the blade's edge has gone. [m]
-double sweep_length(const BladeSweep& sweep);
 
 }  // namespace trocar

@@ -222,6 +222,13 @@ Laid lay_as_possible(const PlanePatch& patch, const std::vector<SubPath>& sub_pa
   return farther.length > laid.length || (farther.length > 0 && has_better) ? farther : laid;
 }
 
+std::vector<Vec3> end_of(const SubPath& path, double from) {
+  std::vector<Vec3> points;
+  for (const Vec2& point : trimmed(path, from, path.length()).point)
+    points.emplace_back(point.x(), point.y(), 0);
+  return points;
+}
+
 PlaneCut refused_at(const Vec2& place) {
   PlaneCut cut;
   cut.figures.n_refused = 1;
@@ -254,15 +261,20 @@ PlaneCut cut_plane(const Mesh& mesh, std::span<const Vec3> path, std::int32_t co
   if (patch.element.empty()) return {};
   const int tip = continued_tip >= 0 ? local_node(patch, continued_tip) : -1;
   const SubPath whole = make_sub_path(point);
-  const std::vector<SubPath> sub_paths = clip_to_body(patch, whole, tip);
-  if (sub_paths.empty()) return refused_at(position(whole, 0.5 * whole.length()));
+  const ClippedPath clipped = clip_to_body(patch, whole, tip);
+  if (clipped.pieces.empty()) return refused_at(position(whole, 0.5 * whole.length()));
   CutPlaneOptions within = options;  // elements that lie below the floor may not sink further
   within.least_step = std::min(options.least_step, find_slowest(patch, patch.X).bound);
-  const Laid laid = lay_as_possible(patch, sub_paths, within);
+  const Laid laid = lay_as_possible(patch, clipped.pieces, within);
   PlaneCut cut;
   if (laid.length > 0) cut = make_plane_cut(mesh, patch, laid.attempt.patch, laid.attempt.chains);
   cut.figures.refusals = laid.refusals;
-  cut.figures.n_refused = static_cast<std::int32_t>(laid.refusals.size());
+  for (const double s : clipped.left_out)
+    cut.figures.refusals.push_back(refusal_at(position(whole, s), CutRefusal::no_room));
+  cut.figures.n_refused = static_cast<std::int32_t>(cut.figures.refusals.size());
+  if (clipped.rest < 0) return cut;
+  cut.rest = end_of(whole, clipped.rest);
+  cut.tip = -1;
   return cut;
 }
 

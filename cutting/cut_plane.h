@@ -45,11 +45,13 @@ double least_step_bound(const Mesh& mesh);
 // 0). Ends inside the body stay closed (crack tips); ends on or beyond the boundary open it. If
 // `continued_tip` >= 0 the path starts at that node, the tip of an earlier part of the same cut.
 // Throws InputError for other element types. Afterwards `tip` is the node at the inner end of the
-// path, -1 if it ends on the boundary.
+// path, -1 if it ends on the boundary. `rest`: the end of the path inside the body that is too
+// short to be cut by itself, behind an older cut; what is to be cut next begins with it.
 struct PlaneCut {
   MeshEdit edit;
   CutFigures figures;
   std::int32_t tip = -1;
+  std::vector<Vec3> rest;
 };
 PlaneCut cut_plane(const Mesh& mesh, std::span<const Vec3> path, std::int32_t continued_tip,
                    std::span<const std::uint8_t> is_held, const CutPlaneOptions& options);

@@ -80,12 +80,45 @@ const PathCrossing* first_after(const std::vector<PathCrossing>& crossings, doub
   return nullptr;
 }
 
+// Calls use(facet, distance) for all facets of the boundary but those at `except`, with their
+// distance from p.
+template <class Use>
+void for_boundary(const PlanePatch& patch, const Vec2& p, int except, const Use& use) {
+  for (int e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; f < 3; ++f) {
+      if (patch.across[e][f] != across_boundary) continue;
+      const int i = patch.corner[e][(f + 1) % 3], j = patch.corner[e][(f + 2) % 3];
+      if (i == except || j == except) continue;
+      const Vec2 &a = patch.X[i], d = patch.X[j] - a;
+      const double t = std::min(1.0, std::max(0.0, (p - a).dot(d) / d.squaredNorm()));
+      use(PatchFacet{e, f}, (p - a - t * d).norm());
+    }
+}
+
+// As boundary_distance; of the two lips of an older cut, which lie on each other, the facet is of
+// the one through which `way` goes into the body.
+double entered_distance(const PlanePatch& patch, const Vec2& p, const Vec2& way, int except,
+                        PatchFacet& entered) {
+  constexpr double clear = 0.1;  // sine of the angle between a facet and a way through it
+  const double distance = boundary_distance(patch, p, except, entered);
+  double least = distance + same_crossing * patch.h;
+  for_boundary(patch, p, except, [&](const PatchFacet& facet, double d) {
+    const std::array<int, 3>& corner = patch.corner[facet.element];
+    const Vec2 along =
+        patch.X[corner[(facet.facet + 2) % 3]] - patch.X[corner[(facet.facet + 1) % 3]];
+    if (d >= least || cross(along, way) < clear * along.norm() * way.norm()) return;
+    least = d;
+    entered = facet;
+  });
+  return distance;
+}
+
 // Where the first piece begins; s < 0 if the path never meets the body.
 PathCrossing find_start(const PlanePatch& patch, const SubPath& path, int tip,
                         const Crossings& crossings) {
   if (tip >= 0) return {0, {}};
   PathCrossing start{0, {}};
-  const double distance = boundary_distance(patch, path.point[0], -1, start.facet);
+  const double distance = entered_distance(patch, path.point[0], tangent(path, 0), -1, start.facet);
   const double ahead = std::min(2 * on_boundary * patch.h, 0.5 * path.length());
   if (distance < on_boundary * patch.h && is_inside(patch, position(path, ahead))) return start;
   if (is_inside(patch, path.point[0])) return {0, {}};
@@ -96,7 +129,8 @@ PathCrossing find_start(const PlanePatch& patch, const SubPath& path, int tip,
 PathCrossing find_end(const PlanePatch& patch, const SubPath& path, int tip) {
   PathCrossing end{path.length(), {}};
   PatchFacet nearest;
-  if (boundary_distance(patch, path.point.back(), tip, nearest) < on_boundary * patch.h)
+  const Vec2 back = -tangent(path, path.length());
+  if (entered_distance(patch, path.point.back(), back, tip, nearest) < on_boundary * patch.h)
     end.facet = nearest;
   return end;
 }
@@ -253,23 +287,16 @@ void draw_back_ends(const PlanePatch& patch, SubPath& path) {
 
 double boundary_distance(const PlanePatch& patch, const Vec2& p, int except, PatchFacet& nearest) {
   double least = std::numeric_limits<double>::max();
-  for (int e = 0; e < patch.n_elements(); ++e)
-    for (int f = 0; f < 3; ++f) {
-      if (patch.across[e][f] != across_boundary) continue;
-      const int i = patch.corner[e][(f + 1) % 3], j = patch.corner[e][(f + 2) % 3];
-      if (i == except || j == except) continue;
-      const Vec2 &a = patch.X[i], d = patch.X[j] - a;
-      const double t = std::min(1.0, std::max(0.0, (p - a).dot(d) / d.squaredNorm()));
-      const double distance = (p - a - t * d).norm();
-      if (distance >= least) continue;
-      least = distance;
-      nearest = {e, f};
-    }
+  for_boundary(patch, p, except, [&](const PatchFacet& facet, double distance) {
+    if (distance >= least) return;
+    least = distance;
+    nearest = facet;
+  });
   return least;
 }
 
-std::vector<SubPath> clip_to_body(const PlanePatch& patch, const SubPath& path, int tip) {
-  std::vector<SubPath> result;
+ClippedPath clip_to_body(const PlanePatch& patch, const SubPath& path, int tip) {
+  ClippedPath result;
   const Crossings crossings = find_crossings(patch, path, tip);
   const double tolerance = same_crossing * patch.h;
   PathCrossing start = find_start(patch, path, tip, crossings);
@@ -277,10 +304,14 @@ std::vector<SubPath> clip_to_body(const PlanePatch& patch, const SubPath& path, 
     const PathCrossing* leave = first_after(crossings.leave, start.s + tolerance);
     const PathCrossing end = leave != nullptr ? *leave : find_end(patch, path, tip);
     if (end.s - start.s > least_length * patch.h) {
-      result.push_back(trimmed(path, start.s, end.s));
-      result.back().start_on = start.facet;
-      result.back().end_on = end.facet;
-      result.back().tip = start.s > 0 ? -1 : tip;
+      SubPath& piece = result.pieces.emplace_back(trimmed(path, start.s, end.s));
+      piece.start_on = start.facet;
+      piece.end_on = end.facet;
+      piece.tip = start.s > 0 ? -1 : tip;
+    } else if (leave == nullptr) {
+      result.rest = start.s;
+    } else if (end.s - start.s > on_boundary * patch.h) {
+      result.left_out.push_back(0.5 * (start.s + end.s));
     }
     if (leave == nullptr) break;
     const PathCrossing* enter = first_after(crossings.enter, leave->s - tolerance);

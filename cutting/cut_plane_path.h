@@ -33,7 +33,12 @@ SubPath with_ends(const SubPath& path, const Vec2& start, const Vec2& end, doubl
 // Pieces between crossings of the boundary, in order. Faces of older cuts are boundary too,
 // although they have no width. Ends within 0.1 h of the boundary lie on it; pieces shorter than
 // 0.3 h are left out. `tip` (local node or -1): where the path continues an older cut.
-std::vector<SubPath> clip_to_body(const PlanePatch& patch, const SubPath& path, int tip);
+struct ClippedPath {
+  std::vector<SubPath> pieces;
+  double rest = -1;              // arc length where a last piece begins that was left out; -1: none
+  std::vector<double> left_out;  // middles of other ones that the cut would have to part
+};
+ClippedPath clip_to_body(const PlanePatch& patch, const SubPath& path, int tip);
 
 // Leaves out where the paths run through elements with n_corners or more that are held, and half a
 // mean edge around: with three, none could be displaced onto the cut. Returns the middles of the

@@ -35,12 +35,12 @@ struct OfElement {
   T value{};
 };
 
-// A point of the blade's edge at the end of a frame.
+// A point of the blade's edge at the end of a frame, and where in the tissue its band has ended.
 struct BladePoint {
   std::int32_t element = -1;  // that held it, or beside it; -1: far outside the body
   bool is_inside = false;
-  Vec3 X = Vec3::Zero();  // reference position [m]
-  Vec3 x = Vec3::Zero();  // position at that time [m]
+  Vec3 X = Vec3::Zero();  // end of the band, reference position [m]
+  Vec3 x = Vec3::Zero();  // of the edge [m]
 };
 
 struct CutStroke {
@@ -60,7 +60,7 @@ struct CutStroke {
   bool ends_in_tissue = false;  // the blade began there, or an end of its edge was there: it need
                                 // not go through
   double mean_edge = 0;         // around the last hits [m]; 0: not known yet
-  double swept = 0;             // since the last edit [m]
+  double swept = 0;             // of the tissue, since the last edit [m]
 };
 
 // Whether the blade has left the tissue all along its edge, and cut what it swept from surface to

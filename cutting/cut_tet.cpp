@@ -92,7 +92,6 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
                                    std::span<const std::uint8_t> is_held, const BladeSweep& sweep,
                                    bool is_last, CutFigures& figures) {
   add_hits(mesh, index, positions, sweep, stroke);
-  stroke.swept += sweep_length(sweep);
   if (!is_last && stroke.swept < options.advance * stroke.mean_edge) return {};
 
   TetCut cut;

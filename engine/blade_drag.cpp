@@ -17,10 +17,21 @@ BladeDrag::Node& node_of(BladeDrag& drag, std::int32_t tool, std::int32_t local)
 
 }  // namespace
 
+// Of the blade's motion in the tissue; in tissue that goes along with it, of its own. Zero if both
+// rest.
+static Vec3 direction_of(const EngagedEdge& edge) {
+  constexpr double goes_along = 0.1;
+  const Vec3 relative = edge.velocity - edge.tissue_velocity;
+  const bool is_along = relative.norm() < goes_along * edge.velocity.norm();
+  const Vec3& way = is_along ? edge.velocity : relative;
+  const double size = way.norm();
+  return size > 0 ? Vec3(way / size) : Vec3::Zero();
+}
+
 void add_engaged_edge(const EngagedEdge& edge, const Mesh& mesh, const Part& part,
                       double resistance, BladeDrag& drag) {
-  const double speed = edge.velocity.norm();
-  if (resistance == 0 || !(speed > 0)) return;
+  const Vec3 direction = direction_of(edge);
+  if (resistance == 0 || direction.isZero(0)) return;
   for (const auto& [location, length] : edge.piece) {
     const auto corner = mesh.corners(location.element);
     for (std::size_t a = 0; a < corner.size(); ++a) {
@@ -28,8 +39,8 @@ void add_engaged_edge(const EngagedEdge& edge, const Mesh& mesh, const Part& par
       if (local < 0 || local >= part.n_owned) continue;
       BladeDrag::Node& node = node_of(drag, edge.tool, local);
       node.most += location.weight[a] * resistance * length;
-      node.speed = speed;
-      node.direction = edge.velocity / speed;
+      node.speed = direction.dot(edge.velocity);
+      node.direction = direction;
     }
   }
 }

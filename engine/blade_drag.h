@@ -23,7 +23,8 @@ namespace trocar {
 struct EngagedEdge {
   std::int32_t tool = 0;
   std::span<const SegmentPiece> piece;
-  Vec3 velocity = Vec3::Zero();  // of the edge's middle [m/s]
+  Vec3 velocity = Vec3::Zero();         // of the edge's middle [m/s]
+  Vec3 tissue_velocity = Vec3::Zero();  // around it [m/s]
 };
 
 struct BladeDrag {
@@ -32,7 +33,7 @@ struct BladeDrag {
     std::int32_t tool = 0;
     double most = 0;                // [N]
     double speed = 0;               // of the blade along `direction` [m/s]
-    Vec3 direction = Vec3::Zero();  // of the blade's motion
+    Vec3 direction = Vec3::Zero();  // of the blade's motion in the tissue
     double force = 0;               // of the last step [N]
     double force_sum = 0;           // over the steps of this frame [N]
   };

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numeric>
+
+#include "engine/plane_tip.h"
 
 namespace trocar {
 
@@ -23,16 +24,6 @@ std::vector<Location> locate_beside(const Simulation& s, BodyPositions& position
 bool is_one_inside(const Simulation& s, BodyPositions& positions, std::span<const Vec3> points) {
   return std::ranges::any_of(locate_beside(s, positions, points),
                              [](const Location& location) { return location.element >= 0; });
-}
-
-// The tip of a plane blade, at its way's end and before.
-std::vector<Vec3> way_of_tip(const BladeSweep& sweep, double spacing) {
-  constexpr double most = 1000;
-  const Vec3 way = sweep.after.front() - sweep.before.front();
-  const int n = static_cast<int>(std::ceil(std::clamp(way.norm() / spacing, 1.0, most)));
-  std::vector<Vec3> points;
-  for (int k = 0; k <= n; ++k) points.push_back(sweep.after.front() - way * (1.0 * k / n));
-  return points;
 }
 
 // Whether the blade has met tissue beside where its edge is looked for, and between the frame's

@@ -12,19 +12,31 @@
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "engine/mesh_measures.h"
+#include "engine/plane_tip.h"
 #include "engine/simulation.h"
+#include "engine/tissue_way.h"
 
 namespace trocar {
 
 namespace {
 
+constexpr double least_way = 1e-9;  // of a blade within a frame, else it rests [m]
 constexpr double plane_advance =
     3.0;  // mean edge lengths of the path that the paper's algorithm takes at a time
 
-Box surface_box(const Simulation& s) {
+// Where the tissue has been within the frame, and how far it has come at most.
+struct FrameTissue {
   Box box;
-  for (const std::int32_t node : s.view.node) box.add(s.view.x[static_cast<std::size_t>(node)]);
-  return box;
+  double way = 0;  // [m]
+};
+
+FrameTissue tissue_in_frame(const Simulation& s) {
+  FrameTissue tissue{.box = {}, .way = largest_surface_way(s)};
+  for (const std::int32_t node : s.view.node)
+    tissue.box.add(s.view.x[static_cast<std::size_t>(node)]);
+  tissue.box.low.array() -= tissue.way;
+  tissue.box.high.array() += tissue.way;
+  return tissue;
 }
 
 void start_stroke(CutStage& stage, const Tool& tool, double time) {
@@ -32,6 +44,7 @@ void start_stroke(CutStage& stage, const Tool& tool, double time) {
   stage.n_idle_frames = 0;
   stage.strokes.push_back({.tool = tool.name, .start = time});
   stage.plane_tip = -1;
+  stage.tissue_velocity.setZero();
 }
 
 void add_figures(const CutFigures& figures, bool has_edit, CutRecord& record) {
@@ -70,23 +83,29 @@ void note_edit(Simulation& s, const MeshEdit& edit, const CutFigures& figures, C
   record.n_elements_dissolved += std::max<std::int64_t>(-difference, 0);
 }
 
-BladeSweep sweep_of(const Tool& tool, const FrameSpan& span) {
-  return {.before = cutting_edge(tool, span.t0),
-          .after = cutting_edge(tool, span.t1),
+// Of a plane body's blade the tip alone.
+BladeSweep sweep_of(const Simulation& s, const Tool& tool, const FrameSpan& span) {
+  const auto edge_at = [&](double time) {
+    std::vector<Vec3> edge = cutting_edge(tool, time);
+    if (s.mesh.dimension() == 2) edge = {tip_in_plane(edge, s.scene.tissue.thickness)};
+    return edge;
+  };
+  return {.before = edge_at(span.t0),
+          .after = edge_at(span.t1),
           .normal = tool.path.at(0.5 * (span.t0 + span.t1)).rotation * Vec3::UnitY()};
 }
 
-// In reference positions.
-void take_up_tip(const Simulation& s, const FrameSpan& span, CutStage& stage) {
-  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+// In reference positions; a tip that has left the plane ends its path.
+void take_up_tip(const Simulation& s, const BladeSweep& sweep, CutStage& stage) {
   std::vector<Vec3>& path = stage.plane_path;
   if (path.empty()) {
-    const Location start = locate_nearest(s.mesh, s.cut_state.x, tool.path.at(span.t0).translation);
+    const Location start = locate_nearest(s.mesh, s.cut_state.x, first_tip(sweep));
     path.push_back(interpolate(s.mesh, start, s.mesh.X));
   }
-  const Location place = locate_nearest(s.mesh, s.cut_state.x, tool.path.at(span.t1).translation);
+  if (sweep.after.front().z() != 0) return;
+  const Location place = locate_nearest(s.mesh, s.cut_state.x, sweep.after.front());
   const Vec3 point = interpolate(s.mesh, place, s.mesh.X);
-  if ((point - path.back()).norm() > 1e-9) path.push_back(point);
+  if ((point - path.back()).norm() > least_way) path.push_back(point);
 }
 
 double length_of(const std::vector<Vec3>& path) {
@@ -95,14 +114,19 @@ double length_of(const std::vector<Vec3>& path) {
   return length;
 }
 
-// Along stage.plane_path, which then begins anew at the tip. One that may grow is tried again where
-// it is refused.
+// Along stage.plane_path, which then begins anew at the tip, or where its rest does. One that may
+// grow is tried again where it is refused.
 void cut_reach(Simulation& s, CutStage& stage, bool may_grow, double h) {
   std::vector<Vec3>& path = stage.plane_path;
   const PlaneCut cut =
       cut_plane(s.mesh, path, stage.plane_tip, held_nodes(s.holds, s.fixed), stage.plane);
   if (cut.edit.is_empty() && may_grow) return;
   note_edit(s, cut.edit, cut.figures, stage.strokes.back());
+  if (!cut.rest.empty()) {
+    stage.plane_tip = cut.tip;
+    path = cut.rest;
+    return;
+  }
   // A cut that ends before its path does, at nodes that are held, is not continued.
   const auto X = [&](std::int32_t node) { return s.mesh.X[static_cast<std::size_t>(node)]; };
   const bool is_continued = cut.tip >= 0 && (X(cut.tip) - path.back()).norm() < h;
@@ -112,8 +136,8 @@ void cut_reach(Simulation& s, CutStage& stage, bool may_grow, double h) {
 
 // Cuts the tip's path reach by reach, each once it is long enough or the next one begins. Legs
 // shorter than half an edge are left out: the next reach begins where they did.
-void cut_along_tip(Simulation& s, CutStage& stage, const FrameSpan& span, bool is_last) {
-  take_up_tip(s, span, stage);
+void cut_along_tip(Simulation& s, CutStage& stage, const BladeSweep& sweep, bool is_last) {
+  take_up_tip(s, sweep, stage);
   const double h = mean_edge_length(s.mesh);
   std::vector<std::vector<Vec3>> parts = reaches(stage.plane_path);
   for (std::vector<Vec3>& part : parts) {
@@ -149,15 +173,25 @@ Vec3 way_of_middle(const BladeSweep& sweep) {
   return middle(sweep.after) - middle(sweep.before);
 }
 
-// Whether a scalpel goes more than 60 degrees aside of where its edge faces, or backwards; ways
-// along the edge don't count.
-bool is_askew(const Tool& tool, const FrameSpan& span, const BladeSweep& sweep) {
+// What sticks to the blade or springs back from it for a moment is not what it moves against: that
+// is how the tissue came, and what it does in the long run.
+void follow_tissue(const Simulation& s, double time, bool was_engaged, CutStage& stage) {
+  constexpr double memory = 0.3;  // [s]
+  if (stage.engaged.empty()) return;
+  const double share = was_engaged ? time / (memory + time) : 1;
+  stage.tissue_velocity += share * (velocity_along(s, stage.engaged) - stage.tissue_velocity);
+}
+
+// Whether a scalpel goes more than 60 degrees aside of where its edge faces, or backwards, as the
+// tissue sees it; ways along the edge don't count.
+bool is_askew(const Tool& tool, const FrameSpan& span, const BladeSweep& sweep,
+              const CutStage& stage) {
   constexpr double facing = 0.5;
   if (tool.kind != InstrumentKind::scalpel) return false;
   const Mat3 frame = tool.path.at(0.5 * (span.t0 + span.t1)).rotation.toRotationMatrix();
-  const Vec3 way = way_of_middle(sweep);
+  const Vec3 way = way_of_middle(sweep) - (span.t1 - span.t0) * stage.tissue_velocity;
   const Vec3 across = way - frame.col(2).dot(way) * frame.col(2);
-  return frame.col(0).dot(across) < facing * across.norm();
+  return across.norm() > least_way && frame.col(0).dot(across) < facing * across.norm();
 }
 
 // An edge cuts whichever way it moves: a robot's wrong turn about its shaft would not show.
@@ -181,12 +215,24 @@ void add_to_record(double travel, double milliseconds, CutStage& stage) {
   record.deepest = std::max(record.deepest, length);
 }
 
-BladeWay way_of_blade(const Tool& tool, const FrameSpan& span, const Box& tissue) {
-  BladeWay way{.span = span, .sweep = sweep_of(tool, span), .box = {}};
-  for (const Vec3& point : way.sweep.after) way.box.add(point);
-  for (const Vec3& point : way.sweep.before) way.box.add(point);
-  way.is_near = way.box.overlaps(tissue) && is_cutting(tool, span.t0, span.t1);
-  return way;
+// way: see begin_positions; none until a blade is near.
+BladeWay way_of_blade(Simulation& s, const FrameSpan& span, const FrameTissue& tissue,
+                      const CutStage& stage, std::optional<double>& way) {
+  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  BladeWay blade{.span = span, .sweep = sweep_of(s, tool, span), .box = {}};
+  BladeSweep& sweep = blade.sweep;
+  for (const std::vector<Vec3>* edge : {&sweep.before, &sweep.after})
+    for (const Vec3& point : *edge) blade.box.add(point);
+  blade.is_near = blade.box.overlaps(tissue.box) && is_cutting(tool, span.t0, span.t1);
+  if (!blade.is_near || tissue.way == 0) return blade;
+  if (!way) way = begin_positions(s);
+  const CutGroup group(s, ranks_around(s, blade.box, *way, stage));
+  BodyPositions positions(s, group, *way);
+  sweep.tissue_way = found_by<std::vector<Vec3>>(
+      group, [&] { return ways_beside(s, positions, sweep, tissue.way); });
+  for (std::size_t k = 0; k < sweep.tissue_way.size(); ++k)
+    blade.box.add(sweep.before[k] + sweep.tissue_way[k]);
+  return blade;
 }
 
 void note_beside(Simulation& s, double time, const Tool& tool) {
@@ -229,11 +275,11 @@ bool take_up_stroke(Simulation& s, const BladeWay& blade, const BladeLook& look,
   return true;
 }
 
-// way: see begin_positions; none until a blade is near.
-void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, CutStage& stage,
+void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
                      std::optional<double>& way) {
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
-  const BladeWay blade = way_of_blade(tool, span, tissue);
+  const FrameSpan& span = blade.span;
+  const bool was_engaged = stage.is_in_stroke && !stage.engaged.empty();
   stage.engaged.clear();
   if (!blade.is_near && !stage.is_in_stroke) return;
 
@@ -245,16 +291,17 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
   const auto look =
       found_by<BladeLook>(group, [&] { return look_and_cut(s, blade, stage, positions); });
   if (!take_up_stroke(s, blade, look, stage)) return;
+  follow_tissue(s, span.t1 - span.t0, was_engaged, stage);
   const std::int64_t n_edits = stage.strokes.back().n_edits;
   if (s.mesh.dimension() == 2)
-    cut_along_tip(s, stage, span, look.is_last);
+    cut_along_tip(s, stage, blade.sweep, look.is_last);
   else
     take_over(s, group, look, stage);
   CutRecord& record = stage.strokes.back();
   record.n_ranks = std::max<std::int64_t>(record.n_ranks, std::ssize(group.ranks()));
   if (record.n_edits > n_edits) {
     locate_edge_anew(s, blade, *way, stage);
-    if (is_askew(tool, span, blade.sweep)) record.n_askew += record.n_edits - n_edits;
+    if (is_askew(tool, span, blade.sweep, stage)) record.n_askew += record.n_edits - n_edits;
   }
   add_to_record(way_of_middle(blade.sweep).norm(), 1e3 * (monotonic_seconds() - start), stage);
   note_body(s, record);
@@ -267,9 +314,11 @@ void cut_along_blade(Simulation& s, const FrameSpan& span, const Box& tissue, Cu
 
 void cut_along_blades(Simulation& s, const FrameSpan& span) {
   const PhaseScope scope(s.timers, phase_cut);
-  const Box tissue = surface_box(s);
+  const FrameTissue tissue = tissue_in_frame(s);
   std::optional<double> way;
-  for (CutStage& stage : s.cuts) cut_along_blade(s, span, tissue, stage, way);
+  std::vector<BladeWay> blades;  // all before the first edit: see ways_beside
+  for (const CutStage& stage : s.cuts) blades.push_back(way_of_blade(s, span, tissue, stage, way));
+  for (std::size_t k = 0; k < s.cuts.size(); ++k) cut_along_blade(s, blades[k], s.cuts[k], way);
   if (const std::string trouble = find_trouble(s); !trouble.empty())
     throw SimulationError("after the cut at " + number_text(span.t1) + " s: " + trouble);
 }
@@ -315,7 +364,8 @@ void prepare_drag(Simulation& s, const FrameSpan& span) {
     if (stage.engaged.empty() || !is_cutting(tool, span.t0, span.t1)) continue;
     add_engaged_edge({.tool = stage.tool,
                       .piece = stage.engaged,
-                      .velocity = way_of_middle(sweep_of(tool, span)) / (span.t1 - span.t0)},
+                      .velocity = way_of_middle(sweep_of(s, tool, span)) / (span.t1 - span.t0),
+                      .tissue_velocity = stage.tissue_velocity},
                      s.mesh, s.part, s.scene.cutting.resistance, s.drag);
   }
 }

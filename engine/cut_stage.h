@@ -50,6 +50,7 @@ struct CutProgress {
   std::vector<CutRecord> strokes;
   // Of the edge, what is inside the tissue this frame, where the blade's resistance acts.
   std::vector<SegmentPiece> engaged;
+  Vec3 tissue_velocity = Vec3::Zero();  // around the edge, in the stroke so far [m/s]
 };
 
 struct CutStage : CutProgress {

@@ -39,14 +39,17 @@ double displace(const Cut2dOptions& options, Cut2dTrial& trial) {
   if (options.mode == Cut2dMode::robust)
     plane.least_step = options.least_step_ratio * least_step_bound(trial.before);
   for (const Cut2dPath& path : trial.paths) {
-    std::int32_t tip = -1;  // where the last reach ended
-    for (const Cut2dPath& reach : reaches(path)) {
+    std::int32_t tip = -1;   // where the last reach ended
+    std::vector<Vec3> rest;  // of it
+    for (Cut2dPath reach : reaches(path)) {
+      if (!rest.empty()) reach.front() = rest.front();
       const std::vector<std::uint8_t> is_held(trial.after.X.size(), 0);
       const Clock::time_point start = Clock::now();
       const PlaneCut cut = cut_plane(trial.after, reach, tip, is_held, plane);
       apply_edit(cut.edit, trial.after);
       seconds += seconds_since(start);
       tip = cut.tip;
+      rest = cut.rest;
       add_figures(cut.figures, trial);
     }
   }

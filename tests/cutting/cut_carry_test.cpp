@@ -59,6 +59,19 @@ TEST(CarryEdge, lets_points_far_from_the_body_follow_the_nearest_other_one) {
     EXPECT_LT((before[k] - Vec3(3.3e-3, 2e-3, z[k]) - way).norm(), 1e-15);
 }
 
+// In tissue that has just been met, and where no point is near it.
+TEST(CarryEdge, follows_the_tissue_that_it_is_told_of_while_it_remembers_none) {
+  Case c;
+  BladeSweep sweep = c.at(-9e-3, {1e-3, 2e-3});
+  sweep.tissue_way = {{1e-3, 0, 0}, {0, 2e-3, 0}};
+  for (const bool is_known : {false, true}) {
+    if (is_known) remember_edge(c.mesh, c.mesh.X, sweep, c.all, c.stroke);
+    const std::vector<Vec3> before = carry_edge(c.mesh, c.mesh.X, sweep, c.stroke).before;
+    for (std::size_t k = 0; k < 2; ++k)
+      EXPECT_EQ(before[k], Vec3(sweep.before[k] + sweep.tissue_way[k])) << is_known;
+  }
+}
+
 // As when the tissue has run from the blade and the band meets no element.
 TEST(CarryEdge, keeps_the_element_of_the_last_frame_while_the_band_meets_none) {
   Case c;

@@ -66,6 +66,55 @@ TEST(AddHits, finds_in_small_steps_what_it_finds_in_one) {
   }
 }
 
+// Rigidly, from outside the body, in 60 frames.
+TEST(AddHits, finds_where_tissue_moves_onto_an_edge_what_the_edge_finds_moving_alone) {
+  const Mesh mesh = box();
+  CutIndex index = index_of(mesh);
+  const Vec3 centre(0.5, 0.45, 0.52), normal = Vec3(1, 0.4, -0.3).normalized();
+  const Blade blade = plane_blade(centre, normal, 2);
+  const Vec3 way = blade(1)[0] - blade(0)[0];
+  CutStroke moving;
+  add_hits(mesh, index, mesh.X, sweep_of(blade, 0, 1, normal), moving);
+  for (const double share : {0.0, 0.5}) {  // of the blade in the motion
+    CutStroke met;
+    for (int k = 0; k < 60; ++k) {
+      std::vector<Vec3> x = mesh.X;
+      for (Vec3& p : x) p -= (1 - share) * (k + 1) / 60.0 * way;
+      BladeSweep sweep = sweep_of(blade, share * k / 60.0, share * (k + 1) / 60.0, normal);
+      sweep.tissue_way.assign(sweep.before.size(), -(1 - share) / 60 * way);
+      add_hits(mesh, index, x, sweep, met);
+    }
+    ASSERT_EQ(met.hit.size(), moving.hit.size()) << share;
+    for (std::size_t k = 0; k < met.hit.size(); ++k) {
+      EXPECT_EQ(met.hit[k].key(), moving.hit[k].key());
+      EXPECT_EQ(met.hit[k].is_first_plus, moving.hit[k].is_first_plus);
+    }
+    EXPECT_FALSE(met.ends_in_tissue);
+    EXPECT_NEAR(met.swept, way.norm(), 1e-12) << share;  // rounding of 60 steps of 4 / 60
+  }
+}
+
+// An edge that stands in the body, which sways by a millionth of itself.
+TEST(AddHits, takes_up_nothing_while_an_edge_rests_and_what_has_added_up_then) {
+  const Mesh mesh = box();
+  CutIndex index = index_of(mesh);
+  const Blade blade = straight_blade({0.5, 0.45, -1}, {0.5, 0.45, 2}, Vec3::Zero(), 30);
+  const BladeSweep rest = sweep_of(blade, 0, 0, Vec3::UnitX());
+  const auto moved = [&](double y) {
+    std::vector<Vec3> x = mesh.X;
+    for (Vec3& p : x) p.y() += y;
+    return x;
+  };
+  CutStroke stroke;
+  for (int k = 0; k < 20; ++k)
+    add_hits(mesh, index, moved(k % 2 == 0 ? 1e-6 : -1e-6), rest, stroke);
+  EXPECT_TRUE(stroke.hit.empty());
+  EXPECT_EQ(stroke.swept, 0);
+  for (int k = 0; k < 30; ++k) add_hits(mesh, index, moved(-1e-4 * k), rest, stroke);
+  EXPECT_NEAR(stroke.swept, 29e-4 + 1e-6, 1e-3 * stroke.mean_edge);  // the rest is yet to come
+  EXPECT_GT(stroke.swept, 0);
+}
+
 TEST(AddHits, gives_the_crossing_in_the_reference_of_a_deformed_body) {
   const Mesh mesh = box();
   CutIndex index = index_of(mesh);

@@ -57,6 +57,32 @@ TEST(CutPlanePath, path_that_leaves_and_enters_again_cuts_both_parts) {
   EXPECT_EQ(n_pieces(after), 1);
 }
 
+// A leg that ends up to a quarter of an edge behind a slit, then the next one.
+TEST(CutPlanePath, end_close_behind_an_older_cut_is_cut_with_what_follows) {
+  const Vec3 left(-1 * mm, 20 * mm, 0), right(80 * mm, 21 * mm, 0);
+  const Mesh mesh = paper_mesh(2);
+  const Mesh slit = applied(cut(mesh, {left, right}).edit, mesh);
+  ASSERT_EQ(n_pieces(slit), 2);
+  const auto above_slit = [&](const Vec3& p) {
+    return (right - left).normalized().cross(p - left).z();
+  };
+  for (const double x : {25.0, 30.0, 31.0, 32.0})
+    for (const double behind : {0.05, 0.3, 0.7}) {
+      const Vec3 from(x * mm, -1 * mm, 0), to((x + 4) * mm, 41 * mm, 0);
+      const double above = above_slit(to), below = above_slit(from);
+      const Vec3 end = from + (to - from) * (behind * mm - below) / (above - below);
+      const PlaneCut lower = cut(slit, {from, end});
+      ASSERT_EQ(lower.rest.size(), 2U) << x << " " << behind;
+      EXPECT_NEAR(above_slit(lower.rest.front()), 0, 1e-15);  // rounding of some 50 mm
+      EXPECT_LT((lower.rest.back() - end).norm(), 1e-15);
+      const Mesh half = applied(lower.edit, slit);
+      EXPECT_EQ(n_pieces(half), 3) << x << " " << behind;
+      const PlaneCut upper = cut(half, {lower.rest.front(), end, to});
+      EXPECT_EQ(upper.figures.n_refused, 0) << x << " " << behind;
+      EXPECT_EQ(n_pieces(applied(upper.edit, half)), 4) << x << " " << behind;
+    }
+}
+
 TEST(CutPlanePath, cut_nodes_follow_a_polyline) {
   const Mesh mesh = paper_mesh(2);
   const std::vector<Vec3> path = {

@@ -66,6 +66,31 @@ TEST(BladeDrag, does_not_pull_at_tissue_that_is_ahead_of_the_blade) {
   EXPECT_EQ(edge.sum(0), 0);
 }
 
+// In tissue that comes towards a blade at rest it is what the blade meets in tissue at rest, and
+// where both move alike it only keeps the tissue from falling behind.
+TEST(BladeDrag, is_against_the_motion_of_the_tissue_along_the_blade) {
+  Edge moving, resting;
+  resting.drag.node.clear();
+  const Vec3 tissue = -Edge::speed * Vec3::UnitX();
+  add_engaged_edge({.tool = 0, .piece = resting.piece, .tissue_velocity = tissue},
+                   resting.body.mesh, resting.body.part, Edge::resistance, resting.drag);
+  for (std::size_t k = 0; k < resting.body.state.v.size(); k += 3)
+    resting.body.state.v[k] = tissue.x();
+  moving.step();
+  resting.step();
+  EXPECT_GT(moving.sum(0), 0);
+  EXPECT_NEAR(resting.sum(0), moving.sum(0), 1e-15);
+  EXPECT_EQ(resting.sum(1), 0);
+  BladeDrag along;
+  add_engaged_edge({.piece = moving.piece, .velocity = tissue, .tissue_velocity = tissue},
+                   moving.body.mesh, moving.body.part, Edge::resistance, along);
+  for (const BladeDrag::Node& node : along.node) EXPECT_EQ(node.direction, -Vec3::UnitX());
+  BladeDrag none;
+  add_engaged_edge({.piece = moving.piece}, moving.body.mesh, moving.body.part, Edge::resistance,
+                   none);
+  EXPECT_TRUE(none.node.empty());
+}
+
 TEST(BladeDrag, on_the_tool_is_what_it_is_on_the_tissue) {
   Edge edge;
   edge.step();

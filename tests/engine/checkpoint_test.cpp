@@ -169,21 +169,23 @@ void expect_each_is_needed(const LoadedScene& scene,
 }
 
 TEST(Checkpoint, needs_each_part_of_a_stroke_through_tetrahedra) {
-  expect_each_is_needed(loaded_text(resume_block_text),
-                        {{"hit", [](CutMemory& m) { m.stroke.hit.clear(); }},
-                         {"side", [](CutMemory& m) { m.stroke.side.clear(); }},
-                         {"opened", [](CutMemory& m) { m.stroke.opened.clear(); }},
-                         {"step", [](CutMemory& m) { m.stroke.step.clear(); }},
-                         {"surface_node", [](CutMemory& m) { m.stroke.surface_node.clear(); }},
-                         {"parted_node", [](CutMemory& m) { m.stroke.parted_node.clear(); }},
-                         {"fresh", [](CutMemory& m) { m.stroke.fresh.clear(); }},
-                         {"unfinished", [](CutMemory& m) { m.stroke.unfinished.clear(); }},
-                         {"edge", [](CutMemory& m) { m.stroke.edge.clear(); }},
-                         {"mean_edge", [](CutMemory& m) { m.stroke.mean_edge = 0; }},
-                         {"swept", [](CutMemory& m) { m.stroke.swept = 0; }},
-                         {"is_in_stroke", [](CutMemory& m) { m.is_in_stroke = false; }},
-                         {"n_idle_frames", [](CutMemory& m) { m.n_idle_frames = 0; }},
-                         {"engaged", [](CutMemory& m) { m.engaged.clear(); }}});
+  expect_each_is_needed(
+      loaded_text(resume_block_text),
+      {{"hit", [](CutMemory& m) { m.stroke.hit.clear(); }},
+       {"side", [](CutMemory& m) { m.stroke.side.clear(); }},
+       {"opened", [](CutMemory& m) { m.stroke.opened.clear(); }},
+       {"step", [](CutMemory& m) { m.stroke.step.clear(); }},
+       {"surface_node", [](CutMemory& m) { m.stroke.surface_node.clear(); }},
+       {"parted_node", [](CutMemory& m) { m.stroke.parted_node.clear(); }},
+       {"fresh", [](CutMemory& m) { m.stroke.fresh.clear(); }},
+       {"unfinished", [](CutMemory& m) { m.stroke.unfinished.clear(); }},
+       {"edge", [](CutMemory& m) { m.stroke.edge.clear(); }},
+       {"mean_edge", [](CutMemory& m) { m.stroke.mean_edge = 0; }},
+       {"swept", [](CutMemory& m) { m.stroke.swept = 0; }},
+       {"is_in_stroke", [](CutMemory& m) { m.is_in_stroke = false; }},
+       {"n_idle_frames", [](CutMemory& m) { m.n_idle_frames = 0; }},
+       {"engaged", [](CutMemory& m) { m.engaged.clear(); }},
+       {"tissue_velocity", [](CutMemory& m) { m.tissue_velocity.setConstant(1); }}});
 }
 
 TEST(Checkpoint, needs_each_part_of_a_plane_cut) {

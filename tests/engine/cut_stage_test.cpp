@@ -14,6 +14,15 @@ std::string key(double time, double x, double y, double z) {
          mm(z) + "], direction = [0, 0, -1] },\n";
 }
 
+// The keys in a text with a way that the edge faces.
+std::string facing(std::string text, const std::string& forward) {
+  const std::string direction = "direction = [0, 0, -1]";
+  for (std::size_t at = text.find(direction); at != std::string::npos;
+       at = text.find(direction, at + 1))
+    text.insert(at + direction.size(), ", forward = " + forward);
+  return text;
+}
+
 // A plate of 70 x 40 mm, 20 x 16 cells; the scalpel's tip goes along the points [mm] at 50 mm/s.
 std::string plate_text(const std::vector<std::pair<double, double>>& points) {
   std::string text =
@@ -117,15 +126,137 @@ TEST(CutStage, cuts_a_plate_that_its_tip_passes_between_two_frames) {
   EXPECT_EQ(cut.n_pieces, 2);
 }
 
+// Across and, lifted in between, upwards, 5 mm aside on its way. Reaches of the path end anywhere
+// beside the slit.
+TEST(CutStage, crosses_its_own_slit_in_a_plate) {
+  std::string corners;
+  for (const std::string low :
+       {"[-1, -1, -1]", "[0.057, -1, -1]", "[-1, 0.049, -1]", "[0.057, 0.049, -1]"}) {
+    const std::string high = std::string(contains(low, "[0.057") ? "[1, " : "[0.003, ") +
+                             (contains(low, " 0.049") ? "1, 1]" : "0.003, 1]");
+    const std::string name = "\"corner" + std::to_string(corners.size()) + "\"\n";
+    corners += "[[region]]\nname = " + name + "low = " + low + "\nhigh = " + high +
+               "\n[[support]]\nregion = " + name;
+  }
+  for (const double x : {25.0, 28.0, 30.0, 31.5, 32.8}) {
+    const std::string way = key(0.05, -5, 20, 0) + key(0.6, 65, 30, 0) + key(0.7, 65, 30, 20);
+    const std::string then = key(0.9, x, -6, 20) + key(1, x, -6, 0) + key(1.8, x - 5, 65, 0);
+    const auto started = built(
+        "[time]\nduration = 2\nframe_rate = 30\n[tissue]\nthickness = 0.005\n[tissue.shape]\n"
+        "kind = \"triangular-rectangle\"\nhigh = [0.06, 0.052, 0]\ncells = [25, 26, 1]\n"
+        "[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\n[solver]\nmass_damping = "
+        "20\n"
+        "[cutting]\nresistance = 0\n" +
+        corners +
+        "[[instrument]]\nkind = \"scalpel\"\nradius = 0.001\nblade_length = 0.008\npath = [\n" +
+        facing(way, "[1, 0, 0]") + facing(then, "[0, 1, 0]") + "]\n");
+    Simulation& s = *started->s;
+    while (s.frame < 56) run_frame(s, started->outputs);
+    EXPECT_EQ(s.n_pieces, 4) << x;
+    for (const CutRecord& stroke : s.cuts[0].strokes) EXPECT_EQ(stroke.n_refused, 0) << x;
+  }
+}
+
+// Half of its 5 mm lies above z = 0. A blade of 20 mm that hangs down farther goes through it
+// higher up.
+TEST(CutStage, cuts_a_plate_at_every_depth_of_its_tip_within_or_below_it) {
+  const auto n_cut = [](double z) {
+    std::string text = plate_text({{30, -3}, {30, 43}});
+    const std::string height = "\"0.000000 mm\"], direction";
+    for (std::size_t at = text.find(height); at != std::string::npos;
+         at = text.find(height, at + 1))
+      text.replace(at + 1, 8, std::to_string(z));
+    const auto started = built(text);
+    Simulation& s = *started->s;
+    while (s.frame < 66) run_frame(s, started->outputs);
+    return s.n_pieces;
+  };
+  for (const double z : {0.0, 1e-6, 0.5, -0.5, 2.4, -2.4, -6.0, -19.0}) EXPECT_EQ(n_cut(z), 2) << z;
+  for (const double z : {2.6, 6.0, -23.0}) EXPECT_EQ(n_cut(z), 1) << z;
+}
+
+// 60 mm between tissue that supports move at both ends and a blade of 40 mm, in 0.6 s; `share`: the
+// blade's part of the motion.
+struct Meeting {
+  std::int32_t n_pieces = 0;
+  std::int64_t n_refused = 0, n_edits = 0, n_askew = 0;
+  double largest_force = 0;
+};
+Meeting meet(const std::string& tissue, double share, double resistance, double tip) {
+  const double end = 0.03 - share * 0.06;
+  const std::string way =
+      "path = [{ time = 0.1, displacement = [0, 0, 0] }, { time = 0.7, "
+      "displacement = [" +
+      std::to_string(0.06 * (1 - share)) + ", 0, 0] }]\n";
+  const auto key = [&](double time, double x) {
+    return "{ time = " + std::to_string(time) + ", position = [" + std::to_string(x) +
+           ", 0.0213, " + std::to_string(tip) + "], forward = [-1, 0, 0] },\n";
+  };
+  const auto started =
+      built("[time]\nduration = 0.9\nframe_rate = 30\n" + tissue +
+            "[tissue.material]\nyoung_modulus = 40000\n[solver]\nmass_damping = 20\n[cutting]\n"
+            "resistance = " +
+            std::to_string(resistance) + "\n[[support]]\nregion = \"y-\"\n" + way +
+            "[[support]]\nregion = \"y+\"\n" + way +
+            "[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.04\npath = [\n" + key(0.1, 0.03) +
+            key(0.7, end) + "]\n");
+  Simulation& s = *started->s;
+  Meeting meeting;
+  while (s.frame < 27) {
+    run_frame(s, started->outputs);
+    meeting.largest_force =
+        std::max(meeting.largest_force, s.log.rows.back().tools[0].force.norm());
+  }
+  meeting.n_pieces = s.n_pieces;
+  for (const CutRecord& stroke : s.cuts[0].strokes) {
+    meeting.n_refused += stroke.n_refused;
+    meeting.n_edits += stroke.n_edits;
+    meeting.n_askew += stroke.n_askew;
+  }
+  return meeting;
+}
+
+// The blade goes through all of a bar of 8 x 24 x 10 mm.
+TEST(CutStage, cuts_what_moves_onto_the_blade_as_what_the_blade_moves_into) {
+  const std::string bar = box_text("-0.004, 0.008, 0", "0.004, 0.032, 0.01", "4, 12, 5");
+  for (const double share : {1.0, 0.5, 0.0, -1.0}) {
+    const Meeting meeting = meet(bar, share, 20, -0.005);
+    EXPECT_EQ(meeting.n_pieces, 2) << share;
+    EXPECT_EQ(meeting.n_refused, 0) << share;
+    EXPECT_EQ(meeting.n_askew, 0) << share;
+    // 10 mm of edge inside; the blade's flat sides and the tissue's stretch take some.
+    EXPECT_NEAR(meeting.largest_force, 20 * 0.01, 0.2 * 20 * 0.01) << share;
+  }
+}
+
+TEST(CutStage, cuts_a_plate_that_moves_onto_the_blade) {
+  const std::string plate =
+      "[tissue]\nthickness = 0.005\n[tissue.shape]\nkind = \"triangular-rectangle\"\n"
+      "high = [0.02, 0.04, 0]\ncells = [9, 19, 1]\n";
+  for (const double share : {1.0, 0.5, 0.0}) {
+    const Meeting meeting = meet(plate, share, 0, 0);
+    EXPECT_EQ(meeting.n_pieces, 2) << share;
+    EXPECT_EQ(meeting.n_refused, 0) << share;
+  }
+}
+
+TEST(CutStage, leaves_tissue_at_rest_alone_around_a_blade_at_rest) {
+  const auto started =
+      built("[time]\nduration = 1\nframe_rate = 30\n" +
+            box_text("-0.004, -0.012, 0", "0.004, 0.012, 0.01", "4, 12, 5") +
+            "[cutting]\nresistance = 20\n[[support]]\nregion = \"y-\"\n[[instrument]]\nkind = "
+            "\"scalpel\"\nblade_length = 0.04\npath = [{ time = 0, position = [0.001, 0.0013, "
+            "-0.005], forward = [-1, 0, 0] }]\n");
+  Simulation& s = *started->s;
+  while (s.frame < 20) run_frame(s, started->outputs);
+  for (const CutRecord& stroke : s.cuts[0].strokes) EXPECT_EQ(stroke.n_edits, 0);
+  for (const ToolRow& row : s.log.rows.back().tools) EXPECT_LT(row.force.norm(), 1e-9);
+}
+
 // It cuts all the same, and says so.
 TEST(CutStage, tells_of_a_scalpel_whose_edge_does_not_face_its_way) {
   for (const std::string forward : {"[0, 1, 0]", "[0.8, 0.6, 0]", "[1, 0, 0]", "[0, -1, 0]"}) {
-    std::string text = plate_text({{30, -3}, {30, 20}});
-    const std::string direction = "direction = [0, 0, -1]";
-    for (std::size_t at = text.find(direction); at != std::string::npos;
-         at = text.find(direction, at + 1))
-      text.insert(at + direction.size(), ", forward = " + forward);
-    const auto started = built(text);
+    const auto started = built(facing(plate_text({{30, -3}, {30, 20}}), forward));
     Simulation& s = *started->s;
     for (int frame = 0; frame < 45; ++frame) run_frame(s, started->outputs);
     const CutRecord& stroke = s.cuts[0].strokes.at(0);

@@ -51,8 +51,8 @@ blade_length = "20 mm"
 path = [
   { time = "0.1 s", position = ["-45 mm", "1 mm", "12 mm"] },
   { time = "0.25 s", position = ["-33 mm", "1 mm", "12 mm"] },
-  { time = "0.7 s", position = ["5 mm", "1 mm", "12 mm"] },
-  { time = "0.9 s", position = ["5 mm", "1 mm", "50 mm"] },
+  { time = "0.7 s", position = ["4 mm", "1 mm", "12 mm"] },
+  { time = "0.9 s", position = ["4 mm", "1 mm", "50 mm"] },
 ]
 )";
 

@@ -1,0 +1,82 @@
+#include "engine/tissue_way.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "base/box.h"
+#include "engine/simulation.h"
+
+namespace trocar {
+
+double largest_surface_way(const Simulation& s) {
+  double most = 0;
+  for (const std::int32_t local : s.view.local) {
+    const auto i = static_cast<std::size_t>(s.part.node_global[static_cast<std::size_t>(local)]);
+    const Vec3 x = s.mesh.X[i] + Vec3::Map(&s.state.u[3 * std::ptrdiff_t{local}]);
+    most = std::max(most, (x - s.view.x[i]).squaredNorm());
+  }
+  return std::sqrt(s.communicator->all_max(most));
+}
+
+namespace {
+
+double distance2(const Vec3& p, const Vec3& from, const Vec3& to) {
+  const Vec3 way = to - from;
+  const double length2 = way.squaredNorm();
+  const double t = length2 > 0 ? std::clamp((p - from).dot(way) / length2, 0.0, 1.0) : 0;
+  return (p - from - t * way).squaredNorm();
+}
+
+std::vector<std::int32_t> surface_nodes_near(const Simulation& s, PresentPositions& positions,
+                                             const BladeSweep& sweep, double reach) {
+  Box box;
+  for (const std::vector<Vec3>* edge : {&sweep.before, &sweep.after})
+    for (const Vec3& point : *edge) box.add(point);
+  box.low.array() -= reach;
+  box.high.array() += reach;
+  std::vector<std::int32_t> nodes;
+  std::ranges::set_intersection(positions.nodes_near(box), s.surface.node,
+                                std::back_inserter(nodes));
+  return nodes;
+}
+
+}  // namespace
+
+std::vector<Vec3> ways_beside(const Simulation& s, PresentPositions& positions,
+                              const BladeSweep& sweep, double reach) {
+  const std::vector<std::int32_t> nodes = surface_nodes_near(s, positions, sweep, reach);
+  if (nodes.empty()) return {};
+  std::vector<Vec3> ways(sweep.before.size());
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    double least = 1e300;
+    for (const std::int32_t node : nodes) {
+      const Vec3& x = positions.x()[static_cast<std::size_t>(node)];
+      const Vec3 way = x - s.view.x[static_cast<std::size_t>(node)];
+      const double distance = distance2(x, sweep.before[k] + way, sweep.after[k]);
+      if (distance >= least) continue;
+      least = distance;
+      ways[k] = way;
+    }
+  }
+  return ways;
+}
+
+Vec3 velocity_along(const Simulation& s, std::span<const SegmentPiece> engaged) {
+  std::vector<std::int32_t> node;
+  std::vector<double> share;
+  double length = 0;
+  for (const SegmentPiece& piece : engaged) {
+    const auto corner = s.mesh.corners(piece.middle.element);
+    node.insert(node.end(), corner.begin(), corner.end());
+    for (std::size_t a = 0; a < corner.size(); ++a)
+      share.push_back(piece.middle.weight[a] * piece.length);
+    length += piece.length;
+  }
+  const std::vector<double> motion = motion_at(s, node, *s.communicator);
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < node.size(); ++k) sum += share[k] * Vec3::Map(&motion[6 * k + 3]);
+  return length > 0 ? Vec3(sum / length) : sum;
+}
+
+}  // namespace trocar
