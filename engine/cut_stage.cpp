@@ -182,14 +182,16 @@ void follow_tissue(const Simulation& s, double time, bool was_engaged, CutStage&
   stage.tissue_velocity += share * (velocity_along(s, stage.engaged) - stage.tissue_velocity);
 }
 
-// Whether a scalpel goes more than 60 degrees aside of where its edge faces, or backwards, as the
-// tissue sees it; ways along the edge don't count.
+// Whether a scalpel goes more than 60 degrees aside of where its edge faces, or backwards; as the
+// tissue sees it, where that is faster than what a blade may drag along. Ways along the edge don't
+// count.
 bool is_askew(const Tool& tool, const FrameSpan& span, const BladeSweep& sweep,
               const CutStage& stage) {
-  constexpr double facing = 0.5;
+  constexpr double facing = 0.5, runs_ahead = 1.5;
   if (tool.kind != InstrumentKind::scalpel) return false;
   const Mat3 frame = tool.path.at(0.5 * (span.t0 + span.t1)).rotation.toRotationMatrix();
-  const Vec3 way = way_of_middle(sweep) - (span.t1 - span.t0) * stage.tissue_velocity;
+  const Vec3 own = way_of_middle(sweep), of_tissue = (span.t1 - span.t0) * stage.tissue_velocity;
+  const Vec3 way = of_tissue.norm() > runs_ahead * own.norm() ? Vec3(own - of_tissue) : own;
   const Vec3 across = way - frame.col(2).dot(way) * frame.col(2);
   return across.norm() > least_way && frame.col(0).dot(across) < facing * across.norm();
 }
