@@ -182,18 +182,22 @@ void follow_tissue(const Simulation& s, double time, bool was_engaged, CutStage&
   stage.tissue_velocity += share * (velocity_along(s, stage.engaged) - stage.tissue_velocity);
 }
 
-// Whether a scalpel goes more than 60 degrees aside of where its edge faces, or backwards; as the
-// tissue sees it, where that is faster than what a blade may drag along. Ways along the edge don't
-// count.
-bool is_askew(const Tool& tool, const FrameSpan& span, const BladeSweep& sweep,
+// Whether a scalpel goes more than 60 degrees aside of where its edge faces, or backwards, and as
+// the tissue sees it, too: that may be pushed aside by the blade. Ways along the edge don't count.
+bool is_askew(const Simulation& s, const FrameSpan& span, const BladeSweep& sweep,
               const CutStage& stage) {
-  constexpr double facing = 0.5, runs_ahead = 1.5;
+  constexpr double facing = 0.5;  // cosine
+  const double rest = 1e-3 * s.edge_length;
+  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
   if (tool.kind != InstrumentKind::scalpel) return false;
   const Mat3 frame = tool.path.at(0.5 * (span.t0 + span.t1)).rotation.toRotationMatrix();
-  const Vec3 own = way_of_middle(sweep), of_tissue = (span.t1 - span.t0) * stage.tissue_velocity;
-  const Vec3 way = of_tissue.norm() > runs_ahead * own.norm() ? Vec3(own - of_tissue) : own;
-  const Vec3 across = way - frame.col(2).dot(way) * frame.col(2);
-  return across.norm() > least_way && frame.col(0).dot(across) < facing * across.norm();
+  const auto is_aside = [&](const Vec3& way) {
+    const Vec3 across = way - frame.col(2).dot(way) * frame.col(2);
+    return across.norm() > rest && frame.col(0).dot(across) < facing * across.norm();
+  };
+  const Vec3 way = way_of_middle(sweep);
+  return (way.norm() <= rest || is_aside(way)) &&
+         is_aside(way - (span.t1 - span.t0) * stage.tissue_velocity);
 }
 
 // An edge cuts whichever way it moves: a robot's wrong turn about its shaft would not show.
@@ -279,7 +283,6 @@ bool take_up_stroke(Simulation& s, const BladeWay& blade, const BladeLook& look,
 
 void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
                      std::optional<double>& way) {
-  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
   const FrameSpan& span = blade.span;
   const bool was_engaged = stage.is_in_stroke && !stage.engaged.empty();
   stage.engaged.clear();
@@ -303,7 +306,7 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
   record.n_ranks = std::max<std::int64_t>(record.n_ranks, std::ssize(group.ranks()));
   if (record.n_edits > n_edits) {
     locate_edge_anew(s, blade, *way, stage);
-    if (is_askew(tool, span, blade.sweep, stage)) record.n_askew += record.n_edits - n_edits;
+    if (is_askew(s, span, blade.sweep, stage)) record.n_askew += record.n_edits - n_edits;
   }
   add_to_record(way_of_middle(blade.sweep).norm(), 1e3 * (monotonic_seconds() - start), stage);
   note_body(s, record);
