@@ -74,7 +74,7 @@ std::array<double, 2> step_seconds(std::array<RankBody*, 2> bodies, Communicator
     const RankBody& body = *bodies[k];
     states[k] = make_state(body.model);
     shake(states[k].u, 1e-5, 1);
-    neighbours[k] = make_neighbours(body.halo, body.model, false, ranks);
+    neighbours[k] = make_neighbours(body.halo, body.model, ranks);
   }
   constexpr int n = 5, n_rounds = 500;
   std::array<double, 2> best = {1e300, 1e300};

@@ -59,7 +59,7 @@ void report(Formulation formulation, Precision precision, int n_elements, Commun
   Body body =
       make_body(mesh, {.solver = with(formulation, {.precision = precision})}, owner, ranks.rank());
   const Halo halo = make_halo(mesh, owner, body.part, ranks.rank());
-  Neighbours neighbours = make_neighbours(halo, body.model, false, ranks);
+  Neighbours neighbours = make_neighbours(halo, body.model, ranks);
   displace(body, [](const Vec3& X) { return Vec3(0.05 * X.y(), 0, 0); });
   const Timing t = measure(body, neighbours, ranks);
   const Traffic before = ranks.traffic();

@@ -51,7 +51,7 @@ void update_part_and_model(Simulation& s, const ModelEdit& edit) {
   edit_model({s.mesh, s.part, s.materials, s.model.options, s.fixed, s.mass}, edit, s.model,
              s.state.history);
   if (s.mass_scaling) scale_mass(*s.mass_scaling, s.part, s.model);
-  s.neighbours = make_neighbours(s.halo, s.model, s.contact != nullptr, *s.communicator);
+  s.neighbours = make_neighbours(s.halo, s.model, *s.communicator);
   fit_scratch(s.model, s.scratch);
   update_least(s, edit);
 }

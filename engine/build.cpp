@@ -289,7 +289,7 @@ void rebuild_topology(Simulation& s) {
   if (s.mass_scaling) scale_mass(*s.mass_scaling, s.part, s.model);
   if (s.whole_mass == 0) s.whole_mass = std::accumulate(s.mass.begin(), s.mass.end(), 0.0);
   report_mass_scaling(s);
-  s.neighbours = make_neighbours(s.halo, s.model, s.contact != nullptr, *s.communicator);
+  s.neighbours = make_neighbours(s.halo, s.model, *s.communicator);
   s.scratch = make_scratch(s.model);
   plan_local_steps(s);
   begin_sleep(s);

@@ -199,19 +199,15 @@ HaloExchange::HaloExchange(const Halo& halo, int width) : width_(width) {
   messages_.resize(neighbours_.size());
 }
 
-// Calls body(values of the nodes that follow each other), field by field.
-template <class Body>
-static void for_values(std::span<const NodalField> fields, std::span<const NodeRange> ranges,
-                       const Body& body) {
-  for (const NodalField& field : fields)
-    for (const NodeRange& nodes : ranges) {
-      const auto width = static_cast<std::size_t>(field.width);
-      body(field.values.subspan(width * static_cast<std::size_t>(nodes.begin),
-                                width * static_cast<std::size_t>(nodes.end - nodes.begin)));
-    }
+// Where the values of the nodes are in a field of `width` doubles a node.
+static std::size_t first_value(const NodeRange& nodes, int width) {
+  return static_cast<std::size_t>(nodes.begin) * static_cast<std::size_t>(width);
+}
+static std::size_t count_values(const NodeRange& nodes, int width) {
+  return static_cast<std::size_t>(nodes.end - nodes.begin) * static_cast<std::size_t>(width);
 }
 
-void HaloExchange::start(std::span<const NodalField> fields, Communicator& communicator) {
+void HaloExchange::start(std::span<const double> field, Communicator& communicator) {
   std::size_t n_send = 0;
   for (const Ranges& neighbour : neighbours_) n_send += neighbour.n_send;
   const std::span<double> room = communicator.room_to_send(n_send);
@@ -219,29 +215,26 @@ void HaloExchange::start(std::span<const NodalField> fields, Communicator& commu
   for (std::size_t k = 0; k < messages_.size(); ++k) {
     const Ranges& neighbour = neighbours_[k];
     messages_[k] = {neighbour.rank, {send, neighbour.n_send}, {receive, neighbour.n_receive}};
-    for_values(fields, neighbour.send, [&](std::span<const double> values) {
-      send = std::copy(values.begin(), values.end(), send);
-    });
+    for (const NodeRange& nodes : neighbour.send)
+      send = std::copy_n(&field[first_value(nodes, width_)], count_values(nodes, width_), send);
     receive += neighbour.n_receive;
   }
-  CHECK_OP(send - room.data(), ==, std::ssize(room));  // the fields have `width` numbers
   communicator.start_exchange(messages_);
 }
 
-void HaloExchange::finish(std::span<const NodalField> fields, Communicator& communicator) {
+void HaloExchange::finish(std::span<double> field, Communicator& communicator) {
   communicator.finish_exchange();
   const double* received = receive_.data();
   for (const Ranges& neighbour : neighbours_)
-    for_values(fields, neighbour.receive, [&](std::span<double> values) {
-      std::copy_n(received, values.size(), values.begin());
-      received += values.size();
-    });
+    for (const NodeRange& nodes : neighbour.receive) {
+      std::copy_n(received, count_values(nodes, width_), &field[first_value(nodes, width_)]);
+      received += count_values(nodes, width_);
+    }
 }
 
 void HaloExchange::exchange(std::span<double> field, Communicator& communicator) {
-  const NodalField fields[] = {{field, width_}};
-  start(fields, communicator);
-  finish(fields, communicator);
+  start(field, communicator);
+  finish(field, communicator);
 }
 
 namespace {

@@ -68,33 +68,25 @@ void update_halo(const Mesh& mesh, const NodeCorners& corners,
                  std::span<const std::int32_t> node_owner, std::span<const std::int32_t> elements,
                  const Part& part, Halo& halo);
 
-// `width` doubles of each local node.
-struct NodalField {
-  std::span<double> values;  // (n_local * width)
-  int width = 0;
-};
-
 // Nodes that follow each other.
 struct NodeRange {
   std::int32_t begin = 0, end = 0;  // local
   bool operator==(const NodeRange&) const = default;
 };
 
-// Keeps the buffers of the exchange of fields of `width` doubles a node in all.
+// Keeps the buffers of the exchange of a nodal field (n_local * width).
 class HaloExchange {
  public:
   HaloExchange(const Halo& halo, int width);
-  int width() const { return width_; }
-  // Packs the fields' owned nodes and sends them all in one message a neighbour; they may change
+  // Packs the field's owned nodes and sends them in one message a neighbour; they may change
   // meanwhile. Collective among neighbours.
-  void start(std::span<const NodalField> fields, Communicator& communicator);
-  // Waits and unpacks into the halo nodes of the same fields.
-  void finish(std::span<const NodalField> fields, Communicator& communicator);
+  void start(std::span<const double> field, Communicator& communicator);
+  // Waits and unpacks into the halo nodes of the field.
+  void finish(std::span<double> field, Communicator& communicator);
   // Both.
   void exchange(std::span<double> field, Communicator& communicator);
 
  private:
-  // Nodes of a neighbour's message, field after field in it.
   struct Ranges {
     int rank = 0;
     std::size_t n_send = 0, n_receive = 0;

@@ -72,7 +72,7 @@ void build_body(const MultiRateBody& body, MultiRate& m, Communicator& communica
                         std::vector<double>(n, 1.0), options);
   m.state = make_state(m.model);
   m.scratch = make_scratch(m.model);
-  m.neighbours = make_neighbours(m.halo, m.model, false, communicator);
+  m.neighbours = make_neighbours(m.halo, m.model, communicator);
   const auto n_values = 3 * static_cast<std::size_t>(m.part.n_owned);
   m.start_force.resize(n_values);
   m.z.resize(n_values);

@@ -1,7 +1,5 @@
 #include "solver/neighbours.h"
 
-#include <array>
-
 #include "base/check.h"
 #include "base/timers.h"
 #include "solver/kernels.h"
@@ -11,15 +9,9 @@ namespace trocar {
 
 namespace {
 
-// Displacements, velocities.
-std::array<NodalField, 2> motion_of(const Neighbours& neighbours, State& state) {
-  return {NodalField{state.u, 3}, NodalField{state.v, neighbours.with_velocity ? 3 : 0}};
-}
-
-void start_theta(const Model& model, Neighbours& neighbours, State& state) {
+void start_theta(Neighbours& neighbours, State& state) {
   if (!neighbours.theta) return;
-  const NodalField theta[] = {{state.theta, model.averages.n_fields}};
-  neighbours.theta->start(theta, *neighbours.communicator);
+  neighbours.theta->start(state.theta, *neighbours.communicator);
   neighbours.under_way = Neighbours::UnderWay::theta;
 }
 
@@ -27,16 +19,15 @@ void average_and_start(const Model& model, Neighbours& neighbours, State& state,
   begin_volume_change(model, state, scratch);
   finish_exchange(neighbours, state);
   end_volume_change(model, state, scratch);
-  start_theta(model, neighbours, state);
+  start_theta(neighbours, state);
 }
 
 }  // namespace
 
-Neighbours make_neighbours(const Halo& halo, const Model& model, bool with_velocity,
-                           Communicator& communicator) {
-  Neighbours neighbours{.communicator = &communicator, .with_velocity = with_velocity};
+Neighbours make_neighbours(const Halo& halo, const Model& model, Communicator& communicator) {
+  Neighbours neighbours{.communicator = &communicator};
   if (halo.neighbours.empty()) return neighbours;
-  neighbours.motion.emplace(halo, with_velocity ? 6 : 3);
+  neighbours.motion.emplace(halo, 3);
   const int n_fields = model.averages.n_fields;
   if (n_fields > 0) neighbours.theta.emplace(halo, n_fields);
   return neighbours;
@@ -45,7 +36,7 @@ Neighbours make_neighbours(const Halo& halo, const Model& model, bool with_veloc
 void start_exchange(Neighbours& neighbours, State& state) {
   CHECK(neighbours.under_way == Neighbours::UnderWay::none);
   if (!neighbours.motion) return;
-  neighbours.motion->start(motion_of(neighbours, state), *neighbours.communicator);
+  neighbours.motion->start(state.u, *neighbours.communicator);
   neighbours.under_way = Neighbours::UnderWay::motion;
 }
 
@@ -53,13 +44,10 @@ void finish_exchange(Neighbours& neighbours, State& state) {
   using UnderWay = Neighbours::UnderWay;
   if (neighbours.under_way == UnderWay::none) return;
   const double start = monotonic_seconds();
-  if (neighbours.under_way == UnderWay::motion) {
-    neighbours.motion->finish(motion_of(neighbours, state), *neighbours.communicator);
-  } else {
-    const int n_fields = neighbours.theta->width();
-    const NodalField theta[] = {{state.theta, n_fields}};
-    neighbours.theta->finish(theta, *neighbours.communicator);
-  }
+  if (neighbours.under_way == UnderWay::motion)
+    neighbours.motion->finish(state.u, *neighbours.communicator);
+  else
+    neighbours.theta->finish(state.theta, *neighbours.communicator);
   neighbours.under_way = UnderWay::none;
   neighbours.waited += monotonic_seconds() - start;
 }

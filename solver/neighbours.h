@@ -18,16 +18,14 @@ class ElementWatch;
 struct Neighbours {
   Communicator* communicator = nullptr;  // null: alone
   std::optional<HaloExchange> motion, theta;
-  bool with_velocity = false;  // of halo nodes, which only contact and blades read
   enum class UnderWay { none, motion, theta } under_way = UnderWay::none;
   double waited = 0;  // for messages, since it was made [s]
 };
 // Keeps pointers to both.
-Neighbours make_neighbours(const Halo& halo, const Model& model, bool with_velocity,
-                           Communicator& communicator);
+Neighbours make_neighbours(const Halo& halo, const Model& model, Communicator& communicator);
 
-// Sends displacements, and velocities if asked for; until finish_exchange halo nodes hold old ones.
-// Collective among neighbours, as are all of these.
+// Sends displacements; until finish_exchange halo nodes hold old ones. Nobody reads their
+// velocities. Collective among neighbours, as are all of these.
 void start_exchange(Neighbours& neighbours, State& state);
 // Waits for what is under way, if anything.
 void finish_exchange(Neighbours& neighbours, State& state);
