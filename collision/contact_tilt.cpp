@@ -11,18 +11,10 @@ namespace {
 // Of the power method, from random numbers: 2 % below the frequency and less.
 constexpr int rounds = 30;
 
-// F R grad N_a . grad N_b = turn * edge[a] . edge[b]: gradients stand upright on the edges opposite
-// the corners.
-struct Tilt {
-  std::array<std::int32_t, 3> place{};
-  std::array<Vec3, 3> edge;
-  double turn = 0;
-};
-
 // moment: F R [N m]
 Tilt make_tilt(const ContactSet::Item& item, double moment, const ContactSet& set) {
   constexpr double flat = 1e-9;  // on plane meshes the third corner is a copy
-  Tilt tilt{.place = item.place};
+  Tilt tilt{.place = item.place, .normal = item.reaction_sum.normalized()};
   std::array<Vec3, 3> x;
   for (std::size_t a = 0; a < 3; ++a) x[a] = set.x_start[to_size(item.place[a])];
   double longest2 = 0;
@@ -40,6 +32,8 @@ Tilt make_tilt(const ContactSet::Item& item, double moment, const ContactSet& se
   return tilt;
 }
 
+}  // namespace
+
 std::vector<Tilt> find_tilts(const ContactDetector& detector, std::int64_t n_steps,
                              const ContactSet& set) {
   std::vector<Tilt> tilts;
@@ -51,11 +45,13 @@ std::vector<Tilt> find_tilts(const ContactDetector& detector, std::int64_t n_ste
   return tilts;
 }
 
-}  // namespace
+void add_tilt_force(const Tilt& tilt, const std::array<Vec3, 3>& u, std::array<Vec3, 3>& force) {
+  Vec3 slope = Vec3::Zero();
+  for (std::size_t a = 0; a < 3; ++a) slope += tilt.normal.dot(u[a]) * tilt.edge[a];
+  for (std::size_t a = 0; a < 3; ++a) force[a] -= tilt.turn * tilt.edge[a].dot(slope) * tilt.normal;
+}
 
-double tilt_frequency2(const ContactDetector& detector, std::int64_t n_steps,
-                       const ContactSet& set) {
-  const std::vector<Tilt> tilts = find_tilts(detector, n_steps, set);
+double tilt_frequency2(std::span<const Tilt> tilts, const ContactSet& set) {
   if (tilts.empty()) return 0;
   std::vector<double> u(set.node.size()), force(set.node.size());
   std::uint32_t noise = 1;

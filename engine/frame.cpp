@@ -7,9 +7,9 @@
 
 #include "base/log.h"
 #include "base/options.h"
-#include "collision/contact_tilt.h"
 #include "engine/apply_cut.h"
 #include "engine/checkpoint_output.h"
+#include "engine/contact_step.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "engine/linear_range.h"
@@ -209,18 +209,6 @@ void let_slip(Simulation& s, const FrameSpan& span, const FrameRow& row) {
                    " nodes: it pulls with " + short_text(pull) + " N, grip_force is " +
                    short_text(most) + " N");
   }
-}
-
-// Contact that stiffens triangles beneath curved tools takes from the room that step_factor leaves
-// (tilt_frequency2); only what goes beyond it costs steps.
-double stable_step_with_contact(const Simulation& s, const FrameSpan& span) {
-  constexpr double most = 0.98;  // of 2 / omega of elements and contact together, a bound
-  const double stable = s.watch.stable_step;
-  if (!s.contact) return stable;
-  const double of_contact = s.communicator->all_max(
-      tilt_frequency2(s.contact->detector, span.n_substeps, s.contact->set));
-  const double together = stable / std::sqrt(1 + of_contact * stable * stable / 4);
-  return std::min(stable, most / s.scene.solver.step_factor * together);
 }
 
 // What roll-backs have taken from the step comes back as slowly as the stable step rises.

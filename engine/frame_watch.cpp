@@ -205,11 +205,12 @@ ForceScope::~ForceScope() {
 }
 
 double search_step(RankBody& body, double amplitude, const Communicator& communicator,
-                   double enough) {
+                   double enough, const ForceOfDisplacement& more) {
   State probe = body.state;
   std::vector<double> here = body.scratch.force;
   const auto forces = [&](std::vector<double>& u, std::vector<double>& force) {
     force_of(body, probe, u, force);
+    if (more) more(u, force);
   };
   const FrequencyOptions options{
       .amplitude = amplitude,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/simulation.h"
+#include "solver/frequency.h"
 
 namespace trocar {
 
@@ -48,9 +49,11 @@ void watch_state(Simulation& s);
 // 2 / omega of the body's highest frequency less the search's margin; 0 if the search doesn't end.
 // It starts from nothing: modes are local, and a search that starts where the fastest one was does
 // not see another that has overtaken it elsewhere (docs/architecture.md). One that clearly gives
-// more than `enough` ends early, with some step above it. Collective. [s]
+// more than `enough` ends early, with some step above it. more: adds forces to those of elements.
+// Collective. [s]
 double search_step(RankBody& body, double amplitude, const Communicator& communicator,
-                   double enough = std::numeric_limits<double>::infinity());
+                   double enough = std::numeric_limits<double>::infinity(),
+                   const ForceOfDisplacement& more = {});
 // Takes the present state, where `step` is stable [s], for the one that the step follows from.
 void follow_from_here(Simulation& s, double step);
 // s.look.stiffening, from s.look.u. Collective.

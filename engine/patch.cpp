@@ -156,8 +156,14 @@ std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int3
 std::unique_ptr<Patch> make_present_patch(const Simulation& s,
                                           std::span<const std::int32_t> elements,
                                           std::size_t most) {
+  return make_present_patch_around(s, nodes_of(s.mesh, elements), most);
+}
+
+std::unique_ptr<Patch> make_present_patch_around(const Simulation& s,
+                                                 std::span<const std::int32_t> nodes,
+                                                 std::size_t most) {
   std::unique_ptr<Patch> patch =
-      make_patch_of_nodes(s, with_rings(s, nodes_of(s.mesh, elements), patch_rings), most);
+      make_patch_of_nodes(s, with_rings(s, {nodes.begin(), nodes.end()}, patch_rings), most);
   if (patch) set_present(s, *patch);
   return patch;
 }

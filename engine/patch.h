@@ -39,6 +39,10 @@ std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int3
 // history; null if these are more than `most` elements. Collective.
 std::unique_ptr<Patch> make_present_patch(const Simulation& s,
                                           std::span<const std::int32_t> elements, std::size_t most);
+// The same of the elements that have these nodes.
+std::unique_ptr<Patch> make_present_patch_around(const Simulation& s,
+                                                 std::span<const std::int32_t> nodes,
+                                                 std::size_t most);
 
 // All elements of a patch around edited elements that have these nodes.
 std::vector<std::int32_t> elements_of_patch(const Simulation& s,

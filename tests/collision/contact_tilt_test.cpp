@@ -19,7 +19,7 @@ double pressed(double radius, const std::vector<std::uint8_t>& held) {
   bench.prepare({Contact{.node = {0, 1, 2}}}, held);
   bench.place();
   bench.set.items[0].reaction_sum = Vec3(0, 0, 4 * F);
-  return tilt_frequency2(bench.detector, 4, bench.set);
+  return tilt_frequency2(find_tilts(bench.detector, 4, bench.set), bench.set);
 }
 
 // sum_a grad N_a (x) grad N_a = 2 / h^2 I in the triangle's plane; its eigenvalues are those of the
