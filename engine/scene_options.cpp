@@ -210,7 +210,8 @@ Options<SceneSupport> support_options() {
   s.text("region", &SceneSupport::region,
          "Region of the mesh, of its surface or of its volumes, or of [[region]].", Need::required);
   s.text("fix", &SceneSupport::fix, "Which components: some of \"xyz\".");
-  s.list("path", &SceneSupport::path, key, "Prescribed motion (needs fix = \"xyz\").");
+  s.list("path", &SceneSupport::path, key,
+         "Prescribed motion (needs fix = \"xyz\"), smooth like an instrument's.");
   return s;
 }
 
@@ -268,7 +269,10 @@ Options<SceneInstrument> instrument_options() {
          "its +z the shaft. Tissue feels its convex hull.");
   i.number("scale", &SceneInstrument::scale, dim::length, positive,
            "Length of one unit of that file.");
-  i.list("path", &SceneInstrument::path, key, "Key positions.", Need::required);
+  i.list("path", &SceneInstrument::path, key,
+         "Key positions. The way through them is smooth and goes forwards along each leg; where it "
+         "turns by 90 degrees or more it stops, and legs between such turns are straight.",
+         Need::required);
   return i;
 }
 

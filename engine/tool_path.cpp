@@ -10,19 +10,24 @@ namespace {
 
 constexpr int samples = 4;  // of a travel
 
-// Slopes of a monotone cubic through the keys; zero at both ends and at turning points.
-std::vector<Vec3> monotone_slopes(const std::vector<double>& time, const std::vector<Vec3>& value) {
+// The weighted harmonic mean of both legs' velocities (Fritsch and Butland 1984) with the inverse
+// v / |v|^2 of a vector v, times the cosine of the turn: along both legs it is positive and at most
+// three times their velocity, so that the cubic goes forwards, whatever the axes.
+Vec3 slope_between(const Vec3& v0, const Vec3& v1, double w0, double w1) {
+  const double square0 = v0.dot(v0), square1 = v1.dot(v1), product = v0.dot(v1);
+  if (!(product > 0)) return Vec3::Zero();
+  const Vec3 inverse = w0 / square0 * v0 + w1 / square1 * v1;
+  const double cosine = product / std::sqrt(square0 * square1);
+  return cosine * (w0 + w1) / inverse.dot(inverse) * inverse;
+}
+
+// Zero at both ends, and where the way turns by 90 degrees or more.
+std::vector<Vec3> smooth_slopes(const std::vector<double>& time, const std::vector<Vec3>& value) {
   std::vector<Vec3> slope(time.size(), Vec3::Zero());
   for (std::size_t k = 1; k + 1 < time.size(); ++k) {
     const double h0 = time[k] - time[k - 1], h1 = time[k + 1] - time[k];
-    for (int i = 0; i < 3; ++i) {
-      const double d0 = (value[k][i] - value[k - 1][i]) / h0,
-                   d1 = (value[k + 1][i] - value[k][i]) / h1;
-      if (d0 * d1 > 0) {  // weighted harmonic mean (Fritsch and Butland 1984)
-        const double w0 = 2 * h1 + h0, w1 = h1 + 2 * h0;
-        slope[k][i] = (w0 + w1) / (w0 / d0 + w1 / d1);
-      }
-    }
+    slope[k] = slope_between((value[k] - value[k - 1]) / h0, (value[k + 1] - value[k]) / h1,
+                             2 * h1 + h0, h1 + 2 * h0);
   }
   return slope;
 }
@@ -67,7 +72,7 @@ ToolPath::ToolPath(const std::vector<InstrumentKey>& keys) {
     if (!rotation_.empty() && rotation_.back().dot(rotation) < 0) rotation.coeffs() *= -1.0;
     rotation_.push_back(rotation);
   }
-  slope_ = monotone_slopes(time_, position_);
+  slope_ = smooth_slopes(time_, position_);
 }
 
 Pose ToolPath::at(double time) const {
@@ -105,7 +110,7 @@ DisplacementPath::DisplacementPath(const std::vector<SupportKey>& keys) {
     time_.push_back(key.time);
     position_.push_back(key.displacement);
   }
-  slope_ = monotone_slopes(time_, position_);
+  slope_ = smooth_slopes(time_, position_);
 }
 
 Vec3 DisplacementPath::at(double time) const {

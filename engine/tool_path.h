@@ -1,5 +1,6 @@
-// Where an instrument is at any time: positions by monotone cubic interpolation of the key
-// positions (Fritsch and Carlson 1980, no overshoot), rotations by normalised linear interpolation.
+// Where an instrument is at any time: positions by cubic interpolation of the key positions that
+// goes forwards along each leg (Fritsch and Carlson 1980, no overshoot), rotations by normalised
+// linear interpolation.
 // Only + - * / sqrt: the path is part of the simulation's bits.
 #pragma once
 

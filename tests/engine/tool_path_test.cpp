@@ -47,39 +47,73 @@ TEST(ToolPath, of_one_key_never_moves) {
   for (const double time : {0.0, 1.0, 2.0}) EXPECT_EQ(path.at(time).translation, Vec3(1, 2, 3));
 }
 
-TEST(ToolPath, never_leaves_the_box_of_two_successive_keys) {
-  std::mt19937 random(3);
-  for (int trial = 0; trial < 50; ++trial) {
-    const std::vector<InstrumentKey> keys = random_keys(random, 6);
-    const ToolPath path(keys);
-    for (std::size_t k = 0; k + 1 < keys.size(); ++k)
-      for (int n = 0; n <= 40; ++n) {
-        const Vec3 x =
-            path.at(keys[k].time + (keys[k + 1].time - keys[k].time) * n / 40).translation;
-        const Vec3 low = keys[k].position.cwiseMin(keys[k + 1].position);
-        const Vec3 high = keys[k].position.cwiseMax(keys[k + 1].position);
-        // The cubic is summed from terms of up to 0.1 m: a few roundings of 1.4e-17 m.
-        EXPECT_TRUE((x.array() >= low.array() - 1e-16).all() &&
-                    (x.array() <= high.array() + 1e-16).all());
-      }
+// Calls visit(leg, path, s, x, last) for 100 places along each leg.
+template <class Visit>
+void visit_legs(const std::vector<InstrumentKey>& keys, const Visit& visit) {
+  const ToolPath path(keys);
+  for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
+    const Vec3 leg = keys[k + 1].position - keys[k].position;
+    Vec3 last = keys[k].position;
+    for (int n = 1; n <= 100; ++n) {
+      const double time = keys[k].time + (keys[k + 1].time - keys[k].time) * n / 100;
+      const Vec3 x = path.at(time).translation;
+      visit(keys[k].position, leg, x, last);
+      last = x;
+    }
   }
 }
 
-TEST(ToolPath, moves_monotonically_between_keys) {
+TEST(ToolPath, goes_forwards_along_each_leg_and_not_beyond) {
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 50; ++trial)
+    visit_legs(random_keys(random, 6),
+               [](const Vec3& start, const Vec3& leg, const Vec3& x, const Vec3& last) {
+                 // Roundings of x (1e-17 m) times ways of up to 0.35 m.
+                 EXPECT_GE((x - last).dot(leg), -1e-17);
+                 EXPECT_LE((x - start).dot(leg), leg.squaredNorm() + 1e-17);
+               });
+}
+
+// Aside, the slope at a key has at most (1 + w1 / w0) / 2 <= 1.5 times cos(turn) tan(turn / 2) <=
+// 0.3003 of the leg's velocity; with that much at both ends a cubic lies a quarter of it off.
+TEST(ToolPath, stays_beside_each_leg) {
   std::mt19937 random(4);
-  const std::vector<InstrumentKey> keys = random_keys(random, 10);
-  const ToolPath path(keys);
-  for (std::size_t k = 0; k + 1 < keys.size(); ++k)
-    for (int i = 0; i < 3; ++i) {
-      const double way = keys[k + 1].position[i] - keys[k].position[i];
-      double last = keys[k].position[i];
-      for (int n = 1; n <= 100; ++n) {
-        const double x =
-            path.at(keys[k].time + (keys[k + 1].time - keys[k].time) * n / 100).translation[i];
-        EXPECT_GE((x - last) * way, -1e-17);  // roundings of x (1e-17 m) times ways of up to 0.2 m
-        last = x;
-      }
-    }
+  double farthest = 0;
+  for (int trial = 0; trial < 50; ++trial)
+    visit_legs(random_keys(random, 8),
+               [&](const Vec3& start, const Vec3& leg, const Vec3& x, const Vec3&) {
+                 const Vec3 aside = (x - start) - leg * (x - start).dot(leg) / leg.squaredNorm();
+                 farthest = std::max(farthest, aside.norm() / leg.norm());
+               });
+  std::printf("farthest from a leg: %.3f of its length\n", farthest);
+  EXPECT_GT(farthest, 0.01);
+  EXPECT_LT(farthest, 1.5 * 0.3003 / 4);
+}
+
+// By component the way depended on the axes: 2 mm on legs of 20.
+TEST(ToolPath, turns_with_its_keys) {
+  std::mt19937 random(8);
+  const std::vector<InstrumentKey> keys = random_keys(random, 8);
+  const Quat turn = Quat(0.3, -0.5, 0.7, 0.2).normalized();
+  std::vector<InstrumentKey> turned = keys;
+  for (InstrumentKey& key : turned) key.position = turn * key.position;
+  const ToolPath path(keys), turned_path(turned);
+  for (double time = 0; time < 6; time += 0.013) {
+    const Vec3 expected = turn * path.at(time).translation;
+    EXPECT_LT((turned_path.at(time).translation - expected).norm(), 1e-15) << time;
+  }
+}
+
+TEST(ToolPath, is_straight_between_right_angles) {
+  std::vector<InstrumentKey> keys(5);
+  for (int k = 0; k < 5; ++k) keys[static_cast<std::size_t>(k)].time = k;
+  keys[1].position = Vec3(0.03, 0.04, 0);
+  keys[2].position = keys[1].position + Vec3(0, 0, 0.02);
+  keys[3].position = keys[2].position + Vec3(0.04, -0.03, 0);
+  keys[4].position = keys[2].position;
+  visit_legs(keys, [](const Vec3& start, const Vec3& leg, const Vec3& x, const Vec3&) {
+    EXPECT_LT((x - start).cross(leg).norm(), 1e-17);
+  });
 }
 
 // A jump of the velocity at a key would show as a difference of the two one-sided slopes that does
