@@ -79,4 +79,19 @@ class Loader {
   ByteReader reader_;
 };
 
+// What has a format of bytes of its own.
+template <class T>
+void visit_bytes(Saver& a, T& value, std::vector<std::byte> (*to_bytes)(const T&),
+                 T (* /*from_bytes*/)(std::span<const std::byte>)) {
+  std::vector<std::byte> bytes = to_bytes(value);
+  a(bytes);
+}
+template <class T>
+void visit_bytes(Loader& a, T& value, std::vector<std::byte> (* /*to_bytes*/)(const T&),
+                 T (*from_bytes)(std::span<const std::byte>)) {
+  std::vector<std::byte> bytes;
+  a(bytes);
+  value = from_bytes(bytes);
+}
+
 }  // namespace trocar

@@ -9,14 +9,9 @@
 
 namespace trocar {
 
-inline void visit(Saver& a, MeshEdit& edit) {
-  std::vector<std::byte> bytes = edit_to_bytes(edit);
-  a(bytes);
-}
-inline void visit(Loader& a, MeshEdit& edit) {
-  std::vector<std::byte> bytes;
-  a(bytes);
-  edit = edit_from_bytes(bytes);
+template <class Archive>
+void visit(Archive& a, MeshEdit& edit) {
+  visit_bytes(a, edit, edit_to_bytes, edit_from_bytes);
 }
 template <class Archive>
 void visit(Archive& a, CutterEdit& edit) {

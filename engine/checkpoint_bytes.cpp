@@ -12,14 +12,9 @@ namespace trocar {
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
 constexpr std::uint32_t checkpoint_format = 12;
 
-static void visit(Saver& a, Mesh& mesh) {
-  std::vector<std::byte> bytes = mesh_to_bytes(mesh);
-  a(bytes);
-}
-static void visit(Loader& a, Mesh& mesh) {
-  std::vector<std::byte> bytes;
-  a(bytes);
-  mesh = mesh_from_bytes(bytes);
+template <class Archive>
+static void visit(Archive& a, Mesh& mesh) {
+  visit_bytes(a, mesh, mesh_to_bytes, mesh_from_bytes);
 }
 template <class Archive>
 static void visit(Archive& a, CutRecord& r) {
