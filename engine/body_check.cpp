@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/log.h"
+#include "base/options.h"
 #include "engine/support_check.h"
 #include "engine/unused_keys.h"
 #include "solver/material_check.h"
@@ -38,6 +39,47 @@ void check_loads(const LoadedScene& loaded, const Simulation& s) {
     if (!can_move(s, load, region))
       log_warning(item_path("load", k) + " moves nothing: supports hold all nodes of region \"" +
                   load.region + "\", or the body is plane and the force across it");
+  }
+}
+
+// A plane body stays in its plane.
+void check_plane(const Simulation& s) {
+  if (s.mesh.dimension() != 2) return;
+  const auto warn = [](const std::string& key, const std::string& what) {
+    log_warning(key + ": " + what + " along z does nothing, as the body is plane");
+  };
+  if (s.scene.solver.gravity.z() != 0) warn("solver.gravity", "gravity");
+  for (std::size_t k = 0; k < s.scene.supports.size(); ++k)
+    if (std::ranges::any_of(s.scene.supports[k].path,
+                            [](const SupportKey& key) { return key.displacement.z() != 0; }))
+      warn(item_path("support", k) + ".path", "motion");
+}
+
+// What two families of fibres lie about must not lie across their plane.
+void check_fibres(const LoadedScene& loaded, const Simulation& s) {
+  constexpr double least_sine = 1e-6;
+  for (std::size_t e = 0; e < s.mesh.fibre.size(); ++e) {
+    const Material& material = s.materials[static_cast<std::size_t>(s.mesh.element_region[e])];
+    if (material.model != MaterialModel::holzapfel_gasser_ogden || !(material.fibre_angle > 0))
+      continue;
+    const Vec3& normal = material.fibre_normal;
+    if (normal.cross(s.mesh.fibre[e]).norm() < least_sine * normal.norm())
+      loaded.where.fail("tissue.mesh", "the fibre of element " + std::to_string(e) +
+                                           " lies along fibre_normal, about which fibre_angle has "
+                                           "two families turn: give another fibre_normal");
+  }
+}
+
+// What never happens.
+template <class Items>
+void tell_late_keys(const Scene& scene, const std::string& list, const Items& items) {
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    const auto n = std::ranges::count_if(
+        items[k].path, [&](const auto& key) { return key.time > scene.time.duration; });
+    if (n > 0)
+      log_info(item_path(list, k) + ".path: " + std::to_string(n) + " of " +
+               std::to_string(items[k].path.size()) + " keys come after the end, at " +
+               short_text(scene.time.duration) + " s");
   }
 }
 
@@ -88,6 +130,11 @@ void check_materials_harden(const Scene& scene) {
 void check_body(const LoadedScene& loaded, const Simulation& s) {
   check_supports(loaded, s.mesh);
   check_loads(loaded, s);
+  check_plane(s);
+  check_fibres(loaded, s);
+  tell_late_keys(s.scene, "support", s.scene.supports);
+  tell_late_keys(s.scene, "load", s.scene.loads);
+  tell_late_keys(s.scene, "instrument", s.scene.instruments);
   check_markers(loaded, s);
   check_converted(loaded, s);
   check_materials_harden(s.scene);

@@ -99,7 +99,12 @@ std::vector<std::byte> mesh_to_bytes(const Mesh& mesh) {
     writer.put_vector(set.node);
   }
   writer.put_vector(mesh.copied_node);
-  if (!mesh.hex_split_rank.empty()) writer.put_vector(mesh.hex_split_rank);  // else as it ever was
+  const bool leaves_out =
+      std::ranges::any_of(mesh.node_sets, [](const NodeSet& set) { return !set.left_out.empty(); });
+  // Else as it ever was.
+  if (leaves_out || !mesh.hex_split_rank.empty()) writer.put_vector(mesh.hex_split_rank);
+  if (leaves_out)
+    for (const NodeSet& set : mesh.node_sets) writer.put_vector(set.left_out);
   return writer.take();
 }
 
@@ -124,6 +129,8 @@ Mesh mesh_from_bytes(std::span<const std::byte> bytes) {
   }
   mesh.copied_node = reader.get_vector<std::int32_t>();
   if (!reader.is_at_end()) mesh.hex_split_rank = reader.get_vector<std::uint8_t>();
+  if (!reader.is_at_end())
+    for (NodeSet& set : mesh.node_sets) set.left_out = reader.get_vector<FacetNodes>();
   check_copies(mesh);
   return mesh;
 }

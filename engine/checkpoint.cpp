@@ -53,7 +53,7 @@ void check_fit(const Checkpoint& c, const Simulation& s) {
   const std::size_t n = c.mesh.X.size();
   if (c.u.size() != 3 * n || c.v.size() != 3 * n || c.fixed.size() != n ||
       (!c.looked_at.empty() && c.looked_at.size() != 3 * n) ||
-      c.sleep.size() != (s.sleep ? 7 * n : 0) || c.cuts.size() != s.cuts.size() ||
+      c.sleep.size() != (s.sleep ? 7 * n + 1 : 0) || c.cuts.size() != s.cuts.size() ||
       c.is_open.size() != s.tools.size())
     throw InputError("the checkpoint does not fit the scene; start without --resume");
 }

@@ -1,5 +1,6 @@
 #include "engine/equilibrium.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -68,12 +69,32 @@ void check_found(const Relaxation& found, Simulation& s) {
   if (!trouble.empty()) give_up(s, trouble);
 }
 
+// Of loads with a direction, all together; of pieces nobody knows which bears what.
+void check_loads_are_held(const LoadedScene& loaded, std::span<const FixedMask> held,
+                          const Simulation& s) {
+  constexpr double least_share = 1e-9;
+  Vec3 sum = Vec3::Zero();
+  double size = 0;
+  for (const SceneLoad& load : s.scene.loads) {
+    const double factor = load.path.empty() ? 1 : load.path.front().factor;
+    sum += factor * load.force;
+    size += std::abs(factor) * load.force.norm();
+  }
+  for (int j = 0; j < 3; ++j)
+    if (std::abs(sum[j]) > least_share * size &&
+        std::ranges::none_of(held, [&](FixedMask mask) { return (mask >> j & 1) != 0; }))
+      loaded.where.fail("start.state", std::string("there is no equilibrium: no support holds the "
+                                                   "body along ") +
+                                           "xyz"[j] + ", and loads move it there");
+}
+
 }  // namespace
 
 void check_is_held(const LoadedScene& loaded, const Simulation& s) {
   const std::vector<std::int32_t> piece = pieces_of(s.mesh);
   const std::vector<FixedMask> held = held_components(s, piece);
   const Vec3& gravity = s.scene.solver.gravity;
+  check_loads_are_held(loaded, held, s);
   for (std::size_t node = 0; node < piece.size(); ++node)
     for (int j = 0; j < 3; ++j)
       if (piece[node] == static_cast<std::int32_t>(node) && gravity[j] != 0 &&

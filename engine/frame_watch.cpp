@@ -54,6 +54,9 @@ double step_with_local_steps(Simulation& s, double step_without) {
   const double cost = 1 + static_cast<double>(m.steps.gain.size()) * m.share;
   if (s.look.is_done || step > least_gain * cost * step_without) return step;
   s.multirate.reset();
+  note_event(s, s.state.time,
+             "no local steps (solver.multirate): they would take " +
+                 short_text(100 * step_without * cost / step) + " % of the work without");
   return step_without;
 }
 

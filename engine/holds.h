@@ -46,8 +46,8 @@ struct GraspAct {
                        // infinity if there is none [m]
 };
 // Closes and opens graspers and scissors whose key time lies in (t0, t1]; x (n_nodes) all present
-// positions. Nodes within the grip radius of the tip that nothing else holds are taken. Returns
-// what graspers did, one after the other.
+// positions. Nodes within the grip radius of the tip that nothing else holds are taken, in the
+// components that no support holds. Returns what graspers did, one after the other.
 std::vector<GraspAct> act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,
                                    std::span<const Vec3> x, std::span<const std::uint8_t> fixed);
 bool will_act(std::span<const Tool> tools, double t0, double t1);

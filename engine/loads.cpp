@@ -111,6 +111,17 @@ DisplacementPath path_of(const SceneLoad& load) {
   return DisplacementPath(keys);
 }
 
+// Of faces in the mesh as it is; a quad that a cut has made two triangles of is left out with both.
+bool is_left_out(const LoadFace& face, const Mesh& mesh, const NodeSet& region) {
+  std::vector<std::int32_t> nodes;
+  for (const std::int32_t i : face)
+    if (i >= 0) nodes.push_back(mesh.uncut_node(i));
+  std::ranges::sort(nodes);
+  return std::ranges::any_of(region.left_out, [&](const FacetNodes& facet) {
+    return std::ranges::includes(facet, nodes);
+  });
+}
+
 }  // namespace
 
 std::vector<LoadFace> loaded_faces(const Mesh& mesh, const Surface& surface,
@@ -123,6 +134,7 @@ std::vector<LoadFace> loaded_faces(const Mesh& mesh, const Surface& surface,
       return i >= 0 && is_inside[static_cast<std::size_t>(i)] == 0;
     });
   });
+  std::erase_if(faces, [&](const LoadFace& face) { return is_left_out(face, mesh, region); });
   return faces;
 }
 

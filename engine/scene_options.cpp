@@ -124,12 +124,13 @@ Options<SceneSolver> solver_options() {
            "each element, which need no search and are 1.4 to 3 times smaller.");
   s.number("mass_scaling_step", &SceneSolver::mass_scaling_step, dim::time, not_negative,
            "Selective mass scaling: undeformed elements whose own bound on the step is below this "
-           "get inertia against deformation, not against motion as a whole, until they reach it. "
-           "0: none.");
+           "get inertia against deformation and rotation, not against translation, until they "
+           "reach it. 0: none.");
   s.number("sleep", &SceneSolver::sleep, dim::length, not_negative,
            "Largest error of displacements that may come from leaving out what is at rest: who "
-           "stays within a sixteenth of it for half a second sleeps until its surroundings move or "
-           "are touched. Not for viscoelastic tissue. 0: nothing sleeps.");
+           "stays within a sixteenth of it for half a second, or for the time in which the slowest "
+           "motion of the body turns back or dies down, sleeps until its surroundings move or are "
+           "touched. Not for viscoelastic tissue. 0: nothing sleeps.");
   s.boolean("multirate", &SceneSolver::is_multirate,
             "Small elements take substeps of their own where that saves work, so that they don't "
             "set everyone's step. Needs stable_step = \"frequency\"; not for viscoelastic tissue, "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/settling.h"
 #include "engine/simulation.h"
 
 namespace trocar {
@@ -10,7 +11,7 @@ namespace trocar {
 namespace {
 
 constexpr double quiet_share = 1. / 16, watch_share = 1. / 4;  // of the bound
-constexpr double quiet_time = 0.5;                             // [s]
+constexpr double least_quiet_time = 0.5;                       // [s]
 
 bool has_left(const std::vector<double>& from, double reach, const State& state, std::int64_t i) {
   for (std::int64_t k = 3 * i; k < 3 * i + 3; ++k)
@@ -43,7 +44,7 @@ void disquiet_contacts(const Simulation& s, std::vector<double>& is_quiet) {
 
 // (n_local) 1 for nodes that have been quiet long enough and that nothing touches or holds.
 std::vector<double> find_quiet(Simulation& s) {
-  const double least = quiet_time * s.scene.time.frame_rate;
+  const double least = std::max(least_quiet_time, s.sleep->quiet_time) * s.scene.time.frame_rate;
   std::vector<double> is_quiet(static_cast<std::size_t>(s.model.n_local), 0.0);
   for (std::size_t i = 0; i < s.sleep->quiet.size(); ++i)
     is_quiet[i] = s.sleep->quiet[i] >= least ? 1 : 0;
@@ -132,6 +133,10 @@ double share_of_sleepers(const Simulation& s) {
   return static_cast<double>(s.communicator->all_sum(n)) / s.mesh.n_nodes();
 }
 
+bool has_any(const Simulation& s, const std::vector<std::uint8_t>& sleepers) {
+  return s.communicator->all_max(std::ranges::count(sleepers, 1) > 0 ? 1 : 0) > 0;
+}
+
 bool is_touched(const Simulation& s) {
   const std::vector<std::uint8_t>& is_asleep = s.sleep->is_asleep;
   const auto sleeps = [&](std::int32_t node) {
@@ -153,7 +158,8 @@ bool is_touched(const Simulation& s) {
 
 void begin_sleep(Simulation& s) {
   if (s.scene.solver.sleep == 0) return;
-  s.sleep = Sleep{.bound = s.scene.solver.sleep};
+  const double quiet_time = s.sleep ? s.sleep->quiet_time : 0;
+  s.sleep = Sleep{.bound = s.scene.solver.sleep, .quiet_time = quiet_time};
   fit_sleep(s);
 }
 
@@ -194,6 +200,10 @@ void fall_asleep(Simulation& s) {
   Sleep& sleep = *s.sleep;
   note_motion(sleep, s.state);
   std::vector<std::uint8_t> sleepers = find_sleepers(s);
+  if (sleep.quiet_time == 0 && has_any(s, sleepers)) {
+    sleep.quiet_time = std::max(least_quiet_time, settling_time(s));
+    sleepers = find_sleepers(s);
+  }
   if (sleepers != sleep.is_asleep) {
     sleep.is_asleep = std::move(sleepers);
     follow_sleepers(s);
@@ -226,11 +236,14 @@ std::vector<double> gather_sleep(Simulation& s) {
     local.insert(local.end(), &sleep.watched[3 * i], &sleep.watched[3 * i] + 3);
     local.push_back(sleep.is_asleep[i] != 0 ? -2 - sleep.quiet[i] : sleep.quiet[i]);
   }
-  return gather_field(s.part, 7, local, *s.communicator);
+  std::vector<double> memory = gather_field(s.part, 7, local, *s.communicator);
+  if (!memory.empty()) memory.push_back(sleep.quiet_time);
+  return memory;
 }
 
 void restore_sleep(std::span<const double> memory, Simulation& s) {
   Sleep& sleep = *s.sleep;
+  sleep.quiet_time = memory.back();
   const auto of_node = [&](std::size_t k) {
     return memory.subspan(7 * static_cast<std::size_t>(s.part.node_global[k]), 7);
   };

@@ -1,5 +1,6 @@
 // Skips what is at rest ([solver] sleep). A node is quiet if it has stayed within a sixteenth of
-// the bound for half a second, and sleeps if it and all nodes it shares an element with are quiet.
+// the bound for half a second, or for the time in which the body's slowest motion turns back or
+// dies down if that is longer, and sleeps if it and all nodes it shares an element with are quiet.
 // Sleeping nodes don't move, and blocks of elements whose nodes all sleep are left out: who sleeps
 // is decided by node, so it does not depend on ranks and threads, and which blocks are left out
 // does not matter to the nodes that are awake.
@@ -8,7 +9,7 @@
 // or a load changes, is done again with all awake: pressure waves cross an organ within a frame, so
 // there is no use in waking a neighbourhood. What sleeps thus misses the eighth in which it was
 // found quiet and about as much as its surroundings moved, a quarter. That is an estimate, not a
-// proof: a body that creeps for ever below the sixteenth in half a second is stopped, too.
+// proof: what no support holds may turn back more slowly, and is stopped, too.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +25,7 @@ struct Simulation;
 
 struct Sleep {
   double bound = 0;                        // on the error of displacements [m]
+  double quiet_time = 0;                   // of who sleeps [s]; 0: nobody was near it yet
   std::vector<double> anchor;              // (n_owned * 3) displacement that it is quiet around [m]
   std::vector<std::int32_t> quiet;         // (n_owned) frames since then; -1: it has no anchor yet
   std::vector<std::uint8_t> is_asleep;     // (n_local)
@@ -51,8 +53,8 @@ void fit_sleep(Simulation& s);
 void show_awake(Simulation& s);
 void show_asleep(Simulation& s);
 
-// (n_nodes * 7) anchors, watched displacements, quiet frames (-2 less these where it sleeps), for
-// checkpoints: on the root, empty elsewhere. Collective.
+// (n_nodes * 7 + 1) anchors, watched displacements, quiet frames (-2 less these where it sleeps),
+// then the quiet time, for checkpoints: on the root, empty elsewhere. Collective.
 std::vector<double> gather_sleep(Simulation& s);
 void restore_sleep(std::span<const double> memory, Simulation& s);
 

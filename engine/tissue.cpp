@@ -144,6 +144,8 @@ Mesh read_tissue(const LoadedScene& loaded) {
     loaded.where.fail(tissue.shape ? "tissue.shape" : "tissue.mesh",
                       "the mesh can't be used: " + faults.front());
   if (!tissue.shape && tissue.is_renumbered) mesh = in_near_order(mesh);
+  if (mesh.dimension() == 2 && tissue.translate.z() != 0)
+    loaded.where.fail("tissue.translate", "a plane body stays at z = 0");
   place(tissue, mesh);
   if (!tissue.shape) {
     warn_of_size(tissue.mesh, "tissue.scale", mesh.X);

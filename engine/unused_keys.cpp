@@ -65,6 +65,13 @@ Uses of_material(const SceneMaterial& m, const std::string& path) {
            "only holzapfel-gasser-ogden with a fibre_angle has two families"}};
 }
 
+bool any_has_fibres(const SceneTissue& tissue) {
+  return has_fibres(tissue.material.model) ||
+         std::ranges::any_of(tissue.region_materials, [](const SceneRegionMaterial& other) {
+           return has_fibres(other.material.model);
+         });
+}
+
 Uses of_tissue(const Scene& scene, const Mesh& mesh) {
   const SceneTissue& t = scene.tissue;
   const SceneTissue d;
@@ -72,7 +79,9 @@ Uses of_tissue(const Scene& scene, const Mesh& mesh) {
   return {{"tissue.thickness", t.thickness != d.thickness, mesh.dimension() == 2,
            "only a plane body has it"},
           {"tissue.scale", t.scale != d.scale, !t.shape, file},
-          {"tissue.renumbered", t.is_renumbered != d.is_renumbered, !t.shape, file}};
+          {"tissue.renumber", t.is_renumbered != d.is_renumbered, !t.shape, file},
+          {"the mesh's cell data \"fibre\"", !mesh.fibre.empty(), any_has_fibres(t),
+           "no material has fibres"}};
 }
 
 Uses of_cutting(const Scene& scene, const Mesh& mesh) {

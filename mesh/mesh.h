@@ -16,10 +16,16 @@ enum class ElementType : std::uint8_t { tri3, tet4, hex8 };
 inline constexpr int n_element_types = 3;
 inline constexpr int max_corners = 8;
 
+// Nodes of a facet, ascending, after as many -1 as are missing to four.
+using FacetNodes = std::array<std::int32_t, 4>;
+
 // A named set of nodes, ascending ("attachment").
 struct NodeSet {
   std::string name;
   std::vector<std::int32_t> node;
+  // Of a surface in a mesh file: what does not belong to it although all its nodes do, outer facets
+  // of the uncut mesh, ascending.
+  std::vector<FacetNodes> left_out;
 };
 
 // Global numbers are positions in these arrays. Element corners in the order of VTK and gmsh.

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/check.h"
+#include "base/log.h"
 #include "mesh/mesh_file.h"
 #include "mesh/text_append.h"
 #include "mesh/whole_file.h"
@@ -160,9 +161,18 @@ void append_values(std::string& text, const char* name, const std::vector<Value>
   text.append(list).append("$EndElementData\n");
 }
 
+void warn_of_left_out(const Mesh& mesh, const std::string& file) {
+  for (const NodeSet& set : mesh.node_sets)
+    if (!set.left_out.empty())
+      log_warning(file + ": has the nodes of surface \"" + set.name +
+                  "\": " + std::to_string(set.left_out.size()) +
+                  " facets between them that don't belong to it do when the file is read");
+}
+
 }  // namespace
 
 void write_mesh(const Mesh& mesh, const std::string& file) {
+  warn_of_left_out(mesh, file);
   const PointEntities points = make_point_entities(mesh);
   std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
   append_names(text, mesh);

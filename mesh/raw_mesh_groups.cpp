@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/quoted.h"
 #include "base/sort_unique.h"
+#include "mesh/facets.h"
 
 namespace trocar {
 
@@ -156,6 +157,71 @@ std::vector<NodeSet> make_node_sets(const RawMesh& raw, int dimension,
     set.node.shrink_to_fit();
   }
   return sets;
+}
+
+// Of each set those in the file, ascending.
+static std::vector<std::vector<FacetNodes>> facets_of_sets(const RawMesh& raw, int dimension,
+                                                           std::span<const std::int32_t> new_node) {
+  const GroupNumbers groups = number_groups(raw, 0, dimension - 1);
+  std::vector<std::vector<FacetNodes>> facets(groups.name.size());
+  const std::int32_t* corner = raw.cell_corner.data();
+  for (std::int32_t c = 0; c < raw.n_cells(); ++c) {
+    const int n = n_cell_corners(raw.cell_kind[c]), d = cell_dimension(raw.cell_kind[c]);
+    if (d == dimension - 1) {
+      FacetNodes nodes = {-1, -1, -1, -1};
+      for (int a = 0; a < n; ++a) nodes[static_cast<std::size_t>(a)] = new_node[corner[a]];
+      std::ranges::sort(nodes);
+      for (const std::int32_t tag : raw.groups(raw.cell_group[c]))
+        facets[static_cast<std::size_t>(group_number(groups, {d, tag}))].push_back(nodes);
+    }
+    corner += n;
+  }
+  for (std::vector<FacetNodes>& of_set : facets) sort_unique(of_set);
+  return facets;
+}
+
+// Outer facets all of whose nodes are in the set, ascending.
+static std::vector<FacetNodes> outer_facets_within(const NodeSet& set, const NodeElements& around,
+                                                   const Mesh& mesh) {
+  std::vector<std::int32_t> elements;
+  for (const std::int32_t node : set.node)
+    elements.insert(elements.end(), around.of(node).begin(), around.of(node).end());
+  sort_unique(elements);
+  std::vector<FacetNodes> facets;
+  for (const std::int32_t e : elements)
+    for (int f = 0; f < n_facets(mesh.element_type[e]); ++f) {
+      FacetNodes nodes = {-1, -1, -1, -1};
+      const std::array<int, 4> corner = facet_corners(mesh.element_type[e], f);
+      for (std::size_t a = 0; a < 4; ++a)
+        if (corner[a] >= 0) nodes[a] = mesh.corners(e)[corner[a]];
+      std::ranges::sort(nodes);
+      const auto is_in = [&](std::int32_t i) {
+        return i < 0 || std::ranges::binary_search(set.node, i);
+      };
+      if (std::ranges::all_of(nodes, is_in)) facets.push_back(nodes);
+    }
+  std::ranges::sort(facets);
+  std::vector<FacetNodes> outer;  // those that come once
+  for (std::size_t k = 0, next = 0; k < facets.size(); k = next) {
+    while (next < facets.size() && facets[next] == facets[k]) ++next;
+    if (next == k + 1) outer.push_back(facets[k]);
+  }
+  return outer;
+}
+
+void leave_out_facets(const RawMesh& raw, int dimension, std::span<const std::int32_t> new_node,
+                      Mesh& mesh) {
+  const std::vector<std::vector<FacetNodes>> facets = facets_of_sets(raw, dimension, new_node);
+  if (std::ranges::all_of(facets, [](const auto& of_set) { return of_set.empty(); })) return;
+  const NodeElements around = node_elements(mesh);
+  for (std::size_t s = 0; s < facets.size(); ++s) {
+    if (facets[s].empty()) continue;
+    const std::vector<FacetNodes> outer = outer_facets_within(mesh.node_sets[s], around, mesh);
+    std::vector<FacetNodes> others;
+    std::ranges::set_difference(outer, facets[s], std::back_inserter(others));
+    // Facets of another shape, halves of quads say, tell nothing.
+    if (others.size() < outer.size()) mesh.node_sets[s].left_out = std::move(others);
+  }
 }
 
 }  // namespace trocar

@@ -35,4 +35,9 @@ std::vector<std::int32_t> make_regions(const RawMesh& raw, int dimension, Mesh& 
 std::vector<NodeSet> make_node_sets(const RawMesh& raw, int dimension,
                                     std::span<const std::int32_t> new_node);
 
+// Fills NodeSet::left_out of the mesh's sets, which are those of make_node_sets: where a set has
+// facets in the file, other outer facets with all their nodes in it are none of its.
+void leave_out_facets(const RawMesh& raw, int dimension, std::span<const std::int32_t> new_node,
+                      Mesh& mesh);
+
 }  // namespace trocar

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/log.h"
 #include "mesh/raw_mesh.h"
 #include "mesh/raw_mesh_groups.h"
 
@@ -87,16 +89,20 @@ std::vector<std::int32_t> take_nodes(const RawMesh& raw, int dimension, double s
   });
   mesh.X.reserve(raw.X.size() -
                  static_cast<std::size_t>(std::count(new_node.begin(), new_node.end(), -1)));
+  double height = 0;  // of a plane mesh
   for (std::size_t i = 0; i < raw.X.size(); ++i) {
     if (new_node[i] < 0) continue;
     new_node[i] = mesh.n_nodes();
     Vec3 x = raw.X[i] * scale;
-    if (dimension == 2) x.z() = 0;
+    if (dimension == 2) height = std::exchange(x.z(), 0.0);
     if (!x.allFinite())
       throw InputError(raw.file + ": a node lies at a position that is not finite when scaled by " +
                        number_text(scale));
     mesh.X.push_back(x);
   }
+  if (std::abs(height) > 1e-6)
+    log_warning(raw.file + ": is a plane mesh at z = " + number_text(height) +
+                " m; plane bodies lie at z = 0, and so does this one now");
   return new_node;
 }
 
@@ -259,6 +265,7 @@ Mesh make_mesh(RawMesh raw, double scale) {
     raw.node_tag = {};
     mesh.node_sets = make_node_sets(raw, dimension, new_node);
     take_elements(raw, dimension, new_node, mesh);
+    leave_out_facets(raw, dimension, new_node, mesh);
   }
   orient_elements(raw, mesh);
   take_values(raw, dimension, mesh);

@@ -149,6 +149,12 @@ Mesh renumbered(const Mesh& mesh) {
   for (NodeSet& set : result.node_sets) {
     for (std::int32_t& i : set.node) i = new_number[i];
     std::sort(set.node.begin(), set.node.end());
+    for (FacetNodes& facet : set.left_out) {
+      for (std::int32_t& i : facet)
+        if (i >= 0) i = new_number[i];
+      std::sort(facet.begin(), facet.end());
+    }
+    std::sort(set.left_out.begin(), set.left_out.end());
   }
   return result;
 }

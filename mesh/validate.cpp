@@ -148,6 +148,11 @@ void check_node_sets(Report& report, const Mesh& mesh) {
       if (i < 0 || i >= mesh.n_nodes())
         report.add("node set \"" + set.name + "\" holds node " + std::to_string(i) +
                    ", but the nodes run from 0 to " + std::to_string(mesh.n_nodes() - 1));
+    for (const FacetNodes& facet : set.left_out)
+      if (facet.front() < -1 || facet.back() >= mesh.n_nodes())
+        report.add("node set \"" + set.name + "\" leaves out a facet with node " +
+                   std::to_string(facet.back()) + ", but the nodes run from 0 to " +
+                   std::to_string(mesh.n_nodes() - 1));
     const auto falls = [](std::int32_t i, std::int32_t j) { return i >= j; };
     if (std::adjacent_find(set.node.begin(), set.node.end(), falls) != set.node.end())
       report.add("node set \"" + set.name + "\" is not strictly ascending");

@@ -181,6 +181,17 @@ TEST(Equilibrium, does_not_exist_for_a_body_that_nothing_holds_against_gravity) 
   EXPECT_TRUE(contains(sentence(plane_text, "support=[]"), "along y"));
 }
 
+TEST(Equilibrium, does_not_exist_for_a_body_that_nothing_holds_against_loads) {
+  const auto sentence = [](const std::string& loads) {
+    return input_error_of([&] { built(column_text("hex8", soft) + loads, {"support=[]"}); });
+  };
+  const std::string up = "[[load]]\nregion = \"z+\"\nforce = [0, 0, 0.01]\n",
+                    down = "[[load]]\nregion = \"z-\"\nforce = [0, 0, -0.01]\n";
+  EXPECT_TRUE(contains(sentence(up), "no support holds the body along z, and loads move it there"))
+      << sentence(up);
+  EXPECT_EQ(sentence(up + down), "");
+}
+
 TEST(Equilibrium, that_is_not_found_is_named_and_leaves_the_body_undeformed) {
   const auto few = built(column_text("hex8", soft, downwards), {"start.max_iterations=50"});
   const std::string sentence =

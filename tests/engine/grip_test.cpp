@@ -54,5 +54,34 @@ TEST(GripForce, is_without_bound_if_absent) {
   EXPECT_GT(bar->s->log.rows.back().n_held, 3);
 }
 
+// A block from low_x to 20 mm that a grasper at its plane x = 0 takes by the top and lifts by 4 mm.
+FrameRow lifted(const std::string& low_x, const std::string& cells, const std::string& mirror) {
+  const auto block =
+      built("[time]\nduration = 10\nframe_rate = 20\n[tissue.shape]\nkind = \"box\"\nlow = [" +
+            low_x + ", -0.01, 0]\nhigh = [0.02, 0.01, 0.01]\ncells = [" + cells +
+            ", 8, 4]\n[tissue.material]\nyoung_modulus = 3000\n[solver]\nmass_damping = 10\n"
+            "[[support]]\nregion = \"z-\"\n" +
+            mirror +
+            "[[instrument]]\nkind = \"grasper\"\nradius = 0.001\ngrip_radius = 0.0045\n"
+            "path = [{ time = 0, position = [0, 0, 0.015], forward = [0, 1, 0] }, "
+            "{ time = 0.2, position = [0, 0, 0.011], forward = [0, 1, 0], action = \"close\" }, "
+            "{ time = 0.5, position = [0, 0, 0.015], forward = [0, 1, 0] }]\n");
+  for (int frame = 0; frame < 20; ++frame) run_frame(*block->s, block->outputs);
+  return block->s->log.rows.back();
+}
+
+// While jaws left out all that a support holds in any component, the half held 4 nodes, none of the
+// plane, and pulled with 0.36 of the whole.
+TEST(Grip, of_a_half_at_its_mirror_plane_is_half_of_the_whole) {
+  const FrameRow whole = lifted("-0.02", "16", ""),
+                 half = lifted("0", "8", "[[support]]\nregion = \"x-\"\nfix = \"x\"\n");
+  const double pull = whole.tools[0].force.z(), of_half = half.tools[0].force.z();
+  std::printf("whole: %ld nodes, %.5f N; half: %ld nodes, %.5f N\n", whole.n_held, pull, half.n_held,
+              of_half);
+  ASSERT_LT(pull, -0.05);
+  EXPECT_GT(2 * half.n_held, whole.n_held);  // those in the plane count in both
+  EXPECT_NEAR(of_half / pull, 0.5, 2e-3);
+}
+
 }  // namespace
 }  // namespace trocar

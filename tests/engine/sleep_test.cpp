@@ -85,6 +85,31 @@ TEST(Sleep, changes_displacements_by_less_than_the_bound_while_much_is_asleep) {
               moved, share_while_pressed);
 }
 
+// A soft strip that takes six seconds for a swing stopped for good where it first turned back, 4.3
+// mm off, while half a second of quiet was enough.
+TEST(Sleep, lets_slow_motion_turn_back) {
+  const std::string strip =
+      "[time]\nduration = 30\nframe_rate = 20\n[tissue.shape]\nkind = \"box\"\n"
+      "elements = \"hex8\"\nlow = [0, 0, 0]\nhigh = [0.1, 0.01, 0.005]\ncells = [20, 2, "
+      "2]\n[tissue.material]\n"
+      "young_modulus = 1000\npoisson_ratio = 0.3\n[solver]\nhexahedron = \"enhanced\"\n"
+      "mass_damping = 0.5\n[[support]]\nregion = \"x-\"\n"
+      "[[load]]\nregion = \"x+\"\nforce = [0, 0, 2e-6]\n";
+  const auto awake = built(strip), sleepy = built(strip, {"solver.sleep='1 mm'"});
+  double most = 0, moved = 0;
+  while (awake->s->frame < 600) {
+    run_frame(*awake->s, awake->outputs);
+    run_frame(*sleepy->s, sleepy->outputs);
+    most = std::max(most, largest_difference(*awake->s, *sleepy->s));
+    moved = std::max(moved, *std::ranges::max_element(awake->s->state.u));
+  }
+  std::printf("quiet time %.2f s, largest difference %.3g m of %.3g, share asleep %.2f\n",
+              sleepy->s->sleep->quiet_time, most, moved, sleepy->s->sleep->share);
+  EXPECT_GT(moved, 5e-3);
+  EXPECT_LT(most, 1e-3);
+  EXPECT_GT(sleepy->s->sleep->share, 0);  // at the end
+}
+
 TEST(Sleep, comes_over_a_body_at_rest_after_half_a_second_and_ends_with_the_first_contact) {
   const auto run = started(with_sleep);
   Simulation& s = *run->s;

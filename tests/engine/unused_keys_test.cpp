@@ -60,6 +60,18 @@ TEST(UnusedKeys, of_plane_bodies_and_plane_cuts_are_named_on_others) {
   EXPECT_EQ(named(spring, "plane"), Keys{"cutting.spring"});
 }
 
+TEST(UnusedKeys, of_fibres_in_a_mesh_without_a_model_that_has_some_are_named) {
+  Mesh mesh = body_of("tet4");
+  mesh.fibre.assign(mesh.element_type.size(), Vec3::UnitX());
+  const Scene plain = load_scene_text(scene_text("")),
+              fibred = load_scene_text(scene_text(
+                  "[tissue.material]\nmodel = \"transversely-isotropic\"\neta = 1000\n"));
+  ASSERT_EQ(unused_keys(plain, mesh).size(), 1U);
+  EXPECT_EQ(unused_keys(plain, mesh)[0],
+            "the mesh's cell data \"fibre\" has no effect: no material has fibres; leave it out");
+  EXPECT_TRUE(unused_keys(fibred, mesh).empty());
+}
+
 TEST(UnusedKeys, of_fibres_without_a_model_that_has_some_are_named) {
   const std::string fibre = "[tissue.material]\nfibre = [0, 1, 0]\n";
   EXPECT_EQ(named(fibre, "hex8"), Keys{"tissue.material.fibre"});

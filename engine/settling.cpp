@@ -1,0 +1,64 @@
+#include "engine/settling.h"
+
+#include <cmath>
+#include <utility>
+
+#include "base/reproducible_dot.h"
+#include "solver/mass_clusters.h"
+#include "solver/relax.h"
+
+namespace trocar {
+
+namespace {
+
+// Strains stay so small that they tell of the undeformed body.
+const Vec3 pull = Vec3::Constant(0.01);  // [m/s^2]
+
+Relaxation relax_pulled(Simulation& s, State& state) {
+  std::vector<PrescribedNode> held = s.holds.prescribed;
+  for (PrescribedNode& node : held) node.u_next = Vec3::Zero();
+  const Vec3 gravity = std::exchange(s.model.options.gravity, pull);
+  const Relaxation found = relax(s.model,
+                                 {.prescribed = held,
+                                  .ramp_iterations = 0,
+                                  .max_iterations = 20000,
+                                  .tolerance = 0.01,
+                                  .neighbours = &s.neighbours},
+                                 state, s.scratch);
+  s.model.options.gravity = gravity;
+  s.scratch.has_force = false;
+  return found;
+}
+
+// u.M pull / u.M u: the static answer to a force M pull has u.K u = u.M pull.
+double rayleigh_quotient(const Simulation& s, std::span<const double> u) {
+  std::vector<double> pulled(u.size()), momentum(u.size());
+  const std::vector<double>& mass = inertia_of(s.model);
+  for (std::size_t k = 0; k < u.size(); ++k) {
+    pulled[k] = s.model.mass[k / 3] * pull[static_cast<Eigen::Index>(k % 3)];
+    momentum[k] = mass[k / 3] * u[k];
+  }
+  const auto n = static_cast<std::int64_t>(s.communicator->all_sum(std::uint64_t{u.size()}));
+  const auto dot = [&](std::span<const double> with) {
+    const double most =
+        s.communicator->all_max(largest_size(u)) * s.communicator->all_max(largest_size(with));
+    return reproducible_dot(u, with, n, most, *s.communicator);
+  };
+  const double inertia = dot(momentum);
+  return inertia > 0 ? dot(pulled) / inertia : 0;
+}
+
+}  // namespace
+
+double settling_time(Simulation& s) {
+  State state = make_state(s.model);
+  if (!relax_pulled(s, state).is_converged) return 0;
+  const auto n_owned = 3 * static_cast<std::size_t>(s.model.n_owned);
+  const double omega2 = rayleigh_quotient(s, std::span(state.u).first(n_owned));
+  if (!(omega2 > 0)) return 0;
+  constexpr double half_turn = 3.14, to_a_fifth = 1.6;
+  return std::max(half_turn / std::sqrt(omega2),
+                  to_a_fifth * s.model.options.mass_damping / omega2);
+}
+
+}  // namespace trocar
