@@ -10,7 +10,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 12;
+constexpr std::uint32_t checkpoint_format = 13;
 
 static void visit(Saver& a, Mesh& mesh) {
   std::vector<std::byte> bytes = mesh_to_bytes(mesh);
@@ -33,7 +33,7 @@ static void visit(Archive& a, CutRecord& r) {
 template <class Archive>
 static void visit(Archive& a, CutMemory& m) {
   a(m.stroke, m.plane_path, m.plane_tip, m.is_in_stroke, m.n_idle_frames, m.strokes, m.engaged,
-    m.tissue_velocity);
+    m.tissue_velocity, m.knows_tissue);
 }
 template <class Archive>
 static void visit(Archive& a, Hold& h) {
