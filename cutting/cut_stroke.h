@@ -45,6 +45,7 @@ struct BladePoint {
 
 struct CutStroke {
   std::vector<CutHit> hit;                      // ascending (element, edge)
+  std::vector<CutHit> earlier_hit;              // of earlier strokes that parted nothing there
   std::vector<OfElement<std::int8_t>> side;     // +1 or -1: sides given at earlier advances
   std::vector<OfElement<std::uint8_t>> opened;  // bit f: facet f was opened by this stroke
   std::vector<OfElement<double>>

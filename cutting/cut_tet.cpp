@@ -2,6 +2,7 @@
 #include "cutting/cut_tet.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/check.h"
@@ -36,10 +37,21 @@ TetCutter::TetCutter(const CutTetOptions& options)
 TetCutter::~TetCutter() = default;
 TetCutter::TetCutter(TetCutter&&) noexcept = default;
 
-// Step bounds are kept: the floor under them must not sink from stroke to stroke.
+static void merge_earlier(const CutStroke& stroke, std::vector<CutHit>& earlier) {
+  for (const CutHit& hit : stroke.hit)
+    if (find_element(stroke.opened, hit.element) == nullptr) earlier.push_back(hit);
+  std::ranges::stable_sort(earlier, {}, &CutHit::key);
+  const auto same = std::ranges::unique(earlier, {}, &CutHit::key);
+  earlier.erase(same.begin(), same.end());
+}
+
+// Step bounds are kept: the floor under them must not sink from stroke to stroke. So is where the
+// blade has been in vain: it does not part it twice.
 void TetCutter::start_stroke() {
   CutStroke next;
   next.step = std::move(front_->stroke.step);
+  next.earlier_hit = std::move(front_->stroke.earlier_hit);
+  merge_earlier(front_->stroke, next.earlier_hit);
   front_->stroke = std::move(next);
 }
 
@@ -144,6 +156,24 @@ bool TetCutter::meets(const Mesh& mesh, PresentPositions& positions, const Blade
   CutStroke passing;
   add_hits(f.tets.mesh.X.empty() ? mesh : f.tets.mesh, f.index, positions, sweep, passing);
   return !passing.hit.empty();
+}
+
+bool TetCutter::has_crossed_ahead(const Mesh& mesh, std::int32_t element, const Vec3& X,
+                                  const Vec3& ahead, const Vec3& normal) const {
+  constexpr double least_cosine = 0.5;
+  const Front& f = *front_;
+  std::int32_t first = element, end = element + 1;
+  if (!f.tets.mesh.X.empty() && are_tets_of(f.tets, mesh)) {
+    first = f.tets.first[static_cast<std::size_t>(element)];
+    end = f.tets.first[static_cast<std::size_t>(element) + 1];
+  }
+  const auto is_one_ahead = [&](const std::vector<CutHit>& hits) {
+    auto hit = std::ranges::lower_bound(hits, first, {}, &CutHit::element);
+    for (; hit != hits.end() && hit->element < end; ++hit)
+      if (ahead.dot(hit->X - X) > 0 && std::abs(normal.dot(hit->N)) > least_cosine) return true;
+    return false;
+  };
+  return is_one_ahead(f.stroke.hit) || is_one_ahead(f.stroke.earlier_hit);
 }
 
 bool TetCutter::is_prepared(const Mesh& mesh) const {

@@ -65,6 +65,12 @@ class TetCutter {
   // Whether the swept band crosses an edge of the mesh, which no stroke takes up.
   bool meets(const Mesh& mesh, PresentPositions& positions, const BladeSweep& sweep);
 
+  // Whether this stroke, or an earlier one, has crossed edges of an element of `mesh` ahead of X,
+  // by a surface at most 60 degrees off the normal: the blade has been there, though nothing is
+  // parted yet. Reference configuration.
+  bool has_crossed_ahead(const Mesh& mesh, std::int32_t element, const Vec3& X, const Vec3& ahead,
+                         const Vec3& normal) const;
+
   // A new stroke: forgets the front (faces that are open stay open).
   void start_stroke();
 

@@ -32,8 +32,8 @@ void visit(Archive& a, BladePoint& p) {
 }
 template <class Archive>
 void visit(Archive& a, CutStroke& s) {
-  a(s.hit, s.side, s.opened, s.step, s.surface_node, s.parted_node, s.fresh, s.unfinished, s.edge,
-    s.at_edge, s.ends_in_tissue, s.mean_edge, s.swept);
+  a(s.hit, s.earlier_hit, s.side, s.opened, s.step, s.surface_node, s.parted_node, s.fresh,
+    s.unfinished, s.edge, s.at_edge, s.ends_in_tissue, s.mean_edge, s.swept);
 }
 template <class Archive>
 void visit(Archive& a, CutRefusal& r) {

@@ -17,9 +17,7 @@ BladeDrag::Node& node_of(BladeDrag& drag, std::int32_t tool, std::int32_t local)
 
 }  // namespace
 
-// Of the blade's motion in the tissue; in tissue that goes along with it, of its own. Zero if both
-// rest.
-static Vec3 direction_of(const EngagedEdge& edge) {
+Vec3 direction_of(const EngagedEdge& edge) {
   constexpr double goes_along = 0.1;
   const Vec3 relative = edge.velocity - edge.tissue_velocity;
   const bool is_along = relative.norm() < goes_along * edge.velocity.norm();

@@ -40,6 +40,10 @@ struct BladeDrag {
   std::vector<Node> node;  // of this rank, ascending (tool, local)
 };
 
+// Of the blade's motion in the tissue; in tissue that goes along with it, of its own. Zero if both
+// rest.
+Vec3 direction_of(const EngagedEdge& edge);
+
 // Adds the owned nodes around an edge. resistance [N/m].
 void add_engaged_edge(const EngagedEdge& edge, const Mesh& mesh, const Part& part,
                       double resistance, BladeDrag& drag);

@@ -57,6 +57,12 @@ bool leaves_tissue(const Simulation& s, const CutStage& stage, const BladeWay& w
 
 }  // namespace
 
+std::vector<Vec3> edge_in_body(const Simulation& s, const Tool& tool, double time) {
+  std::vector<Vec3> edge = cutting_edge(tool, time);
+  if (s.mesh.dimension() == 2) edge = {tip_in_plane(edge, s.scene.tissue.thickness)};
+  return edge;
+}
+
 std::vector<SegmentPiece> locate_edge(const Simulation& s, BodyPositions& positions,
                                       std::span<const Vec3> edge) {
   if (s.mesh.dimension() == 2) {

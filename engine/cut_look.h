@@ -28,6 +28,9 @@ void visit(Archive& a, BladeLook& l) {
   a(l.engaged, l.has_met, l.is_beside, l.is_last, l.edit, l.figures);
 }
 
+// The cutting edge, of a plane body's blade the tip alone.
+std::vector<Vec3> edge_in_body(const Simulation& s, const Tool& tool, double time);
+
 // Where the blade's edge is inside the tissue; for a plane body its tip alone, which is as long as
 // the body is thick.
 std::vector<SegmentPiece> locate_edge(const Simulation& s, BodyPositions& positions,

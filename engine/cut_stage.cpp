@@ -44,7 +44,7 @@ void start_stroke(CutStage& stage, const Tool& tool, double time) {
   stage.n_idle_frames = 0;
   stage.strokes.push_back({.tool = tool.name, .start = time});
   stage.plane_tip = -1;
-  stage.tissue_velocity.setZero();
+  if (!stage.knows_tissue) stage.tissue_velocity.setZero();
 }
 
 void add_figures(const CutFigures& figures, bool has_edit, CutRecord& record) {
@@ -83,15 +83,9 @@ void note_edit(Simulation& s, const MeshEdit& edit, const CutFigures& figures, C
   record.n_elements_dissolved += std::max<std::int64_t>(-difference, 0);
 }
 
-// Of a plane body's blade the tip alone.
 BladeSweep sweep_of(const Simulation& s, const Tool& tool, const FrameSpan& span) {
-  const auto edge_at = [&](double time) {
-    std::vector<Vec3> edge = cutting_edge(tool, time);
-    if (s.mesh.dimension() == 2) edge = {tip_in_plane(edge, s.scene.tissue.thickness)};
-    return edge;
-  };
-  return {.before = edge_at(span.t0),
-          .after = edge_at(span.t1),
+  return {.before = edge_in_body(s, tool, span.t0),
+          .after = edge_in_body(s, tool, span.t1),
           .normal = tool.path.at(0.5 * (span.t0 + span.t1)).rotation * Vec3::UnitY()};
 }
 
@@ -176,9 +170,8 @@ Vec3 way_of_middle(const BladeSweep& sweep) {
 // What sticks to the blade or springs back from it for a moment is not what it moves against: that
 // is how the tissue came, and what it does in the long run.
 void follow_tissue(const Simulation& s, double time, bool was_engaged, CutStage& stage) {
-  constexpr double memory = 0.3;  // [s]
   if (stage.engaged.empty()) return;
-  const double share = was_engaged ? time / (memory + time) : 1;
+  const double share = was_engaged || stage.knows_tissue ? share_of_frame(time) : 1;
   stage.tissue_velocity += share * (velocity_along(s, stage.engaged) - stage.tissue_velocity);
 }
 
@@ -284,6 +277,8 @@ bool take_up_stroke(Simulation& s, const BladeWay& blade, const BladeLook& look,
 void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
                      std::optional<double>& way) {
   const FrameSpan& span = blade.span;
+  stage.knows_tissue = stage.beside.has_value();
+  if (stage.beside) stage.tissue_velocity = *stage.beside;
   const bool was_engaged = stage.is_in_stroke && !stage.engaged.empty();
   stage.engaged.clear();
   if (!blade.is_near && !stage.is_in_stroke) return;
@@ -360,19 +355,6 @@ void bring_stroke(const Simulation& s, std::span<const int> ranks, CutStage& sta
     share_stroke(s.communicator->group(ranks), static_cast<int>(first - ranks.begin()), stage);
   keepers.insert(keepers.end(), ranks.begin(), ranks.end());
   sort_unique(keepers);
-}
-
-void prepare_drag(Simulation& s, const FrameSpan& span) {
-  s.drag.node.clear();
-  for (const CutStage& stage : s.cuts) {
-    const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
-    if (stage.engaged.empty() || !is_cutting(tool, span.t0, span.t1)) continue;
-    add_engaged_edge({.tool = stage.tool,
-                      .piece = stage.engaged,
-                      .velocity = way_of_middle(sweep_of(s, tool, span)) / (span.t1 - span.t0),
-                      .tissue_velocity = stage.tissue_velocity},
-                     s.mesh, s.part, s.scene.cutting.resistance, s.drag);
-  }
 }
 
 }  // namespace trocar

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,15 +49,18 @@ struct CutProgress {
   bool is_in_stroke = false;
   int n_idle_frames = 0;
   std::vector<CutRecord> strokes;
-  // Of the edge, what is inside the tissue this frame, where the blade's resistance acts.
+  // Of the edge, what is inside the tissue at the frame's end.
   std::vector<SegmentPiece> engaged;
   Vec3 tissue_velocity = Vec3::Zero();  // around the edge, in the stroke so far [m/s]
+  bool knows_tissue = false;            // from before it met the blade
 };
 
 struct CutStage : CutProgress {
   std::int32_t tool = 0;
   TetCutter tet;             // its stroke: on the keepers, the ranks that cut last
   std::vector<int> keepers;  // ascending; none: all ranks
+  // As tissue_velocity, of a frame that began with tissue at or near the blade. [m/s]
+  std::optional<Vec3> beside;
   // How far around the blade the owners of nodes cut with it, mean longest sides of elements: what
   // a cut looks at beyond that has to be asked of all ranks.
   double margin = 2;
@@ -71,8 +75,5 @@ void prepare_cutters(Simulation& s);
 
 // From here on the stage's cutter has its stroke on these ranks (ascending). Collective.
 void bring_stroke(const Simulation& s, std::span<const int> ranks, CutStage& stage);
-
-// Takes down which nodes engaged edges drag along in the frame.
-void prepare_drag(Simulation& s, const FrameSpan& span);
 
 }  // namespace trocar

@@ -10,6 +10,7 @@
 #include "engine/apply_cut.h"
 #include "engine/checkpoint_output.h"
 #include "engine/contact_step.h"
+#include "engine/cut_front.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "engine/linear_range.h"

@@ -161,7 +161,8 @@ Options<SceneCutting> cutting_options() {
            "plane body before it was cut at all, 0.5 if absent. Not in mode paper.");
   c.number(
       "resistance", &SceneCutting::resistance, {.kilogram = 1, .second = -2}, not_negative,
-      "Largest force of the tissue against the blade per length of its edge inside, \"20 N/m\".");
+      "Work of a cut over its area: the tissue's largest force against a blade per length of the "
+      "edge at tissue that it parts, \"20 N/m\". None in a slit that is cut already.");
   c.choice("mode", &SceneCutting::mode, {{"robust", CutMode::robust}, {"paper", CutMode::paper}},
            "Plane cuts: robust (flips, sliding) or as published by Serby, Harders and Szekely.");
   c.number("spring", &SceneCutting::spring, dim::none, not_negative,

@@ -150,7 +150,8 @@ bool is_touched(const Simulation& s) {
     if (is_asleep[static_cast<std::size_t>(held.node)] != 0) return true;
   const double rate = s.scene.time.frame_rate, frame = static_cast<double>(s.frame);
   if (do_loads_change(s.loads, frame / rate, (frame + 1) / rate)) return true;
-  return std::any_of(s.cuts.begin(), s.cuts.end(),
+  return !s.drag.node.empty() ||
+         std::any_of(s.cuts.begin(), s.cuts.end(),
                      [](const CutStage& stage) { return !stage.engaged.empty(); });
 }
 

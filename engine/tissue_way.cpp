@@ -9,6 +9,11 @@
 
 namespace trocar {
 
+double share_of_frame(double seconds) {
+  constexpr double memory = 0.3;  // [s]
+  return seconds / (memory + seconds);
+}
+
 double largest_surface_way(const Simulation& s) {
   double most = 0;
   for (const std::int32_t local : s.view.local) {
@@ -60,6 +65,21 @@ std::vector<Vec3> ways_beside(const Simulation& s, PresentPositions& positions,
     }
   }
   return ways;
+}
+
+std::optional<Vec3> velocity_beside(const Simulation& s, PresentPositions& positions,
+                                    const std::vector<Vec3>& edge, double reach) {
+  double least = reach * reach;
+  std::optional<Vec3> velocity;
+  for (const std::int32_t node :
+       surface_nodes_near(s, positions, {.before = edge, .after = edge}, reach)) {
+    const auto i = static_cast<std::size_t>(node);
+    const double distance = distance2(s.cut_state.x[i], edge.front(), edge.back());
+    if (distance >= least) continue;
+    least = distance;
+    velocity = Vec3::Map(&s.cut_state.v[3 * i]);
+  }
+  return velocity;
 }
 
 Vec3 velocity_along(const Simulation& s, std::span<const SegmentPiece> engaged) {

@@ -99,7 +99,15 @@ void make_grasper(Tool& tool, const SceneInstrument& s) {
   add_hinge_and_shaft(tool, s);
 }
 
-// Open for contact, which its flat sides have; closed for the picture, side by side.
+// Where the blades of open scissors cross: tissue goes between them as far as this, and is cut from
+// here on when they close.
+ConvexPiece crotch_piece(double length, double radius) {
+  const Vec3 hinge(0, 0, length), down(0, 0, first_crossing * length);
+  const Vec3 aside(jaw_slope * down.z(), 0, 0);
+  return {.points = {hinge, hinge - down + aside, hinge - down - aside}, .radius = radius};
+}
+
+// Open for contact, which its flat sides and the crotch have; closed for the picture, side by side.
 void make_scissors(Tool& tool, const SceneInstrument& s, double edge_spacing) {
   const double length = s.blade_length, width = 0.14 * length, half = 0.05e-3, shown = 0.8e-3;
   tool.hinge_height = length;
@@ -119,6 +127,7 @@ void make_scissors(Tool& tool, const SceneInstrument& s, double edge_spacing) {
     if (side < 0) std::reverse(outline.begin(), outline.end());
     add_part(tool, make_plate_surface(outline, -Vec3::UnitY(), shown), side);
   }
+  tool.shape.pieces.push_back(crotch_piece(length, shown / 2));
   add_closed_jaws(tool, shown);
   add_hinge_and_shaft(tool, s);
   const double reach = jaw_slope * length;

@@ -184,8 +184,14 @@ TEST(Checkpoint, needs_each_part_of_a_stroke_through_tetrahedra) {
        {"swept", [](CutMemory& m) { m.stroke.swept = 0; }},
        {"is_in_stroke", [](CutMemory& m) { m.is_in_stroke = false; }},
        {"n_idle_frames", [](CutMemory& m) { m.n_idle_frames = 0; }},
-       {"engaged", [](CutMemory& m) { m.engaged.clear(); }},
        {"tissue_velocity", [](CutMemory& m) { m.tissue_velocity.setConstant(1); }}});
+}
+
+// With resistance it is known before how the tissue comes.
+TEST(Checkpoint, needs_where_the_edge_was_without_resistance) {
+  std::string text = resume_block_text;
+  text.replace(text.find("resistance = "), 13, "resistance = 0 # ");
+  expect_each_is_needed(loaded_text(text), {{"engaged", [](CutMemory& m) { m.engaged.clear(); }}});
 }
 
 TEST(Checkpoint, needs_each_part_of_a_plane_cut) {

@@ -76,8 +76,8 @@ TEST(Grip, of_a_half_at_its_mirror_plane_is_half_of_the_whole) {
   const FrameRow whole = lifted("-0.02", "16", ""),
                  half = lifted("0", "8", "[[support]]\nregion = \"x-\"\nfix = \"x\"\n");
   const double pull = whole.tools[0].force.z(), of_half = half.tools[0].force.z();
-  std::printf("whole: %ld nodes, %.5f N; half: %ld nodes, %.5f N\n", whole.n_held, pull, half.n_held,
-              of_half);
+  std::printf("whole: %ld nodes, %.5f N; half: %ld nodes, %.5f N\n", whole.n_held, pull,
+              half.n_held, of_half);
   ASSERT_LT(pull, -0.05);
   EXPECT_GT(2 * half.n_held, whole.n_held);  // those in the plane count in both
   EXPECT_NEAR(of_half / pull, 0.5, 2e-3);
