@@ -55,6 +55,7 @@ std::vector<Tilt> find_tilts(const ContactDetector& detector, std::int64_t n_ste
 
 double tilt_frequency2(const ContactDetector& detector, std::int64_t n_steps,
                        const ContactSet& set) {
+  if (!set.is_counted_here) return 0;
   const std::vector<Tilt> tilts = find_tilts(detector, n_steps, set);
   if (tilts.empty()) return 0;
   std::vector<double> u(set.node.size()), force(set.node.size());
