@@ -1,6 +1,7 @@
 #include "collision/contact_set.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/check.h"
 #include "base/sort_unique.h"
@@ -80,6 +81,15 @@ void add_items(const FoundContacts& contacts, ContactSet& set) {
   }
 }
 
+// The first of the ranks with nodes at tools: other pairs of tissue leave it as it is.
+bool counts_reactions(const FoundContacts& contacts, std::span<const std::int32_t> node_owner,
+                      int rank) {
+  std::int32_t first = std::numeric_limits<std::int32_t>::max();
+  for (const Contact& contact : contacts.with_tools)
+    for (const std::int32_t i : contact.node) first = std::min(first, node_owner[to_size(i)]);
+  return first == rank;
+}
+
 Vec3 inverse_mass(double mass, unsigned held) {
   Vec3 by_mass;
   for (int j = 0; j < 3; ++j) by_mass[j] = (held >> j & 1U) != 0 ? 0 : 1 / mass;
@@ -107,9 +117,10 @@ ContactSet prepare_contacts(const FoundContacts& contacts, std::span<const std::
   set.constraints.reserve(set.items.size() + 2 * set.node.size());
   set.deepest.resize(set.node.size());
   set.impulse.resize(set.node.size());
+  set.depth.assign(set.node.size(), 0);
   set.move.resize(set.node.size());
   set.halo = all_to_all(set, node_owner, rank);
-  set.is_counted_here = set.halo.neighbours.empty() || rank < set.halo.neighbours[0].rank;
+  set.is_counted_here = counts_reactions(contacts, node_owner, rank);
   return set;
 }
 

@@ -41,7 +41,9 @@ struct ContactSet {
   struct TissueItem {
     std::array<std::int32_t, 4> place{};  // of the node and the corners of the triangle
     double handicap = 0;                  // TissuePair
-    std::int64_t next_look = 0;           // step of the frame before which they cannot meet
+    // Step of the frame and way of the set's nodes (`way`) before which they cannot meet.
+    std::int64_t next_look = 0;
+    double next_way = 0;  // [m]
   };
   // A corner of items of one piece of a tool: six or so of them have it.
   struct BesidePiece {
@@ -62,6 +64,7 @@ struct ContactSet {
   struct TissueNode {
     std::size_t first = 0, end = 0;
     std::int64_t next_look = 0;  // the first of theirs
+    double next_way = 0;         // the least of theirs [m]
   };
   // Between a node and the tissue that it lies on, of the last step of the frame: where the next
   // one begins.
@@ -75,6 +78,7 @@ struct ContactSet {
   std::vector<TissueItem> tissue;
   std::vector<BesidePiece> beside;  // in the order of items
   std::vector<TissueNode> tissue_node;
+  double way = 0;  // sum over the steps of the largest by which two nodes moved apart [m]
   // Nodes of the items, ascending by global number.
   std::vector<std::int32_t> node;          // global numbers
   std::vector<Vec3> inverse_mass;          // by component, 0: nothing moves it so [1/kg]
@@ -82,13 +86,15 @@ struct ContactSet {
   std::vector<Vec3> x_start, x_end;  // positions around the step, without contact at its end [m]
   std::vector<Vec3> force;           // of the last step [N]
   Halo halo;                         // among the ranks that hold nodes, in places
-  bool is_counted_here = false;      // this rank reports the reactions
+  bool is_counted_here = false;      // this rank reports the reactions on tools
   // Of the step that is being solved; steps allocate nothing.
   // With room for one an item and two a node.
   std::vector<ContactConstraint> constraints;
   std::vector<DeepestPiece> deepest;   // (node.size())
   std::vector<TissueImpulse> impulse;  // (node.size())
-  std::vector<Vec3> move;              // (node.size()) [m]
+  // (node.size()) in other tissue, where a step began that found the node there, the last. [m]
+  std::vector<double> depth;
+  std::vector<Vec3> move;  // (node.size()) [m]
 };
 
 // node_owner, mass [kg], held (components in which nothing moves the node, bit 0 for x): (n_nodes)

@@ -243,7 +243,7 @@ void solve_contacts(const ContactDetector& detector, const ContactStep& step,
   add_nodes(detector, step, release, set);
   for (std::size_t k = 0; k < set.items.size(); ++k)
     if (set.items[k].is_near) add_triangle(step, release, static_cast<std::int32_t>(k), set);
-  add_tissue(step.number, step.dt, release, set);
+  add_tissue({.number = step.number, .dt = step.dt}, release, set);
   double deepest = 0;
   for (const ContactConstraint& c : constraints) deepest = std::max(deepest, c.lack);
   std::fill(set.move.begin(), set.move.end(), Vec3::Zero());

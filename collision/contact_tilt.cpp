@@ -37,6 +37,7 @@ Tilt make_tilt(const ContactSet::Item& item, double moment, const ContactSet& se
 std::vector<Tilt> find_tilts(const ContactDetector& detector, std::int64_t n_steps,
                              const ContactSet& set) {
   std::vector<Tilt> tilts;
+  if (!set.is_counted_here) return tilts;
   for (const ContactSet::Item& item : set.items) {
     const double force = item.reaction_sum.norm() / static_cast<double>(n_steps);
     if (const double moment = force * detector.radius(item.contact); moment > 0)

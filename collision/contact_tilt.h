@@ -21,7 +21,7 @@ struct Tilt {
   double turn = 0;  // [N/m^3]
 };
 
-// Of the mean forces over the frame's n_steps.
+// Of the mean forces over the frame's n_steps; none on ranks that don't count the reactions.
 std::vector<Tilt> find_tilts(const ContactDetector& detector, std::int64_t n_steps,
                              const ContactSet& set);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/box.h"
+
 namespace trocar {
 
 namespace {
@@ -50,30 +52,55 @@ std::int64_t steps_apart(const ContactSet& set, const Nearest& near, double dt) 
   return static_cast<std::int64_t>(near.distance / (2 * relative.norm() + speedup * dt));
 }
 
-// The nearest triangle that the node may meet, of those that are looked at in this step.
-Nearest find_nearest(std::int64_t step, double dt, ContactSet::TissueNode& node, ContactSet& set) {
+// How far two nodes of the set may come apart or together in this step.
+double largest_way(const ContactSet& set) {
+  Box moves;
+  for (std::size_t i = 0; i < set.node.size(); ++i) moves.add(set.x_end[i] - set.x_start[i]);
+  return (moves.high - moves.low).norm();
+}
+
+// The nearest triangle that the node may meet, of those that are looked at in this step. Where
+// tissue is set in motion that rested (by a support, by other tissue), speeds of before say little
+// about when it meets; the way that the fastest has come does. way: of this step [m].
+Nearest find_nearest(const TissueStep& step, double way, ContactSet::TissueNode& node,
+                     ContactSet& set) {
   Nearest nearest;
   node.next_look = std::numeric_limits<std::int64_t>::max();
+  node.next_way = std::numeric_limits<double>::max();
   for (std::size_t k = node.first; k < node.end; ++k) {
     ContactSet::TissueItem& item = set.tissue[k];
-    if (step >= item.next_look) {
+    if (step.number >= item.next_look || set.way >= item.next_way) {
       const Vec3& x = node_of(set, item);
       Nearest here{.item = &item, .point = closest_point_triangle(x, corners_of(set, item))};
       here.distance = (x - here.point.point).norm();
-      item.next_look = step + steps_apart(set, here, dt);
+      item.next_look = step.number + steps_apart(set, here, step.dt);
+      item.next_way = set.way + here.distance - way;
       if (!nearest.item || says_more(set, here, nearest)) nearest = here;
     }
     node.next_look = std::min(node.next_look, item.next_look);
+    node.next_way = std::min(node.next_way, item.next_way);
   }
   return nearest;
 }
 
+double depth_before(double height, const ContactConstraint& c, const ContactSet& set) {
+  Vec3 relative = Vec3::Zero();
+  for (std::size_t a = 0; a < 4; ++a) {
+    const std::size_t i = to_size(c.place[a]);
+    relative += c.weight[a] * (set.x_end[i] - set.x_start[i]);
+  }
+  return std::max(0.0, c.normal.dot(relative) - height);
+}
+
 }  // namespace
 
-void add_tissue(std::int64_t step, double dt, double release, ContactSet& set) {
+void add_tissue(const TissueStep& step, double release, ContactSet& set) {
+  if (set.tissue_node.empty()) return;
+  const double way = largest_way(set);
+  set.way += way;
   for (ContactSet::TissueNode& node : set.tissue_node) {
-    if (step < node.next_look) continue;
-    const Nearest nearest = find_nearest(step, dt, node, set);
+    if (step.number < node.next_look && set.way < node.next_way) continue;
+    const Nearest nearest = find_nearest(step, way, node, set);
     if (!nearest.item) continue;
     const TissueTouch touch = candidate_of(set, nearest).touch;
     if (!touch.is_below) continue;
@@ -82,6 +109,7 @@ void add_tissue(std::int64_t step, double dt, double release, ContactSet& set) {
                         .place = nearest.item->place,
                         .weight = {1, -w[0], -w[1], -w[2]},
                         .normal = touch.normal};
+    set.depth[to_size(c.place[0])] = depth_before(touch.height, c, set);
     add_constraint(touch.height, release, Vec3::Zero(), c, set);
   }
 }

@@ -8,9 +8,13 @@
 
 namespace trocar {
 
-// Each node is kept out of the nearest triangle of its pairs. step: number within the frame;
-// release as of add_constraint [m].
-void add_tissue(std::int64_t step, double dt, double release, ContactSet& set);
+struct TissueStep {
+  std::int64_t number = 0;  // within the frame
+  double dt = 0;            // [s]
+};
+
+// Each node is kept out of the nearest triangle of its pairs. release as of add_constraint [m].
+void add_tissue(const TissueStep& step, double release, ContactSet& set);
 
 void begin_tissue(std::int64_t step, double friction, ContactSet& set);
 void end_tissue(std::int64_t step, ContactSet& set);

@@ -225,19 +225,21 @@ void ContactDetector::set_closed_surface(const Surface& surface) {
   state_->tree.reset();
 }
 
+void ContactDetector::refit(std::span<const Vec3> x) {
+  if (state_->tree) {
+    state_->tree->refit(x);
+  } else {
+    state_->tree.emplace(state_->triangle, x);
+  }
+}
+
 void ContactDetector::detect(std::span<const Vec3> x, std::span<const Pose> pose,
                              std::span<const double> margin, std::vector<Contact>& contacts) {
   CHECK_OP(pose.size(), ==, state_->tools.size());
   CHECK_OP(margin.size(), ==, state_->tools.size());
   contacts.clear();
   const bool is_plane = !state_->plane.node.empty();
-  if (!is_plane) {
-    if (state_->tree) {
-      state_->tree->refit(x);
-    } else {
-      state_->tree.emplace(state_->triangle, x);
-    }
-  }
+  if (!is_plane) refit(x);
   for (std::size_t k = 0; k < pose.size(); ++k) {
     for (std::size_t j = 0; j < state_->tools[k].size(); ++j) {
       const PosedPiece piece{
@@ -260,6 +262,19 @@ void ContactDetector::detect_tissue(const TissueReach& reach,
                                     std::vector<TissuePair>& pairs) const {
   pairs.clear();
   if (state_->tree) find_tissue_pairs(*state_->tree, reach, pairs);
+}
+
+bool ContactDetector::lies_in_other_tissue(std::int32_t node) const {
+  constexpr double inward = 1e-3;  // of the size of the node's triangles
+  Vec3 outward = Vec3::Zero();
+  for (std::size_t t = 0; t < state_->triangle.size(); ++t) {
+    if (!std::ranges::count(state_->triangle[t], node)) continue;
+    const Triangle x = state_->tree->corners(static_cast<std::int32_t>(t));
+    outward += (x[1] - x[0]).cross(x[2] - x[0]);
+  }
+  if (outward.isZero(0)) return false;
+  const Vec3 below = inward / std::sqrt(outward.norm()) * outward;
+  return state_->tree->winding_number(state_->tree->position(node) - below) > 1;
 }
 
 bool ContactDetector::update(const Corners& corners, const Pose& pose, double margin,

@@ -52,6 +52,9 @@ class ContactDetector {
   // The same of a body's surface, which has no such edges to look for.
   void set_closed_surface(const Surface& surface);
 
+  // New positions (n_nodes), valid at surface nodes. Not of plane meshes.
+  void refit(std::span<const Vec3> x);
+
   // All (tool piece, triangle) pairs nearer than margin[tool], in ascending (tool, piece,
   // triangle): the same on every rank. x (n_nodes) global positions, valid at surface nodes; pose
   // and margin (n_tools).
@@ -63,9 +66,12 @@ class ContactDetector {
   void detect(std::span<const Vec3> x, std::span<const Pose> pose, std::span<const double> margin,
               std::vector<Contact>& contacts);
 
-  // The pairs of tissue and tissue at the positions of the last detect (find_tissue_pairs). Not of
-  // plane meshes, which have none.
+  // The pairs of tissue and tissue at the positions of the last detect or refit
+  // (find_tissue_pairs). Not of plane meshes, which have none.
   void detect_tissue(const TissueReach& reach, std::vector<TissuePair>& pairs) const;
+
+  // Of a surface node at these positions: of overlapping tissue the surface winds twice round it.
+  bool lies_in_other_tissue(std::int32_t node) const;
 
   // A contact found by detect, a little later: weights, point, normal and gap anew, for its corners
   // and the pose of its tool. False where the gap is `margin` or more, or only the edge of a blade

@@ -22,6 +22,34 @@ bool is_held(const Holds& holds, const Contact& contact) {
   });
 }
 
+// From which the next step's solution begins, of this step: 6 numbers a node.
+constexpr std::size_t per_impulse = 6;
+
+std::vector<double> gather_impulses(const ContactSet& set, const Communicator& communicator) {
+  std::vector<double> mine;
+  for (const std::int32_t place : set.owned) {
+    const auto i = static_cast<std::size_t>(place);
+    const ContactSet::TissueImpulse& impulse = set.impulse[i];
+    if (impulse.step < 0) continue;
+    const Vec3& drag = impulse.drag;
+    mine.insert(mine.end(), {static_cast<double>(set.node[i]), static_cast<double>(impulse.step),
+                             impulse.push, drag.x(), drag.y(), drag.z()});
+  }
+  return communicator.all_gather(mine);
+}
+
+void take_impulses(std::span<const double> impulses, ContactSet& set) {
+  for (std::size_t k = 0; k < impulses.size(); k += per_impulse) {
+    const auto node = static_cast<std::int32_t>(impulses[k]);
+    const auto at = std::ranges::lower_bound(set.node, node);
+    if (at == set.node.end() || *at != node) continue;
+    set.impulse[static_cast<std::size_t>(at - set.node.begin())] = {
+        .step = static_cast<std::int64_t>(impulses[k + 1]),
+        .push = impulses[k + 2],
+        .drag = Vec3::Map(&impulses[k + 3])};
+  }
+}
+
 }  // namespace
 
 void detect_contacts(ContactStage& stage, std::span<const Tool> tools, const Holds& holds,
@@ -60,6 +88,17 @@ void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const 
   stage.u_next.resize(3 * body.part.node_global.size());
   stage.exchange.emplace(stage.set.halo, 6);
   stage.positions.resize(6 * stage.set.node.size());
+}
+
+void renew_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds,
+                          const Communicator& communicator) {
+  const std::vector<ContactSet::Item> before = std::move(stage.set.items);
+  const std::vector<double> impulses = gather_impulses(stage.set, communicator);
+  prepare_frame_contacts(stage, body, holds);
+  // Ranks that had no nodes before know nothing of what tools have felt: they don't report it.
+  for (std::size_t k = 0; k < std::min(before.size(), stage.set.items.size()); ++k)
+    stage.set.items[k].reaction_sum = before[k].reaction_sum;
+  take_impulses(impulses, stage.set);
 }
 
 void share_positions(ContactStage& stage, std::span<const Vec3> X, std::span<const double> u,

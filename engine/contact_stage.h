@@ -16,6 +16,14 @@
 
 namespace trocar {
 
+// The last look for tissue that may meet tissue, in the order of SurfaceView::local: how far the
+// tissue has come since from where its velocities would have taken it says when the next is due.
+struct PairLook {
+  double time = 0;              // [s]
+  std::vector<double> u, v;     // (n * 3) there [m], [m/s]
+  std::int64_t next_check = 0;  // substep of the frame
+};
+
 struct ContactStage {
   ContactDetector detector;
   ContactOptions options;
@@ -23,8 +31,9 @@ struct ContactStage {
   std::vector<Contact> contacts;   // of this frame, on every rank
   std::vector<TissuePair> tissue;  // the same of tissue and tissue
   std::vector<Vec3> ahead;         // (n_nodes) surface nodes at the end of the frame, if free [m]
-  ContactSet set;                  // those that this rank works on
-  std::vector<double> u_next;      // (n_local * 3) of its owned nodes, without contact [m]
+  PairLook look;
+  ContactSet set;              // those that this rank works on
+  std::vector<double> u_next;  // (n_local * 3) of its owned nodes, without contact [m]
   std::optional<HaloExchange> exchange;
   std::vector<double> positions;   // (set.node.size() * 6) that travel
   std::vector<ToolMotion> motion;  // (n_tools) at the end of the substep
@@ -53,6 +62,9 @@ struct ContactBody {
 };
 // What graspers and supports hold, in the components in which they do, doesn't yield to contact.
 void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds);
+// The same after another look for tissue within the frame.
+void renew_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds,
+                          const Communicator& communicator);
 // Positions of the set's nodes from their displacements before a step (n_local * 3) and u_next, on
 // all ranks that work on them. Collective among these. X (n_nodes).
 void share_positions(ContactStage& stage, std::span<const Vec3> X, std::span<const double> u,

@@ -45,9 +45,7 @@ Tilt tilt_of(std::span<const double> numbers) {
 // On every rank. Collective.
 std::vector<Tilt> tilts_of_all(const Simulation& s, std::span<const Tilt> mine) {
   const ContactSet& set = s.contact->set;
-  std::vector<double> numbers;
-  if (set.is_counted_here) numbers = as_numbers(set, mine);
-  numbers = s.communicator->all_gather(numbers);
+  const std::vector<double> numbers = s.communicator->all_gather(as_numbers(set, mine));
   std::vector<Tilt> tilts;
   for (std::size_t k = 0; k < numbers.size(); k += n_numbers)
     tilts.push_back(tilt_of({&numbers[k], n_numbers}));

@@ -97,12 +97,21 @@ EnergyState mechanical_energy(Simulation& s) {
 
 void begin_frame_work(Simulation& s) {
   EnergyLedger& ledger = *s.energy;
-  ledger.contact_work.assign(s.contact ? s.contact->set.local.size() : 0, 0.0);
+  ledger.contact_work.clear();
+  ledger.earlier_contact_work.clear();
+  begin_contact_work(s);
   ledger.hold_work.assign(s.holds.owned.size(), 0.0);
   ledger.blade_work.assign(s.drag.node.size(), 0.0);
   ledger.load_work.assign(s.loads.node.size(), 0.0);
   forget_works(s.scratch);
   forget_support_forces(ledger.support_forces);
+}
+
+void begin_contact_work(Simulation& s) {
+  EnergyLedger& ledger = *s.energy;
+  ledger.earlier_contact_work.insert(ledger.earlier_contact_work.end(), ledger.contact_work.begin(),
+                                     ledger.contact_work.end());
+  ledger.contact_work.assign(s.contact ? s.contact->set.local.size() : 0, 0.0);
 }
 
 void note_velocities(Simulation& s, double dt) {
@@ -151,7 +160,10 @@ void add_work(Simulation& s) {
 
 void close_frame_work(Simulation& s) {
   EnergyLedger& ledger = *s.energy;
-  ledger.memory.works.contact += sum_over_ranks(ledger.contact_work, *s.communicator);
+  std::vector<double>& contact_work = ledger.contact_work;
+  contact_work.insert(contact_work.end(), ledger.earlier_contact_work.begin(),
+                      ledger.earlier_contact_work.end());
+  ledger.memory.works.contact += sum_over_ranks(contact_work, *s.communicator);
   ledger.memory.works.holds += sum_over_ranks(ledger.hold_work, *s.communicator);
   ledger.memory.works.blade += sum_over_ranks(ledger.blade_work, *s.communicator);
   ledger.memory.works.loads += sum_over_ranks(ledger.load_work, *s.communicator);

@@ -37,7 +37,8 @@ struct EnergyLedger {
   // along and of the loads' nodes.
   std::vector<Vec3> contact_velocity, hold_velocity, blade_velocity, load_velocity;
   std::vector<double> contact_work, hold_work, blade_work, load_work;
-  double dt_mid = 0;  // between the two velocities of the step [s]
+  std::vector<double> earlier_contact_work;  // with the frame's earlier contact sets [J]
+  double dt_mid = 0;                         // between the two velocities of the step [s]
   SupportForces support_forces;
 };
 
@@ -53,6 +54,8 @@ void add_nodal_energies(const RankBody& body, std::vector<double>& kinetic,
 
 // Empties the sums of the frame; call when its contacts are known.
 void begin_frame_work(Simulation& s);
+// Where the contact set is another from here on in the frame.
+void begin_contact_work(Simulation& s);
 // Before and after integration and exchange: both velocities of the step.
 void note_velocities(Simulation& s, double dt);
 void add_work(Simulation& s);

@@ -14,6 +14,7 @@
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "engine/linear_range.h"
+#include "engine/pair_look.h"
 #include "solver/step.h"
 
 namespace trocar {
@@ -25,10 +26,6 @@ namespace {
 // resonance too (docs/cutting.md). So it rises by this part of the time that passes: 1e-4 of itself
 // a step.
 constexpr double step_rise = 1e-4;
-
-// Edges by which tissue may approach tissue in a frame; what comes faster is found when it is
-// inside.
-constexpr double most_approach = 2;
 
 double stable_step(const Simulation& s) {
   return std::min(s.watch.stable_step, s.held_step);
@@ -64,14 +61,9 @@ void detect(Simulation& s, const FrameSpan& span) {
   if (s.contact->has_tissue) {
     gather_velocities(s.view, s.state.v, *s.communicator);
     detect_tissue(*s.contact, s.view, time, s.contact_reach);
+    note_pair_look(s, span, 0);
   }
-  prepare_frame_contacts(*s.contact,
-                         {.part = s.part,
-                          .rank = s.communicator->rank(),
-                          .node_owner = s.node_owner,
-                          .mass = s.mass,
-                          .fixed = s.fixed},
-                         s.holds);
+  prepare_frame_contacts(*s.contact, contact_body(s), s.holds);
 }
 
 // Pushes tissue out of the instruments that it would be in at the end of the step.
@@ -148,6 +140,13 @@ void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
   add_work(s);
 }
 
+void look_again_for_pairs(Simulation& s, const FrameSpan& span, std::int64_t k) {
+  const PhaseScope scope(s.timers, phase_detect);
+  if (!is_pair_look_due(s, span, k)) return;
+  look_for_pairs(s, span, k);
+  list_waiting(s);
+}
+
 FrameSpan run_substeps(Simulation& s) {
   const FrameSpan span = plan_frame(s);
   if (s.contact) detect(s, span);
@@ -155,7 +154,10 @@ FrameSpan run_substeps(Simulation& s) {
   if (s.sleep) wake_touched(s);
   list_waiting(s);
   if (s.energy) begin_frame_work(s);
-  for (std::int64_t k = 0; k < span.n_substeps; ++k) substep(s, span, k);
+  for (std::int64_t k = 0; k < span.n_substeps; ++k) {
+    if (s.contact && s.contact->has_tissue) look_again_for_pairs(s, span, k);
+    substep(s, span, k);
+  }
   return span;
 }
 
@@ -239,6 +241,7 @@ void run_frame(Simulation& s, Outputs& outputs) {
   if (s.sleep) fall_asleep(s);
   ++s.frame;
   if (needs_surface(s, outputs)) refresh_surface(s);
+  if (s.contact && s.contact->has_tissue) watch_sunk_tissue(s, span.t1);
   report_state(s, row);
   row.seconds = monotonic_seconds() - start;
   s.log.rows.push_back(std::move(row));

@@ -1,0 +1,141 @@
+// Tissue that is set in motion within a frame, at 30 frames a second: by a support that sets out,
+// or by other tissue that hits it.
+#include "engine/pair_look.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "engine/energy_ledger.h"
+#include "engine/frame_report.h"
+#include "engine_started.h"
+#include "mesh/generate.h"
+#include "mesh/mesh_file.h"
+#include "mesh_joined.h"
+
+namespace trocar {
+namespace {
+
+constexpr double rho = 1000;
+
+std::unique_ptr<Started> bodies(const Mesh& mesh, const std::string& tables) {
+  const TestFolder folder;
+  write_mesh(mesh, folder.file("bodies.vtu"));
+  return built("[time]\nduration = 10\nframe_rate = 30\n[tissue]\nmesh = \"" +
+               folder.file("bodies.vtu") +
+               "\"\n[tissue.material]\nyoung_modulus = 20000\npoisson_ratio = 0.3\ndensity = 1000\n"
+               "[contact]\ntissue = true\nfriction = 0\n" +
+               tables);
+}
+
+// Of the nodes that lie between `low` and `high` in z where nothing has moved.
+struct Layer {
+  double low = 0, high = 0;
+
+  bool holds(const Simulation& s, std::size_t i) const {
+    return s.mesh.X[i].z() > low - 1e-6 && s.mesh.X[i].z() < high + 1e-6;
+  }
+  double mean_height(const Simulation& s) const {
+    double sum = 0, mass = 0;
+    for (std::size_t i = 0; i < s.mass.size(); ++i) {
+      if (!holds(s, i)) continue;
+      sum += s.mass[i] * (s.mesh.X[i].z() + s.state.u[3 * i + 2]);
+      mass += s.mass[i];
+    }
+    return sum / mass;
+  }
+};
+
+double momentum(const Simulation& s) {
+  double sum = 0;
+  for (std::size_t i = 0; i < s.mass.size(); ++i) sum += s.mass[i] * s.state.v[3 * i + 2];
+  return sum;
+}
+
+class DrivenBlock : public testing::TestWithParam<std::tuple<BoxElements, double, double>> {};
+
+// A block 3 mm over a plate that is free: it can only push the plate before it.
+TEST_P(DrivenBlock, does_not_pass_a_plate_that_it_meets_in_the_frame_in_which_it_sets_out) {
+  const auto [elements, speed, thickness] = GetParam();
+  const double bottom = thickness + 0.003, top = bottom + 0.01, way = 0.03;
+  const Mesh plate = make_box({-0.02, -0.02, 0}, {0.02, 0.02, thickness}, {16, 16, 1}, elements);
+  const Mesh block =
+      make_box({-0.0103, -0.0098, bottom}, {0.0097, 0.0102, top}, {8, 8, 4}, elements);
+  const auto started =
+      bodies(joined(plate, block),
+             "[[region]]\nname = \"block\"\nlow = [-1, -1, " + std::to_string(bottom - 1e-4) +
+                 "]\nhigh = [1, 1, 1]\n[[support]]\nregion = \"block\"\npath = [{ time = 0.1, "
+                 "displacement = [0, 0, 0] }, { time = " +
+                 std::to_string(0.1 + way / speed) + ", displacement = [0, 0, -0.03] }]\n");
+  Simulation& s = *started->s;
+  const Layer of_plate{0, thickness}, of_block{bottom, top};
+  while (s.state.time < 0.1 + way / speed) run_frame(s, started->outputs);
+  const double between = of_block.mean_height(s) - 0.5 * (top - bottom) - of_plate.mean_height(s);
+  std::printf("%g m/s, plate of %g mm: its middle is %.2f mm below the block\n", speed,
+              1e3 * thickness, 1e3 * between);
+  EXPECT_GT(between, 0.4 * thickness);  // touching: half of its thickness, less what bends up
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    ContactOfFastTissue, DrivenBlock,
+    testing::Combine(testing::Values(BoxElements::hex8, BoxElements::tet4_five),
+                     testing::Values(0.5, 1.25, 3.0), testing::Values(0.002, 0.005)));
+
+// Three plates in a row, of which one flies at 2 m/s: the second rests until it is hit, and meets
+// the third within the same frame.
+TEST(ContactOfFastTissue, keeps_the_order_of_plates_that_throw_each_other) {
+  const auto plate = [](double low) {
+    return make_box({-0.01, -0.01, low}, {0.01, 0.01, low + 0.004}, {5, 5, 2}, BoxElements::hex8);
+  };
+  const auto started = bodies(joined(joined(plate(0), plate(0.012)), plate(0.024)), "");
+  Simulation& s = *started->s;
+  const Layer last{0, 0.004}, middle{0.012, 0.016}, first{0.024, 0.028};
+  for (std::size_t i = 0; i < s.mass.size(); ++i)
+    if (first.holds(s, i)) s.state.v[3 * i + 2] = -2;
+  const double before = momentum(s), kinetic = 0.5 * rho * 0.02 * 0.02 * 0.004 * 2 * 2;
+  open_energy_ledger(s);
+  for (int frame = 0; frame < 3; ++frame) {
+    run_frame(s, started->outputs);
+    EXPECT_NEAR(momentum(s), before, 1e-12 * std::abs(before));
+    EXPECT_LE(s.log.rows.back().works.contact, 1e-12);
+    EXPECT_LT(s.log.rows.back().energy.sum(), kinetic);
+  }
+  std::printf("heights %g, %g, %g mm\n", 1e3 * first.mean_height(s), 1e3 * middle.mean_height(s),
+              1e3 * last.mean_height(s));
+  EXPECT_GT(first.mean_height(s), middle.mean_height(s) + 0.003);
+  EXPECT_GT(middle.mean_height(s), last.mean_height(s) + 0.003);
+}
+
+// Two blocks that overlap by 6 mm, and what contact would have seen of one node.
+TEST(SunkTissue, is_told_with_its_place_where_it_lies_in_other_tissue) {
+  const auto block = [](double low) {
+    return make_box({-0.01, -0.01, low}, {0.01, 0.01, low + 0.012}, {4, 4, 3}, BoxElements::hex8);
+  };
+  const auto started = bodies(joined(block(0), block(0.006)), "");
+  Simulation& s = *started->s;
+  refresh_surface(s);
+  const auto node_at = [&](const Vec3& x) {
+    const auto at =
+        std::ranges::find_if(s.mesh.X, [&](const Vec3& X) { return (X - x).norm() < 1e-9; });
+    return static_cast<std::int32_t>(at - s.mesh.X.begin());
+  };
+  const auto tell_of = [&](std::int32_t node, double depth) {
+    s.contact->set = {};
+    s.contact->set.node = {node};
+    s.contact->set.owned = {0};
+    s.contact->set.depth = {depth};
+    watch_sunk_tissue(s, 0.5);
+    return s.log.events.size();
+  };
+  EXPECT_EQ(tell_of(node_at({0, 0, 0}), 2 * s.contact_reach), 0u);        // outside
+  EXPECT_EQ(tell_of(node_at({0, 0, 0.006}), 0.9 * s.contact_reach), 0u);  // comes out
+  ASSERT_EQ(tell_of(node_at({0, 0, 0.006}), 2 * s.contact_reach), 1u);
+  EXPECT_NE(s.log.events[0].find("(0, 0, 0.006)"), std::string::npos) << s.log.events[0];
+  EXPECT_EQ(s.log.events[0].find("0.500 s"), 0u);
+  EXPECT_EQ(tell_of(node_at({0, 0, 0.006}), 2 * s.contact_reach), 1u);  // once
+}
+
+}  // namespace
+}  // namespace trocar
