@@ -98,7 +98,8 @@ static void part_front(const CutSurroundings& around, std::vector<ElementSides>&
   }
 }
 
-bool is_unknown(const CutLabels& labels, std::int32_t e) {
+// Whether the minimum cut is to decide, or has not decided yet, on which side element e lies.
+static bool is_unknown(const CutLabels& labels, std::int32_t e) {
   return labels.kind[e] == CutKind::separated && labels.side[e] == 0;
 }
 
@@ -134,7 +135,7 @@ static void set_terminals(const CutSurroundings& around, const std::vector<Eleme
   }
 }
 
-static void cut_graph(const CutSurroundings& around, const CutStroke& stroke, CutLabels& labels) {
+static void cut_graph(const CutSurroundings& around, CutLabels& labels) {
   const CutPatch& patch = around.patch;
   constexpr std::int32_t source = 0, sink = 1;
   std::vector<std::int32_t> vertex(patch.element.size(), -1);
@@ -149,10 +150,6 @@ static void cut_graph(const CutSurroundings& around, const CutStroke& stroke, Cu
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     for (int f = 0; f < 4; ++f) {
       const std::int32_t u = patch.across[e][f];
-      if (u < 0 && vertex[e] > sink)
-        if (const int side = slice_side(around, stroke, labels, e, f); side != 0)
-          arcs.push_back({vertex[e], side > 0 ? source : sink,
-                          1 + std::llround(capacity_unit * facet_cost(around, e, f))});
       if (u < e || vertex[e] < 0 || vertex[u] < 0 || vertex[e] == vertex[u] ||
           (vertex[e] <= sink && vertex[u] <= sink))
         continue;
@@ -164,15 +161,16 @@ static void cut_graph(const CutSurroundings& around, const CutStroke& stroke, Cu
     if (is_unknown(labels, e)) labels.side[e] = is_plus[vertex[e]] != 0 ? 1 : -1;
 }
 
-// Sides of the unknown elements: cuts again until no slice is parted at a neck.
+// Sides of the unknown elements: cuts again until no slice is parted at a neck, and none is lost.
 static void decide_sides(const CutSurroundings& around, const CutStroke& stroke,
                          CutLabels& labels) {
   std::vector<std::int32_t> open;
   for (std::int32_t e = 0; e < around.patch.n_elements(); ++e)
     if (is_unknown(labels, e)) open.push_back(e);
   for (;;) {
-    cut_graph(around, stroke, labels);
-    const std::vector<std::int32_t> joined = join_necks(around, open, labels);
+    cut_graph(around, labels);
+    std::vector<std::int32_t> joined = join_necks(around, open, labels);
+    if (joined.empty()) joined = join_slices(around, stroke.parted_node, open, labels);
     if (joined.empty()) return;
     std::erase_if(open, [&](std::int32_t e) { return std::ranges::binary_search(joined, e); });
     for (const std::int32_t e : open) labels.side[e] = 0;

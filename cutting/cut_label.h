@@ -31,9 +31,6 @@ CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke,
 // Whether there were any.
 bool part_bridges(const CutSurroundings& around, const CutStroke& stroke, CutLabels& labels);
 
-// Whether the minimum cut is to decide, or has not decided yet, on which side element e lies.
-bool is_unknown(const CutLabels& labels, std::int32_t e);
-
 // Cost of opening a facet: squared distances of its nodes plus a little for its area.
 double facet_cost(const CutSurroundings& around, std::int32_t e, int f);
 

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "cutting/cut_label.h"
 
@@ -12,10 +14,13 @@ namespace trocar {
 // Slices thinner than this (over h) may stay with the other side.
 inline constexpr double thinnest_slice = 0.35;
 
-// Side of the slice under f, an outer facet of an element e whose side is to be decided: the one
-// that f lies on, clear of the swept surface. 0 where other elements speak for that side, and where
-// this stroke opened f.
-int slice_side(const CutSurroundings& around, const CutStroke& stroke, const CutLabels& labels,
-               std::int32_t e, int f);
+// A node clear of the swept surface whose elements all got the other side is lost. Its elements
+// among `decided` by the minimum cut (ascending) get its side, those of the deepest node first,
+// unless a node as deep is lost on the other side then. Not around `parted` nodes, which this
+// stroke has put on either side of what it opened (global, ascending). Returns these elements,
+// ascending; the cut is to be decided again with them.
+std::vector<std::int32_t> join_slices(const CutSurroundings& around,
+                                      std::span<const std::int32_t> parted,
+                                      std::span<const std::int32_t> decided, CutLabels& labels);
 
 }  // namespace trocar
