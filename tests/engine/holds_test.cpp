@@ -163,8 +163,11 @@ TEST(LargestTravel, is_of_supports_and_of_graspers_that_hold) {
   Case c;
   EXPECT_EQ(largest_travel(c.holds, c.tools, 0, 1), 0);
   c.act(0.9, 1);
+  const ToolPath bent = c.tools[1].path;
+  c.tools[1].path = ToolPath({c.tools[1].keys.begin(), c.tools[1].keys.begin() + 2});
   // From 20 mm to 30 mm without a turn.
   EXPECT_NEAR(largest_travel(c.holds, c.tools, 0, 1), 0.01, 1e-16);
+  c.tools[1].path = bent;
   EXPECT_GT(largest_travel(c.holds, c.tools, 1, 2),
             (Vec3(0.05, 0.06, 0.02) - Vec3(0.03, 0.02, 0)).norm());
   const std::vector<SupportKey> keys = {{.time = 0}, {.time = 1, .displacement = Vec3(0, 0.05, 0)}};
