@@ -16,7 +16,8 @@ namespace {
 constexpr const char* usage =
     R"(bench_cut [--count N] [--seed S] [--family NAME] [--kind NAME] [--mesh FILE]... [--json FILE]
           [--markdown FILE] [--stages springs|springs_then_barrier|barrier]
-         N random cuts of each mesh and kind (default 20) beside the subdivision of the same cuts
+         N random cuts of each mesh and kind (default 20) beside the subdivision of the same cuts;
+         --family layers: of bodies of two regions, also along where these meet
        bench_cut --cuts N [--seed S] [--minutes M]
          N cuts of bent bodies, the invariants alone
        bench_cut --after N [--steps M] [--seed S] [--family NAME]
@@ -87,6 +88,15 @@ Arguments read_arguments(int argc, char** argv) {
   return a;
 }
 
+bool is_layered(const Arguments& a) {
+  return a.family.starts_with("layers");
+}
+
+bool is_asked_for(const Family& family, const Kind& kind, const Arguments& a) {
+  const bool is_family = a.family.empty() || a.family == "layers" || family.name == a.family;
+  return is_family && (a.kind.empty() || kind.name == a.kind);
+}
+
 // Each cut has a generator of its own: --seed 7 --count 1 repeats the cut that the run before
 // printed as seed 7.
 Row run(const Family& family, const Kind& kind, const Arguments& a) {
@@ -117,11 +127,9 @@ int run_all(int argc, char** argv) {
   std::FILE* table = a.markdown.empty() ? stdout : std::fopen(a.markdown.c_str(), "w");
   print_head(table);
   std::vector<Row> rows;
-  for (const Family& family : families(a.mesh))
-    for (const Kind& kind : kinds()) {
-      if ((!a.family.empty() && family.name != a.family) ||
-          (!a.kind.empty() && kind.name != a.kind))
-        continue;
+  for (const Family& family : is_layered(a) ? layered_families() : families(a.mesh))
+    for (const Kind& kind : is_layered(a) ? layered_kinds() : kinds()) {
+      if (!is_asked_for(family, kind, a)) continue;
       rows.push_back(run(family, kind, a));
       print_row(rows.back(), table);
     }

@@ -22,6 +22,8 @@ struct Family {
 std::vector<Family> generated_families(int n_cells);
 // Those of 8 cells, and meshes from files.
 std::vector<Family> families(const std::vector<std::string>& mesh_files);
+// Cubes of two regions that meet in the middle plane across z.
+std::vector<Family> layered_families();
 
 // One stroke of a blade and the surface that it sweeps: phi its signed distance, > 0 where `normal`
 // points.
@@ -38,6 +40,8 @@ struct Kind {
   std::function<std::vector<Stroke>(const Mesh& mesh, std::mt19937_64& random)> strokes;
 };
 std::vector<Kind> kinds();
+// These and planes nearly along the middle plane, up to an edge beside it.
+std::vector<Kind> layered_kinds();
 
 double mean_edge(const Mesh& mesh);
 

@@ -1,6 +1,7 @@
 // The meshes that bench_cut cuts; all about 3,000 tetrahedra (512 hexahedra) but the organ.
 #include <time.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "cut_case.h"
@@ -24,6 +25,15 @@ static Mesh cube(BoxElements elements, int n, double amount, unsigned seed) {
   return mesh;
 }
 
+// `amount`: how far nodes beside the interface are jittered.
+static Mesh layered_cube(BoxElements elements, double amount, unsigned seed) {
+  Mesh mesh = cube(elements, 8, amount, seed);
+  for (Vec3& X : mesh.X)
+    if (std::abs(X.z() - 0.5) < 0.5 * (1 - 2 * amount) / 8) X.z() = 0.5;
+  cutting_test::add_region(mesh, [](const Vec3& X) { return X.z() > 0.5; });
+  return mesh;
+}
+
 static Family from_file(const std::string& file) {
   return {std::filesystem::path(file).stem().string(),
           [mesh = read_mesh(file, 1)](unsigned) { return mesh; }};
@@ -42,6 +52,16 @@ std::vector<Family> generated_families(int n) {
            }},
           {"hex", cubes(BoxElements::hex8, 0)},
           {"hex_jittered", cubes(BoxElements::hex8, 0.1)}};
+}
+
+std::vector<Family> layered_families() {
+  const auto cubes = [](BoxElements elements, double amount) {
+    return [=](unsigned seed) { return layered_cube(elements, amount, seed); };
+  };
+  return {{"layers_kuhn", cubes(BoxElements::tet4_kuhn, 0)},
+          {"layers_five", cubes(BoxElements::tet4_five, 0)},
+          {"layers_jittered", cubes(BoxElements::tet4_kuhn, 0.2)},
+          {"layers_hex", cubes(BoxElements::hex8, 0)}};
 }
 
 std::vector<Family> families(const std::vector<std::string>& mesh_files) {

@@ -125,6 +125,18 @@ static std::vector<Stroke> curved(const Mesh& mesh, Random& random) {
   return {{blade, f.normal, int(2 * half_angle * R / (0.5 * h)), phi}};
 }
 
+// Half of them askew by up to three degrees.
+static std::vector<Stroke> parallel(const Mesh& mesh, Random& random) {
+  const Extent extent = extent_of(mesh);
+  const double h = mean_edge(mesh), askew = uniform(random, 0, 1) < 0.5 ? 0 : 0.05;
+  Frame f;
+  f.normal = Vec3(askew * uniform(random, -1, 1), askew * uniform(random, -1, 1), 1).normalized();
+  f.along = (Vec3::UnitY() - f.normal * f.normal.y()).normalized();
+  f.way = f.normal.cross(f.along);
+  f.origin = extent.centre + uniform(random, -1, 1) * h * Vec3::UnitZ();
+  return {full_plane(f, extent, h, 0)};
+}
+
 // Sheared, stretched and bent; F stays within some 40 % of the identity.
 cutting_test::Deformation random_bend(std::mt19937_64& random) {
   std::uniform_real_distribution<double> u(-1, 1);
@@ -141,6 +153,12 @@ std::vector<Kind> kinds() {
           {"curved", true, curved},
           {"crossing", true, crossing},
           {"progressive", true, progressive}};
+}
+
+std::vector<Kind> layered_kinds() {
+  std::vector<Kind> all = kinds();
+  all.push_back({"parallel", true, parallel});
+  return all;
 }
 
 }  // namespace trocar::cut_bench

@@ -75,6 +75,14 @@ static void measure_elements(const Mesh& before, const CutBody& cut, Result& res
   result.mass_error = std::abs(cutting_test::mass(after) / cutting_test::mass(before) - 1);
 }
 
+static void measure_regions(const Mesh& before, const Mesh& after, Result& result) {
+  if (before.region_name.size() < 2) return;
+  const std::vector<double> old = cutting_test::region_volumes(before),
+                            now = cutting_test::region_volumes(after);
+  for (std::size_t r = 0; r < old.size(); ++r)
+    result.region_error = std::max(result.region_error, std::abs(now[r] / old[r] - 1));
+}
+
 static void measure_deviation(const Mesh& mesh, const std::vector<Stroke>& strokes, double h,
                               Result& result) {
   std::vector<std::int32_t> node;
@@ -156,6 +164,7 @@ Result make_cut(const Mesh& mesh, const Kind& kind, std::mt19937_64& random,
   result.fault = cutting_test::fault(body);
   result.n_pieces = cutting_test::n_pieces(body.mesh);
   measure_elements(mesh, cut, result);
+  measure_regions(mesh, body.mesh, result);
   measure_deviation(body.mesh, strokes, h, result);
   return result;
 }

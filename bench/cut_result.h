@@ -23,6 +23,8 @@ struct Result {
   double least_dihedral = 180;              // degrees, of changed elements
   std::vector<double> deviation;            // of nodes of the cut's facets from the blade, over h
   double volume_error = 0, mass_error = 0;  // relative
+  // The same of the volumes of regions, hexahedra as their tetrahedra; -1 if there is one region.
+  double region_error = -1;
   double seconds = 0, longest_advance = 0;
   double split_elements = 1, split_ratio = 1;  // the subdivision's, after over before
   bool is_right() const {

@@ -92,8 +92,10 @@ std::string deviation(const Row& row) {
 }
 
 std::string errors(const Row& row) {
+  const double of_regions = at(sorted(row, [](const Result& r) { return r.region_error; }), 1);
   return format("%.0e, %.0e", at(sorted(row, [](const Result& r) { return r.volume_error; }), 1),
-                at(sorted(row, [](const Result& r) { return r.mass_error; }), 1));
+                at(sorted(row, [](const Result& r) { return r.mass_error; }), 1)) +
+         (of_regions < 0 ? "" : format("; regions' %.0e", of_regions));
 }
 
 std::string times(const Row& row) {

@@ -1,4 +1,5 @@
-// Classification of boundary nodes by the angles between the facets around them.
+// Classification of nodes on the outer surface and between regions by the angles between the facets
+// around them.
 #include "cutting/cut_boundary.h"
 
 #include <algorithm>
@@ -12,23 +13,29 @@ static constexpr double cos_sharp = 0.766;
 
 namespace {
 
-struct OuterFacet {
+// Outer, or between two regions.
+struct BoundFacet {
   std::array<std::int32_t, 3> node;
-  Vec3 normal;  // length: twice the area
-  bool is_cut;  // opened by an older stroke
+  Vec3 normal;                                  // length: twice the area
+  bool is_cut;                                  // opened by an older stroke
+  std::array<std::int32_t, 2> between{-1, -1};  // the regions; none of outer facets
 };
 
 }  // namespace
 
-static std::vector<OuterFacet> outer_facets(const CutPatch& patch, const CutStroke& stroke,
+static bool is_opened(const CutPatch& patch, const CutStroke& stroke, std::int32_t e, int f) {
+  const std::uint8_t* opened = find_element(stroke.opened, patch.element[e]);
+  return opened != nullptr && (*opened >> f & 1) != 0;
+}
+
+static std::vector<BoundFacet> outer_facets(const CutPatch& patch, const CutStroke& stroke,
                                             std::span<const std::uint8_t> cut_facets,
                                             std::int32_t i) {
-  std::vector<OuterFacet> outer;
+  std::vector<BoundFacet> outer;
   for (const std::int32_t e : patch.star(i)) {
     for (int f = 0; f < 4; ++f) {
       if (patch.across[e][f] >= 0 || patch.corner[e][f] == i) continue;
-      const std::uint8_t* opened = find_element(stroke.opened, patch.element[e]);
-      if (opened != nullptr && (*opened >> f & 1) != 0) continue;
+      if (is_opened(patch, stroke, e, f)) continue;
       const std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);
       const Vec3& o = patch.X[node[0]];
       outer.push_back({node, (patch.X[node[1]] - o).cross(patch.X[node[2]] - o),
@@ -38,27 +45,54 @@ static std::vector<OuterFacet> outer_facets(const CutPatch& patch, const CutStro
   return outer;
 }
 
+// Each once, outward of the region of the lower number.
+static void add_interfaces(const CutPatch& patch, std::int32_t i, std::vector<BoundFacet>& bound) {
+  for (const std::int32_t e : patch.star(i))
+    for (int f = 0; f < 4; ++f) {
+      const std::int32_t u = patch.across[e][f];
+      if (u < 0 || patch.corner[e][f] == i || patch.region[e] >= patch.region[u]) continue;
+      const std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);
+      const Vec3& o = patch.X[node[0]];
+      bound.push_back({node,
+                       (patch.X[node[1]] - o).cross(patch.X[node[2]] - o),
+                       false,
+                       {patch.region[e], patch.region[u]}});
+    }
+}
+
 // Node other than i that both facets have, -1 if there is none.
-static std::int32_t shared_node(const OuterFacet& p, const OuterFacet& q, std::int32_t i) {
+static std::int32_t shared_node(const BoundFacet& p, const BoundFacet& q, std::int32_t i) {
   for (const std::int32_t j : p.node)
     if (j != i && std::find(q.node.begin(), q.node.end(), j) != q.node.end()) return j;
   return -1;
 }
 
-// Other ends of the sharp edges at node i; `has_rim`: one of them is the inner rim of an older cut.
-static std::vector<std::int32_t> sharp_ends(const std::vector<OuterFacet>& outer, std::int32_t i,
+// Whether the edge that both have is sharp, or where an interface meets another facet.
+static bool is_sharp(const BoundFacet& p, const BoundFacet& q) {
+  if (p.between != q.between) return true;
+  return !(p.normal.dot(q.normal) >= cos_sharp * p.normal.norm() * q.normal.norm());
+}
+
+static void add_end(std::int32_t j, std::vector<std::int32_t>& end) {
+  if (std::ranges::find(end, j) == end.end()) end.push_back(j);
+}
+
+// Other ends of the edges at node i that it may not leave: sharp ones, those of interfaces and of
+// areas. `has_rim`: one of them is the inner rim of an older cut.
+static std::vector<std::int32_t> sharp_ends(const CutPatch& patch,
+                                            const std::vector<BoundFacet>& bound, std::int32_t i,
                                             bool& has_rim) {
   std::vector<std::int32_t> end;
   has_rim = false;
-  for (std::size_t p = 0; p < outer.size(); ++p)
-    for (std::size_t q = p + 1; q < outer.size(); ++q) {
-      const std::int32_t j = shared_node(outer[p], outer[q], i);
-      if (j < 0) continue;
-      const double cosine = outer[p].normal.dot(outer[q].normal);
-      if (cosine >= cos_sharp * outer[p].normal.norm() * outer[q].normal.norm()) continue;
-      end.push_back(j);
-      has_rim = has_rim || (outer[p].is_cut && outer[q].is_cut);
+  for (std::size_t p = 0; p < bound.size(); ++p)
+    for (std::size_t q = p + 1; q < bound.size(); ++q) {
+      const std::int32_t j = shared_node(bound[p], bound[q], i);
+      if (j < 0 || !is_sharp(bound[p], bound[q])) continue;
+      add_end(j, end);
+      has_rim = has_rim || (bound[p].is_cut && bound[q].is_cut);
     }
+  auto at = std::lower_bound(patch.border.begin(), patch.border.end(), BorderEdge{i, -1});
+  for (; at != patch.border.end() && (*at)[0] == i; ++at) add_end((*at)[1], end);
   return end;
 }
 
@@ -81,13 +115,14 @@ NodeBoundary node_boundary(const CutPatch& patch, const CutStroke& stroke,
     boundary.freedom = NodeFreedom::fixed;
     return boundary;
   }
-  const std::vector<OuterFacet> outer = outer_facets(patch, stroke, cut_facets, i);
-  if (outer.empty()) return boundary;
+  std::vector<BoundFacet> bound = outer_facets(patch, stroke, cut_facets, i);
+  if (!patch.region.empty()) add_interfaces(patch, i, bound);
+  if (bound.empty()) return boundary;
   bool has_rim = false;
-  const std::vector<std::int32_t> end = sharp_ends(outer, i, has_rim);
+  const std::vector<std::int32_t> end = sharp_ends(patch, bound, i, has_rim);
   if (end.size() == 2 && !has_rim) return edge_boundary(patch, i, end[0], end[1]);
   Vec3 normal = Vec3::Zero();
-  for (const OuterFacet& facet : outer) {
+  for (const BoundFacet& facet : bound) {
     normal += facet.normal;
     boundary.piece.push_back(
         {patch.X[facet.node[0]], patch.X[facet.node[1]], patch.X[facet.node[2]]});

@@ -1,5 +1,6 @@
-// Along what a node may be moved: freely inside the body, along its outer surface, along a sharp
-// edge, or not at all.
+// Along what a node may be moved: freely inside the body, along its outer surface or the interface
+// between two regions, along a sharp edge, the line where an interface meets the outer surface or
+// another one, or the border of an area of the surface, or not at all.
 #pragma once
 
 #include <array>
@@ -15,8 +16,8 @@ namespace trocar {
 
 enum class NodeFreedom : std::uint8_t { fixed, edge, surface, free };
 
-// The outer surface around a node as it was before the move: triangles or, on an edge, segments
-// (last two points equal).
+// The outer surface or interface around a node as it was before the move: triangles or, on an edge,
+// segments (last two points equal).
 struct NodeBoundary {
   NodeFreedom freedom = NodeFreedom::free;
   Vec3 direction = Vec3::Zero();  // unit; surface: mean normal; edge: tangent

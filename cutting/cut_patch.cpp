@@ -191,8 +191,21 @@ static void number_nodes(CutPatch& patch, const Mesh& mesh, std::span<const std:
   }
 }
 
+static void set_regions(CutPatch& patch, const Mesh& mesh) {
+  if (mesh.region_name.size() < 2) return;
+  for (const std::int32_t e : patch.element) patch.region.push_back(mesh.element_region[e]);
+}
+
+static void set_border(CutPatch& patch, std::span<const BorderEdge> border, const CutIndex& index) {
+  for (const auto& [a, b] : border) {
+    const std::int32_t i = index.local[a], j = index.local[b];
+    if (i >= 0 && j >= 0) patch.border.insert(patch.border.end(), {{i, j}, {j, i}});
+  }
+  sort_unique(patch.border);
+}
+
 CutPatch make_patch(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
-                    std::span<const std::uint8_t> is_held, std::span<const std::int32_t> seeds) {
+                    const CutConstraints& constraints, std::span<const std::int32_t> seeds) {
   const std::vector<std::int32_t> reached = mark_rings(mesh, seeds, index);
   CutPatch patch;
   std::vector<std::int32_t> joined;
@@ -205,6 +218,8 @@ CutPatch make_patch(const Mesh& mesh, CutIndex& index, PresentPositions& positio
   number_nodes(patch, mesh, reached, index);
   set_stars(patch);
   set_neighbours(patch, index);
+  set_regions(patch, mesh);
+  set_border(patch, constraints.border, index);
   patch.is_joined.assign(patch.node.size(), 0);
   patch.is_bent.assign(patch.node.size(), 0);
   for (const std::int32_t i : joined)
@@ -213,7 +228,7 @@ CutPatch make_patch(const Mesh& mesh, CutIndex& index, PresentPositions& positio
   for (std::int32_t i = 0; i < patch.n_nodes(); ++i) {
     patch.X.push_back(mesh.X[patch.node[i]]);
     patch.x.push_back(positions.x()[patch.node[i]]);
-    const bool is_locked = is_held[patch.node[i]] != 0 || patch.is_joined[i] != 0;
+    const bool is_locked = constraints.is_held[patch.node[i]] != 0 || patch.is_joined[i] != 0;
     patch.is_locked.push_back(is_locked ? 1 : 0);
   }
   for (const std::int32_t i : reached) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "cutting/cut_constraints.h"
 #include "cutting/cut_index.h"
 #include "cutting/cut_positions.h"
 #include "mesh/mesh.h"
@@ -31,6 +32,9 @@ struct CutPatch {
   std::vector<std::uint8_t>
       is_bent;             // of a bent hexahedron: must stay where and what it is for now
   std::vector<Vec3> X, x;  // reference and present positions
+  // (n_elements) of the mesh; none where it has one region.
+  std::vector<std::int32_t> region;
+  std::vector<BorderEdge> border;  // of the constraints: both ways, ascending
   std::vector<std::int32_t> star_offset, star_element;
 
   std::int32_t n_elements() const { return static_cast<std::int32_t>(element.size()); }
@@ -49,7 +53,7 @@ struct CutPatch {
 // Tetrahedra of `mesh` within n_cut_rings of the seeds (global elements, ascending). `index` is
 // that of the mesh.
 CutPatch make_patch(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
-                    std::span<const std::uint8_t> is_held, std::span<const std::int32_t> seeds);
+                    const CutConstraints& constraints, std::span<const std::int32_t> seeds);
 
 // Local number of corner c of the facet opposite to corner f, outward by the right-hand rule.
 inline constexpr std::array<std::array<int, 3>, 4> tet_facets{

@@ -48,11 +48,11 @@ std::vector<Vec2> plane_path(std::span<const Vec3> path) {
 }
 
 void check_arguments(const Mesh& mesh, std::span<const Vec3> path,
-                     std::span<const std::uint8_t> is_held) {
+                     const CutConstraints& constraints) {
   if (mesh.dimension() != 2)
     throw InputError("the plane cut needs a mesh of triangles (tri3) only");
   CHECK_OP(path.size(), >=, std::size_t{2});
-  CHECK_OP(is_held.size(), ==, mesh.X.size());
+  CHECK_OP(constraints.is_held.size(), ==, mesh.X.size());
 }
 
 int local_node(const PlanePatch& patch, std::int32_t node) {
@@ -130,7 +130,7 @@ bool remesh_around(Attempt& attempt, const CutPlaneOptions& options) {
 Attempt remesh(const PlanePatch& patch, std::span<const SubPath> sub_paths,
                std::span<const AdaptOptions> adapt, const CutPlaneOptions& options) {
   Attempt attempt{patch, {}, -1, 0};
-  for (const SubPath& path : sub_paths) attempt.chains.push_back({path, {}, {}, {}});
+  for (const SubPath& path : sub_paths) attempt.chains.push_back({path, {}, {}, {}, {}});
   attempt.bad_chain = lay_chains(attempt, adapt);
   if (attempt.bad_chain >= 0) return attempt;
   if (!remesh_around(attempt, options)) return attempt;
@@ -140,9 +140,11 @@ Attempt remesh(const PlanePatch& patch, std::span<const SubPath> sub_paths,
   return attempt;
 }
 
-// Ends on the boundary first try the corners, all others one segment less.
-AdaptOptions next_try(const CutChain& chain, int attempt) {
-  const bool is_bendable = chain.path.start_on.element >= 0 || chain.path.end_on.element >= 0;
+// Ends on the boundary first try the corners and paths beside interfaces these, all others one
+// segment less.
+AdaptOptions next_try(const PlanePatch& patch, const CutChain& chain, int attempt) {
+  const bool is_bendable =
+      chain.path.start_on.element >= 0 || chain.path.end_on.element >= 0 || patch.has_interfaces();
   const int fewer = attempt == 0 && is_bendable ? 0 : 1;
   return {chain.n_segments() - fewer, far_corner};
 }
@@ -156,8 +158,12 @@ Attempt best_attempt(const PlanePatch& patch, std::span<const SubPath> sub_paths
   Attempt best;
   for (int k = 0; k < max_attempts; ++k) {
     Attempt attempt = remesh(patch, sub_paths, adapt, options);
+    if (attempt.bad_chain >= 0 && k == 0 && patch.has_interfaces()) {
+      for (AdaptOptions& a : adapt) a.at_corner = far_corner;
+      continue;
+    }
     if (attempt.bad_chain >= 0) return best.altitude > 0 ? best : attempt;
-    for (std::size_t c = 0; c < adapt.size(); ++c) adapt[c] = next_try(attempt.chains[c], k);
+    for (std::size_t c = 0; c < adapt.size(); ++c) adapt[c] = next_try(patch, attempt.chains[c], k);
     if (is_better(attempt, best, options)) best = std::move(attempt);
     if (is_good(best, options)) break;
   }
@@ -253,11 +259,11 @@ double least_step_bound(const Mesh& mesh) {
 }
 
 PlaneCut cut_plane(const Mesh& mesh, std::span<const Vec3> path, std::int32_t continued_tip,
-                   std::span<const std::uint8_t> is_held, const CutPlaneOptions& options) {
-  check_arguments(mesh, path, is_held);
+                   const CutConstraints& constraints, const CutPlaneOptions& options) {
+  check_arguments(mesh, path, constraints);
   const std::vector<Vec2> point = plane_path(path);
   if (point.size() < 2) return refused_at(point.front());
-  const PlanePatch patch = make_patch(mesh, point, is_held, options.rings + 1);
+  const PlanePatch patch = make_patch(mesh, point, constraints, options.rings + 1);
   if (patch.element.empty()) return {};
   const int tip = continued_tip >= 0 ? local_node(patch, continued_tip) : -1;
   const SubPath whole = make_sub_path(point);

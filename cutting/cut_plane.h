@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "cutting/cut_constraints.h"
 #include "cutting/cut_figures.h"
 #include "mesh/edit.h"
 #include "mesh/mesh.h"
@@ -44,9 +45,10 @@ double least_step_bound(const Mesh& mesh);
 // Cuts the plane mesh (tri3) along the polyline `path` (>= 2 points, reference configuration, z =
 // 0). Ends inside the body stay closed (crack tips); ends on or beyond the boundary open it. If
 // `continued_tip` >= 0 the path starts at that node, the tip of an earlier part of the same cut.
-// Throws InputError for other element types. Afterwards `tip` is the node at the inner end of the
-// path, -1 if it ends on the boundary. `rest`: the end of the path inside the body that is too
-// short to be cut by itself, behind an older cut; what is to be cut next begins with it.
+// Nodes between regions of the mesh stay where these meet. Throws InputError for other element
+// types. Afterwards `tip` is the node at the inner end of the path, -1 if it ends on the boundary.
+// `rest`: the end of the path inside the body that is too short to be cut by itself, behind an
+// older cut; what is to be cut next begins with it.
 struct PlaneCut {
   MeshEdit edit;
   CutFigures figures;
@@ -54,6 +56,6 @@ struct PlaneCut {
   std::vector<Vec3> rest;
 };
 PlaneCut cut_plane(const Mesh& mesh, std::span<const Vec3> path, std::int32_t continued_tip,
-                   std::span<const std::uint8_t> is_held, const CutPlaneOptions& options);
+                   const CutConstraints& constraints, const CutPlaneOptions& options);
 
 }  // namespace trocar

@@ -38,15 +38,19 @@ std::vector<int> candidates(const PlanePatch& patch, const SubPath& path,
   std::vector<int> result;
   for (int i = 0; i < patch.n_nodes(); ++i)
     if (patch.is_boundary[i] == 0 && patch.is_held[i] == 0 && is_taken[i] == 0 && i != path.tip &&
+        (!patch.has_interfaces() || patch.is_interface[i] == 0) &&
         distance_to(path, patch.X[i]) < band * patch.h)
       result.push_back(i);
   return result;
 }
 
+// Of the region that the point lies in.
 int nearest(const PlanePatch& patch, const std::vector<int>& among, const Vec2& p) {
   int best = -1;
   double least = std::numeric_limits<double>::max();
+  const int region = patch.has_interfaces() ? region_at(patch, p) : -1;
   for (const int i : among) {
+    if (region >= 0 && patch.region[patch.star[i]] != region) continue;
     const double distance = (patch.X[i] - p).squaredNorm();
     if (distance >= least) continue;
     least = distance;
@@ -76,6 +80,39 @@ bool assign_nodes(const PlanePatch& patch, const std::vector<int>& among, const 
   return true;
 }
 
+// The same between one stop and the next one, with n segments over the whole length, as far as
+// there is room for one between stops.
+bool assign_between(const PlanePatch& patch, const std::vector<int>& among, const ChainEnds& ends,
+                    int n, CutChain& chain) {
+  const double length = chain.path.length();
+  std::vector<InterfaceStop> stop = chain.stop;
+  if (stop.front().s > 0) stop.insert(stop.begin(), {ends.start, 0, false});
+  if (stop.back().s < length) stop.push_back({ends.end, length, false});
+  chain.node.clear();
+  chain.s.clear();
+  const auto take = [&](int i, double s) {
+    if (i < 0 || std::ranges::find(chain.node, i) != chain.node.end()) return false;
+    chain.node.push_back(i);
+    chain.s.push_back(s);
+    return true;
+  };
+  for (std::size_t k = 0; k + 1 < stop.size(); ++k) {
+    if (!take(stop[k].node, stop[k].s)) return false;
+    const double way = stop[k + 1].s - stop[k].s;
+    const int m = stop[k].is_joined ? 1 : static_cast<int>(std::lround(n * way / length));
+    for (int j = 1; j < m; ++j) {
+      const double s = stop[k].s + way * j / m;
+      if (!take(nearest(patch, among, position(chain.path, s)), s)) return false;
+    }
+  }
+  return take(stop.back().node, stop.back().s);
+}
+
+bool is_any_taken(const std::vector<InterfaceStop>& stop,
+                  const std::vector<std::uint8_t>& is_taken) {
+  return std::ranges::any_of(stop, [&](const InterfaceStop& s) { return is_taken[s.node] != 0; });
+}
+
 bool choose_ends(const PlanePatch& patch, const std::vector<std::uint8_t>& is_taken,
                  double at_corner, CutChain& chain, ChainEnds& ends) {
   ends.start = chain.path.tip;
@@ -91,7 +128,11 @@ bool choose_ends(const PlanePatch& patch, const std::vector<std::uint8_t>& is_ta
     if (ends.end < 0 || is_taken[ends.end] != 0 || ends.end == ends.start) return false;
   }
   chain.path = with_ends(asked, start, end, std::min(patch.h, asked.length() / 3));
-  return true;
+  if (!patch.has_interfaces()) return true;
+  InterfaceRoute route = route_over_interfaces(patch, chain.path, at_corner);
+  chain.path = std::move(route.path);
+  chain.stop = std::move(route.stop);
+  return !is_any_taken(chain.stop, is_taken);
 }
 
 }  // namespace
@@ -110,7 +151,9 @@ bool adapt_cut_points(const PlanePatch& patch, const AdaptOptions& options,
   if (ends.end < 0) ends.end = nearest(patch, among, chain.path.point.back());
   // More points than nodes can't have different nearest nodes.
   for (int n = std::min(options.most, static_cast<int>(among.size()) + 1); n >= 1; --n) {
-    if (!assign_nodes(patch, among, ends, n, chain)) continue;
+    if (!(chain.stop.empty() ? assign_nodes(patch, among, ends, n, chain)
+                             : assign_between(patch, among, ends, n, chain)))
+      continue;
     for (const int i : chain.node) is_taken[i] = 1;
     return true;
   }

@@ -171,7 +171,7 @@ void note_boundary_edge(PlanePatch& patch, int e, int f, std::vector<BoundaryTur
   }
 }
 
-void classify_nodes(const Extraction& extraction, std::span<const std::uint8_t> is_held,
+void classify_nodes(const Extraction& extraction, const CutConstraints& constraints,
                     PlanePatch& patch) {
   const std::size_t n = patch.node.size();
   patch.is_boundary.assign(n, 0);
@@ -191,7 +191,7 @@ void classify_nodes(const Extraction& extraction, std::span<const std::uint8_t> 
       if (extraction.mesh.element_region[e] != extraction.mesh.element_region[star[0]])
         patch.is_anchored[i] = 1;
     }
-    patch.is_held[i] = is_rim || is_held[patch.node[i]] != 0 ? 1 : 0;
+    patch.is_held[i] = is_rim || constraints.is_held[patch.node[i]] != 0 ? 1 : 0;
     if (patch.is_boundary[i] == 0) continue;
     const double cosine = turn[i].in.dot(turn[i].out);
     patch.is_sharp[i] = cosine < cos_sharp ? 1 : 0;
@@ -199,10 +199,38 @@ void classify_nodes(const Extraction& extraction, std::span<const std::uint8_t> 
   }
 }
 
+// Ends of loaded parts of the outline are as corners are: they stay where they are.
+void mark_border(const Extraction& extraction, std::span<const BorderEdge> border,
+                 PlanePatch& patch) {
+  for (const BorderEdge& edge : border) {
+    const int i = extraction.local_node[edge[0]];
+    if (i < 0 || patch.is_boundary[i] == 0) continue;
+    patch.is_sharp[i] = 1;
+    patch.side[i] = Vec2::Zero();
+  }
+}
+
+// The outline of a region ends on the body's outline as in a corner.
+void mark_interfaces(const Mesh& mesh, PlanePatch& patch) {
+  if (mesh.region_name.size() < 2) return;
+  patch.is_interface.assign(patch.node.size(), 0);
+  for (int e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; f < 3; ++f) {
+      const int g = patch.across[e][f];
+      if (g < e || patch.region[e] == patch.region[g]) continue;
+      for (const int i : {patch.corner[e][(f + 1) % 3], patch.corner[e][(f + 2) % 3]}) {
+        patch.is_interface[i] = 1;
+        if (patch.is_boundary[i] == 0) continue;
+        patch.is_sharp[i] = 1;
+        patch.side[i] = Vec2::Zero();
+      }
+    }
+}
+
 }  // namespace
 
 PlanePatch make_patch(const Mesh& mesh, std::span<const Vec2> path,
-                      std::span<const std::uint8_t> is_held, int rings) {
+                      const CutConstraints& constraints, int rings) {
   Extraction extraction{mesh, node_elements(mesh), std::vector<int>(mesh.element_type.size(), -1),
                         std::vector<int>(mesh.X.size(), -1)};
   PlanePatch patch;
@@ -210,7 +238,9 @@ PlanePatch make_patch(const Mesh& mesh, std::span<const Vec2> path,
   number_all(extraction, patch);
   connect(extraction, patch);
   measure_edges(patch);
-  classify_nodes(extraction, is_held, patch);
+  classify_nodes(extraction, constraints, patch);
+  mark_interfaces(mesh, patch);
+  mark_border(extraction, constraints.border, patch);
   return patch;
 }
 

@@ -48,7 +48,9 @@ PatchFacet opposite(const PlanePatch& patch, PatchFacet facet) {
 
 bool is_flippable(const PlanePatch& patch, PatchFacet facet) {
   const unsigned fixed = patch.opened[facet.element] | patch.chain[facet.element];
-  return patch.across[facet.element][facet.facet] >= 0 && (fixed >> facet.facet & 1) == 0;
+  const int g = patch.across[facet.element][facet.facet];
+  return g >= 0 && (fixed >> facet.facet & 1) == 0 &&
+         patch.region[facet.element] == patch.region[g];
 }
 
 double flipped_area(const PlanePatch& patch, PatchFacet facet) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "cutting/cut_constraints.h"
 #include "mesh/mesh.h"
 
 namespace trocar {
@@ -36,17 +37,19 @@ struct PlanePatch {
   std::vector<std::uint8_t> is_held;      // (n_nodes) must not be displaced
   std::vector<std::uint8_t> is_anchored;  // (n_nodes) stays unless it becomes a cut node: on older
                                           // cuts and between regions
-  double h = 0;                           // mean edge length [m]
-  double least_edge = 0;                  // [m]
+  std::vector<std::uint8_t> is_interface;  // (n_nodes) between regions; none if there is one
+  double h = 0;                            // mean edge length [m]
+  double least_edge = 0;                   // [m]
 
   int n_elements() const { return static_cast<int>(element.size()); }
   int n_nodes() const { return static_cast<int>(node.size()); }
+  bool has_interfaces() const { return !is_interface.empty(); }
   bool has_held() const { return std::find(is_held.begin(), is_held.end(), 1) != is_held.end(); }
 };
 
 // The elements that the path meets and `rings` rings around them. Empty if it meets none.
 PlanePatch make_patch(const Mesh& mesh, std::span<const Vec2> path,
-                      std::span<const std::uint8_t> is_held, int rings);
+                      const CutConstraints& constraints, int rings);
 
 inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -121,7 +124,8 @@ PatchFacet find_edge(const PlanePatch& patch, int a, int b);
 // The same facet from the other side; `element` is negative on the boundary and the rim.
 PatchFacet opposite(const PlanePatch& patch, PatchFacet facet);
 
-// May the edge be exchanged for the other diagonal? Not on boundaries and cuts.
+// May the edge be exchanged for the other diagonal? Not on boundaries and cuts, nor between
+// regions.
 bool is_flippable(const PlanePatch& patch, PatchFacet facet);
 // The smaller area of the two triangles that a flip would make, over their mean area now.
 double flipped_area(const PlanePatch& patch, PatchFacet facet);

@@ -83,6 +83,7 @@ Corridor find_corridor(const PlanePatch& patch, int a, int b) {
 // Moves a node that lies on the segment a little to the side of the cut on which it is.
 bool nudge_node(PlanePatch& patch, const CutChain& chain, int i, const Vec2& along) {
   if (patch.is_held[i] != 0 || patch.is_boundary[i] != 0 || i == chain.path.tip) return false;
+  if (patch.has_interfaces() && patch.is_interface[i] != 0) return false;
   for (const int k : chain.node)
     if (k == i) return false;
   const Vec2 normal = Vec2(-along.y(), along.x()).normalized();

@@ -31,8 +31,7 @@ bool is_better_flipped(const PlanePatch& patch, PatchFacet facet, const Smoothin
   const int e = facet.element, g = patch.across[e][facet.facet];
   if (g < 0) return false;
   const double now = std::min(smoothing.quality[e], smoothing.quality[g]);
-  if (now >= good_quality || is_asked_before(smoothing, e, g) || !is_flippable(patch, facet) ||
-      patch.region[e] != patch.region[g])
+  if (now >= good_quality || is_asked_before(smoothing, e, g) || !is_flippable(patch, facet))
     return false;
   const PatchFacet other = opposite(patch, facet);
   const int w = patch.corner[e][facet.facet], z = patch.corner[g][other.facet];

@@ -48,13 +48,13 @@ static void lock_bent(const HexTets& hexahedra, PresentPositions& positions, Cut
 }
 
 CutSurroundings survey(const Mesh& mesh, const HexTets* hexahedra, CutIndex& index,
-                       PresentPositions& positions, std::span<const std::uint8_t> is_held,
+                       PresentPositions& positions, const CutConstraints& constraints,
                        const CutStroke& stroke, bool is_last) {
   CutSurroundings around;
   around.h = stroke.mean_edge;
   const std::vector<std::int32_t> seed = seed_elements(stroke, is_last);
   if (seed.empty()) return around;
-  around.patch = make_patch(mesh, index, positions, is_held, seed);
+  around.patch = make_patch(mesh, index, positions, constraints, seed);
   if (hexahedra != nullptr) lock_bent(*hexahedra, positions, around.patch);
   around.points = surface_points(around.patch, stroke);
   for (std::int32_t i = 0; i < around.patch.n_nodes(); ++i) {

@@ -34,7 +34,7 @@ struct TetCut {
 // nothing was. is_last takes in all that the stroke has not finished. hexahedra: null, or those
 // that `mesh` was made of.
 CutSurroundings survey(const Mesh& mesh, const HexTets* hexahedra, CutIndex& index,
-                       PresentPositions& positions, std::span<const std::uint8_t> is_held,
+                       PresentPositions& positions, const CutConstraints& constraints,
                        const CutStroke& stroke, bool is_last);
 
 // Which nodes lie on opened facets, and what each node may do. Nodes of front elements stay unless

@@ -27,9 +27,8 @@ struct TetCutter::Front {
   CutIndex index;
   HexTets tets;  // only of a body with hexahedra
 
-  MeshEdit advance(const Mesh& mesh, PresentPositions& positions,
-                   std::span<const std::uint8_t> is_held, const BladeSweep& sweep, bool is_last,
-                   CutFigures& figures);
+  MeshEdit advance(const Mesh& mesh, PresentPositions& positions, const CutConstraints& constraints,
+                   const BladeSweep& sweep, bool is_last, CutFigures& figures);
 };
 
 TetCutter::TetCutter(const CutTetOptions& options)
@@ -63,9 +62,9 @@ void TetCutter::set_stroke(CutStroke stroke) {
 }
 
 static void check_arguments(const Mesh& mesh, std::span<const Vec3> x,
-                            std::span<const std::uint8_t> is_held, const BladeSweep& sweep) {
+                            const CutConstraints& constraints, const BladeSweep& sweep) {
   CHECK_OP(x.size(), ==, mesh.X.size());
-  CHECK_OP(is_held.size(), ==, mesh.X.size());
+  CHECK_OP(constraints.is_held.size(), ==, mesh.X.size());
   CHECK_OP(sweep.before.size(), ==, sweep.after.size());
   CHECK_OP(sweep.before.size(), >=, 2U);
   if (mesh.dimension() == 2)
@@ -101,13 +100,13 @@ static void add_refusals(const std::vector<CutRefusal>& list, CutFigures& figure
 
 // Cuts the tetrahedra of `mesh`.
 MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions,
-                                   std::span<const std::uint8_t> is_held, const BladeSweep& sweep,
+                                   const CutConstraints& constraints, const BladeSweep& sweep,
                                    bool is_last, CutFigures& figures) {
   add_hits(mesh, index, positions, sweep, stroke);
   if (!is_last && stroke.swept < options.advance * stroke.mean_edge) return {};
 
   TetCut cut;
-  cut.around = survey(mesh, tets.mesh.X.empty() ? nullptr : &tets, index, positions, is_held,
+  cut.around = survey(mesh, tets.mesh.X.empty() ? nullptr : &tets, index, positions, constraints,
                       stroke, is_last);
   const bool is_through = is_last && has_gone_through(stroke);
   if (cut.around.patch.n_elements() == 0) {
@@ -191,15 +190,15 @@ void TetCutter::follow(const Mesh& mesh, const CutterEdit& edit) {
 }
 
 CutterEdit TetCutter::advance(const Mesh& mesh, PresentPositions& positions,
-                              std::span<const std::uint8_t> is_held, const BladeSweep& sweep,
+                              const CutConstraints& constraints, const BladeSweep& sweep,
                               bool is_last, CutFigures& figures) {
-  check_arguments(mesh, positions.x(), is_held, sweep);
+  check_arguments(mesh, positions.x(), constraints, sweep);
   figures = {};
   prepare(mesh);
   Front& f = *front_;
   if (f.tets.mesh.X.empty())
-    return {f.advance(mesh, positions, is_held, sweep, is_last, figures), {}};
-  MeshEdit edit = f.advance(f.tets.mesh, positions, is_held, sweep, is_last, figures);
+    return {f.advance(mesh, positions, constraints, sweep, is_last, figures), {}};
+  MeshEdit edit = f.advance(f.tets.mesh, positions, constraints, sweep, is_last, figures);
   if (edit.is_empty()) return {edit, {}};
   MeshEdit of_body = edit_of_body(mesh, positions, f.index, edit, f.tets, figures);
   return {std::move(of_body), std::move(edit)};

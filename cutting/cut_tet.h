@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cutting/blade_sweep.h"
+#include "cutting/cut_constraints.h"
 #include "cutting/cut_figures.h"
 #include "cutting/cut_positions.h"
 #include "cutting/cut_stroke.h"
@@ -55,11 +56,11 @@ class TetCutter {
   void follow(const Mesh& mesh, const CutterEdit& edit);
 
   // Takes up the swept band; makes the edit once enough is swept (or is_last: the blade left or
-  // stopped). The edit is empty while it waits. is_held (n_nodes): nodes that must not be displaced
-  // (supports, grasped). Deterministic in its arguments, as is what it asks of `positions`.
-  // `figures` gets the figures of this edit.
+  // stopped). The edit is empty while it waits. Nodes of facets between regions of the mesh stay on
+  // these. Deterministic in its arguments, as is what it asks of `positions`. `figures` gets the
+  // figures of this edit.
   CutterEdit advance(const Mesh& mesh, PresentPositions& positions,
-                     std::span<const std::uint8_t> is_held, const BladeSweep& sweep, bool is_last,
+                     const CutConstraints& constraints, const BladeSweep& sweep, bool is_last,
                      CutFigures& figures);
 
   // Whether the swept band crosses an edge of the mesh, which no stroke takes up.

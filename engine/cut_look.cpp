@@ -85,8 +85,9 @@ BladeLook look_and_cut(const Simulation& s, const BladeWay& way, CutStage& stage
   look.is_last = leaves_tissue(s, stage, way, look.has_met);
   if (s.mesh.dimension() == 2) return look;
   if (!stage.is_in_stroke) stage.tet.start_stroke();
-  look.edit = stage.tet.advance(s.mesh, positions, held_nodes(s.holds, s.fixed), sweep,
-                                look.is_last, look.figures);
+  const std::vector<std::uint8_t> is_held = held_nodes(s.holds, s.fixed);
+  look.edit = stage.tet.advance(s.mesh, positions, {is_held, s.loads.border}, sweep, look.is_last,
+                                look.figures);
   return look;
 }
 

@@ -112,8 +112,9 @@ double length_of(const std::vector<Vec3>& path) {
 // grow is tried again where it is refused.
 void cut_reach(Simulation& s, CutStage& stage, bool may_grow, double h) {
   std::vector<Vec3>& path = stage.plane_path;
+  const std::vector<std::uint8_t> is_held = held_nodes(s.holds, s.fixed);
   const PlaneCut cut =
-      cut_plane(s.mesh, path, stage.plane_tip, held_nodes(s.holds, s.fixed), stage.plane);
+      cut_plane(s.mesh, path, stage.plane_tip, {is_held, s.loads.border}, stage.plane);
   if (cut.edit.is_empty() && may_grow) return;
   note_edit(s, cut.edit, cut.figures, stage.strokes.back());
   if (!cut.rest.empty()) {

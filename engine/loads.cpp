@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/sort_unique.h"
+
 namespace trocar {
 
 namespace {
@@ -32,6 +34,10 @@ std::vector<LoadFace> outer_faces(const Surface& surface) {
     if (surface.is_cut[t] == 0) faces.push_back(face);
   }
   return faces;
+}
+
+std::vector<LoadFace> all_faces(const Mesh& mesh, const Surface& surface) {
+  return mesh.dimension() == 2 ? outer_edges(mesh) : outer_faces(surface);
 }
 
 // Outward, as long as the area [m^2]; x(node) is a position.
@@ -103,6 +109,35 @@ void take_pressure(std::int32_t load, std::span<const LoadFace> faces, Placing& 
   }
 }
 
+// Of all faces, sorted; of plane ones their ends, each as an edge from itself to itself.
+std::vector<BorderEdge> edges_of(std::span<const LoadFace> faces) {
+  std::vector<BorderEdge> edges;
+  for (const LoadFace& face : faces) {
+    const int n = size_of(face);
+    for (int k = 0; k < n; ++k) {
+      const std::int32_t a = face[k], b = n == 2 ? a : face[(k + 1) % n];
+      edges.push_back({std::min(a, b), std::max(a, b)});
+    }
+  }
+  std::ranges::sort(edges);
+  return edges;
+}
+
+std::vector<LoadFace> faces_at(std::span<const BorderEdge> edges, const Mesh& mesh,
+                               const Surface& surface) {
+  std::vector<std::uint8_t> is_at(mesh.X.size(), 0);
+  for (const auto& [a, b] : edges) is_at[a] = is_at[b] = 1;
+  std::vector<LoadFace> faces = all_faces(mesh, surface);
+  std::erase_if(faces, [&](const LoadFace& face) {
+    return std::ranges::none_of(face, [&](std::int32_t i) { return i >= 0 && is_at[i] != 0; });
+  });
+  return faces;
+}
+
+std::ptrdiff_t count_of(std::span<const BorderEdge> sorted, const BorderEdge& edge) {
+  return std::ranges::ssize(std::ranges::equal_range(sorted, edge));
+}
+
 DisplacementPath path_of(const SceneLoad& load) {
   std::vector<SupportKey> keys;
   for (const LoadKey& key : load.path)
@@ -128,7 +163,7 @@ std::vector<LoadFace> loaded_faces(const Mesh& mesh, const Surface& surface,
                                    const NodeSet& region) {
   std::vector<std::uint8_t> is_inside(mesh.X.size(), 0);
   for (const std::int32_t node : region.node) is_inside[static_cast<std::size_t>(node)] = 1;
-  std::vector<LoadFace> faces = mesh.dimension() == 2 ? outer_edges(mesh) : outer_faces(surface);
+  std::vector<LoadFace> faces = all_faces(mesh, surface);
   std::erase_if(faces, [&](const LoadFace& face) {
     return std::any_of(face.begin(), face.end(), [&](std::int32_t i) {
       return i >= 0 && is_inside[static_cast<std::size_t>(i)] == 0;
@@ -136,6 +171,23 @@ std::vector<LoadFace> loaded_faces(const Mesh& mesh, const Surface& surface,
   });
   std::erase_if(faces, [&](const LoadFace& face) { return is_left_out(face, mesh, region); });
   return faces;
+}
+
+std::vector<BorderEdge> load_borders(std::span<const SceneLoad> scene, const Mesh& mesh,
+                                     const Surface& surface) {
+  std::vector<BorderEdge> border;
+  for (const SceneLoad& load : scene) {
+    const NodeSet& region = *find_node_set(mesh, load.region);
+    const std::vector<BorderEdge> loaded = edges_of(loaded_faces(mesh, surface, region));
+    for (const BorderEdge& edge : loaded)
+      if (count_of(loaded, edge) == 1) border.push_back(edge);
+  }
+  sort_unique(border);
+  if (border.empty()) return border;
+  // At a wound there is no face beyond.
+  const std::vector<BorderEdge> outer = edges_of(faces_at(border, mesh, surface));
+  std::erase_if(border, [&](const BorderEdge& edge) { return count_of(outer, edge) != 2; });
+  return border;
 }
 
 void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Surface& surface,

@@ -227,5 +227,44 @@ TEST(Loads, are_refused_with_their_place) {
             std::string::npos);
 }
 
+// Of the faces that the first load acts on, in the reference.
+double loaded_area(const Simulation& s) {
+  const NodeSet& region = *find_node_set(s.mesh, s.scene.loads[0].region);
+  double area = 0;
+  for (const LoadFace& face : loaded_faces(s.mesh, s.surface, region)) {
+    const auto X = [&](int k) { return s.mesh.X[std::size_t(face[std::size_t(k)])]; };
+    area += 0.5 * (X(1) - X(0)).cross(X(2) - X(0)).norm();
+    if (face[3] >= 0) area += 0.5 * (X(2) - X(0)).cross(X(3) - X(0)).norm();
+  }
+  return area;
+}
+
+// Down beside the middle, where the loaded half of the top ends: by 0.3, 0.42 and 0.6 cells.
+TEST(Loads, act_on_the_same_area_after_a_cut_beside_its_edge) {
+  for (const std::string elements : {"hex8", "tet4-kuhn"})
+    for (const std::string x : {"-1 mm", "1.4 mm", "2 mm"}) {
+      const auto key = [&](const std::string& time, const std::string& y) {
+        return "{ time = " + time + ", position = [\"" + x + "\", \"" + y +
+               "\", \"2 mm\"], forward = [0, 1, 0] }";
+      };
+      const auto body = built(
+          "[time]\nduration = 1\nframe_rate = 50\n[tissue.shape]\nkind = \"box\"\nelements = \"" +
+          elements +
+          "\"\nlow = [\"-20 mm\", \"-10 mm\", \"-10 mm\"]\n"
+          "high = [\"20 mm\", \"10 mm\", \"10 mm\"]\ncells = [12, 6, 6]\n"
+          "[tissue.material]\nyoung_modulus = 60000\n[solver]\nmass_damping = 40\n"
+          "[[region]]\nname = \"left\"\nlow = [-1, -1, \"9.99 mm\"]\nhigh = [\"0.01 mm\", 1, 1]\n"
+          "[[support]]\nregion = \"z-\"\n[[load]]\nregion = \"left\"\npressure = 200\n"
+          "[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.03\npath = [" +
+          key("0", "-14 mm") + ", " + key("0.5", "14 mm") + ", " + key("0.6", "24 mm") + "]\n");
+      Simulation& s = *body->s;
+      const double before = loaded_area(s);
+      EXPECT_NEAR(before, 20e-3 * 20e-3, 1e-15);
+      for (int frame = 0; frame < 35; ++frame) run_frame(s, body->outputs);
+      EXPECT_GT(s.cuts[0].strokes.at(0).n_opened_facets, 20);
+      EXPECT_NEAR(loaded_area(s), before, 1e-12 * before) << elements << " " << x;
+    }
+}
+
 }  // namespace
 }  // namespace trocar

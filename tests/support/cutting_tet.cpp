@@ -1,5 +1,7 @@
 #include "cutting_tet.h"
 
+#include "cutting/cut_hex.h"
+
 namespace trocar::cutting_test {
 
 Vec3 at_rest(const Vec3& X) {
@@ -17,7 +19,7 @@ CutPatch whole_patch(const Body& body) {
   std::iota(all.begin(), all.end(), 0);
   CutIndex index = index_of(body.mesh);
   KnownPositions positions(body.mesh, body.x);
-  return make_patch(body.mesh, index, positions, body.is_held, all);
+  return make_patch(body.mesh, index, positions, {body.is_held, body.border}, all);
 }
 
 void apply(const MeshEdit& edit, const CutFigures& figures, Body& body, Ledger& ledger) {
@@ -54,7 +56,8 @@ CutterEdit advance(TetCutter& cutter, Body& body, const BladeSweep& sweep, bool 
                    Ledger& ledger) {
   CutFigures figures;
   KnownPositions positions(body.mesh, body.x);
-  CutterEdit edit = cutter.advance(body.mesh, positions, body.is_held, sweep, is_last, figures);
+  const CutConstraints constraints{body.is_held, body.border};
+  CutterEdit edit = cutter.advance(body.mesh, positions, constraints, sweep, is_last, figures);
   apply(edit, figures, body, ledger);
   return edit;
 }
@@ -113,6 +116,23 @@ double mass(const Mesh& mesh) {
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
     sum += mesh.density_factor[e] * element_volume(mesh, e, mesh.X);
   return sum;
+}
+
+void add_region(Mesh& mesh, const std::function<bool(const Vec3&)>& is_there) {
+  const auto region = static_cast<std::int32_t>(mesh.region_name.size());
+  mesh.region_name.push_back("region " + std::to_string(region));
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    if (std::ranges::any_of(mesh.corners(e), [&](std::int32_t i) { return is_there(mesh.X[i]); }))
+      mesh.element_region[e] = region;
+}
+
+std::vector<double> region_volumes(const Mesh& mesh) {
+  HexTets tets;
+  update_hex_tets(mesh, tets);
+  std::vector<double> V(mesh.region_name.size(), 0);
+  for (std::int32_t e = 0; e < tets.mesh.n_elements(); ++e)
+    V[tets.mesh.element_region[e]] += element_volume(tets.mesh, e, tets.mesh.X);
+  return V;
 }
 
 double volume(const Mesh& mesh) {

@@ -32,6 +32,7 @@ struct Body {
   Mesh mesh;
   std::vector<Vec3> x;
   std::vector<std::uint8_t> is_held;
+  std::vector<BorderEdge> border;  // of its nodes before any cut
 
   explicit Body(Mesh m) : mesh(std::move(m)), x(mesh.X), is_held(mesh.X.size(), 0) {}
   void deform(const Deformation& map) {
@@ -81,6 +82,12 @@ Ledger cut_with_index(
     const std::function<void()>& after_advance = [] {});
 
 double mass(const Mesh& mesh);
+
+// The elements that have a corner there become a region of their own.
+void add_region(Mesh& mesh, const std::function<bool(const Vec3&)>& is_there);
+
+// Of each region, hexahedra as their tetrahedra.
+std::vector<double> region_volumes(const Mesh& mesh);
 
 double volume(const Mesh& mesh);
 
