@@ -226,6 +226,8 @@ inline std::vector<SmallScene> small_scenes() {
   const SmallBlock small_cells = {.elements = "hex8", .cells = "[36, 24, 18]", .duration = "0.2 s"};
   SmallBlock viscous_hex = hexahedra(), viscous_tet;
   viscous_hex.material = viscous_tet.material = viscous;
+  SmallBlock viscous_enhanced = hexahedra("hexahedron = \"enhanced\"\nprecision = \"single\"\n");
+  viscous_enhanced.material = viscous;
   return {
       {"tet4, pressed and pulled", block({}) + probe + grasper},
       {"tet4 with nodal pressures, pressed",
@@ -245,7 +247,9 @@ inline std::vector<SmallScene> small_scenes() {
       {"tet4, cut in two", block(parted) + through_cut},
       {"tet4, crossing cuts", block(crossed) + crossing_cuts},
       {"hex8, curved cut", block(hexahedra()) + curved_cut},
-      {"hex8 viscoelastic, curved cut", block(viscous_hex) + curved_cut},
+      {"hex8 viscoelastic, curved cut, resumed", block(viscous_hex) + curved_cut, "0.26 s"},
+      {"hex8 enhanced viscoelastic in single precision, pressed and cut, resumed",
+       block(viscous_enhanced) + probe + partial_cut, "0.2 s"},
       {"hex8 and tetrahedra with nodal pressures, curved cut",
        block(hexahedra("tetrahedron = \"nodal-pressure\"\n")) + curved_cut},
       {"tet4, slanted cut, one piece sliding on the other, resumed",
