@@ -226,7 +226,7 @@ inline std::vector<SmallScene> small_scenes() {
   const SmallBlock small_cells = {.elements = "hex8", .cells = "[36, 24, 18]", .duration = "0.2 s"};
   SmallBlock viscous_hex = hexahedra(), viscous_tet;
   viscous_hex.material = viscous_tet.material = viscous;
-  SmallBlock viscous_enhanced = hexahedra("hexahedron = \"enhanced\"\nprecision = \"single\"\n");
+  SmallBlock viscous_enhanced = hexahedra("hexahedron = \"enhanced\"\n");
   viscous_enhanced.material = viscous;
   return {
       {"tet4, pressed and pulled", block({}) + probe + grasper},
@@ -248,7 +248,7 @@ inline std::vector<SmallScene> small_scenes() {
       {"tet4, crossing cuts", block(crossed) + crossing_cuts},
       {"hex8, curved cut", block(hexahedra()) + curved_cut},
       {"hex8 viscoelastic, curved cut, resumed", block(viscous_hex) + curved_cut, "0.26 s"},
-      {"hex8 enhanced viscoelastic in single precision, pressed and cut, resumed",
+      {"hex8 enhanced viscoelastic, pressed and cut, resumed",
        block(viscous_enhanced) + probe + partial_cut, "0.2 s"},
       {"hex8 and tetrahedra with nodal pressures, curved cut",
        block(hexahedra("tetrahedron = \"nodal-pressure\"\n")) + curved_cut},
