@@ -240,7 +240,9 @@ inline std::vector<SmallScene> small_scenes() {
        block(hexahedra("hexahedron = \"full\"\n")) + probe + moving_support},
       {"mixed elements and materials, pressed", mixed},
       {"tri3, cut and pulled", plane("") + plane_cut},
-      {"tri3 in plane stress, cut and pulled", plane("triangle = \"plane-stress\"\n") + plane_cut},
+      {"tri3 in plane stress under pressure, cut and pulled",
+       plane("triangle = \"plane-stress\"\n") + plane_cut +
+           "[[load]]\nregion = \"y+\"\npressure = \"-100 Pa\"\n"},
       {"tri3 with scaled masses, cut and pulled", plane(scaled) + plane_cut},
       {"hex8 viscoelastic from equilibrium, pressed", block(viscous_hex) + at_rest + probe},
       {"tet4 viscoelastic, cut", block(viscous_tet) + partial_cut},
