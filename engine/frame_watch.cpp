@@ -13,6 +13,7 @@
 #include "solver/element_watch.h"
 #include "solver/frequency.h"
 #include "solver/step.h"
+#include "solver/thickness.h"
 
 namespace trocar {
 
@@ -253,6 +254,9 @@ void refine_forces(Simulation& s, double dt) {
 
 void find_loads_at(Simulation& s, double time) {
   if (s.loads.is_empty()) return;
+  if (s.model.options.tri3 == Formulation::tri3_plane_stress)
+    for (Loads::Face& face : s.loads.faces)
+      if (face.element >= 0) face.stretch = thickness_stretch(s.model, s.state, face.element);
   find_loads(s.scene.loads, s.mesh, s.part, s.scene.tissue.thickness, time, s.state.u, s.loads);
 }
 

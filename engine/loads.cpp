@@ -97,9 +97,28 @@ void take_force(std::int32_t load, const Mesh& mesh, const NodeSet& region,
   }
 }
 
-void take_pressure(std::int32_t load, std::span<const LoadFace> faces, Placing& placing) {
-  for (const LoadFace& face : faces) {
+// (faces.size()) Of edges in the plane, ascending; -1 of other faces.
+std::vector<std::int32_t> elements_of(const Mesh& mesh, std::span<const LoadFace> faces) {
+  std::vector<std::int32_t> element(faces.size(), -1);
+  if (mesh.dimension() == 3) return element;
+  std::size_t k = 0;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    for (int f = 0; f < 3 && k < faces.size(); ++f) {
+      const std::array<int, 4> corner = facet_corners(ElementType::tri3, f);
+      if (mesh.corners(e)[corner[0]] == faces[k][0] && mesh.corners(e)[corner[1]] == faces[k][1])
+        element[k++] = e;
+    }
+  return element;
+}
+
+void take_pressure(std::int32_t load, const Mesh& mesh, std::span<const LoadFace> faces,
+                   Placing& placing) {
+  const std::vector<std::int32_t> element = elements_of(mesh, faces);
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const LoadFace& face = faces[k];
     Loads::Face local = {.load = load, .node = {-1, -1, -1, -1}, .place = {}};
+    if (element[k] >= 0)
+      local.element = static_cast<std::int32_t>(placing.part.place_of(element[k]));
     for (std::size_t j = 0; j < 4; ++j) {
       local.place[j] = placing(face[j]);
       if (face[j] >= 0) local.node[j] = placing.part.node_local[face[j]];
@@ -201,7 +220,7 @@ void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Su
     const std::vector<LoadFace> faces = loaded_faces(mesh, surface, region);
     const auto load = static_cast<std::int32_t>(k);
     if (scene[k].force != Vec3::Zero()) take_force(load, mesh, region, faces, placing);
-    if (scene[k].pressure != 0) take_pressure(load, faces, placing);
+    if (scene[k].pressure != 0) take_pressure(load, mesh, faces, placing);
   }
   loads.force.assign(loads.node.size(), Vec3::Zero());
 }
@@ -224,7 +243,7 @@ void find_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Part& 
   };
   for (const Loads::Face& face : loads.faces) {
     const Vec3 of_node = -loads.factor[face.load] * scene[face.load].pressure / size_of(face.node) *
-                         area_vector(face.node, thickness, x);
+                         area_vector(face.node, face.stretch * thickness, x);
     for (const std::int32_t place : face.place)
       if (place >= 0) loads.force[place] += of_node;
   }

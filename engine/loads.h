@@ -1,6 +1,7 @@
 // Forces on the tissue without an instrument: [[load]]. A force is spread over the faces of a
 // region, by their first area, and keeps its direction; pressure pushes on the faces as they are
-// now. Wounds are no faces of a region.
+// now, of a plane body on the present length times the present thickness. Wounds are no faces of a
+// region.
 #pragma once
 
 #include <array>
@@ -37,6 +38,10 @@ struct Loads {
   struct Face {
     std::int32_t load = 0;
     LoadFace node, place;
+    // Of an edge in the plane: position in Part::element_global, and how much thicker it is than at
+    // rest.
+    std::int32_t element = -1;
+    double stretch = 1;
   };
   std::vector<DisplacementPath> path;  // (n_loads) of the factor, as x
   std::vector<double> factor;          // (n_loads) in the present step
@@ -53,7 +58,7 @@ void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Su
                     const Part& part, Loads& loads);
 // Whether any is another at t1 than at t0.
 bool do_loads_change(const Loads& loads, double t0, double t1);
-// What acts at a time [s] on the body with displacements u (n_local * 3).
+// What acts at a time [s] on the body with displacements u (n_local * 3); thickness at rest [m].
 void find_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Part& part,
                 double thickness, double time, std::span<const double> u, Loads& loads);
 void add_loads(const Loads& loads, double share, std::span<double> force);

@@ -20,7 +20,7 @@ int history_width(const ElementBlocks& blocks);
 std::int64_t place_history(std::vector<ElementBlocks>& lists);
 
 // The history of this rank's elements, or of those of `elements` (ascending) that it has, one after
-// the other: global number, count, numbers.
+// the other: global number, how many numbers its points and its hourglass forces have, numbers.
 std::vector<double> copy_history(const Model& model, const Part& part, const State& state);
 std::vector<double> copy_history(const Model& model, const Part& part, const State& state,
                                  std::span<const std::int32_t> elements);
@@ -35,7 +35,9 @@ struct ElementOrigins {
 ElementOrigins unedited_elements(std::int32_t n);
 // These elements, where the part has them, get the history of their parents from copies of all
 // ranks, one behind the other, multiplied by the scale, since stresses are stored times the volume
-// of the whole element. One of a single point whose parent had several gets their mean.
+// of the whole element. One of a single point whose parent had several gets their mean; of a
+// one-point hexahedron's hourglass forces only one-point hexahedra get something. Their
+// displacements grow with the volume, too, where the element is stretched along an edge.
 void restore_history(const Model& model, const Part& part, std::span<const double> copies,
                      const ElementOrigins& origins, State& state);
 

@@ -27,9 +27,10 @@ struct SolverOptions {
   double thickness = 1e-3;      // of plane meshes [m]
   Vec3 gravity = Vec3::Zero();  // [m/s^2]
   Precision precision = Precision::in_double;
-  // Stiffness of an element's own volume change over mu, tet4_nodal_pressure: its share s in the
-  // pressure is this over K / mu, at most 1. A share that did not fall with mu / K would lock
-  // nearly incompressible tissue. Free cubes show no low modes even without it.
+  // Stiffness of an element's own volume change over mu, of viscoelastic tissue over what is left
+  // of it, tet4_nodal_pressure: its share s in the pressure is this over K / mu, at most 1. A share
+  // that did not fall with mu / K would lock nearly incompressible tissue. Free cubes show no low
+  // modes even without it.
   double own_volume_stiffness = 0.2;
   // How triangles, tetrahedra and hexahedra are computed.
   Formulation tri3 = Formulation::tri3_plane_strain;
@@ -221,7 +222,8 @@ struct State {
   double time = 0;
   double last_dt = 0;  // length of the last step, 0 before the first
   std::int64_t step = 0;
-  // [block][point][number][lane] of each viscoelastic list (viscosity.h), at history_time. [J], [s]
+  // [block][number][lane] of each viscoelastic list: of all points (viscosity.h) [J], then of
+  // hourglass displacements (hourglass_history.h) [m]; at history_time [s]
   std::vector<double> history;
   double history_time = 0;
 };

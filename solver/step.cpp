@@ -12,6 +12,7 @@
 #include "solver/history.h"
 #include "solver/prefetch.h"
 #include "solver/sum_order.h"
+#include "solver/viscous_stress.h"
 
 namespace trocar {
 
@@ -38,8 +39,8 @@ void add_list(const Model& model, const ElementBlocks& blocks, std::int64_t firs
         if (blocks.prony.empty() || scratch.is_elastic)
           kernels.law.stress(task);
         else
-          kernels.law.viscous_stress(task, scratch.viscous[&blocks - model.blocks.data()],
-                                     history_at(blocks, block, state));
+          put_viscous_stress(blocks, kernels, task, scratch.viscous[&blocks - model.blocks.data()],
+                             history_at(blocks, block, state));
         const std::int64_t corner = block * kernels.element.n_corners * blocks.lanes;
         with_sums(model, scratch, [&](auto& sum) {
           kernels.element.force(task, targets(blocks).data() + corner, sum.data());

@@ -1,17 +1,14 @@
 // Prony viscoelasticity of the isochoric stress (Simo 1987; numerics 1.8): branches with history
 // h_b,
 //   S = S_vol + (1 - sum g_b) S_iso + sum_b h_b,
-//   h_b+ = exp(-x) h_b + g_b (1 - exp(-x)) / x (S_iso+ - S_iso),  x = dt / tau_b,
-// second order and stable for any dt. S_iso is the second Piola-Kirchhoff stress of the elastic law
-// (times the volume), so that rotations do nothing; the linear law's is its P. The history is in
-// double always: single would stop relaxing at tau / dt ~ 1e6.
+//   h_b+ = exp(-x) h_b + g_b (1 - exp(-x)) / x (S_iso+ - S_iso),  x = dt / tau_b
+// (viscous_history.h). S_iso is the second Piola-Kirchhoff stress of the elastic law (times the
+// volume), so that rotations do nothing; the linear law's is its P.
 #pragma once
 
 #include "solver/block_data.h"
-#include "solver/in_double.h"
-#include "solver/isochoric.h"
 #include "solver/material_model.h"
-#include "solver/viscous_step.h"
+#include "solver/viscous_history.h"
 
 namespace trocar {
 
@@ -32,7 +29,7 @@ struct ViscousLaw {
 
   [[gnu::always_inline]] Tensor<Pack> trial_stress(const Tensor<Pack>& H) const {
     Tensor<Pack> P = Material::isochoric_stress(H, value);
-    add_viscous_stress<Call::trial>(H, P);
+    add_viscous_stress<HistoryCall::trial>(H, P);
     return with_volumetric_stress(H, P);
   }
 
@@ -47,13 +44,11 @@ struct ViscousLaw {
 
   [[gnu::always_inline]] Tensor<Pack> isochoric_stress(const Tensor<Pack>& H) const {
     Tensor<Pack> P = Material::isochoric_stress(H, value);
-    add_viscous_stress<Call::moves_history>(H, P);
+    add_viscous_stress<HistoryCall::moves_history>(H, P);
     return P;
   }
 
  private:
-  enum class Call { moves_history, trial };
-  static constexpr int width = pack_width<Pack>;
   static constexpr int lanes = block_lanes<Pack>;
   static constexpr bool is_small_strain = Material::model == MaterialModel::linear;
 
@@ -66,12 +61,10 @@ struct ViscousLaw {
   }
 
   // P += F (sum h - sum g S_iso), S_iso = F^-1 P = (cof F)^T P / J.
-  template <Call call>
+  template <HistoryCall call>
   [[gnu::noinline]] void add_viscous_stress(const Tensor<Pack>& H, Tensor<Pack>& P) const {
     const VolumeChange<Pack> change = volume_and_area_change(H);
-    // Below the floor of isochoric.h its factor for 1/J keeps the history finite through J = 0.
-    const Isochoric<Pack> iso = isochoric(change.j);
-    const Pack inverse_J = iso.extended > 0.0 ? iso.inverse : 1.0 / (1.0 + change.j);
+    const Pack inverse_J = finite_inverse_J(change.j);
     SymmetricTensor<Pack> S;
     for (int i = 0; i < 3; ++i)
       for (int j = i; j < 3; ++j) {
@@ -83,37 +76,15 @@ struct ViscousLaw {
           s = (A(0, i) * P(0, j) + A(1, i) * P(1, j) + A(2, i) * P(2, j)) * inverse_J;
         }
       }
-    for (int c = 0; c < 6; ++c) S.v[c] = advance<call>(c, S.v[c]);
-    if constexpr (call == Call::moves_history) history += history_of_point(step.n_branches) * lanes;
+    for (int c = 0; c < 6; ++c) S.v[c] = advance_history<call>(step, 6, c, S.v[c], history);
+    if constexpr (call == HistoryCall::moves_history)
+      history += history_of_point(step.n_branches) * lanes;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         P(i, j) += S.v[symmetric_index[i][j]];
         if constexpr (!is_small_strain)
           for (int k = 0; k < 3; ++k) P(i, j) += H(i, k) * S.v[symmetric_index[k][j]];
       }
-  }
-
-  // One component's history to the present; the stress that comes on top of the elastic one.
-  template <Call call>
-  [[gnu::always_inline]] Pack advance(int component, const Pack& S) const {
-    double now[width], sum[width];
-    double* const before = history + component * lanes;
-    store_in_double(now, S);
-    for (int l = 0; l < width; ++l) sum[l] = -step.share_sum * now[l];
-    for (int b = 0; b < step.n_branches; ++b) {
-      double* const h = history + (6 * (1 + b) + component) * lanes;
-      for (int l = 0; l < width; ++l) {
-        const double present = step.decay[b] * h[l] + step.gain[b] * (now[l] - before[l]);
-        if constexpr (call == Call::moves_history) h[l] = present;
-        sum[l] += present;
-      }
-    }
-    RealOf<Pack> result[width];
-    for (int l = 0; l < width; ++l) {
-      if constexpr (call == Call::moves_history) before[l] = now[l];
-      result[l] = static_cast<RealOf<Pack>>(sum[l]);
-    }
-    return load<Pack>(result);
   }
 };
 

@@ -31,13 +31,21 @@ std::vector<std::int32_t> number_fields(const Mesh& mesh, VolumeAverages& averag
   return field;
 }
 
+// Of the shear modulus that is left when all has relaxed: a share that followed the whole one would
+// hold what has relaxed, and what has not is stiff enough in shear.
+double relaxed_mu(const Material& material) {
+  double left = 1;
+  for (const PronyBranch& branch : material.prony) left -= branch.share;
+  return std::max(left, 0.0) * lame_mu(material);
+}
+
 void set_shares(std::span<const Material> materials, std::span<const std::int32_t> field,
                 Model& model) {
   model.averages.share.resize(static_cast<std::size_t>(model.averages.n_fields));
   for (std::size_t r = 0; r < field.size(); ++r)
     if (field[r] >= 0)
       model.averages.share[field[r]] =
-          std::min(1.0, model.options.own_volume_stiffness * lame_mu(materials[r]) /
+          std::min(1.0, model.options.own_volume_stiffness * relaxed_mu(materials[r]) /
                             bulk_modulus(materials[r]));
 }
 

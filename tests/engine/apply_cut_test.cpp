@@ -212,13 +212,13 @@ std::vector<std::vector<double>> history_per_volume(const Simulation& s) {
   const std::size_t width = history_of_point(1);
   std::vector<std::vector<double>> value;
   const std::vector<double> copy =
-      copy_history(s.model, s.part, s.state);  // element, count, numbers
-  for (std::size_t at = 0; at < copy.size(); at += 2 + std::size_t(copy[at + 1])) {
+      copy_history(s.model, s.part, s.state);  // element, count of points, of hourglass, numbers
+  for (std::size_t at = 0; at < copy.size(); at += 3 + std::size_t(copy[at + 1] + copy[at + 2])) {
     const auto e = static_cast<std::int32_t>(copy[at]);
     value.emplace_back(width, 0.0);
     for (std::size_t k = 0; k < std::size_t(copy[at + 1]); ++k)
       value.back()[k % width] +=
-          copy[at + 2 + k] / element_volume(s.mesh, e, s.mesh.X) / (copy[at + 1] / double(width));
+          copy[at + 3 + k] / element_volume(s.mesh, e, s.mesh.X) / (copy[at + 1] / double(width));
   }
   return value;
 }

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/equilibrium.h"
+#include "engine/frame_watch.h"
 #include "engine_scene.h"
 #include "engine_started.h"
 
@@ -107,6 +110,59 @@ TEST(Loads, of_an_edge_in_the_plane_push_along_its_normal) {
   const std::vector<double> rest(s.state.u.size(), 0.0);
   find_loads(s.scene.loads, s.mesh, s.part, 0.005, 0, rest, s.loads);
   EXPECT_LT((total(s.loads) - Vec3(-200 * 0.02, 50 * 0.04, 0) * 0.005).norm(), 1e-12);
+}
+
+// Uniaxial: s = p along x and 0 across, s_i = mu J^(-5/3) (l_i^2 - I1/3) + K (J - 1).
+struct Uniaxial {
+  double along, across;
+};
+Uniaxial uniaxial(double mu, double K, double p) {
+  const auto stress = [&](double l, double I1, double J) {
+    return mu * std::pow(J, -5. / 3) * (l * l - I1 / 3) + K * (J - 1);
+  };
+  const auto across_of = [&](double along) {  // no stress across
+    double low = 0.2, high = 2;
+    for (int k = 0; k < 200; ++k) {
+      const double l = (low + high) / 2, I1 = along * along + 2 * l * l;
+      (stress(l, I1, along * l * l) > 0 ? high : low) = l;
+    }
+    return low;
+  };
+  double low = 0.5, high = 2;
+  for (int k = 0; k < 200; ++k) {
+    const double along = (low + high) / 2, l = across_of(along);
+    (stress(along, along * along + 2 * l * l, along * l * l) > p ? high : low) = along;
+  }
+  return {low, across_of(low)};
+}
+
+// A sheet thins as it is drawn out: what pulls at its edge gets less.
+TEST(Loads, of_an_edge_in_plane_stress_push_on_the_present_thickness) {
+  const double E = 3000, nu = 0.3;
+  for (const double tension : {500., -400.}) {
+    const Uniaxial exact = uniaxial(E / (2 * (1 + nu)), E / (3 * (1 - 2 * nu)), tension);
+    for (const auto& [precision, residual] : {std::pair{"double", 1e-6}, {"single", 4e-5}}) {
+      const auto sheet = built(
+          "[time]\nduration = 1\n[tissue]\nthickness = 0.002\n[tissue.shape]\n"
+          "kind = \"rectangle\"\nhigh = [0.04, 0.02, 0]\ncells = [9, 5, 1]\n"
+          "[tissue.material]\nyoung_modulus = 3000\npoisson_ratio = 0.3\n[solver]\n"
+          "triangle = \"plane-stress\"\n[[support]]\nregion = \"x-\"\nfix = \"x\"\n"
+          "[[support]]\nregion = \"y-\"\nfix = \"y\"\n[[load]]\nregion = \"x+\"\npressure = " +
+              std::to_string(-tension) + "\n" + at_rest,
+          {"solver.precision='" + std::string(precision) + "'",
+           "start.tolerance=" + std::to_string(residual)});
+      Simulation& s = *sheet->s;
+      start_in_equilibrium(sheet->loaded, s);
+      for (std::size_t i = 0; i < s.mesh.X.size(); ++i) {
+        const Vec3& X = s.mesh.X[i];
+        const Vec3 u((exact.along - 1) * X.x(), (exact.across - 1) * X.y(), 0);
+        EXPECT_LT((Vec3::Map(&s.state.u[3 * i]) - u).norm(), 20 * residual * 0.04);
+      }
+      find_loads_at(s, 0);
+      const Vec3 force(tension * exact.across * 0.02 * exact.across * 0.002, 0, 0);
+      EXPECT_LT((total(s.loads) - force).norm(), 20 * residual * force.norm());
+    }
+  }
 }
 
 TEST(Loads, of_a_region_without_faces_are_spread_over_its_nodes) {

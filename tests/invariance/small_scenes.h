@@ -226,6 +226,8 @@ inline std::vector<SmallScene> small_scenes() {
   const SmallBlock small_cells = {.elements = "hex8", .cells = "[36, 24, 18]", .duration = "0.2 s"};
   SmallBlock viscous_hex = hexahedra(), viscous_tet;
   viscous_hex.material = viscous_tet.material = viscous;
+  SmallBlock viscous_enhanced = hexahedra("hexahedron = \"enhanced\"\n");
+  viscous_enhanced.material = viscous;
   return {
       {"tet4, pressed and pulled", block({}) + probe + grasper},
       {"tet4 with nodal pressures, pressed",
@@ -238,14 +240,18 @@ inline std::vector<SmallScene> small_scenes() {
        block(hexahedra("hexahedron = \"full\"\n")) + probe + moving_support},
       {"mixed elements and materials, pressed", mixed},
       {"tri3, cut and pulled", plane("") + plane_cut},
-      {"tri3 in plane stress, cut and pulled", plane("triangle = \"plane-stress\"\n") + plane_cut},
+      {"tri3 in plane stress under pressure, cut and pulled",
+       plane("triangle = \"plane-stress\"\n") + plane_cut +
+           "[[load]]\nregion = \"y+\"\npressure = \"-100 Pa\"\n"},
       {"tri3 with scaled masses, cut and pulled", plane(scaled) + plane_cut},
       {"hex8 viscoelastic from equilibrium, pressed", block(viscous_hex) + at_rest + probe},
       {"tet4 viscoelastic, cut", block(viscous_tet) + partial_cut},
       {"tet4, cut in two", block(parted) + through_cut},
       {"tet4, crossing cuts", block(crossed) + crossing_cuts},
       {"hex8, curved cut", block(hexahedra()) + curved_cut},
-      {"hex8 viscoelastic, curved cut", block(viscous_hex) + curved_cut},
+      {"hex8 viscoelastic, curved cut, resumed", block(viscous_hex) + curved_cut, "0.26 s"},
+      {"hex8 enhanced viscoelastic, pressed and cut, resumed",
+       block(viscous_enhanced) + probe + partial_cut, "0.2 s"},
       {"hex8 and tetrahedra with nodal pressures, curved cut",
        block(hexahedra("tetrahedron = \"nodal-pressure\"\n")) + curved_cut},
       {"tet4, slanted cut, one piece sliding on the other, resumed",
