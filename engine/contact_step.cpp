@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort_unique.h"
 #include "collision/contact_tilt.h"
 #include "engine/frame_watch.h"
 #include "engine/part_search.h"
@@ -55,8 +56,7 @@ std::vector<Tilt> tilts_of_all(const Simulation& s, std::span<const Tilt> mine) 
 std::vector<std::int32_t> corners_of(std::span<const Tilt> tilts) {
   std::vector<std::int32_t> nodes;
   for (const Tilt& tilt : tilts) nodes.insert(nodes.end(), tilt.place.begin(), tilt.place.end());
-  std::ranges::sort(nodes);
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sort_unique(nodes);
   return nodes;
 }
 

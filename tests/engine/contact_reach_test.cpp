@@ -18,6 +18,15 @@ double force_after(double seconds, int frame_rate, const std::string& scene) {
   return started->s->log.rows.back().tools[0].force.z();
 }
 
+// least: force at 240 Hz at the least [N].
+void expect_same_at_both_rates(const char* what, double seconds, double least,
+                               const std::string& scene) {
+  const double often = force_after(seconds, 240, scene), seldom = force_after(seconds, 30, scene);
+  std::printf("%s: %.4f N at 240 Hz, %.4f N at 30 Hz\n", what, often, seldom);
+  ASSERT_GT(often, least);
+  EXPECT_NEAR(seldom, often, 0.02 * often);
+}
+
 // A ribbon, held at both ends, before a rod of 150 mm that turns by 70 degrees about its tip,
 // 120 mm away.
 const std::string lever = R"([tissue.shape]
@@ -47,10 +56,7 @@ path = [
 
 // With the travel of a point 20 mm above the tip, the shaft passed the ribbon at 30 Hz.
 TEST(ContactReach, is_that_of_the_far_end_of_a_shaft) {
-  const double often = force_after(0.6, 240, lever), seldom = force_after(0.6, 30, lever);
-  std::printf("lever: %.4f N at 240 Hz, %.4f N at 30 Hz\n", often, seldom);
-  ASSERT_GT(often, 0.1);
-  EXPECT_NEAR(seldom, often, 0.02 * often);
+  expect_same_at_both_rates("lever", 0.6, 0.1, lever);
 }
 
 // A plate whose supports at two sides take it upwards by 20 mm in 60 ms, against a ball 3 mm above.
@@ -78,10 +84,7 @@ path = [{ time = 0, position = [0, 0, 0.003] }]
 
 // With the speed at the frame's beginning alone, the plate passed the ball at 30 Hz.
 TEST(ContactReach, is_that_of_what_supports_take_along) {
-  const double often = force_after(0.5, 240, lifted), seldom = force_after(0.5, 30, lifted);
-  std::printf("lifted plate: %.4f N at 240 Hz, %.4f N at 30 Hz\n", often, seldom);
-  ASSERT_GT(often, 0.5);
-  EXPECT_NEAR(seldom, often, 0.02 * often);
+  expect_same_at_both_rates("lifted plate", 0.5, 0.5, lifted);
 }
 
 }  // namespace

@@ -84,6 +84,10 @@ void shake(std::vector<double>& values, double amount, std::uint64_t seed);
 // External minus internal force of the present displacement.
 const std::vector<double>& force(Body& body);
 
+// Of a body with history, deformed twice: forces and history of a second call at the same time are
+// those of the first, to the last bit.
+void expect_second_call_changes_nothing(Body body);
+
 double sum(const std::vector<double>& values);
 // NaN if any value is.
 double largest(const std::vector<double>& values);
