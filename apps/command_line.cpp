@@ -53,14 +53,19 @@ const char* const examples_help =
     "\nexamples:\n  trocar help scene\n  trocar help scene --markdown > docs/scene.md\n"
     "  trocar help tissues --markdown > docs/tissues.md\n";
 
-void add_machine_options(CLI::App& app, MachineOptions& machine) {
-  app.add_option("--threads", machine.threads,
-                 "Threads a rank; 0: the host's cores divided among its ranks")
-      ->check(CLI::Range(0, 1024));
+void add_kernel_options(CLI::App& app, MachineOptions& machine) {
   app.add_option("--simd", machine.simd,
                  "Instruction set of the kernels: auto, scalar, sse2, avx2, avx512 (bits are "
                  "promised per set)");
   app.add_flag("-q,--quiet", machine.is_quiet, "Warnings and errors only");
+}
+
+void add_machine_options(CLI::App& app, MachineOptions& machine) {
+  app.add_option("--threads", machine.threads,
+                 "Threads a rank; 0: the cores that it may use, divided among the ranks that share "
+                 "them")
+      ->check(CLI::Range(0, 1024));
+  add_kernel_options(app, machine);
 }
 
 void add_scene_options(CLI::App& app, RunOptions& run) {
@@ -133,9 +138,7 @@ void add_study(CLI::App& app, CommandLine& line) {
       ->check(CLI::Range(1e-3, 1e9));
   study->add_option("--set", s.overrides, "Change a key of the scene; may be repeated")
       ->allow_extra_args(false);
-  study->add_option("--simd", line.machine.simd, "Instruction set of the kernels")
-      ->capture_default_str();
-  study->add_flag("-q,--quiet", line.machine.is_quiet, "Warnings and errors only");
+  add_kernel_options(*study, line.machine);
   study->footer(examples_study);
   study->callback([&] { line.command = Command::study; });
 }

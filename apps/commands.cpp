@@ -19,6 +19,7 @@
 #include "mesh/quality.h"
 #include "render/image_file.h"
 #include "render/renderer.h"
+#include "solver/simd.h"
 #include "solver/step.h"
 
 namespace trocar {
@@ -31,10 +32,31 @@ std::string host_name() {
   return name;
 }
 
-// Ranks that share this one's host.
-int ranks_on_host(const Communicator& communicator) {
-  const std::vector<std::string> names = communicator.all_gather(host_name());
-  return static_cast<int>(std::count(names.begin(), names.end(), host_name()));
+// Ranks that share this one's cores: mpirun may bind each to cores of its own. Collective.
+int ranks_on_cores(const Communicator& communicator) {
+  const std::string mine = host_name() + " " + core_list();
+  const std::vector<std::string> all = communicator.all_gather(mine);
+  return static_cast<int>(std::count(all.begin(), all.end(), mine));
+}
+
+// One set for all ranks, as elements at a border are computed on both sides. Collective; throws
+// InputError on every rank.
+void select_simd_alike(const std::string& name, const Communicator& communicator) {
+  std::string refusal;
+  try {
+    select_simd(name);
+  } catch (const InputError& trouble) {
+    refusal = trouble.what();
+  }
+  refusal = communicator.first_text(refusal);
+  if (!refusal.empty()) throw InputError(refusal);
+  const auto mine = static_cast<double>(active_simd());
+  const double least = communicator.all_min(mine);
+  if (least != communicator.all_max(mine))
+    throw InputError(
+        std::string("ranks would compute with different instructions, which round differently: "
+                    "choose one that all hosts have, as with --simd ") +
+        name_of(static_cast<Simd>(static_cast<int>(least))));
 }
 
 const char* yes_no(bool is_true) {
@@ -57,7 +79,7 @@ double default_stable_step(const Mesh& mesh) {
 bool is_surface_file(const std::string& file) {
   std::string ending = std::filesystem::path(file).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return static_cast<char>(std::tolower(c)); });
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return ending == ".stl" || ending == ".obj";
 }
 
@@ -114,9 +136,9 @@ void print_mesh(const std::string& file, const Mesh& mesh) {
 }  // namespace
 
 void use_machine(const MachineOptions& machine, const Communicator& communicator) {
-  const int shared = std::max(1, available_cores() / ranks_on_host(communicator));
+  const int shared = std::max(1, available_cores() / ranks_on_cores(communicator));
   set_thread_count(machine.threads > 0 ? machine.threads : shared);
-  select_simd(machine.simd);
+  select_simd_alike(machine.simd, communicator);
 }
 
 ExitCode command_run(const RunOptions& options, Communicator& communicator) {

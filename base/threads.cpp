@@ -151,7 +151,7 @@ void run_chunks(int n_chunks, Call call, const void* body) {
   for (int chunk = 0; chunk < n_chunks; ++chunk) call(body, chunk);
 }
 
-int available_cores() {
+static std::vector<int> affinity() {
   // The kernel refuses a mask that is too small for the machine; 1024 cores fit most.
   for (int n_cores = 1024; n_cores <= 1 << 20; n_cores *= 2) {
     cpu_set_t* mask = CPU_ALLOC(n_cores);
@@ -159,11 +159,23 @@ int available_cores() {
     const std::size_t size = CPU_ALLOC_SIZE(n_cores);
     const bool is_known = sched_getaffinity(0, size, mask) == 0;
     const bool is_too_small = !is_known && errno == EINVAL;
-    const int n_available = is_known ? CPU_COUNT_S(size, mask) : 1;
+    std::vector<int> cores;
+    for (int core = 0; core < n_cores && is_known; ++core)
+      if (CPU_ISSET_S(core, size, mask)) cores.push_back(core);
     CPU_FREE(mask);
-    if (!is_too_small) return n_available;
+    if (!is_too_small) return cores;
   }
-  return 1;
+  return {};
+}
+
+int available_cores() {
+  return std::max(1, static_cast<int>(affinity().size()));
+}
+
+std::string core_list() {
+  std::string list;
+  for (const int core : affinity()) list += (list.empty() ? "" : " ") + std::to_string(core);
+  return list;
 }
 
 }  // namespace trocar

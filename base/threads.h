@@ -4,14 +4,16 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 namespace trocar {
 
 // Number of threads of this thread's parallel_for from now on (>= 1; 1 until it is set).
 void set_thread_count(int n_threads);
 int thread_count();
-// Cores that this process may run on (affinity mask).
+// Cores that this process may run on (affinity mask), and their numbers: "0 1 4".
 int available_cores();
+std::string core_list();
 
 // Calls call(body, chunk) for each of n_chunks on as many threads, the caller's among them; on the
 // caller's alone if another thread has the team, or from within such a call.

@@ -91,6 +91,7 @@ TEST(AvailableCores, follow_the_affinity_mask) {
   CPU_SET(core, &one);
   ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
   EXPECT_EQ(available_cores(), 1);
+  EXPECT_EQ(core_list(), std::to_string(core));
   ASSERT_EQ(sched_setaffinity(0, sizeof before, &before), 0);
 }
 

@@ -175,6 +175,29 @@ TEST(Help, alone_and_on_a_command_is_that_of_the_option) {
   EXPECT_EQ(on_run.out, run_trocar({"run", "--help"}, folder).out);
 }
 
+// Elements at the border between two ranks are computed on both.
+TEST(BadInput, ranks_that_would_compute_with_different_instructions_are_refused) {
+  const std::string folder = test_folder("simd");
+  const auto run_with = [&](const std::string& first, const std::string& second) {
+    const auto words_with = [&](const std::string& simd) {
+      return std::vector<std::string>{"run", config("block_hex.toml"), "-o", folder, "--simd",
+                                      simd};
+    };
+    std::vector<std::string> words = mpirun_words(1, TROCAR_PROGRAM, words_with(first));
+    const std::vector<std::string> behind = mpirun_words(1, TROCAR_PROGRAM, words_with(second));
+    words.push_back(":");
+    words.push_back("-np");
+    words.insert(words.end(), behind.begin() + 1, behind.end());
+    return run_words(words, folder, 60);
+  };
+  const Finished different = run_with("sse2", "scalar");
+  EXPECT_EQ(different.exit_code, input_wrong) << different.err;
+  EXPECT_NE(different.err.find("--simd scalar"), std::string::npos) << different.err;
+  const Finished unknown = run_with("sse2", "sse3");
+  EXPECT_EQ(unknown.exit_code, input_wrong) << unknown.err;
+  EXPECT_NE(unknown.err.find("\"sse3\""), std::string::npos) << unknown.err;
+}
+
 TEST(Help, that_can_not_be_printed_is_an_error_of_the_machine) {
   const Finished run = run_words({"sh", "-c", "\"$0\" help scene > /dev/full", TROCAR_PROGRAM},
                                  test_folder("help-full"));
