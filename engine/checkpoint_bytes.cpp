@@ -10,7 +10,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 13;
+constexpr std::uint32_t checkpoint_format = 14;
 
 template <class Archive>
 static void visit(Archive& a, Mesh& mesh) {
@@ -58,7 +58,7 @@ template <class Archive>
 static void visit(Archive& a, FrameRow& r) {
   a(r.frame, r.step, r.n_substeps, r.time, r.dt, r.stable_step, r.least_J, r.asleep, r.energy,
     r.works, r.energy_error, r.wound_width, r.wound_width_mean, r.n_contacts, r.n_tissue_contacts,
-    r.n_held, r.n_edits, r.n_pieces, r.tools, r.support_forces, r.markers, r.seconds);
+    r.n_held, r.n_edits, r.n_pieces, r.tools, r.support_forces, r.markers, r.seconds, r.latency);
 }
 template <class Archive>
 static void visit(Archive& a, Searches& n) {

@@ -243,11 +243,12 @@ void run_frame(Simulation& s, Outputs& outputs) {
   if (needs_surface(s, outputs)) refresh_surface(s);
   if (s.contact && s.contact->has_tissue) watch_sunk_tissue(s, span.t1);
   report_state(s, row);
-  row.seconds = monotonic_seconds() - start;
+  row.seconds = row.latency = monotonic_seconds() - start;
   s.log.rows.push_back(std::move(row));
   write_outputs(s, outputs, s.log.rows.back());
   if (is_checkpoint_due(s)) write_checkpoint(s, outputs);
-  wait_for_deadline(s, s.log.rows.back());
+  s.log.rows.back().latency = monotonic_seconds() - start;
+  wait_for_deadline(s);
 }
 
 }  // namespace trocar

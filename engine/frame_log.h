@@ -53,7 +53,8 @@ struct FrameRow {
   std::vector<ToolRow> tools;
   std::vector<Vec3> markers;         // positions; with metrics [m]
   std::vector<Vec3> support_forces;  // of the tissue on each, mean over the frame; with metrics [N]
-  double seconds = 0;                // wall time of the frame without waiting
+  double seconds = 0;                // wall time of the frame up to its outputs
+  double latency = 0;                // and with its outputs and checkpoint, without waiting
 };
 
 // An edit as the recording needs it: in front of which frame it happened.

@@ -319,13 +319,15 @@ void roll_back(Simulation& s, const FrameSpan& span, const Watch& failed,
   note_event(s, span.t0, sentence + "; step scale now " + number_text(s.step_scale));
 }
 
-void wait_for_deadline(Simulation& s, const FrameRow& row) {
+double left_of_frame(const Simulation& s, double now) {
+  return s.start_seconds + static_cast<double>(s.frame) / s.scene.time.frame_rate - now;
+}
+
+void wait_for_deadline(Simulation& s) {
   if (s.scene.time.pace != Pace::real_time) return;
-  const double length = 1 / s.scene.time.frame_rate;
-  if (row.seconds > length) ++s.log.n_deadlines_missed;
+  const double left = left_of_frame(s, monotonic_seconds());
+  if (left < 0) ++s.log.n_deadlines_missed;
   const PhaseScope scope(s.timers, phase_wait);
-  const double deadline = s.start_seconds + static_cast<double>(s.frame) * length;
-  const double left = deadline - monotonic_seconds();
   if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
 }
 

@@ -13,8 +13,10 @@ Options<SceneTime> time_options() {
            Need::required);
   t.number("frame_rate", &SceneTime::frame_rate, dim::rate, {.low = 1, .high = 10000},
            "Frames a second: contact detection, cuts and outputs happen once a frame. \"30 Hz\".");
-  t.choice("pace", &SceneTime::pace, {{"fast", Pace::fast}, {"real-time", Pace::real_time}},
-           "fast: as fast as the machine allows; real-time: each frame waits for its deadline.");
+  t.choice(
+      "pace", &SceneTime::pace, {{"fast", Pace::fast}, {"real-time", Pace::real_time}},
+      "fast: as fast as the machine allows; real-time: each frame waits for its deadline, and a "
+      "late run goes on at once until it has caught up.");
   return t;
 }
 

@@ -101,7 +101,7 @@ Json cuts_json(const Simulation& s) {
 
 Json latency_json(const Simulation& s) {
   std::vector<double> seconds;
-  for (const FrameRow& row : s.log.rows) seconds.push_back(1e3 * row.seconds);
+  for (const FrameRow& row : s.log.rows) seconds.push_back(1e3 * row.latency);
   return {{"p50", quantile(seconds, 0.5)},
           {"p99", quantile(seconds, 0.99)},
           {"p999", quantile(seconds, 0.999)},
