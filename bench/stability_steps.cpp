@@ -23,7 +23,7 @@ std::vector<StabilityRow> steps_around_the_limit(double scale) {
       StabilityRow row{
           text("%s, step %.3f of the limit, velocity noise", name_of(elements), factor)};
       if (factor < 1) {
-        row.promise = text("|v|^2 grows less than 4-fold in %d steps", n);
+        row.promise = text("v^2 grows less than 4-fold in %d steps", n);
         row.measured = text("%.2f-fold", most / start);
         row.is_kept = diverged == 0 && most < 4 * start;
       } else {

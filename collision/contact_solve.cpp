@@ -197,10 +197,6 @@ double project(double friction, ContactConstraint& c, std::span<Vec3> move) {
   return (moves.extra(c) - before).squaredNorm();
 }
 
-}  // namespace
-
-namespace {
-
 // At a hull, which then sees as far as needed until the triangle has moved.
 bool has_to_look(const std::array<Vec3, 3>& corners, double& way, ContactSet::Item& item) {
   const double size = (corners[1] - corners[0]).norm(), slack = same_place * size;

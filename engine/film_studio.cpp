@@ -98,7 +98,7 @@ struct FilmStudio::Thread {
   std::mutex mutex;
   std::condition_variable changed;
   std::deque<FilmFrame> queue;
-  bool is_closing = false, is_busy = false, is_ready = false;
+  bool is_closing = false, is_ready = false;
   std::exception_ptr trouble;
   std::atomic<double> seconds = 0;
   std::thread worker;
@@ -176,11 +176,9 @@ void FilmStudio::Thread::run() {
       if (queue.empty()) break;
       const FilmFrame frame = std::move(queue.front());
       queue.pop_front();
-      is_busy = true;
       lock.unlock();
       draw(frame);
       lock.lock();
-      is_busy = false;
       changed.notify_all();
     }
     lock.unlock();

@@ -8,6 +8,8 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <utility>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -62,6 +64,9 @@ FolderLock::FolderLock(const std::string& folder) : file_(folder + "/.trocar-loc
     if (number_ < 0) return;
     if (flock(number_, LOCK_EX | LOCK_NB) != 0) {
       if (errno == EWOULDBLOCK) refuse(folder, number_);
+      log_warning(file_ + " can't be locked (" + std::strerror(errno) +
+                  "): nothing keeps another run out of this folder");
+      close(std::exchange(number_, -1));
       return;
     }
     if (!is_at(file_, number_)) continue;

@@ -24,10 +24,13 @@ const std::vector<std::uint8_t> much(1 << 20, 'x');  // more than a pipe holds
 
 }  // namespace
 
-TEST(EncoderProcess, program_that_reads_everything_ends_well) {
-  EncoderProcess process({"/bin/cat"});
+TEST(EncoderProcess, program_gets_every_byte) {
+  const std::string expected = std::to_string(much.size());
+  EncoderProcess process({"/bin/sh", "-c", "test $(wc -c) = " + expected});
   process.write(much);
-  process.finish();
+  EXPECT_EQ(error_of([&] { process.finish(); }), "");
+  EncoderProcess too_few({"/bin/sh", "-c", "test $(wc -c) = " + expected});
+  EXPECT_NE(error_of([&] { too_few.finish(); }), "");
 }
 
 TEST(EncoderProcess, program_that_does_not_exist_is_an_error) {
