@@ -78,13 +78,39 @@ void detect_tissue(ContactStage& stage, const SurfaceView& view, double time, do
                                stage.tissue);
 }
 
+// What a force on the node alone has to move, 1 / (M^-1)_ii with M of solver/mass_scaling.h, of
+// which nothing moves held nodes: with D = m + d, 1/D + (d/D)^2 / (sum_free d m/D + sum_held d).
+// With m alone pushes were too weak by m/D, and tissue crept into instruments.
+std::vector<double> felt_masses(const ContactBody& body, std::span<const FixedMask> held) {
+  std::vector<double> felt(body.mass.begin(), body.mass.end());
+  const MassScaling& scaling = *body.scaling;
+  for (std::int32_t c = 0; c < scaling.n_clusters(); ++c) {
+    const auto begin = static_cast<std::size_t>(scaling.offset[static_cast<std::size_t>(c)]),
+               end = static_cast<std::size_t>(scaling.offset[static_cast<std::size_t>(c) + 1]);
+    double whole = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto i = static_cast<std::size_t>(scaling.node[k]);
+      const double m = body.mass[i], d = scaling.added[k];
+      whole += held[i] != 0 ? d : d * m / (m + d);
+    }
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto i = static_cast<std::size_t>(scaling.node[k]);
+      const double d = scaling.added[k], D = body.mass[i] + d;
+      felt[i] = 1 / (1 / D + d / D * (d / D) / whole);
+    }
+  }
+  return felt;
+}
+
 void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds) {
   stage.set = {};
   if (stage.contacts.empty() && stage.tissue.empty()) return;
   std::vector<FixedMask> held(body.fixed.begin(), body.fixed.end());
   for (const Hold& hold : holds.holds) held[static_cast<std::size_t>(hold.node)] = all_components;
+  const std::vector<double> scaled =
+      body.scaling != nullptr ? felt_masses(body, held) : std::vector<double>();
   stage.set = prepare_contacts({stage.contacts, stage.tissue}, body.node_owner, body.part,
-                               body.rank, body.mass, held);
+                               body.rank, scaled.empty() ? body.mass : scaled, held);
   stage.u_next.resize(3 * body.part.node_global.size());
   stage.exchange.emplace(stage.set.halo, 6);
   stage.positions.resize(6 * stage.set.node.size());

@@ -13,6 +13,7 @@
 #include "engine/holds.h"
 #include "engine/surface_view.h"
 #include "engine/tool.h"
+#include "solver/mass_scaling.h"
 
 namespace trocar {
 
@@ -57,8 +58,9 @@ struct ContactBody {
   const Part& part;
   int rank = 0;
   std::span<const std::int32_t> node_owner;
-  std::span<const double> mass;         // [kg]
-  std::span<const std::uint8_t> fixed;  // supported components
+  std::span<const double> mass;          // [kg]
+  std::span<const std::uint8_t> fixed;   // supported components
+  const MassScaling* scaling = nullptr;  // null: no masses are scaled
 };
 // What graspers and supports hold, in the components in which they do, doesn't yield to contact.
 void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds);

@@ -136,7 +136,8 @@ ContactBody contact_body(const Simulation& s) {
           .rank = s.communicator->rank(),
           .node_owner = s.node_owner,
           .mass = s.mass,
-          .fixed = s.fixed};
+          .fixed = s.fixed,
+          .scaling = s.mass_scaling ? &*s.mass_scaling : nullptr};
 }
 
 void note_pair_look(Simulation& s, const FrameSpan& span, std::int64_t k) {
