@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* usage =
     R"(bench_cut [--count N] [--seed S] [--family NAME] [--kind NAME] [--mesh FILE]... [--json FILE]
-          [--markdown FILE] [--stages springs|springs_then_barrier|barrier]
+          [--markdown FILE] [--stages springs|springs_then_barrier|barrier] [--split RATIO]
          N random cuts of each mesh and kind (default 20) beside the subdivision of the same cuts;
          --family layers: of bodies of two regions, also along where these meet
        bench_cut --cuts N [--seed S] [--minutes M]
@@ -61,6 +61,8 @@ bool read_number(const std::string& name, const char* value, Arguments& a) {
 bool read_name(const std::string& name, const char* value, Arguments& a) {
   if (name == "--stages")
     a.options.stages = stages_named(value);
+  else if (name == "--split")
+    a.options.split_step_ratio = std::stod(value);
   else if (name == "--family")
     a.family = value;
   else if (name == "--kind")

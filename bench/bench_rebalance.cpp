@@ -34,7 +34,7 @@ double best_of_ranks(const Communicator& ranks, int n_rounds, const Work& work) 
 Mesh with_tets(const Mesh& hexahedra, int n_split) {
   MeshEdit edit;
   for (std::int32_t e = hexahedra.n_elements() - n_split; e < hexahedra.n_elements(); ++e) {
-    HexSplit split{.element = e};
+    ElementSplit split{.element = e};
     const auto tets = hex_tets(hexahedra, e);
     for (std::size_t t = 0; t < tets.size(); ++t)
       for (std::size_t a = 0; a < 4; ++a)

@@ -127,17 +127,21 @@ void run_stroke(const Stroke& stroke, TetCutter& cutter, CutBody& cut, Result& r
   Body& body = cut.body;
   cutter.start_stroke();
   for (int k = 0; k < stroke.n_steps; ++k) {
-    const BladeSweep sweep{stroke.blade(double(k) / stroke.n_steps),
-                           stroke.blade(double(k + 1) / stroke.n_steps), stroke.normal};
-    CutFigures figures;
-    KnownPositions positions(body.mesh, body.x, cut.boxes);
-    const double start = processor_seconds();
-    const MeshEdit edit =
-        cutter.advance(body.mesh, positions, body.is_held, sweep, k + 1 == stroke.n_steps, figures);
-    const double seconds = processor_seconds() - start;
-    result.seconds += seconds;
-    result.longest_advance = std::max(result.longest_advance, seconds);
-    apply(edit, figures, cut);
+    BladeSweep sweep{stroke.blade(double(k) / stroke.n_steps),
+                     stroke.blade(double(k + 1) / stroke.n_steps), stroke.normal};
+    for (bool is_parted = false; !is_parted; sweep.before = sweep.after) {
+      CutFigures figures;
+      KnownPositions positions(body.mesh, body.x, cut.boxes);
+      const double start = processor_seconds();
+      const MeshEdit edit = cutter.advance(body.mesh, positions, body.is_held, sweep,
+                                           k + 1 == stroke.n_steps, figures);
+      const double seconds = processor_seconds() - start;
+      result.seconds += seconds;
+      result.longest_advance = std::max(result.longest_advance, seconds);
+      apply(edit, figures, cut);
+      result.n_inserted += figures.n_inserted;
+      is_parted = edit.inserted.empty();
+    }
   }
 }
 

@@ -15,6 +15,7 @@ struct Result {
   int n_refused = 0, n_edits = 0, n_opened = 0, n_duplicated = 0;
   int n_turned = 0, n_chips = 0, n_beside = 0, n_pulled_back = 0;  // rungs, see CutFigures
   int n_inverted_by_move = 0;                                      // see CutFigures
+  int n_inserted = 0;                                              // nodes on edges
   int n_added = 0;                                                 // elements; negative: dissolved
   int n_hexahedra = 0, n_converted = 0, n_reshaped = 0;  // before; reshaped: stay hexahedra
   // Element bound of the stable step, V / sqrt(sum of squared facet areas), after over before: of

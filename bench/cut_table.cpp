@@ -70,7 +70,8 @@ std::string rungs(const Row& row) {
   return format("%.0f, %.0f, %.0f", total(row, [](const Result& r) { return r.n_turned; }),
                 total(row, [](const Result& r) { return r.n_chips; }),
                 total(row, [](const Result& r) { return r.n_beside; })) +
-         format(", %.0f", total(row, [](const Result& r) { return r.n_pulled_back; }));
+         format(", %.0f, %.0f", total(row, [](const Result& r) { return r.n_pulled_back; }),
+                total(row, [](const Result& r) { return r.n_inserted; }));
 }
 
 std::string elements(const Row& row) {
@@ -113,7 +114,7 @@ constexpr Column columns[] = {
     {"right", share},
     {"inverted, unsound", faults},
     {"refused facets in cuts", refusals},
-    {"rungs: turned, chips, beside, pulled back", rungs},
+    {"rungs: turned, chips, beside, pulled back, nodes on edges", rungs},
     {"elements added, dissolved", elements},
     {"hexahedra: reshaped, converted", hexahedra},
     {"body's step min/p5/median",
@@ -165,7 +166,8 @@ void print_json(const std::vector<Row>& rows, std::FILE* file) {
           "%s\n{\"mesh\": \"%s\", \"cut\": \"%s\", \"right\": %s, \"fault\": \"%s\", "
           "\"inverted\": %d, \"pieces\": %d, \"pieces_exact\": %d, \"pieces_thin\": %d, "
           "\"refused\": %d, \"turned\": %d, \"chips\": %d, \"beside\": %d, \"pulled_back\": %d, "
-          "\"inverted_by_move\": %d, \"edits\": %d, \"opened\": %d, \"duplicated\": %d, "
+          "\"inserted\": %d, \"inverted_by_move\": %d, \"edits\": %d, \"opened\": %d, "
+          "\"duplicated\": %d, "
           "\"added\": %d, \"hexahedra\": %d, \"reshaped\": %d, \"converted\": %d, "
           "\"body_step_ratio\": %.6g, \"cut_step_ratio\": %.6g, "
           "\"dihedral\": %.6g, \"deviation_max\": %.6g, \"volume_error\": %.3g, "
@@ -173,9 +175,9 @@ void print_json(const std::vector<Row>& rows, std::FILE* file) {
           "\"subdivision_elements\": %.6g, \"subdivision_step_ratio\": %.6g}",
           comma, row.family.c_str(), row.kind.c_str(), r.is_right() ? "true" : "false",
           r.fault.c_str(), r.n_inverted, r.n_pieces, r.n_exact, r.n_thin, r.n_refused, r.n_turned,
-          r.n_chips, r.n_beside, r.n_pulled_back, r.n_inverted_by_move, r.n_edits, r.n_opened,
-          r.n_duplicated, r.n_added, r.n_hexahedra, r.n_reshaped, r.n_converted, r.body_ratio,
-          r.cut_ratio, r.least_dihedral,
+          r.n_chips, r.n_beside, r.n_pulled_back, r.n_inserted, r.n_inverted_by_move, r.n_edits,
+          r.n_opened, r.n_duplicated, r.n_added, r.n_hexahedra, r.n_reshaped, r.n_converted,
+          r.body_ratio, r.cut_ratio, r.least_dihedral,
           r.deviation.empty() ? 0.0 : *std::max_element(r.deviation.begin(), r.deviation.end()),
           r.volume_error, r.mass_error, r.seconds, r.longest_advance, r.split_elements,
           r.split_ratio);

@@ -45,6 +45,7 @@ struct CutFigures {
   std::int32_t n_turned = 0, n_chips = 0, n_pulled_back = 0, n_inverted = 0;
   std::int32_t n_converted = 0;       // hexahedra that became six tetrahedra each
   std::int32_t n_kept_hexahedra = 0;  // that were reshaped or opened at a facet and stay hexahedra
+  std::int32_t n_inserted = 0;        // nodes put on crossed edges of tissue too thin for its own
   std::vector<CutRefusal> refusals;   // (n_refused)
   double mean_edge = 0;               // mean edge length around the cut [m]
 };

@@ -84,7 +84,9 @@ static std::span<const CutHit> hits_in(const Walk& walk, std::int32_t e) {
   return hits_of(walk.stroke, {&e, 1}).front();
 }
 
+// Nodes that this stroke put on its surface lie on neither side.
 static void visit(Walk& walk, std::int32_t e, std::size_t c) {
+  if (std::ranges::binary_search(walk.stroke.made_node, walk.mesh.corners(e)[c])) return;
   auto at = std::ranges::lower_bound(walk.visited, e, {}, &OfElement<std::uint8_t>::element);
   if (at == walk.visited.end() || at->element != e) at = walk.visited.insert(at, {e, 0});
   if ((at->value >> c & 1) != 0) return;

@@ -47,7 +47,7 @@ bool are_tets_of(const HexTets& tets, const Mesh& body);
 void update_hex_tets(const Mesh& body, HexTets& tets);
 
 // An edit of tets.mesh, which splits these of the body's hexahedra, taken over into `tets`.
-void edit_hex_tets(std::span<const HexSplit> splits, const MeshEdit& edit, HexTets& tets);
+void edit_hex_tets(std::span<const ElementSplit> splits, const MeshEdit& edit, HexTets& tets);
 
 // `edit` of tets.mesh as one of the body; `index` is that of tets.mesh after the edit. Mass is kept
 // region by region. Takes the edit over into `tets`, but not into `index`.

@@ -24,13 +24,14 @@ struct Translation {
   std::span<const Vec3> x;
   const MeshEdit& edit;  // of tets.mesh
   const HexTets& tets;
-  std::vector<HexSplit> splits;  // ascending
+  std::vector<ElementSplit> splits;  // ascending
+  SplitNumbers numbers;              // theirs, once all are known
 
-  bool is_split(std::int32_t e) const { return SplitNumbers(splits).is_split(e); }
+  bool is_split(std::int32_t e) const { return numbers.is_split(e); }
   // Of element s of tets.mesh in the body after the edit.
   std::int32_t number_after(std::int32_t s) const {
     const std::int32_t e = tets.source[s];
-    return SplitNumbers(splits).after(e) + (is_split(e) ? s - tets.first[e] : 0);
+    return numbers.after(e) + (is_split(e) ? s - tets.first[e] : 0);
   }
   bool is_hexahedron(std::int32_t e) const {  // that has tetrahedra
     return tets.first[e + 1] - tets.first[e] == n_hex_tets;
@@ -154,8 +155,8 @@ static std::vector<std::int32_t> touched_hexahedra(const Translation& t, const C
   return element;
 }
 
-static HexSplit split_of(const Translation& t, std::int32_t e) {
-  HexSplit split{.element = e};
+static ElementSplit split_of(const Translation& t, std::int32_t e) {
+  ElementSplit split{.element = e};
   for (std::size_t k = 0; k < n_hex_tets; ++k) {
     const auto c = t.tets.mesh.corners(t.tets.first[e] + static_cast<std::int32_t>(k));
     std::copy(c.begin(), c.end(), split.corner[k].begin());
@@ -235,7 +236,7 @@ static const KeptHex* find_kept(const KeptHexahedra& kept, std::int32_t e) {
 static std::vector<DensityChange> density_changes(const Translation& t, const CutIndex& index,
                                                   const KeptHexahedra& kept) {
   std::vector<std::int32_t> changed = moved_elements(t, index);
-  for (const HexSplit& split : t.splits) changed.push_back(split.element);
+  for (const ElementSplit& split : t.splits) changed.push_back(split.element);
   sort_unique(changed);
   std::vector<double> mass_before(t.body.region_name.size(), 0), mass_after = mass_before;
   std::vector<std::pair<std::int32_t, std::int32_t>> child;  // number after the edit, e
@@ -259,30 +260,30 @@ static std::vector<DensityChange> density_changes(const Translation& t, const Cu
 }
 
 // Of the tetrahedra, in the body after the edit.
-static void set_sources(std::span<const HexSplit> splits, HexTets& tets) {
+static void set_sources(std::span<const ElementSplit> splits, HexTets& tets) {
   if (splits.empty()) return;
   const SplitNumbers numbers(splits);
   const auto count_up = [](auto begin, std::int32_t first) {
     std::iota(begin, begin + n_hex_tets, first);
   };
   numbers.renumber(tets.source);
-  for (const HexSplit& split : splits)
+  for (const ElementSplit& split : splits)
     count_up(tets.source.begin() + tets.first[split.element], numbers.after(split.element));
   spread_over_splits(splits, tets.first);
-  for (const HexSplit& split : splits) {
+  for (const ElementSplit& split : splits) {
     const auto first = tets.first.begin() + numbers.after(split.element);
     count_up(first, *first);
   }
 }
 
-void edit_hex_tets(std::span<const HexSplit> splits, const MeshEdit& edit, HexTets& tets) {
+void edit_hex_tets(std::span<const ElementSplit> splits, const MeshEdit& edit, HexTets& tets) {
   set_sources(splits, tets);
   apply_edit(edit, tets.mesh);
 }
 
 MeshEdit edit_of_body(const Mesh& body, PresentPositions& positions, const CutIndex& index,
                       const MeshEdit& edit, HexTets& tets, CutFigures& figures) {
-  Translation t{body, positions.x(), edit, tets, {}};
+  Translation t{body, positions.x(), edit, tets, {}, SplitNumbers({})};
   KeptHexahedra kept;
   const std::vector<std::int32_t> touched = touched_hexahedra(t, index);
   positions.find(nodes_of(body, touched));
@@ -293,6 +294,7 @@ MeshEdit edit_of_body(const Mesh& body, PresentPositions& positions, const CutIn
     else
       t.splits.push_back(split_of(t, e));
   }
+  t.numbers = SplitNumbers(t.splits);
   MeshEdit result;
   result.splits = t.splits;
   for (const NodeMove& move : edit.moves) result.moves.push_back(move_in_body(t, move));

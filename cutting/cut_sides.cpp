@@ -75,8 +75,9 @@ static std::vector<bool> neutral_nodes(const CutSurroundings& around, const CutS
   const CutPatch& patch = around.patch;
   const std::vector<std::uint8_t> votes = node_votes(patch, crossed);
   std::vector<bool> is_neutral(patch.node.size(), false);
-  for (const std::int32_t node : stroke.surface_node)
-    if (const std::int32_t i = patch.local_node(node); i >= 0) is_neutral[i] = true;
+  for (const auto* nodes : {&stroke.surface_node, &stroke.made_node})
+    for (const std::int32_t node : *nodes)
+      if (const std::int32_t i = patch.local_node(node); i >= 0) is_neutral[i] = true;
   for (std::int32_t i = 0; i < patch.n_nodes(); ++i) {
     if (votes[i] != 3 || around.points.of(i).empty()) continue;
     if (std::abs(around.distance[i]) < contradiction_distance * around.h) is_neutral[i] = true;

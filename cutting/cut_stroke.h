@@ -53,8 +53,9 @@ struct CutStroke {
   std::vector<std::int32_t>
       surface_node;  // nodes of opened facets that lie on the swept surface, ascending
   std::vector<std::int32_t>
-      parted_node;                  // nodes that this stroke gave a copy, and the copies, ascending
-  std::vector<std::int32_t> fresh;  // elements crossed since the last edit, ascending
+      parted_node;  // nodes that this stroke gave a copy, and the copies, ascending
+  std::vector<std::int32_t> made_node;   // that this stroke put on crossed edges, ascending
+  std::vector<std::int32_t> fresh;       // elements crossed since the last edit, ascending
   std::vector<std::int32_t> unfinished;  // elements to look at again at the next edit, ascending
   std::vector<BladePoint> edge;          // where the blade's edge is in the tissue
   std::vector<std::int32_t> at_edge;     // elements that hold it, ascending

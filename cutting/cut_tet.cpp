@@ -15,6 +15,8 @@
 #include "cutting/cut_index.h"
 #include "cutting/cut_mend.h"
 #include "cutting/cut_missed.h"
+#include "cutting/cut_split.h"
+#include "cutting/cut_thin.h"
 
 namespace trocar {
 
@@ -29,6 +31,8 @@ struct TetCutter::Front {
 
   MeshEdit advance(const Mesh& mesh, PresentPositions& positions, const CutConstraints& constraints,
                    const BladeSweep& sweep, bool is_last, CutFigures& figures);
+  MeshEdit split(const Mesh& mesh, const CutSurroundings& around,
+                 const std::vector<ThinSlice>& slices, CutFigures& figures);
 };
 
 TetCutter::TetCutter(const CutTetOptions& options)
@@ -98,6 +102,35 @@ static void add_refusals(const std::vector<CutRefusal>& list, CutFigures& figure
   figures.n_refused = static_cast<std::int32_t>(figures.refusals.size());
 }
 
+// The least bound of the body before blades touched it.
+static double least_step(const Mesh& mesh, const CutStroke& stroke) {
+  double least = std::numeric_limits<double>::infinity();
+  auto before = stroke.step.begin();
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    while (before != stroke.step.end() && before->element < e) ++before;
+    const bool is_known = before != stroke.step.end() && before->element == e;
+    const std::span<const std::int32_t> c = mesh.corners(e);
+    least =
+        std::min(least, is_known ? before->value : step_bound(mesh.X, {c[0], c[1], c[2], c[3]}));
+  }
+  return least;
+}
+
+// Puts nodes on the crossed edges of thin slices; empty if that can't be.
+MeshEdit TetCutter::Front::split(const Mesh& mesh, const CutSurroundings& around,
+                                 const std::vector<ThinSlice>& slices, CutFigures& figures) {
+  if (slices.empty()) return {};
+  const double floor = options.split_step_ratio * least_step(mesh, stroke);
+  std::vector<EdgeNode> inserted = nodes_in_slices(mesh, around, slices, floor);
+  if (inserted.empty()) return {};
+  MeshEdit edit = split_edges(mesh, around.patch.element, std::move(inserted));
+  split_stroke(mesh, edit, stroke);
+  figures.n_inserted = static_cast<std::int32_t>(edit.inserted.size());
+  figures.mean_edge = around.h;
+  index = {};
+  return edit;
+}
+
 // Cuts the tetrahedra of `mesh`.
 MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions,
                                    const CutConstraints& constraints, const BladeSweep& sweep,
@@ -113,6 +146,10 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
     if (is_through) add_refusals(missed_places(mesh, cut, stroke), figures);
     return {};
   }
+  std::vector<ThinSlice> slices;
+  if (options.split_step_ratio > 0 && tets.mesh.X.empty()) slices = thin_slices(cut.around, stroke);
+  if (is_through)
+    if (MeshEdit edit = split(mesh, cut.around, slices, figures); !edit.is_empty()) return edit;
   cut.labels = label_elements(cut.around, stroke, is_last);
   if (is_through) part_bridges(cut.around, stroke, cut.labels);
   if (is_last) cut.rungs.n_turned = mend_labels(cut.around, stroke, cut.labels);
@@ -120,6 +157,7 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
     cut.rungs.n_turned += mend_labels(cut.around, stroke, cut.labels);
   std::vector<std::uint8_t> stays_whole(cut.around.patch.node.size(), 0);
   if (!is_last) stays_whole = unripe_nodes(cut.around, cut.labels);
+  if (!is_last) leave_slices(cut.around, slices, stays_whole);
   cut.opening = open_facets(cut.around, cut.labels, stays_whole);
   while (cut.chips.size() < most_chips && attach_chip(mesh, index, stroke, cut))
     cut.opening = open_facets(cut.around, cut.labels, stays_whole);
@@ -183,6 +221,10 @@ bool TetCutter::is_prepared(const Mesh& mesh) const {
 
 void TetCutter::follow(const Mesh& mesh, const CutterEdit& edit) {
   Front& f = *front_;
+  if (!edit.inserted.empty()) {  // of a body without hexahedra
+    f.index = {};
+    return follow_splits(mesh, edit, f.stroke);
+  }
   if (!is_prepared(mesh)) return;
   if (f.tets.mesh.X.empty()) return edit_index(mesh, edit, f.index);
   edit_index(f.tets.mesh, edit.tets, f.index);

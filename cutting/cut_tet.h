@@ -31,6 +31,9 @@ struct CutTetOptions {
   // cube's tetrahedra have 1/sqrt(2) of its own). What would sink below it stops on its way to the
   // blade: the cut lies beside it there.
   double least_step_ratio = 0.75;
+  // Where tissue is one element thick, edges get nodes that part it; no element's step bound sinks
+  // below this part of the body's least one by that. 0: none are added.
+  double split_step_ratio = 0;
   CutStages stages = CutStages::barrier;
 };
 
@@ -56,9 +59,10 @@ class TetCutter {
   void follow(const Mesh& mesh, const CutterEdit& edit);
 
   // Takes up the swept band; makes the edit once enough is swept (or is_last: the blade left or
-  // stopped). The edit is empty while it waits. Nodes of facets between regions of the mesh stay on
-  // these. Deterministic in its arguments, as is what it asks of `positions`. `figures` gets the
-  // figures of this edit.
+  // stopped). The edit is empty while it waits; one that inserts nodes parts nothing yet: apply it
+  // and advance again, the blade at rest where it is and is_last as before. Nodes of facets between
+  // regions of the mesh stay on these. Deterministic in its arguments, as is what it asks of
+  // `positions`. `figures` gets the figures of this edit.
   CutterEdit advance(const Mesh& mesh, PresentPositions& positions,
                      const CutConstraints& constraints, const BladeSweep& sweep, bool is_last,
                      CutFigures& figures);

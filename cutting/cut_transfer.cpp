@@ -44,6 +44,10 @@ static NodeTransfer find_host(const CutPatch& patch, std::int32_t i, const Vec3&
     if (least(b) <= least(best.weight)) break;
     best = {i, u, b};
   }
+  // Past parts of split elements a walk may lead nowhere.
+  for (std::int32_t e = 0; e < patch.n_elements() && least(best.weight) < -farthest_outside; ++e)
+    if (const std::array<double, 4> b = barycentric(patch, e, X); least(b) > least(best.weight))
+      best = {i, e, b};
   return best;
 }
 

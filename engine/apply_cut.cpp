@@ -133,13 +133,17 @@ bool keeps_energy(const Simulation& s) {
   return !s.multirate;
 }
 
-// Supports and partner pairs go with the nodes.
-void inherit_by_duplicates(Simulation& s, const MeshEdit& edit, std::int32_t n_before) {
+// Supports and partner pairs go with the nodes; on an edge a node is held as far as both ends are.
+void inherit_by_new_nodes(Simulation& s, const MeshEdit& edit, std::int32_t n_before) {
+  const auto fixed = [&](std::int32_t i) { return s.fixed[static_cast<std::size_t>(i)]; };
+  for (const EdgeNode& node : edit.inserted)
+    s.fixed.push_back(static_cast<FixedMask>(fixed(node.end[0]) & fixed(node.end[1])));
+  const auto first = n_before + static_cast<std::int32_t>(edit.inserted.size());
   for (std::size_t d = 0; d < edit.duplicate_parent.size(); ++d) {
     const std::int32_t parent = edit.duplicate_parent[d];
-    s.fixed.push_back(s.fixed[static_cast<std::size_t>(parent)]);
+    s.fixed.push_back(fixed(parent));
     s.duplicate_parent.push_back(parent);
-    s.duplicate_node.push_back(n_before + static_cast<std::int32_t>(d));
+    s.duplicate_node.push_back(first + static_cast<std::int32_t>(d));
   }
 }
 
@@ -178,8 +182,8 @@ bool edit_whole(const MeshEdit& edit, const EditedElements& edited, GlobalState&
   const std::int32_t n_before = s.mesh.n_nodes();
   apply_edit(edit, s.mesh, 3, global.u);
   apply_edit(edit, s.mesh, 3, global.v);
-  inherit_by_duplicates(s, edit, n_before);
-  apply_edit_to_owners(edit.duplicate_parent, s.node_owner);
+  inherit_by_new_nodes(s, edit, n_before);
+  apply_edit_to_owners(edit, s.node_owner);
   apply_edit_to_holds(edit, n_before, s.holds);
   const bool is_local = keeps_owners(s, edit);
   apply_edit(edit, s.mesh, s.corners);

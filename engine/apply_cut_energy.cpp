@@ -92,16 +92,20 @@ double strain_energy(RankBody& body) {
 }
 
 std::vector<std::int32_t> adjustable_nodes(const Simulation& s, const MeshEdit& edit) {
-  const std::int32_t n = s.mesh.n_nodes();
   std::vector<std::int32_t> nodes;
   for (const NodeMove& move : edit.moves) nodes.push_back(move.node);
-  for (const HexSplit& split : edit.splits)
+  for (const ElementSplit& split : edit.splits)
     nodes.insert(nodes.end(), s.mesh.corners(split.element).begin(),
                  s.mesh.corners(split.element).end());
   std::vector<std::uint8_t> is_held = held_nodes(s.holds, s.fixed);
+  for (const EdgeNode& node : edit.inserted) {
+    nodes.push_back(static_cast<std::int32_t>(is_held.size()));
+    const auto held = [&](std::int32_t i) { return is_held[static_cast<std::size_t>(i)] != 0; };
+    is_held.push_back(held(node.end[0]) && held(node.end[1]) ? 1 : 0);
+  }
   for (std::size_t k = 0; k < edit.duplicate_parent.size(); ++k) {
+    nodes.push_back(static_cast<std::int32_t>(is_held.size()));
     is_held.push_back(is_held[static_cast<std::size_t>(edit.duplicate_parent[k])]);
-    nodes.push_back(n + static_cast<std::int32_t>(k));
   }
   sort_unique(nodes);
   std::erase_if(nodes, [&](std::int32_t i) { return is_held[static_cast<std::size_t>(i)] != 0; });

@@ -70,8 +70,9 @@ bool changes_averages(const Simulation& s, const TopologyEdit& edit) {
 
 bool keeps_owners(const Simulation& s, const MeshEdit& edit) {
   const auto owner = [&](std::int32_t i) { return s.node_owner[static_cast<std::size_t>(i)]; };
+  const SplitNumbers numbers(edit.splits);
   return std::all_of(edit.corners.begin(), edit.corners.end(), [&](const CornerChange& change) {
-    return owner(change.node) == owner(node_before(edit, s.mesh, change));
+    return owner(change.node) == owner(node_before(numbers, s.mesh, change));
   });
 }
 

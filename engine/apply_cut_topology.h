@@ -16,7 +16,7 @@ namespace trocar {
 bool keeps_owners(const Simulation& s, const MeshEdit& edit);
 
 struct TopologyEdit {
-  std::span<const HexSplit> splits;
+  std::span<const ElementSplit> splits;
   std::span<const std::int32_t>
       elements;                         // edited ones, by their numbers after the edit, ascending
   std::span<const std::int32_t> nodes;  // all their corners, before and after it, ascending

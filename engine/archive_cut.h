@@ -32,8 +32,8 @@ void visit(Archive& a, BladePoint& p) {
 }
 template <class Archive>
 void visit(Archive& a, CutStroke& s) {
-  a(s.hit, s.earlier_hit, s.side, s.opened, s.step, s.surface_node, s.parted_node, s.fresh,
-    s.unfinished, s.edge, s.at_edge, s.ends_in_tissue, s.mean_edge, s.swept);
+  a(s.hit, s.earlier_hit, s.side, s.opened, s.step, s.surface_node, s.parted_node, s.made_node,
+    s.fresh, s.unfinished, s.edge, s.at_edge, s.ends_in_tissue, s.mean_edge, s.swept);
 }
 template <class Archive>
 void visit(Archive& a, CutRefusal& r) {
@@ -43,7 +43,7 @@ template <class Archive>
 void visit(Archive& a, CutFigures& f) {
   a(f.n_opened_facets, f.n_moved, f.n_duplicated, f.n_refused, f.least_quality, f.largest_deviation,
     f.mean_deviation, f.n_beside, f.n_turned, f.n_chips, f.n_pulled_back, f.n_inverted,
-    f.n_converted, f.n_kept_hexahedra, f.refusals, f.mean_edge);
+    f.n_converted, f.n_kept_hexahedra, f.n_inserted, f.refusals, f.mean_edge);
 }
 template <class Archive>
 void visit(Archive& a, Location& l) {

@@ -121,7 +121,7 @@ void warn_of_whole_hexahedra(const Simulation& s) {
 }
 
 CutTetOptions tet_cut_options(const SceneCutting& cutting) {
-  CutTetOptions options{.advance = cutting.advance};
+  CutTetOptions options{.advance = cutting.advance, .split_step_ratio = cutting.split_step_ratio};
   if (!std::isnan(cutting.least_step_ratio)) options.least_step_ratio = cutting.least_step_ratio;
   return options;
 }

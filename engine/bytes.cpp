@@ -70,9 +70,15 @@ void check_arrays(const Mesh& mesh) {
 void check_copies(const Mesh& mesh) {
   const auto n_uncut =
       static_cast<std::int64_t>(mesh.X.size()) - static_cast<std::int64_t>(mesh.copied_node.size());
-  const bool is_sound =
-      n_uncut >= 0 && std::all_of(mesh.copied_node.begin(), mesh.copied_node.end(),
-                                  [=](std::int32_t i) { return i >= 0 && i < n_uncut; });
+  // A copy is of the uncut mesh or of a node on an edge, which names itself.
+  const auto is_original = [&](std::int64_t i) {
+    return i < n_uncut || mesh.copied_node[static_cast<std::size_t>(i - n_uncut)] == i;
+  };
+  bool is_sound = n_uncut >= 0;
+  for (std::int64_t k = 0; k < std::ssize(mesh.copied_node) && is_sound; ++k) {
+    const std::int32_t i = mesh.copied_node[static_cast<std::size_t>(k)];
+    is_sound = i >= 0 && i <= n_uncut + k && is_original(i);
+  }
   if (!is_sound) throw InputError("stored mesh has copies of nodes that it has not");
   const auto n_ranks = static_cast<std::int64_t>(mesh.hex_split_rank.size());
   if (n_ranks != 0 && n_ranks != n_uncut)
@@ -137,6 +143,11 @@ Mesh mesh_from_bytes(std::span<const std::byte> bytes) {
 
 std::vector<std::byte> edit_to_bytes(const MeshEdit& edit) {
   ByteWriter writer;
+  writer.put(static_cast<std::uint64_t>(edit.inserted.size()));
+  for (const EdgeNode& node : edit.inserted) {
+    writer.put(node.end);
+    writer.put(node.s);
+  }
   writer.put_vector(edit.splits);
   writer.put(static_cast<std::uint64_t>(edit.moves.size()));
   for (const NodeMove& move : edit.moves) {
@@ -164,7 +175,12 @@ std::vector<std::byte> edit_to_bytes(const MeshEdit& edit) {
 MeshEdit edit_from_bytes(std::span<const std::byte> bytes) {
   ByteReader reader(bytes);
   MeshEdit edit;
-  edit.splits = reader.get_vector<HexSplit>();
+  edit.inserted.resize(reader.get_count(16));
+  for (EdgeNode& node : edit.inserted) {
+    node.end = reader.get<std::array<std::int32_t, 2>>();
+    node.s = reader.get<double>();
+  }
+  edit.splits = reader.get_vector<ElementSplit>();
   edit.moves.resize(reader.get_count(8 + (3 + max_corners) * sizeof(double)));
   for (NodeMove& move : edit.moves) {
     move.node = reader.get<std::int32_t>();

@@ -22,8 +22,8 @@ static void visit(Archive& a, CutRecord& r) {
     r.n_ranks, r.n_askew, r.n_pieces, r.n_elements_added, r.n_elements_dissolved, r.n_converted,
     r.n_kept_hexahedra, r.stable_step_ratio, r.scene_step_ratio, r.least_quality, r.mass_change,
     r.momentum_change, r.kinetic_energy_change, r.largest_deviation, r.mean_deviation, r.mean_edge,
-    r.n_beside, r.n_turned, r.n_chips, r.n_pulled_back, r.refusals, r.blade_travel, r.deepest,
-    r.milliseconds, r.worst_milliseconds);
+    r.n_beside, r.n_turned, r.n_chips, r.n_pulled_back, r.n_inserted, r.refusals, r.blade_travel,
+    r.deepest, r.milliseconds, r.worst_milliseconds);
 }
 template <class Archive>
 static void visit(Archive& a, CutMemory& m) {

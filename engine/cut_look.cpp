@@ -85,10 +85,15 @@ BladeLook look_and_cut(const Simulation& s, const BladeWay& way, CutStage& stage
   look.is_last = leaves_tissue(s, stage, way, look.has_met);
   if (s.mesh.dimension() == 2) return look;
   if (!stage.is_in_stroke) stage.tet.start_stroke();
+  advance_stroke(s, sweep, stage, positions, look);
+  return look;
+}
+
+void advance_stroke(const Simulation& s, const BladeSweep& sweep, CutStage& stage,
+                    BodyPositions& positions, BladeLook& look) {
   const std::vector<std::uint8_t> is_held = held_nodes(s.holds, s.fixed);
   look.edit = stage.tet.advance(s.mesh, positions, {is_held, s.loads.border}, sweep, look.is_last,
                                 look.figures);
-  return look;
 }
 
 std::vector<int> ranks_around(const Simulation& s, const Box& blade, double way,

@@ -41,6 +41,10 @@ std::vector<SegmentPiece> locate_edge(const Simulation& s, BodyPositions& positi
 BladeLook look_and_cut(const Simulation& s, const BladeWay& way, CutStage& stage,
                        BodyPositions& positions);
 
+// The edit and the figures of what the sweep does in the stroke that is under way.
+void advance_stroke(const Simulation& s, const BladeSweep& sweep, CutStage& stage,
+                    BodyPositions& positions, BladeLook& look);
+
 // The ranks that own nodes around a blade, or one of those that cut before; in the plane all.
 std::vector<int> ranks_around(const Simulation& s, const Box& blade, double way,
                               const CutStage& stage);

@@ -64,6 +64,7 @@ void add_figures(const CutFigures& figures, bool has_edit, CutRecord& record) {
   record.n_turned += figures.n_turned;
   record.n_chips += figures.n_chips;
   record.n_pulled_back += figures.n_pulled_back;
+  record.n_inserted += figures.n_inserted;
   record.n_converted += figures.n_converted;
   record.n_kept_hexahedra += figures.n_kept_hexahedra;
   record.largest_deviation = std::max(record.largest_deviation, figures.largest_deviation);
@@ -242,6 +243,11 @@ void note_beside(Simulation& s, double time, const Tool& tool) {
                  "opens wider, and further closings cut further");
 }
 
+// Whether nodes were put on edges, and the cut itself is still to come.
+bool is_unfinished(const BladeLook& look) {
+  return !look.edit.inserted.empty();
+}
+
 // What the group's cutters have made, on all ranks.
 void take_over(Simulation& s, const CutGroup& group, const BladeLook& look, CutStage& stage) {
   stage.keepers = group.is_everyone() ? std::vector<int>() : group.ranks();
@@ -249,6 +255,25 @@ void take_over(Simulation& s, const CutGroup& group, const BladeLook& look, CutS
     for (CutStage& other : s.cuts)
       if (&other != &stage || !group.has_this_rank()) other.tet.follow(s.mesh, look.edit);
   note_edit(s, look.edit, look.figures, stage.strokes.back());
+}
+
+// What follows nodes on edges, the blade at rest.
+void finish_cut(Simulation& s, const BladeWay& blade, double& way, CutStage& stage,
+                BladeLook look) {
+  const BladeSweep rest{
+      .before = blade.sweep.after, .after = blade.sweep.after, .normal = blade.sweep.normal};
+  while (is_unfinished(look)) {
+    if (s.boxes.is_empty()) way = begin_positions(s);
+    const CutGroup group(s, ranks_around(s, blade.box, way, stage));
+    bring_stroke(s, group.ranks(), stage);
+    BodyPositions positions(s, group, way);
+    look = found_by<BladeLook>(group, [&] {
+      BladeLook next{.is_last = look.is_last};
+      advance_stroke(s, rest, stage, positions, next);
+      return next;
+    });
+    take_over(s, group, look, stage);
+  }
 }
 
 // After an edit.
@@ -298,6 +323,7 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
     cut_along_tip(s, stage, blade.sweep, look.is_last);
   else
     take_over(s, group, look, stage);
+  if (is_unfinished(look)) finish_cut(s, blade, *way, stage, look);
   CutRecord& record = stage.strokes.back();
   record.n_ranks = std::max<std::int64_t>(record.n_ranks, std::ssize(group.ranks()));
   if (record.n_edits > n_edits) {

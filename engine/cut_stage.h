@@ -28,6 +28,7 @@ struct CutRecord {
   std::int64_t n_pieces = 1;  // of the whole body after the stroke, or so far
   std::int64_t n_elements_added = 0, n_elements_dissolved = 0;
   std::int64_t n_turned = 0, n_chips = 0, n_pulled_back = 0;  // rungs of the ladder: see CutFigures
+  std::int64_t n_inserted = 0;                                // the same
   std::int64_t n_converted = 0, n_kept_hexahedra = 0;  // see CutFigures; kept ones once an edit
   double stable_step_ratio =
       1;  // least stable step after / before, of the elements around, worst edit

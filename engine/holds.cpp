@@ -110,16 +110,34 @@ void localise_holds(Holds& holds, const Part& part) {
   holds.reaction_sum.assign(holds.owned.size(), Vec3::Zero());
 }
 
+static const Hold* find_hold(std::span<const Hold> holds, std::int32_t node) {
+  const auto at = std::ranges::lower_bound(holds, node, {}, &Hold::node);
+  return at != holds.end() && at->node == node ? &*at : nullptr;
+}
+
+static void insert_holds(std::span<const EdgeNode> inserted, std::int32_t n_nodes_before,
+                         std::vector<Hold>& holds) {
+  for (std::size_t k = 0; k < inserted.size(); ++k) {
+    const EdgeNode& node = inserted[k];
+    const Hold *const a = find_hold(holds, node.end[0]), *const b = find_hold(holds, node.end[1]);
+    if (a == nullptr || b == nullptr || a->tool != b->tool || a->support != b->support) continue;
+    Hold between = *a;
+    between.node = n_nodes_before + static_cast<std::int32_t>(k);
+    between.offset += node.s * (b->offset - a->offset);
+    holds.push_back(between);
+  }
+}
+
 void apply_edit_to_holds(const MeshEdit& edit, std::int32_t n_nodes_before, Holds& holds) {
   // In the order of the new numbers, so that the list stays ascending.
+  insert_holds(edit.inserted, n_nodes_before, holds.holds);
+  const auto first = n_nodes_before + static_cast<std::int32_t>(edit.inserted.size());
   for (std::size_t d = 0; d < edit.duplicate_parent.size(); ++d) {
     const std::int32_t parent = edit.duplicate_parent[d];
-    const auto hold =
-        std::lower_bound(holds.holds.begin(), holds.holds.end(), parent,
-                         [](const Hold& h, std::int32_t node) { return h.node < node; });
-    if (hold == holds.holds.end() || hold->node != parent) continue;
+    const Hold* const hold = find_hold(holds.holds, parent);
+    if (hold == nullptr) continue;
     Hold partner = *hold;
-    partner.node = n_nodes_before + static_cast<std::int32_t>(d);
+    partner.node = first + static_cast<std::int32_t>(d);
     holds.holds.push_back(partner);
   }
 }

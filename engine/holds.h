@@ -59,7 +59,8 @@ int release(Holds& holds, std::int32_t tool);
 
 // After a change of part, holds or topology.
 void localise_holds(Holds& holds, const Part& part);
-// A partner of a held node is held too, at the same offset.
+// A partner of a held node is held too, at the same offset, and a node on an edge between two that
+// are held by the same.
 void apply_edit_to_holds(const MeshEdit& edit, std::int32_t n_nodes_before, Holds& holds);
 
 // Targets at the end of the substep. X (n_nodes).

@@ -44,37 +44,59 @@ TriangleMesh surface_from_bytes(const std::vector<std::byte>& bytes, const std::
   return surface;
 }
 
-bool is_hexahedron(const HexSplit& split, const Mesh& mesh) {
-  return is_within(split.element, mesh.n_elements()) &&
-         mesh.element_type[static_cast<std::size_t>(split.element)] == ElementType::hex8;
+bool has_parts(const ElementSplit& split, const Mesh& mesh) {
+  if (!is_within(split.element, mesh.n_elements())) return false;
+  const ElementType type = mesh.element_type[static_cast<std::size_t>(split.element)];
+  return type == ElementType::hex8
+             ? split.n_tets == n_hex_tets
+             : type == ElementType::tet4 && split.n_tets >= 2 && split.n_tets <= max_split_tets;
+}
+
+bool inserted_fit(const MeshEdit& edit, const Mesh& mesh) {
+  return std::all_of(edit.inserted.begin(), edit.inserted.end(), [&](const EdgeNode& node) {
+    return node.end[0] >= 0 && node.end[0] < node.end[1] && node.end[1] < mesh.n_nodes() &&
+           node.s > 0 && node.s < 1;
+  });
+}
+
+// Whether the node is a corner of the element or lies on one of its edges.
+bool is_of_element(std::int32_t node, std::span<const std::int32_t> own, const MeshEdit& edit,
+                   std::int32_t n_nodes) {
+  const auto is_own = [&](std::int32_t i) {
+    return std::find(own.begin(), own.end(), i) != own.end();
+  };
+  const std::int64_t k = std::int64_t{node} - n_nodes;
+  if (!is_within(k, std::ssize(edit.inserted))) return is_own(node);
+  return std::ranges::all_of(edit.inserted[static_cast<std::size_t>(k)].end, is_own);
 }
 
 bool splits_fit(const MeshEdit& edit, const Mesh& mesh) {
   std::int32_t last = -1;
-  return std::all_of(edit.splits.begin(), edit.splits.end(), [&](const HexSplit& split) {
-    const bool is_next = split.element > last && is_hexahedron(split, mesh);
+  return std::all_of(edit.splits.begin(), edit.splits.end(), [&](const ElementSplit& split) {
+    const bool is_next = split.element > last && has_parts(split, mesh);
     if (!is_next) return false;
     last = split.element;
     const auto own = mesh.corners(split.element);
-    return std::all_of(split.corner.begin(), split.corner.end(), [&](const auto& tet) {
-      return std::all_of(tet.begin(), tet.end(), [&](std::int32_t i) {
-        return std::find(own.begin(), own.end(), i) != own.end();
-      });
+    return std::ranges::all_of(split.tets(), [&](const auto& tet) {
+      return std::ranges::all_of(
+          tet, [&](std::int32_t i) { return is_of_element(i, own, edit, mesh.n_nodes()); });
     });
   });
 }
 
 bool fits(const MeshEdit& edit, const Mesh& mesh) {
-  if (!splits_fit(edit, mesh)) return false;
+  if (!inserted_fit(edit, mesh) || !splits_fit(edit, mesh)) return false;
   const std::vector<std::int32_t> parent = element_parents(mesh, edit);
-  const std::int64_t n_nodes = mesh.n_nodes(), n_elements = mesh.n_elements();
+  const std::int64_t n_elements = mesh.n_elements(),
+                     n_nodes = mesh.n_nodes() + std::ssize(edit.inserted);
   const auto n_after = static_cast<std::int64_t>(parent.size());
   std::int64_t n_all = n_nodes;
   const auto has_element = [&](const auto& change) { return is_within(change.element, n_after); };
   const auto has_corner = [&](const CornerChange& change) {
     const std::int32_t e = parent[static_cast<std::size_t>(change.element)];
-    const bool is_split = std::any_of(edit.splits.begin(), edit.splits.end(),
-                                      [=](const HexSplit& split) { return split.element == e; });
+    const bool is_split =
+        std::any_of(edit.splits.begin(), edit.splits.end(),
+                    [=](const ElementSplit& split) { return split.element == e; });
     const std::int64_t n_corners = is_split ? 4 : static_cast<std::int64_t>(mesh.corners(e).size());
     return is_within(change.corner, n_corners);
   };

@@ -161,6 +161,10 @@ Options<SceneCutting> cutting_options() {
            "Floor on stable step after / before a cut: of the tetrahedra around it, 0.75 if "
            "absent; of a "
            "plane body before it was cut at all, 0.5 if absent. Not in mode paper.");
+  c.number("split_step_ratio", &SceneCutting::split_step_ratio, dim::none, {.low = 0, .high = 1},
+           "Tetrahedra where tissue is one element thick: edges may get new nodes that part it, as "
+           "long as no element's step bound sinks below this part of the body's least one by that. "
+           "0: cuts add no nodes but copies.");
   c.number(
       "resistance", &SceneCutting::resistance, {.kilogram = 1, .second = -2}, not_negative,
       "Work of a cut over its area: the tissue's largest force against a blade per length of the "

@@ -74,6 +74,7 @@ Json stroke_json(const CutRecord& c) {
                  {"elements_turned", c.n_turned},
                  {"chips", c.n_chips},
                  {"nodes_pulled_back", c.n_pulled_back},
+                 {"nodes_inserted", c.n_inserted},
                  {"nodes_moved", c.n_moved},
                  {"nodes_duplicated", c.n_duplicated},
                  {"facets_opened", c.n_opened_facets},

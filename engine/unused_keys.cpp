@@ -89,11 +89,15 @@ Uses of_cutting(const Scene& scene, const Mesh& mesh) {
   const SceneCutting d;
   const bool is_plane = mesh.dimension() == 2, cuts = has_blades(scene);
   const bool is_published = is_plane && c.mode == CutMode::paper;
+  const bool is_tets = std::ranges::all_of(
+      mesh.element_type, [](ElementType type) { return type == ElementType::tet4; });
   const char* const plane = cuts ? "only cuts of plane bodies have it" : "nothing cuts";
   return {{"cutting.advance", c.advance != d.advance, cuts && !is_plane,
            cuts ? "cuts of plane bodies don't have it" : "nothing cuts"},
           {"cutting.least_step_ratio", !std::isnan(c.least_step_ratio), cuts && !is_published,
            cuts ? "mode = \"paper\" has no floor" : "nothing cuts"},
+          {"cutting.split_step_ratio", c.split_step_ratio != d.split_step_ratio, cuts && is_tets,
+           cuts ? "only cuts of tetrahedra have it" : "nothing cuts"},
           {"cutting.resistance", c.resistance != d.resistance, cuts, "nothing cuts"},
           {"cutting.mode", c.mode != d.mode, cuts && is_plane, plane},
           {"cutting.spring", c.spring != d.spring, cuts && is_plane, plane},

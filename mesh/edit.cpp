@@ -11,39 +11,57 @@
 namespace trocar {
 
 // Of splits that lie before element e.
-static std::int32_t count_before(std::span<const HexSplit> splits, std::int32_t e) {
+static std::int32_t count_before(std::span<const ElementSplit> splits, std::int32_t e) {
   const auto at =
       std::lower_bound(splits.begin(), splits.end(), e,
-                       [](const HexSplit& split, std::int32_t k) { return split.element < k; });
+                       [](const ElementSplit& split, std::int32_t k) { return split.element < k; });
   return static_cast<std::int32_t>(at - splits.begin());
 }
 
+Vec3 position_of(const Mesh& before, const EdgeNode& node) {
+  const Vec3& X0 = before.X[node.end[0]];
+  return X0 + node.s * (before.X[node.end[1]] - X0);
+}
+
+std::int32_t n_added(std::span<const ElementSplit> splits) {
+  std::int32_t n = 0;
+  for (const ElementSplit& split : splits) n += split.n_tets - 1;
+  return n;
+}
+
+SplitNumbers::SplitNumbers(std::span<const ElementSplit> splits) : splits_(splits), n_added_{0} {
+  for (const ElementSplit& split : splits) n_added_.push_back(n_added_.back() + split.n_tets - 1);
+}
+
 std::int32_t SplitNumbers::after(std::int32_t before) const {
-  return before + n_more_elements * count_before(splits_, before);
+  return before + n_added_[static_cast<std::size_t>(count_before(splits_, before))];
 }
 
 std::int32_t SplitNumbers::before(std::int32_t after) const {
   std::size_t low = 0, high = splits_.size();  // splits whose first tetrahedron is not behind it
   while (low < high) {
     const std::size_t k = low + (high - low) / 2;
-    if (splits_[k].element + n_more_elements * static_cast<std::int32_t>(k) <= after)
+    if (splits_[k].element + n_added_[k] <= after)
       low = k + 1;
     else
       high = k;
   }
-  const std::int32_t moved_up = after - n_more_elements * static_cast<std::int32_t>(low);
+  const std::int32_t moved_up = after - n_added_[low];
   return low > 0 ? std::max(moved_up, splits_[low - 1].element) : after;
 }
 
-const HexSplit* SplitNumbers::find(std::int32_t before) const {
+const ElementSplit* SplitNumbers::find(std::int32_t before) const {
   const auto k = static_cast<std::size_t>(count_before(splits_, before));
   return k < splits_.size() && splits_[k].element == before ? &splits_[k] : nullptr;
 }
 
 std::vector<std::int32_t> SplitNumbers::all_after(std::span<const std::int32_t> before) const {
   std::vector<std::int32_t> all;
-  for (const std::int32_t e : before)
-    for (std::int32_t k = 0; k < (is_split(e) ? n_hex_tets : 1); ++k) all.push_back(after(e) + k);
+  for (const std::int32_t e : before) {
+    const ElementSplit* const split = find(e);
+    const std::int32_t first = after(e), n = split != nullptr ? split->n_tets : 1;
+    for (std::int32_t k = 0; k < n; ++k) all.push_back(first + k);
+  }
   return all;
 }
 
@@ -56,7 +74,7 @@ void SplitNumbers::renumber(std::span<std::int32_t> elements) const {
       low = k > 0 ? splits_[static_cast<std::size_t>(k - 1)].element + 1 : 0;
       high = k < std::ssize(splits_) ? splits_[static_cast<std::size_t>(k)].element
                                      : std::numeric_limits<std::int32_t>::max();
-      way = n_more_elements * k;
+      way = n_added_[static_cast<std::size_t>(k)];
     }
     e += way;
   }
@@ -69,13 +87,35 @@ std::vector<std::int32_t> element_parents(const Mesh& mesh, const MeshEdit& edit
   return parent;
 }
 
-std::int32_t node_before(const MeshEdit& edit, const Mesh& before, const CornerChange& change) {
-  const SplitNumbers numbers(edit.splits);
+std::int32_t node_before(const SplitNumbers& numbers, const Mesh& before,
+                         const CornerChange& change) {
   const std::int32_t e = numbers.before(change.element);
   const auto corner = static_cast<std::size_t>(change.corner);
-  const HexSplit* const split = numbers.find(e);
+  const ElementSplit* const split = numbers.find(e);
   if (split == nullptr) return before.corners(e)[corner];
   return split->corner[static_cast<std::size_t>(change.element - numbers.after(e))][corner];
+}
+
+// Node `node` on an edge joins the sets of both ends; of a facet that was left out both halves are.
+static void extend_node_sets(const EdgeNode& inserted, std::int32_t node,
+                             std::vector<NodeSet>& sets) {
+  const auto [a, b] = inserted.end;
+  for (NodeSet& set : sets) {
+    if (std::binary_search(set.node.begin(), set.node.end(), a) &&
+        std::binary_search(set.node.begin(), set.node.end(), b))
+      set.node.push_back(node);
+    std::vector<FacetNodes> halves;
+    for (FacetNodes& facet : set.left_out) {
+      if (std::ranges::count(facet, a) + std::ranges::count(facet, b) < 2) continue;
+      halves.push_back(facet);
+      std::ranges::replace(facet, a, node);
+      std::ranges::replace(halves.back(), b, node);
+      std::ranges::sort(facet);
+      std::ranges::sort(halves.back());
+    }
+    set.left_out.insert(set.left_out.end(), halves.begin(), halves.end());
+    if (!halves.empty()) std::ranges::sort(set.left_out);
+  }
 }
 
 // A duplicate joins every set of its parent; new numbers are the highest, so the sets stay
@@ -88,9 +128,52 @@ static void extend_node_sets(std::span<const std::int32_t> duplicate_parent,
         set.node.push_back(first_duplicate + static_cast<std::int32_t>(k));
 }
 
+static void insert_nodes(std::span<const EdgeNode> inserted, Mesh& mesh) {
+  for (const EdgeNode& node : inserted) {
+    const std::int32_t number = mesh.n_nodes();
+    CHECK_OP(node.end[0], <, node.end[1]);
+    CHECK_OP(node.end[1], <, number);
+    const Vec3 X = position_of(mesh, node);
+    mesh.X.push_back(X);
+    mesh.copied_node.push_back(number);
+    extend_node_sets(node, number, mesh.node_sets);
+  }
+}
+
+// The facet of tetrahedron `whole` that facet f of a part of it lies on, -1 if inside. Nodes from
+// first_inserted on lie on edges.
+static int tet_facet_of(std::span<const std::int32_t> whole, std::span<const EdgeNode> inserted,
+                        std::int32_t first_inserted, const std::array<std::int32_t, 4>& tet,
+                        int f) {
+  const auto touches = [&](std::int32_t node, std::int32_t corner) {
+    if (node == corner) return true;
+    const std::int32_t k = node - first_inserted;
+    return k >= 0 && std::ranges::count(inserted[static_cast<std::size_t>(k)].end, corner) > 0;
+  };
+  for (int g = 0; g < 4; ++g) {
+    bool is_on = true;
+    for (int c = 0; c < 4; ++c)
+      is_on = is_on && (c == f || !touches(tet[static_cast<std::size_t>(c)],
+                                           whole[static_cast<std::size_t>(g)]));
+    if (is_on) return g;
+  }
+  return -1;
+}
+
+std::uint8_t facets_of_part(std::span<const std::int32_t> whole, std::uint8_t mask,
+                            std::span<const EdgeNode> inserted, std::int32_t first_inserted,
+                            const std::array<std::int32_t, 4>& part) {
+  unsigned facets = 0;
+  for (int f = 0; f < 4 && mask != 0; ++f) {
+    const int g = tet_facet_of(whole, inserted, first_inserted, part, f);
+    if (g >= 0 && (mask >> g & 1) != 0) facets |= 1U << f;
+  }
+  return static_cast<std::uint8_t>(facets);
+}
+
 // Bits of the facets of tetrahedron `tet` (nodes) that lie on marked facets of hexahedron e.
-static std::uint8_t inherited_cut_facets(const Mesh& mesh, std::int32_t e,
-                                         const std::array<std::int32_t, 4>& tet) {
+static std::uint8_t facets_of_hex(const Mesh& mesh, std::int32_t e,
+                                  const std::array<std::int32_t, 4>& tet) {
   unsigned mask = 0;
   for (int f = 0; f < 4 && mesh.cut_facets[e] != 0; ++f) {
     const int g = hex_facet_of(mesh, e, tet, f);
@@ -99,41 +182,54 @@ static std::uint8_t inherited_cut_facets(const Mesh& mesh, std::int32_t e,
   return static_cast<std::uint8_t>(mask);
 }
 
-static void split_corner_nodes(std::span<const HexSplit> splits, Mesh& mesh) {
+static void split_corner_nodes(std::span<const ElementSplit> splits, Mesh& mesh) {
   std::vector<std::int32_t>& node = mesh.corner_node;
   auto end = std::ssize(node);
-  node.resize(node.size() + (4 * n_hex_tets - 8) * splits.size());
+  std::size_t n_more = 0;
+  for (const ElementSplit& split : splits)
+    n_more += 4 * split.tets().size() - mesh.corners(split.element).size();
+  node.resize(node.size() + n_more);
   auto to = node.end();
   for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
     const std::int32_t first = mesh.corner_offset[split->element];
-    to = std::move_backward(node.begin() + first + 8, node.begin() + end, to);
+    to = std::move_backward(node.begin() + mesh.corner_offset[split->element + 1],
+                            node.begin() + end, to);
     end = first;
-    for (auto tet = split->corner.rbegin(); tet != split->corner.rend(); ++tet)
-      to = std::copy_backward(tet->begin(), tet->end(), to);
+    for (std::int32_t k = split->n_tets; k-- > 0;) {
+      const std::array<std::int32_t, 4>& tet = split->corner[static_cast<std::size_t>(k)];
+      to = std::copy_backward(tet.begin(), tet.end(), to);
+    }
   }
 }
 
-static void split_hexahedra(std::span<const HexSplit> splits, Mesh& mesh) {
+static void split_elements(const MeshEdit& edit, Mesh& mesh) {
+  const std::vector<ElementSplit>& splits = edit.splits;
   if (splits.empty()) return;
+  const std::int32_t first_inserted =
+      mesh.n_nodes() - static_cast<std::int32_t>(edit.inserted.size());
   std::vector<std::uint8_t> cut_facets;
-  for (const HexSplit& split : splits) {
-    CHECK(mesh.element_type[split.element] == ElementType::hex8);
-    for (const std::array<std::int32_t, 4>& tet : split.corner)
-      cut_facets.push_back(inherited_cut_facets(mesh, split.element, tet));
+  for (const ElementSplit& split : splits) {
+    const std::int32_t e = split.element;
+    const bool is_hex = mesh.element_type[e] == ElementType::hex8;
+    CHECK(is_hex || mesh.element_type[e] == ElementType::tet4);
+    for (const std::array<std::int32_t, 4>& tet : split.tets())
+      cut_facets.push_back(is_hex ? facets_of_hex(mesh, e, tet)
+                                  : facets_of_part(mesh.corners(e), mesh.cut_facets[e],
+                                                   edit.inserted, first_inserted, tet));
   }
   split_corner_nodes(splits, mesh);
-  spread_over_splits(splits, mesh.element_type);
-  spread_over_splits(splits, mesh.element_region);
-  spread_over_splits(splits, mesh.density_factor);
-  spread_over_splits(splits, mesh.fibre);
-  spread_over_splits(splits, mesh.cut_facets);
+  spread_over_splits<ElementType>(splits, mesh.element_type);
+  spread_over_splits<std::int32_t>(splits, mesh.element_region);
+  spread_over_splits<double>(splits, mesh.density_factor);
+  spread_over_splits<Vec3>(splits, mesh.fibre);
+  spread_over_splits<std::uint8_t>(splits, mesh.cut_facets);
   const SplitNumbers numbers(splits);
   auto mask = cut_facets.begin();
-  for (const HexSplit& split : splits) {
+  for (const ElementSplit& split : splits) {
     const std::int32_t first = numbers.after(split.element);
-    std::fill_n(mesh.element_type.begin() + first, n_hex_tets, ElementType::tet4);
-    std::copy_n(mask, n_hex_tets, mesh.cut_facets.begin() + first);
-    mask += n_hex_tets;
+    std::fill_n(mesh.element_type.begin() + first, split.n_tets, ElementType::tet4);
+    std::copy_n(mask, split.n_tets, mesh.cut_facets.begin() + first);
+    mask += split.n_tets;
   }
   mesh.corner_offset.resize(mesh.element_type.size() + 1);
   for (std::int32_t e = splits.front().element; e < mesh.n_elements(); ++e)
@@ -141,7 +237,8 @@ static void split_hexahedra(std::span<const HexSplit> splits, Mesh& mesh) {
 }
 
 void apply_edit(const MeshEdit& edit, Mesh& mesh) {
-  split_hexahedra(edit.splits, mesh);
+  insert_nodes(edit.inserted, mesh);
+  split_elements(edit, mesh);
   const std::int32_t first_duplicate = mesh.n_nodes();
   for (const NodeMove& move : edit.moves) mesh.X[move.node] = move.X;
   for (const std::int32_t parent : edit.duplicate_parent) {
@@ -181,11 +278,17 @@ void apply_edit(const MeshEdit& edit, const Mesh& before, int width, std::vector
   const auto at = [&](std::size_t node) {
     return field.begin() + static_cast<std::ptrdiff_t>(node) * width;
   };
+  std::size_t n_nodes = before.X.size();
+  field.resize((n_nodes + edit.n_new_nodes()) * static_cast<std::size_t>(width));
+  for (const EdgeNode& node : edit.inserted) {
+    const auto q0 = at(static_cast<std::size_t>(node.end[0])),
+               q1 = at(static_cast<std::size_t>(node.end[1]));
+    std::transform(q0, q0 + width, q1, at(n_nodes++),
+                   [&](double a, double b) { return a + node.s * (b - a); });
+  }
   for (std::size_t k = 0; k < edit.moves.size(); ++k)
     std::copy_n(value.begin() + static_cast<std::ptrdiff_t>(k) * width, width,
                 at(static_cast<std::size_t>(edit.moves[k].node)));
-  std::size_t n_nodes = before.X.size();
-  field.resize((n_nodes + edit.duplicate_parent.size()) * static_cast<std::size_t>(width));
   for (const std::int32_t parent : edit.duplicate_parent) {
     CHECK(parent >= 0 && static_cast<std::size_t>(parent) < n_nodes);
     std::copy_n(at(static_cast<std::size_t>(parent)), width, at(n_nodes++));

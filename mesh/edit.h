@@ -36,21 +36,38 @@ struct DensityChange {
   double factor = 1;  // the whole new value of Mesh::density_factor
 };
 
-inline constexpr std::int32_t n_hex_tets = 6;
-inline constexpr std::int32_t n_more_elements = n_hex_tets - 1;  // by a split
-
-// Hexahedron `element` becomes six tetrahedra on its own nodes. They inherit all that it had and
-// take its place: elements behind it move up by five.
-struct HexSplit {
-  std::int32_t element = 0;                                      // its number before the edit
-  std::array<std::array<std::int32_t, 4>, n_hex_tets> corner{};  // nodes
+// A new node on edge (end[0], end[1]) of the mesh before the edit, at X_0 + s (X_1 - X_0); a nodal
+// field there becomes q_0 + s (q_1 - q_0): exact for affine motion.
+struct EdgeNode {
+  std::array<std::int32_t, 2> end{};  // ascending
+  double s = 0;                       // 0 < s < 1
 };
 
-// Applied in the order of its members. The k-th duplicate becomes node n_nodes + k and copies its
+Vec3 position_of(const Mesh& before, const EdgeNode& node);
+
+inline constexpr std::int32_t n_hex_tets = 6;
+inline constexpr std::int32_t max_split_tets = n_hex_tets;
+
+// Element `element` becomes tetrahedra: a hexahedron six on its own nodes, a tetrahedron two to six
+// on its own nodes and new ones on its edges. They inherit all that it had and take its place:
+// elements behind it move up.
+struct ElementSplit {
+  std::int32_t element = 0;  // its number before the edit
+  std::int32_t n_tets = n_hex_tets;
+  std::array<std::array<std::int32_t, 4>, max_split_tets> corner{};  // nodes
+
+  std::span<const std::array<std::int32_t, 4>> tets() const {
+    return {corner.data(), static_cast<std::size_t>(n_tets)};
+  }
+};
+
+// Applied in the order of its members. The k-th inserted node becomes node n_nodes + k; all
+// elements around its edge are split, none of them a hexahedron. Duplicates follow: each copies its
 // parent (after moving). Corners, cut_facets and density name elements by their numbers after the
 // splits, hosts by those before.
 struct MeshEdit {
-  std::vector<HexSplit> splits;                // ascending element
+  std::vector<EdgeNode> inserted;              // (n_inserted)
+  std::vector<ElementSplit> splits;            // ascending element
   std::vector<NodeMove> moves;                 // ascending node
   std::vector<std::int32_t> duplicate_parent;  // (n_duplicates)
   std::vector<CornerChange> corners;           // ascending (element, corner)
@@ -59,19 +76,20 @@ struct MeshEdit {
   bool is_empty() const {
     return splits.empty() && moves.empty() && duplicate_parent.empty() && corners.empty();
   }
+  std::size_t n_new_nodes() const { return inserted.size() + duplicate_parent.size(); }
 };
 
 // Numbers of elements before and after the splits of an edit.
 class SplitNumbers {
  public:
   // splits: those of a MeshEdit, which must stay.
-  explicit SplitNumbers(std::span<const HexSplit> splits) : splits_(splits) {}
+  explicit SplitNumbers(std::span<const ElementSplit> splits);
   // Of an element, or the first of those that it becomes.
   std::int32_t after(std::int32_t before) const;
   // Of the element that this is, or is a part of.
   std::int32_t before(std::int32_t after) const;
   // nullptr if the element stays.
-  const HexSplit* find(std::int32_t before) const;
+  const ElementSplit* find(std::int32_t before) const;
   bool is_split(std::int32_t before) const { return find(before) != nullptr; }
   // All that these elements (ascending, before) become.
   std::vector<std::int32_t> all_after(std::span<const std::int32_t> before) const;
@@ -79,31 +97,43 @@ class SplitNumbers {
   void renumber(std::span<std::int32_t> elements) const;
 
  private:
-  std::span<const HexSplit> splits_;
+  std::span<const ElementSplit> splits_;
+  std::vector<std::int32_t> n_added_;  // (n_splits + 1) elements more, by the splits before each
 };
+
+// How many elements more there are after the splits.
+std::int32_t n_added(std::span<const ElementSplit> splits);
 
 // values (n_elements): those of split elements go to all that they become.
 template <class T>
-void spread_over_splits(std::span<const HexSplit> splits, std::vector<T>& values) {
+void spread_over_splits(std::span<const ElementSplit> splits, std::vector<T>& values) {
   if (values.empty()) return;
   auto end = std::ssize(values);
-  values.resize(values.size() + n_more_elements * splits.size());
+  values.resize(values.size() + static_cast<std::size_t>(n_added(splits)));
   auto to = values.end();
   for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
     const auto behind = values.begin() + split->element + 1;
     to = std::move_backward(behind, values.begin() + end, to);
     end = split->element;
     const T value = values[static_cast<std::size_t>(end)];
-    to -= n_hex_tets;
-    std::fill_n(to, n_hex_tets, value);
+    to -= split->n_tets;
+    std::fill_n(to, split->n_tets, value);
   }
 }
+
+// Bits of the facets of tetrahedron `part` (nodes), a part of tetrahedron `whole`, that lie on
+// facets of `mask` of it. inserted: those of the edit, the first of which is node first_inserted.
+std::uint8_t facets_of_part(std::span<const std::int32_t> whole, std::uint8_t mask,
+                            std::span<const EdgeNode> inserted, std::int32_t first_inserted,
+                            const std::array<std::int32_t, 4>& part);
 
 // (n_elements after the edit) The element that each is, or is a part of, before it.
 std::vector<std::int32_t> element_parents(const Mesh& mesh, const MeshEdit& edit);
 
-// The node that a corner has until it changes. before: the mesh before the edit.
-std::int32_t node_before(const MeshEdit& edit, const Mesh& before, const CornerChange& change);
+// The node that a corner has until it changes. before: the mesh before the edit, numbers: those of
+// its splits.
+std::int32_t node_before(const SplitNumbers& numbers, const Mesh& before,
+                         const CornerChange& change);
 
 void apply_edit(const MeshEdit& edit, Mesh& mesh);
 // The same change on a nodal field with `width` doubles a node (n_nodes * width -> n_new_nodes *

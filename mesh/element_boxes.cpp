@@ -42,40 +42,42 @@ void fit_parent(std::size_t k, ElementBoxes& boxes) {
   boxes.box[k].add(boxes.box[2 * k + 1]);
 }
 
-// (leaf, first of its tetrahedra) of each split, ascending.
-using SplitLeaves = std::vector<std::pair<std::int32_t, std::int32_t>>;
+// Where the tetrahedra of a split go, all but the first, which takes its place.
+struct SplitLeaf {
+  std::int32_t leaf, first, n_added;
+};
 
-// Behind the other elements of its leaf come all but the first tetrahedron of each hexahedron.
-void add_tetrahedra(const SplitLeaves& splits, ElementBoxes& boxes) {
+// Behind the other elements of their leaf. `splits` ascends by leaf, then by element.
+void add_tetrahedra(std::span<const SplitLeaf> splits, std::int32_t n_all, ElementBoxes& boxes) {
   auto end = std::ssize(boxes.order);
-  boxes.order.resize(boxes.order.size() + n_more_elements * splits.size());
+  boxes.order.resize(boxes.order.size() + static_cast<std::size_t>(n_all));
   auto to = boxes.order.end();
   for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
-    const auto end_of_leaf = boxes.first[static_cast<std::size_t>(split->first) + 1];
+    const auto end_of_leaf = boxes.first[static_cast<std::size_t>(split->leaf) + 1];
     to = std::move_backward(boxes.order.begin() + end_of_leaf, boxes.order.begin() + end, to);
     end = end_of_leaf;
-    to -= n_more_elements;
-    std::iota(to, to + n_more_elements, split->second + 1);
+    to -= split->n_added;
+    std::iota(to, to + split->n_added, split->first + 1);
   }
-  std::int32_t n_added = 0;
+  std::int32_t n = 0;
   auto split = splits.begin();
   for (std::size_t leaf = 0; leaf + 1 < boxes.first.size(); ++leaf) {
-    for (; split != splits.end() && split->first == static_cast<std::int32_t>(leaf); ++split)
-      n_added += n_more_elements;
-    boxes.first[leaf + 1] += n_added;
+    for (; split != splits.end() && split->leaf == static_cast<std::int32_t>(leaf); ++split)
+      n += split->n_added;
+    boxes.first[leaf + 1] += n;
   }
 }
 
-void split_elements(std::span<const HexSplit> splits, ElementBoxes& boxes) {
+void split_elements(std::span<const ElementSplit> splits, ElementBoxes& boxes) {
   if (splits.empty()) return;
   const SplitNumbers numbers(splits);
-  SplitLeaves leaves;
-  for (const HexSplit& split : splits)
-    leaves.emplace_back(boxes.leaf[static_cast<std::size_t>(split.element)],
-                        numbers.after(split.element));
-  std::sort(leaves.begin(), leaves.end());
+  std::vector<SplitLeaf> leaves;
+  for (const ElementSplit& split : splits)
+    leaves.push_back({boxes.leaf[static_cast<std::size_t>(split.element)],
+                      numbers.after(split.element), split.n_tets - 1});
+  std::ranges::stable_sort(leaves, {}, &SplitLeaf::leaf);
   numbers.renumber(boxes.order);
-  add_tetrahedra(leaves, boxes);
+  add_tetrahedra(leaves, n_added(splits), boxes);
   spread_over_splits(splits, boxes.leaf);
 }
 

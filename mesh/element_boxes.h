@@ -30,10 +30,10 @@ ElementBoxes make_element_boxes(const Mesh& mesh, std::span<const Vec3> x);
 
 // What an edit changes: its splits; nodes that moved or are new; all elements that touch them.
 struct BoxesEdit {
-  std::span<const HexSplit> splits;
+  std::span<const ElementSplit> splits;
   std::span<const std::int32_t> nodes, elements;
 };
-// mesh and x: after the edit. Tetrahedra share the leaf that their hexahedron was in.
+// mesh and x: after the edit. Tetrahedra share the leaf of the element that they were.
 void update_element_boxes(const Mesh& mesh, std::span<const Vec3> x, const BoxesEdit& edit,
                           ElementBoxes& boxes);
 

@@ -45,9 +45,9 @@ Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int r
 }
 
 std::vector<std::int32_t> split_elements(const Mesh& mesh, std::span<const std::int32_t> node_owner,
-                                         std::span<const HexSplit> splits, Part& part) {
+                                         std::span<const ElementSplit> splits, Part& part) {
   if (splits.empty()) return {};
-  const bool has_one = std::any_of(splits.begin(), splits.end(), [&](const HexSplit& split) {
+  const bool has_one = std::any_of(splits.begin(), splits.end(), [&](const ElementSplit& split) {
     return part.place_of(split.element) >= 0;
   });
   const std::vector<std::int32_t> before = part.element_global;
@@ -60,7 +60,7 @@ std::vector<std::int32_t> split_elements(const Mesh& mesh, std::span<const std::
     while (split != splits.end() && split->element < before[k]) ++split;
     const bool is_split = split != splits.end() && split->element == before[k];
     const std::int32_t first = part.element_global[k];
-    for (std::int32_t e = first; e < first + (is_split ? n_hex_tets : 1); ++e) {
+    for (std::int32_t e = first; e < first + (is_split ? split->n_tets : 1); ++e) {
       const std::span<const std::int32_t> node = mesh.corners(e);
       if (is_split && std::none_of(node.begin(), node.end(), is_owned)) continue;
       element.push_back(e);

@@ -43,8 +43,8 @@ struct Mesh {
   // (n_elements) direction of the fibres, unit vectors in the reference; or empty: the material's.
   std::vector<Vec3> fibre;
   std::vector<NodeSet> node_sets;
-  // (n_copies) The last nodes are copies that cuts made: the node of the uncut mesh that each is
-  // of.
+  // (n_made) The last nodes are those that cuts made: copies, the node that each is of, or new ones
+  // on edges, themselves.
   std::vector<std::int32_t> copied_node;
   // (n_nodes of the uncut mesh, or empty) How hexahedra become tetrahedra: bits 0 to 6, the node's
   // rank where facets choose their diagonals (hex_split.h); bit 7, at a hexahedron that never does.
@@ -58,10 +58,10 @@ struct Mesh {
   }
   // 2 if all elements are triangles (plane problem, z = 0), else 3.
   int dimension() const;
-  // The node of the uncut mesh that node i is or copies.
+  // The node that node i is or copies: of the uncut mesh, or one that a cut put on an edge.
   std::int32_t uncut_node(std::int32_t i) const {
-    const std::int32_t first_copy = n_nodes() - static_cast<std::int32_t>(copied_node.size());
-    return i < first_copy ? i : copied_node[static_cast<std::size_t>(i - first_copy)];
+    const std::int32_t first_made = n_nodes() - static_cast<std::int32_t>(copied_node.size());
+    return i < first_made ? i : copied_node[static_cast<std::size_t>(i - first_made)];
   }
 };
 

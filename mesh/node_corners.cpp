@@ -38,17 +38,17 @@ NodeCorners node_corners(const Mesh& mesh) {
   return corners;
 }
 
-static void split_hexahedra(std::span<const HexSplit> splits, const Mesh& before,
-                            NodeCorners& corners) {
+static void split_elements(std::span<const ElementSplit> splits, const Mesh& before,
+                           NodeCorners& corners) {
   if (splits.empty()) return;
   std::vector<std::int32_t> unused;
-  for (const HexSplit& split : splits)
+  for (const ElementSplit& split : splits)
     for (const std::int32_t node : before.corners(split.element))
       unused.push_back(unlink(corners, node, split.element));
   const SplitNumbers numbers(splits);
   numbers.renumber(corners.element);
-  for (const HexSplit& split : splits)
-    for (std::size_t tet = 0; tet < split.corner.size(); ++tet)
+  for (const ElementSplit& split : splits)
+    for (std::size_t tet = 0; tet < split.tets().size(); ++tet)
       for (const std::int32_t node : split.corner[tet]) {
         if (unused.empty()) {
           unused.push_back(static_cast<std::int32_t>(corners.next.size()));
@@ -63,10 +63,12 @@ static void split_hexahedra(std::span<const HexSplit> splits, const Mesh& before
 }
 
 void apply_edit(const MeshEdit& edit, const Mesh& before, NodeCorners& corners) {
-  split_hexahedra(edit.splits, before, corners);
-  corners.first.resize(before.X.size() + edit.duplicate_parent.size(), -1);
+  corners.first.resize(before.X.size() + edit.n_new_nodes(), -1);
+  split_elements(edit.splits, before, corners);
+  const SplitNumbers numbers(edit.splits);
   for (const CornerChange& change : edit.corners)
-    link(corners, change.node, unlink(corners, node_before(edit, before, change), change.element));
+    link(corners, change.node,
+         unlink(corners, node_before(numbers, before, change), change.element));
 }
 
 std::vector<std::int32_t> elements_around(const NodeCorners& corners,
@@ -97,7 +99,7 @@ std::vector<std::int32_t> edited_elements(const NodeCorners& before, const MeshE
   std::vector<std::int32_t> moved;
   for (const NodeMove& move : edit.moves) moved.push_back(move.node);
   std::vector<std::int32_t> elements = elements_around(before, moved);
-  for (const HexSplit& split : edit.splits) elements.push_back(split.element);
+  for (const ElementSplit& split : edit.splits) elements.push_back(split.element);
   for (const CornerChange& change : edit.corners)
     elements.push_back(numbers.before(change.element));
   for (const DensityChange& change : edit.density)

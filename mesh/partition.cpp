@@ -222,12 +222,13 @@ double imbalance(const Mesh& mesh, std::span<const std::int32_t> node_owner, int
   return *std::max_element(of_part.begin(), of_part.end()) * n_parts / sum;
 }
 
-void apply_edit_to_owners(std::span<const std::int32_t> duplicate_parent,
-                          std::vector<std::int32_t>& node_owner) {
-  for (const std::int32_t parent : duplicate_parent) {
-    const std::int32_t owner = node_owner[parent];
+void apply_edit_to_owners(const MeshEdit& edit, std::vector<std::int32_t>& node_owner) {
+  const auto add = [&](std::int32_t like) {
+    const std::int32_t owner = node_owner[like];
     node_owner.push_back(owner);
-  }
+  };
+  for (const EdgeNode& node : edit.inserted) add(node.end[0]);
+  for (const std::int32_t parent : edit.duplicate_parent) add(parent);
 }
 
 }  // namespace trocar

@@ -20,9 +20,8 @@ std::vector<std::int32_t> partition_nodes(const Mesh& mesh, Communicator& commun
 std::vector<std::int32_t> partition_nodes(const Mesh& mesh, int n_parts);
 // Work of the part that has most over the mean of all: what a step takes longer than it had to.
 double imbalance(const Mesh& mesh, std::span<const std::int32_t> node_owner, int n_parts);
-// A duplicated node stays with its parent's owner.
-void apply_edit_to_owners(std::span<const std::int32_t> duplicate_parent,
-                          std::vector<std::int32_t>& node_owner);
+// A node on an edge gets the owner of the edge's lower end, a duplicate stays with its parent's.
+void apply_edit_to_owners(const MeshEdit& edit, std::vector<std::int32_t>& node_owner);
 
 // This rank's part: all elements that touch a node it owns. Local numbers: owned nodes ascending,
 // then halo nodes ascending.
@@ -39,10 +38,10 @@ struct Part {
 };
 Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int rank);
 // The part's elements after the splits of an edit, by the mesh and owners after it. Returns which
-// place in element_global each had before, -1 if it is new; empty if the part had no hexahedron
-// that was split, so that each kept its place.
+// place in element_global each had before, -1 if it is new; empty if the part had no element that
+// was split, so that each kept its place.
 std::vector<std::int32_t> split_elements(const Mesh& mesh, std::span<const std::int32_t> node_owner,
-                                         std::span<const HexSplit> splits, Part& part);
+                                         std::span<const ElementSplit> splits, Part& part);
 // The part after an edit that kept the owners of all corners, from the part before it with the
 // elements after it. `nodes`: all corners of edited elements, before and after it, ascending. In
 // time of theirs and of the halo's.

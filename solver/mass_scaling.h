@@ -35,7 +35,7 @@ MassScaling find_mass_scaling(const Mesh& mesh, std::span<const Material> materi
                               const SolverOptions& options, double wanted_step);
 // After an edit, to what find_mass_scaling says of the edited mesh, in time of what is scaled.
 struct ScalingEdit {
-  std::span<const HexSplit> splits;
+  std::span<const ElementSplit> splits;
   std::span<const std::int32_t> before, after;  // edited elements, ascending
 };
 void edit_mass_scaling(const Mesh& mesh, std::span<const Material> materials,

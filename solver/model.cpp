@@ -106,7 +106,7 @@ std::vector<RestingElement> resting_elements(const Mesh& mesh, std::span<const M
 }
 
 void edit_resting_elements(const Mesh& mesh, std::span<const Material> materials,
-                           const SolverOptions& options, std::span<const HexSplit> splits,
+                           const SolverOptions& options, std::span<const ElementSplit> splits,
                            std::span<const std::int32_t> elements,
                            std::vector<RestingElement>& resting) {
   spread_over_splits(splits, resting);

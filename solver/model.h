@@ -203,7 +203,7 @@ std::vector<RestingElement> resting_elements(const Mesh& mesh, std::span<const M
                                              const SolverOptions& options);
 // `resting` of all elements, to what it is after an edit: elements by their numbers after it.
 void edit_resting_elements(const Mesh& mesh, std::span<const Material> materials,
-                           const SolverOptions& options, std::span<const HexSplit> splits,
+                           const SolverOptions& options, std::span<const ElementSplit> splits,
                            std::span<const std::int32_t> elements,
                            std::vector<RestingElement>& resting);
 

@@ -51,7 +51,7 @@ bool has_same_bits(const MeshEdit& a, const MeshEdit& b) {
   const auto same_facets = [](const CutFacets& p, const CutFacets& q) {
     return p.element == q.element && p.mask == q.mask;
   };
-  const auto same_split = [](const HexSplit& p, const HexSplit& q) {
+  const auto same_split = [](const ElementSplit& p, const ElementSplit& q) {
     return p.element == q.element && p.corner == q.corner;
   };
   const auto equal = [](const auto& p, const auto& q, const auto& same) {

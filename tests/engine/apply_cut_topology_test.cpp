@@ -220,7 +220,7 @@ TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
       std::vector<std::size_t> n_scaled;
       const int n_edits = for_edits(s, [&](GlobalState& global, const MeshEdit& edit) {
         const std::vector<std::int32_t> owner = s.node_owner;
-        apply_edit_to_owners(edit.duplicate_parent, s.node_owner);
+        apply_edit_to_owners(edit, s.node_owner);
         EXPECT_TRUE(keeps_owners(s, edit));
         s.node_owner = owner;
         const std::vector<double> copies = copy_history(s.model, s.part, s.state);
@@ -333,7 +333,7 @@ TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
     }
     int n_edits = 0, n_splits = 0;
     for_edits(s, [&](GlobalState& global, const MeshEdit& edit) {
-      apply_edit_to_owners(edit.duplicate_parent, owner);
+      apply_edit_to_owners(edit, owner);
       std::swap(owner, s.node_owner);
       const bool is_local = keeps_owners(s, edit);
       std::swap(owner, s.node_owner);

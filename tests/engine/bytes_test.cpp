@@ -82,7 +82,14 @@ bool is_equal_edit(const MeshEdit& a, const MeshEdit& b) {
   const auto same = [](const auto& v, const auto& w, const auto& equal) {
     return std::equal(v.begin(), v.end(), w.begin(), w.end(), equal);
   };
-  return same(a.moves, b.moves, same_move) && a.duplicate_parent == b.duplicate_parent &&
+  const auto same_node = [](const EdgeNode& m, const EdgeNode& n) {
+    return m.end == n.end && m.s == n.s;
+  };
+  const auto same_split = [](const ElementSplit& m, const ElementSplit& n) {
+    return m.element == n.element && m.n_tets == n.n_tets && m.corner == n.corner;
+  };
+  return same(a.inserted, b.inserted, same_node) && same(a.splits, b.splits, same_split) &&
+         same(a.moves, b.moves, same_move) && a.duplicate_parent == b.duplicate_parent &&
          same(a.corners, b.corners, same_corner) && same(a.cut_facets, b.cut_facets, same_facets) &&
          same(a.density, b.density, same_density);
 }
@@ -93,6 +100,8 @@ TEST(Bytes, an_edit_comes_back_equal) {
   MeshEdit edit = example_edit(mesh, 5);
   edit.moves.push_back({.node = 6, .X = Vec3(1, 2, 3), .host = 4, .weight = {0.1, 0.2, 0.7}});
   edit.density.push_back({.element = 7, .factor = 0.5});
+  edit.inserted = {{.end = {3, 5}, .s = 0.3}, {.end = {3, 9}, .s = 0.6}};
+  edit.splits = {{.element = 2, .n_tets = 2, .corner = {{{1, 2, 3, 4}, {5, 6, 7, 8}}}}};
   EXPECT_TRUE(is_equal_edit(edit_from_bytes(edit_to_bytes(edit)), edit));
 }
 

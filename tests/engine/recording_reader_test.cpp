@@ -164,7 +164,17 @@ TEST(RecordingReader, refuses_edits_that_do_not_fit_the_mesh) {
       [](MeshEdit& e) { e.corners[0].corner = 3; },
       [](MeshEdit& e) { e.corners[0].node = 13; },
       [](MeshEdit& e) { e.cut_facets[0].element = -5; },
-      [](MeshEdit& e) { e.density[0].element = 12; }};
+      [](MeshEdit& e) { e.density[0].element = 12; },
+      [](MeshEdit& e) {
+        e.inserted = {{.end = {5, 3}, .s = 0.5}};
+      },
+      [](MeshEdit& e) {
+        e.inserted = {{.end = {3, 12}, .s = 0.5}};
+      },
+      [](MeshEdit& e) {
+        e.inserted = {{.end = {3, 5}, .s = 1}};
+      },
+      [](MeshEdit& e) { e.splits = {{.element = 0, .n_tets = 2}}; }};
   for (std::size_t k = 0; k < wrongs.size(); ++k) {
     const TestFolder folder;
     ExampleRun run = example_run(3);

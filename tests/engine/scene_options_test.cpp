@@ -72,6 +72,7 @@ friction = 0.3
 [cutting]
 advance = 0.7
 least_step_ratio = 0.4
+split_step_ratio = 0.3
 resistance = "20 N/m"
 mode = "paper"
 spring = 2
@@ -153,6 +154,7 @@ TEST(SceneOptions, every_key_of_the_operation_reaches_its_member_in_si) {
   const Scene s = load_scene_text(full_scene);
   EXPECT_EQ(s.cutting.advance, 0.7);
   EXPECT_EQ(s.cutting.least_step_ratio, 0.4);
+  EXPECT_EQ(s.cutting.split_step_ratio, 0.3);
   EXPECT_EQ(s.cutting.resistance, 20);
   EXPECT_EQ(s.cutting.mode, CutMode::paper);
   EXPECT_EQ(s.cutting.spring, 2);

@@ -85,7 +85,7 @@ TEST(SurfaceView, after_an_edit_is_that_of_the_edited_surface_and_keeps_where_th
   ASSERT_LT(at, std::ssize(corner));
   edit.corners = {{.element = 0, .corner = static_cast<std::int32_t>(at), .node = copy}};
   apply_edit(edit, c.mesh);
-  apply_edit_to_owners(edit.duplicate_parent, owner);
+  apply_edit_to_owners(edit, owner);
   const Surface surface = boundary_surface(c.mesh);
   const Part after = make_part(c.mesh, owner, 1);
   update_surface_view(surface, owner, after, view);

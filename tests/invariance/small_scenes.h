@@ -111,6 +111,21 @@ inline const std::string crossing_cuts = scalpel(R"(
 )",
               "second scalpel");
 
+// One element thick, cut along itself.
+inline const std::string plate =
+    scene_start("0.36 s") + R"([tissue.shape]
+kind = "box"
+elements = "tet4-five"
+low = ["-30 mm", "-20 mm", 0]
+high = ["30 mm", "20 mm", "4.5 mm"]
+cells = [13, 9, 1]
+)" + soft_tissue +
+    "[[tissue.material.prony]]\nshare = 0.3\ntime = 0.1\n" + solver_table("-0.3", 20) +
+    "[cutting]\nsplit_step_ratio = 0.3\n[[support]]\nregion = \"x+\"\n" + scalpel_along("60 mm", R"(
+  { time = 0.02, position = ["-45 mm", "26 mm", "2.1 mm"], direction = [0, 1, 0] },
+  { time = 0.3, position = ["45 mm", "26 mm", "2.3 mm"], direction = [0, 1, 0] },
+)");
+
 // The plane body of configs/plane_cut.toml with finer cells, cut in half the time.
 inline std::string plane(const std::string& solver, const std::string& duration = "0.5 s",
                          const std::string& right = moving_support) {
@@ -250,6 +265,7 @@ inline std::vector<SmallScene> small_scenes() {
       {"tet4 viscoelastic, cut", block(viscous_tet) + partial_cut},
       {"tet4, cut in two", block(parted) + through_cut},
       {"tet4, crossing cuts", block(crossed) + crossing_cuts},
+      {"tet4 viscoelastic plate, nodes put on edges by a cut, resumed", plate, "0.2 s"},
       {"hex8, curved cut", block(hexahedra()) + curved_cut},
       {"hex8 viscoelastic, curved cut, resumed", block(viscous_hex) + curved_cut, "0.26 s"},
       {"hex8 enhanced viscoelastic, pressed and cut, resumed",

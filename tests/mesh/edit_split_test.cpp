@@ -71,14 +71,14 @@ TEST(EditOfSplits, leaves_others_their_corners) {
       EXPECT_TRUE(std::ranges::equal(after.corners(numbers.after(e)), box.mesh.corners(e)));
       EXPECT_EQ(after.element_type[numbers.after(e)], ElementType::hex8);
     }
-    for (const HexSplit& split : box.edit.splits)
+    for (const ElementSplit& split : box.edit.splits)
       for (std::size_t k = 0; k < split.corner.size(); ++k) {
         const std::int32_t e = numbers.after(split.element) + static_cast<std::int32_t>(k);
         EXPECT_TRUE(std::ranges::equal(after.corners(e), split.corner[k]));
         EXPECT_EQ(after.element_type[e], ElementType::tet4);
       }
     for (const CornerChange& change : box.edit.corners)
-      EXPECT_EQ(node_before(box.edit, box.mesh, change),
+      EXPECT_EQ(node_before(numbers, box.mesh, change),
                 after.corners(change.element)[change.corner]);
   }
 }

@@ -42,7 +42,7 @@ Mesh shuffled(Mesh mesh, unsigned seed) {
 
 }  // namespace
 
-TEST(HexSplit, tetrahedra_fill_a_body_of_hexahedra_whatever_its_numbers) {
+TEST(ElementSplit, tetrahedra_fill_a_body_of_hexahedra_whatever_its_numbers) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     Mesh mesh = shuffled(hex_box({3, 3, 3}), seed);
     std::vector<std::int32_t> all(27);
@@ -58,7 +58,7 @@ TEST(HexSplit, tetrahedra_fill_a_body_of_hexahedra_whatever_its_numbers) {
   }
 }
 
-TEST(HexSplit, neighbours_agree_about_diagonals_of_any_ranks) {
+TEST(ElementSplit, neighbours_agree_about_diagonals_of_any_ranks) {
   std::mt19937 random(5);
   for (int k = 0; k < 20; ++k) {
     Mesh mesh = hex_box({3, 3, 3});
@@ -73,7 +73,7 @@ TEST(HexSplit, neighbours_agree_about_diagonals_of_any_ranks) {
   }
 }
 
-TEST(HexSplit, a_body_of_both_kinds_is_one_piece_with_the_surface_of_the_uncut_one) {
+TEST(ElementSplit, a_body_of_both_kinds_is_one_piece_with_the_surface_of_the_uncut_one) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     Mesh mesh = shuffled(hex_box({3, 3, 3}), seed);
     std::mt19937 random(seed);
@@ -93,7 +93,7 @@ TEST(HexSplit, a_body_of_both_kinds_is_one_piece_with_the_surface_of_the_uncut_o
   }
 }
 
-TEST(HexSplit, a_tetrahedron_without_a_hexahedron_across_stays_at_the_surface) {
+TEST(ElementSplit, a_tetrahedron_without_a_hexahedron_across_stays_at_the_surface) {
   Mesh mesh = hex_box({2, 1, 1});
   split(mesh, {0});
   const FacetNeighbours across = facet_neighbours(mesh);
@@ -106,7 +106,7 @@ TEST(HexSplit, a_tetrahedron_without_a_hexahedron_across_stays_at_the_surface) {
   EXPECT_EQ(boundary_surface(mesh).triangle.size(), 20U);  // 2 x 10 quads
 }
 
-TEST(HexSplit, children_take_the_place_and_the_values_of_their_hexahedron) {
+TEST(ElementSplit, children_take_the_place_and_the_values_of_their_hexahedron) {
   Mesh mesh = hex_box({3, 1, 1});
   mesh.region_name = {"a", "b"};
   mesh.element_region = {0, 1, 0};
@@ -133,7 +133,7 @@ TEST(HexSplit, children_take_the_place_and_the_values_of_their_hexahedron) {
   EXPECT_EQ(n_marked, 2);
 }
 
-TEST(HexSplit, copies_of_nodes_leave_the_diagonals_as_they_were) {
+TEST(ElementSplit, copies_of_nodes_leave_the_diagonals_as_they_were) {
   Mesh mesh = hex_box({2, 2, 2});
   const auto before = hex_tets(mesh, 7);
   MeshEdit edit;  // node 13, the middle, for element 7 alone: topologically absurd, but an edit

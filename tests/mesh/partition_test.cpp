@@ -142,6 +142,6 @@ TEST(PartitionNodes, splits_a_mesh_of_several_pieces) {
 
 TEST(ApplyEditToOwners, leaves_a_duplicate_with_its_parent_s_owner) {
   std::vector<std::int32_t> owner = {0, 2, 1};
-  apply_edit_to_owners(std::vector<std::int32_t>{1, 2, 3}, owner);  // node 3 is the first duplicate
+  apply_edit_to_owners({.duplicate_parent = {1, 2, 3}}, owner);  // node 3 is the first duplicate
   EXPECT_EQ(owner, (std::vector<std::int32_t>{0, 2, 1, 2, 1, 2}));
 }

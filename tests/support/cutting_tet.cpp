@@ -32,6 +32,10 @@ void apply(const MeshEdit& edit, const CutFigures& figures, Body& body, Ledger& 
   body.x.clear();
   for (std::size_t i = 0; i + 2 < field.size(); i += 3)
     body.x.emplace_back(field[i], field[i + 1], field[i + 2]);
+  for (const EdgeNode& node : edit.inserted) {
+    const auto held = [&](std::int32_t i) { return body.is_held[i] != 0; };
+    body.is_held.push_back(held(node.end[0]) && held(node.end[1]) ? 1 : 0);
+  }
   for (const std::int32_t parent : edit.duplicate_parent) {
     const std::uint8_t held = body.is_held[parent];
     body.is_held.push_back(held);

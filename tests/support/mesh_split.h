@@ -6,8 +6,8 @@
 
 namespace trocar {
 
-inline HexSplit split_of(const Mesh& mesh, std::int32_t e) {
-  HexSplit split{.element = e};
+inline ElementSplit split_of(const Mesh& mesh, std::int32_t e) {
+  ElementSplit split{.element = e};
   const auto tets = hex_tets(mesh, e);
   for (std::size_t k = 0; k < tets.size(); ++k)
     for (std::size_t a = 0; a < 4; ++a)
@@ -15,8 +15,9 @@ inline HexSplit split_of(const Mesh& mesh, std::int32_t e) {
   return split;
 }
 
-inline std::vector<HexSplit> splits_of(const Mesh& mesh, std::span<const std::int32_t> elements) {
-  std::vector<HexSplit> splits;
+inline std::vector<ElementSplit> splits_of(const Mesh& mesh,
+                                           std::span<const std::int32_t> elements) {
+  std::vector<ElementSplit> splits;
   for (const std::int32_t e : elements) splits.push_back(split_of(mesh, e));
   return splits;
 }

@@ -1,0 +1,91 @@
+// Where on its edge a new node is put: the parts of its elements decide.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/sort_unique.h"
+#include "cutting/cut_split.h"
+#include "cutting/cut_thin.h"
+
+namespace trocar {
+
+// A slice with less (over h^3) stays with the other side.
+static constexpr double least_volume = 0.5;
+// A new node keeps this part of its edge to either side, and more by steps where the floor wants
+// it.
+static constexpr double least_part = 0.3, more_part = 0.1, half = 0.5;
+
+static double part_of(const EdgeNode& node) {
+  return std::min(node.s, 1 - node.s);
+}
+
+static void set_part(double part, EdgeNode& node) {
+  node.s = node.s < half ? part : 1 - part;
+}
+
+namespace {
+
+// The least step bound of an element's parts, and the new nodes on its edges, ascending.
+struct PartsOfElement {
+  double step = std::numeric_limits<double>::infinity();  // [m]
+  std::vector<std::size_t> node{};
+};
+
+}  // namespace
+
+static PartsOfElement parts_of(const Mesh& mesh, std::span<const EdgeNode> nodes,
+                               const ElementSplit& split) {
+  PartsOfElement parts;
+  for (const std::array<std::int32_t, 4>& tet : split.tets()) {
+    std::array<Vec3, 4> X;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (tet[k] < mesh.n_nodes()) {
+        X[k] = mesh.X[tet[k]];
+        continue;
+      }
+      const auto n = static_cast<std::size_t>(tet[k] - mesh.n_nodes());
+      parts.node.push_back(n);
+      X[k] = position_of(mesh, nodes[n]);
+    }
+    parts.step = std::min(parts.step, step_bound(X, {0, 1, 2, 3}));
+  }
+  sort_unique(parts.node);
+  return parts;
+}
+
+// Moves nodes of elements whose parts lie below the floor to the middle of their edges, those
+// farthest from it first; false if that doesn't help.
+static bool keep_floor(const Mesh& mesh, std::span<const std::int32_t> element, double floor,
+                       std::vector<EdgeNode>& nodes) {
+  const auto part = [&](std::size_t n) { return part_of(nodes[n]); };
+  for (;;) {
+    const MeshEdit edit = split_edges(mesh, element, nodes);
+    std::vector<std::size_t> too_near;
+    for (const ElementSplit& split : edit.splits) {
+      const PartsOfElement parts = parts_of(mesh, nodes, split);
+      if (parts.step >= floor) continue;
+      too_near.push_back(*std::ranges::min_element(parts.node, {}, part));
+      if (part(too_near.back()) == half) return false;
+    }
+    if (too_near.empty()) return true;
+    sort_unique(too_near);
+    for (const std::size_t n : too_near)
+      set_part(std::min(half, part_of(nodes[n]) + more_part), nodes[n]);
+  }
+}
+
+std::vector<EdgeNode> nodes_in_slices(const Mesh& mesh, const CutSurroundings& around,
+                                      const std::vector<ThinSlice>& slices, double floor) {
+  std::vector<EdgeNode> nodes;
+  for (const ThinSlice& slice : slices)
+    if (slice.V >= least_volume * around.h * around.h * around.h)
+      nodes.insert(nodes.end(), slice.crossing.begin(), slice.crossing.end());
+  std::ranges::stable_sort(nodes, {}, &EdgeNode::end);
+  const auto same = std::ranges::unique(nodes, {}, &EdgeNode::end);
+  nodes.erase(same.begin(), same.end());
+  for (EdgeNode& node : nodes) set_part(std::max(least_part, part_of(node)), node);
+  if (!keep_floor(mesh, around.patch.element, floor, nodes)) return {};
+  return nodes;
+}
+
+}  // namespace trocar

@@ -1,0 +1,119 @@
+// Plates and wedges one element thick, cut along themselves: only nodes on edges can part them.
+#include "cutting/cut_thin.h"
+
+#include <gtest/gtest.h>
+
+#include "cutting_tet.h"
+
+namespace trocar::cutting_test {
+namespace {
+
+constexpr double split_ratio = 0.3;
+
+Mesh plate(BoxElements elements) {
+  return make_box(Vec3(-1, -1, 0), Vec3(1, 1, 0.2), {10, 10, 1}, elements);
+}
+
+struct Cut {
+  Body body;
+  std::vector<MeshEdit> edits{};
+  int n_inserted = 0;
+};
+
+// A plane through `centre`, in n_steps frames.
+Cut cut_along(Mesh mesh, const Vec3& centre, const Vec3& normal, double ratio, int n_steps = 20) {
+  Cut result{.body = Body(std::move(mesh))};
+  TetCutter cutter{CutTetOptions{.split_step_ratio = ratio}};
+  const Blade blade = plane_blade(centre, normal, 3);
+  Ledger ledger;
+  cutter.start_stroke();
+  for (int k = 0; k < n_steps; ++k) {
+    BladeSweep sweep{blade(double(k) / n_steps), blade(double(k + 1) / n_steps), normal};
+    for (bool is_parted = false; !is_parted; sweep.before = sweep.after) {
+      const MeshEdit edit = advance(cutter, result.body, sweep, k + 1 == n_steps, ledger);
+      is_parted = edit.inserted.empty();
+      result.n_inserted += static_cast<int>(edit.inserted.size());
+      if (!edit.is_empty()) result.edits.push_back(edit);
+    }
+  }
+  return result;
+}
+
+TEST(ThinSlices, part_a_plate_in_its_plane_in_two) {
+  const Mesh whole = plate(BoxElements::tet4_five);
+  const Cut cut = cut_along(whole, Vec3(0, 0, 0.09), Vec3::UnitZ(), split_ratio);
+  EXPECT_EQ(fault(cut.body), "");
+  EXPECT_EQ(n_pieces(cut.body.mesh), 2);
+  EXPECT_GT(cut.n_inserted, 0);
+  EXPECT_NEAR(mass(cut.body.mesh), mass(whole), 1e-12 * mass(whole));
+  EXPECT_NEAR(volume(cut.body.mesh), volume(whole), 1e-12 * volume(whole));
+  EXPECT_GE(least_step_of(cut.body.mesh), split_ratio * least_step_of(whole));
+}
+
+TEST(ThinSlices, part_a_plate_askew_in_two) {
+  const Mesh whole = plate(BoxElements::tet4_five);
+  const Cut cut = cut_along(whole, Vec3(0, 0, 0.1), Vec3(0.03, 0.05, 1).normalized(), split_ratio);
+  EXPECT_EQ(fault(cut.body), "");
+  EXPECT_EQ(n_pieces(cut.body.mesh), 2);
+  EXPECT_GT(cut.n_inserted, 0);
+  EXPECT_NEAR(mass(cut.body.mesh), mass(whole), 1e-12 * mass(whole));
+  EXPECT_GE(least_step_of(cut.body.mesh), split_ratio * least_step_of(whole));
+}
+
+TEST(ThinSlices, leave_a_bent_plate_sound) {
+  Mesh mesh = plate(BoxElements::tet4_five);
+  for (Vec3& X : mesh.X) X.z() += 0.1 * X.x() * X.x();
+  const Cut cut = cut_along(mesh, Vec3(0, 0, 0.15), Vec3::UnitZ(), split_ratio);
+  EXPECT_EQ(fault(cut.body), "");
+  EXPECT_NEAR(mass(cut.body.mesh), mass(mesh), 1e-12 * mass(mesh));
+}
+
+TEST(ThinSlices, stay_as_they_are_where_the_floor_allows_no_part) {
+  const Mesh whole = plate(BoxElements::tet4_five);
+  const Cut cut = cut_along(whole, Vec3(0, 0, 0.1), Vec3::UnitZ(), 0.9);
+  EXPECT_EQ(cut.n_inserted, 0);
+  EXPECT_EQ(cut.body.mesh.n_elements(), whole.n_elements());
+  EXPECT_EQ(fault(cut.body), "");
+}
+
+TEST(ThinSlices, are_not_split_in_a_thick_body) {
+  const Mesh cube = make_box(Vec3::Zero(), Vec3::Ones(), {6, 6, 6}, BoxElements::tet4_kuhn);
+  for (const double z : {0.3, 0.5, 0.8, 0.9, 0.95}) {
+    const Vec3 normal = Vec3(0.1, 0.2, 1).normalized();
+    const Cut cut = cut_along(cube, Vec3(0.5, 0.5, z), normal, split_ratio);
+    EXPECT_EQ(cut.n_inserted, 0) << z;
+    EXPECT_EQ(cut.body.mesh.n_elements(), cube.n_elements());
+    EXPECT_EQ(fault(cut.body), "");
+  }
+}
+
+// Nodes of elements that another stroke has under way: it must go on with their parts.
+TEST(ThinSlices, of_one_blade_are_followed_by_another) {
+  Body body(plate(BoxElements::tet4_five));
+  const CutTetOptions options{.split_step_ratio = split_ratio};
+  TetCutter first{options}, second{options};
+  const Blade across = plane_blade(Vec3(0, 0, 0.1), Vec3::UnitX(), 3),
+              along = plane_blade(Vec3(0, 0, 0.1), Vec3::UnitZ(), 3);
+  Ledger ledger;
+  second.start_stroke();
+  const int n = 20;
+  const auto step = [&](TetCutter& cutter, TetCutter& other, const Blade& blade, const Vec3& normal,
+                        int k) {
+    BladeSweep sweep{blade(double(k) / n), blade(double(k + 1) / n), normal};
+    for (bool is_parted = false; !is_parted; sweep.before = sweep.after) {
+      const Mesh before = body.mesh;
+      const CutterEdit edit = advance(cutter, body, sweep, k + 1 == n, ledger);
+      if (!edit.is_empty()) other.follow(before, edit);
+      is_parted = edit.inserted.empty();
+    }
+  };
+  for (int k = 0; k < n / 2; ++k) step(second, first, across, Vec3::UnitX(), k);
+  first.start_stroke();
+  for (int k = 0; k < n; ++k) step(first, second, along, Vec3::UnitZ(), k);
+  for (int k = n / 2; k < n; ++k) step(second, first, across, Vec3::UnitX(), k);
+  EXPECT_EQ(fault(body), "");
+  EXPECT_GE(n_pieces(body.mesh), 4);
+}
+
+}  // namespace
+}  // namespace trocar::cutting_test
