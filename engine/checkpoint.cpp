@@ -103,7 +103,6 @@ Checkpoint take_checkpoint(Simulation& s) {
                .step = s.state.step,
                .step_scale = s.step_scale,
                .held_step = s.held_step,
-               .stable_step_before_cut = s.stable_step_before_cut,
                .watch = s.watch,
                .holds = s.holds.holds,
                .is_open = s.holds.is_open,
@@ -145,7 +144,6 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   prepare_cutters(s);
   s.step_scale = c.step_scale;
   s.held_step = c.held_step;
-  s.stable_step_before_cut = c.stable_step_before_cut;
   s.watch = c.watch;
   s.log = c.log;
   s.frame = s.first_frame = c.frame;

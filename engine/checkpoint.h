@@ -36,7 +36,7 @@ struct Checkpoint {
   std::vector<double> u, v;                                    // (n_nodes * 3) [m], [m/s]
   double time = 0, last_dt = 0;
   std::int64_t step = 0;
-  double step_scale = 1, held_step = 0, stable_step_before_cut = 0;
+  double step_scale = 1, held_step = 0;
   Watch watch;
   std::vector<Hold> holds;
   std::vector<std::uint8_t> is_open;  // (n_tools)

@@ -20,10 +20,10 @@ template <class Archive>
 static void visit(Archive& a, CutRecord& r) {
   a(r.tool, r.start, r.end, r.n_edits, r.n_refused, r.n_moved, r.n_duplicated, r.n_opened_facets,
     r.n_ranks, r.n_askew, r.n_pieces, r.n_elements_added, r.n_elements_dissolved, r.n_converted,
-    r.n_kept_hexahedra, r.stable_step_ratio, r.scene_step_ratio, r.least_quality, r.mass_change,
-    r.momentum_change, r.kinetic_energy_change, r.largest_deviation, r.mean_deviation, r.mean_edge,
-    r.n_beside, r.n_turned, r.n_chips, r.n_pulled_back, r.n_inserted, r.refusals, r.blade_travel,
-    r.deepest, r.milliseconds, r.worst_milliseconds);
+    r.n_kept_hexahedra, r.stable_step_ratio, r.scene_step_ratio, r.scene_step_before,
+    r.least_quality, r.mass_change, r.momentum_change, r.kinetic_energy_change, r.largest_deviation,
+    r.mean_deviation, r.mean_edge, r.n_beside, r.n_turned, r.n_chips, r.n_pulled_back, r.n_inserted,
+    r.refusals, r.blade_travel, r.deepest, r.milliseconds, r.worst_milliseconds);
 }
 template <class Archive>
 static void visit(Archive& a, CutMemory& m) {
@@ -89,10 +89,9 @@ static void visit(Archive& a, RecordingMark& m) {
 template <class Archive>
 static void visit(Archive& a, Checkpoint& c) {
   a(c.version, c.simd, c.scene, c.body_crc, c.frame, c.digest, c.mesh, c.fixed, c.duplicate_parent,
-    c.duplicate_node, c.time, c.last_dt, c.step, c.step_scale, c.held_step,
-    c.stable_step_before_cut, c.watch, c.holds, c.is_open, c.cuts, c.log, c.history, c.history_time,
-    c.searches, c.looked_at, c.has_stiffening, c.has_local_steps, c.sleep, c.has_energies, c.energy,
-    c.recordings);
+    c.duplicate_node, c.time, c.last_dt, c.step, c.step_scale, c.held_step, c.watch, c.holds,
+    c.is_open, c.cuts, c.log, c.history, c.history_time, c.searches, c.looked_at, c.has_stiffening,
+    c.has_local_steps, c.sleep, c.has_energies, c.energy, c.recordings);
 }
 
 static void put_blob(ByteWriter& writer, const Blob& blob) {

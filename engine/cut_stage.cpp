@@ -156,7 +156,7 @@ void end_stroke(CutStage& stage) {
 
 void note_body(const Simulation& s, CutRecord& record) {
   record.n_pieces = s.n_pieces;
-  record.scene_step_ratio = s.watch.stable_step / s.stable_step_before_cut;
+  record.scene_step_ratio = s.watch.stable_step / record.scene_step_before;
 }
 
 Vec3 middle(const std::vector<Vec3>& points) {
@@ -291,8 +291,8 @@ bool take_up_stroke(Simulation& s, const BladeWay& blade, const BladeLook& look,
   stage.engaged = look.engaged;
   if (!stage.is_in_stroke) {
     if (!look.has_met) return false;
-    s.stable_step_before_cut = s.watch.stable_step;
     start_stroke(stage, tool, blade.span.t1);
+    stage.strokes.back().scene_step_before = s.watch.stable_step;
   }
   stage.n_idle_frames = look.has_met ? 0 : stage.n_idle_frames + 1;
   stage.strokes.back().end = blade.span.t1;

@@ -32,7 +32,8 @@ struct CutRecord {
   std::int64_t n_converted = 0, n_kept_hexahedra = 0;  // see CutFigures; kept ones once an edit
   double stable_step_ratio =
       1;  // least stable step after / before, of the elements around, worst edit
-  double scene_step_ratio = 1;  // of the whole body, after or so far / before the stroke
+  double scene_step_ratio = 1;   // of the whole body, after or so far / before the stroke
+  double scene_step_before = 0;  // [s]
   double least_quality = 1;
   double mass_change = 0;            // largest |relative| of an edit
   double momentum_change = 0;        // |P after - P before| / sum |m v| around the cut, largest

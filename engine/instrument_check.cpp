@@ -82,7 +82,10 @@ void check_instruments_outside(const LoadedScene& loaded, double allowed, const 
     char text[40];
     std::snprintf(text, sizeof text, "%.3g m", depth[k]);
     loaded.where.fail(item_path("instrument", k) + ".path[0].position",
-                      "\"" + tool.name + "\" reaches " + text + " into " + what);
+                      "\"" + tool.name + "\" reaches " + text + " into " + what +
+                          (s.mesh.dimension() == 2 ? " (in a plane scene z does not count: "
+                                                     "move it aside)"
+                                                   : ""));
   }
 }
 

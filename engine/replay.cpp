@@ -60,11 +60,24 @@ PvdEntry write_frame_vtu(const Mesh& mesh, const RecordedFrame& frame, const std
   return {.time = frame.time, .file = name};
 }
 
+// All of them; throws InputError behind the last one if any is damaged.
 void list_frames(RecordingReader& reader,
                  const std::vector<std::pair<std::int64_t, double>>& frames) {
-  for (const auto& [frame, time] : frames)
-    std::printf("%8lld  %10.4f s  %s\n", static_cast<long long>(frame), time,
-                digest_text(reader.read(frame).digest).c_str());
+  std::string first_damage;
+  std::size_t n_damaged = 0;
+  for (const auto& [frame, time] : frames) {
+    std::string what;
+    try {
+      what = digest_text(reader.read(frame).digest);
+    } catch (const InputError& trouble) {
+      what = "damaged";
+      if (n_damaged++ == 0) first_damage = trouble.what();
+    }
+    std::printf("%8lld  %10.4f s  %s\n", static_cast<long long>(frame), time, what.c_str());
+  }
+  if (n_damaged > 0)
+    throw InputError(first_damage + "; " + std::to_string(n_damaged) + " of " +
+                     std::to_string(frames.size()) + " frames are damaged, the others are whole");
 }
 
 std::string video_file(const ReplayOptions& options) {

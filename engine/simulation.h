@@ -144,7 +144,6 @@ struct Simulation : RankBody {
   LeastOfMany least_altitude, least_element_step;  // of altitude and the model's element_step
   double rest_step = 0;    // least element bound of the undeformed mesh, over all ranks [s]
   double edge_length = 0;  // mean of the mesh at time zero [m]
-  double stable_step_before_cut = 0;
   std::optional<MassScaling> mass_scaling;  // only if the scene asks for it; replicated
   std::optional<AddedMass> added_mass;      // by it
   std::optional<Equilibrium> equilibrium;   // only if this process looked for one

@@ -29,7 +29,7 @@ LoadedScene loaded_text(const std::string& text) {
 
 // Wall times are the only part that no two runs share.
 Checkpoint without_wall_times(Checkpoint c) {
-  for (FrameRow& row : c.log.rows) row.seconds = 0;
+  for (FrameRow& row : c.log.rows) row.seconds = row.latency = 0;
   for (CutMemory& cut : c.cuts)
     for (CutRecord& stroke : cut.strokes) stroke.milliseconds = stroke.worst_milliseconds = 0;
   c.log.n_deadlines_missed = 0;

@@ -89,6 +89,21 @@ TEST(Replay, lists_frames_with_times_and_digests_and_writes_nothing) {
   EXPECT_FALSE(std::filesystem::exists(c.options.folder));
 }
 
+TEST(Replay, lists_the_whole_frames_behind_a_damaged_one) {
+  Case c;
+  c.options.list = true;
+  const std::int64_t damaged = c.run.frames[1].frame;
+  Database(c.options.recording, Database::Mode::read)
+      .run("UPDATE frame SET u = zeroblob(length(u)) WHERE frame = " + std::to_string(damaged));
+  testing::internal::CaptureStdout();
+  const std::string error = input_error_of([&] { replay(c.options); });
+  const std::string text = testing::internal::GetCapturedStdout();
+  EXPECT_TRUE(contains(error, "frame " + std::to_string(damaged) + ": damaged")) << error;
+  EXPECT_TRUE(contains(error, "1 of 6 frames are damaged")) << error;
+  for (std::size_t k = 0; k < c.run.frames.size(); ++k)
+    EXPECT_EQ(contains(text, digest_text(c.run.frames[k].digest)), k != 1) << k;
+}
+
 TEST(Replay, says_that_it_has_nothing_to_do) {
   Case c;
   c.options.vtu = false;
