@@ -1,6 +1,7 @@
 #include "engine/cut_stage.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "engine/simulation.h"
 #include "engine_started.h"
@@ -58,6 +59,29 @@ Slit slit_along(const std::vector<std::pair<double, double>>& points) {
       slit.length += 0.5 * (X(corner[0]) - X(corner[1])).norm();  // both lips have it
     }
   return slit;
+}
+
+// The first blade has halved the step of hexahedra before the second one begins.
+TEST(CutStage, stroke_keeps_its_own_step_when_another_blade_begins) {
+  const std::string scalpel = "[[instrument]]\nkind = \"scalpel\"\n";
+  const auto started = built(
+      "[time]\nduration = 4\n[tissue.shape]\nkind = \"box\"\nelements = \"hex8\"\n"
+      "high = [0.04, 0.03, 0.01]\ncells = [8, 6, 2]\n[solver]\nmass_damping = 20\n"
+      "[[support]]\nregion = \"z-\"\n" +
+      scalpel + "path = [\n" + facing(key(0.1, -5, 9.3, 4) + key(1.1, 45, 9.3, 4), "[1, 0.3, 0]") +
+      "]\n" + scalpel + "name = \"second\"\npath = [\n" +
+      facing(key(0.5, 30, 40, 4) + key(1, 30, 22, 4), "[0, -1, 0]") + "]\n");
+  Simulation& s = *started->s;
+  const auto run_until = [&](const std::function<bool()>& is_reached) {
+    while (!is_reached() && s.frame < 60) run_frame(s, started->outputs);
+    return is_reached();
+  };
+  ASSERT_TRUE(run_until([&] { return !s.cuts[1].strokes.empty(); }));
+  ASSERT_TRUE(s.cuts[0].is_in_stroke);
+  const CutRecord before = s.cuts[0].strokes[0];
+  EXPECT_LT(before.scene_step_ratio, 0.8);
+  ASSERT_TRUE(run_until([&] { return s.cuts[0].strokes[0].n_edits > before.n_edits; }));
+  EXPECT_NEAR(s.cuts[0].strokes[0].scene_step_ratio, before.scene_step_ratio, 0.1);
 }
 
 // In one edit these opened 6 (of 12), 13 and 14.
