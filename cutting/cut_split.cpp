@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "base/check.h"
 #include "base/sort_unique.h"
@@ -153,14 +154,16 @@ static void follow_opened(const Inserted& after, std::vector<OfElement<std::uint
 
 // Least barycentric coordinate of X in the tetrahedron.
 static double depth_in(const Inserted& after, const Tet& tet, const Vec3& X) {
+  constexpr Tet all{0, 1, 2, 3};
   std::array<Vec3, 4> p;
   for (std::size_t k = 0; k < 4; ++k) p[k] = after.X(tet[k]);
-  const auto volume = [](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    return (b - a).cross(c - a).dot(d - a);
-  };
-  return std::min({volume(X, p[1], p[2], p[3]), volume(p[0], X, p[2], p[3]),
-                   volume(p[0], p[1], X, p[3]), volume(p[0], p[1], p[2], X)}) /
-         volume(p[0], p[1], p[2], p[3]);
+  double least = std::numeric_limits<double>::infinity();
+  for (Vec3& corner : p) {
+    const Vec3 own = std::exchange(corner, X);
+    least = std::min(least, six_volumes(p, all));
+    corner = own;
+  }
+  return least / six_volumes(p, all);
 }
 
 static void follow_edge(const Inserted& after, std::vector<BladePoint>& edge) {
