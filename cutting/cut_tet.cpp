@@ -147,7 +147,8 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
     return {};
   }
   std::vector<ThinSlice> slices;
-  if (options.split_step_ratio > 0 && tets.mesh.X.empty()) slices = thin_slices(cut.around, stroke);
+  if (options.split_step_ratio > 0 && tets.mesh.X.empty())
+    slices = thin_slices(mesh, cut.around, stroke);
   if (is_through)
     if (MeshEdit edit = split(mesh, cut.around, slices, figures); !edit.is_empty()) return edit;
   cut.labels = label_elements(cut.around, stroke, is_last);

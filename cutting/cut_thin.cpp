@@ -8,10 +8,11 @@
 
 namespace trocar {
 
-// Of the patch's nodes on the outer surface or a lip, where tissue is one or two elements thick.
-static constexpr double thin_share = 0.9;
+// Of the nodes around a slice on the outer surface, where tissue is one or two elements thick: at
+// the edge of a thick body they are less.
+static constexpr double thin_share = 0.8;
 // Of a slice's crossed edges from there to there.
-static constexpr double outer_part = 0.8;
+static constexpr double outer_part = 0.7;
 // A corner this far beyond the surface (over h) still lies on this side.
 static constexpr double tolerance = 0.05;
 // Rings of thicker tissue that are split, too: a slice would come off from it at a neck.
@@ -25,7 +26,7 @@ struct Crossings {
   std::vector<std::span<const CutHit>> hits;  // (n_elements)
   std::vector<const std::int8_t*> given;      // (n_elements) sides of earlier advances
   std::vector<std::uint8_t> is_made;          // (n_nodes) put on an edge by this stroke
-  std::vector<std::uint8_t> is_outer;         // (n_nodes) on the outer surface or a lip
+  std::vector<std::uint8_t> is_outer;         // (n_nodes) on the outer surface, lips of cuts apart
   std::vector<std::uint8_t> votes;  // (n_nodes) by crossed edges: bit 0 for the + side, bit 1 for -
   std::vector<std::int32_t> twin;   // (n_nodes) the next node at its place that this stroke has
                                     // parted it from, in a ring
@@ -64,24 +65,24 @@ static std::vector<std::int32_t> twins_of(const CutPatch& patch, const CutStroke
   return twin;
 }
 
-static std::vector<std::uint8_t> outer_nodes(const CutPatch& patch) {
+static std::vector<std::uint8_t> outer_nodes(const Mesh& mesh, const CutPatch& patch) {
   std::vector<std::uint8_t> is_outer(patch.node.size(), 0);
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     for (int f = 0; f < 4; ++f)
-      if (patch.across[e][f] < 0)
+      if (patch.across[e][f] < 0 && (mesh.cut_facets[patch.element[e]] >> f & 1) == 0)
         for (const std::int32_t i : facet_nodes(patch, e, f)) is_outer[i] = 1;
   return is_outer;
 }
 
-static Crossings find_crossings(const CutSurroundings& around, const CutStroke& stroke,
-                                std::vector<std::uint8_t> is_outer) {
+static Crossings find_crossings(const Mesh& mesh, const CutSurroundings& around,
+                                const CutStroke& stroke) {
   const CutPatch& patch = around.patch;
   const std::vector<std::uint8_t> none(patch.node.size(), 0);
   Crossings c{around,
               hits_of(stroke, patch.element),
               find_elements(stroke.side, patch.element),
               none,
-              std::move(is_outer),
+              outer_nodes(mesh, patch),
               none,
               twins_of(patch, stroke)};
   for (const std::int32_t node : stroke.made_node)
@@ -229,6 +230,19 @@ static void for_crossed(const Crossings& c, std::int32_t i, const Body& body) {
     }
 }
 
+static bool is_in_thin_tissue(const Crossings& c, const ThinSlice& slice) {
+  const CutPatch& patch = c.around.patch;
+  std::vector<std::int32_t> near;
+  for (const std::vector<std::int32_t>* nodes : {&slice.node, &slice.rim})
+    for (const std::int32_t i : *nodes)
+      for (const std::int32_t e : patch.star(i))
+        near.insert(near.end(), patch.corner[e].begin(), patch.corner[e].end());
+  sort_unique(near);
+  const auto n_outer =
+      std::ranges::count_if(near, [&](std::int32_t i) { return c.is_outer[i] != 0; });
+  return static_cast<double>(n_outer) >= thin_share * static_cast<double>(near.size());
+}
+
 static bool is_one_element_thick(const Crossings& c, const ThinSlice& slice) {
   double n = 0, n_outer = 0;
   for (const std::int32_t i : slice.node)
@@ -269,19 +283,18 @@ static ThinSlice slice_of(const Crossings& c, std::int32_t first,
   return std::move(walk.slice);
 }
 
-std::vector<ThinSlice> thin_slices(const CutSurroundings& around, const CutStroke& stroke) {
+std::vector<ThinSlice> thin_slices(const Mesh& mesh, const CutSurroundings& around,
+                                   const CutStroke& stroke) {
   const CutPatch& patch = around.patch;
-  std::vector<std::uint8_t> is_outer = outer_nodes(patch);
-  if (static_cast<double>(std::ranges::count(is_outer, 1)) < thin_share * patch.n_nodes())
-    return {};
-  const Crossings c = find_crossings(around, stroke, std::move(is_outer));
+  const Crossings c = find_crossings(mesh, around, stroke);
   std::vector<std::uint8_t> is_seen(patch.node.size(), 0);
   std::vector<ThinSlice> slices;
   for (std::int32_t i = 0; i < patch.n_nodes(); ++i) {
     if (c.is_outer[i] == 0 || is_seen[i] != 0 || c.votes[i] == 0) continue;
     if (side_of(c, i) == 0 || !is_mute(c, i, side_of(c, i))) continue;
     ThinSlice slice = slice_of(c, i, is_seen);
-    if (is_one_element_thick(c, slice)) slices.push_back(std::move(slice));
+    if (is_in_thin_tissue(c, slice) && is_one_element_thick(c, slice))
+      slices.push_back(std::move(slice));
   }
   return slices;
 }

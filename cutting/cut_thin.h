@@ -19,7 +19,8 @@ struct ThinSlice {
   std::vector<EdgeNode> crossing{};  // of the edges at all of these, global
   double V = 0;  // what lies on that side around nodes that are not next to thicker tissue [m^3]
 };
-std::vector<ThinSlice> thin_slices(const CutSurroundings& around, const CutStroke& stroke);
+std::vector<ThinSlice> thin_slices(const Mesh& mesh, const CutSurroundings& around,
+                                   const CutStroke& stroke);
 
 // Nodes of elements around the slices are not to be parted yet.
 void leave_slices(const CutSurroundings& around, const std::vector<ThinSlice>& slices,
@@ -27,7 +28,7 @@ void leave_slices(const CutSurroundings& around, const std::vector<ThinSlice>& s
 
 // Nodes for the crossed edges of all slices that are no chips, ascending by ends: at the crossing
 // or nearer to the middle of the edge, so that no part of an element of the patch gets a lower step
-// bound than `floor` [m]. None if that can't be.
+// bound than `floor` [m]. Edges on which no node can keep it get none.
 std::vector<EdgeNode> nodes_in_slices(const Mesh& mesh, const CutSurroundings& around,
                                       const std::vector<ThinSlice>& slices, double floor);
 

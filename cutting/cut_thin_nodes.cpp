@@ -10,7 +10,7 @@
 namespace trocar {
 
 // A slice with less (over h^3) stays with the other side.
-static constexpr double least_volume = 0.5;
+static constexpr double least_volume = 0.25;
 // A new node keeps this part of its edge to either side, and more by steps where the floor wants
 // it.
 static constexpr double least_part = 0.3, more_part = 0.1, half = 0.5;
@@ -54,8 +54,8 @@ static PartsOfElement parts_of(const Mesh& mesh, std::span<const EdgeNode> nodes
 }
 
 // Moves nodes of elements whose parts lie below the floor to the middle of their edges, those
-// farthest from it first; false if that doesn't help.
-static bool keep_floor(const Mesh& mesh, std::span<const std::int32_t> element, double floor,
+// farthest from it first. A node that doesn't get there goes, and its edge stays whole.
+static void keep_floor(const Mesh& mesh, std::span<const std::int32_t> element, double floor,
                        std::vector<EdgeNode>& nodes) {
   const auto part = [&](std::size_t n) { return part_of(nodes[n]); };
   for (;;) {
@@ -63,12 +63,16 @@ static bool keep_floor(const Mesh& mesh, std::span<const std::int32_t> element, 
     std::vector<std::size_t> too_near;
     for (const ElementSplit& split : edit.splits) {
       const PartsOfElement parts = parts_of(mesh, nodes, split);
-      if (parts.step >= floor) continue;
-      too_near.push_back(*std::ranges::min_element(parts.node, {}, part));
-      if (part(too_near.back()) == half) return false;
+      if (parts.step < floor) too_near.push_back(*std::ranges::min_element(parts.node, {}, part));
     }
-    if (too_near.empty()) return true;
+    if (too_near.empty()) return;
     sort_unique(too_near);
+    const auto in_middle =
+        std::ranges::find_if(too_near, [&](std::size_t n) { return part(n) == half; });
+    if (in_middle != too_near.end()) {
+      nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(*in_middle));
+      continue;
+    }
     for (const std::size_t n : too_near)
       set_part(std::min(half, part_of(nodes[n]) + more_part), nodes[n]);
   }
@@ -84,7 +88,7 @@ std::vector<EdgeNode> nodes_in_slices(const Mesh& mesh, const CutSurroundings& a
   const auto same = std::ranges::unique(nodes, {}, &EdgeNode::end);
   nodes.erase(same.begin(), same.end());
   for (EdgeNode& node : nodes) set_part(std::max(least_part, part_of(node)), node);
-  if (!keep_floor(mesh, around.patch.element, floor, nodes)) return {};
+  keep_floor(mesh, around.patch.element, floor, nodes);
   return nodes;
 }
 

@@ -76,6 +76,18 @@ TEST(ThinSlices, stay_as_they_are_where_the_floor_allows_no_part) {
   EXPECT_EQ(fault(cut.body), "");
 }
 
+// Four thinner elements at a corner, whose parts no place of a node keeps above the floor.
+TEST(ThinSlices, are_split_beside_elements_that_the_floor_keeps_whole) {
+  Mesh mesh = plate(BoxElements::tet4_five);
+  for (Vec3& X : mesh.X)
+    if (X.x() > 0.9 && X.y() > 0.9 && X.z() > 0.1) X.z() = 0.1;
+  const double ratio = 0.55;
+  const Cut cut = cut_along(mesh, Vec3(0, 0, 0.09), Vec3::UnitZ(), ratio);
+  EXPECT_GT(cut.n_inserted, 100);
+  EXPECT_EQ(fault(cut.body), "");
+  EXPECT_GE(least_step_of(cut.body.mesh), ratio * least_step_of(mesh));
+}
+
 TEST(ThinSlices, are_not_split_in_a_thick_body) {
   const Mesh cube = make_box(Vec3::Zero(), Vec3::Ones(), {6, 6, 6}, BoxElements::tet4_kuhn);
   for (const double z : {0.3, 0.5, 0.8, 0.9, 0.95}) {
