@@ -24,6 +24,9 @@ inline bool has_blade(InstrumentKind kind) {
 }
 enum class GraspAction { none, close, open };
 enum class OutputKind { video, frames, recording, metrics, contact_sheet };
+inline bool is_picture(OutputKind kind) {
+  return kind != OutputKind::metrics && kind != OutputKind::recording;
+}
 enum class CutMode { robust, paper };
 
 struct SceneTime {
@@ -202,6 +205,8 @@ struct Scene {
   std::vector<SceneOutput> outputs;
 };
 
+// Whether an instrument of the scene cuts.
+bool has_blades(const Scene& scene);
 // Whether anything of the scene is written to a table of metrics.
 bool has_metrics(const Scene& scene);
 
