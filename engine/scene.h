@@ -2,6 +2,7 @@
 // declares the keys.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
@@ -71,6 +72,14 @@ struct SceneTissue {
   double thickness = 1e-3;
   SceneLook look;
 };
+
+// Whether any material of the body is so.
+template <class Is>
+bool any_material(const SceneTissue& tissue, const Is& is) {
+  return is(tissue.material) ||
+         std::ranges::any_of(tissue.region_materials,
+                             [&](const SceneRegionMaterial& other) { return is(other.material); });
+}
 
 // Where the time step comes from: bounds of each element, or the body's highest frequency.
 enum class StableStep { element_bound, frequency };

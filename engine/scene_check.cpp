@@ -52,10 +52,7 @@ void check_tissue(const LoadedScene& loaded, OptionErrors& errors) {
 }
 
 bool is_viscoelastic(const SceneTissue& tissue) {
-  return !tissue.material.prony.empty() ||
-         std::any_of(
-             tissue.region_materials.begin(), tissue.region_materials.end(),
-             [](const SceneRegionMaterial& other) { return !other.material.prony.empty(); });
+  return any_material(tissue, [](const SceneMaterial& m) { return !m.prony.empty(); });
 }
 
 // A history of strains can't be left out, nor computed several times a step; the same with volume

@@ -61,10 +61,7 @@ Uses of_material(const SceneMaterial& m, const std::string& path) {
 }
 
 bool any_has_fibres(const SceneTissue& tissue) {
-  return has_fibres(tissue.material.model) ||
-         std::ranges::any_of(tissue.region_materials, [](const SceneRegionMaterial& other) {
-           return has_fibres(other.material.model);
-         });
+  return any_material(tissue, [](const SceneMaterial& m) { return has_fibres(m.model); });
 }
 
 Uses of_tissue(const Scene& scene, const Mesh& mesh) {
