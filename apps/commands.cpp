@@ -76,13 +76,6 @@ double default_stable_step(const Mesh& mesh) {
   return *std::min_element(model.element_step.begin(), model.element_step.end());
 }
 
-bool is_surface_file(const std::string& file) {
-  std::string ending = std::filesystem::path(file).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".stl" || ending == ".obj";
-}
-
 void print_surface(const std::string& file, double scale) {
   const TriangleMesh mesh = read_triangle_mesh(file, scale);
   const auto [low, high] = bounding_box(mesh.X);

@@ -1,9 +1,7 @@
-// Reading options from a file: text -> tree -> overrides -> struct, with all errors of the file
-// reported at once.
+// Reading options from a file: text -> tree -> overrides -> struct.
 #include "base/options.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "base/check.h"
 #include "base/options_file.h"
@@ -55,37 +53,35 @@ static OptionNode parse_document(const OptionDocument& document) {
   }
 }
 
-// All errors as one, in the order of the file.
-static void throw_errors(OptionDocument& document) {
-  if (document.n_errors == 0) return;
-  std::stable_sort(document.errors.begin(), document.errors.end(),
-                   [](const OptionError& a, const OptionError& b) {
-                     return std::tie(a.source, a.line, a.column) <
-                            std::tie(b.source, b.line, b.column);
-                   });
-  std::string text;
-  for (const OptionError& error : document.errors)
-    text.append(text.empty() ? "" : "\n").append(error.message);
-  const std::size_t n_hidden = document.n_errors - document.errors.size();
-  if (n_hidden > 0) text.append("\n… and ").append(std::to_string(n_hidden)).append(" more errors");
-  throw InputError(text);
-}
-
-void read_options_text(const OptionTable& table, const std::string& text, const std::string& name,
-                       const std::vector<std::string>& overrides, void* object, SourceMap& where) {
-  OptionDocument document{
-      .name = name, .text = text, .overrides = overrides, .errors = {}, .places = {}};
+static void read_document(const OptionTable& table, OptionDocument& document, void* object,
+                          SourceMap& where) {
   OptionNode root = parse_document(document);
   apply_overrides(root, table, document);
   link_nodes(root, document);
   read_table(root, table.entries(), object);
-  throw_errors(document);
-  where = {.places = std::move(document.places), .file = name, .text = std::move(document.text)};
+  where = {.places = std::move(document.places),
+           .file = std::move(document.name),
+           .text = std::move(document.text)};
+}
+
+void read_options_text(const OptionTable& table, const std::string& text, const std::string& name,
+                       const std::vector<std::string>& overrides, void* object, SourceMap& where) {
+  OptionErrors errors(where);
+  OptionDocument document{
+      .name = name, .text = text, .overrides = overrides, .places = {}, .errors = &errors};
+  read_document(table, document, object, where);
+  errors.throw_if_any();
 }
 
 void read_options(const OptionTable& table, const std::string& file,
-                  const std::vector<std::string>& overrides, void* object, SourceMap& where) {
-  read_options_text(table, read_options_file(file), file, overrides, object, where);
+                  const std::vector<std::string>& overrides, void* object, SourceMap& where,
+                  OptionErrors& errors) {
+  OptionDocument document{.name = file,
+                          .text = read_options_file(file),
+                          .overrides = overrides,
+                          .places = {},
+                          .errors = &errors};
+  read_document(table, document, object, where);
 }
 
 }  // namespace trocar

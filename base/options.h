@@ -1,6 +1,6 @@
 // Options are declared once: key, member, dimension, range and one line of doc. From that come
 // reading with checks, the echo of all effective values, and the help. The TOML parser is seen by
-// options.cpp alone.
+// options_toml.cpp alone.
 //
 //   Options<Material> material("What the tissue is made of.");
 //   material.number("young_modulus", &Material::young_modulus, dim::pressure, positive, "Young's
@@ -11,9 +11,11 @@
 
 #include <array>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -68,11 +70,48 @@ class SourceMap {
  public:
   // The place of the key or, if it is not in the file, of the nearest table above it.
   SourcePlace find(const std::string& key_path) const;
-  // Throws InputError with the place, the key, the sentence and the source line.
+  // The place, the key, the sentence and the source line.
+  std::string message(const std::string& key_path, const std::string& sentence) const;
+  // Throws InputError with this message.
   [[noreturn]] void fail(const std::string& key_path, const std::string& sentence) const;
   std::map<std::string, SourcePlace> places;
   std::string file;
   std::string text;  // of the file
+};
+
+// An error of a key, or of a file before it has keys.
+struct OptionError {
+  int source = 0;  // 0: the file, i: override i - 1
+  int line = 0;
+  int column = 0;
+  std::string key_path;
+  std::string message;
+};
+
+// What is wrong with a file, collected so that all of it is told at once. More errors than
+// max_shown are only counted: a hostile file can have very many.
+class OptionErrors {
+ public:
+  static constexpr std::size_t max_shown = 100;
+  explicit OptionErrors(const SourceMap& where) : where_(&where) {}
+  // Of what can't be read.
+  void add(OptionError error);
+  // Of what was read. Left out where it may follow from what is known already: at the same key, and
+  // in a table at the top ("tissue", "support[1]") of which something can't be read.
+  void add(const std::string& key_path, const std::string& sentence);
+  // The same at the first of these keys that is in the file, or at the last.
+  void add_at_first(std::initializer_list<std::string> key_paths, const std::string& sentence);
+  const SourceMap& where() const { return *where_; }
+  bool is_empty() const { return n_ == 0; }
+  bool is_full() const { return shown_.size() >= max_shown; }
+  // Throws InputError with all errors in the order of the file, if there are any.
+  void throw_if_any() const;
+
+ private:
+  const SourceMap* where_;
+  std::vector<OptionError> shown_;
+  std::size_t n_ = 0;
+  std::set<std::string> wrong_keys_, unread_tables_;
 };
 
 // The untyped half of Options<T>; see there.
@@ -165,11 +204,14 @@ struct Located {
 // Reads `file` (TOML) into `object` by `table`. `overrides` are "key.path=value" texts that win
 // over the file
 // ("tissue.material.density=1000 kg/m^3", "instrument[1].radius='3 mm'").
-// Throws InputError that lists all errors of the file, each with file:line:column, the source line
-// and a caret, unknown keys with the nearest allowed one.
+// Collects all errors of keys and values, each with file:line:column, the source line and a caret,
+// unknown keys with the nearest allowed one; what can't be read stays as it was. Throws InputError
+// for a file that is no TOML, and for an override of a key that there is not.
 void read_options(const OptionTable& table, const std::string& file,
-                  const std::vector<std::string>& overrides, void* object, SourceMap& where);
-// The same from text; `name` stands for the file in messages.
+                  const std::vector<std::string>& overrides, void* object, SourceMap& where,
+                  OptionErrors& errors);
+// The same from text, but throws InputError that lists all errors; `name` stands for the file in
+// messages.
 void read_options_text(const OptionTable& table, const std::string& text, const std::string& name,
                        const std::vector<std::string>& overrides, void* object, SourceMap& where);
 // All effective values as TOML that reads back to the same struct.
@@ -182,7 +224,9 @@ template <class T>
 Located<T> read_options(const Options<T>& options, const std::string& file,
                         const std::vector<std::string>& overrides = {}) {
   Located<T> located;
-  read_options(options, file, overrides, &located.value, located.where);
+  OptionErrors errors(located.where);
+  read_options(options, file, overrides, &located.value, located.where, errors);
+  errors.throw_if_any();
   return located;
 }
 

@@ -33,23 +33,12 @@ struct OptionNode {
   OptionDocument* document = nullptr;
 };
 
-struct OptionError {
-  int source = 0;
-  int line = 0;
-  int column = 0;
-  std::string message;
-};
-
-// More errors than these are only counted.
-inline constexpr std::size_t max_shown_errors = 100;
-
 struct OptionDocument {
   std::string name;
   std::string text;
   std::vector<std::string> overrides;
-  std::vector<OptionError> errors;
-  std::size_t n_errors = 0;
   std::map<std::string, SourcePlace> places;
+  OptionErrors* errors = nullptr;
 };
 
 // An error of one value, on its way to the table that collects it.
@@ -96,8 +85,6 @@ std::string excerpt(std::string_view text, int line, int column);
 
 // Throws OptionRefusal: place, key, sentence, source line.
 [[noreturn]] void refuse(const OptionNode& node, const std::string& sentence);
-// Adds an error to the document's.
-void report(OptionDocument& document, const OptionError& error);
 // Reads a table into the object; errors go to the document.
 void read_table(const OptionNode& node, const std::vector<OptionEntry>& entries, void* object);
 // What to write instead of an unknown key: "the nearest allowed key is …; allowed: …".

@@ -85,25 +85,7 @@ void refuse(const OptionNode& node, const std::string& sentence) {
       InputError(place_of(node), path.empty() ? sentence : path + ": " + sentence).what();
   const bool is_root = node.above == nullptr;
   if (node.source == 0 && !is_root) message += excerpt(node.document->text, node.line, node.column);
-  throw OptionRefusal({node.source, node.line, node.column, message});
-}
-
-SourcePlace SourceMap::find(const std::string& key_path_text) const {
-  std::string path = key_path_text;
-  while (!path.empty()) {
-    const auto found = places.find(path);
-    if (found != places.end()) return found->second;
-    const std::size_t end = path.find_last_of(".[");
-    path.resize(end == std::string::npos ? 0 : end);
-  }
-  return {file, 1, 1};
-}
-
-void SourceMap::fail(const std::string& key_path_text, const std::string& sentence) const {
-  const SourcePlace place = find(key_path_text);
-  const bool is_in_file = place.file == file && places.contains(key_path_text);
-  const std::string lines = is_in_file ? excerpt(text, place.line, place.column) : "";
-  throw InputError(place, key_path_text + ": " + sentence + lines);
+  throw OptionRefusal({node.source, node.line, node.column, path, message});
 }
 
 }  // namespace trocar

@@ -7,23 +7,18 @@
 
 namespace trocar {
 
-void report(OptionDocument& document, const OptionError& error) {
-  ++document.n_errors;
-  if (document.errors.size() < max_shown_errors) document.errors.push_back(error);
-}
-
 namespace {
 
 void report_unknown_key(const OptionNode& node, const std::vector<OptionEntry>& entries) {
-  // Beyond the shown ones an error is only counted: a hostile file can have very many.
-  if (node.document->errors.size() >= max_shown_errors) return report(*node.document, {});
+  OptionErrors& errors = *node.document->errors;
+  if (errors.is_full()) return errors.add({});
   OptionNode at_key = node;
   at_key.line = node.key_line;
   at_key.column = node.key_column;
   try {
     refuse(at_key, "unknown key; " + allowed_keys_text(node.key, entries));
   } catch (const OptionRefusal& refusal) {
-    report(*node.document, refusal.error());
+    errors.add(refusal.error());
   }
 }
 
@@ -33,7 +28,9 @@ void report_missing_key(const OptionNode& table, const OptionEntry& entry) {
     refuse(table, "the required key " + in_quotes(entry.key) + " is missing (" + entry.type_text +
                       range + ": " + entry.doc + ")");
   } catch (const OptionRefusal& refusal) {
-    report(*table.document, refusal.error());
+    OptionError error = refusal.error();
+    error.key_path += (error.key_path.empty() ? "" : ".") + entry.key;
+    table.document->errors->add(std::move(error));
   }
 }
 
@@ -52,7 +49,7 @@ void read_entry(const OptionNode& node, const OptionEntry& entry, void* object) 
     if (!entry.is_table) return entry.read(node, object);
     read_table(node, entry.below, entry.make_below(object, 1)[0]);
   } catch (const OptionRefusal& refusal) {
-    report(*node.document, refusal.error());
+    node.document->errors->add(refusal.error());
   }
 }
 
@@ -67,7 +64,7 @@ void read_table(const OptionNode& node, const std::vector<OptionEntry>& entries,
   try {
     if (node.kind != NodeKind::table) refuse(node, "needs a table, found " + description(node));
   } catch (const OptionRefusal& refusal) {
-    return report(*node.document, refusal.error());
+    return node.document->errors->add(refusal.error());
   }
   node.document->places[key_path(node)] = place_of(node);
   for (const OptionEntry& entry : entries) {

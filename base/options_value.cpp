@@ -111,7 +111,7 @@ auto read_each(const OptionNode& list, const Read& read) {
     try {
       values.push_back(read(one));
     } catch (const OptionRefusal& refusal) {
-      if (last) report(*list.document, last->error());
+      if (last) list.document->errors->add(last->error());
       last = refusal;
     }
   }
@@ -167,13 +167,13 @@ std::vector<int> read_integers(const OptionNode& node, std::size_t n, const Rang
 }
 
 std::size_t read_choice(const OptionNode& node, const std::vector<std::string>& names) {
-  const std::string allowed = "; allowed: " + choices_text(names);
-  if (node.kind != NodeKind::text) refuse_kind(node, "a text in quotes" + allowed);
+  if (node.kind != NodeKind::text) refuse_kind(node, "one of " + choices_text(names));
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i] == node.text) return i;
   const std::string nearest = nearest_name(node.text, names);
   const std::string hint = nearest.empty() ? "" : "; the nearest is " + in_quotes(nearest);
-  refuse(node, in_quotes(node.text) + " is not one of the choices" + hint + allowed);
+  refuse(node, in_quotes(node.text) + " is not one of the choices" + hint +
+                   "; allowed: " + choices_text(names));
 }
 
 std::string description(const OptionNode& node) {

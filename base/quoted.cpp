@@ -56,4 +56,16 @@ std::string nearest_name(std::string_view name, std::span<const std::string> all
   return distance_to(name, nearest) <= most ? nearest : "";
 }
 
+std::string names_hint(std::string_view name, std::span<const std::string> names) {
+  if (names.empty()) return "; there are none";
+  const std::string nearest = nearest_name(name, names);
+  std::string text = nearest.empty() ? "" : "; the nearest is " + in_quotes(nearest);
+  constexpr std::size_t most_shown = 20;
+  for (const std::string& other : names.first(std::min(names.size(), most_shown)))
+    text.append(&other == names.data() ? "; there are " : ", ").append(in_quotes(other));
+  if (names.size() > most_shown)
+    text.append(" and ").append(std::to_string(names.size() - most_shown)).append(" more");
+  return text;
+}
+
 }  // namespace trocar

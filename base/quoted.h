@@ -17,4 +17,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 // differ, or `name` is longer than any sane one. What `name` begins counts as near.
 std::string nearest_name(std::string_view name, std::span<const std::string> allowed);
 
+// What there is instead of a name that there is not: "; the nearest is "top"; there are "top",
+// "bottom"", at most 20 of them, or "; there are none".
+std::string names_hint(std::string_view name, std::span<const std::string> names);
+
 }  // namespace trocar

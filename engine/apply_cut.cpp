@@ -288,11 +288,8 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   CarriedHistory history;
   if (is_viscous(s.materials)) history = carry_history(s, with_history, edit);
   nodes = united(nodes, nodes_of(s.mesh, edited.after));
-  if (is_local) {
-    is_step_local &= update_topology(s, {edit.splits, edited.after, nodes, global.x});
-  } else {
-    is_step_local &= rebuild_all(nodes, s);
-  }
+  is_step_local &= is_local ? update_topology(s, {edit.splits, edited.after, nodes, global.x})
+                            : rebuild_all(nodes, s);
   restore_strain_energy(adjustable, strain, s.mesh,
                         *make_strained_patch(s, edit, edited.after, nodes, global), global);
   restore_momentum(nodes, s.mass, before.motion, global, record);

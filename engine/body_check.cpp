@@ -28,14 +28,14 @@ bool can_move(const Simulation& s, const SceneLoad& load, const NodeSet& region)
   });
 }
 
-void check_loads(const LoadedScene& loaded, const Simulation& s) {
+void check_loads(const Simulation& s, OptionErrors& errors) {
   for (std::size_t k = 0; k < s.scene.loads.size(); ++k) {
     const SceneLoad& load = s.scene.loads[k];
     const NodeSet& region = *find_node_set(s.mesh, load.region);
     if (load.pressure != 0 && loaded_faces(s.mesh, s.surface, region).empty())
-      loaded.where.fail(item_path("load", k) + ".region",
-                        "no face of the surface lies in region \"" + load.region +
-                            "\" with all its nodes: nothing for the pressure to act on");
+      errors.add(item_path("load", k) + ".region",
+                 "no face of the surface lies in region \"" + load.region +
+                     "\" with all its nodes: nothing for the pressure to act on");
     if (!can_move(s, load, region))
       log_warning(item_path("load", k) + " moves nothing: supports hold all nodes of region \"" +
                   load.region + "\", or the body is plane and the force across it");
@@ -56,7 +56,7 @@ void check_plane(const Simulation& s) {
 }
 
 // What two families of fibres lie about must not lie across their plane.
-void check_fibres(const LoadedScene& loaded, const Simulation& s) {
+void check_fibres(const Simulation& s, OptionErrors& errors) {
   constexpr double least_sine = 1e-6;
   for (std::size_t e = 0; e < s.mesh.fibre.size(); ++e) {
     const Material& material = s.materials[static_cast<std::size_t>(s.mesh.element_region[e])];
@@ -64,7 +64,7 @@ void check_fibres(const LoadedScene& loaded, const Simulation& s) {
       continue;
     const Vec3& normal = material.fibre_normal;
     if (normal.cross(s.mesh.fibre[e]).norm() < least_sine * normal.norm())
-      loaded.where.fail("tissue.mesh", "the fibre of element " + std::to_string(e) +
+      return errors.add("tissue.mesh", "the fibre of element " + std::to_string(e) +
                                            " lies along fibre_normal, about which fibre_angle has "
                                            "two families turn: give another fibre_normal");
   }
@@ -83,20 +83,14 @@ void tell_late_keys(const Scene& scene, const std::string& list, const Items& it
   }
 }
 
-void check_markers(const LoadedScene& loaded, const Simulation& s) {
-  if (!s.markers.empty() && !has_metrics(s.scene))
+void check_markers(const Scene& scene) {
+  if (!scene.markers.empty() && !has_metrics(scene))
     log_warning(
         "markers do nothing: there is no [[output]] of kind \"metrics\" to tell where they are");
-  const std::vector<Location> markers = locate_markers(s.scene.markers, s.mesh);
-  for (std::size_t k = 0; k < markers.size(); ++k)
-    if (markers[k].element < 0)
-      loaded.where.fail(
-          item_path("marker", k) + ".position",
-          "marker \"" + s.scene.markers[k].name + "\" lies outside the undeformed body");
 }
 
 // Cuts make tetrahedra of hexahedra, in the middle of the run.
-void check_converted(const LoadedScene& loaded, const Simulation& s) {
+void check_converted(const Simulation& s, OptionErrors& errors) {
   if (s.cuts.empty()) return;
   const SolverOptions options = solver_options(s.scene);
   std::vector<std::uint8_t> has_hexahedra(s.materials.size(), 0);
@@ -107,7 +101,7 @@ void check_converted(const LoadedScene& loaded, const Simulation& s) {
     if (has_hexahedra[r] == 0) continue;
     if (const std::string fault = misfit_of(s.materials[r], options.tet4, options.precision);
         !fault.empty())
-      loaded.where.fail("solver.tetrahedron", "a cut makes tetrahedra of hexahedra: " + fault);
+      errors.add("solver.tetrahedron", "a cut makes tetrahedra of hexahedra: " + fault);
   }
 }
 
@@ -127,16 +121,16 @@ void check_materials_harden(const Scene& scene) {
 
 }  // namespace
 
-void check_body(const LoadedScene& loaded, const Simulation& s) {
-  check_supports(loaded, s.mesh);
-  check_loads(loaded, s);
+void check_body(const Simulation& s, OptionErrors& errors) {
+  check_supports(s.scene, s.mesh, errors);
+  check_loads(s, errors);
   check_plane(s);
-  check_fibres(loaded, s);
+  check_fibres(s, errors);
   tell_late_keys(s.scene, "support", s.scene.supports);
   tell_late_keys(s.scene, "load", s.scene.loads);
   tell_late_keys(s.scene, "instrument", s.scene.instruments);
-  check_markers(loaded, s);
-  check_converted(loaded, s);
+  check_markers(s.scene);
+  check_converted(s, errors);
   check_materials_harden(s.scene);
   for (const std::string& sentence : unused_keys(s.scene, s.mesh)) log_warning(sentence);
 }

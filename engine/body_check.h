@@ -6,9 +6,8 @@
 
 namespace trocar {
 
-// Supports, loads, markers, materials and those of what a cut makes, unused keys. Throws
-// InputError, naming the key, where the scene can't be run as it is; warns where a part of it does
-// nothing.
-void check_body(const LoadedScene& loaded, const Simulation& s);
+// Supports, loads, markers, materials and those of what a cut makes, unused keys. An error where
+// the scene can't be run as it is; warns where a part of it does nothing.
+void check_body(const Simulation& s, OptionErrors& errors);
 
 }  // namespace trocar

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/check.h"
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/log.h"
@@ -30,15 +31,12 @@ namespace {
 // Depth from which on an instrument is not laid on the body but lies in it, in reaches of contact.
 constexpr double buried = 0.4;
 
-std::vector<Material> region_materials(const LoadedScene& loaded, const Mesh& mesh) {
-  const SceneTissue& tissue = loaded.scene.tissue;
+std::vector<Material> region_materials(const SceneTissue& tissue, const Mesh& mesh) {
   std::vector<Material> materials(mesh.region_name.size(), to_material(tissue.material));
   for (std::size_t k = 0; k < tissue.region_materials.size(); ++k) {
     const SceneRegionMaterial& other = tissue.region_materials[k];
     const auto at = std::find(mesh.region_name.begin(), mesh.region_name.end(), other.region);
-    if (at == mesh.region_name.end())
-      loaded.where.fail(item_path("tissue.region_material", k) + ".region",
-                        "the mesh has no region \"" + other.region + "\"");
+    CHECK(at != mesh.region_name.end());
     materials[static_cast<std::size_t>(at - mesh.region_name.begin())] =
         to_material(other.material);
   }
@@ -149,35 +147,16 @@ void build_cuts(Simulation& s) {
   prepare_cutters(s);
 }
 
-// The edge has points half an element's edge apart, of which each frame makes a band.
-void check_blade_length(const LoadedScene& loaded, std::size_t k, double edge) {
-  constexpr double most_edges = 1e5;
-  const SceneInstrument& instrument = loaded.scene.instruments[k];
-  if (!has_blade(instrument.kind) || instrument.blade_length <= most_edges * edge) return;
-  char sentence[120];
-  std::snprintf(sentence, sizeof sentence,
-                "the blade is longer than 100,000 edges of the mesh, which have %.3g m: does its "
-                "unit fit the mesh's?",
-                edge);
-  loaded.where.fail(item_path("instrument", k) + ".blade_length", sentence);
-}
-
 void build_instruments(const LoadedScene& loaded, Simulation& s) {
   const double edge = s.edge_length;
   for (std::size_t k = 0; k < s.scene.instruments.size(); ++k) {
     const SceneInstrument& instrument = s.scene.instruments[k];
-    if (s.mesh.dimension() == 2 && instrument.kind == InstrumentKind::scissors)
-      loaded.where.fail(item_path("instrument", k) + ".kind",
-                        "scissors cut volumes only: a scalpel cuts this plane body");
-    check_blade_length(loaded, k, edge);
     s.tools.push_back(
         make_tool(instrument, load_tool_mesh(loaded, k, *s.communicator), 0.5 * edge));
   }
   s.holds.is_open.assign(s.tools.size(), 1);
   s.holds.poses.resize(s.tools.size());
   const bool has_tissue = s.scene.contact.has_tissue;
-  if (has_tissue && s.mesh.dimension() == 2)
-    loaded.where.fail("contact.tissue", "this body is plane: only volumes touch themselves");
   if (s.tools.empty() && !has_tissue) return;
   std::vector<ToolShape> shapes;
   for (const Tool& tool : s.tools) shapes.push_back(tool.shape);
@@ -331,15 +310,17 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   s.scene = loaded.scene;
   for (std::size_t k = 0; k < n_phases; ++k) s.timers.phase(phase_names[k]);
   s.mesh = load_tissue(loaded, communicator);
-  s.materials = region_materials(loaded, s.mesh);
+  s.materials = region_materials(s.scene.tissue, s.mesh);
   s.node_owner = partition_nodes(s.mesh, communicator);
   s.edge_length = mean_edge_length(s.mesh);
   build_supports(s);
-  if (s.scene.start.state == StartState::equilibrium) check_is_held(loaded, s);
+  OptionErrors errors(loaded.where);
+  if (s.scene.start.state == StartState::equilibrium) check_is_held(s, errors);
   build_instruments(loaded, s);
   s.body_crc = crc_of_body(s);
   build_topology(loaded, s);
-  check_body(loaded, s);
+  check_body(s, errors);
+  errors.throw_if_any();
   if (!s.cuts.empty()) prepare_first_cut(s);
   s.state = make_state(s.model);
   refresh_surface(s);

@@ -70,8 +70,8 @@ void check_found(const Relaxation& found, Simulation& s) {
 }
 
 // Of loads with a direction, all together; of pieces nobody knows which bears what.
-void check_loads_are_held(const LoadedScene& loaded, std::span<const FixedMask> held,
-                          const Simulation& s) {
+void check_loads_are_held(std::span<const FixedMask> held, const Simulation& s,
+                          OptionErrors& errors) {
   constexpr double least_share = 1e-9;
   Vec3 sum = Vec3::Zero();
   double size = 0;
@@ -83,23 +83,23 @@ void check_loads_are_held(const LoadedScene& loaded, std::span<const FixedMask> 
   for (int j = 0; j < 3; ++j)
     if (std::abs(sum[j]) > least_share * size &&
         std::ranges::none_of(held, [&](FixedMask mask) { return (mask >> j & 1) != 0; }))
-      loaded.where.fail("start.state", std::string("there is no equilibrium: no support holds the "
-                                                   "body along ") +
-                                           "xyz"[j] + ", and loads move it there");
+      errors.add("start.state", std::string("there is no equilibrium: no support holds the "
+                                            "body along ") +
+                                    "xyz"[j] + ", and loads move it there");
 }
 
 }  // namespace
 
-void check_is_held(const LoadedScene& loaded, const Simulation& s) {
+void check_is_held(const Simulation& s, OptionErrors& errors) {
   const std::vector<std::int32_t> piece = pieces_of(s.mesh);
   const std::vector<FixedMask> held = held_components(s, piece);
   const Vec3& gravity = s.scene.solver.gravity;
-  check_loads_are_held(loaded, held, s);
+  check_loads_are_held(held, s, errors);
   for (std::size_t node = 0; node < piece.size(); ++node)
     for (int j = 0; j < 3; ++j)
       if (piece[node] == static_cast<std::int32_t>(node) && gravity[j] != 0 &&
           (held[node] >> j & 1) == 0)
-        loaded.where.fail("start.state",
+        return errors.add("start.state",
                           "there is no equilibrium: no support holds the piece of the body with "
                           "node " +
                               std::to_string(node) + " along " + "xyz"[j] +

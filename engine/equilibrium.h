@@ -9,8 +9,8 @@
 
 namespace trocar {
 
-// Throws InputError if gravity moves a piece of the body along an axis in which nothing holds it.
-void check_is_held(const LoadedScene& loaded, const Simulation& s);
+// An error if gravity or loads move a piece of the body along an axis in which nothing holds it.
+void check_is_held(const Simulation& s, OptionErrors& errors);
 
 // Relaxes the state that build made, with moving supports where they are at time zero; time and
 // step stay 0, viscous overstress too, and the energy ledger begins anew. Instruments take no part:

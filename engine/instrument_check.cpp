@@ -67,6 +67,7 @@ void warn_of_hasty_jaws(const Scene& scene) {
 // Contacts are sought at the surface: a tip that is well inside meets none, so it is looked for.
 void check_instruments_outside(const LoadedScene& loaded, double allowed, const std::string& what,
                                Simulation& s) {
+  OptionErrors errors(loaded.where);
   std::vector<double> depth(s.tools.size(), 0);
   detect_contacts(*s.contact, s.tools, s.holds, s.view, FrameSpan{}, 0);
   for (const Contact& contact : s.contact->contacts) {
@@ -81,12 +82,13 @@ void check_instruments_outside(const LoadedScene& loaded, double allowed, const 
     if (depth[k] <= allowed) continue;
     char text[40];
     std::snprintf(text, sizeof text, "%.3g m", depth[k]);
-    loaded.where.fail(item_path("instrument", k) + ".path[0].position",
-                      "\"" + tool.name + "\" reaches " + text + " into " + what +
-                          (s.mesh.dimension() == 2 ? " (in a plane scene z does not count: "
-                                                     "move it aside)"
-                                                   : ""));
+    errors.add(item_path("instrument", k) + ".path[0].position",
+               "\"" + tool.name + "\" reaches " + text + " into " + what +
+                   (s.mesh.dimension() == 2 ? " (in a plane scene z does not count: "
+                                              "move it aside)"
+                                            : ""));
   }
+  errors.throw_if_any();
 }
 
 }  // namespace trocar

@@ -27,11 +27,6 @@ Outputs::Outputs(Outputs&&) noexcept = default;
 
 namespace {
 
-bool is_picture(OutputKind kind) {
-  return kind == OutputKind::video || kind == OutputKind::frames ||
-         kind == OutputKind::contact_sheet;
-}
-
 std::int64_t interval_of(const SceneOutput& output, double frame_rate) {
   return std::max<std::int64_t>(1,
                                 static_cast<std::int64_t>(std::llround(output.every * frame_rate)));

@@ -58,6 +58,7 @@ std::vector<KeyValue> keys_of(const Scene& scene) {
 
 Scene without_free_keys(Scene scene) {
   scene.time.duration = 1;
+  scene.time.pace = Pace::fast;
   scene.checkpoint = {};
   scene.cameras.clear();
   scene.outputs.clear();

@@ -2,6 +2,7 @@
 // declares the keys.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
@@ -24,6 +25,9 @@ inline bool has_blade(InstrumentKind kind) {
 }
 enum class GraspAction { none, close, open };
 enum class OutputKind { video, frames, recording, metrics, contact_sheet };
+inline bool is_picture(OutputKind kind) {
+  return kind != OutputKind::metrics && kind != OutputKind::recording;
+}
 enum class CutMode { robust, paper };
 
 struct SceneTime {
@@ -68,6 +72,14 @@ struct SceneTissue {
   double thickness = 1e-3;
   SceneLook look;
 };
+
+// Whether any material of the body is so.
+template <class Is>
+bool any_material(const SceneTissue& tissue, const Is& is) {
+  return is(tissue.material) ||
+         std::ranges::any_of(tissue.region_materials,
+                             [&](const SceneRegionMaterial& other) { return is(other.material); });
+}
 
 // Where the time step comes from: bounds of each element, or the body's highest frequency.
 enum class StableStep { element_bound, frequency };
@@ -202,6 +214,8 @@ struct Scene {
   std::vector<SceneOutput> outputs;
 };
 
+// Whether an instrument of the scene cuts.
+bool has_blades(const Scene& scene);
 // Whether anything of the scene is written to a table of metrics.
 bool has_metrics(const Scene& scene);
 

@@ -6,64 +6,91 @@
 #include <set>
 
 #include "engine/scene.h"
+#include "engine/scene_outputs.h"
+#include "engine/tissue.h"
+#include "mesh/whole_file.h"
 
 namespace trocar {
 
 namespace {
 
-void check_tissue(const Scene& scene, const SourceMap& where) {
-  const SceneTissue& tissue = scene.tissue;
+void check_file(const std::string& key, const std::string& file, const LoadedScene& loaded,
+                OptionErrors& errors) {
+  if (file.empty()) return;
+  const std::string fault = fault_of_file(scene_path(loaded, file));
+  if (!fault.empty()) errors.add(key, fault);
+}
+
+void check_shape(const SceneShape& shape, OptionErrors& errors) {
+  const bool is_box = shape.kind == ShapeKind::box;
+  if (is_box && !(shape.low.array() < shape.high.array()).all())
+    errors.add_at_first({"tissue.shape.high", "tissue.shape.low"},
+                        "each component of low must be below that of high");
+  const bool is_round = shape.kind == ShapeKind::ball || shape.kind == ShapeKind::cylinder;
+  if (is_round && shape.elements == ElementKind::tet4_five)
+    errors.add("tissue.shape.elements",
+               "balls and cylinders can't be of tet4-five, some of which would be flat: take "
+               "\"tet4-kuhn\" or \"hex8\"");
+  const bool is_rectangle = shape.kind == ShapeKind::rectangle;
+  if (is_rectangle && !(shape.high.x() > 0 && shape.high.y() > 0))
+    errors.add("tissue.shape.high", "a rectangle reaches from 0 to here: x and y must be > 0");
+  if (shape.kind == ShapeKind::triangular_rectangle && !(shape.high.x() > 0))
+    errors.add("tissue.shape.high",
+               "a triangular-rectangle reaches from 0 to this x, which must be > 0");
+}
+
+void check_tissue(const LoadedScene& loaded, OptionErrors& errors) {
+  const SceneTissue& tissue = loaded.scene.tissue;
   if (tissue.mesh.empty() == !tissue.shape)
-    where.fail("tissue",
-               "give either a mesh file (mesh = \"…\") or a generated body ([tissue.shape]), "
-               "exactly one of them");
-  if (tissue.shape && tissue.shape->kind == ShapeKind::box &&
-      !(tissue.shape->low.array() < tissue.shape->high.array()).all())
-    where.fail("tissue.shape", "each component of low must be below that of high");
+    errors.add_at_first(
+        {"tissue.mesh", "tissue"},
+        "give either a mesh file (mesh = \"…\") or a generated body ([tissue.shape]), "
+        "exactly one of them");
+  else
+    check_file("tissue.mesh", tissue.mesh, loaded, errors);
+  if (tissue.shape) check_shape(*tissue.shape, errors);
 }
 
 bool is_viscoelastic(const SceneTissue& tissue) {
-  return !tissue.material.prony.empty() ||
-         std::any_of(
-             tissue.region_materials.begin(), tissue.region_materials.end(),
-             [](const SceneRegionMaterial& other) { return !other.material.prony.empty(); });
+  return any_material(tissue, [](const SceneMaterial& m) { return !m.prony.empty(); });
 }
 
 // A history of strains can't be left out, nor computed several times a step; the same with volume
 // changes averaged over elements of which only some are computed again.
-void check_shortcuts(const Scene& scene, const SourceMap& where) {
+void check_shortcuts(const Scene& scene, OptionErrors& errors) {
   const SceneSolver& solver = scene.solver;
   if (solver.sleep > 0 && is_viscoelastic(scene.tissue))
-    where.fail("solver.sleep", "viscoelastic tissue (prony) can't sleep: leave out one of them");
+    errors.add("solver.sleep", "viscoelastic tissue (prony) can't sleep: leave out one of them");
   if (!solver.is_multirate) return;
   if (is_viscoelastic(scene.tissue) || solver.tetrahedron == Formulation::tet4_nodal_pressure ||
       solver.mass_scaling_step > 0 || solver.stable_step != StableStep::frequency)
-    where.fail("solver.multirate",
+    errors.add("solver.multirate",
                "it needs stable_step = \"frequency\" and none of prony, tetrahedron = "
                "\"nodal-pressure\", mass_scaling_step");
 }
 
-void complete_materials(SceneTissue& tissue, const SourceMap& where) {
-  complete_material(where, "tissue.material", tissue.material);
+void complete_materials(SceneTissue& tissue, OptionErrors& errors) {
+  complete_material("tissue.material", tissue.material, errors);
   for (std::size_t k = 0; k < tissue.region_materials.size(); ++k)
-    complete_material(where, item_path("tissue.region_material", k) + ".material",
-                      tissue.region_materials[k].material);
+    complete_material(item_path("tissue.region_material", k) + ".material",
+                      tissue.region_materials[k].material, errors);
 }
 
-void check_regions(const Scene& scene, const SourceMap& where) {
+void check_regions(const Scene& scene, OptionErrors& errors) {
   for (std::size_t k = 0; k < scene.regions.size(); ++k)
     for (int j = 0; j < 3; ++j)
       if (const SceneRegion& region = scene.regions[k]; region.low[j] > region.high[j])
-        where.fail(item_path("region", k), "low is above high along " + std::string(1, "xyz"[j]) +
-                                               ", so that the box holds nothing: exchange them");
+        errors.add(item_path("region", k) + ".low",
+                   std::string("low is above high along ") + "xyz"[j] +
+                       ", so that the box holds nothing: exchange them");
 }
 
 // Names become columns of tables and words of messages.
-void check_names(const Scene& scene, const SourceMap& where) {
+void check_names(const Scene& scene, OptionErrors& errors) {
   const auto check = [&](const std::string& name, const std::string& key) {
     if (std::any_of(name.begin(), name.end(),
                     [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; }))
-      where.fail(key, "a name must not have line breaks, tabs or other control characters");
+      errors.add(key, "a name must not have line breaks, tabs or other control characters");
   };
   for (std::size_t k = 0; k < scene.regions.size(); ++k)
     check(scene.regions[k].name, item_path("region", k) + ".name");
@@ -73,219 +100,171 @@ void check_names(const Scene& scene, const SourceMap& where) {
     check(scene.markers[k].name, item_path("marker", k) + ".name");
 }
 
-void check_supports(const Scene& scene, const SourceMap& where) {
-  for (std::size_t k = 0; k < scene.supports.size(); ++k) {
-    const SceneSupport& support = scene.supports[k];
-    const std::set<char> letters(support.fix.begin(), support.fix.end());
-    if (support.fix.empty() || letters.size() != support.fix.size() ||
-        support.fix.find_first_not_of("xyz") != std::string::npos)
-      where.fail(item_path("support", k) + ".fix",
-                 "found \"" + support.fix + "\", allowed: some of \"x\", \"y\", \"z\", each once");
-    if (!support.path.empty() && letters.size() != 3)
-      where.fail(item_path("support", k) + ".path", "a moving support needs fix = \"xyz\"");
-    if (!support.path.empty() && support.path.front().displacement != Vec3::Zero() &&
-        scene.start.state != StartState::equilibrium)
-      where.fail(item_path("support", k) + "." + item_path("path", 0) + ".displacement",
-                 "a support begins where the body is, and this one would jump: the first "
-                 "displacement must be 0, a later one moves it");
-    for (std::size_t j = 1; j < support.path.size(); ++j)
-      if (!(support.path[j - 1].time < support.path[j].time))
-        where.fail(item_path("support", k) + "." + item_path("path", j),
-                   "the times of a path must ascend");
-  }
+// Once for a path: what else does not ascend may follow from it.
+template <class Keys>
+void check_times(const Keys& keys, const std::string& owner, OptionErrors& errors) {
+  const auto later = std::ranges::adjacent_find(
+      keys, [](const auto& a, const auto& b) { return !(a.time < b.time); });
+  if (later == keys.end()) return;
+  const auto j = static_cast<std::size_t>(later - keys.begin()) + 1;
+  errors.add(owner + "." + item_path("path", j) + ".time",
+             "the times of a path must ascend, and " + short_text(keys[j].time) +
+                 " s does not come after " + short_text(keys[j - 1].time) + " s");
 }
 
-void check_loads(const Scene& scene, const SourceMap& where) {
+void check_support(const SceneSupport& support, const std::string& path, OptionErrors& errors) {
+  const std::set<char> letters(support.fix.begin(), support.fix.end());
+  if (support.fix.empty() || letters.size() != support.fix.size() ||
+      support.fix.find_first_not_of("xyz") != std::string::npos)
+    errors.add(path + ".fix",
+               "found \"" + support.fix + "\", allowed: some of \"x\", \"y\", \"z\", each once");
+  else if (!support.path.empty() && letters.size() != 3)
+    errors.add(path + ".fix", "a moving support needs fix = \"xyz\", and this one has a path");
+  check_times(support.path, path, errors);
+}
+
+void check_supports(const Scene& scene, OptionErrors& errors) {
+  for (std::size_t k = 0; k < scene.supports.size(); ++k)
+    check_support(scene.supports[k], item_path("support", k), errors);
+}
+
+void check_loads(const Scene& scene, OptionErrors& errors) {
   for (std::size_t k = 0; k < scene.loads.size(); ++k) {
     const SceneLoad& load = scene.loads[k];
+    const std::string path = item_path("load", k);
     if (load.force == Vec3::Zero() && load.pressure == 0)
-      where.fail(item_path("load", k), "a load needs a force or a pressure");
-    for (std::size_t j = 1; j < load.path.size(); ++j)
-      if (!(load.path[j - 1].time < load.path[j].time))
-        where.fail(item_path("load", k) + "." + item_path("path", j),
-                   "the times of a path must ascend");
+      errors.add_at_first({path + ".force", path + ".pressure", path},
+                          "a load needs a force or a pressure that is not 0");
+    check_times(load.path, path, errors);
   }
 }
 
-void check_markers(const Scene& scene, const SourceMap& where) {
+void check_markers(const Scene& scene, OptionErrors& errors) {
   std::set<std::string> names;
   for (std::size_t k = 0; k < scene.markers.size(); ++k)
     if (!names.insert(scene.markers[k].name).second)
-      where.fail(
+      errors.add(
           item_path("marker", k) + ".name",
           "two markers are called \"" + scene.markers[k].name + "\": give each its own name");
 }
 
-void check_key(const InstrumentKey& key, const std::string& name, const SourceMap& where) {
-  if (key.direction.norm() < 1e-9)
-    where.fail(name + ".direction", "the direction must not be zero");
+void check_key(const InstrumentKey& key, bool has_jaws, const std::string& path,
+               OptionErrors& errors) {
   const Vec3 across = key.direction.cross(key.forward);
-  if (across.norm() < 1e-6 * key.direction.norm() * std::max(1e-9, key.forward.norm()))
-    where.fail(name, "forward must not be parallel to direction: give forward = [x, y, z]");
+  if (key.direction.norm() < 1e-9)
+    errors.add(path + ".direction", "the direction must not be zero");
+  else if (across.norm() < 1e-6 * key.direction.norm() * std::max(1e-9, key.forward.norm()))
+    errors.add_at_first({path + ".forward", path + ".direction"},
+                        "forward must not be parallel to direction: give forward = [x, y, z]");
+  if (key.action != GraspAction::none && !has_jaws)
+    errors.add(path + ".action", "only graspers and scissors open and close");
 }
 
-void check_instruments(Scene& scene, const SourceMap& where) {
+void check_instruments(const LoadedScene& loaded, OptionErrors& errors) {
+  for (std::size_t k = 0; k < loaded.scene.instruments.size(); ++k) {
+    const SceneInstrument& instrument = loaded.scene.instruments[k];
+    const std::string path = item_path("instrument", k);
+    const bool has_jaws =
+        instrument.kind == InstrumentKind::grasper || instrument.kind == InstrumentKind::scissors;
+    if (instrument.path.empty()) errors.add(path + ".path", "a path needs at least one key");
+    for (std::size_t j = 0; j < instrument.path.size(); ++j)
+      check_key(instrument.path[j], has_jaws, path + "." + item_path("path", j), errors);
+    check_times(instrument.path, path, errors);
+    check_file(path + ".mesh", instrument.mesh, loaded, errors);
+  }
+}
+
+void name_instruments(Scene& scene, OptionErrors& errors) {
   const char* kinds[] = {"probe", "grasper", "scalpel", "scissors"};
   std::set<std::string> names;
   for (std::size_t k = 0; k < scene.instruments.size(); ++k) {
     SceneInstrument& instrument = scene.instruments[k];
-    const std::string path = item_path("instrument", k);
     if (instrument.name.empty()) instrument.name = kinds[static_cast<int>(instrument.kind)];
     if (!names.insert(instrument.name).second)
-      where.fail(path, "two instruments are called \"" + instrument.name + "\": give each a name");
-    if (instrument.path.empty()) where.fail(path + ".path", "a path needs at least one key");
-    for (std::size_t j = 0; j < instrument.path.size(); ++j) {
-      check_key(instrument.path[j], path + "." + item_path("path", j), where);
-      if (j > 0 && !(instrument.path[j - 1].time < instrument.path[j].time))
-        where.fail(path + "." + item_path("path", j), "the times of a path must ascend");
-      const bool has_jaws =
-          instrument.kind == InstrumentKind::grasper || instrument.kind == InstrumentKind::scissors;
-      if (instrument.path[j].action != GraspAction::none && !has_jaws)
-        where.fail(path + "." + item_path("path", j) + ".action",
-                   "only graspers and scissors open and close");
-    }
-  }
-}
-
-bool stays_inside(const std::string& file) {
-  const std::filesystem::path path(file);
-  if (path.is_absolute() || !path.has_filename() || path.filename() == ".") return false;
-  return std::none_of(path.begin(), path.end(), [](const auto& part) { return part == ".."; });
-}
-
-std::string plain_file(const SceneOutput& output) {
-  return std::filesystem::path(output.file).lexically_normal().string();
-}
-
-// Only frames are a folder, in which others may lie.
-void check_no_output_lies_in_a_file(const Scene& scene, const SourceMap& where) {
-  std::vector<std::string> files = {"summary.json", "scene.toml", "checkpoint.bin"};
-  for (const SceneOutput& output : scene.outputs)
-    if (output.kind != OutputKind::frames) files.push_back(plain_file(output));
-  for (std::size_t k = 0; k < scene.outputs.size(); ++k)
-    for (const std::string& file : files)
-      if (plain_file(scene.outputs[k]).starts_with(file + "/"))
-        where.fail(item_path("output", k) + ".file",
-                   "\"" + scene.outputs[k].file + "\" lies in \"" + file + "\", which is a file");
-}
-
-// "000042.png"
-bool is_name_of_frame(const std::string& name) {
-  return name.size() > 4 && name.ends_with(".png") &&
-         name.find_first_not_of("0123456789") == name.size() - 4;
-}
-
-// Others may lie among the pictures of a frames output, but not under the name of one.
-void check_no_output_is_a_frame(const Scene& scene, const SourceMap& where) {
-  std::set<std::string> folders;
-  for (const SceneOutput& output : scene.outputs)
-    if (output.kind == OutputKind::frames) folders.insert(plain_file(output));
-  for (std::size_t k = 0; k < scene.outputs.size(); ++k) {
-    const std::filesystem::path file(plain_file(scene.outputs[k]));
-    if (folders.contains(file.parent_path().string()) && is_name_of_frame(file.filename().string()))
-      where.fail(item_path("output", k) + ".file",
-                 "\"" + scene.outputs[k].file + "\" has the name of a picture of the frames in \"" +
-                     file.parent_path().string() + "\", which would be written over it");
-  }
-}
-
-void check_outputs(const Scene& scene, const SourceMap& where) {
-  std::set<std::string> files;
-  for (std::size_t k = 0; k < scene.outputs.size(); ++k) {
-    const SceneOutput& output = scene.outputs[k];
-    const std::string path = item_path("output", k);
-    if (!stays_inside(output.file))
-      where.fail(path + ".file",
-                 "\"" + output.file + "\" must be a relative path inside the output folder");
-    const std::string plain = plain_file(output);
-    if (plain == "summary.json" || plain == "scene.toml" || plain == ".trocar-lock" ||
-        plain.starts_with("checkpoint.bin"))
-      where.fail(path + ".file", "\"" + plain + "\" is written by every run: choose another name");
-    if (!files.insert(plain).second)
-      where.fail(path + ".file", "two outputs write \"" + output.file + "\"");
-    const bool is_picture = output.kind == OutputKind::video || output.kind == OutputKind::frames ||
-                            output.kind == OutputKind::contact_sheet;
-    const bool is_known =
-        std::any_of(scene.cameras.begin(), scene.cameras.end(),
-                    [&](const SceneCamera& c) { return c.name == output.camera; });
-    const std::string ending = std::filesystem::path(plain).extension().string();
-    if (output.kind == OutputKind::contact_sheet && !ending.empty() && ending != ".png")
-      where.fail(path + ".file", "a contact sheet is a PNG picture, and \"" + output.file +
-                                     "\" has another ending: end it in .png");
-    if (is_picture && scene.cameras.empty()) where.fail(path, "a picture needs a [[camera]]");
-    if (is_picture && !output.camera.empty() && !is_known)
-      where.fail(path + ".camera", "there is no camera \"" + output.camera + "\"");
-  }
-}
-
-void check_cameras(const Scene& scene, const SourceMap& where) {
-  std::set<std::string> names;
-  for (std::size_t k = 0; k < scene.cameras.size(); ++k) {
-    const SceneCamera& camera = scene.cameras[k];
-    if (!names.insert(camera.name).second)
-      where.fail(item_path("camera", k),
-                 "two cameras are called \"" + camera.name + "\": give each a name");
-    const Vec3 view = camera.target - camera.eye;
-    if (view.norm() < 1e-9 ||
-        view.cross(camera.up).norm() < 1e-6 * view.norm() * std::max(1e-9, camera.up.norm()))
-      where.fail(item_path("camera", k),
-                 "eye and target must differ and up must not point along the view");
+      errors.add(item_path("instrument", k) + ".name",
+                 "two instruments are called \"" + instrument.name + "\": give each its own name");
   }
 }
 
 // Elements in single precision leave some 1e-6 of the supports' forces out of balance.
-void check_start(const Scene& scene, const SourceMap& where) {
+void check_start(const Scene& scene, OptionErrors& errors) {
   constexpr double least_in_single = 3e-5;
-  if (scene.start.state == StartState::equilibrium &&
-      scene.solver.precision == Precision::in_single && scene.start.tolerance < least_in_single)
-    where.fail("start.tolerance",
+  const bool is_sought = scene.start.state == StartState::equilibrium;
+  if (is_sought && scene.solver.precision == Precision::in_single &&
+      scene.start.tolerance < least_in_single)
+    errors.add("start.tolerance",
                "with solver.precision = \"single\" the tolerance must be 3e-5 or more");
+  for (std::size_t k = 0; k < scene.supports.size(); ++k)
+    if (const auto& path = scene.supports[k].path;
+        !is_sought && !path.empty() && path.front().displacement != Vec3::Zero())
+      errors.add(item_path("support", k) + "." + item_path("path", 0) + ".displacement",
+                 "a support begins where the body is, and this one would jump: the first "
+                 "displacement must be 0, a later one moves it");
 }
 
-void check_contact(const Scene& scene, const SourceMap& where) {
+void check_contact(const Scene& scene, OptionErrors& errors) {
   if (scene.contact.has_tissue && scene.solver.sleep != 0)
-    where.fail("contact.tissue", "what sleeps cannot be touched by tissue: leave out solver.sleep");
+    errors.add("contact.tissue", "what sleeps cannot be touched by tissue: leave out solver.sleep");
 }
 
-void check_time(const Scene& scene, const SourceMap& where) {
+void check_time(const Scene& scene, OptionErrors& errors) {
   if (scene.time.duration * scene.time.frame_rate < 1)
-    where.fail("time.duration", "the duration is shorter than one frame");
+    errors.add("time.duration", "the duration is shorter than one frame (1 / frame_rate)");
   if (scene.time.duration * scene.time.frame_rate > 1e7)
-    where.fail("time.duration",
+    errors.add("time.duration",
                "more than 10 million frames: shorten the duration or lower the frame rate");
 }
 
 }  // namespace
+
+bool has_blades(const Scene& scene) {
+  return std::ranges::any_of(scene.instruments,
+                             [](const SceneInstrument& i) { return has_blade(i.kind); });
+}
 
 bool has_metrics(const Scene& scene) {
   return std::any_of(scene.outputs.begin(), scene.outputs.end(),
                      [](const SceneOutput& output) { return output.kind == OutputKind::metrics; });
 }
 
+// What each table tells by itself.
+static void check_tables(LoadedScene& loaded, OptionErrors& errors) {
+  const Scene& scene = loaded.scene;
+  check_time(scene, errors);
+  check_tissue(loaded, errors);
+  complete_materials(loaded.scene.tissue, errors);
+  check_names(scene, errors);
+  check_regions(scene, errors);
+  check_supports(scene, errors);
+  check_loads(scene, errors);
+  check_instruments(loaded, errors);
+  check_views(scene, errors);
+  check_output_files(scene, errors);
+}
+
+// What only several tables tell together.
+static void check_tables_together(LoadedScene& loaded, OptionErrors& errors) {
+  const Scene& scene = loaded.scene;
+  check_shortcuts(scene, errors);
+  check_markers(scene, errors);
+  name_instruments(loaded.scene, errors);
+  check_cameras(scene, errors);
+  check_outputs_together(scene, errors);
+  check_start(scene, errors);
+  check_contact(scene, errors);
+}
+
 LoadedScene load_scene(const std::string& file, const std::vector<std::string>& overrides) {
-  Located<Scene> located = read_options(scene_options(), file, overrides);
-  const Scene& scene = located.value;
-  check_time(scene, located.where);
-  check_tissue(scene, located.where);
-  check_shortcuts(scene, located.where);
-  complete_materials(located.value.tissue, located.where);
-  check_names(scene, located.where);
-  check_regions(scene, located.where);
-  check_supports(scene, located.where);
-  check_loads(scene, located.where);
-  check_markers(scene, located.where);
-  check_instruments(located.value, located.where);
-  check_cameras(scene, located.where);
-  check_outputs(scene, located.where);
-  check_no_output_lies_in_a_file(scene, located.where);
-  check_no_output_is_a_frame(scene, located.where);
-  check_start(scene, located.where);
-  check_contact(scene, located.where);
-  std::string folder = std::filesystem::path(file).parent_path().string();
-  if (!folder.empty()) folder += "/";
-  return {.scene = std::move(located.value),
-          .where = std::move(located.where),
-          .folder = std::move(folder)};
+  LoadedScene loaded;
+  loaded.folder = std::filesystem::path(file).parent_path().string();
+  if (!loaded.folder.empty()) loaded.folder += "/";
+  OptionErrors errors(loaded.where);
+  read_options(scene_options(), file, overrides, &loaded.scene, loaded.where, errors);
+  const bool is_read = errors.is_empty();
+  check_tables(loaded, errors);
+  if (is_read) check_tables_together(loaded, errors);
+  errors.throw_if_any();
+  return loaded;
 }
 
 }  // namespace trocar

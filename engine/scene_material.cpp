@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "base/quoted.h"
 #include "engine/tissue_table.h"
 #include "solver/material_setup.h"
 
@@ -87,35 +88,65 @@ const std::vector<Parameter>& parameters() {
   return list;
 }
 
-bool is_given(const SourceMap& where, const std::string& path, const char* key) {
-  return where.places.contains(path + "." + key);
-}
-
-// What the scene does not say, the tissue does.
-void take_tissue(const SourceMap& where, const std::string& path, SceneMaterial& m) {
+// What the scene does not say, the tissue does. Whether there is one that fits.
+bool take_tissue(const std::string& path, SceneMaterial& m, OptionErrors& errors) {
   const Tissue* tissue = find_tissue(m.tissue);
-  if (tissue == nullptr)
-    where.fail(path + ".tissue",
-               "there is no tissue \"" + m.tissue + "\"; there are " + known_tissues());
+  if (tissue == nullptr) {
+    errors.add(path + ".tissue",
+               "there is no tissue \"" + m.tissue + "\"" + names_hint(m.tissue, known_tissues()));
+    return false;
+  }
   const SceneMaterial& base = tissue->material;
-  if (is_given(where, path, "model") && m.model != base.model)
-    where.fail(path + ".model", "tissue \"" + m.tissue + "\" is of model " +
+  if (errors.where().places.contains(path + ".model") && m.model != base.model) {
+    errors.add(path + ".model", "tissue \"" + m.tissue + "\" is of model " +
                                     model_name(base.model) + ": leave model or tissue out");
+    return false;
+  }
   m.model = base.model;
   for (const Parameter& p : parameters())
     if (std::isnan(m.*p.member)) m.*p.member = base.*p.member;
   if (m.ogden.empty()) m.ogden = base.ogden;
   if (m.prony.empty()) m.prony = base.prony;
+  return true;
 }
 
-void check_parameter(const SourceMap& where, const std::string& path, const Parameter& p,
-                     const SceneMaterial& m) {
-  const bool is_absent = std::isnan(m.*p.member), belongs = (p.of_models & bit(m.model)) != 0;
-  if (!is_absent && !belongs)
-    where.fail(path + "." + p.key,
-               std::string(p.key) + " is no parameter of model " + model_name(m.model));
-  if (is_absent && belongs && std::isnan(p.otherwise))
-    where.fail(path, "model " + model_name(m.model) + " needs " + p.key);
+std::string parameters_of(MaterialModel model) {
+  std::string list;
+  for (const Parameter& p : parameters())
+    if ((p.of_models & bit(model)) != 0) list.append(list.empty() ? "" : ", ").append(p.key);
+  return list;
+}
+
+// Whether the model has what is given, and gets what it needs.
+bool check_parameters(const std::string& path, const SceneMaterial& m, OptionErrors& errors) {
+  const std::string model = model_name(m.model);
+  std::string lacking;
+  bool is_sound = true;
+  for (const Parameter& p : parameters()) {
+    const bool is_absent = std::isnan(m.*p.member), belongs = (p.of_models & bit(m.model)) != 0;
+    if (is_absent && belongs && std::isnan(p.otherwise))
+      lacking.append(lacking.empty() ? "" : " and ").append(p.key);
+    if (is_absent || belongs) continue;
+    errors.add(path + "." + p.key, std::string(p.key) + " is no parameter of model " + model +
+                                       ", which has " + parameters_of(m.model));
+    is_sound = false;
+  }
+  if (!lacking.empty()) errors.add(path + ".model", "model " + model + " needs " + lacking);
+  return is_sound && lacking.empty();
+}
+
+// The same of the terms of Ogden's energy.
+bool check_terms(const std::string& path, const SceneMaterial& m, OptionErrors& errors) {
+  const bool needs = m.model == MaterialModel::ogden;
+  if (needs && m.ogden.empty())
+    errors.add(path + ".model", "model ogden needs terms: ogden = [{mu = \"1 kPa\", alpha = 2}]");
+  else if (!needs && !m.ogden.empty())
+    errors.add(path + ".ogden", "ogden terms belong to model ogden");
+  else if (m.ogden.size() > 3)
+    errors.add(path + ".ogden", "at most three terms are allowed");
+  else
+    return true;
+  return false;
 }
 
 void fill_defaults(SceneMaterial& m) {
@@ -156,17 +187,13 @@ Options<SceneMaterial> material_options() {
   return m;
 }
 
-void complete_material(const SourceMap& where, const std::string& path, SceneMaterial& m) {
-  if (!m.tissue.empty()) take_tissue(where, path, m);
-  for (const Parameter& p : parameters()) check_parameter(where, path, p, m);
-  if ((m.model == MaterialModel::ogden) == m.ogden.empty())
-    where.fail(path, m.ogden.empty() ? "model ogden needs terms: ogden = [{mu = \"1 kPa\", alpha = "
-                                       "2}]"
-                                     : "ogden terms belong to model ogden");
-  if (m.ogden.size() > 3) where.fail(path + ".ogden", "at most three terms are allowed");
+void complete_material(const std::string& path, SceneMaterial& m, OptionErrors& errors) {
+  if (!m.tissue.empty() && !take_tissue(path, m, errors)) return;
+  const bool has_terms = check_terms(path, m, errors);
+  if (!check_parameters(path, m, errors) || !has_terms) return;
   fill_defaults(m);
-  const std::string fault = fault_of(to_material(m));
-  if (!fault.empty()) where.fail(path, fault);
+  const MaterialFault fault = fault_of(to_material(m));
+  if (!fault.sentence.empty()) errors.add(path + "." + fault.member, fault.sentence);
 }
 
 Material to_material(const SceneMaterial& given) {

@@ -42,8 +42,8 @@ Options<SceneMaterial> material_options();
 std::string model_name(MaterialModel model);
 
 // Fills in the tissue's values and the defaults, and checks that what is given belongs to the
-// model. `path` is that of its table. Throws InputError.
-void complete_material(const SourceMap& where, const std::string& path, SceneMaterial& material);
+// model. `path` is that of its table.
+void complete_material(const std::string& path, SceneMaterial& material, OptionErrors& errors);
 // Of a complete one; defaults stand for what is still absent.
 Material to_material(const SceneMaterial& material);
 

@@ -190,6 +190,20 @@ Json energies_json(const Simulation& s, const FrameRow& last) {
           {"largest_hourglass_share", s.energy->memory.largest_hourglass_share}};
 }
 
+double total_mass(const Simulation& s) {
+  ExactSum mass;
+  for (const double m : s.mass) mass.add(m);
+  return mass.value();
+}
+
+Json wound_json(const Simulation& s, const FrameRow& last) {
+  double largest = 0;
+  for (const FrameRow& row : s.log.rows) largest = std::max(largest, row.wound_width);
+  return {{"partner_nodes", s.duplicate_node.size()},
+          {"largest_width_m", largest},
+          {"width_at_end_m", last.wound_width}};
+}
+
 }  // namespace
 
 double quantile(std::vector<double> values, double q) {
@@ -206,10 +220,6 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   const double simulated = static_cast<double>(s.frame) / s.scene.time.frame_rate;
   const double resumed_at = static_cast<double>(s.first_frame) / s.scene.time.frame_rate;
   const FrameRow last = s.log.rows.empty() ? FrameRow{} : s.log.rows.back();
-  ExactSum mass;
-  for (const double m : s.mass) mass.add(m);
-  double wound = 0;
-  for (const FrameRow& row : s.log.rows) wound = std::max(wound, row.wound_width);
   Json j;
   j["scene"] = s.scene.name;
   j["version"] = version_text();
@@ -222,7 +232,7 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   j["precision"] = name_of(s.scene.solver.precision);
   j["simd"] = simd_name();
   j["mesh"] = mesh_json(s);
-  j["mass_kg"] = mass.value();
+  j["mass_kg"] = total_mass(s);
   if (s.added_mass) j["added_mass"] = added_mass_json(*s.added_mass);
   if (s.equilibrium) j["equilibrium"] = equilibrium_json(*s.equilibrium);
   j["duration_s"] = simulated;
@@ -246,9 +256,7 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   j["least_det_F"] = least_det_F_json(s.log);
   j["instruments"] = tools_json(s);
   if (s.energy) j["supports"] = supports_json(s);
-  j["wound"] = {{"partner_nodes", s.duplicate_node.size()},
-                {"largest_width_m", wound},
-                {"width_at_end_m", last.wound_width}};
+  j["wound"] = wound_json(s, last);
   j["cuts"] = cuts_json(s);
   if (s.energy) j["energies_J"] = energies_json(s, last);
   j["events"] = s.log.events;

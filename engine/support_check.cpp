@@ -91,16 +91,16 @@ Overlap find_overlap(const Scene& scene, std::int32_t number, const NodeSet& reg
   return overlap;
 }
 
-void tell_overlap(const LoadedScene& loaded, std::int32_t number, const NodeSet& region,
-                  const Overlap& overlap) {
+void tell_overlap(std::int32_t number, const NodeSet& region, const Overlap& overlap,
+                  OptionErrors& errors) {
   const std::string who = name_of(number), n_nodes = std::to_string(region.node.size());
   if (region.node.empty()) return;
   if (overlap.n_nodes_against == region.node.size())
-    loaded.where.fail(who, "all its " + n_nodes + " nodes (region \"" + region.name +
-                               "\") are held by " + name_of(overlap.against) +
-                               ", which moves them otherwise: leave out one of the two, or give "
-                               "them regions or components (fix) of their own");
-  if (overlap.n_nodes_against > 0)
+    errors.add(who + ".region", "all its " + n_nodes + " nodes (region \"" + region.name +
+                                    "\") are held by " + name_of(overlap.against) +
+                                    ", which moves them otherwise: leave out one of the two, or "
+                                    "give them regions or components (fix) of their own");
+  else if (overlap.n_nodes_against > 0)
     log_warning(who + ": " + name_of(overlap.against) + " holds " +
                 std::to_string(overlap.n_nodes_against) + " of its " + n_nodes +
                 " nodes otherwise, and has them");
@@ -111,14 +111,13 @@ void tell_overlap(const LoadedScene& loaded, std::int32_t number, const NodeSet&
 
 }  // namespace
 
-void check_supports(const LoadedScene& loaded, const Mesh& mesh) {
-  const Scene& scene = loaded.scene;
+void check_supports(const Scene& scene, const Mesh& mesh, OptionErrors& errors) {
   if (scene.supports.size() < 2) return;
   const Holders holders = find_holders(scene, mesh);
   for (std::int32_t k = 0; k < static_cast<std::int32_t>(scene.supports.size()); ++k) {
     const NodeSet& region =
         *find_node_set(mesh, scene.supports[static_cast<std::size_t>(k)].region);
-    tell_overlap(loaded, k, region, find_overlap(scene, k, region, holders));
+    tell_overlap(k, region, find_overlap(scene, k, region, holders), errors);
   }
 }
 

@@ -7,8 +7,8 @@
 
 namespace trocar {
 
-// Throws InputError, naming the support, where others hold all its nodes and move them otherwise;
+// An error where others hold all its nodes and move them otherwise;
 // warns where they do so with some of its nodes, and where it adds nothing to them.
-void check_supports(const LoadedScene& loaded, const Mesh& mesh);
+void check_supports(const Scene& scene, const Mesh& mesh, OptionErrors& errors);
 
 }  // namespace trocar

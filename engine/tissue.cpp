@@ -8,6 +8,7 @@
 #include "base/on_root.h"
 #include "cutting/cut_hex.h"
 #include "engine/bytes.h"
+#include "engine/mesh_fit.h"
 #include "engine/mesh_measures.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/generate.h"
@@ -57,12 +58,23 @@ void place(const SceneTissue& tissue, Mesh& mesh) {
   for (Vec3& X : mesh.X) X = (X - origin) * factor + tissue.translate;
 }
 
-void add_regions(const LoadedScene& loaded, Mesh& mesh) {
+// "from (0, 0, 0) to (0.1, 0.1, 0.1) m"
+std::string reach_text(const Mesh& mesh) {
+  const Box box = bounding_box(mesh.X);
+  const auto point = [](const Vec3& x) {
+    return "(" + short_text(x.x()) + ", " + short_text(x.y()) + ", " + short_text(x.z()) + ")";
+  };
+  return "from " + point(box.low) + " to " + point(box.high) + " m";
+}
+
+void add_regions(const LoadedScene& loaded, Mesh& mesh, OptionErrors& errors) {
   for (std::size_t k = 0; k < loaded.scene.regions.size(); ++k) {
     const SceneRegion& region = loaded.scene.regions[k];
-    if (find_node_set(mesh, region.name))
-      loaded.where.fail(item_path("region", k) + ".name",
-                        "the body has a region \"" + region.name + "\" already");
+    const std::string path = item_path("region", k);
+    if (find_node_set(mesh, region.name)) {
+      errors.add(path + ".name", "the body has a region \"" + region.name + "\" already");
+      continue;
+    }
     NodeSet set{.name = region.name, .node = {}};
     for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) {
       const Vec3& X = mesh.X[static_cast<std::size_t>(i)];
@@ -70,8 +82,8 @@ void add_regions(const LoadedScene& loaded, Mesh& mesh) {
         set.node.push_back(i);
     }
     if (set.node.empty())
-      loaded.where.fail(item_path("region", k),
-                        "region \"" + region.name + "\" holds no node of the mesh");
+      errors.add(path + ".low", "region \"" + region.name + "\" holds no node of the mesh, which " +
+                                    "reaches " + reach_text(mesh));
     mesh.node_sets.push_back(std::move(set));
   }
 }
@@ -89,34 +101,6 @@ void add_volume_region(const std::string& name, Mesh& mesh) {
   for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
     if (is_in[static_cast<std::size_t>(i)] != 0) set.node.push_back(i);
   mesh.node_sets.push_back(std::move(set));
-}
-
-std::string known_regions(const Mesh& mesh) {
-  std::string list;
-  const auto add = [&](const std::string& name) {
-    if (!name.empty()) list += (list.empty() ? "\"" : ", \"") + name + "\"";
-  };
-  for (const NodeSet& set : mesh.node_sets) add(set.name);
-  for (const std::string& name : mesh.region_name)
-    if (!find_node_set(mesh, name)) add(name);
-  return list.empty() ? "none" : list;
-}
-
-// Of supports or loads.
-template <class Items>
-void check_regions(const LoadedScene& loaded, const std::string& list, const Items& items,
-                   const Mesh& mesh) {
-  for (std::size_t k = 0; k < items.size(); ++k)
-    if (!find_node_set(mesh, items[k].region))
-      loaded.where.fail(
-          item_path(list, k) + ".region",
-          "the body has no region \"" + items[k].region + "\"; it has " + known_regions(mesh));
-}
-
-bool is_cut(const Scene& scene) {
-  return std::ranges::any_of(scene.instruments, [](const SceneInstrument& instrument) {
-    return has_blade(instrument.kind);
-  });
 }
 
 // Parts that a mesher has laid side by side fall apart, which is seldom wanted.
@@ -137,26 +121,25 @@ Mesh read_tissue(const LoadedScene& loaded) {
     mesh = tissue.shape ? generate_tissue(*tissue.shape)
                         : read_mesh(scene_path(loaded, tissue.mesh), tissue.scale);
   } catch (const InputError& trouble) {
-    loaded.where.fail(tissue.shape ? "tissue.shape" : "tissue.mesh", trouble.what());
+    loaded.where.fail(tissue.shape ? "tissue.shape.cells" : "tissue.mesh", trouble.what());
   }
   const std::vector<std::string> faults = validate(mesh, 3);  // in the file's numbers
   if (!faults.empty())
     loaded.where.fail(tissue.shape ? "tissue.shape" : "tissue.mesh",
                       "the mesh can't be used: " + faults.front());
   if (!tissue.shape && tissue.is_renumbered) mesh = in_near_order(mesh);
-  if (mesh.dimension() == 2 && tissue.translate.z() != 0)
-    loaded.where.fail("tissue.translate", "a plane body stays at z = 0");
   place(tissue, mesh);
   if (!tissue.shape) {
     warn_of_size(tissue.mesh, "tissue.scale", mesh.X);
     warn_of_pieces(tissue, mesh);
   }
-  if (is_cut(loaded.scene)) mesh.hex_split_rank = hex_split_ranks(mesh);
-  add_regions(loaded, mesh);
+  if (has_blades(loaded.scene)) mesh.hex_split_rank = hex_split_ranks(mesh);
+  OptionErrors errors(loaded.where);
+  add_regions(loaded, mesh, errors);
   for (const SceneSupport& support : loaded.scene.supports) add_volume_region(support.region, mesh);
   for (const SceneLoad& load : loaded.scene.loads) add_volume_region(load.region, mesh);
-  check_regions(loaded, "support", loaded.scene.supports, mesh);
-  check_regions(loaded, "load", loaded.scene.loads, mesh);
+  check_fit(loaded.scene, mesh, errors);
+  errors.throw_if_any();
   return mesh;
 }
 

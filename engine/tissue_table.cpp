@@ -123,10 +123,9 @@ const Tissue* find_tissue(const std::string& name) {
   return nullptr;
 }
 
-std::string known_tissues() {
-  std::string names;
-  for (const Tissue& tissue : tissue_table())
-    names += (names.empty() ? "\"" : ", \"") + std::string(tissue.name) + "\"";
+std::vector<std::string> known_tissues() {
+  std::vector<std::string> names;
+  for (const Tissue& tissue : tissue_table()) names.emplace_back(tissue.name);
   return names;
 }
 

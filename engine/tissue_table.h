@@ -17,8 +17,8 @@ struct Tissue {
 const std::vector<Tissue>& tissue_table();
 // nullptr if there is none of that name.
 const Tissue* find_tissue(const std::string& name);
-// "liver", "kidney", …
-std::string known_tissues();
+// Their names.
+std::vector<std::string> known_tissues();
 // Plain text, and Markdown for docs/tissues.md.
 std::string tissues_text();
 std::string tissues_markdown();

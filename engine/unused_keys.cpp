@@ -19,11 +19,6 @@ bool has_type(const Mesh& mesh, ElementType type) {
   return std::ranges::find(mesh.element_type, type) != mesh.element_type.end();
 }
 
-bool has_blades(const Scene& scene) {
-  return std::ranges::any_of(scene.instruments,
-                             [](const SceneInstrument& i) { return has_blade(i.kind); });
-}
-
 Uses of_solver(const Scene& scene, const Mesh& mesh) {
   const SceneSolver& s = scene.solver;
   const SceneSolver d;
@@ -66,10 +61,7 @@ Uses of_material(const SceneMaterial& m, const std::string& path) {
 }
 
 bool any_has_fibres(const SceneTissue& tissue) {
-  return has_fibres(tissue.material.model) ||
-         std::ranges::any_of(tissue.region_materials, [](const SceneRegionMaterial& other) {
-           return has_fibres(other.material.model);
-         });
+  return any_material(tissue, [](const SceneMaterial& m) { return has_fibres(m.model); });
 }
 
 Uses of_tissue(const Scene& scene, const Mesh& mesh) {
@@ -137,10 +129,9 @@ Uses of_instrument(const SceneInstrument& i, const std::string& path) {
 
 Uses of_output(const SceneOutput& o, const std::string& path) {
   const SceneOutput d;
-  const bool is_picture = o.kind != OutputKind::metrics && o.kind != OutputKind::recording;
   const char* const needs = "only pictures have it";
-  return {{path + ".camera", o.camera != d.camera, is_picture, needs},
-          {path + ".size", o.size != d.size, is_picture, needs}};
+  return {{path + ".camera", o.camera != d.camera, is_picture(o.kind), needs},
+          {path + ".size", o.size != d.size, is_picture(o.kind), needs}};
 }
 
 }  // namespace

@@ -42,6 +42,10 @@ Format find_format(const std::string& file, std::string_view bytes) {
   return format_by_ending(file);
 }
 
+bool is_surface(Format format) {
+  return format == Format::stl || format == Format::obj;
+}
+
 RawMesh read_cells(Format format, ByteReader& in) {
   if (format == Format::gmsh) return read_gmsh(in);
   if (format == Format::legacy_vtk) return read_legacy_vtk(in);
@@ -59,7 +63,7 @@ RawMesh read_raw_mesh(const std::string& file) {
   const Format format = find_format(file, bytes);
   if (format == Format::unknown)
     in.fail_file("is in no known mesh format: gmsh .msh (1.0, 2.2, 4.1), legacy VTK and VTU are");
-  if (format == Format::stl || format == Format::obj) {
+  if (is_surface(format)) {
     const TriangleMesh surface = merge_vertices(file, read_triangles(format, in));
     in.fail_file("this file holds only a surface (" + std::to_string(surface.triangle.size()) +
                  " triangles): make a volume mesh of it, e.g. with gmsh -3, or use it as an "
@@ -74,11 +78,14 @@ TriangleMesh read_surface(const std::string& file) {
   const Format format = find_format(file, bytes);
   if (format == Format::unknown)
     in.fail_file("is in no known surface format: STL, OBJ, gmsh .msh, legacy VTK and VTU are");
-  const bool is_surface = format == Format::stl || format == Format::obj;
-  return is_surface ? read_triangles(format, in) : make_surface(read_cells(format, in));
+  return is_surface(format) ? read_triangles(format, in) : make_surface(read_cells(format, in));
 }
 
 }  // namespace
+
+bool is_surface_file(const std::string& file) {
+  return is_surface(format_by_ending(file));
+}
 
 Mesh read_mesh(const std::string& file, double scale) {
   return make_mesh(read_raw_mesh(file), scale);

@@ -21,6 +21,9 @@ namespace trocar {
 // element; counts are checked against the bytes left before anything is allocated.
 Mesh read_mesh(const std::string& file, double scale);
 
+// By its ending: STL or OBJ, which hold no volumes.
+bool is_surface_file(const std::string& file);
+
 // Surface of an instrument, from STL, OBJ or the surface elements of a file of the other formats
 // that holds no volume elements; vertices merged where positions are equal. Throws InputError.
 TriangleMesh read_triangle_mesh(const std::string& file, double scale);

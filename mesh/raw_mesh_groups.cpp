@@ -159,6 +159,15 @@ std::vector<NodeSet> make_node_sets(const RawMesh& raw, int dimension,
   return sets;
 }
 
+// Of the nodes with these local numbers, -1 where there is none, ascending.
+template <class NodeOf>
+static FacetNodes ascending_facet(const NodeOf& node_of) {
+  FacetNodes nodes{};
+  for (std::size_t a = 0; a < nodes.size(); ++a) nodes[a] = node_of(a);
+  std::ranges::sort(nodes);
+  return nodes;
+}
+
 // Of each set those in the file, ascending.
 static std::vector<std::vector<FacetNodes>> facets_of_sets(const RawMesh& raw, int dimension,
                                                            std::span<const std::int32_t> new_node) {
@@ -168,9 +177,9 @@ static std::vector<std::vector<FacetNodes>> facets_of_sets(const RawMesh& raw, i
   for (std::int32_t c = 0; c < raw.n_cells(); ++c) {
     const int n = n_cell_corners(raw.cell_kind[c]), d = cell_dimension(raw.cell_kind[c]);
     if (d == dimension - 1) {
-      FacetNodes nodes = {-1, -1, -1, -1};
-      for (int a = 0; a < n; ++a) nodes[static_cast<std::size_t>(a)] = new_node[corner[a]];
-      std::ranges::sort(nodes);
+      const FacetNodes nodes = ascending_facet([&](std::size_t a) {
+        return a < static_cast<std::size_t>(n) ? new_node[corner[a]] : -1;
+      });
       for (const std::int32_t tag : raw.groups(raw.cell_group[c]))
         facets[static_cast<std::size_t>(group_number(groups, {d, tag}))].push_back(nodes);
     }
@@ -190,11 +199,9 @@ static std::vector<FacetNodes> outer_facets_within(const NodeSet& set, const Nod
   std::vector<FacetNodes> facets;
   for (const std::int32_t e : elements)
     for (int f = 0; f < n_facets(mesh.element_type[e]); ++f) {
-      FacetNodes nodes = {-1, -1, -1, -1};
       const std::array<int, 4> corner = facet_corners(mesh.element_type[e], f);
-      for (std::size_t a = 0; a < 4; ++a)
-        if (corner[a] >= 0) nodes[a] = mesh.corners(e)[corner[a]];
-      std::ranges::sort(nodes);
+      const FacetNodes nodes = ascending_facet(
+          [&](std::size_t a) { return corner[a] >= 0 ? mesh.corners(e)[corner[a]] : -1; });
       const auto is_in = [&](std::int32_t i) {
         return i < 0 || std::ranges::binary_search(set.node, i);
       };

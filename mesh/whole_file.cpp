@@ -18,19 +18,6 @@ struct CloseFile {
 };
 using Stream = std::unique_ptr<std::FILE, CloseFile>;
 
-// A directory, pipe or device is refused before it is opened.
-void check_regular(const std::string& file) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (status.type() == std::filesystem::file_type::not_found)
-    throw InputError(file + ": there is no file of this name");
-  if (error) throw InputError(file + ": can't be read: " + error.message());
-  if (std::filesystem::is_directory(status))
-    throw InputError(file + ": is a directory, not a mesh file");
-  if (!std::filesystem::is_regular_file(status))
-    throw InputError(file + ": is not a regular file (a pipe or a device can't be read)");
-}
-
 [[noreturn]] void fail_write(const std::string& file, const std::string& part) {
   const std::string reason = std::strerror(errno);
   std::remove(part.c_str());
@@ -39,8 +26,22 @@ void check_regular(const std::string& file) {
 
 }  // namespace
 
+// A directory, pipe or device is refused before it is opened.
+std::string fault_of_file(const std::string& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (status.type() == std::filesystem::file_type::not_found)
+    return file + ": there is no file of this name";
+  if (error) return file + ": can't be read: " + error.message();
+  if (std::filesystem::is_directory(status)) return file + ": is a directory, not a mesh file";
+  if (!std::filesystem::is_regular_file(status))
+    return file + ": is not a regular file (a pipe or a device can't be read)";
+  return "";
+}
+
 std::string read_whole_file(const std::string& file) {
-  check_regular(file);
+  const std::string fault = fault_of_file(file);
+  if (!fault.empty()) throw InputError(fault);
   const Stream stream(std::fopen(file.c_str(), "rb"));
   if (!stream) throw InputError(file + ": can't be opened: " + std::strerror(errno));
   std::error_code error;

@@ -7,6 +7,9 @@
 
 namespace trocar {
 
+// Why it can't be read, as far as can be told without opening it: "" if it is a regular file.
+std::string fault_of_file(const std::string& file);
+
 // Throws InputError if there is no such file, it is empty or it is not a regular file (a pipe would
 // hang), MachineError if reading fails.
 std::string read_whole_file(const std::string& file);

@@ -44,7 +44,7 @@ void check_materials(const Mesh& mesh, std::span<const Material> materials,
   const Formulation of_type[n_element_types] = {options.tri3, options.tet4, options.hex8};
   const std::vector<bool> has = types_of_regions(mesh, materials.size());
   for (std::size_t r = 0; r < materials.size(); ++r) {
-    check(mesh, r, fault_of(materials[r]));
+    check(mesh, r, fault_of(materials[r]).sentence);
     for (std::size_t k = 0; k < n_element_types; ++k)
       if (has[r * n_element_types + k])
         check(mesh, r, misfit_of(materials[r], of_type[k], options.precision));

@@ -90,38 +90,40 @@ bool is_not_negative(double x) {
   return x >= 0 && std::isfinite(x);
 }
 
-std::string fault_of_ogden(const Material& material) {
+MaterialFault fault_of_ogden(const Material& material) {
   for (const OgdenTerm& term : material.ogden)
     if (!is_not_negative(term.mu) || term.alpha == 0 || !std::isfinite(term.alpha))
-      return "each Ogden term needs mu > 0 and an alpha that is not 0";
-  return "";
+      return {"ogden", "each Ogden term needs mu > 0 and an alpha that is not 0"};
+  return {};
 }
 
-std::string fault_of_fibres(const Material& material) {
+MaterialFault fault_of_fibres(const Material& material) {
   const Vec3 across = material.fibre_normal.cross(material.fibre);
-  if (!is_positive(material.fibre.dot(material.fibre))) return "fibre must not be zero";
-  if (!is_not_negative(material.eta)) return "eta must not be negative";
+  if (!is_positive(material.fibre.dot(material.fibre))) return {"fibre", "fibre must not be zero"};
+  if (!is_not_negative(material.eta)) return {"eta", "eta must not be negative"};
   if (!is_not_negative(material.k1) || !is_positive(material.k2))
-    return "k1 must not be negative, k2 must be positive";
-  if (!(material.kappa >= 0 && material.kappa <= 1.0 / 3)) return "kappa must be in [0, 1/3]";
+    return {"k1", "k1 must not be negative, k2 must be positive"};
+  if (!(material.kappa >= 0 && material.kappa <= 1.0 / 3))
+    return {"kappa", "kappa must be in [0, 1/3]"};
   if (!(material.fibre_angle >= 0 && material.fibre_angle <= 1.5707963267948966))
-    return "fibre_angle must be between 0 and 90 degrees";
+    return {"fibre_angle", "fibre_angle must be between 0 and 90 degrees"};
   if (material.fibre_angle > 0 && !is_positive(across.dot(across)))
-    return "fibre_normal must not be parallel to fibre";
-  return "";
+    return {"fibre_normal", "fibre_normal must not be zero or parallel to fibre"};
+  return {};
 }
 
-std::string fault_of_prony(const Material& material) {
+MaterialFault fault_of_prony(const Material& material) {
   double sum = 0;
   for (const PronyBranch& branch : material.prony) {
     if (!is_positive(branch.share) || !is_positive(branch.time))
-      return "share and time of each prony branch must be positive";
+      return {"prony", "share and time of each prony branch must be positive"};
     sum += branch.share;
   }
-  if (sum > 1) return "the shares of the prony branches must not add up to more than 1";
+  if (sum > 1) return {"prony", "the shares of the prony branches must not add up to more than 1"};
   if (material.prony.size() > max_prony_branches)
-    return "at most " + std::to_string(max_prony_branches) + " prony branches are allowed";
-  return "";
+    return {"prony",
+            "at most " + std::to_string(max_prony_branches) + " prony branches are allowed"};
+  return {};
 }
 
 }  // namespace
@@ -158,15 +160,17 @@ Vec3 unit_fibre(const Material& material) {
   return material.fibre / std::sqrt(material.fibre.dot(material.fibre));
 }
 
-std::string fault_of(const Material& material) {
+MaterialFault fault_of(const Material& material) {
   if (!is_positive(lame_mu(material)) || !is_positive(material.density) ||
       !(material.poisson_ratio > -1 && material.poisson_ratio < 0.5))
-    return "shear modulus and density must be positive, poisson_ratio between -1 and 0.5 (got " +
-           std::to_string(lame_mu(material)) + " Pa, " + std::to_string(material.density) +
-           " kg/m^3, " + std::to_string(material.poisson_ratio) + ")";
-  std::string fault = material.model == MaterialModel::ogden ? fault_of_ogden(material) : "";
-  if (fault.empty() && has_fibres(material.model)) fault = fault_of_fibres(material);
-  return fault.empty() ? fault_of_prony(material) : fault;
+    return {material.model == MaterialModel::mooney_rivlin ? "c10" : "young_modulus",
+            "shear modulus and density must be positive, poisson_ratio between -1 and 0.5 (got " +
+                std::to_string(lame_mu(material)) + " Pa, " + std::to_string(material.density) +
+                " kg/m^3, " + std::to_string(material.poisson_ratio) + ")"};
+  MaterialFault fault;
+  if (material.model == MaterialModel::ogden) fault = fault_of_ogden(material);
+  if (fault.sentence.empty() && has_fibres(material.model)) fault = fault_of_fibres(material);
+  return fault.sentence.empty() ? fault_of_prony(material) : fault;
 }
 
 double stiffening_at_rest(const Material& material) {

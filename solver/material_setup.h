@@ -19,8 +19,12 @@ void fill_material(const Material& material, double volume, const Vec3& fibre,
 // Of an element whose mesh gives no direction.
 Vec3 unit_fibre(const Material& material);
 
-// What is wrong with it, as a sentence; "" for a sound one.
-std::string fault_of(const Material& material);
+// What is wrong with a material: a member, and the sentence, "" for a sound one.
+struct MaterialFault {
+  std::string member{};
+  std::string sentence{};
+};
+MaterialFault fault_of(const Material& material);
 
 // Growth of the bound of omega^2 at rest against that of lambda and mu alone: what fibres add.
 double stiffening_at_rest(const Material& material);

@@ -12,8 +12,23 @@ namespace trocar {
 
 namespace {
 
-// Costs within this factor are the same: so much do two runs of one case differ.
+// Costs within this factor are the same: so much do two runs of one case differ at least.
 constexpr double scatter = 1.05;
+
+// Errors within this factor are the same.
+constexpr double same_error = 1.01;
+
+// Whether the times of two runs, each from the least to the median of its repetitions, overlap or
+// lie within the scatter: what disturbs a timing makes it longer, and the longest may be disturbed
+// without bounds.
+bool are_as_fast(const Run& a, const Run& b) {
+  const auto most = [](const Run& run) { return run.outcome.stepping_seconds; };
+  const auto least = [&](const Run& run) {
+    const double of_repetitions = run.outcome.least_stepping_seconds;
+    return of_repetitions > 0 ? of_repetitions : most(run);
+  };
+  return least(a) <= scatter * most(b) && least(b) <= scatter * most(a);
+}
 
 bool counts(const Run& run) {
   return is_sound(run) && !run.is_reference;
@@ -42,10 +57,8 @@ std::string run_text(const Study& study, const Target& target, const Run& run) {
 
 // A run of another method beside the best one, which the figures may not tell from it.
 std::string next_text(const Study& study, const Target& target, const Run& best, const Run& next) {
-  const double ratio = cost_of(study, next) / cost_of(study, best);
-  const bool costs_the_same = ratio <= scatter && ratio >= 1 / scatter;
-  return (costs_the_same ? "; within 5 % of this cost, which is no difference here, is "
-                         : "; next best is ") +
+  return (are_as_fast(best, next) ? "; as fast within the noise of the timing is "
+                                  : "; next best is ") +
          run_text(study, target, next);
 }
 
@@ -95,18 +108,17 @@ Target median_target(const Study& study) {
 const Run* cheapest_within(const Study& study, const Target& target,
                            const std::string& other_than) {
   std::vector<const Run*> candidates;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Run& run : study.runs) {
-    if (!counts(run) || error_as(run, target) > target.error) continue;
-    if (!other_than.empty() && method_text(run) == other_than) continue;
-    candidates.push_back(&run);
-    least = std::min(least, cost_of(study, run));
-  }
-  const Run* best = nullptr;
-  for (const Run* run : candidates)
-    if (cost_of(study, *run) <= scatter * least && (best == nullptr || run->error < best->error))
-      best = run;
-  return best;
+  for (const Run& run : study.runs)
+    if (counts(run) && error_as(run, target) <= target.error &&
+        (other_than.empty() || method_text(run) != other_than))
+      candidates.push_back(&run);
+  if (candidates.empty()) return nullptr;
+  const auto cost = [&](const Run* run) { return cost_of(study, *run); };
+  const Run* cheapest = *std::ranges::min_element(candidates, {}, cost);
+  std::erase_if(candidates, [&](const Run* run) { return !are_as_fast(*run, *cheapest); });
+  const double least = (*std::ranges::min_element(candidates, {}, &Run::error))->error;
+  std::erase_if(candidates, [&](const Run* run) { return run->error > same_error * least; });
+  return *std::ranges::min_element(candidates, {}, cost);
 }
 
 std::vector<const Run*> pareto_front(const Study& study) {

@@ -21,9 +21,10 @@ void require_fits(const Target& target, const Problem& problem);
 // useless one.
 Target median_target(const Study& study);
 
-// The cheapest sound run within the target, of those that cost as little (to 5 %) the most
-// accurate; nullptr if there is none. Runs of another method than `other_than` only, if that is not
-// empty. The reference run itself never counts.
+// The cheapest sound run within the target, of those that are as fast within the noise of the
+// timing (5 % or the spread of repetitions) the most accurate (to 1 %); nullptr if there is none.
+// Runs of another method than `other_than` only, if that is not empty. The reference run itself
+// never counts.
 const Run* cheapest_within(const Study& study, const Target& target,
                            const std::string& other_than = "");
 // Sound runs that no other run beats in both error and cost, by cost.

@@ -47,7 +47,9 @@ constexpr const char* page_head =
     "(where something moves in time) two time steps; `trocar study --help` says how to choose "
     "others, or a scene of your own instead.\n\n"
     "- Cost is processor time of one thread while stepping, searches for the stable step included; "
-    "set-up is apart. Runs below 0.3 s are repeated three times and the median is kept.\n"
+    "set-up is apart. Runs below 0.3 s are repeated three times and the median is kept; runs whose "
+    "times, from the least to the median, overlap or differ by less than 5 % are as fast within "
+    "the noise, and of these the more accurate one is advised.\n"
     "- An element-step is one element in one step: a cost that no machine changes.\n"
     "- The step factor is the time step over the stable step of the body's highest frequency. "
     "Steady states are found by dynamic relaxation, which chooses its own steps.\n"
@@ -65,7 +67,7 @@ std::string front_table(const Study& study) {
     rule += "---|";
   };
   if (!problem.is_static()) column("dt");
-  column("error");
+  column("relative error");
   if (problem.length > 0) column("error");
   column(problem.is_static() ? "cost" : "cost a simulated second");
   for (const char* name : {"set-up", "element-steps", "ns an element-step"}) column(name);

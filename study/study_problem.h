@@ -26,7 +26,8 @@ struct Outcome {
   double h = 0, dt = 0;       // edge of a cell [m], mean time step [s] (0: static)
   std::int64_t n_elements = 0, n_steps = 0;
   double setup_seconds = 0, stepping_seconds = 0;  // processor seconds of one thread
-  std::string trouble;                             // "" if the run is sound
+  double least_stepping_seconds = 0;  // of repetitions, of which the above is the median; 0: none
+  std::string trouble;                // "" if the run is sound
 };
 
 struct Problem {

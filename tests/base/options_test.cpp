@@ -9,6 +9,16 @@
 namespace trocar {
 namespace {
 
+template <class Action>
+std::string error_of(const Action& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 const std::string minimal = "[tissue]\nmesh = 'a.msh'\n";
 
 TEST(ReadOptions, fills_the_struct_and_leaves_defaults) {
@@ -175,6 +185,12 @@ TEST(ReadOptionsErrors, are_all_reported_in_the_order_of_the_file) {
   }
 }
 
+TEST(ReadOptionsErrors, of_a_choice_of_another_type_name_the_choices) {
+  EXPECT_EQ(scene_error("[tissue]\nmesh = 'a'\nmaterial = { law = 3 }\n"),
+            "s.toml:3:20: tissue.material.law: needs one of \"neo-hookean\", \"linear\", found the "
+            "integer 3\n    material = { law = 3 }\n                       ^");
+}
+
 TEST(ReadOptionsErrors, beyond_a_hundred_are_counted) {
   std::string text;
   for (int i = 0; i < 130; ++i) text += "key" + std::to_string(i) + " = 1\n";
@@ -224,6 +240,56 @@ TEST(SourceMap, fails_with_place_key_and_line) {
                  "    mesh = 'a.msh'\n"
                  "           ^");
   }
+}
+
+TEST(SourceMap, shows_the_nearest_table_of_a_key_that_is_not_in_the_file) {
+  const SourceMap where = read_scene(minimal).where;
+  EXPECT_EQ(where.message("tissue.material", "is needed"),
+            "s.toml:1:1: tissue.material: is needed\n    [tissue]\n    ^");
+  EXPECT_EQ(where.message("camera.size", "is needed"), "s.toml:1:1: camera.size: is needed");
+}
+
+TEST(OptionErrors, are_thrown_together_in_the_order_of_the_file) {
+  const SourceMap where =
+      read_scene("name = 'x'\n" + minimal + "[camera]\nsize = [1, 2]\n", {"is_fast=true"}).where;
+  OptionErrors errors(where);
+  EXPECT_NO_THROW(errors.throw_if_any());
+  for (const char* key : {"is_fast", "camera.size", "name", "tissue.mesh"}) errors.add(key, "bad");
+  const std::string text = error_of([&] { errors.throw_if_any(); });
+  std::size_t at = 0;
+  for (const char* place : {"s.toml:1:8: name: bad\n", "s.toml:3:8: tissue.mesh: bad\n",
+                            "s.toml:5:8: camera.size: bad\n", "--set is_fast=true: is_fast: bad"}) {
+    const std::size_t found = text.find(place, at);
+    ASSERT_NE(found, std::string::npos) << place << " in " << text;
+    at = found;
+  }
+}
+
+TEST(OptionErrors, tell_one_error_of_a_key_and_none_of_a_table_that_can_not_be_read) {
+  const SourceMap where =
+      read_scene(minimal + "[[instrument]]\nn_sides = 3\n[[instrument]]\nn_sides = 4\n").where;
+  OptionErrors errors(where);
+  errors.add({.line = 4, .key_path = "instrument[0].radius", .message = "it can't be read"});
+  errors.add("tissue.mesh", "is bad");
+  errors.add("tissue.mesh", "is bad because of that");
+  errors.add("instrument[0].n_sides", "may follow from the radius");
+  errors.add("instrument[1].n_sides", "is bad, too");
+  const std::string text = error_of([&] { errors.throw_if_any(); });
+  for (const char* part :
+       {"tissue.mesh: is bad\n", "it can't be read\n", "instrument[1].n_sides: is bad, too\n"})
+    expect_part(text, part);
+  EXPECT_EQ(text.find("because of that"), std::string::npos) << text;
+  EXPECT_EQ(text.find("may follow"), std::string::npos) << text;
+}
+
+TEST(OptionErrors, stand_at_the_first_of_some_keys_that_is_given) {
+  const SourceMap where = read_scene(minimal).where;
+  OptionErrors errors(where);
+  errors.add_at_first({"tissue.material", "tissue.mesh"}, "one of them is bad");
+  errors.add_at_first({"camera.size", "camera"}, "none is given");
+  const std::string text = error_of([&] { errors.throw_if_any(); });
+  expect_part(text, "tissue.mesh: one of them is bad");
+  expect_part(text, "camera: none is given");
 }
 
 TEST(OptionDeclaration, refuses_a_key_that_is_declared_twice_or_needs_quotes) {

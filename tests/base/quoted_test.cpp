@@ -60,5 +60,15 @@ TEST(InQuotes, cuts_between_characters_and_hides_control_characters) {
   EXPECT_EQ(in_quotes("x" + umlauts), "\"x" + umlauts.substr(0, 58) + "…\"");
 }
 
+TEST(NamesHint, says_what_is_near_and_what_there_is) {
+  const std::vector<std::string> names = {"top", "bottom"};
+  EXPECT_EQ(names_hint("botom", names),
+            "; the nearest is \"bottom\"; there are \"top\", \"bottom\"");
+  EXPECT_EQ(names_hint("left", names), "; there are \"top\", \"bottom\"");
+  EXPECT_EQ(names_hint("left", {}), "; there are none");
+  EXPECT_TRUE(
+      names_hint("left", std::vector<std::string>(23, "a")).ends_with(", \"a\" and 3 more"));
+}
+
 }  // namespace
 }  // namespace trocar

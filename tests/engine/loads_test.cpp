@@ -269,11 +269,11 @@ TEST(Loads, are_refused_with_their_place) {
             std::string::npos);
   EXPECT_NE(error("region = \"z+\"\npressure = 1\npath = [{ time = 1, factor = 0 }, { time = 1, "
                   "factor = 1 }]\n")
-                .find("load[0].path[1]: the times of a path must ascend"),
+                .find("load[0].path[1].time: the times of a path must ascend"),
             std::string::npos);
   EXPECT_NE(error_of<InputError>([] {
               built(box_text("hex8", soft) + "[[load]]\nregion = \"top\"\npressure = 1\n");
-            }).find("load[0].region: the body has no region \"top\"; it has \"x-\""),
+            }).find("load[0].region: the body has no region \"top\"; there are \"x-\""),
             std::string::npos);
   EXPECT_NE(error_of<InputError>([] {
               built(box_text("hex8", soft) +

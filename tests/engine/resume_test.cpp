@@ -28,10 +28,10 @@ TEST(Resume, takes_the_same_scene) {
   EXPECT_EQ(refusal({}), "");
 }
 
-TEST(Resume, lets_duration_checkpoints_cameras_and_outputs_differ) {
+TEST(Resume, lets_duration_pace_checkpoints_cameras_and_outputs_differ) {
   EXPECT_EQ(
-      refusal({"time.duration=9", "checkpoint.every=0.1", "camera=[{eye=[0,-1,0],target=[0,0,0]}]",
-               "output=[{kind='metrics',file='m.csv'}]"}),
+      refusal({"time.duration=9", "time.pace=real-time", "checkpoint.every=0.1",
+               "camera=[{eye=[0,-1,0],target=[0,0,0]}]", "output=[{kind='metrics',file='m.csv'}]"}),
       "");
 }
 

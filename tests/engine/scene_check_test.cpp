@@ -2,6 +2,8 @@
 // would be right.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "engine_scene.h"
 
 namespace trocar {
@@ -32,7 +34,17 @@ TEST(SceneCheck, needs_a_mesh_or_a_shape_and_not_both) {
   EXPECT_TRUE(
       contains(scene_error(time + "[tissue]\nmesh = \"m.msh\"\n[tissue.shape]\nkind = \"ball\"\n"),
                "exactly one of them"));
-  EXPECT_EQ(scene_error(time + "[tissue]\nmesh = \"m.msh\"\n"), "");
+  const TestFolder folder;
+  const std::string mesh = write_text(folder.file("m.msh"), "");
+  EXPECT_EQ(scene_error(time + "[tissue]\nmesh = \"" + mesh + "\"\n"), "");
+}
+
+TEST(SceneCheck, needs_files_that_are_there) {
+  const std::string gone = scene_error("[time]\nduration = 1\n[tissue]\nmesh = \"gone.msh\"\n");
+  EXPECT_TRUE(contains(gone, "gone.msh: there is no file of this name")) << gone;
+  expect_error(instrument_text("probe") + "mesh = \"gone.stl\"\n",
+               "gone.stl: there is no file of this name");
+  expect_error(instrument_text("probe") + "mesh = \"/tmp\"\n", "/tmp: is a directory");
 }
 
 TEST(SceneCheck, needs_a_box_with_its_low_corner_below_the_high_one) {
@@ -40,6 +52,18 @@ TEST(SceneCheck, needs_a_box_with_its_low_corner_below_the_high_one) {
                "each component of low must be below that of high");
   expect_error("low = [0, 2, 0]\nhigh = [1, 1, 1]\n",
                "each component of low must be below that of high");
+}
+
+TEST(SceneCheck, needs_a_plane_body_with_its_corner_beyond_the_origin) {
+  const auto plane = [](const std::string& kind, const std::string& high) {
+    return scene_error("[time]\nduration = 1\n[tissue.shape]\nkind = \"" + kind +
+                       "\"\nhigh = " + high + "\n");
+  };
+  for (const std::string high : {"[1, 0, 0]", "[-1, 1, 0]"})
+    EXPECT_TRUE(contains(plane("rectangle", high), "x and y must be > 0")) << high;
+  EXPECT_TRUE(contains(plane("triangular-rectangle", "[0, 1, 0]"), "must be > 0"));
+  EXPECT_EQ(plane("rectangle", "[1, 1, 0]"), "");
+  EXPECT_EQ(plane("triangular-rectangle", "[1, 0, 0]"), "");
 }
 
 TEST(SceneCheck, needs_at_least_one_frame_and_at_most_ten_million) {
@@ -217,6 +241,108 @@ TEST(SceneCheck, refuses_a_contact_sheet_that_is_not_called_a_png) {
   };
   expect_error(sheet("a.jpg"), "a contact sheet is a PNG picture, and \"a.jpg\"");
   EXPECT_EQ(scene_error(scene_text(sheet("a.png"))), "");
+}
+
+// "line:column key" of each error of a scene with these lines after "[time]\nduration = 1\n".
+std::vector<std::string> places(const std::string& lines) {
+  std::istringstream text(scene_error("[time]\nduration = 1\n" + lines));
+  std::vector<std::string> found;
+  for (std::string line; std::getline(text, line);) {
+    const std::size_t at = line.find("s.toml:");
+    if (at == std::string::npos) continue;
+    const std::size_t place = at + 7, key = line.find(": ", place);
+    found.push_back(line.substr(place, key - place) + " " +
+                    line.substr(key + 2, line.find(": ", key + 2) - key - 2));
+  }
+  return found;
+}
+using Places = std::vector<std::string>;
+
+const std::string box_text = "[tissue.shape]\nkind = \"box\"\n";
+
+TEST(SceneCheck, tells_all_errors_of_a_scene_in_the_order_of_its_lines) {
+  EXPECT_EQ(
+      places(R"([tissue.shape]
+kind = "box"
+high = [1, 1, -1]
+[[region]]
+name = "r"
+low = [1, 0, 0]
+high = [0, 1, 1]
+[tissue.material]
+c10 = 3
+k1 = 4
+[[support]]
+region = "r"
+fix = "xx"
+[[load]]
+region = "r"
+[solver]
+sleep = "1 mm"
+[contact]
+tissue = true
+[[instrument]]
+kind = "probe"
+path = [{ time = 1, position = [0, 0, 1], action = "open" }, { time = 0, position = [0, 0, 1] }]
+[[output]]
+kind = "video"
+file = "/a"
+)"),
+      (Places{"5:8 tissue.shape.high", "8:7 region[0].low", "11:7 tissue.material.c10",
+              "12:6 tissue.material.k1", "15:7 support[0].fix", "16:1 load[0]",
+              "21:10 contact.tissue", "24:52 instrument[0].path[0].action",
+              "24:71 instrument[0].path[1].time", "26:8 output[0].kind", "27:8 output[0].file"}));
+}
+
+// Of the tables whose keys could all be read.
+TEST(SceneCheck, tells_of_values_that_do_not_fit_beside_keys_that_can_not_be_read) {
+  EXPECT_EQ(places(box_text +
+                   "high = [1, 1, -1]\n[[support]]\nregion = 3\nfix = \"q\"\n[[support]]\nregion = "
+                   "\"z-\"\nfix = \"q\"\n[[camra]]\n[[output]]\nkind = \"video\"\nfile = \"a\"\n"),
+            (Places{"5:8 tissue.shape.high", "7:10 support[0].region", "11:7 support[1].fix",
+                    "12:3 camra"}));
+  EXPECT_EQ(places("[tisue.shape]\nkind = \"box\"\n"), (Places{"1:1 the required key \"tissue\" is "
+                                                               "missing (table",
+                                                               "3:2 tisue"}));
+}
+
+TEST(SceneCheck, tells_once_what_follows_from_one_error) {
+  EXPECT_EQ(places(box_text + instrument_text("probe",
+                                              "{ time = 5, position = [0, 0, 1] }, { time = 3, "
+                                              "position = [0, 0, 1] }, { time = 2, position = [0, "
+                                              "0, 1] }")),
+            (Places{"7:55 instrument[0].path[1].time"}));
+  EXPECT_EQ(places(box_text + output_text("video", "a") + output_text("frames", "b")),
+            (Places{"6:8 output[0].kind"}));
+  EXPECT_EQ(places(box_text + output_text("metrics", "../a") + output_text("metrics", "../a")),
+            (Places{"7:8 output[0].file", "10:8 output[1].file"}));
+  EXPECT_EQ(places(box_text + "[tissue.material]\nmodel = \"ogden\"\nc10 = 3\n"),
+            (Places{"6:9 tissue.material.model", "7:7 tissue.material.c10"}));
+  EXPECT_EQ(places(box_text + "[tissue.material]\ntissue = \"lever\"\nc10 = 3\n"),
+            (Places{"6:10 tissue.material.tissue"}));
+}
+
+TEST(SceneCheck, points_at_the_key_that_is_wrong) {
+  const auto expect_place = [](const std::string& lines, const std::string& place) {
+    EXPECT_EQ(places(box_text + lines), Places{place}) << lines;
+  };
+  expect_place("[tissue.material]\nmodel = \"yeoh\"\n", "6:9 tissue.material.model");
+  expect_place("[tissue.material]\nprony = [{ share = 2e-1, time = 1 }, { share = 1, time = 2 }]\n",
+               "6:9 tissue.material.prony");
+  expect_place("[tissue.material]\nmodel = \"mooney-rivlin\"\nc10 = -1\n",
+               "7:7 tissue.material.c10");
+  expect_place(
+      "[[support]]\nregion = \"z-\"\nfix = \"x\"\npath = [{ time = 0, displacement = [0, 0, "
+      "0] }]\n",
+      "7:7 support[0].fix");
+  expect_place("[[load]]\nregion = \"z-\"\npressure = 0\n", "7:12 load[0].pressure");
+  expect_place("[[camera]]\neye = [1, 2, 3]\ntarget = [1, 2, 3]\n", "7:10 camera[0].target");
+  expect_place("[[camera]]\neye = [0, 0, 1]\ntarget = [0, 0, 0]\nup = [0, 0, 2]\n",
+               "8:6 camera[0].up");
+  expect_place("[tissue]\nmesh = \"m.msh\"\n", "6:8 tissue.mesh");
+  expect_place(
+      instrument_text("probe") + "name = \"a\"\n" + instrument_text("probe") + "name = \"a\"\n",
+      "12:8 instrument[1].name");
 }
 
 }  // namespace

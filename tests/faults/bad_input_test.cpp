@@ -65,6 +65,28 @@ TEST(BadInput, a_poisson_ratio_of_one_half_is_refused) {
   expect_refusal(scene, folder, input_wrong, scene + ":19:17: ");
 }
 
+// Keys of wrong types, a value that is out of range and what only several keys tell; then, with
+// these mended, names that the body does not have.
+TEST(BadInput, all_that_is_wrong_with_a_scene_is_told_at_once) {
+  const std::string folder = test_folder("at_once"), scene = folder + "/scene.toml";
+  const std::string body = "[time]\nduration = 1\n[tissue.shape]\nkind = \"box\"\n";
+  std::ofstream(scene) << body << "[contact]\nfriction = -1\n[[load]]\nregion = \"z+\"\n"
+                       << "[[support]]\nregion = 3\n";
+  expect_refusal(scene, folder, input_wrong,
+                 scene + ":6:12: contact.friction: -1 is out of range; allowed: >= 0\n" +
+                     "    friction = -1\n               ^\n" + scene +
+                     ":7:1: load[0]: a load needs a force or a pressure that is not 0\n" +
+                     "    [[load]]\n    ^\n" + scene +
+                     ":10:10: support[0].region: needs a text in quotes, found the integer 3\n");
+  std::ofstream(scene) << body << "[[support]]\nregion = \"a\"\n[[support]]\nregion = \"z\"\n";
+  const std::string known = "there are \"x-\", \"x+\", \"y-\", \"y+\", \"z-\", \"z+\"\n";
+  expect_refusal(scene, folder, input_wrong,
+                 scene + ":6:10: support[0].region: the body has no region \"a\"; " + known +
+                     "    region = \"a\"\n             ^\n" + scene +
+                     ":8:10: support[1].region: the body has no region \"z\"; the nearest is " +
+                     "\"z-\"; " + known);
+}
+
 TEST(BadInput, a_missing_mesh_is_named) {
   const std::string folder = test_folder("missing");
   const std::string scene =
@@ -123,7 +145,7 @@ TEST(BadInput, a_generated_body_that_can_not_be_made_is_refused_with_its_place) 
   const std::string folder = test_folder("cells");
   const std::string scene =
       changed_config(folder, "block_hex.toml", "[20, 20, 20]", "[2000, 2000, 2000]");
-  expect_refusal(scene, folder, input_wrong, scene + ":9:1: tissue.shape: a generated mesh");
+  expect_refusal(scene, folder, input_wrong, scene + ":14:9: tissue.shape.cells: a generated mesh");
 }
 
 TEST(BadInput, a_step_factor_that_asks_for_millions_of_steps_a_frame_is_named_as_a_cause) {
@@ -239,7 +261,7 @@ TEST(BadInput, what_elements_can_not_be_is_refused_with_its_place) {
   std::ofstream(scene) << "[time]\nduration = 1\n[tissue.shape]\nkind = \"ball\"\n"
                           "elements = \"tet4-five\"\n[tissue.material]\nmodel = \"linear\"\n"
                           "[solver]\ntetrahedron = \"nodal-pressure\"\n";
-  expect_refusal(scene, folder, input_wrong, ":3:1: tissue.shape: round meshes");
+  expect_refusal(scene, folder, input_wrong, ":5:12: tissue.shape.elements: balls and cylinders");
   expect_refusal(scene, folder, input_wrong, ":6:1: tissue.material: tet4-nodal-pressure elements",
                  {"--set", "tissue.shape.elements=tet4-kuhn"});
   std::ofstream(scene, std::ios::app) << "[[instrument]]\nkind = \"scalpel\"\n[[instrument.path]]\n"

@@ -75,6 +75,13 @@ TEST(MeshFile, a_missing_file_an_empty_file_and_a_directory_are_refused) {
             folder.file(".") + ": is a directory, not a mesh file");
 }
 
+TEST(MeshFile, a_surface_file_is_known_by_its_ending_in_small_or_capital_letters) {
+  for (const char* surface : {"a.stl", "folder/b.obj", "C.STL", "d.tip.Obj"})
+    EXPECT_TRUE(is_surface_file(surface)) << surface;
+  for (const char* other : {"a.msh", "stl", "a.stl.vtk", "", "obj.vtu"})
+    EXPECT_FALSE(is_surface_file(other)) << other;
+}
+
 TEST(MeshFile, a_surface_file_is_no_volume_mesh_but_an_instrument) {
   const TemporaryFolder folder;
   const std::string file = folder.file("a.stl", stl_binary());

@@ -247,9 +247,10 @@ TEST(InVain, supports_of_the_same_nodes_are_told) {
       "path = [{ time = 0, displacement = [0, 0, 0] }, { time = 0.06, displacement = ";
   const Finished against = run_with("\"z-\"\n" + path + "[0.001, 0, 0] }]");
   EXPECT_EQ(against.exit_code, 2);
-  EXPECT_TRUE(has(against.err,
-                  "support[1]: all its 25 nodes (region \"z-\") are held by support[0], which "
-                  "moves them otherwise"))
+  EXPECT_TRUE(
+      has(against.err,
+          "support[1].region: all its 25 nodes (region \"z-\") are held by support[0], which "
+          "moves them otherwise"))
       << against.err;
   // The edge of five nodes that two sides of the block share.
   EXPECT_TRUE(has(run_with("\"x+\"\n" + path + "[0.001, 0, 0] }]").err,
@@ -266,7 +267,7 @@ TEST(InVain, of_two_motions_of_a_region_the_second_is_refused_unless_it_is_the_s
     };
     return told(support(first) + support(second), test_folder("two-motions")).run.err;
   };
-  EXPECT_TRUE(has(err_with("0.001", "-0.001"), "support[2]: all its 25 nodes"));
+  EXPECT_TRUE(has(err_with("0.001", "-0.001"), "support[2].region: all its 25 nodes"));
   EXPECT_TRUE(has(err_with("0.001", "0.001"), "support[2] adds nothing"));
 }
 

@@ -152,8 +152,8 @@ TEST(Cut2dTrial, repeats_for_a_quarter_of_a_second_if_not_told_how_often) {
   const auto start = std::chrono::steady_clock::now();
   const Cut2dTrial open = trial(0), one = trial(1);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  EXPECT_GE(seconds.count(), 0.25);
-  EXPECT_LT(open.best_seconds, open.median_seconds);  // of more than one
+  EXPECT_GE(seconds.count(), 0.25);  // one alone takes milliseconds
+  EXPECT_LE(open.best_seconds, open.median_seconds);
   EXPECT_EQ(one.best_seconds, one.median_seconds);
   EXPECT_EQ(open.after.X, one.after.X);
 }

@@ -29,6 +29,14 @@ TEST(StudyAdvice, of_runs_that_cost_the_same_the_most_accurate_is_taken) {
   EXPECT_EQ(cheapest_within(study, {.error = .05}), &study.runs[4]);
 }
 
+TEST(StudyAdvice, of_runs_that_are_as_fast_and_as_accurate_the_cheapest_is_taken) {
+  Study study = made_up_study();
+  study.runs[1].error = .0299;  // 0.3 % less than the other
+  study.runs[1].outcome.stepping_seconds = 1.04 * study.runs[4].outcome.stepping_seconds;
+  study.runs[4].error = .03;
+  EXPECT_EQ(cheapest_within(study, {.error = .05}), &study.runs[4]);
+}
+
 TEST(StudyAdvice, the_sentence_names_run_step_error_cost_and_the_next_best) {
   EXPECT_EQ(advice(made_up_study(), read_target("10 mm")),
             "For 10 mm error at least cost use quick double, step factor 0.9, n = 8 (h = 125 mm, "
@@ -43,10 +51,29 @@ TEST(StudyAdvice, a_method_that_costs_the_same_within_the_scatter_is_not_called_
     study.runs[2].outcome.stepping_seconds = ratio * study.runs[5].outcome.stepping_seconds;
     return advice(study, read_target("10 mm"));
   };
-  const std::string same = "; within 5 % of this cost, which is no difference here, is ";
+  const std::string same = "; as fast within the noise of the timing is ";
   EXPECT_NE(with_cost(1.04).find(same), std::string::npos) << with_cost(1.04);
   EXPECT_NE(with_cost(0.96).find(same), std::string::npos) << with_cost(0.96);
   EXPECT_NE(with_cost(1.06).find("; next best is "), std::string::npos) << with_cost(1.06);
+}
+
+// Of repeated runs the times reach from the least to the median.
+TEST(StudyAdvice, runs_whose_times_overlap_are_as_fast_and_the_more_accurate_one_is_advised) {
+  Study study = made_up_study();
+  auto &slow = study.runs[2], &quick = study.runs[5];  // 0.5 % and 0.8 % of error
+  quick.outcome.stepping_seconds = 10;
+  slow.outcome.stepping_seconds = 12;
+  const auto is_called_as_fast = [&] {
+    return advice(study, {.error = .01}).find("; as fast within the noise") != std::string::npos;
+  };
+  EXPECT_EQ(cheapest_within(study, {.error = .01}), &quick);
+  EXPECT_FALSE(is_called_as_fast());
+  slow.outcome.least_stepping_seconds = 11;
+  EXPECT_EQ(cheapest_within(study, {.error = .01}), &quick);
+  EXPECT_FALSE(is_called_as_fast());
+  slow.outcome.least_stepping_seconds = 9;
+  EXPECT_EQ(cheapest_within(study, {.error = .01}), &slow);
+  EXPECT_TRUE(is_called_as_fast());
 }
 
 TEST(StudyAdvice, a_target_out_of_reach_is_said_to_be) {

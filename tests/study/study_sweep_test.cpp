@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "base/error.h"
@@ -39,6 +40,21 @@ TEST(StudySweep, it_runs_every_size_element_and_precision_coarse_ones_first) {
   for (std::size_t k = 1; k < study.runs.size(); ++k)
     EXPECT_GE(study.runs[k].n, study.runs[k - 1].n);
   for (const auto& run : study.runs) EXPECT_NEAR(run.error, 1. / (run.n * run.n), 1e-15);
+}
+
+TEST(StudySweep, of_repeated_runs_the_median_and_the_least_time_are_kept) {
+  Problem problem = made_up_problem(0);
+  int k = 0;
+  problem.solve = [&](const Case& c) {
+    Outcome outcome = solve_made_up(c);
+    outcome.stepping_seconds = 1e-3 * std::array{5, 2, 9}[static_cast<std::size_t>(k++ % 3)];
+    return outcome;
+  };
+  const Study study =
+      sweep(problem, {.sizes = {2}, .elements = {"hex8"}, .precisions = {"double"}});
+  ASSERT_EQ(study.runs.size(), 1U);
+  EXPECT_EQ(study.runs[0].outcome.stepping_seconds, 5e-3);
+  EXPECT_EQ(study.runs[0].outcome.least_stepping_seconds, 2e-3);
 }
 
 TEST(StudySweep, no_error_is_said_to_be_below_the_references_own) {

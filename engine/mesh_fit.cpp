@@ -1,0 +1,82 @@
+#include "engine/mesh_fit.h"
+
+#include <algorithm>
+
+#include "base/quoted.h"
+#include "engine/markers.h"
+#include "engine/mesh_measures.h"
+
+namespace trocar {
+
+namespace {
+
+// `what` the items of a list name: one of the known. No hint beyond the errors that are shown.
+template <class Items>
+void check_regions(const std::string& list, const Items& items, const std::string& what,
+                   const std::vector<std::string>& known, OptionErrors& errors) {
+  std::vector<std::string> names = known;
+  std::erase(names, "");
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    const std::string& region = items[k].region;
+    if (std::ranges::find(known, region) != known.end()) continue;
+    const std::string hint = errors.is_full() ? "" : names_hint(region, names);
+    errors.add(item_path(list, k) + ".region",
+               "the body has no " + what + " \"" + region + "\"" + hint);
+  }
+}
+
+// Supports and loads have regions of nodes and of elements, materials those of elements alone.
+void check_all_regions(const Scene& scene, const Mesh& mesh, OptionErrors& errors) {
+  std::vector<std::string> all;
+  for (const NodeSet& set : mesh.node_sets) all.push_back(set.name);
+  for (const std::string& name : mesh.region_name)
+    if (!name.empty() && !find_node_set(mesh, name)) all.push_back(name);
+  check_regions("tissue.region_material", scene.tissue.region_materials, "region of elements",
+                mesh.region_name, errors);
+  check_regions("support", scene.supports, "region", all, errors);
+  check_regions("load", scene.loads, "region", all, errors);
+}
+
+void check_plane(const Scene& scene, OptionErrors& errors) {
+  if (scene.tissue.translate.z() != 0)
+    errors.add("tissue.translate", "a plane body stays at z = 0");
+  if (scene.contact.has_tissue)
+    errors.add("contact.tissue", "this body is plane: only volumes touch themselves");
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+    if (scene.instruments[k].kind == InstrumentKind::scissors)
+      errors.add(item_path("instrument", k) + ".kind",
+                 "scissors cut volumes only: a scalpel cuts this plane body");
+}
+
+// The edge has points half an element's edge apart, of which each frame makes a band.
+void check_blades(const Scene& scene, const Mesh& mesh, OptionErrors& errors) {
+  constexpr double most_edges = 1e5;
+  if (!has_blades(scene)) return;
+  const double edge = mean_edge_length(mesh);
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k) {
+    const SceneInstrument& instrument = scene.instruments[k];
+    if (!has_blade(instrument.kind) || instrument.blade_length <= most_edges * edge) continue;
+    errors.add(item_path("instrument", k) + ".blade_length",
+               "the blade is longer than 100,000 edges of the mesh, which have " +
+                   short_text(edge) + " m: does its unit fit the mesh's?");
+  }
+}
+
+void check_markers(const Scene& scene, const Mesh& mesh, OptionErrors& errors) {
+  const std::vector<Location> markers = locate_markers(scene.markers, mesh);
+  for (std::size_t k = 0; k < markers.size(); ++k)
+    if (markers[k].element < 0)
+      errors.add(item_path("marker", k) + ".position",
+                 "marker \"" + scene.markers[k].name + "\" lies outside the undeformed body");
+}
+
+}  // namespace
+
+void check_fit(const Scene& scene, const Mesh& mesh, OptionErrors& errors) {
+  check_all_regions(scene, mesh, errors);
+  if (mesh.dimension() == 2) check_plane(scene, errors);
+  check_blades(scene, mesh, errors);
+  check_markers(scene, mesh, errors);
+}
+
+}  // namespace trocar

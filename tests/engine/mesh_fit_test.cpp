@@ -1,0 +1,82 @@
+#include "engine/mesh_fit.h"
+
+#include <gtest/gtest.h>
+
+#include "engine_scene.h"
+#include "engine_started.h"
+
+namespace trocar {
+namespace {
+
+// The error that building a body of 1 cell refuses it with, 100 mm wide.
+std::string error_with(const std::string& lines, const std::string& kind = "box") {
+  return input_error_of([&] {
+    built("[time]\nduration = 1\n[tissue.shape]\nkind = \"" + kind + "\"\ncells = [2, 2, 2]\n" +
+          lines);
+  });
+}
+
+void expect_parts(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts)
+    EXPECT_TRUE(contains(text, part)) << "looked for: " << part << "\nfound: " << text;
+}
+
+TEST(MeshFit, tells_all_names_that_the_body_does_not_have) {
+  const std::string text = error_with(R"([[support]]
+region = "z"
+[[load]]
+region = "tip"
+pressure = 1
+[[tissue.region_material]]
+region = "x-"
+material = {}
+[[region]]
+name = "x+"
+low = [0, 0, 0]
+high = [1, 1, 1]
+[[region]]
+name = "far"
+low = [5, 5, 5]
+high = [6, 6, 6]
+[[support]]
+region = "far"
+[[marker]]
+name = "m"
+position = [0, 0, 2]
+)");
+  expect_parts(text,
+               {"s.toml:7:10: support[0].region: the body has no region \"z\"; the nearest is "
+                "\"z-\"; there are \"x-\", \"x+\"",
+                "s.toml:9:10: load[0].region: the body has no region \"tip\"; there are",
+                "s.toml:12:10: tissue.region_material[0].region: the body has no region of "
+                "elements \"x-\"; there are none",
+                "s.toml:15:8: region[0].name: the body has a region \"x+\" already",
+                "s.toml:20:7: region[1].low: region \"far\" holds no node of the mesh, which "
+                "reaches from (0, 0, 0) to (0.1, 0.1, 0.1) m",
+                "s.toml:26:12: marker[0].position: "});
+  EXPECT_FALSE(contains(text, "support[1]")) << text;
+}
+
+TEST(MeshFit, tells_all_that_a_plane_body_can_not_do) {
+  const std::string text = error_with(
+      "[tissue]\ntranslate = [0, 0, 1]\n[contact]\ntissue = true\n" + instrument_text("scissors"),
+      "rectangle");
+  expect_parts(text, {"s.toml:7:13: tissue.translate: a plane body stays at z = 0",
+                      "s.toml:9:10: contact.tissue: this body is plane",
+                      "s.toml:11:8: instrument[0].kind: scissors cut volumes only"});
+}
+
+TEST(MeshFit, refuses_blades_of_more_than_100000_edges) {
+  expect_parts(error_with(instrument_text("scalpel") + "blade_length = 1e5\n"),
+               {"instrument[0].blade_length: the blade is longer than 100,000 edges of the mesh"});
+}
+
+TEST(MeshFit, of_the_body_as_a_whole_is_told_with_all_that_is_wrong) {
+  expect_parts(error_with("[solver]\ngravity = [0, 0, -9.81]\n[start]\nstate = "
+                          "\"equilibrium\"\n[[region]]\nname = \"corner\"\nlow = [0, 0, 0]\nhigh = "
+                          "[0.01, 0.01, 0.01]\n[[load]]\nregion = \"corner\"\npressure = 1\n"),
+               {"start.state: there is no equilibrium", "load[0].region: no face of the surface"});
+}
+
+}  // namespace
+}  // namespace trocar
