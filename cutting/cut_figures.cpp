@@ -7,7 +7,7 @@ namespace trocar {
 const char* reason_of(const CutRefusal& refusal) {
   constexpr std::array<const char*, CutRefusal::n_reasons> text = {
       "the outer surface would no longer be a closed surface",
-      "a chip below half an edge cubed stays with the other side",
+      "a piece too small for the mesh, or left joined by the blade, stays with the other side",
       "tissue on the blade's way from surface to surface stays joined",
       "a hexahedron there is bent too much to become tetrahedra",
       "the stable step of elements there would fall below the floor",
