@@ -12,6 +12,7 @@
 
 #include "engine_resume.h"
 #include "program.h"
+#include "scene_plate.h"
 
 namespace trocar {
 namespace {
@@ -248,6 +249,22 @@ TEST(Resume, after_a_kill_at_some_moment_gives_the_same_bits) {
     words.insert(words.begin(), TROCAR_PROGRAM);
     EXPECT_EQ(run_until_signal(words, folder, SIGKILL, milliseconds), -1);
     resume_and_compare(scene, folder, {1, 2}, expected);
+  }
+}
+
+// In the frames around the cut's split, or behind it.
+TEST(Resume, after_a_kill_behind_a_cut_that_split_elements_gives_the_same_bits) {
+  const std::string folder = test_folder("killed-split");
+  const std::string scene =
+      scene_file(folder, plate_of("tet4-five", viscous) + plate_in_use + plate_blade);
+  const std::string expected = uninterrupted(scene);
+  EXPECT_NE(expected.find("\"pieces\":2"), std::string::npos) << expected;
+  for (const int milliseconds : {120, 260, 400, 560}) {
+    std::filesystem::remove_all(folder + "/out");
+    std::vector<std::string> words = run_arguments(scene, folder, often_in_real_time);
+    words.insert(words.begin(), TROCAR_PROGRAM);
+    EXPECT_EQ(run_until_signal(words, folder, SIGKILL, milliseconds), -1);
+    resume_and_compare(scene, folder, {milliseconds == 400 ? 3 : 1, 2}, expected);
   }
 }
 
