@@ -334,6 +334,7 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
   note_body(s, record);
   if (!look.is_last) return;
   note_askew(s, record);
+  note_refusals(s, record);
   end_stroke(stage);
 }
 
