@@ -379,8 +379,8 @@ void bring_stroke(const Simulation& s, std::span<const int> ranks, CutStage& sta
     keepers.clear();
     return;
   }
-  if (std::ranges::binary_search(ranks, s.communicator->rank()))
-    share_stroke(s.communicator->group(ranks), static_cast<int>(first - ranks.begin()), stage);
+  if (const Communicator* const group = s.communicator->group(ranks))
+    share_stroke(*group, static_cast<int>(first - ranks.begin()), stage);
   keepers.insert(keepers.end(), ranks.begin(), ranks.end());
   sort_unique(keepers);
 }
