@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <iterator>
 #include <thread>
 
 #include "engine_resume.h"
@@ -343,6 +344,36 @@ TEST(Resume, of_two_ranks_that_were_signalled_goes_on_with_one) {
       mpirun_words(2, TROCAR_PROGRAM, run_arguments(scene, folder, often_in_real_time));
   EXPECT_EQ(run_until_signal(words, folder, SIGUSR1, 200), stopped);
   resume_and_compare(scene, folder, {1, 1}, expected);
+}
+
+std::vector<pid_t> children_of(pid_t process) {
+  const std::string number = std::to_string(process);
+  std::istringstream list(read_text("/proc/" + number + "/task/" + number + "/children"));
+  return {std::istream_iterator<pid_t>(list), {}};
+}
+
+// Before there is a checkpoint. mpirun's exit code is 128 + the signal.
+TEST(Resume, of_ranks_one_of_which_is_killed_is_told_by_the_other) {
+  for (const std::size_t lost : {0, 1}) {
+    const std::string folder = test_folder("lost-rank");
+    const pid_t mpirun = start(mpirun_words(2, TROCAR_PROGRAM,
+                                            {"run", config("block_hex.toml"), "-q", "-o",
+                                             folder + "/out", "--set", "output=[]"}),
+                               folder);
+    wait_for(folder + "/out/scene.toml");
+    const std::vector<pid_t> ranks = children_of(mpirun);
+    ASSERT_EQ(ranks.size(), 2U);
+    kill(ranks[lost], SIGKILL);
+    int status = 0;
+    waitpid(mpirun, &status, 0);
+    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 128 + SIGKILL);
+    const std::string told = read_text(folder + "/first"),
+                      who = "trocar: error: rank " + std::to_string(lost) + " (process " +
+                            std::to_string(ranks[lost]) + " on ";
+    EXPECT_NE(told.find(who), std::string::npos) << told;
+    EXPECT_EQ(told.find("trocar: error", told.find(who) + 1), std::string::npos) << told;
+    EXPECT_FALSE(std::filesystem::exists(folder + "/out/checkpoint.bin"));
+  }
 }
 
 TEST(Resume, without_a_checkpoint_is_refused_on_every_rank_with_one_sentence) {
