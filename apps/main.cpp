@@ -7,6 +7,7 @@
 #include "base/communicator.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/peer_watch.h"
 
 // What was asked for on standard output must not be lost in silence, e.g. on a full disk.
 static void check_was_printed() {
@@ -23,6 +24,7 @@ int main(int argc, char** argv) {
   MpiSession session(&argc, &argv);
   const int rank = session.world().rank();
   start_log(rank, line.machine.is_quiet);
+  const PeerWatch watch(session.world());
   try {
     code = run_command(line, session.world());
     check_was_printed();

@@ -30,10 +30,10 @@ struct Communicator::Handle {
   };
   struct Group {
     std::vector<int> ranks;
-    Communicator communicator;
+    Communicator communicator;  // without a handle on other ranks
   };
   MPI_Comm group = MPI_COMM_NULL;
-  std::vector<std::unique_ptr<Group>> groups;
+  std::vector<std::unique_ptr<Group>> groups;  // the last one was asked for last
   std::vector<MPI_Request> receives;
   std::array<Sends, 2> sends;  // of the exchange before the last, and the last
 };
@@ -119,9 +119,15 @@ Traffic Communicator::traffic() const {
   return all;
 }
 
+std::size_t Communicator::n_groups() const {
+  if (!handle_) return 0;
+  return static_cast<std::size_t>(std::ranges::count_if(
+      handle_->groups, [](const auto& group) { return group->communicator.handle_ != nullptr; }));
+}
+
 Communicator Communicator::make_group(std::span<const int> ranks) const {
   Communicator made;
-  if (ranks.size() == 1) return made;
+  if (ranks.size() == 1 || !std::ranges::binary_search(ranks, rank_)) return made;
   MPI_Group all = MPI_GROUP_NULL, some = MPI_GROUP_NULL;
   MPI_Comm_group(handle_->group, &all);
   MPI_Group_incl(all, count_of(ranks.size()), ranks.data(), &some);
@@ -134,14 +140,31 @@ Communicator Communicator::make_group(std::span<const int> ranks) const {
   return made;
 }
 
-const Communicator& Communicator::group(std::span<const int> ranks) {
-  CHECK(std::ranges::binary_search(ranks, rank_));
-  if (std::cmp_equal(ranks.size(), size_)) return *this;
-  for (const auto& known : handle_->groups)
-    if (std::ranges::equal(known->ranks, ranks)) return known->communicator;
-  handle_->groups.push_back(std::make_unique<Handle::Group>(
-      Handle::Group{{ranks.begin(), ranks.end()}, make_group(ranks)}));
-  return handle_->groups.back()->communicator;
+// Of a group, by all of its ranks alike.
+void Communicator::free_group() {
+  if (!handle_) return;
+  for (Handle::Sends& sends : handle_->sends) wait_politely(sends.requests);
+  MPI_Comm_free(&handle_->group);
+}
+
+const Communicator* Communicator::group(std::span<const int> ranks) {
+  if (std::cmp_equal(ranks.size(), size_)) return this;
+  auto& groups = handle_->groups;
+  const auto known = std::ranges::find_if(
+      groups, [&](const auto& group) { return std::ranges::equal(group->ranks, ranks); });
+  if (known != groups.end()) {
+    std::rotate(known, known + 1, groups.end());
+  } else {
+    // All ranks know of all groups, so that those of one free it at the same moment.
+    if (groups.size() == most_groups) {
+      traffic_.n_collectives += groups.front()->communicator.traffic_.n_collectives;
+      groups.front()->communicator.free_group();
+      groups.erase(groups.begin());
+    }
+    groups.push_back(std::make_unique<Handle::Group>(
+        Handle::Group{{ranks.begin(), ranks.end()}, make_group(ranks)}));
+  }
+  return std::ranges::binary_search(ranks, rank_) ? &groups.back()->communicator : nullptr;
 }
 
 void Communicator::barrier() const {

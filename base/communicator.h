@@ -38,9 +38,13 @@ class Communicator {
   // With that of groups.
   Traffic traffic() const;
 
-  // These ranks, ascending, as a communicator of their own, in which they have the same order. All
-  // of them call this, others don't. Made once: it lives as long as this one.
-  const Communicator& group(std::span<const int> ranks);
+  // These ranks, ascending, as a communicator of their own, in which they have the same order; null
+  // on the others. It lives until most_groups others have been asked for after it: making one takes
+  // a message or two, and MPI has only so many. Collective.
+  const Communicator* group(std::span<const int> ranks);
+  static constexpr std::size_t most_groups = 8;
+  // That MPI has for this rank now.
+  std::size_t n_groups() const;
 
   // Collective: every rank calls these with the same kind of argument.
   // A NaN on any rank makes the minimum and the maximum NaN; -0 counts as less than +0.
@@ -71,6 +75,7 @@ class Communicator {
   friend class MpiSession;
   struct Handle;
   Communicator make_group(std::span<const int> ranks) const;
+  void free_group();
   std::unique_ptr<Handle> handle_;
   std::vector<double> alone_;  // room_to_send without MPI
   int rank_ = 0;

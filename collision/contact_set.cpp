@@ -117,7 +117,7 @@ ContactSet prepare_contacts(const FoundContacts& contacts, std::span<const std::
   set.constraints.reserve(set.items.size() + 2 * set.node.size());
   set.deepest.resize(set.node.size());
   set.impulse.resize(set.node.size());
-  set.depth.assign(set.node.size(), 0);
+  set.found_by.assign(set.node.size(), -1);
   set.move.resize(set.node.size());
   set.halo = all_to_all(set, node_owner, rank);
   set.is_counted_here = counts_reactions(contacts, node_owner, rank);

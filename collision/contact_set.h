@@ -92,8 +92,9 @@ struct ContactSet {
   std::vector<ContactConstraint> constraints;
   std::vector<DeepestPiece> deepest;   // (node.size())
   std::vector<TissueImpulse> impulse;  // (node.size())
-  // (node.size()) in other tissue, where a step began that found the node there, the last. [m]
-  std::vector<double> depth;
+  // (node.size()) Of `tissue`, the pair by which a step has found the node in other tissue, the
+  // last one; -1: none has.
+  std::vector<std::int32_t> found_by;
   std::vector<Vec3> move;  // (node.size()) [m]
 };
 

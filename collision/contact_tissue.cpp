@@ -83,15 +83,6 @@ Nearest find_nearest(const TissueStep& step, double way, ContactSet::TissueNode&
   return nearest;
 }
 
-double depth_before(double height, const ContactConstraint& c, const ContactSet& set) {
-  Vec3 relative = Vec3::Zero();
-  for (std::size_t a = 0; a < 4; ++a) {
-    const std::size_t i = to_size(c.place[a]);
-    relative += c.weight[a] * (set.x_end[i] - set.x_start[i]);
-  }
-  return std::max(0.0, c.normal.dot(relative) - height);
-}
-
 }  // namespace
 
 void add_tissue(const TissueStep& step, double release, ContactSet& set) {
@@ -109,9 +100,21 @@ void add_tissue(const TissueStep& step, double release, ContactSet& set) {
                         .place = nearest.item->place,
                         .weight = {1, -w[0], -w[1], -w[2]},
                         .normal = touch.normal};
-    set.depth[to_size(c.place[0])] = depth_before(touch.height, c, set);
+    set.found_by[to_size(c.place[0])] = static_cast<std::int32_t>(nearest.item - set.tissue.data());
     add_constraint(touch.height, release, Vec3::Zero(), c, set);
   }
+}
+
+std::vector<double> depths_in_tissue(const ContactSet& set, std::span<const Vec3> x) {
+  std::vector<double> depth(set.node.size(), 0.0);
+  const auto at = [&](std::int32_t place) { return x[to_size(set.node[to_size(place)])]; };
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (set.found_by[i] < 0) continue;
+    const auto& [node, a, b, c] = set.tissue[to_size(set.found_by[i])].place;
+    const TissueTouch touch = touch_tissue(at(node), {at(a), at(b), at(c)});
+    if (touch.is_below) depth[i] = -touch.height;
+  }
+  return depth;
 }
 
 void begin_tissue(std::int64_t step, double friction, ContactSet& set) {

@@ -32,10 +32,8 @@ static std::vector<std::byte> bytes_of(Word word) {
   return save.take();
 }
 
-CutGroup::CutGroup(Simulation& s, std::vector<int> ranks) : s_(s), ranks_(std::move(ranks)) {
-  if (std::ranges::binary_search(ranks_, s.communicator->rank()))
-    members_ = &s.communicator->group(ranks_);
-}
+CutGroup::CutGroup(Simulation& s, std::vector<int> ranks)
+    : s_(s), ranks_(std::move(ranks)), members_(s.communicator->group(ranks_)) {}
 
 bool CutGroup::is_everyone() const {
   return std::cmp_equal(ranks_.size(), s_.communicator->size());

@@ -17,7 +17,7 @@ namespace trocar {
 
 class CutGroup {
  public:
-  // ranks: ascending, one at least, the same on all ranks.
+  // ranks: ascending, one at least, the same on all ranks. Collective.
   CutGroup(Simulation& s, std::vector<int> ranks);
 
   const std::vector<int>& ranks() const { return ranks_; }
@@ -44,7 +44,7 @@ class CutGroup {
 
   Simulation& s_;
   std::vector<int> ranks_;
-  const Communicator* members_ = nullptr;  // on these alone
+  const Communicator* members_;  // null on other ranks
 };
 
 // What `work` finds on the group's ranks, on all ranks, which throw its errors alike. Collective.

@@ -334,6 +334,7 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
   note_body(s, record);
   if (!look.is_last) return;
   note_askew(s, record);
+  note_refusals(s, record);
   end_stroke(stage);
 }
 
@@ -378,8 +379,8 @@ void bring_stroke(const Simulation& s, std::span<const int> ranks, CutStage& sta
     keepers.clear();
     return;
   }
-  if (std::ranges::binary_search(ranks, s.communicator->rank()))
-    share_stroke(s.communicator->group(ranks), static_cast<int>(first - ranks.begin()), stage);
+  if (const Communicator* const group = s.communicator->group(ranks))
+    share_stroke(*group, static_cast<int>(first - ranks.begin()), stage);
   keepers.insert(keepers.end(), ranks.begin(), ranks.end());
   sort_unique(keepers);
 }

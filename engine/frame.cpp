@@ -147,18 +147,51 @@ void look_again_for_pairs(Simulation& s, const FrameSpan& span, std::int64_t k) 
   list_waiting(s);
 }
 
-FrameSpan run_substeps(Simulation& s) {
+FrameSpan begin_substeps(Simulation& s) {
   const FrameSpan span = plan_frame(s);
   if (s.contact) detect(s, span);
   if (!s.cuts.empty()) prepare_drag(s, span);
   if (s.sleep) wake_touched(s);
   list_waiting(s);
   if (s.energy) begin_frame_work(s);
-  for (std::int64_t k = 0; k < span.n_substeps; ++k) {
-    if (s.contact && s.contact->has_tissue) look_again_for_pairs(s, span, k);
-    substep(s, span, k);
-  }
   return span;
+}
+
+void step_on(Simulation& s, const FrameSpan& span, std::int64_t k) {
+  if (s.contact && s.contact->has_tissue) look_again_for_pairs(s, span, k);
+  substep(s, span, k);
+}
+
+FrameSpan run_substeps(Simulation& s) {
+  const FrameSpan span = begin_substeps(s);
+  for (std::int64_t k = 0; k < span.n_substeps; ++k) step_on(s, span, k);
+  return span;
+}
+
+void go_to_start(Simulation& s) {
+  finish_exchange(s.neighbours, s.state);
+  s.state = s.frame_start;
+  s.scratch.has_force = false;
+  forget_hold_reactions(s.holds);
+}
+
+// Why a frame's numbers came to be infinite: its steps once more, looked at one by one, until an
+// element is inverted. Leaves the look at that in s.watch. "" if none was: what isn't finite came
+// from elsewhere.
+std::string find_first_inverted(Simulation& s) {
+  const Watch end = s.watch;
+  go_to_start(s);
+  const FrameSpan span = begin_substeps(s);
+  for (std::int64_t k = 0; k < span.n_substeps; ++k) {
+    step_on(s, span, k);
+    look_for_inversion(s);
+    if (!s.watch.is_finite) break;
+    if (s.watch.least_J > 0) continue;
+    return "displacements grow beyond all numbers from step " + std::to_string(k + 1) + " of " +
+           std::to_string(span.n_substeps) + " on, as " + find_trouble(s);
+  }
+  s.watch = end;
+  return "";
 }
 
 // The limit may have been lower within the frame than it is at its end: of a frame whose step was
@@ -180,16 +213,15 @@ FrameSpan step_safely(Simulation& s) {
   for (int tries = 0;; ++tries) {
     FrameSpan span = run_substeps(s);
     if (s.sleep && wake_disturbed(s)) {
-      finish_exchange(s.neighbours, s.state);
-      s.state = s.frame_start;
-      forget_hold_reactions(s.holds);
+      go_to_start(s);
       span = run_substeps(s);
     }
     watch_state(s);
-    const std::string trouble = find_trouble(s);
+    std::string trouble = find_trouble(s);
     if (trouble.empty() && was_stable(s, span)) return span;
-    s.state = s.frame_start;
-    s.scratch.has_force = false;
+    if (!s.watch.is_finite)
+      if (const std::string why = find_first_inverted(s); !why.empty()) trouble = why;
+    go_to_start(s);
     if (trouble.empty()) {
       repeat_frame(s, span, tries);
     } else {

@@ -9,6 +9,7 @@
 #include "base/digest.h"
 #include "base/exact_sum.h"
 #include "base/log.h"
+#include "base/options.h"
 #include "solver/step.h"
 
 namespace trocar {
@@ -142,13 +143,40 @@ void note_grasp(Simulation& s, double time, const GraspAct& act) {
   note_event(s, time, tool.name + text);
 }
 
+void note_refusals(Simulation& s, const CutRecord& record) {
+  if (record.refusals.empty()) return;
+  const CutRefusal& first = record.refusals.front();
+  const bool is_one = record.n_refused == 1;
+  note_event(s, record.end,
+             record.tool + " leaves tissue joined in " +
+                 (is_one ? "one place" : std::to_string(record.n_refused) + " places, the first") +
+                 " at (" + short_text(first.X.x()) + ", " + short_text(first.X.y()) + ", " +
+                 short_text(first.X.z()) + ") m of the undeformed body: " + reason_of(first) +
+                 (is_one ? "" : " (all: `refusals` in the summary)"));
+}
+
+// Why a blade that was in the tissue has parted nothing.
+static std::string why_nothing(const Simulation& s, const CutStage& stage) {
+  constexpr double enough = 2;  // elements in the depth of a cut
+  double deepest = 0;
+  for (const CutRecord& stroke : stage.strokes) deepest = std::max(deepest, stroke.deepest);
+  if (s.mesh.dimension() == 2 || deepest >= enough * s.edge_length)
+    return "its strokes in the summary say where it was";
+  return "no more than " + short_text(1e3 * deepest) +
+         " mm of its edge was in the tissue, whose elements have edges of " +
+         short_text(1e3 * s.edge_length) +
+         " mm, and a cut that ends inside needs two or three of them in its depth: a finer mesh, "
+         "or let the blade go through" +
+         (s.scene.cutting.resistance > 0 ? " (resistance is felt all the same)" : "");
+}
+
 static void note_idle_blades(Simulation& s) {
   for (const CutStage& stage : s.cuts) {
     if (std::any_of(stage.strokes.begin(), stage.strokes.end(),
                     [](const CutRecord& stroke) { return stroke.n_opened_facets > 0; }))
       continue;
     const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
-    const char* const why = !stage.strokes.empty() ? "its strokes in the summary say where it was"
+    const std::string why = !stage.strokes.empty() ? why_nothing(s, stage)
                             : tool.kind == InstrumentKind::scissors
                                 ? "its jaws never closed on the tissue"
                                 : "its blade never met the tissue";
@@ -157,6 +185,8 @@ static void note_idle_blades(Simulation& s) {
 }
 
 void note_idle_tools(Simulation& s) {
+  for (const CutStage& stage : s.cuts)
+    if (stage.is_in_stroke) note_refusals(s, stage.strokes.back());
   note_idle_blades(s);
   for (std::size_t k = 0; k < s.tools.size(); ++k)
     if (s.tools[k].kind == InstrumentKind::probe &&

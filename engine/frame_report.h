@@ -19,7 +19,10 @@ void note_event(Simulation& s, double time, const std::string& event);
 // The same as a warning.
 void warn_event(Simulation& s, double time, const std::string& event);
 void note_grasp(Simulation& s, double time, const GraspAct& act);
-// At the end of a run: blades that have cut nothing, and probes that have touched nothing.
+// At the end of a stroke: how much the blade left joined, and the first place with its reason.
+void note_refusals(Simulation& s, const CutRecord& record);
+// At the end of a run: strokes that have not ended, blades that have cut nothing, and probes that
+// have touched nothing.
 void note_idle_tools(Simulation& s);
 // 64-bit digest of nodes, velocities, connectivity, time and step; equal for any number of ranks
 // and threads. Collective.

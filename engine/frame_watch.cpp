@@ -271,6 +271,13 @@ void watch_state(Simulation& s) {
   if (watch_motion(s)) watch_elements(s);
 }
 
+void look_for_inversion(Simulation& s) {
+  finish_exchange(s.neighbours, s.state);
+  if (!watch_nodes(s)) return;
+  update_volume_change(s.model, s.neighbours, s.state, s.scratch);
+  take_least(s, watch(s.model, s.part, s.state));
+}
+
 std::string find_trouble(const Simulation& s) {
   if (!s.watch.is_finite)
     return "a non-finite displacement or velocity at node " + std::to_string(s.watch.bad_node) +
@@ -316,7 +323,9 @@ void roll_back(Simulation& s, const FrameSpan& span, const Watch& failed,
                const std::string& trouble, int tries) {
   const std::string sentence = go_back(s, span, failed, trouble, tries);
   s.step_scale *= 0.5;
-  note_event(s, span.t0, sentence + "; step scale now " + number_text(s.step_scale));
+  note_event(s, span.t0,
+             sentence + find_suspect(s, failed, span).place + "; step scale now " +
+                 number_text(s.step_scale));
 }
 
 double left_of_frame(const Simulation& s, double now) {

@@ -64,6 +64,9 @@ void refine_forces(Simulation& s, double dt);
 void find_loads_at(Simulation& s, double time);
 // Of all nodes of all ranks. Collective. [m/s]
 double largest_speed(const Simulation& s);
+// Sets s.watch to whether all is finite now and which element is the most compressed, and keeps no
+// look at it. Collective.
+void look_for_inversion(Simulation& s);
 // A sentence with element or node and cause, "" if all is well. The same on every rank.
 std::string find_trouble(const Simulation& s);
 // Notes that the frame is done again with the stable step of its end, which its own exceeded;

@@ -8,6 +8,7 @@
 
 #include "base/box.h"
 #include "base/options.h"
+#include "collision/contact_tissue.h"
 #include "engine/energy_ledger.h"
 #include "engine/frame_report.h"
 
@@ -111,15 +112,16 @@ struct SunkNode {
   std::int32_t node = -1;
 };
 
-// Nodes that contact found deeper than contact_reach in the frame's last steps, of all ranks,
-// deepest first.
+// Nodes that contact has found in other tissue and that lie there deeper than contact_reach now, of
+// all ranks, deepest first.
 std::vector<SunkNode> find_sunk(const Simulation& s) {
   const ContactSet& set = s.contact->set;
+  const std::vector<double> depth = depths_in_tissue(set, s.view.x);
   std::vector<double> mine;
   for (const std::int32_t place : set.owned) {
     const auto i = static_cast<std::size_t>(place);
-    if (set.depth[i] > s.contact_reach)
-      mine.insert(mine.end(), {set.depth[i], static_cast<double>(set.node[i])});
+    if (depth[i] > s.contact_reach)
+      mine.insert(mine.end(), {depth[i], static_cast<double>(set.node[i])});
   }
   const std::vector<double> all = s.communicator->all_gather(mine);
   std::vector<SunkNode> sunk;

@@ -95,7 +95,7 @@ TEST_P(OneRank, exchanges_with_itself_in_order_and_again) {
 
 TEST_P(OneRank, is_the_group_of_itself) {
   const int itself[] = {0};
-  EXPECT_EQ(&ranks().group(itself), &ranks());
+  EXPECT_EQ(ranks().group(itself), &ranks());
 }
 
 INSTANTIATE_TEST_SUITE_P(, OneRank, testing::Bool(), [](const auto& test) {

@@ -8,6 +8,7 @@
 
 #include "engine/frame_watch.h"
 #include "engine_scene.h"
+#include "engine_split.h"
 #include "engine_started.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/quality.h"
@@ -245,6 +246,32 @@ TEST(ApplyCut, keeps_the_viscous_stress_of_converted_hexahedra) {
       for (std::size_t k = 0; k < element.size(); ++k)
         EXPECT_NEAR(element[k], before[0][k], 1e-12 * largest) << hexahedron;  // rounding
   }
+}
+
+TEST(ApplyCut, keeps_the_viscous_stress_of_split_tetrahedra_and_all_momenta) {
+  const auto started = built(plate_of("tet4-five", viscous));
+  Simulation& s = *started->s;
+  for (std::size_t i = 0; i < s.mass.size(); ++i) {  // one stretch everywhere
+    s.state.u[3 * i] = 0.02 * s.mesh.X[i].x();
+    s.state.u[3 * i + 2] = 0.01 * s.mesh.X[i].x();
+  }
+  compute_force(s.model, s.state, s.scratch);
+  const auto before = history_per_volume(s);
+  double largest = 0;
+  for (const double value : before[0]) largest = std::max(largest, std::abs(value));
+  ASSERT_GT(largest, 1);  // [Pa]
+  set_in_motion(s);
+  const Motion motion = motion_of(s);
+  EXPECT_GT(split_plate(s).n_inserted, 300);
+  const auto after = history_per_volume(s);
+  EXPECT_GT(after.size(), 2 * before.size());
+  for (const auto& element : after)
+    for (std::size_t k = 0; k < element.size(); ++k)
+      EXPECT_NEAR(element[k], before[0][k], 1e-12 * largest);  // rounding
+  const Motion now = motion_of(s);
+  EXPECT_NEAR(now.mass, motion.mass, 1e-13 * motion.mass);
+  EXPECT_LT((now.momentum - motion.momentum).norm(), 1e-12 * motion.mass * 2);
+  EXPECT_LT((now.angular - motion.angular).norm(), 1e-12 * motion.mass * 2 * 0.03);
 }
 
 }  // namespace

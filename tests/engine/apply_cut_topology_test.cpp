@@ -13,7 +13,9 @@
 #include "engine/energy_ledger.h"
 #include "engine/frame_watch.h"
 #include "engine_scene.h"
+#include "engine_split.h"
 #include "engine_started.h"
+#include "engine_topology_equal.h"
 #include "mesh/surface_edit.h"
 #include "solver/history.h"
 #include "solver/model_edit.h"
@@ -49,77 +51,6 @@ MeshEdit next_edit(const Simulation& s, const GlobalState& global, TetCutter& cu
   KnownPositions positions(s.mesh, global.x);
   return cutter.advance(s.mesh, positions, held_nodes(s.holds, s.fixed), sweep, k == n_bands - 1,
                         figures);
-}
-
-void expect_equal(const Part& a, const Part& b) {
-  EXPECT_EQ(a.rank, b.rank);
-  EXPECT_EQ(a.n_owned, b.n_owned);
-  EXPECT_EQ(a.node_global, b.node_global);
-  EXPECT_EQ(a.element_global, b.element_global);
-  EXPECT_EQ(a.node_local, b.node_local);
-}
-
-void expect_equal(const Surface& a, const Surface& b) {
-  EXPECT_EQ(a.triangle, b.triangle);
-  EXPECT_EQ(a.element, b.element);
-  EXPECT_EQ(a.is_cut, b.is_cut);
-  EXPECT_EQ(a.is_quad_half, b.is_quad_half);
-  EXPECT_EQ(a.node, b.node);
-}
-
-void expect_equal(const MassScaling& a, const MassScaling& b) {
-  const auto numbers = [](const MassScaling& scaling) {
-    std::vector<std::int32_t> number;
-    for (const RestingElement& element : scaling.element) number.push_back(element.number);
-    return number;
-  };
-  EXPECT_EQ(numbers(a), numbers(b));
-  EXPECT_EQ(a.offset, b.offset);
-  EXPECT_EQ(a.node, b.node);
-  EXPECT_EQ(a.added, b.added);
-}
-
-void expect_equal(const Sleep& a, const Sleep& b) {
-  EXPECT_EQ(a.quiet, b.quiet);
-  EXPECT_EQ(a.is_asleep, b.is_asleep);
-  EXPECT_EQ(a.is_beside, b.is_beside);
-  EXPECT_EQ(a.awake_fixed, b.awake_fixed);
-  EXPECT_EQ(a.block_sleeps, b.block_sleeps);
-  EXPECT_EQ(a.share, b.share);
-  EXPECT_EQ(a.anchor.size(), b.anchor.size());
-  EXPECT_EQ(a.watched.size(), b.watched.size());
-}
-
-void expect_equal(const LocalStepPlan& a, const LocalStepPlan& b) {
-  ASSERT_EQ(a.resting.size(), b.resting.size());
-  for (std::size_t e = 0; e < a.resting.size(); ++e) {
-    EXPECT_EQ(a.resting[e].number, b.resting[e].number);
-    EXPECT_EQ(a.resting[e].step, b.resting[e].step);
-    EXPECT_EQ(a.resting[e].mass, b.resting[e].mass);
-  }
-  EXPECT_EQ(a.plan.n_substeps, b.plan.n_substeps);
-  EXPECT_EQ(a.plan.element, b.plan.element);
-  EXPECT_EQ(a.plan.is_fine, b.plan.is_fine);
-}
-
-void expect_equal(const MultiRate& a, const MultiRate& b) {
-  expect_equal(a.part, b.part);
-  expect_equal(a.model, b.model);
-  EXPECT_EQ(a.steps.back, b.steps.back);
-  EXPECT_EQ(a.share, b.share);
-  EXPECT_EQ(a.whole, b.whole);
-  EXPECT_EQ(a.of_whole, b.of_whole);
-  EXPECT_EQ(a.is_fine, b.is_fine);
-  EXPECT_EQ(a.coarse_fixed, b.coarse_fixed);
-}
-
-void expect_equal(const Halo& a, const Halo& b) {
-  ASSERT_EQ(a.neighbours.size(), b.neighbours.size());
-  for (std::size_t k = 0; k < a.neighbours.size(); ++k) {
-    EXPECT_EQ(a.neighbours[k].rank, b.neighbours[k].rank);
-    EXPECT_EQ(a.neighbours[k].send, b.neighbours[k].send);
-    EXPECT_EQ(a.neighbours[k].receive, b.neighbours[k].receive);
-  }
 }
 
 // Calls body(the state, the edit that it is to apply) for each; returns how many there were.
@@ -204,6 +135,61 @@ std::vector<double> history_of(const Simulation& s, std::span<const double> copi
   return state.history;
 }
 
+struct Compared {
+  int n_with_local_steps = 0;
+  std::vector<std::size_t> n_scaled{};  // elements, after each edit
+};
+
+void apply_and_rebuild(Simulation& s, GlobalState& global, const MeshEdit& edit,
+                       Compared& compared) {
+  const std::vector<std::int32_t> owner = s.node_owner;
+  apply_edit_to_owners(edit, s.node_owner);
+  EXPECT_TRUE(keeps_owners(s, edit));
+  s.node_owner = owner;
+  const std::vector<double> copies = copy_history(s.model, s.part, s.state);
+  const std::vector<double> volume = volumes(s.mesh);
+  const std::vector<std::int32_t> parent = element_parents(s.mesh, edit);
+  CutRecord record;
+  apply_cut(s, edit, global, record);
+  const Part part = s.part;
+  const Model model = s.model;
+  const Surface surface = s.surface;
+  const std::vector<double> mass = s.mass, altitude = s.altitude;
+  const double rest_step = s.rest_step, reach = s.look.reach;
+  const std::int32_t n_pieces = s.n_pieces;
+  const std::optional<MassScaling> scaling = s.mass_scaling;
+  const std::optional<AddedMass> added = s.added_mass;
+  const std::optional<Sleep> sleep = s.sleep;
+  const std::optional<LocalStepPlan> local_steps = s.local_steps;
+  const std::unique_ptr<MultiRate> multirate = std::move(s.multirate);
+  rebuild_topology(s);
+  ASSERT_EQ(s.scene.solver.is_multirate, local_steps.has_value());
+  if (local_steps) {
+    expect_equal(*local_steps, *s.local_steps);
+    ASSERT_TRUE(!multirate || s.multirate);
+    if (multirate) expect_equal(*multirate, *s.multirate);  // else it was given up
+    compared.n_with_local_steps += multirate ? 1 : 0;
+  }
+  if (scaling) {
+    expect_equal(*scaling, *s.mass_scaling);
+    EXPECT_EQ(added->mass, s.added_mass->mass);
+    compared.n_scaled.push_back(scaling->element.size());
+  }
+  if (sleep) expect_equal(*sleep, *s.sleep);
+  expect_equal(part, s.part);
+  expect_equal(model, s.model);
+  expect_equal(surface, s.surface);
+  EXPECT_TRUE(boundary_edges(s.surface).node.empty());  // closed, as follow_model takes it
+  EXPECT_EQ(mass, s.mass);
+  EXPECT_EQ(altitude, s.altitude);
+  EXPECT_EQ(rest_step, s.rest_step);
+  EXPECT_EQ(reach, s.look.reach);
+  EXPECT_EQ(n_pieces, s.n_pieces);
+  EXPECT_EQ(s.state.history, history_of(s, copies, parent, volume));
+  EXPECT_EQ(s.model.n_history > 0, !copies.empty());
+  watch_state(s);
+}
+
 TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
   int n_with_local_steps = 0;
   for (const auto& [elements, solver] : kinds)
@@ -212,61 +198,17 @@ TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
       set_thread_count(n_threads);
       Simulation& s = *started->s;
       if (n_threads == 2) make_half_stiffer(s);
-      const bool has_local_steps = s.scene.solver.is_multirate;
-      if (has_local_steps) make_sliver(s);
+      if (s.scene.solver.is_multirate) make_sliver(s);
       rebuild_topology(s);
-      const bool is_viscous = s.model.n_history > 0;
-      if (is_viscous) bend_and_move(s);
-      std::vector<std::size_t> n_scaled;
+      if (s.model.n_history > 0) bend_and_move(s);
+      Compared compared;
       const int n_edits = for_edits(s, [&](GlobalState& global, const MeshEdit& edit) {
-        const std::vector<std::int32_t> owner = s.node_owner;
-        apply_edit_to_owners(edit, s.node_owner);
-        EXPECT_TRUE(keeps_owners(s, edit));
-        s.node_owner = owner;
-        const std::vector<double> copies = copy_history(s.model, s.part, s.state);
-        const std::vector<double> volume = volumes(s.mesh);
-        const std::vector<std::int32_t> parent = element_parents(s.mesh, edit);
-        CutRecord record;
-        apply_cut(s, edit, global, record);
-        const Part part = s.part;
-        const Model model = s.model;
-        const Surface surface = s.surface;
-        const std::vector<double> mass = s.mass, altitude = s.altitude;
-        const double rest_step = s.rest_step, reach = s.look.reach;
-        const std::int32_t n_pieces = s.n_pieces;
-        const std::optional<MassScaling> scaling = s.mass_scaling;
-        const std::optional<AddedMass> added = s.added_mass;
-        const std::optional<Sleep> sleep = s.sleep;
-        const std::optional<LocalStepPlan> local_steps = s.local_steps;
-        const std::unique_ptr<MultiRate> multirate = std::move(s.multirate);
-        rebuild_topology(s);
-        ASSERT_EQ(has_local_steps, s.multirate != nullptr);
-        if (has_local_steps) {
-          expect_equal(*local_steps, *s.local_steps);
-          if (multirate) expect_equal(*multirate, *s.multirate);  // else it was given up
-          n_with_local_steps += multirate ? 1 : 0;
-        }
-        if (scaling) {
-          expect_equal(*scaling, *s.mass_scaling);
-          EXPECT_EQ(added->mass, s.added_mass->mass);
-          n_scaled.push_back(scaling->element.size());
-        }
-        if (sleep) expect_equal(*sleep, *s.sleep);
-        expect_equal(part, s.part);
-        expect_equal(model, s.model);
-        expect_equal(surface, s.surface);
-        EXPECT_TRUE(boundary_edges(s.surface).node.empty());  // closed, as follow_model takes it
-        EXPECT_EQ(mass, s.mass);
-        EXPECT_EQ(altitude, s.altitude);
-        EXPECT_EQ(rest_step, s.rest_step);
-        EXPECT_EQ(reach, s.look.reach);
-        EXPECT_EQ(n_pieces, s.n_pieces);
-        EXPECT_EQ(s.state.history, history_of(s, copies, parent, volume));
-        EXPECT_EQ(is_viscous, !copies.empty());
-        watch_state(s);
+        apply_and_rebuild(s, global, edit, compared);
       });
       EXPECT_GE(n_edits, 4);
       EXPECT_EQ(s.n_pieces, 2);
+      n_with_local_steps += compared.n_with_local_steps;
+      const std::vector<std::size_t>& n_scaled = compared.n_scaled;
       if (s.mass_scaling) {
         EXPECT_NE(n_scaled.back(), n_scaled.front());
         std::printf("%s: %zu to %zu elements scaled, step at rest %.3g s\n", elements.c_str(),
@@ -274,6 +216,37 @@ TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
       }
     }
   EXPECT_GE(n_with_local_steps, 10);
+  set_thread_count(1);
+}
+
+// Nodes on edges, elements in place of others, then the cut.
+TEST(Topology, after_elements_are_split_is_that_of_the_edited_mesh) {
+  int n_with_local_steps = 0;
+  for (const std::string elements : {"tet4-kuhn", "tet4-five"})
+    for (const std::string& solver : {std::string(), std::string("precision = \"single\"\n"),
+                                      std::string("tetrahedron = \"nodal-pressure\"\n"), viscosity,
+                                      sleepy, scaled, local, scaled + viscosity}) {
+      const auto started = built(plate_of(elements, solver) + "[[support]]\nregion = \"x+\"\n");
+      Simulation& s = *started->s;
+      set_thread_count(elements == "tet4-five" ? 2 : 1);
+      if (s.scene.solver.is_multirate)
+        for (Vec3& X : s.mesh.X)
+          if (X.x() < -0.025 && X.x() > -0.029) X.x() -= 0.9 * 0.06 / 13;
+      rebuild_topology(s);
+      for (std::size_t i = 0; i < s.mesh.X.size(); ++i)
+        Vec3::Map(&s.state.u[3 * i]) = 0.03 * s.mesh.X[i].x() * Vec3::UnitX();
+      if (s.model.n_history > 0) compute_force(s.model, s.state, s.scratch);
+      watch_state(s);
+      Compared compared;
+      const PlateSplit done =
+          split_plate(s, true, [&](GlobalState& global, const MeshEdit& edit, CutRecord&) {
+            apply_and_rebuild(s, global, edit, compared);
+          });
+      EXPECT_GT(done.n_inserted, 300) << elements << " " << solver;
+      EXPECT_GE(s.n_pieces, 2) << elements << " " << solver;
+      n_with_local_steps += compared.n_with_local_steps;
+    }
+  EXPECT_GE(n_with_local_steps, 2);
   set_thread_count(1);
 }
 

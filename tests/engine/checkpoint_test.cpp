@@ -16,6 +16,7 @@
 #include "engine/output.h"
 #include "engine_files.h"
 #include "engine_resume.h"
+#include "engine_split.h"
 #include "engine_started.h"
 
 namespace trocar {
@@ -92,6 +93,22 @@ TEST(Checkpoint, of_each_frame_of_a_cut_grasped_and_pressed_block_leads_to_the_n
   EXPECT_GT(most_held, static_cast<std::int64_t>(last.holds.size()));  // opened again
   EXPECT_GT(last.holds.size(), 0u);                                    // the moving support
   EXPECT_EQ(last.log.events.size(), 2u);                               // closes, opens
+}
+
+TEST(Checkpoint, of_each_frame_of_a_plate_in_use_that_is_split_leads_to_the_next_one) {
+  const LoadedScene scene =
+      loaded_text(plate_of("tet4-five", viscous) + plate_in_use + plate_blade);
+  const auto checkpoints = uninterrupted(scene);
+  const std::size_t n = checkpoints.size();
+  expect_same_next_frames(scene, {checkpoints.begin() + 10, checkpoints.end()});
+  const Checkpoint first = checkpoint_from_bytes(checkpoints[0], "c"),
+                   last = checkpoint_from_bytes(checkpoints[n - 1], "c");
+  const CutRecord& stroke = last.cuts[0].strokes.at(0);
+  EXPECT_GT(stroke.n_inserted, 300);
+  EXPECT_EQ(stroke.n_pieces, 2);
+  EXPECT_GT(last.mesh.n_elements(), first.mesh.n_elements() + 1000);
+  EXPECT_LT(stroke.end, 0.5);  // frames behind it
+  EXPECT_EQ(last.log.n_roll_backs, 0);
 }
 
 TEST(Checkpoint, of_each_frame_of_a_plane_cut_leads_to_the_next_one) {

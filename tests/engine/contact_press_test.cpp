@@ -8,6 +8,7 @@
 
 #include "collision/contact_tilt.h"
 #include "engine/energy_ledger.h"
+#include "engine_split.h"
 #include "engine_started.h"
 
 namespace trocar {
@@ -213,6 +214,30 @@ TEST(ContactOfAPress, has_half_its_force_at_half_a_symmetric_body) {
   ASSERT_GT(whole, 0.1);
   // Contacts are solved to 1e-3 of the deepest point.
   EXPECT_NEAR(half / whole, 0.5, 1e-3);
+}
+
+// Split elements are hardly softer than the one that they were.
+TEST(ContactOfAPress, of_a_probe_that_rests_goes_on_where_what_it_touches_is_split) {
+  const auto plate = built(plate_of("tet4-five") + plate_in_use, {"solver.mass_damping=60"});
+  Simulation& s = *plate->s;
+  const auto force = [&] { return s.log.rows.back().tools[0].force.z(); };
+  while (s.frame < 30) run_frame(s, plate->outputs);
+  const double before = force();
+  EXPECT_GT(before, 5e-4);
+  ASSERT_GT(split_plate(s, false).n_inserted, 300);
+  ASSERT_EQ(s.n_pieces, 1);
+  for (int frame = 0; frame < 10; ++frame) {
+    run_frame(s, plate->outputs);
+    EXPECT_GT(s.log.rows.back().n_contacts, 0);
+    EXPECT_NEAR(force(), before, 0.1 * before) << frame;
+  }
+  EXPECT_EQ(s.log.n_roll_backs, 0);
+  // Nothing has come through the probe's ball of 5 mm.
+  const Vec3 tip = s.log.rows.back().tools[0].position;
+  for (const std::int32_t node : s.view.node) {
+    const Vec3 way = s.view.x[static_cast<std::size_t>(node)] - tip;
+    EXPECT_GT((way - 0.005 * Vec3::UnitZ()).norm(), 0.0049) << node;
+  }
 }
 
 }  // namespace

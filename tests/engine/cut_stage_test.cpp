@@ -5,6 +5,7 @@
 
 #include "engine/simulation.h"
 #include "engine_started.h"
+#include "scene_plate.h"
 
 namespace trocar {
 namespace {
@@ -308,6 +309,41 @@ TEST(CutStage, tells_of_a_scalpel_whose_edge_does_not_face_its_way) {
     };
     EXPECT_EQ(std::ranges::count_if(s.log.events, is_told), is_askew ? 1 : 0) << forward;
   }
+}
+
+// There and back in a plate one element thick: two strokes, each told at its end.
+TEST(CutStage, tells_at_the_end_of_a_stroke_how_much_it_leaves_joined) {
+  const auto plate =
+      built(plate_of("tet4-five") + "[[support]]\nregion = \"x+\"\n" + scalpel_along("60 mm", R"(
+  { time = 0.02, position = ["-45 mm", "26 mm", "2.1 mm"], direction = [0, 1, 0] },
+  { time = 0.3, position = ["45 mm", "26 mm", "2.3 mm"], direction = [0, 1, 0] },
+  { time = 0.5, position = ["45 mm", "26 mm", "2.9 mm"], direction = [0, 1, 0] },
+  { time = 0.8, position = ["-45 mm", "26 mm", "2.9 mm"], direction = [0, 1, 0] },
+)"),
+            {"cutting.split_step_ratio=0", "solver.gravity=[0,0,-0.05]"});
+  Simulation& s = *plate->s;
+  const auto n_told = [&] {
+    return std::ranges::count_if(s.log.events, [](const std::string& event) {
+      return contains(event, "scalpel leaves tissue joined in ");
+    });
+  };
+  int n_refused_strokes = 0;
+  while (s.frame < 45) {
+    run_frame(s, plate->outputs);
+    n_refused_strokes = 0;
+    for (const CutRecord& stroke : s.cuts[0].strokes) {
+      const bool has_ended = &stroke != &s.cuts[0].strokes.back() || !s.cuts[0].is_in_stroke;
+      n_refused_strokes += has_ended && stroke.n_refused > 0 ? 1 : 0;
+    }
+    EXPECT_EQ(n_told(), n_refused_strokes) << s.frame;
+  }
+  ASSERT_GT(n_refused_strokes, 0);
+  const CutRecord& first = s.cuts[0].strokes[0];
+  ASSERT_GT(first.n_refused, 1);
+  const auto event = std::ranges::find_if(
+      s.log.events, [](const std::string& e) { return contains(e, "leaves tissue joined"); });
+  EXPECT_TRUE(contains(*event, std::to_string(first.n_refused) + " places, the first at ("));
+  EXPECT_TRUE(contains(*event, reason_of(first.refusals[0]))) << *event;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "engine_split.h"
 #include "engine_started.h"
 
 namespace trocar {
@@ -81,6 +82,31 @@ TEST(Grip, of_a_half_at_its_mirror_plane_is_half_of_the_whole) {
   ASSERT_LT(pull, -0.05);
   EXPECT_GT(2 * half.n_held, whole.n_held);  // those in the plane count in both
   EXPECT_NEAR(of_half / pull, 0.5, 2e-3);
+}
+
+// Jaws have the new nodes between two that they hold, and pull as before.
+TEST(Grip, goes_on_where_a_cut_splits_what_it_holds) {
+  const auto plate = built(plate_of("tet4-five") + plate_in_use);
+  Simulation& s = *plate->s;
+  const auto pull = [&] { return s.log.rows.back().tools[1].force; };
+  while (s.frame < 15) run_frame(s, plate->outputs);
+  const Vec3 before = pull();
+  const std::size_t n_held = s.holds.holds.size();
+  ASSERT_GT(n_held, 8U);
+  ASSERT_GT(split_plate(s, false).n_inserted, 300);
+  EXPECT_GT(s.holds.holds.size(), n_held);
+  run_frame(s, plate->outputs);
+  EXPECT_LT((pull() - before).norm(), 0.2 * before.norm());
+  split_plate(s);
+  while (s.frame < 40) run_frame(s, plate->outputs);
+  EXPECT_EQ(s.n_pieces, 2);
+  const Pose pose = s.tools[1].path.at(40. / 50);
+  for (const Hold& hold : s.holds.holds) {
+    const auto i = static_cast<std::size_t>(hold.node);
+    const Vec3 x = s.mesh.X[i] + Vec3::Map(&gather_state(s).u[3 * i]);
+    EXPECT_LT((x - pose.apply(hold.offset)).norm(), 1e-12) << hold.node;
+  }
+  EXPECT_EQ(s.log.n_roll_backs, 0);
 }
 
 }  // namespace

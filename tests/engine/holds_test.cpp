@@ -255,6 +255,46 @@ TEST(EditOfHolds, partners_of_held_nodes_are_held_at_the_same_offset_in_ascendin
   }
 }
 
+TEST(EditOfHolds, nodes_on_edges_are_held_between_two_ends_that_one_holder_has) {
+  Case c;
+  c.act(0.9, 1);
+  std::vector<Hold>& holds = c.holds.holds;
+  holds[4].tool = 0;
+  holds[5] = {.node = holds[5].node, .support = 0};
+  holds[6] = {.node = holds[6].node, .support = 0};
+  const std::vector<Hold> before = holds;
+  const std::int32_t n_nodes = c.mesh.n_nodes();
+  const auto on_edge = [&](std::size_t a, std::size_t b) {
+    return EdgeNode{.end = {before[a].node, before[b].node}, .s = 0.3};
+  };
+  MeshEdit edit;
+  edit.inserted = {on_edge(0, 1),
+                   on_edge(1, 4),
+                   on_edge(1, 5),
+                   on_edge(5, 6),
+                   {.end = {0, before[1].node}, .s = 0.5}};
+  edit.duplicate_parent = {n_nodes + 3, n_nodes + 1, n_nodes};  // of nodes on edges
+  apply_edit_to_holds(edit, n_nodes, c.holds);
+  ASSERT_EQ(holds.size(), before.size() + 4);
+  const Vec3 between = before[0].offset + 0.3 * (before[1].offset - before[0].offset);
+  struct Held {
+    std::int32_t node = 0, tool = -1, support = -1;
+    Vec3 offset = Vec3::Zero();
+  };
+  const std::int32_t n_before_copies = n_nodes + 5;
+  const std::array<Held, 4> expected = {{{n_nodes, 1, -1, between},
+                                         {n_nodes + 3, -1, 0},
+                                         {n_before_copies, -1, 0},
+                                         {n_before_copies + 2, 1, -1, between}}};
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    const Hold& hold = holds[before.size() + k];
+    EXPECT_EQ(hold.node, expected[k].node) << k;
+    EXPECT_EQ(hold.tool, expected[k].tool) << k;
+    EXPECT_EQ(hold.support, expected[k].support) << k;
+    EXPECT_EQ(hold.offset, expected[k].offset) << k;
+  }
+}
+
 double sum_of(const ExactSum& sum) {
   return sum.value();
 }

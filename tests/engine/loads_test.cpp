@@ -9,6 +9,7 @@
 #include "engine/equilibrium.h"
 #include "engine/frame_watch.h"
 #include "engine_scene.h"
+#include "engine_split.h"
 #include "engine_started.h"
 
 namespace trocar {
@@ -25,6 +26,7 @@ std::string box_text(const std::string& elements, const std::string& material) {
 
 const std::string linear = "model = \"linear\"\nyoung_modulus = 6000\npoisson_ratio = 0\n";
 const std::string soft = "young_modulus = 6000\npoisson_ratio = 0.4\n";
+const std::string foot_of_plate = "[[support]]\nregion = \"x+\"\n";
 const std::string foot = "[[support]]\nregion = \"z-\"\n";
 
 Vec3 total(const Loads& loads) {
@@ -192,6 +194,42 @@ TEST(Loads, stay_on_their_side_after_a_cut) {
   EXPECT_GT(s.loads.node.size(), n_nodes);
   find_loads(s.scene.loads, s.mesh, s.part, 1, 0, s.state.u, s.loads);
   EXPECT_LT((total(s.loads) - Vec3(10 * 0.02 * 0.05, 0.1, 0)).norm(), 1e-9);
+}
+
+// The side y+ is parted along its middle, the box's border goes through what is split: faces there
+// get smaller, the loads stay what they were, and nothing presses on the wound.
+TEST(Loads, stay_what_they_are_where_a_cut_puts_nodes_on_edges) {
+  const std::string box =
+      "[[region]]\nname = \"end\"\nlow = [\"-31 mm\", -1, -1]\nhigh = [\"-8 mm\", 1, 1]\n";
+  for (const std::string region : {"y+", "end"}) {
+    const auto plate = built(plate_of("tet4-five") + foot_of_plate + box + "[[load]]\nregion = \"" +
+                             region + "\"\nforce = [0, \"0.1 N\", 0]\n[[load]]\nregion = \"" +
+                             region + "\"\npressure = \"10 Pa\"\n" + plate_blade);
+    Simulation& s = *plate->s;
+    const auto faces = [&] {
+      return loaded_faces(s.mesh, s.surface, *find_node_set(s.mesh, region));
+    };
+    const auto area = [&] {
+      double sum = 0;
+      for (const LoadFace& face : faces()) {
+        const auto X = [&](std::size_t k) { return s.mesh.X[static_cast<std::size_t>(face[k])]; };
+        sum += 0.5 * (X(1) - X(0)).cross(X(2) - X(0)).norm();
+      }
+      return sum;
+    };
+    const auto loads = [&] {
+      find_loads(s.scene.loads, s.mesh, s.part, 1, 0, s.state.u, s.loads);
+      return total(s.loads);
+    };
+    const std::size_t n_before = faces().size();
+    const double area_before = area();
+    const Vec3 before = loads();
+    ASSERT_GT(split_plate(s).n_inserted, 300);
+    EXPECT_EQ(s.n_pieces, 2) << region;
+    EXPECT_GT(faces().size(), n_before) << region;
+    EXPECT_NEAR(area(), area_before, 1e-12 * area_before) << region;
+    EXPECT_LT((loads() - before).norm(), 1e-12) << region;
+  }
 }
 
 // Three cubes in a row; the surface is the top of both outer ones, which has all nodes of the one

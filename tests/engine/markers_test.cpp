@@ -8,6 +8,7 @@
 
 #include "engine/equilibrium.h"
 #include "engine_scene.h"
+#include "engine_split.h"
 #include "engine_started.h"
 #include "mesh/connected_nodes.h"
 
@@ -124,6 +125,37 @@ TEST(Markers, stay_on_a_curved_surface_whose_nodes_a_cut_moves) {
   const std::vector<Vec3> x =
       marker_positions(s.markers, s.mesh, s.part, s.state.u, *s.communicator);
   for (std::size_t k = 0; k < x.size(); ++k) EXPECT_LT((x[k] - X[k]).norm(), 1e-6) << k;
+}
+
+// Of a plate that bends, on either side of the blade.
+TEST(Markers, stay_where_they_are_in_elements_that_are_split_and_follow_their_side) {
+  std::string markers;
+  std::vector<bool> is_above;
+  for (int k = 0; k < 24; ++k) {
+    is_above.push_back(k % 2 == 1);
+    markers += marker(std::to_string(k), Vec3(0.004 * (k % 6) - 0.011, 0.006 * (k / 6) - 0.008,
+                                              is_above.back() ? 0.0039 : 0.0006));
+  }
+  const auto plate = built(plate_of("tet4-five") + "[[support]]\nregion = \"x+\"\n" + markers +
+                           "[[output]]\nkind = \"metrics\"\nfile = \"m.csv\"\n");
+  Simulation& s = *plate->s;
+  while (s.frame < 5) run_frame(s, plate->outputs);
+  const auto positions = [&] {
+    return marker_positions(s.markers, s.mesh, s.part, s.state.u, *s.communicator);
+  };
+  const std::vector<Vec3> before = positions();
+  const PlateSplit done = split_plate(s);
+  ASSERT_EQ(s.n_pieces, 2);
+  EXPECT_GT(done.n_inserted, 300);
+  const std::vector<Vec3> after = positions();
+  for (std::size_t k = 0; k < before.size(); ++k)  // elements bend: nodes that move smooth that
+    EXPECT_LT((after[k] - before[k]).norm(), 1e-5) << k;
+  const std::vector<std::int32_t> piece = connected_nodes(s.mesh);
+  const auto side_of = [&](std::size_t k) {
+    return piece[static_cast<std::size_t>(s.mesh.corners(s.markers[k].element)[0])];
+  };
+  EXPECT_NE(side_of(0), side_of(1));
+  for (std::size_t k = 2; k < before.size(); ++k) EXPECT_EQ(side_of(k), side_of(k % 2)) << k;
 }
 
 TEST(Markers, are_refused_outside_the_body_and_by_the_same_name) {

@@ -11,6 +11,7 @@
 #include "engine/equilibrium.h"
 #include "engine/frame_watch.h"
 #include "engine_scene.h"
+#include "engine_split.h"
 #include "engine_started.h"
 #include "mesh/mesh_file.h"
 #include "mesh_fixtures.h"
@@ -50,6 +51,13 @@ void run_to(Started& started, std::int64_t frame) {
   while (started.s->frame < frame) run_frame(*started.s, started.outputs);
 }
 
+const std::string held_left_of_plate = R"([[region]]
+name = "left"
+low = ["-31 mm", "-21 mm", "-1 mm"]
+high = ["-29 mm", "21 mm", "6 mm"]
+[[support]]
+region = "left"
+)";
 const std::vector<std::string> local = {"solver.multirate=true"};
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -146,6 +154,33 @@ TEST(MultiRate, goes_on_after_a_cut_and_after_a_restart_with_the_same_bits) {
     const auto second = cut();
     restore_checkpoint(checkpoint_from_bytes(bytes, "c"), *second->s);
     run_to(*second, 20);
+    EXPECT_EQ(second->s->state.u, whole->s->state.u) << frame;
+    EXPECT_EQ(second->s->state.v, whole->s->state.v) << frame;
+  }
+}
+
+// The plate with a row of thin cells.
+TEST(MultiRate, goes_on_after_a_split_and_after_a_restart_with_the_same_bits) {
+  const TestFolder folder;
+  const auto plain = built(plate_of("tet4-five"));
+  Mesh mesh = plain->s->mesh;
+  for (Vec3& X : mesh.X)
+    if (std::abs(X.x() - mesh.X[5].x()) < 1e-9) X.x() += 0.8 * 0.06 / 13;
+  write_mesh(mesh, folder.file("m.msh"));
+  std::string text = plate_of("tet4-five") + held_left_of_plate + plate_blade;
+  const std::size_t from = text.find("[tissue.shape]"), to = text.find("[tissue.material]");
+  text.replace(from, to - from, "[tissue]\nmesh = \"" + folder.file("m.msh") + "\"\n");
+  const auto whole = built(text, local);
+  ASSERT_TRUE(whole->s->multirate);
+  const std::int32_t n_before = whole->s->mesh.n_elements();
+  run_to(*whole, 24);
+  EXPECT_GT(whole->s->mesh.n_elements(), n_before + 1000);
+  for (const std::int64_t frame : {8, 12, 13, 14, 18}) {
+    const auto first = built(text, local), second = built(text, local);
+    run_to(*first, frame);
+    const std::vector<std::byte> bytes = checkpoint_to_bytes(take_checkpoint(*first->s));
+    restore_checkpoint(checkpoint_from_bytes(bytes, "c"), *second->s);
+    run_to(*second, 24);
     EXPECT_EQ(second->s->state.u, whole->s->state.u) << frame;
     EXPECT_EQ(second->s->state.v, whole->s->state.v) << frame;
   }

@@ -108,33 +108,52 @@ TEST(ContactOfFastTissue, keeps_the_order_of_plates_that_throw_each_other) {
   EXPECT_GT(middle.mean_height(s), last.mean_height(s) + 0.003);
 }
 
-// Two blocks that overlap by 6 mm, and what contact would have seen of one node.
-TEST(SunkTissue, is_told_with_its_place_where_it_lies_in_other_tissue) {
+// Two blocks of cells of 5 mm, the upper one's lowest middle node so deep in the lower one as a
+// step has found.
+std::unique_ptr<Started> overlapping(double depth, Simulation*& s) {
   const auto block = [](double low) {
     return make_box({-0.01, -0.01, low}, {0.01, 0.01, low + 0.012}, {4, 4, 3}, BoxElements::hex8);
   };
-  const auto started = bodies(joined(block(0), block(0.006)), "");
-  Simulation& s = *started->s;
-  refresh_surface(s);
+  auto started = bodies(joined(block(0), block(0.012 - depth)), "");
+  s = started->s.get();
+  refresh_surface(*s);
   const auto node_at = [&](const Vec3& x) {
-    const auto at =
-        std::ranges::find_if(s.mesh.X, [&](const Vec3& X) { return (X - x).norm() < 1e-9; });
-    return static_cast<std::int32_t>(at - s.mesh.X.begin());
+    for (std::int32_t i = s->mesh.n_nodes(); i-- > 0;)
+      if ((s->mesh.X[static_cast<std::size_t>(i)] - x).norm() < 1e-9) return i;
+    return -1;
   };
-  const auto tell_of = [&](std::int32_t node, double depth) {
-    s.contact->set = {};
-    s.contact->set.node = {node};
-    s.contact->set.owned = {0};
-    s.contact->set.depth = {depth};
-    watch_sunk_tissue(s, 0.5);
-    return s.log.events.size();
+  const double top = 0.012;
+  ContactSet& set = s->contact->set;
+  set = {};
+  set.node = {node_at({0, 0, top - depth}), node_at({0, 0, top}), node_at({0.005, 0, top}),
+              node_at({0, 0.005, top})};
+  set.owned = {0};
+  set.tissue = {{.place = {0, 1, 2, 3}}};
+  set.found_by = {0, -1, -1, -1};
+  return started;
+}
+
+TEST(SunkTissue, is_told_with_its_place_where_it_lies_in_other_tissue) {
+  Simulation* s = nullptr;
+  const auto n_told = [&] {
+    watch_sunk_tissue(*s, 0.5);
+    return s->log.events.size();
   };
-  EXPECT_EQ(tell_of(node_at({0, 0, 0}), 2 * s.contact_reach), 0u);        // outside
-  EXPECT_EQ(tell_of(node_at({0, 0, 0.006}), 0.9 * s.contact_reach), 0u);  // comes out
-  ASSERT_EQ(tell_of(node_at({0, 0, 0.006}), 2 * s.contact_reach), 1u);
-  EXPECT_NE(s.log.events[0].find("(0, 0, 0.006)"), std::string::npos) << s.log.events[0];
-  EXPECT_EQ(s.log.events[0].find("0.500 s"), 0u);
-  EXPECT_EQ(tell_of(node_at({0, 0, 0.006}), 2 * s.contact_reach), 1u);  // once
+  auto started = overlapping(-0.003, s);
+  const double reach = s->contact_reach;
+  EXPECT_EQ(n_told(), 0U);  // outside
+  started = overlapping(0.9 * reach, s);
+  EXPECT_EQ(n_told(), 0U);  // comes out
+  started = overlapping(0.006, s);
+  ASSERT_GT(0.006, reach);
+  s->contact->set.found_by[0] = -1;
+  EXPECT_EQ(n_told(), 0U);  // no step has found it
+  s->contact->set.found_by[0] = 0;
+  ASSERT_EQ(n_told(), 1U);
+  EXPECT_NE(s->log.events[0].find("(0, 0, 0.006) m lies 6 mm deep"), std::string::npos)
+      << s->log.events[0];
+  EXPECT_EQ(s->log.events[0].find("0.500 s"), 0U);
+  EXPECT_EQ(n_told(), 1U);  // once
 }
 
 }  // namespace

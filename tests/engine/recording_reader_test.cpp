@@ -10,6 +10,8 @@
 #include "engine/recording.h"
 #include "engine_files.h"
 #include "engine_recording.h"
+#include "engine_split.h"
+#include "engine_started.h"
 
 namespace trocar {
 namespace {
@@ -39,6 +41,34 @@ TEST(RecordingReader, meshes_are_the_first_with_the_edits_up_to_the_frame_in_any
   for (const std::size_t k : {5, 0, 8, 2, 2, 7, 1}) order.push_back(k);
   for (const std::size_t k : order)
     EXPECT_TRUE(is_equal(reader.mesh_at(run.frames[k].frame), run.meshes[k])) << k;
+}
+
+// And displacements that belong to it.
+TEST(RecordingReader, has_the_mesh_of_each_frame_of_a_run_whose_cut_splits_elements) {
+  const auto plate = built(plate_of("tet4-five") + "[[support]]\nregion = \"x+\"\n" + plate_blade +
+                           "[[output]]\nkind = \"recording\"\nfile = \"r\"\n");
+  Simulation& s = *plate->s;
+  auto outputs = std::make_unique<Outputs>(open_outputs(s, plate->folder.path(), "", nullptr));
+  std::vector<Mesh> meshes;
+  std::vector<std::vector<double>> u;
+  std::int32_t n_most_added = 0;
+  while (s.frame < 16) {
+    const std::int32_t n_before = s.mesh.n_elements();
+    run_frame(s, *outputs);
+    n_most_added = std::max(n_most_added, s.mesh.n_elements() - n_before);
+    meshes.push_back(s.mesh);
+    u.push_back(gather_state(s).u);
+  }
+  finish_outputs(*outputs);
+  outputs.reset();  // its lock
+  EXPECT_GT(n_most_added, 1000);
+  RecordingReader reader(plate->folder.file("r"));
+  EXPECT_TRUE(reader.damage().empty());
+  for (std::int64_t frame = 16; frame > 0; --frame) {
+    const auto k = static_cast<std::size_t>(frame - 1);
+    EXPECT_TRUE(is_equal(reader.mesh_at(frame), meshes[k])) << frame;
+    EXPECT_EQ(reader.read(frame).u, u[k]) << frame;
+  }
 }
 
 TEST(RecordingReader, frames_without_nodes_forces_or_tools_are_frames_too) {

@@ -7,6 +7,7 @@
 #include "engine/run.h"
 #include "engine_files.h"
 #include "engine_resume.h"
+#include "engine_split.h"
 #include "mesh/generate.h"
 
 namespace trocar {
@@ -69,9 +70,9 @@ TEST(Resume, without_a_checkpoint_says_how_to_start) {
 
 // A run of the block into a folder; `settings` as --set has them.
 bool run_block(const TestFolder& folder, const std::vector<std::string>& settings,
-               bool resume = false) {
+               bool resume = false, const std::string& text = resume_block_text) {
   Communicator alone;
-  return run_scene({.scene_file = write_text(folder.file("s.toml"), resume_block_text),
+  return run_scene({.scene_file = write_text(folder.file("s.toml"), text),
                     .folder = folder.file("out"),
                     .overrides = settings,
                     .resume = resume},
@@ -130,16 +131,18 @@ TEST(Resume, begins_a_recording_that_was_not_asked_for_before_with_the_present_m
 
 // Stops at .5 s, while the grasper holds and the blade cuts, goes on to .8 s and is what it is
 // without the stop.
-void expect_the_same_after_a_stop(const std::vector<std::string>& settings) {
-  const auto until = [&](const char* duration) {
+void expect_the_same_after_a_stop(const std::vector<std::string>& settings,
+                                  const std::string& half = "0.5", const std::string& end = "0.8",
+                                  const std::string& text = resume_block_text) {
+  const auto until = [&](const std::string& duration) {
     std::vector<std::string> all = settings;
-    all.push_back(std::string("time.duration=") + duration);
+    all.push_back("time.duration=" + duration);
     return all;
   };
   const TestFolder whole, parts;
-  run_block(whole, until("0.8"));
-  run_block(parts, until("0.5"));
-  run_block(parts, until("0.8"), true);
+  run_block(whole, until(end), false, text);
+  run_block(parts, until(half), false, text);
+  run_block(parts, until(end), true, text);
   RecordingReader a(whole.file("out/r.trocar")), b(parts.file("out/r.trocar"));
   EXPECT_TRUE(b.damage().empty());
   ASSERT_EQ(a.frames(), b.frames());
@@ -153,6 +156,15 @@ void expect_the_same_after_a_stop(const std::vector<std::string>& settings) {
 TEST(Resume, keeps_the_edits_of_frames_that_a_sparse_recording_has_yet_to_take) {
   // Frame 15 lies between 12 and 18.
   expect_the_same_after_a_stop({"output=[{kind='recording',file='r.trocar',every='0.2 s'}]"});
+}
+
+// The plate is split in frames 14 and 15: the recording takes up that edit after the stop, or the
+// stop is behind it.
+TEST(Resume, keeps_the_split_elements_that_a_sparse_recording_has_yet_to_take) {
+  const std::string text = plate_of("tet4-five", viscous) + plate_in_use + plate_blade;
+  for (const std::string half : {"0.26", "0.28", "0.36"})
+    expect_the_same_after_a_stop({"output=[{kind='recording',file='r.trocar',every='0.1 s'}]"},
+                                 half, "0.44", text);
 }
 
 TEST(Resume, goes_on_with_the_scaled_masses_and_what_a_grasper_holds_of_them) {

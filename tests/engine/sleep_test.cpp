@@ -10,6 +10,7 @@
 #include "engine/checkpoint.h"
 #include "engine/equilibrium.h"
 #include "engine_scene.h"
+#include "engine_split.h"
 #include "engine_started.h"
 #include "scene_parts.h"
 
@@ -45,6 +46,7 @@ std::unique_ptr<Started> started(const std::vector<std::string>& overrides,
   return run;
 }
 
+const std::string at_rest = "[start]\nstate = \"equilibrium\"\n";
 const std::vector<std::string> with_sleep = {"solver.sleep='0.1 mm'"};
 
 double largest_difference(const Simulation& a, const Simulation& b) {
@@ -243,6 +245,39 @@ path = [
   }
   EXPECT_GT(s.mesh.n_nodes(), n_nodes);
   EXPECT_EQ(s.sleep->quiet.size(), static_cast<std::size_t>(s.mesh.n_nodes()));
+}
+
+// It wakes, is split, sleeps again, and each goes on after a restart with the same bits.
+TEST(Sleep, ends_where_a_cut_splits_elements_and_comes_back) {
+  const std::string text = plate_of("tet4-five") +
+                           "[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"x+\"\n" + at_rest;
+  const std::vector<std::string> light = {"solver.sleep='0.1 mm'", "solver.gravity=[0,0,-0.01]"};
+  const auto run_to = [](Started& run, std::int64_t frame) {
+    while (run.s->frame < frame) run_frame(*run.s, run.outputs);
+  };
+  const auto whole = started(light, text);
+  Simulation& s = *whole->s;
+  run_to(*whole, 35);
+  EXPECT_EQ(s.sleep->share, 1);
+  const PlateSplit done = split_plate(s);
+  ASSERT_GT(done.n_inserted, 300);
+  EXPECT_EQ(s.n_pieces, 2);
+  EXPECT_EQ(s.sleep->share, 0);
+  EXPECT_EQ(s.sleep->quiet.size(), static_cast<std::size_t>(s.mesh.n_nodes()));
+  std::vector<std::unique_ptr<Started>> resumed;
+  for (const std::int64_t frame : {35, 50, 70}) {
+    run_to(*whole, frame);
+    resumed.push_back(built(text, light));
+    const std::vector<std::byte> bytes = checkpoint_to_bytes(take_checkpoint(s));
+    restore_checkpoint(checkpoint_from_bytes(bytes, "c"), *resumed.back()->s);
+  }
+  run_to(*whole, 90);
+  EXPECT_GT(s.sleep->share, 0.9);
+  for (const auto& other : resumed) {
+    run_to(*other, 90);
+    EXPECT_EQ(other->s->state.u, s.state.u);
+    EXPECT_EQ(other->s->sleep->is_asleep, s.sleep->is_asleep);
+  }
 }
 
 TEST(Sleep, is_refused_for_viscoelastic_tissue) {

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <numeric>
+
 #include "engine/equilibrium.h"
+#include "engine_split.h"
 #include "engine_started.h"
 
 namespace trocar {
@@ -117,6 +121,49 @@ TEST(SupportForces, have_the_nodes_that_a_cut_makes) {
   for (const FixedMask mask : s.fixed) n_fixed += mask == 7 ? 3 : 0;
   EXPECT_GT(n_fixed, before);
   EXPECT_EQ(s.energy->support_forces.of_rank.size(), n_fixed);
+}
+
+// A node on an edge is supported in what both of its ends are.
+TEST(SupportForces, have_the_nodes_that_a_cut_puts_on_edges) {
+  const auto plate = built(plate_of("tet4-five") + plate_in_use);
+  Simulation& s = *plate->s;
+  const std::vector<FixedMask> before = s.fixed;
+  const MeshEdit split = split_plate(s).split;
+  int n_full = 0, n_rollers = 0;
+  for (std::size_t k = 0; k < split.inserted.size(); ++k) {
+    const auto [a, b] = split.inserted[k].end;
+    const FixedMask mask = s.fixed[before.size() + k];
+    EXPECT_EQ(mask, before[static_cast<std::size_t>(a)] & before[static_cast<std::size_t>(b)]);
+    n_full += mask == 7 ? 1 : 0;
+    n_rollers += mask == 4 ? 1 : 0;
+  }
+  EXPECT_GT(n_full, 0);
+  EXPECT_GT(n_rollers, 0);
+  std::size_t n_fixed = 0;
+  for (const FixedMask mask : s.fixed) n_fixed += static_cast<std::size_t>(std::popcount(mask));
+  EXPECT_EQ(s.energy->support_forces.of_rank.size(), n_fixed);
+}
+
+TEST(SupportForces, and_weight_are_all_that_changes_the_momentum_of_a_split_plate) {
+  const auto plate = built(plate_of("tet4-five") +
+                               "[[support]]\nregion = \"x+\"\n[[support]]\nregion = \"x-\"\n"
+                               "fix = \"z\"\n[[output]]\nkind = \"metrics\"\nfile = \"m.csv\"\n",
+                           {"solver.mass_damping=0"});
+  Simulation& s = *plate->s;
+  ASSERT_GT(split_plate(s).n_inserted, 300);
+  const double mass = std::accumulate(s.mass.begin(), s.mass.end(), 0.0);
+  int n_compared = 0;
+  for (int k = 0; k < 10; ++k) {
+    const Vec3 before = momentum(s);
+    const double dt = k > 0 ? s.log.rows.back().dt : 0;
+    run_frame(s, plate->outputs);
+    if (s.log.rows.back().dt != dt) continue;  // velocities are of half a step before
+    ++n_compared;
+    const Vec3 force = Vec3(0, 0, -0.3 * mass) - forces_of(*plate)[0] - forces_of(*plate)[1];
+    EXPECT_GT(forces_of(*plate)[1].norm(), 0);
+    EXPECT_LT((momentum(s) - before - force / 50).norm(), 1e-10 * force.norm());
+  }
+  EXPECT_GT(n_compared, 1);
 }
 
 }  // namespace

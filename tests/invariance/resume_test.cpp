@@ -9,10 +9,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <thread>
 
 #include "engine_resume.h"
 #include "program.h"
+#include "scene_plate.h"
 
 namespace trocar {
 namespace {
@@ -267,6 +269,22 @@ TEST(Resume, after_a_kill_at_some_moment_gives_the_same_bits) {
   }
 }
 
+// In the frames around the cut's split, or behind it.
+TEST(Resume, after_a_kill_behind_a_cut_that_split_elements_gives_the_same_bits) {
+  const std::string folder = test_folder("killed-split");
+  const std::string scene =
+      scene_file(folder, plate_of("tet4-five", viscous) + plate_in_use + plate_blade);
+  const std::string expected = uninterrupted(scene);
+  EXPECT_NE(expected.find("\"pieces\":2"), std::string::npos) << expected;
+  for (const int milliseconds : {120, 260, 400, 560}) {
+    std::filesystem::remove_all(folder + "/out");
+    std::vector<std::string> words = run_arguments(scene, folder, often_in_real_time);
+    words.insert(words.begin(), TROCAR_PROGRAM);
+    EXPECT_EQ(run_until_signal(words, folder, SIGKILL, milliseconds), -1);
+    resume_and_compare(scene, folder, {milliseconds == 400 ? 3 : 1, 2}, expected);
+  }
+}
+
 TEST(Resume, after_a_signal_goes_on_at_the_frame_where_it_stopped) {
   const std::string folder = test_folder("signalled");
   const std::string scene = scene_file(folder, resume_block_text);
@@ -342,6 +360,36 @@ TEST(Resume, of_two_ranks_that_were_signalled_goes_on_with_one) {
       mpirun_words(2, TROCAR_PROGRAM, run_arguments(scene, folder, {}));
   EXPECT_EQ(run_until_signal(words, folder, SIGUSR1, 10), stopped);
   resume_and_compare(scene, folder, {1, 1}, expected);
+}
+
+std::vector<pid_t> children_of(pid_t process) {
+  const std::string number = std::to_string(process);
+  std::istringstream list(read_text("/proc/" + number + "/task/" + number + "/children"));
+  return {std::istream_iterator<pid_t>(list), {}};
+}
+
+// Before there is a checkpoint. mpirun's exit code is 128 + the signal.
+TEST(Resume, of_ranks_one_of_which_is_killed_is_told_by_the_other) {
+  for (const std::size_t lost : {0, 1}) {
+    const std::string folder = test_folder("lost-rank");
+    const pid_t mpirun = start(mpirun_words(2, TROCAR_PROGRAM,
+                                            {"run", config("block_hex.toml"), "-q", "-o",
+                                             folder + "/out", "--set", "output=[]"}),
+                               folder);
+    wait_for(folder + "/out/scene.toml");
+    const std::vector<pid_t> ranks = children_of(mpirun);
+    ASSERT_EQ(ranks.size(), 2U);
+    kill(ranks[lost], SIGKILL);
+    int status = 0;
+    waitpid(mpirun, &status, 0);
+    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 128 + SIGKILL);
+    const std::string told = read_text(folder + "/first"),
+                      who = "trocar: error: rank " + std::to_string(lost) + " (process " +
+                            std::to_string(ranks[lost]) + " on ";
+    EXPECT_NE(told.find(who), std::string::npos) << told;
+    EXPECT_EQ(told.find("trocar: error", told.find(who) + 1), std::string::npos) << told;
+    EXPECT_FALSE(std::filesystem::exists(folder + "/out/checkpoint.bin"));
+  }
 }
 
 TEST(Resume, without_a_checkpoint_is_refused_on_every_rank_with_one_sentence) {

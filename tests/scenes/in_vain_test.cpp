@@ -323,7 +323,32 @@ TEST(InVain, blade_that_opens_no_face_has_cut_nothing) {
       "[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.004\npath = [{ time = 0, position = "
       "[0.01, 0.01, 0.008] }, { time = 0.04, position = [0.012, 0.01, 0.008] }]\n",
       test_folder("opens-nothing"));
-  EXPECT_TRUE(has(all.events, "scalpel has cut nothing: its strokes in the summary")) << all.events;
+  EXPECT_TRUE(has(all.events, "scalpel has cut nothing: no more than 4 mm of its edge was in"))
+      << all.events;
+}
+
+// A sheet of 3 mm in one layer of cells of 5 mm: its tip ends in the middle, and is held back.
+TEST(InVain, blade_that_ends_inside_a_sheet_of_one_element_is_told_what_helps) {
+  const auto sheet = [](const std::string& cells, const std::string& tip) {
+    const std::string folder = test_folder("sheet");
+    std::ofstream(folder + "/s.toml")
+        << "[time]\nduration = 0.5\n[tissue.shape]\nkind = \"box\"\nelements = \"tet4-five\"\n"
+           "high = [0.06, 0.04, 0.003]\ncells = [12, 8, "
+        << cells
+        << "]\n[tissue.material]\nyoung_modulus = 8000\n[cutting]\nresistance = 5\n[[support]]\n"
+           "region = \"x-\"\n[[support]]\nregion = \"x+\"\n[[instrument]]\nkind = \"scalpel\"\n"
+           "path = [{ time = 0, position = [0.01, 0.021, 0.01] }, { time = 0.1, position = [0.01, "
+           "0.021, "
+        << tip << "] }, { time = 0.4, position = [0.04, 0.021, " << tip
+        << "] }, { time = 0.5, position = [0.04, 0.021, 0.01] }]\n";
+    EXPECT_EQ(run_trocar({"run", folder + "/s.toml", "-q", "-o", folder}, folder).exit_code, 0);
+    return read_summary(folder)["events"].dump();
+  };
+  const std::string thin = sheet("1", "0.0015");
+  EXPECT_TRUE(has(thin, "scalpel has cut nothing: no more than 1.")) << thin;
+  EXPECT_TRUE(has(thin, "a finer mesh, or let the blade go through (resistance is felt")) << thin;
+  for (const std::string& helped : {sheet("1", "-0.003"), sheet("3", "0.0008")})
+    EXPECT_FALSE(has(helped, "has cut nothing")) << helped;
 }
 
 // The blade dips into one of two bodies by a hundredth of an edge.

@@ -1,0 +1,133 @@
+#include "base/peer_watch.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <sys/eventfd.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/error.h"
+
+namespace trocar {
+
+namespace {
+
+// From a rank's end to the line about it: whoever ends all ranks has said why by then.
+constexpr int patience = 100;              // [ms]
+constexpr int patience_of_mpirun = 10000;  // [ms]
+
+struct Peer {
+  int rank = 0;
+  long pid = 0;
+  std::string host;
+};
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+// Numbers of processes are those of a name space: a container may have its own.
+std::string name_space() {
+  std::array<char, 64> link{};
+  const auto n = readlink("/proc/self/ns/pid", link.data(), link.size() - 1);
+  return n > 0 ? link.data() : "-";
+}
+
+// Of all ranks that see each other's numbers, this one among them.
+std::vector<Peer> peers_of(const Communicator& communicator) {
+  const std::string own = host_name() + " " + name_space();
+  const std::vector<std::string> all =
+      communicator.all_gather(own + " " + std::to_string(getpid()));
+  std::vector<Peer> peers;
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    Peer peer{.rank = static_cast<int>(r)};
+    std::string space;
+    std::istringstream(all[r]) >> peer.host >> space >> peer.pid;
+    if (peer.host + " " + space == own) peers.push_back(std::move(peer));
+  }
+  return peers;
+}
+
+bool has_ended(const pollfd& process) {
+  return process.fd >= 0 && (process.revents & POLLIN) != 0;
+}
+
+void tell(const Peer& peer) {
+  std::fprintf(
+      stderr,
+      "trocar: error: rank %d (process %ld on %s) is gone: killed, unless it says why above "
+      "(a system out of memory does that); mpirun ends the others. --resume goes on from "
+      "the last checkpoint, if there is one\n",
+      peer.rank, peer.pid, peer.host.c_str());
+  std::fflush(stderr);
+}
+
+}  // namespace
+
+struct PeerWatch::Thread {
+  std::vector<Peer> peers;  // without this rank
+  int rank = 0;
+  std::vector<pollfd> process;  // (n_peers + 1) and what stops the watch
+  std::thread thread;
+
+  bool is_stopped() const { return process.back().revents != 0; }
+  bool is_lowest_left() const {
+    for (std::size_t k = 0; k < peers.size(); ++k)
+      if (peers[k].rank < rank && !has_ended(process[k])) return false;
+    return true;
+  }
+  bool has_lost_one() const { return std::any_of(process.begin(), process.end() - 1, has_ended); }
+  void run() {
+    while (!is_stopped() && !has_lost_one()) poll(process.data(), process.size(), -1);
+    if (is_stopped()) return;
+    poll(&process.back(), 1, patience);
+    if (is_stopped()) return;
+    poll(process.data(), process.size(), 0);
+    for (std::size_t k = 0; k < peers.size(); ++k)
+      if (has_ended(process[k]) && is_lowest_left()) tell(peers[k]);
+    poll(&process.back(), 1, patience_of_mpirun);
+    if (!is_stopped()) std::_Exit(static_cast<int>(ExitCode::machine));
+  }
+};
+
+PeerWatch::PeerWatch(const Communicator& communicator) {
+  if (communicator.size() == 1) return;
+  auto watch = std::make_unique<Thread>();
+  watch->rank = communicator.rank();
+  for (Peer& peer : peers_of(communicator)) {
+    if (peer.rank == communicator.rank()) continue;
+    const auto fd = static_cast<int>(syscall(SYS_pidfd_open, peer.pid, 0));
+    watch->process.push_back({.fd = fd, .events = POLLIN, .revents = 0});
+    watch->peers.push_back(std::move(peer));
+  }
+  if (watch->peers.empty()) return;
+  watch->process.push_back({.fd = eventfd(0, EFD_CLOEXEC), .events = POLLIN, .revents = 0});
+  // Signals are for the other threads.
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  watch->thread = std::thread([w = watch.get()] { w->run(); });
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  thread_ = std::move(watch);
+}
+
+PeerWatch::~PeerWatch() {
+  if (!thread_) return;
+  eventfd_write(thread_->process.back().fd, 1);
+  thread_->thread.join();
+  for (const pollfd& process : thread_->process)
+    if (process.fd >= 0) close(process.fd);
+}
+
+}  // namespace trocar
