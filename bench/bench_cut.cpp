@@ -18,6 +18,7 @@ constexpr const char* usage =
           [--markdown FILE] [--stages springs|springs_then_barrier|barrier] [--split RATIO]
          N random cuts of each mesh and kind (default 20) beside the subdivision of the same cuts;
          --family layers: of bodies of two regions, also along where these meet
+         --family plates: of plates one cell thick, in their plane
        bench_cut --cuts N [--seed S] [--minutes M]
          N cuts of bent bodies, the invariants alone
        bench_cut --after N [--steps M] [--seed S] [--family NAME]
@@ -90,12 +91,20 @@ Arguments read_arguments(int argc, char** argv) {
   return a;
 }
 
-bool is_layered(const Arguments& a) {
-  return a.family.starts_with("layers");
+struct Cuts {
+  std::vector<Family> families;
+  std::vector<Kind> kinds;
+};
+
+Cuts asked_cuts(const Arguments& a) {
+  if (a.family.starts_with("layers")) return {layered_families(), layered_kinds()};
+  if (a.family.starts_with("plates")) return {plate_families(), plate_kinds()};
+  return {families(a.mesh), kinds()};
 }
 
 bool is_asked_for(const Family& family, const Kind& kind, const Arguments& a) {
-  const bool is_family = a.family.empty() || a.family == "layers" || family.name == a.family;
+  const bool is_set = a.family.empty() || a.family == "layers" || a.family == "plates";
+  const bool is_family = is_set || family.name == a.family;
   return is_family && (a.kind.empty() || kind.name == a.kind);
 }
 
@@ -129,8 +138,9 @@ int run_all(int argc, char** argv) {
   std::FILE* table = a.markdown.empty() ? stdout : std::fopen(a.markdown.c_str(), "w");
   print_head(table);
   std::vector<Row> rows;
-  for (const Family& family : is_layered(a) ? layered_families() : families(a.mesh))
-    for (const Kind& kind : is_layered(a) ? layered_kinds() : kinds()) {
+  const Cuts cuts = asked_cuts(a);
+  for (const Family& family : cuts.families)
+    for (const Kind& kind : cuts.kinds) {
       if (!is_asked_for(family, kind, a)) continue;
       rows.push_back(run(family, kind, a));
       print_row(rows.back(), table);

@@ -24,6 +24,8 @@ std::vector<Family> generated_families(int n_cells);
 std::vector<Family> families(const std::vector<std::string>& mesh_files);
 // Cubes of two regions that meet in the middle plane across z.
 std::vector<Family> layered_families();
+// Plates one cell thick, flat and bent.
+std::vector<Family> plate_families();
 
 // One stroke of a blade and the surface that it sweeps: phi its signed distance, > 0 where `normal`
 // points.
@@ -42,6 +44,8 @@ struct Kind {
 std::vector<Kind> kinds();
 // These and planes nearly along the middle plane, up to an edge beside it.
 std::vector<Kind> layered_kinds();
+// Planes along a plate of plate_families.
+std::vector<Kind> plate_kinds();
 
 double mean_edge(const Mesh& mesh);
 

@@ -64,6 +64,26 @@ std::vector<Family> layered_families() {
           {"layers_hex", cubes(BoxElements::hex8, 0)}};
 }
 
+// 13 x 9 x 1 cells of unit edges; bent: about the y axis, by up to 0.4 edges at the ends.
+static Mesh plate(BoxElements elements, bool is_bent, unsigned seed) {
+  Mesh mesh = make_box(Vec3::Zero(), Vec3(13, 9, 1), {13, 9, 1}, elements);
+  if (!is_bent) return mesh;
+  std::mt19937_64 random(seed);
+  const double bend = 0.01 * std::uniform_real_distribution<double>(-1, 1)(random);
+  for (Vec3& X : mesh.X) X.z() += bend * (X.x() - 6.5) * (X.x() - 6.5);
+  return mesh;
+}
+
+std::vector<Family> plate_families() {
+  const auto plates = [](BoxElements elements, bool is_bent) {
+    return [=](unsigned seed) { return plate(elements, is_bent, seed); };
+  };
+  return {{"plates_kuhn", plates(BoxElements::tet4_kuhn, false)},
+          {"plates_five", plates(BoxElements::tet4_five, false)},
+          {"plates_bent_kuhn", plates(BoxElements::tet4_kuhn, true)},
+          {"plates_bent_five", plates(BoxElements::tet4_five, true)}};
+}
+
 std::vector<Family> families(const std::vector<std::string>& mesh_files) {
   std::vector<Family> all = generated_families(8);
   all.push_back(from_file(TROCAR_SOURCE "/bench/meshes/box_delaunay.msh"));

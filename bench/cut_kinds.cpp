@@ -137,6 +137,17 @@ static std::vector<Stroke> parallel(const Mesh& mesh, Random& random) {
   return {full_plane(f, extent, h, 0)};
 }
 
+// Of a plate from z = 0 to 1 in its middle: askew by up to some two degrees.
+static std::vector<Stroke> in_plane(const Mesh& mesh, Random& random) {
+  const Extent extent = extent_of(mesh);
+  Frame f;
+  f.normal = Vec3(uniform(random, -0.03, 0.03), uniform(random, -0.03, 0.03), 1).normalized();
+  f.along = (Vec3::UnitY() - f.normal * f.normal.y()).normalized();
+  f.way = f.normal.cross(f.along);
+  f.origin = Vec3(extent.centre.x(), extent.centre.y(), uniform(random, 0.1, 0.9));
+  return {full_plane(f, extent, mean_edge(mesh), 0)};
+}
+
 // Sheared, stretched and bent; F stays within some 40 % of the identity.
 cutting_test::Deformation random_bend(std::mt19937_64& random) {
   std::uniform_real_distribution<double> u(-1, 1);
@@ -159,6 +170,10 @@ std::vector<Kind> layered_kinds() {
   std::vector<Kind> all = kinds();
   all.push_back({"parallel", true, parallel});
   return all;
+}
+
+std::vector<Kind> plate_kinds() {
+  return {{"in_plane", true, in_plane}};
 }
 
 }  // namespace trocar::cut_bench
