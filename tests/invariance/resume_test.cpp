@@ -1,25 +1,15 @@
 // A run that was stopped and resumed has the bits of one that never stopped: digests of all
 // recorded frames, cut ledger, events and metrics, also on other ranks and threads than before.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <iterator>
-#include <thread>
 
 #include "engine_resume.h"
-#include "program.h"
+#include "program_start.h"
 #include "scene_plate.h"
 
 namespace trocar {
 namespace {
-
-constexpr int stopped = 75;
 
 struct Machine {
   int ranks = 1, threads = 1;
@@ -186,35 +176,6 @@ TEST(Resume, of_a_finished_run_leaves_its_result_as_it_is) {
   EXPECT_EQ(result_of(folder), before);
 }
 
-// Starts the program and lets it run on.
-pid_t start(std::vector<std::string> words, const std::string& folder) {
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
-  for (const int stream : {1, 2})
-    posix_spawn_file_actions_addopen(&files, stream, (folder + "/first").c_str(),
-                                     O_WRONLY | O_CREAT | O_APPEND, 0644);
-  pid_t child = -1;
-  EXPECT_EQ(posix_spawnp(&child, words[0].c_str(), &files, nullptr, argv.data(), environ), 0);
-  posix_spawn_file_actions_destroy(&files);
-  return child;
-}
-
-// A minute at most.
-template <class Is>
-void wait_until(const Is& is) {
-  for (int k = 0; k < 6000 && !is(); ++k)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  EXPECT_TRUE(is());
-}
-
-void wait_for(const std::string& file) {
-  wait_until([&] { return std::filesystem::exists(file); });
-}
-
 // Frames that the metrics of the run tell of so far.
 std::ptrdiff_t n_frames_of(const std::string& folder) {
   return std::ranges::count(read_text(folder + "/out/m.csv"), '\n') - 1;
@@ -300,58 +261,6 @@ TEST(Resume, after_a_signal_goes_on_at_the_frame_where_it_stopped) {
   }
 }
 
-// A frame of about 20 s, during which the first signal is only noted.
-TEST(Signals, a_second_one_ends_a_run_at_once) {
-  const std::string folder = test_folder("second-signal");
-  const pid_t child = start(
-      {TROCAR_PROGRAM, "run", config("block_hex.toml"), "-q", "-o", folder + "/out", "--set",
-       "output=[]", "--set", "time.frame_rate='1 Hz'", "--set", "tissue.shape.cells=[50, 50, 50]"},
-      folder);
-  wait_for(folder + "/out/scene.toml");  // its first frame takes seconds from then on
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  int status = 0;
-  kill(child, SIGTERM);
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  EXPECT_EQ(waitpid(child, &status, WNOHANG), 0);  // it finishes its frame
-  kill(child, SIGTERM);
-  EXPECT_EQ(waitpid(child, &status, 0), child);
-  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, stopped);
-}
-
-// Waits until the program listens to the signal.
-void wait_for_handler(pid_t child, int signal) {
-  const std::string file = "/proc/" + std::to_string(child) + "/status", key = "SigCgt:";
-  for (int tries = 0; tries < 1000; ++tries) {
-    const std::string status = read_text(file);
-    const std::size_t at = status.find(key);
-    if (at != std::string::npos &&
-        (std::stoull(status.substr(at + key.size()), nullptr, 16) >> (signal - 1) & 1) != 0)
-      return;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  ADD_FAILURE() << "no handler of signal " << signal;
-}
-
-// Of 216,000 hexahedra, which takes half a minute without the signal.
-TEST(Signals, end_the_search_for_equilibrium) {
-  const std::string folder = test_folder("equilibrium-signal");
-  const pid_t child =
-      start({TROCAR_PROGRAM, "run", config("block_hex.toml"), "-o", folder + "/out", "--set",
-             "output=[]", "--set", "start.state='equilibrium'", "--set", "start.tolerance=1.1e-12",
-             "--set", "start.max_iterations=100000000", "--set", "tissue.shape.cells=[60, 60, 60]"},
-            folder);
-  wait_for_handler(child, SIGTERM);
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-  kill(child, SIGTERM);
-  int status = 0;
-  EXPECT_EQ(waitpid(child, &status, 0), child);
-  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, stopped);
-  EXPECT_EQ(read_summary(folder + "/out")["trouble"], "stopped by a signal");
-  EXPECT_EQ(read_summary(folder + "/out")["frames"], 0);
-  EXPECT_NE(read_text(folder + "/first").find("start it anew, without --resume"),
-            std::string::npos);
-}
-
 TEST(Resume, of_two_ranks_that_were_signalled_goes_on_with_one) {
   const std::string folder = test_folder("two-signalled");
   const std::string scene = scene_file(folder, resume_block_text);
@@ -360,36 +269,6 @@ TEST(Resume, of_two_ranks_that_were_signalled_goes_on_with_one) {
       mpirun_words(2, TROCAR_PROGRAM, run_arguments(scene, folder, {}));
   EXPECT_EQ(run_until_signal(words, folder, SIGUSR1, 10), stopped);
   resume_and_compare(scene, folder, {1, 1}, expected);
-}
-
-std::vector<pid_t> children_of(pid_t process) {
-  const std::string number = std::to_string(process);
-  std::istringstream list(read_text("/proc/" + number + "/task/" + number + "/children"));
-  return {std::istream_iterator<pid_t>(list), {}};
-}
-
-// Before there is a checkpoint. mpirun's exit code is 128 + the signal.
-TEST(Resume, of_ranks_one_of_which_is_killed_is_told_by_the_other) {
-  for (const std::size_t lost : {0, 1}) {
-    const std::string folder = test_folder("lost-rank");
-    const pid_t mpirun = start(mpirun_words(2, TROCAR_PROGRAM,
-                                            {"run", config("block_hex.toml"), "-q", "-o",
-                                             folder + "/out", "--set", "output=[]"}),
-                               folder);
-    wait_for(folder + "/out/scene.toml");
-    const std::vector<pid_t> ranks = children_of(mpirun);
-    ASSERT_EQ(ranks.size(), 2U);
-    kill(ranks[lost], SIGKILL);
-    int status = 0;
-    waitpid(mpirun, &status, 0);
-    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 128 + SIGKILL);
-    const std::string told = read_text(folder + "/first"),
-                      who = "trocar: error: rank " + std::to_string(lost) + " (process " +
-                            std::to_string(ranks[lost]) + " on ";
-    EXPECT_NE(told.find(who), std::string::npos) << told;
-    EXPECT_EQ(told.find("trocar: error", told.find(who) + 1), std::string::npos) << told;
-    EXPECT_FALSE(std::filesystem::exists(folder + "/out/checkpoint.bin"));
-  }
 }
 
 TEST(Resume, without_a_checkpoint_is_refused_on_every_rank_with_one_sentence) {

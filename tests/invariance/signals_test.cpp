@@ -1,0 +1,94 @@
+// What signals end: runs in their first frames, the search for equilibrium, single ranks.
+#include <gtest/gtest.h>
+
+#include <iterator>
+
+#include "program_start.h"
+
+namespace trocar {
+namespace {
+
+// A frame of about 20 s, during which the first signal is only noted.
+TEST(Signals, a_second_one_ends_a_run_at_once) {
+  const std::string folder = test_folder("second-signal");
+  const pid_t child = start(
+      {TROCAR_PROGRAM, "run", config("block_hex.toml"), "-q", "-o", folder + "/out", "--set",
+       "output=[]", "--set", "time.frame_rate='1 Hz'", "--set", "tissue.shape.cells=[50, 50, 50]"},
+      folder);
+  wait_for(folder + "/out/scene.toml");  // its first frame takes seconds from then on
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  int status = 0;
+  kill(child, SIGTERM);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(waitpid(child, &status, WNOHANG), 0);  // it finishes its frame
+  kill(child, SIGTERM);
+  EXPECT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, stopped);
+}
+
+// Waits until the program listens to the signal.
+void wait_for_handler(pid_t child, int signal) {
+  const std::string file = "/proc/" + std::to_string(child) + "/status", key = "SigCgt:";
+  for (int tries = 0; tries < 1000; ++tries) {
+    const std::string status = read_text(file);
+    const std::size_t at = status.find(key);
+    if (at != std::string::npos &&
+        (std::stoull(status.substr(at + key.size()), nullptr, 16) >> (signal - 1) & 1) != 0)
+      return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  ADD_FAILURE() << "no handler of signal " << signal;
+}
+
+// Of 216,000 hexahedra, which takes half a minute without the signal.
+TEST(Signals, end_the_search_for_equilibrium) {
+  const std::string folder = test_folder("equilibrium-signal");
+  const pid_t child =
+      start({TROCAR_PROGRAM, "run", config("block_hex.toml"), "-o", folder + "/out", "--set",
+             "output=[]", "--set", "start.state='equilibrium'", "--set", "start.tolerance=1.1e-12",
+             "--set", "start.max_iterations=100000000", "--set", "tissue.shape.cells=[60, 60, 60]"},
+            folder);
+  wait_for_handler(child, SIGTERM);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  kill(child, SIGTERM);
+  int status = 0;
+  EXPECT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, stopped);
+  EXPECT_EQ(read_summary(folder + "/out")["trouble"], "stopped by a signal");
+  EXPECT_EQ(read_summary(folder + "/out")["frames"], 0);
+  EXPECT_NE(read_text(folder + "/first").find("start it anew, without --resume"),
+            std::string::npos);
+}
+
+std::vector<pid_t> children_of(pid_t process) {
+  const std::string number = std::to_string(process);
+  std::istringstream list(read_text("/proc/" + number + "/task/" + number + "/children"));
+  return {std::istream_iterator<pid_t>(list), {}};
+}
+
+// Before there is a checkpoint. mpirun's exit code is 128 + the signal.
+TEST(Signals, that_kill_one_rank_are_told_by_the_other) {
+  for (const std::size_t lost : {0, 1}) {
+    const std::string folder = test_folder("lost-rank");
+    const pid_t mpirun = start(mpirun_words(2, TROCAR_PROGRAM,
+                                            {"run", config("block_hex.toml"), "-q", "-o",
+                                             folder + "/out", "--set", "output=[]"}),
+                               folder);
+    wait_for(folder + "/out/scene.toml");
+    const std::vector<pid_t> ranks = children_of(mpirun);
+    ASSERT_EQ(ranks.size(), 2U);
+    kill(ranks[lost], SIGKILL);
+    int status = 0;
+    waitpid(mpirun, &status, 0);
+    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 128 + SIGKILL);
+    const std::string told = read_text(folder + "/first"),
+                      who = "trocar: error: rank " + std::to_string(lost) + " (process " +
+                            std::to_string(ranks[lost]) + " on ";
+    EXPECT_NE(told.find(who), std::string::npos) << told;
+    EXPECT_EQ(told.find("trocar: error", told.find(who) + 1), std::string::npos) << told;
+    EXPECT_FALSE(std::filesystem::exists(folder + "/out/checkpoint.bin"));
+  }
+}
+
+}  // namespace
+}  // namespace trocar
