@@ -11,20 +11,29 @@ namespace {
 
 constexpr double furthest = 4;  // that a contact moves a node, in what it lacks
 
-// n·M^-1 n, by the bits 1 / m where nothing is supported.
-double yield_along(const Vec3& n, const Vec3& inverse_mass) {
-  double held = 0;  // of the square of n
+// Of the square of n, 1 where nothing is supported.
+double free_part(const Vec3& n, const Vec3& inverse_mass) {
+  double held = 0;
   for (int j = 0; j < 3; ++j)
     if (inverse_mass[j] == 0) held += n[j] * n[j];
-  return inverse_mass.maxCoeff() * std::max(0.0, 1 - held);
+  return std::max(0.0, 1 - held);
+}
+
+// n·M^-1 n, by the bits 1 / m where nothing is supported.
+double yield_along(const Vec3& n, const Vec3& inverse_mass) {
+  return inverse_mass.maxCoeff() * free_part(n, inverse_mass);
 }
 
 }  // namespace
 
+double leeway_along(const Vec3& n, const Vec3& inverse_mass) {
+  return inverse_mass.maxCoeff() == 0 ? 0 : std::min(1.0, furthest * free_part(n, inverse_mass));
+}
+
 void add_constraint(double gap, double release, const Vec3& away, ContactConstraint& c,
                     ContactSet& set) {
   Vec3 relative = -away;
-  double inverse = 0, along_n = 0, lightest = 0;
+  double inverse = 0, along_n = 0, lightest = 0, yielding = 0;
   for (std::size_t a = 0; a < 4; ++a) {
     const std::size_t i = to_size(c.place[a]);
     relative += c.weight[a] * (set.x_end[i] - set.x_start[i]);
@@ -32,6 +41,7 @@ void add_constraint(double gap, double release, const Vec3& away, ContactConstra
     c.lever[a] = c.weight[a] * by_mass;
     inverse += c.weight[a] * c.weight[a] * by_mass.maxCoeff();
     along_n += c.weight[a] * c.weight[a] * yield_along(c.normal, by_mass);
+    if (by_mass.maxCoeff() > 0) yielding = std::max(yielding, std::abs(c.weight[a]));
     lightest = std::max(lightest, std::abs(c.weight[a]) * by_mass.maxCoeff());
   }
   const double closing = c.normal.dot(relative), before = gap - closing;
@@ -42,7 +52,8 @@ void add_constraint(double gap, double release, const Vec3& away, ContactConstra
   c.felt_mass = 1 / along_n;
   c.slip_mass = 1 / inverse;
   // Towards a normal along which supports hold all nodes it fades to the nothing of held ones.
-  c.most_push = furthest * c.lack / lightest * std::min(1.0, furthest * along_n / inverse);
+  c.most_push = furthest * c.lack / lightest * std::min(1.0, furthest * along_n / inverse) *
+                std::min(1.0, furthest * yielding);
   set.constraints.push_back(c);
 }
 

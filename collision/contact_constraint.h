@@ -28,10 +28,15 @@ struct ContactConstraint {
   // supports keep from slipping takes all the friction there is. [kg]
   double felt_mass = 0, slip_mass = 0;
   // Impulse times dt, along n, and its bound: a triangle with two held corners would move the third
-  // one a thousand times as far as it lacks. [kg m]
+  // one a thousand times as far as it lacks. It fades to nothing with the weight of what yields,
+  // which is one of rounding where the point lies on a held corner. [kg m]
   double push = 0, most_push = 0;
   Vec3 drag = Vec3::Zero();
 };
+
+// What a release may have of its speed along n where supports hold the node in some components: 1,
+// down to 0 where n points along these.
+double leeway_along(const Vec3& n, const Vec3& inverse_mass);
 
 // Adds c, of which item, places, weights and normal are set, if the gap at the end of the step
 // lacks anything. release: by how much a gap that was closed may open in the step; away:

@@ -68,7 +68,21 @@ bool is_kept_by_corners(const ContactSet& set, const ContactConstraint& c, doubl
   return lack < flat_enough * std::sqrt(size2);
 }
 
-void add_triangle(const ContactStep& step, double release, std::int32_t k, ContactSet& set) {
+// What of a triangle is inside a tool with a corner that supports or graspers hold there can't go:
+// asked to, it would be thrown anew whenever it comes back, by a tool at rest, too.
+double leeway_of(const ContactDetector& detector, const ContactSet::Item& item, const Vec3& n,
+                 const ContactSet& set) {
+  double least = 1;
+  for (const std::int32_t k : item.beside) {
+    const ContactSet::BesidePiece& b = set.beside[to_size(k)];
+    const double leeway = leeway_along(n, set.inverse_mass[to_size(b.place)]);
+    if (leeway < least && detector.is_inside(item.contact, b.local)) least = leeway;
+  }
+  return least;
+}
+
+void add_triangle(const ContactDetector& detector, const ContactStep& step, double release,
+                  std::int32_t k, ContactSet& set) {
   const ContactSet::Item& item = set.items[to_size(k)];
   const ToolMotion& tool = tool_of(step, item);
   const auto& [i, j, l] = item.place;
@@ -82,7 +96,8 @@ void add_triangle(const ContactStep& step, double release, std::int32_t k, Conta
   for (std::size_t a = 0; a < 3; ++a) x += c.weight[a] * set.x_end[to_size(c.place[a])];
   const double gap = c.normal.dot(x - (arm + tool.pose.translation));
   if (gap >= 0 || is_at_front(set, item) || is_kept_by_corners(set, c, -gap)) return;
-  add_constraint(gap, release, motion_of(tool, arm, step), c, set);
+  add_constraint(gap, release * leeway_of(detector, item, c.normal, set),
+                 motion_of(tool, arm, step), c, set);
 }
 
 // At the end of the step, along the normal where the node would be that moved with the tool.
@@ -238,7 +253,8 @@ void solve_contacts(const ContactDetector& detector, const ContactStep& step,
   const double release = options.release_speed * step.dt;
   add_nodes(detector, step, release, set);
   for (std::size_t k = 0; k < set.items.size(); ++k)
-    if (set.items[k].is_near) add_triangle(step, release, static_cast<std::int32_t>(k), set);
+    if (set.items[k].is_near)
+      add_triangle(detector, step, release, static_cast<std::int32_t>(k), set);
   add_tissue({.number = step.number, .dt = step.dt}, release, set);
   double deepest = 0;
   for (const ContactConstraint& c : constraints) deepest = std::max(deepest, c.lack);

@@ -47,10 +47,11 @@ void look_again(const ContactDetector& detector, const ContactStep& step, Contac
 // that lies flat on a tool the nodes do. Nodes that face both flanks of a blade, the front of its
 // wound, touch neither, nor do their triangles. With the gap g = n·(x - y) at the end of the step
 // and g0 at its beginning, y of the tool: g >= min(0, g0 + release_speed dt) where g0 < 0, g >= 0
-// elsewhere. Slip of x along the surface is stopped with at most mu times the normal impulse.
-// Between tissue and tissue x - y is a node less the nearest point of the nearest triangle, and n
-// this triangle's normal: both sides' nodes are kept out of the other's triangles, edges may cross.
-// Solved by projections, contact after contact (Gauss-Seidel), at most 30 times round.
+// elsewhere; without release_speed for a triangle with a held corner inside. Slip of x along the
+// surface is stopped with at most mu times the normal impulse. Between tissue and tissue x - y is a
+// node less the nearest point of the nearest triangle, and n this triangle's normal: both sides'
+// nodes are kept out of the other's triangles, edges may cross. Solved by projections, contact
+// after contact (Gauss-Seidel), at most 30 times round.
 void solve_contacts(const ContactDetector& detector, const ContactStep& step,
                     const ContactOptions& options, ContactSet& set);
 

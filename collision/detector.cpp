@@ -34,6 +34,16 @@ SignedDistance distance_from_flank(const PieceCore& core, const Vec3& x, const V
   return {};
 }
 
+// Of a point in the tool's frame: between the sides of a blade that don't touch.
+bool is_in_outline(const PieceCore& core, const Vec3& x) {
+  for (std::size_t k = 0; k < core.faces.normal.size(); ++k) {
+    const Vec3& n = core.faces.normal[k];
+    const bool is_flank = std::abs(n.y()) >= core.least_flatness;
+    if (!is_flank && n.dot(x) - core.faces.offset[k] >= core.radius) return false;
+  }
+  return true;
+}
+
 // A piece in its pose, and everything that is the same for all its candidates.
 struct PosedPiece {
   const PieceCore& core;
@@ -304,6 +314,12 @@ std::optional<NodeTouch> ContactDetector::touch_node(const Contact& contact,
     found = distance_from_flank(core, x, pose.rotation.conjugate() * node.facing);
   if (!(found.gap < margin) || !is_flat_enough(core, found.normal, found.gap)) return std::nullopt;
   return NodeTouch{.normal = pose.rotation * found.normal, .gap = found.gap};
+}
+
+bool ContactDetector::is_inside(const Contact& contact, const Vec3& local) const {
+  const PieceCore& core = state_->core_of(contact);
+  if (!is_blade(contact)) return signed_distance(core, local).gap < 0;
+  return contact.normal.dot(local - contact.point) < 0 && is_in_outline(core, local);
 }
 
 bool ContactDetector::is_blade(const Contact& contact) const {

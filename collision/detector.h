@@ -88,6 +88,9 @@ class ContactDetector {
   };
   std::optional<NodeTouch> touch_node(const Contact& contact, const SurfaceNode& node,
                                       const Pose& pose, double margin) const;
+  // Of a point in the tool's frame: inside the contact's piece. A blade, which held tissue may lie
+  // across, counts as if it filled all that is behind the flank that touches.
+  bool is_inside(const Contact& contact, const Vec3& local) const;
   bool is_hull(const Contact& contact) const;
   // Of the contact's piece: a sphere's, a capsule's, or by which a hull is thickened [m]
   double radius(const Contact& contact) const;

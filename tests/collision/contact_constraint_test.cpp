@@ -81,5 +81,47 @@ TEST(ContactConstraint, fades_where_supports_hold_along_its_normal) {
   }
 }
 
+// The point of contact lies on the held corner of an edge, or near it.
+TEST(ContactConstraint, fades_with_the_weight_of_what_yields) {
+  double before = 0;
+  for (const double w : {0.0, 1e-16, 1e-8, 1e-3, 0.05, 0.25}) {
+    ContactBench bench({Vec3::Zero(), Vec3(0.01, 0, 0)}, {mass, mass});
+    bench.options.friction = 0;
+    bench.tools[0] = {.pose = {Quat::Identity(), Vec3(0, 0, lack)},
+                      .velocity = Vec3(0, 0, lack / bench.dt)};
+    bench.prepare({{.node = {0, 1, 1}, .weight = {w, 1 - w, 0}, .normal = Vec3::UnitZ()}}, {0, 7});
+    bench.add_forces();
+    const double moved = bench.dt * bench.dt / mass * bench.force[2];
+    EXPECT_LE(moved, 16.001 * w * lack) << w;  // 4 lack while it didn't fade
+    EXPECT_GE(moved, before) << w;
+    before = moved;
+  }
+  EXPECT_NEAR(before, 4 * lack, 1e-9 * lack);
+}
+
+// A ball at rest has a corner in it that nothing moves, or that only slides past it.
+TEST(ContactConstraint, throws_nothing_out_that_a_held_corner_keeps_inside) {
+  const auto thrown = [](std::uint8_t held, const Vec3& corner) {
+    ContactBench bench({Vec3(-0.01, 0, 0), corner}, {mass, mass});
+    bench.detector = ContactDetector({{{{.points = {Vec3::Zero()}, .radius = 0.002}}}});
+    bench.options.friction = 0;
+    const Vec3 middle = 0.5 * (bench.X[0] + bench.X[1]);
+    bench.prepare({{.node = {0, 1, 1},
+                    .weight = {0.5, 0.5, 0},
+                    .point = middle + Vec3(0, 0, 1e-4),
+                    .normal = Vec3::UnitZ()}},
+                  {0, held});
+    bench.add_forces();
+    return bench.dt * bench.dt / mass * bench.force[2];
+  };
+  const Vec3 inside(0.001, 0, 0), outside(0.003, 0, 0);
+  const double released = 2 * ContactOptions().release_speed * ContactBench({}, {}).dt;
+  EXPECT_EQ(thrown(7, inside), 0);
+  EXPECT_EQ(thrown(held_in_z, inside), 0);
+  EXPECT_NEAR(thrown(7, outside), released, 1e-9 * released);
+  EXPECT_NEAR(thrown(held_in_y, inside), 0.5 * released, 1e-9 * released);
+  EXPECT_NEAR(thrown(0, inside), 0.5 * released, 1e-9 * released);
+}
+
 }  // namespace
 }  // namespace trocar
