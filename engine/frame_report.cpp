@@ -10,6 +10,7 @@
 #include "base/exact_sum.h"
 #include "base/log.h"
 #include "base/options.h"
+#include "engine/point_text.h"
 #include "solver/step.h"
 
 namespace trocar {
@@ -150,8 +151,7 @@ void note_refusals(Simulation& s, const CutRecord& record) {
   note_event(s, record.end,
              record.tool + " leaves tissue joined in " +
                  (is_one ? "one place" : std::to_string(record.n_refused) + " places, the first") +
-                 " at (" + short_text(first.X.x()) + ", " + short_text(first.X.y()) + ", " +
-                 short_text(first.X.z()) + ") m of the undeformed body: " + reason_of(first) +
+                 " at " + point_text(first.X) + " m of the undeformed body: " + reason_of(first) +
                  (is_one ? "" : " (all: `refusals` in the summary)"));
 }
 

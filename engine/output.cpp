@@ -16,6 +16,7 @@
 #include "engine/film_studio.h"
 #include "engine/frame_report.h"
 #include "engine/metrics_file.h"
+#include "engine/point_text.h"
 #include "engine/simulation.h"
 #include "engine/version.h"
 
@@ -56,12 +57,6 @@ std::vector<FilmOrder> film_orders(const Scene& scene, const Outputs& outputs,
                       .n_before = first_frame / slot.interval});
   }
   return orders;
-}
-
-std::string point_text(const Vec3& x) {
-  char text[80];
-  std::snprintf(text, sizeof text, "(%.3g, %.3g, %.3g)", x.x(), x.y(), x.z());
-  return text;
 }
 
 void warn_of_empty_pictures(const Simulation& s, std::span<const FilmOrder> orders) {

@@ -8,6 +8,7 @@
 
 #include "base/options.h"
 #include "collision/narrow_phase.h"
+#include "engine/point_text.h"
 
 namespace trocar {
 
@@ -104,8 +105,7 @@ Suspect find_suspect(Simulation& s, const Watch& failed, const FrameSpan& span) 
   look_at_tools(s.tools, x, span, choice);
   look_at_holds(s, global.x, x, span, choice);
   const Mover& best = choice.best;
-  std::string place =
-      " at (" + short_text(x.x()) + ", " + short_text(x.y()) + ", " + short_text(x.z()) + ") m";
+  std::string place = " at " + point_text(x) + " m";
   if (best.name.empty()) return {.place = place, .cure = cure(s, "")};
   place += ", " + short_text(best.gap) + " m " + best.how + best.name;
   place += best.way > 0 ? ", which moves at " + short_text(best.way / (span.t1 - span.t0)) + " m/s"

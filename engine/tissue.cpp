@@ -10,6 +10,7 @@
 #include "engine/bytes.h"
 #include "engine/mesh_fit.h"
 #include "engine/mesh_measures.h"
+#include "engine/point_text.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/generate.h"
 #include "mesh/mesh_file.h"
@@ -61,10 +62,7 @@ void place(const SceneTissue& tissue, Mesh& mesh) {
 // "from (0, 0, 0) to (0.1, 0.1, 0.1) m"
 std::string reach_text(const Mesh& mesh) {
   const Box box = bounding_box(mesh.X);
-  const auto point = [](const Vec3& x) {
-    return "(" + short_text(x.x()) + ", " + short_text(x.y()) + ", " + short_text(x.z()) + ")";
-  };
-  return "from " + point(box.low) + " to " + point(box.high) + " m";
+  return "from " + point_text(box.low) + " to " + point_text(box.high) + " m";
 }
 
 void add_regions(const LoadedScene& loaded, Mesh& mesh, OptionErrors& errors) {
