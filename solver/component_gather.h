@@ -6,8 +6,9 @@
 
 namespace trocar {
 
-// How the lanes of a register follow each other. Those of a block's second row skip some nodes.
-enum class Following { in_a_row, in_two_rows, anyhow };
+// How the lanes of a register follow each other. Those of a block's second row skip some nodes; it
+// begins early where that is within the first half.
+enum class Following { in_a_row, in_two_rows, in_two_rows_early, anyhow };
 
 // Bit l of `lanes`: lane l is `by`'s.
 template <class Pack, std::size_t... l>
@@ -71,63 +72,79 @@ struct ComponentField {
   LaneNumbers number;
 };
 
-// At corner a, of the lanes from `lane` of the group on; k: where the second row begins.
-template <Following following, class Part, int block_lanes>
-[[gnu::always_inline]] inline Part load_row(const RealOf<Part>* x, const LaneNumbers& number, int a,
-                                            int lane, int k) {
-  if constexpr (following == Following::anyhow) {
-    const std::int32_t* const node = number.all + a * block_lanes + lane;
-    RealOf<Part> of_lane[pack_width<Part>];
-    for (int l = 0; l < pack_width<Part>; ++l) of_lane[l] = x[node[l]];
-    return load<Part>(of_lane);
-  }
-  const RealOf<Part>* const at = x + number.first(a) + lane;
-  const Part all = load<Part>(at);
-  if constexpr (following == Following::in_two_rows) {
-    const auto second = static_cast<std::uint32_t>(0xFFFF << k >> lane);
-    const RealOf<Part>* const behind = at + number.skip;
-    if constexpr (sizeof(Part) < 64)
-      return replaced(all, second, load<Part>(behind));
-    else if constexpr (sizeof(RealOf<Part>) == sizeof(double))
-      return _mm512_mask_loadu_pd(all, static_cast<std::uint8_t>(second), behind);
-    else
-      return _mm512_mask_loadu_ps(all, static_cast<std::uint16_t>(second), behind);
-  }
-  return all;
-}
+// What the lanes of a group meet at a corner.
+template <class Group, Following following, class Real>
+struct CornerLanes {
+  const Real* at;           // in rows the first lane's, else the field's begin
+  const std::int32_t* all;  // numbers of the lanes
+  int k, skip;              // where a second row begins, and how many numbers it skips there
 
-// One component at corner a; of displacements in single precision the difference to corner 0,
+  // Doubles of single-precision elements.
+  template <class Part>
+  static constexpr bool is_half = !std::is_same_v<RealOf<Group>, Real> && pack_width<Part> > 1;
+
+  // Those from `lane` on.
+  template <class Part>
+  [[gnu::always_inline]] Part load_from(int lane) const {
+    if constexpr (following == Following::anyhow) {
+      Real of_lane[pack_width<Part>];
+      for (int l = 0; l < pack_width<Part>; ++l) of_lane[l] = at[all[lane + l]];
+      return load<Part>(of_lane);
+    }
+    if constexpr (is_half<Part> && following == Following::in_two_rows_early)
+      if (lane > 0) return load<Part>(at + lane + skip);
+    const Part row = load<Part>(at + lane);
+    if constexpr (is_half<Part> && following == Following::in_two_rows)
+      if (lane == 0) return row;
+    if constexpr (following != Following::in_a_row) {
+      const auto second = static_cast<std::uint32_t>(0xFFFF << k >> lane);
+      const Real* const behind = at + lane + skip;
+      if constexpr (sizeof(Part) < 64)
+        return replaced(row, second, load<Part>(behind));
+      else if constexpr (sizeof(Real) == sizeof(double))
+        return _mm512_mask_loadu_pd(row, static_cast<std::uint8_t>(second), behind);
+      else
+        return _mm512_mask_loadu_ps(row, static_cast<std::uint16_t>(second), behind);
+    }
+    return row;
+  }
+};
+
+// One component at a corner; of displacements in single precision the difference to the first one,
 // rounded.
-template <Following following, class Pack>
-[[gnu::always_inline]] inline Pack load_lanes(const double* u, const LaneNumbers& node, int a,
-                                              int k) {
-  constexpr int lanes = block_lanes<Pack>;
-  if constexpr (sizeof(RealOf<Pack>) == sizeof(double)) {
-    return load_row<following, Pack, lanes>(u, node, a, 0, k);
+template <class Pack, class Lanes>
+[[gnu::always_inline]] inline Pack load_component(const Lanes& corner, const Lanes& first) {
+  using Real = std::remove_cvref_t<decltype(*corner.at)>;
+  if constexpr (sizeof(RealOf<Pack>) == sizeof(Real)) {
+    return corner.template load_from<Pack>(0);
   } else if constexpr (pack_width<Pack> == 1) {
-    return Pack{static_cast<float>(u[node.all[a * lanes]] - u[node.all[0]])};
+    return Pack{static_cast<float>(corner.template load_from<double>(0) -
+                                   first.template load_from<double>(0))};
   } else {
     constexpr int width = pack_width<Pack> / 2;
     using Half = PackOf<double, width>;
     const auto half = [&](int lane) __attribute__((always_inline)) {
-      return in_single(Half(load_row<following, Half, lanes>(u, node, a, lane, k) -
-                            load_row<following, Half, lanes>(u, node, 0, lane, k)));
+      return in_single(
+          Half(corner.template load_from<Half>(lane) - first.template load_from<Half>(lane)));
     };
     return join<Pack>(half(0), half(width), std::make_index_sequence<pack_width<Pack>>{});
   }
-}
-template <Following following, class Pack>
-[[gnu::always_inline]] inline Pack load_lanes(const float* X, const LaneNumbers& node, int a,
-                                              int k) {
-  return load_row<following, Pack, block_lanes<Pack>>(X, node, a, 0, k);
 }
 
 // All corners, displacements or reference positions.
 template <Following following, class Pack, class Real, int n>
 [[gnu::always_inline]] inline void load_components(const ComponentField<Real>& field, int k,
                                                    Pack (&x)[n][3]) {
+  const Real* of[3] = {field.x, field.x + field.stride, field.x + 2 * field.stride};
+  // Hidden, so that the stride is not added to each corner's number instead.
+  asm("" : "+r"(of[1]), "+r"(of[2]));
+  const auto lanes = [&](int a, int i) __attribute__((always_inline)) {
+    return CornerLanes<Pack, following, Real>{
+        following == Following::anyhow ? of[i] : of[i] + field.number.first(a),
+        field.number.all + a * block_lanes<Pack>, k, field.number.skip};
+  };
   const auto load_corner = [&](int a, int i) __attribute__((always_inline)) {
-    x[a][i] = load_lanes<following, Pack>(field.x + i * field.stride, field.number, a, k);
+    x[a][i] = load_component<Pack>(lanes(a, i), lanes(0, i));
   };
   if constexpr (following == Following::anyhow) {  // seldom: short rather than quick
 #pragma GCC unroll 1

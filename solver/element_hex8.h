@@ -62,7 +62,7 @@ struct OnePointHex8 {
   [[gnu::always_inline]] static void prepare(Pack (&x)[8][3], const Stash<Pack>& kept) {
     Pack X[6][3];
     for (int i = 0; i < 3; ++i) {
-      for (int a = 7; a >= 0; --a) x[a][i] -= x[0][i];
+      for (int a = 1; a < 8; ++a) x[a][i] -= x[0][i];
       Pack w[n_hex_modes];
       modes_of_corners(x, i, w);
       for (int m = 0; m < 6; ++m) X[m][i] = w[m];
@@ -99,7 +99,7 @@ struct OnePointHex8 {
       for (int j = 0; j < 3; ++j) X[j] = X_of(value, kept, p, j);
       for (int i = 0; i < 3; ++i)
         kept.put(kept_q + 3 * p + i,
-                 Pack(w[i][3 + p] - (H(i, 0) * X[0] + H(i, 1) * X[1] + H(i, 2) * X[2])));
+                 Pack(w[i][3 + p] - H(i, 0) * X[0] - H(i, 1) * X[1] - H(i, 2) * X[2]));
     }
     return H;
   }
@@ -141,25 +141,24 @@ struct OnePointHex8 {
   }
 
  private:
-  // Calls body(m, i, component i of 64 dV/dX_m), m < 6. With S_m = X_m + X_(m+3), and m n o cyclic,
-  //   64 dV/dX_m = X_n x X_o - X_(3+n) x X_(3+o) / 3
-  //   64 dV/dX_(3+m) = (X_n x X_o + X_(3+n) x X_(3+o) - S_n x S_o) / 3:
-  // three products for the four that multiply out, as Gauss multiplied complex numbers.
+  // Calls body(m, i, component i of 64 dV/dX_m), m < 6. With R_m = X_(3+m) / 3, and m n o cyclic,
+  //   64 dV/dX_m = X_n x X_o - X_(3+n) x R_o
+  //   64 dV/dX_(3+m) = -(X_n x R_o + R_n x X_o).
   template <class Pack, class Body>
   [[gnu::always_inline]] static void for_volume_gradient(const Pack (&X)[6][3], const Body& body) {
     constexpr auto third = real<Pack>(1.0 / 3);
-    Pack S[3][3];
+    Pack R[3][3];
     for (int m = 0; m < 3; ++m)
-      for (int i = 0; i < 3; ++i) S[m][i] = X[m][i] + X[3 + m][i];
+      for (int i = 0; i < 3; ++i) R[m][i] = third * X[3 + m][i];
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
       for (int m = 0; m < 3; ++m) {
         const int n = (m + 1) % 3, o = (m + 2) % 3;
-        const Pack of_X = X[n][j] * X[o][k] - X[n][k] * X[o][j];
-        const Pack of_rest = X[3 + n][j] * X[3 + o][k] - X[3 + n][k] * X[3 + o][j];
-        const Pack of_S = S[n][j] * S[o][k] - S[n][k] * S[o][j];
-        body(m, i, Pack(of_X - third * of_rest));
-        body(3 + m, i, Pack(third * ((of_X + of_rest) - of_S)));
+        body(m, i,
+             Pack(X[n][j] * X[o][k] - X[n][k] * X[o][j] - X[3 + n][j] * R[o][k] +
+                  X[3 + n][k] * R[o][j]));
+        body(3 + m, i,
+             Pack(X[n][k] * R[o][j] - X[n][j] * R[o][k] + R[n][k] * X[o][j] - R[n][j] * X[o][k]));
       }
     }
   }

@@ -3,15 +3,20 @@
 // at corner a. Differences only, so that a translation gives exactly zero.
 #pragma once
 
+#include "solver/pack.h"
+
 namespace trocar {
 
 inline constexpr int n_hex_modes = 7;
 
-// w_m = sum_a S_m,a u_a as a butterfly: edges along xi, then faces, then the whole.
+// w_m = sum_a S_m,a u_a as a butterfly: edges along xi, then faces, then the whole. In single
+// precision u are differences to corner 0, whose own are not read.
 template <class Pack>
 [[gnu::always_inline]] inline void modes_of_corners(const Pack (&u)[8][3], int i,
                                                     Pack (&w)[n_hex_modes]) {
-  const Pack s0 = u[1][i] + u[0][i], d0 = u[1][i] - u[0][i];  // eta-, zeta-
+  constexpr bool is_relative = sizeof(RealOf<Pack>) == sizeof(float);
+  const Pack s0 = is_relative ? u[1][i] : Pack(u[1][i] + u[0][i]);  // eta-, zeta-
+  const Pack d0 = is_relative ? u[1][i] : Pack(u[1][i] - u[0][i]);
   const Pack s1 = u[2][i] + u[3][i], d1 = u[2][i] - u[3][i];  // eta+, zeta-
   const Pack s2 = u[5][i] + u[4][i], d2 = u[5][i] - u[4][i];  // eta-, zeta+
   const Pack s3 = u[6][i] + u[7][i], d3 = u[6][i] - u[7][i];  // eta+, zeta+

@@ -100,17 +100,20 @@ struct ElementLoops {
  private:
   static void strain_by_component(const BlockTask& task) {
     for_elements(
-        task, [&](const auto& value, const auto& stash, std::int64_t block, int lane)
-                  __attribute__((always_inline)) {
-                    const Following following =
-                        following_of<Pack>(lane_of_break(task.row_break[block]), lane);
-                    if (following == Following::in_a_row)
-                      strain_of_group<Following::in_a_row>(task, value, stash, block, lane);
-                    else if (following == Following::anyhow)
-                      strain_of_seldom<Following::anyhow>(task, value, stash, block, lane);
-                    else
-                      strain_of_seldom<Following::in_two_rows>(task, value, stash, block, lane);
-                  });
+        task, [&](const auto& value, const auto& stash, std::int64_t block,
+                  int lane) __attribute__((always_inline)) {
+          const Following following =
+              following_of<Pack>(lane_of_break(task.row_break[block]), lane);
+          if (following == Following::in_a_row)
+            strain_of_group<Following::in_a_row>(task, value, stash, block, lane);
+          else if (following == Following::anyhow)
+            strain_of_seldom<Following::anyhow>(task, value, stash, block, lane);
+          else if (sizeof(RealOf<Pack>) == sizeof(float) &&
+                   lane_of_break(task.row_break[block]) - lane < pack_width<Pack> / 2)
+            strain_of_seldom<Following::in_two_rows_early>(task, value, stash, block, lane);
+          else
+            strain_of_seldom<Following::in_two_rows>(task, value, stash, block, lane);
+        });
   }
   // By component, for elements whose displacements lie node by node.
   [[gnu::noinline]] static void load_positions(const BlockTask& task, std::int64_t block, int lane,
@@ -143,17 +146,19 @@ struct ElementLoops {
                                                      int lane) {
     const std::uint32_t row_break = task.row_break[block];
     const int k = lane_of_break(row_break) - lane;
-    const LaneNumbers node =
-        lane_numbers<Pack, n>(task.corner, task.row_start, block, lane, row_break);
+    // Made twice: what is held across prepare lies in memory.
+    const auto node = [&]() __attribute__((always_inline)) {
+      return lane_numbers<Pack, n>(task.corner, task.row_start, block, lane, row_break);
+    };
     Pack u[n][3];
     if constexpr (reads_positions_v<Pack, Element>) {
-      load_components<following>(ComponentField<float>{task.position, task.position_stride, node},
+      load_components<following>(ComponentField<float>{task.position, task.position_stride, node()},
                                  k, u);
       Element::prepare(u, stash);
     } else if constexpr (requires { Element::prepare(value, stash); }) {
       Element::prepare(value, stash);
     }
-    load_components<following>(ComponentField<double>{task.u_x, task.u_stride, node}, k, u);
+    load_components<following>(ComponentField<double>{task.u_x, task.u_stride, node()}, k, u);
     Element::strain(value, u, stash);
   }
   [[gnu::always_inline]] static void find_force(const BlockValues<Pack>& value,

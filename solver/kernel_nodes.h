@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "solver/corner_gather.h"
-#include "solver/kernels.h"
+#include "solver/kernel_works.h"
 #include "solver/node_by_node.h"
 
 namespace trocar {
@@ -33,16 +33,23 @@ struct NodeLoops {
     const NodeForces<Real> task = given;
     const NodeMotion motion = given_motion;
     const Pack gravity[3] = {gravity_of<0>(task), gravity_of<1>(task), gravity_of<2>(task)};
+    const Factors by = factors_of(motion);
     for_pieces(
         node, n, [&](std::int64_t i, auto is_eight) __attribute__((always_inline)) {
-          alignas(64) double force[3 * eight];
-          find_force(task, gravity, i, is_eight, force);
-          const Nodes nodes{motion.inertia + i, motion.fixed + i, force, motion.v + 3 * i,
-                            motion.u + 3 * i};
-          if (any_waits(nodes, is_eight))
-            return move_others(motion, nodes, is_eight ? eight : 1, task.force + 3 * i);
+          const bool waits_for_others = any_waits(motion.fixed + i, is_eight);
+          if constexpr (is_eight && width > 1)
+            if (task.sum_stride > 0 && !waits_for_others) {
+              for (std::int64_t l = i; l < i + eight; l += width)
+                move_components(task, by, nodes_from(motion, l, nullptr), l);
+              return;
+            }
+          Forces force;
+          find_force(task, gravity, i, is_eight, force.of);
+          if (waits_for_others)
+            return move_others(motion, force, i, is_eight ? eight : 1, task.force + 3 * i);
+          const Nodes nodes = nodes_from(motion, i, force.of);
           if constexpr (is_eight)
-            for (int l = 0; l < eight; l += width) move(motion, behind(nodes, l));
+            for (int l = 0; l < eight; l += width) move(by, behind(nodes, l));
           else
             move_one(motion, nodes);
         });
@@ -80,16 +87,10 @@ struct NodeLoops {
 
   static void motion(const NodeMotion& given, std::int64_t begin, std::int64_t end) {
     const NodeMotion task = given;
+    const Factors by = factors_of(task);
     std::int64_t i = begin;
-    for (; i + width <= end; i += width) move(task, from(task, i));
-    for (; i < end; ++i) move_one(task, from(task, i));
-  }
-
-  static void works(const NodeWorks& given, std::int64_t n) {
-    const NodeWorks task = given;
-    std::int64_t k = 0;
-    for (; k + width <= n; k += width) add_works(task, k);
-    if (k < n) add_last_works(task, k, static_cast<int>(n - k));
+    for (; i + width <= end; i += width) move(by, nodes_from(task, i, task.force + 3 * i));
+    for (; i < end; ++i) move_one(task, nodes_from(task, i, task.force + 3 * i));
   }
 
  private:
@@ -100,12 +101,24 @@ struct NodeLoops {
     double *v, *u;
   };
 
-  static Nodes from(const NodeMotion& task, std::int64_t i) {
-    return behind({task.inertia, task.fixed, task.force, task.v, task.u}, i);
+  // force: of the i-th node.
+  static Nodes nodes_from(const NodeMotion& task, std::int64_t i, const double* force) {
+    return {task.inertia + i, task.fixed + i, force, task.v + 3 * i, task.u + 3 * i};
   }
   static Nodes behind(const Nodes& nodes, std::int64_t i) {
     return {nodes.inertia + i, nodes.fixed + i, nodes.force + 3 * i, nodes.v + 3 * i,
             nodes.u + 3 * i};
+  }
+
+  struct Forces {
+    alignas(64) double of[3 * eight];
+  };
+  // Of NodeMotion, in all lanes.
+  struct Factors {
+    Pack keep, gain, dt;
+  };
+  static Factors factors_of(const NodeMotion& task) {
+    return {splat<Pack>(task.keep), splat<Pack>(task.gain), splat<Pack>(task.dt)};
   }
 
   // Calls body(first node, whether eight follow each other from there or it is alone), of ascending
@@ -194,19 +207,24 @@ struct NodeLoops {
     }
   }
 
-  // Of nodes that follow each other, to where they lie node by node.
+  // Of nodes that follow each other, component by component.
+  template <class Real>
+  [[gnu::always_inline]] static void take_components(const NodeForces<Real>& task, std::int64_t i,
+                                                     Pack (&f)[3]) {
+    const Pack mass = load<Pack>(task.mass + i);
+    for (int j = 0; j < 3; ++j) {
+      Real* const sum = task.sum + j * task.sum_stride + i;
+      f[j] = weight_less_sum(mass, splat<Pack>(task.gravity[j]), load_in_double<Pack>(sum));
+      store(sum, PackOf<Real, width>{});
+    }
+  }
   template <class Real>
   [[gnu::always_inline]] static void force_of_components(const NodeForces<Real>& task,
                                                          std::int64_t i, double* force) {
-    const Pack mass = load<Pack>(task.mass + i);
-    Pack f[3];
-    for (int j = 0; j < 3; ++j) {
-      Real* const sum = task.sum + j * task.sum_stride + i;
-      const double g = task.gravity[j];
-      f[j] = weight_less_sum(mass, Pack{} + g, load_in_double<Pack>(sum));
-      store(sum, PackOf<Real, width>{});
-    }
-    store_node_by_node(f, force);
+    Pack f[3], by_node[3];
+    take_components(task, i, f);
+    order_by_node(f, by_node);
+    for (int r = 0; r < 3; ++r) store(force + r * width, by_node[r]);
   }
 
   template <class Real>
@@ -273,14 +291,6 @@ struct NodeLoops {
       return __builtin_shufflevector(x, x, (r * sizeof...(k) + k) / 3 ...);
   }
 
-  template <int r>
-  [[gnu::always_inline]] static Pack next_velocity(const NodeMotion& task, const Nodes& nodes,
-                                                   const Pack& gain) {
-    const Pack g = of_components<r>(gain, std::make_index_sequence<width>{});
-    return product_plus(Pack{} + task.keep, load<Pack>(nodes.v + r * width),
-                        Pack(g * load<Pack>(nodes.force + r * width)));
-  }
-
   [[gnu::always_inline]] static void hold(const Nodes& nodes) {
     for (int k = 0; k < 3 * width; ++k)
       if ((nodes.fixed[k / 3] >> k % 3 & 1) != 0) nodes.v[k] = 0;
@@ -297,40 +307,64 @@ struct NodeLoops {
   }
 
   template <bool is_eight>
-  [[gnu::always_inline]] static bool any_waits(const Nodes& nodes, std::bool_constant<is_eight>) {
-    if constexpr (!is_eight) return (*nodes.fixed & waits) != 0;
+  [[gnu::always_inline]] static bool any_waits(const std::uint8_t* fixed,
+                                               std::bool_constant<is_eight>) {
+    if constexpr (!is_eight) return (*fixed & waits) != 0;
     std::uint64_t all;
-    __builtin_memcpy(&all, nodes.fixed, sizeof all);
+    __builtin_memcpy(&all, fixed, sizeof all);
     return __builtin_expect((all & (~std::uint64_t{0} / 0xFF * waits)) != 0, false);
   }
 
-  // Of n nodes those that don't wait; of the others the force is kept.
-  [[gnu::noinline]] static void move_others(const NodeMotion& task, const Nodes& nodes, int n,
-                                            double* force) {
+  // Of n nodes from the first on those that don't wait; of the others the force is kept. What it
+  // takes are copies, so that the caller has its own in registers.
+  [[gnu::noinline]] static void move_others(NodeMotion task, Forces force, std::int64_t first,
+                                            int n, double* kept) {
     for (int l = 0; l < n; ++l) {
-      const Nodes node = behind(nodes, l);
+      const Nodes node = nodes_from(task, first + l, force.of + 3 * l);
       if ((*node.fixed & waits) != 0)
-        copy(node.force, 3, force + 3 * l);
+        for (int j = 0; j < 3; ++j) kept[3 * l + j] = node.force[j];
       else
         move_one(task, node);
     }
   }
 
-  // All is read before anything is written: where arrays lie a multiple of 4096 bytes apart, a read
-  // behind a write to the other one waits for it (8.3 in place of 3.5 us for 4,600 nodes).
-  [[gnu::always_inline]] static void move(const NodeMotion& task, const Nodes& nodes) {
-    const Pack gain = task.gain / load<Pack>(nodes.inertia);
-    Pack v[3] = {next_velocity<0>(task, nodes, gain), next_velocity<1>(task, nodes, gain),
-                 next_velocity<2>(task, nodes, gain)};
-    Pack u[3];
+  [[gnu::always_inline]] static void move(const Factors& by, const Nodes& nodes) {
+    constexpr auto lanes = std::make_index_sequence<width>{};
+    const Pack gain = by.gain / load<Pack>(nodes.inertia);
+    move(by, nodes,
+         {Pack(of_components<0>(gain, lanes) * load<Pack>(nodes.force)),
+          Pack(of_components<1>(gain, lanes) * load<Pack>(nodes.force + width)),
+          Pack(of_components<2>(gain, lanes) * load<Pack>(nodes.force + 2 * width))});
+  }
+
+  // The same of sums by component.
+  template <class Real>
+  [[gnu::always_inline]] static void move_components(const NodeForces<Real>& task,
+                                                     const Factors& by, const Nodes& nodes,
+                                                     std::int64_t i) {
+    Pack f[3], gained[3];
+    take_components(task, i, f);
+    const Pack gain = by.gain / load<Pack>(nodes.inertia);
+    for (int j = 0; j < 3; ++j) f[j] = gain * f[j];
+    order_by_node(f, gained);
+    move(by, nodes, gained);
+  }
+
+  // gained: velocity, of the forces. All is read before anything is written: where arrays lie a
+  // multiple of 4096 bytes apart, a read behind a write to the other one waits for it (8.3 in place
+  // of 3.5 us for 4,600 nodes).
+  [[gnu::always_inline]] static void move(const Factors& by, const Nodes& nodes,
+                                          const Pack (&gained)[3]) {
+    Pack v[3], u[3];
+    for (int r = 0; r < 3; ++r)
+      v[r] = product_plus(by.keep, load<Pack>(nodes.v + r * width), gained[r]);
     for (int r = 0; r < 3; ++r) u[r] = load<Pack>(nodes.u + r * width);
     for (int r = 0; r < 3; ++r) store(nodes.v + r * width, v[r]);
     if (is_any_fixed(nodes)) {
       hold(nodes);
       for (int r = 0; r < 3; ++r) v[r] = load<Pack>(nodes.v + r * width);
     }
-    for (int r = 0; r < 3; ++r)
-      store(nodes.u + r * width, product_plus(Pack{} + task.dt, v[r], u[r]));
+    for (int r = 0; r < 3; ++r) store(nodes.u + r * width, product_plus(by.dt, v[r], u[r]));
   }
 
   // One node, rounded alike.
@@ -342,35 +376,6 @@ struct NodeLoops {
       nodes.v[j] = is_fixed ? 0 : v;
       nodes.u[j] = product_plus(task.dt, nodes.v[j], nodes.u[j]);
     }
-  }
-
-  // std::copy would be a function that other instruction sets have, too.
-  template <class T>
-  static void copy(const T* from, int n, T* to) {
-    for (int k = 0; k < n; ++k) to[k] = from[k];
-  }
-
-  [[gnu::always_inline]] static void add_works(const NodeWorks& task, std::int64_t k) {
-    const Pack v = 0.5 * (load<Pack>(task.v + k) + load<Pack>(task.after + k));
-    store(task.v + k, v);
-    if (task.swept != nullptr)
-      store(task.swept + k, Pack(load<Pack>(task.swept + k) + task.dt * (v * v)));
-    if (task.work != nullptr)
-      store(task.work + k,
-            Pack(load<Pack>(task.work + k) + task.dt * (v * load<Pack>(task.force + k))));
-  }
-
-  // Fewer than a register's: in copies, by the same instructions.
-  [[gnu::always_inline]] static void add_last_works(const NodeWorks& task, std::int64_t k, int n) {
-    double after[width] = {}, force[width] = {}, v[width] = {}, swept[width] = {}, work[width] = {};
-    copy(task.after + k, n, after);
-    copy(task.v + k, n, v);
-    if (task.swept != nullptr) copy(task.swept + k, n, swept);
-    if (task.work != nullptr) copy(task.work + k, n, work), copy(task.force + k, n, force);
-    add_works({task.dt, after, force, v, swept, work}, 0);
-    copy(v, n, task.v + k);
-    if (task.swept != nullptr) copy(swept, n, task.swept + k);
-    if (task.work != nullptr) copy(work, n, task.work + k);
   }
 };
 
@@ -384,7 +389,7 @@ NodeKernels node_kernels() {
           Loops::template add_places<double>,
           Loops::template add_places<float>,
           Loops::motion,
-          Loops::works,
+          WorkLoops<Pack>::add,
           Loops::split};
 }
 

@@ -1,4 +1,4 @@
-// From three registers, component by component, to memory, node by node.
+// Three registers, component by component, as three node by node.
 #pragma once
 
 #include <utility>
@@ -26,7 +26,7 @@ template <std::size_t first, class Pack, std::size_t... l>
 }
 
 template <class Pack>
-[[gnu::always_inline]] inline void store_node_by_node(const Pack (&f)[3], double* to) {
+[[gnu::always_inline]] inline void order_by_node(const Pack (&f)[3], Pack (&to)[3]) {
   constexpr int n = pack_width<Pack>;
   if constexpr (n == 8) {
     // Each component in the order in which the three registers take it, then blended: blends cost
@@ -39,14 +39,14 @@ template <class Pack>
       const Pack of_01 = __builtin_shufflevector(of_0, of_1, 0, 9, 2, 3, 12, 5, 6, 15);
       return __builtin_shufflevector(of_01, of_2, 0, 1, 10, 3, 4, 13, 6, 7);
     };
-    store(to, blend(x, y, z));
-    store(to + n, blend(z, x, y));
-    store(to + 2 * n, blend(y, z, x));
+    to[0] = blend(x, y, z);
+    to[1] = blend(z, x, y);
+    to[2] = blend(y, z, x);
   } else {
     const auto lanes = std::make_index_sequence<n>{};
-    store(to, numbers_from<0>(f, lanes));
-    store(to + n, numbers_from<n>(f, lanes));
-    store(to + 2 * n, numbers_from<2 * n>(f, lanes));
+    to[0] = numbers_from<0>(f, lanes);
+    to[1] = numbers_from<n>(f, lanes);
+    to[2] = numbers_from<2 * n>(f, lanes);
   }
 }
 

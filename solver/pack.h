@@ -124,6 +124,12 @@ template <class Pack>
   __builtin_memcpy(to, &x, sizeof x);
 }
 
+// x in every lane. (What is added to zero is computed, since 0 + -0 is 0.)
+template <class Pack>
+[[gnu::always_inline]] inline Pack splat(RealOf<Pack> x) {
+  return x - Pack{};
+}
+
 template <class Pack>
 [[gnu::always_inline]] inline Pack square_root(const Pack& x) {
   if constexpr (std::is_same_v<Pack, double>)
