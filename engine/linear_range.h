@@ -14,8 +14,8 @@ namespace trocar {
 // Norm of the displacement gradient, the largest change of any line element over its length.
 inline constexpr double linear_range = 0.1;
 
-// Warns, once a run, of the first frame at whose end an element of linear material is beyond this
-// range. Collective.
+// Warns, once a run, where an element of linear material is beyond this range at the end of a
+// frame; looks at every tenth one. Collective.
 void watch_linear_range(Simulation& s, double time);
 
 }  // namespace trocar
