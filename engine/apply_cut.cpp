@@ -219,7 +219,8 @@ Before measure_before(const Simulation& s, std::span<const std::int32_t> element
           .mass = mass_of(nodes, s.mass)};
 }
 
-// Up to what an edit leaves as it is. Collective.
+// Energy of the body, but for a constant that the edit leaves as it is; 0 without a ledger. [J]
+// Collective.
 double energy_around(Simulation& s, bool is_local, std::span<const std::int32_t> nodes,
                      GlobalState& global) {
   if (!s.energy) return 0;
