@@ -150,7 +150,7 @@ void add_cut2d_figures(CLI::App& cut2d, Cut2dCommand& c) {
   cut2d
       .add_option(
           "--repeat", c.repetitions,
-          "So often each cut is made, from mesh and path to edited mesh; the fastest and the "
+          "How often each cut is made, from mesh and path to edited mesh; the fastest and the "
           "median time are printed. 0: as often as begins within 0.25 s")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
