@@ -85,9 +85,9 @@ void add_run(CLI::App& app, CommandLine& line) {
       "--resume", line.run.resume,
       "Continue the run that was stopped in the output folder from its last checkpoint, to "
       "the same bits, on any number of ranks and threads. The scene must be the same but for "
-      "time.duration, [checkpoint], cameras and outputs. Recording, metrics and pictures go "
-      "on; films and contact sheets can't: they go on in NAME.from-frame-N.mp4 (trocar "
-      "replay makes a whole film of the recording)");
+      "time.duration, time.pace, [checkpoint], cameras and outputs. Recording, metrics and "
+      "pictures go on; films and contact sheets can't: they go on in NAME.from-frame-N.mp4 "
+      "(trocar replay makes a whole film of the recording)");
   add_machine_options(*run, line.machine);
   run->footer(examples_run);
   run->callback([&] { line.command = Command::run; });
@@ -150,7 +150,7 @@ void add_cut2d_figures(CLI::App& cut2d, Cut2dCommand& c) {
   cut2d
       .add_option(
           "--repeat", c.repetitions,
-          "So often each cut is made, from mesh and path to edited mesh; the fastest and the "
+          "How often each cut is made, from mesh and path to edited mesh; the fastest and the "
           "median time are printed. 0: as often as begins within 0.25 s")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();

@@ -175,10 +175,9 @@ ExitCode command_doctor(const Communicator& communicator) {
   const std::string ffmpeg = find_ffmpeg();
   std::error_code trouble;
   const auto disk = std::filesystem::space(".", trouble);
+  const std::size_t n_hosts = std::set<std::string>(hosts.begin(), hosts.end()).size();
   std::printf("%s\n  ranks       %zu on %zu host%s, %s\n", version_text().c_str(), hosts.size(),
-              static_cast<std::size_t>(std::set<std::string>(hosts.begin(), hosts.end()).size()),
-              std::set<std::string>(hosts.begin(), hosts.end()).size() == 1 ? "" : "s",
-              mpi_version().c_str());
+              n_hosts, n_hosts == 1 ? "" : "s", mpi_version().c_str());
   std::printf("  cores       %d usable by this process, %d threads a rank\n", available_cores(),
               thread_count());
   std::printf("  kernels     %s\n", simd_name());

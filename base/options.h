@@ -178,6 +178,21 @@ class Options : public OptionTable {
                   const std::vector<std::pair<std::string, E>>& choices, const std::string& doc,
                   Need need = Need::optional);
   // A sub-table; an optional one is a member std::optional<U>; a list is an array of tables.
+  // Without a doc of its own it has that of `below`.
+  template <class U>
+  Options& table(const std::string& key, U T::*member, const Options<U>& below,
+                 Need need = Need::optional) {
+    return table(key, member, below, below.doc(), need);
+  }
+  template <class U>
+  Options& table(const std::string& key, std::optional<U> T::*member, const Options<U>& below) {
+    return table(key, member, below, below.doc());
+  }
+  template <class U>
+  Options& list(const std::string& key, std::vector<U> T::*member, const Options<U>& below,
+                Need need = Need::optional) {
+    return list(key, member, below, below.doc(), need);
+  }
   template <class U>
   Options& table(const std::string& key, U T::*member, const Options<U>& below,
                  const std::string& doc, Need need = Need::optional);

@@ -31,7 +31,7 @@ struct ContactConstraint {
   // one a thousand times as far as it lacks. It fades to nothing with the weight of what yields,
   // which is one of rounding where the point lies on a held corner. [kg m]
   double push = 0, most_push = 0;
-  Vec3 drag = Vec3::Zero();
+  Vec3 drag = Vec3::Zero();  // the same of friction, against slip [kg m]
 };
 
 // What a release may have of its speed along n where supports hold the node in some components: 1,

@@ -70,8 +70,8 @@ struct ContactSet {
   // one begins.
   struct TissueImpulse {
     std::int64_t step = -1;
-    double push = 0;
-    Vec3 drag = Vec3::Zero();
+    double push = 0;           // as of ContactConstraint [kg m]
+    Vec3 drag = Vec3::Zero();  // [kg m]
   };
   // In the detector's order; empty on ranks without a node of theirs.
   std::vector<Item> items;

@@ -1,6 +1,7 @@
 // Contact as a condition on positions (forward increment Lagrange multipliers: Carpenter, Taylor,
 // Katona 1991): the impulses with which tissue is not inside an instrument at the end of the step,
-// and Coulomb friction. No stiffness has to be chosen, and the stable step is that without contact.
+// and Coulomb friction. No stiffness has to be chosen, and the stable step is that without contact,
+// but for the tilt of triangles (contact_tilt.h).
 // An impact is inelastic: it takes the normal kinetic energy of the nodes that it stops.
 #pragma once
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double squarely = 0.3;  // cosine at which tissue faces a blade's flank
 
-// Not with the edge of a blade.
+// Whether a piece may touch with this normal: a blade with its flat sides, not with its edge.
 bool is_flat_enough(const PieceCore& core, const Vec3& local_normal, double gap) {
   return std::abs(local_normal.y()) >= core.least_flatness && gap >= -core.deepest;
 }

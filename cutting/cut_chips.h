@@ -1,4 +1,4 @@
-// Second rung where an opening goes wrong: chips. Where cuts meet, an opening may split off a piece
+// A rung of the ladder (docs/cutting.md): chips. Where cuts meet, an opening may split off a piece
 // of a few elements that the blade did not; it goes with the other side instead.
 #pragma once
 

@@ -1,7 +1,7 @@
 // The plane algorithm's combined system taken to tetrahedra (Serby et al. 2001, eqs. 4 to 6): nodes
 // are displaced onto the swept surface, then springs of the edges' old lengths and Lennard-Jones
-// particles even the mesh out around them. Nothing in it sees volumes: see docs/cutting.md for what
-// it gives beside descent on the barrier (cut_move.h).
+// particles even the mesh out around them. Nothing in it sees volumes: docs/cutting-measured.md has
+// what it gives beside descent on the barrier (cut_move.h).
 #pragma once
 
 #include <vector>

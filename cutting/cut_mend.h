@@ -1,6 +1,6 @@
-// First rung where an opening would pinch the body: other sides for elements there, so that more or
-// less is opened than the minimum cut wanted but the outer surface stays a 2-manifold. What this
-// can't mend, open_facets closes.
+// A rung of the ladder (docs/cutting.md) where an opening would pinch the body: other sides for
+// elements there, so that more or less is opened than the minimum cut wanted but the outer surface
+// stays a 2-manifold. What this can't mend, open_facets closes.
 #pragma once
 
 #include "cutting/cut_label.h"

@@ -140,8 +140,8 @@ Attempt remesh(const PlanePatch& patch, std::span<const SubPath> sub_paths,
   return attempt;
 }
 
-// Ends on the boundary first try the corners and paths beside interfaces these, all others one
-// segment less.
+// With as many segments at first where ends lie on the boundary or the path beside an interface,
+// which may then bend into corners and to that; else with one segment less.
 AdaptOptions next_try(const PlanePatch& patch, const CutChain& chain, int attempt) {
   const bool is_bendable =
       chain.path.start_on.element >= 0 || chain.path.end_on.element >= 0 || patch.has_interfaces();

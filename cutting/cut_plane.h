@@ -36,7 +36,7 @@ struct CutPlaneOptions {
 CutPlaneOptions published_options();
 
 // Default of least_step over the body's bound before it was cut: random cuts that do not graze the
-// boundary keep 0.62 or more by themselves (docs/cutting-2d.md).
+// boundary keep 0.63 or more by themselves (docs/cutting-2d.md).
 inline constexpr double plane_step_ratio = 0.5;
 // Of the elements of a plane mesh the least 2 A / sqrt(sum of squared edges), which over the wave
 // speed bounds the stable step. [m]

@@ -116,7 +116,8 @@ bool keeps_step(const Simulation& s) {
   return s.look.is_done && s.watch.is_finite && s.watch.least_J > 0;
 }
 
-// The same of a body that is made anew, for example as parts change: ranks must not matter.
+// Makes all anew, for example as parts change; returns what update_topology would: ranks must not
+// matter.
 bool rebuild_all(std::span<const std::int32_t> nodes, Simulation& s) {
   if (!s.local_steps) {
     rebuild_topology(s);
@@ -148,8 +149,8 @@ void inherit_by_new_nodes(Simulation& s, const MeshEdit& edit, std::int32_t n_be
 }
 
 // Hexahedra that became tetrahedra take longer: beyond this, owners are chosen anew. Choosing takes
-// as long as 75 steps, and pays after 600 to 2,000 (docs/scaling.md), a second or so; at 1.05 it
-// would after 1,300 to 2,800.
+// as long as 40 to 70 steps. It pays after 300 to 640 steps at an imbalance of 1.16, at 1.05 after
+// 740 and more, or never (docs/scaling.md).
 constexpr double tolerated_imbalance = 1.1;
 
 // Returns whether owners changed.
@@ -218,7 +219,8 @@ Before measure_before(const Simulation& s, std::span<const std::int32_t> element
           .mass = mass_of(nodes, s.mass)};
 }
 
-// Up to what an edit leaves as it is. Collective.
+// Energy of the body, but for a constant that the edit leaves as it is; 0 without a ledger. [J]
+// Collective.
 double energy_around(Simulation& s, bool is_local, std::span<const std::int32_t> nodes,
                      GlobalState& global) {
   if (!s.energy) return 0;

@@ -9,9 +9,9 @@
 
 namespace trocar {
 
-// Mesh, mass, owners, part, model, state, surface, holds, contact; linear and angular momentum of
-// the patch are restored by a rigid velocity increment. `global` is carried along and gets what is
-// around the edit. Collective. Adds what it measured to `record`.
+// Mesh, mass, owners, part, model, state, surface, holds, contact; momenta, strain energy and
+// kinetic energy around the edit are restored (apply_cut_momentum.h, apply_cut_energy.h). `global`
+// is carried along and gets what is around the edit. Collective. Adds what it measured to `record`.
 void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutRecord& record);
 
 }  // namespace trocar

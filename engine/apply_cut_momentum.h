@@ -10,9 +10,10 @@ namespace trocar {
 
 // Mass, momentum and angular momentum about `centre` of some nodes.
 struct Motion {
-  double mass = 0, scale = 0, kinetic = 0;  // scale = sum |m v|
-  Vec3 centre = Vec3::Zero(), momentum = Vec3::Zero(), angular = Vec3::Zero();
-  Mat3 inertia = Mat3::Zero();
+  double mass = 0, scale = 0, kinetic = 0;               // [kg], sum |m v| [kg m/s], [J]
+  Vec3 centre = Vec3::Zero();                            // of mass [m]
+  Vec3 momentum = Vec3::Zero(), angular = Vec3::Zero();  // [kg m/s], [kg m^2/s]
+  Mat3 inertia = Mat3::Zero();                           // [kg m^2]
 };
 
 Motion motion_of(std::span<const std::int32_t> nodes, std::span<const double> mass,

@@ -70,7 +70,7 @@ void check_fibres(const Simulation& s, OptionErrors& errors) {
   }
 }
 
-// What never happens.
+// Keys of paths that come after the end of the run, and so never.
 template <class Items>
 void tell_late_keys(const Scene& scene, const std::string& list, const Items& items) {
   for (std::size_t k = 0; k < items.size(); ++k) {
@@ -89,7 +89,8 @@ void check_markers(const Scene& scene) {
         "markers do nothing: there is no [[output]] of kind \"metrics\" to tell where they are");
 }
 
-// Cuts make tetrahedra of hexahedra, in the middle of the run.
+// Cuts make tetrahedra of hexahedra in the middle of the run: what these can't be made of is
+// refused at its start.
 void check_converted(const Simulation& s, OptionErrors& errors) {
   if (s.cuts.empty()) return;
   const SolverOptions options = solver_options(s.scene);

@@ -39,7 +39,7 @@ bool goes_on_beside(const Simulation& s, BodyPositions& positions, const std::ve
   return is_one_inside(s, positions, std::array<Vec3, 2>{edge.front(), edge.back()});
 }
 
-// Once a closing, as a rule.
+// Whether tissue begins to lie beside the open jaws of scissors: once a closing, as a rule.
 bool begins_beside(const Simulation& s, const CutStage& stage, const BladeSweep& sweep,
                    BodyPositions& positions) {
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];

@@ -15,8 +15,9 @@ namespace trocar {
 
 namespace {
 
-// Numerics 1.2: 5 to 10 %. Of a stiffness that is made up; that of enhanced hexahedra is the
-// material's.
+// Hourglass energy over what is stored: beyond 5 to 10 % of it, a stiffness that is made up says
+// too much (that of enhanced hexahedra is the material's). And what the balance of energies may
+// miss.
 constexpr double hourglass_alarm = 0.05, balance_alarm = 0.05;
 
 double sum_over_ranks(std::span<const double> terms, const Communicator& communicator) {

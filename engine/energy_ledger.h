@@ -5,7 +5,7 @@
 // Central differences obey m (v+ - v-) / dt + alpha m v = f exactly at every node, v = (v+ + v-)/2,
 // so that F·v dt summed over the steps is the work of a force F to rounding. Kinetic energy and
 // works then belong to the middle of the last step; sum dt/2 v-·f carries the kinetic energy to its
-// end, where strain and gravity are evaluated (numerics 1.1). The same carries the work of viscous
+// end, where strain and gravity are evaluated. The same carries the work of viscous
 // forces there; strain energy is that of the laws without relaxation.
 #pragma once
 
@@ -70,8 +70,8 @@ BalanceError balance_error(std::span<const FrameRow> rows);
 // Tells at the end of a run if that is more than 5 %.
 void note_balance(Simulation& s);
 
-// The ledger of the frame into its row; warns once when hourglass energy is above 5 % of what is
-// stored. Collective.
+// The ledger of the frame into its row; notes an event, once, when hourglass energy is above 5 % of
+// what is stored. Collective.
 void report_energies(Simulation& s, FrameRow& row);
 
 }  // namespace trocar

@@ -38,7 +38,7 @@ std::string time_text(double time) {
   return text;
 }
 
-// One order under way.
+// An order, what writes it, and how far it has come.
 struct Film {
   FilmOrder order;
   std::unique_ptr<VideoWriter> video;

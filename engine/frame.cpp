@@ -1,4 +1,5 @@
-// One frame of a running scene, top to bottom (the whole program exists to call run_frame).
+// One frame of a running scene (the whole program exists to call run_frame). Read it from the end:
+// run_frame, step_safely, run_substeps, substep. docs/architecture.md lists the stages.
 #include "engine/frame.h"
 
 #include <algorithm>
@@ -194,9 +195,9 @@ std::string find_first_inverted(Simulation& s) {
   return "";
 }
 
-// The limit may have been lower within the frame than it is at its end: of a frame whose step was
-// 0.985 of it there, elements had swung up by a third of the body's energy before. Bounds of single
-// elements are below the limit anyway.
+// The limit may have been lower within the frame than it is at its end: where the step was 0.985 of
+// it at the end, elements had swung up by a third of the body's energy. So the step must leave half
+// of what step_factor keeps off the limit. Bounds of single elements are below the limit anyway.
 bool was_stable(const Simulation& s, const FrameSpan& span) {
   const SceneSolver& solver = s.scene.solver;
   const bool is_limit = solver.stable_step == StableStep::frequency;
@@ -204,9 +205,9 @@ bool was_stable(const Simulation& s, const FrameSpan& span) {
   return span.dt <= most * s.watch.stable_step;
 }
 
-// All substeps of the frame, twice if they disturb what slept; on trouble back to its beginning
-// with half the step, at most `most_roll_backs` times, and likewise with a smaller one if the
-// tissue stiffened beyond it.
+// All substeps of the frame, twice if they disturb what slept. On trouble they are done again from
+// the frame's beginning with half the step, and likewise with a smaller step if the tissue
+// stiffened beyond it, at most `most_roll_backs` times.
 FrameSpan step_safely(Simulation& s) {
   s.frame_start = s.state;
   const Watch good_watch = s.watch;  // that of a failed frame holds no step to go on with
@@ -231,7 +232,7 @@ FrameSpan step_safely(Simulation& s) {
   }
 }
 
-// Out of jaws that hold less than it pulls.
+// Tissue that pulls at jaws with more than they hold slips out of them.
 void let_slip(Simulation& s, const FrameSpan& span, const FrameRow& row) {
   for (std::size_t k = 0; k < s.tools.size(); ++k) {
     const double most = s.tools[k].grip_force, pull = row.tools[k].force.norm();
@@ -262,9 +263,11 @@ void run_frame(Simulation& s, Outputs& outputs) {
   grasp(s, plan_frame(s));
   const double held_step = stable_step(s);
   const FrameSpan span = step_safely(s);
+  // What the next frame's step follows from.
   s.held_step =
       std::min(stable_step_with_contact(s, span), held_step + step_rise / s.scene.time.frame_rate);
   recover_step_scale(s, span);
+  // What the substeps have done, before a cut changes what touches and holds the body.
   if (s.energy) close_frame_work(s);
   watch_linear_range(s, span.t1);
   FrameRow row = report_forces(s, span);
@@ -272,6 +275,7 @@ void run_frame(Simulation& s, Outputs& outputs) {
   if (!s.cuts.empty()) cut_along_blades(s, span);
   if (s.sleep) fall_asleep(s);
   ++s.frame;
+  // What the frame tells, and what is due.
   if (needs_surface(s, outputs)) refresh_surface(s);
   if (s.contact && s.contact->has_tissue) watch_sunk_tissue(s, span.t1);
   report_state(s, row);

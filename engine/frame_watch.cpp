@@ -46,14 +46,13 @@ double search_step(Simulation& s) {
 // substeps. Local steps were planned from bounds, which are 0.5 to 1 of the true limits: those that
 // don't pay are given up at the first look.
 double step_with_local_steps(Simulation& s, double step_without) {
-  constexpr double least_gain = 1.2;
   const MultiRate& m = *s.multirate;
   s.model.fixed.swap(s.multirate->coarse_fixed);
   const double coarse = search_step(s);
   s.model.fixed.swap(s.multirate->coarse_fixed);
   const double step = std::min(coarse, step_without * m.steps.limit / 2);
   const double cost = 1 + static_cast<double>(m.steps.gain.size()) * m.share;
-  if (s.look.is_done || step > least_gain * cost * step_without) return step;
+  if (s.look.is_done || step > least_local_gain * cost * step_without) return step;
   s.multirate.reset();
   note_event(s, s.state.time,
              "no local steps (solver.multirate): they would take " +
@@ -183,7 +182,7 @@ void watch_elements(Simulation& s) {
     note_look(s, 0, {});
 }
 
-// Whether there is something to see.
+// Looks at the nodes; whether elements are to be looked at, too.
 bool watch_motion(Simulation& s) {
   const PhaseScope scope(s.timers, phase_watch);
   finish_exchange(s.neighbours, s.state);

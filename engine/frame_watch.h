@@ -21,7 +21,7 @@ inline constexpr double unseen_strain = 2e-3;
 
 // With stable_step = "frequency" the step is that of a search for the body's highest frequency,
 // less by the root of the largest growth of an element's omega^2 since then: that of the body has
-// grown by no more (docs/architecture.md measures it). Beyond this growth the body is searched
+// grown by no more (docs/architecture-measured.md). Beyond this growth the body is searched
 // again, as the most stiffened element may be one that does not set the step, and after so many
 // steps, as what has softened is not seen. A search takes as long as some 20 steps.
 inline constexpr double most_growth = 1.1;
@@ -48,9 +48,9 @@ class ForceScope {
 void watch_state(Simulation& s);
 // 2 / omega of the body's highest frequency less the search's margin; 0 if the search doesn't end.
 // It starts from nothing: modes are local, and a search that starts where the fastest one was does
-// not see another that has overtaken it elsewhere (docs/architecture.md). One that clearly gives
-// more than `enough` ends early, with some step above it. more: adds forces to those of elements.
-// Collective. [s]
+// not see another that has overtaken it elsewhere (docs/architecture-measured.md). One that clearly
+// gives more than `enough` ends early, with some step above it. more: adds forces to those of
+// elements. Collective. [s]
 double search_step(RankBody& body, double amplitude, const Communicator& communicator,
                    double enough = std::numeric_limits<double>::infinity(),
                    const ForceOfDisplacement& more = {});

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-// u and v: of the node.
+// u, v: the three components of the node.
 void set_node(std::int32_t node, const Vec3& X, const double* u, const double* v,
               GlobalState& global) {
   const auto i = static_cast<std::size_t>(node);

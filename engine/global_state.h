@@ -15,8 +15,8 @@ struct Simulation;
 
 // NaN where nobody has asked.
 struct GlobalState {
-  std::vector<double> u, v;  // (n_nodes * 3)
-  std::vector<Vec3> x;       // (n_nodes)
+  std::vector<double> u, v;  // (n_nodes * 3) [m], [m/s]
+  std::vector<Vec3> x;       // (n_nodes) [m]
   std::vector<std::uint8_t> is_known;
   std::vector<std::int32_t> known;  // in the order they were asked for, and copies of edits
 };

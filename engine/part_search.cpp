@@ -15,7 +15,7 @@ bool is_before(const GrownElement& a, const GrownElement& b) {
   return a.element < b.element;
 }
 
-// The one list of all ranks in which elements come by number and once.
+// Elements by their numbers, each once, although several ranks may have told of it.
 void sort_elements(std::vector<GrownElement>& grown) {
   const auto is_same = [](const GrownElement& a, const GrownElement& b) {
     return a.element == b.element;

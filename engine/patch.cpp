@@ -96,7 +96,7 @@ void set_state(const Simulation& s, const PatchState& state, Patch& patch) {
   average_volume_change(patch.model, patch.state, patch.scratch);
 }
 
-// Displacements of the present. Collective.
+// Takes over the present displacements. Collective.
 void set_present(const Simulation& s, Patch& patch) {
   const std::vector<double> motion = motion_at(s, patch.sub.node, *s.communicator);
   for (std::size_t i = 0; i < patch.sub.node.size(); ++i)
@@ -104,7 +104,7 @@ void set_present(const Simulation& s, Patch& patch) {
   average_volume_change(patch.model, patch.state, patch.scratch);
 }
 
-// At rest.
+// A patch with its nodes at rest.
 std::unique_ptr<Patch> assemble(const Simulation& s, SubMesh sub, const MassScaling& scaling,
                                 std::span<const FixedMask> fixed) {
   auto made = std::make_unique<Patch>();

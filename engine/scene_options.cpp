@@ -24,8 +24,7 @@ Options<SceneRegionMaterial> region_material_options() {
   Options<SceneRegionMaterial> r("Another material for a region of the mesh.");
   r.text("region", &SceneRegionMaterial::region, "Name of the region in the mesh file.",
          Need::required);
-  r.table("material", &SceneRegionMaterial::material, material_options(), "Material.",
-          Need::required);
+  r.table("material", &SceneRegionMaterial::material, material_options(), Need::required);
   return r;
 }
 
@@ -83,17 +82,16 @@ Options<SceneTissue> tissue_options() {
   t.boolean("centred", &SceneTissue::is_centred,
             "Moves the centre of the bounding box to the origin.");
   t.vector("translate", &SceneTissue::translate, dim::length, any, "Added to all positions, last.");
-  t.table("shape", &SceneTissue::shape, shape_options(), "A generated body.");
-  t.table("material", &SceneTissue::material, material_options(), "Material.");
-  t.list("region_material", &SceneTissue::region_materials, region_material_options(),
-         "Materials of single regions.");
+  t.table("shape", &SceneTissue::shape, shape_options());
+  t.table("material", &SceneTissue::material, material_options());
+  t.list("region_material", &SceneTissue::region_materials, region_material_options());
   t.number("thickness", &SceneTissue::thickness, dim::length, positive, "Of a plane (2D) body.");
-  t.table("look", &SceneTissue::look, look_options(), "Look.");
+  t.table("look", &SceneTissue::look, look_options());
   return t;
 }
 
 Options<SceneSolver> solver_options() {
-  Options<SceneSolver> s("Mechanics.");
+  Options<SceneSolver> s("How the mechanics are computed.");
   s.vector("gravity", &SceneSolver::gravity, dim::acceleration, any, "Acceleration of gravity.");
   s.number("mass_damping", &SceneSolver::mass_damping, dim::rate, not_negative,
            "alpha of C = alpha M.");
@@ -154,7 +152,7 @@ Options<SceneContact> contact_options() {
 }
 
 Options<SceneCutting> cutting_options() {
-  Options<SceneCutting> c("How scalpels cut.");
+  Options<SceneCutting> c("How blades cut.");
   c.number("advance", &SceneCutting::advance, dim::none, {.low = 0.1, .high = 5},
            "Edge lengths that the blade sweeps before the mesh is changed.");
   c.number("least_step_ratio", &SceneCutting::least_step_ratio, dim::none, {.low = 0.05, .high = 1},
@@ -193,7 +191,7 @@ Options<SceneStart> start_options() {
 }
 
 Options<SceneCheckpoint> checkpoint_options() {
-  Options<SceneCheckpoint> c("What a stopped run can be continued from.");
+  Options<SceneCheckpoint> c("What \"trocar run --resume\" continues from.");
   c.number(
       "every", &SceneCheckpoint::every, dim::time, not_negative,
       "Interval of simulated time at which checkpoint.bin is replaced; also when a run stops or "
@@ -211,7 +209,7 @@ Options<SceneRegion> region_options() {
 
 Options<SceneSupport> support_options() {
   Options<SupportKey> key("Where the region is at a time.");
-  key.number("time", &SupportKey::time, dim::time, not_negative, "Time.", Need::required);
+  key.number("time", &SupportKey::time, dim::time, not_negative, "When.", Need::required);
   key.vector("displacement", &SupportKey::displacement, dim::length, any,
              "From the first position.", Need::required);
   Options<SceneSupport> s("Holds or moves a region.");
@@ -225,7 +223,7 @@ Options<SceneSupport> support_options() {
 
 Options<SceneLoad> load_options() {
   Options<LoadKey> key("How much of the load acts at a time.");
-  key.number("time", &LoadKey::time, dim::time, not_negative, "Time.", Need::required);
+  key.number("time", &LoadKey::time, dim::time, not_negative, "When.", Need::required);
   key.number("factor", &LoadKey::factor, dim::none, any, "Of force and pressure.", Need::required);
   Options<SceneLoad> l("Pushes or pulls a region.");
   l.text("region", &SceneLoad::region,
@@ -243,7 +241,7 @@ Options<SceneLoad> load_options() {
 Options<SceneInstrument> instrument_options() {
   Options<InstrumentKey> key(
       "Where the instrument is at a time; smooth in between, at rest before and after.");
-  key.number("time", &InstrumentKey::time, dim::time, not_negative, "Time.", Need::required);
+  key.number("time", &InstrumentKey::time, dim::time, not_negative, "When.", Need::required);
   key.vector("position", &InstrumentKey::position, dim::length, any, "Of the tip.", Need::required);
   key.vector("direction", &InstrumentKey::direction, dim::none, any, "From handle to tip.");
   key.vector("forward", &InstrumentKey::forward, dim::none, any,
@@ -260,7 +258,7 @@ Options<SceneInstrument> instrument_options() {
             {"grasper", InstrumentKind::grasper},
             {"scalpel", InstrumentKind::scalpel},
             {"scissors", InstrumentKind::scissors}},
-           "Kind. Scissors cut what is between their blades when they close.", Need::required);
+           "Scissors cut what is between their blades when they close.", Need::required);
   i.text("name", &SceneInstrument::name, "Name in the metrics; the kind if absent.");
   i.number("radius", &SceneInstrument::radius, dim::length, positive, "Of the tip and shaft.");
   i.number("length", &SceneInstrument::length, dim::length, positive, "Of the shaft.");
@@ -332,21 +330,20 @@ Options<Scene> scene_options() {
   Options<Scene> s(
       "A Trocar scene: numbers are SI or texts with a unit (\"3 kPa\", \"2 mm\", \"30 deg\").");
   s.text("name", &Scene::name, "Title.");
-  s.table("time", &Scene::time, time_options(), "Time.", Need::required);
-  s.table("tissue", &Scene::tissue, tissue_options(), "Tissue.", Need::required);
-  s.table("solver", &Scene::solver, solver_options(), "Solver.");
-  s.table("contact", &Scene::contact, contact_options(), "Contact.");
-  s.table("cutting", &Scene::cutting, cutting_options(), "Cutting.");
-  s.table("start", &Scene::start, start_options(), "Start.");
-  s.table("checkpoint", &Scene::checkpoint, checkpoint_options(),
-          "What \"trocar run --resume\" continues from.");
-  s.list("region", &Scene::regions, region_options(), "Regions.");
-  s.list("support", &Scene::supports, support_options(), "Supports.");
-  s.list("load", &Scene::loads, load_options(), "Loads.");
-  s.list("instrument", &Scene::instruments, instrument_options(), "Instruments.");
-  s.list("marker", &Scene::markers, marker_options(), "Markers.");
-  s.list("camera", &Scene::cameras, camera_options(), "Cameras.");
-  s.list("output", &Scene::outputs, output_options(), "Outputs.");
+  s.table("time", &Scene::time, time_options(), Need::required);
+  s.table("tissue", &Scene::tissue, tissue_options(), Need::required);
+  s.table("solver", &Scene::solver, solver_options());
+  s.table("contact", &Scene::contact, contact_options());
+  s.table("cutting", &Scene::cutting, cutting_options());
+  s.table("start", &Scene::start, start_options());
+  s.table("checkpoint", &Scene::checkpoint, checkpoint_options());
+  s.list("region", &Scene::regions, region_options());
+  s.list("support", &Scene::supports, support_options());
+  s.list("load", &Scene::loads, load_options());
+  s.list("instrument", &Scene::instruments, instrument_options());
+  s.list("marker", &Scene::markers, marker_options());
+  s.list("camera", &Scene::cameras, camera_options());
+  s.list("output", &Scene::outputs, output_options());
   return s;
 }
 

@@ -61,7 +61,7 @@ Json edits_json(const CutRecord& c) {
           {"edge_mean_m", c.mean_edge}};
 }
 
-// Without what only edits have.
+// What a stroke without edits has, too.
 Json stroke_json(const CutRecord& c) {
   Json stroke = {{"tool", c.tool},
                  {"start_s", c.start},
@@ -162,7 +162,7 @@ Json equilibrium_json(const Equilibrium& e) {
   return {{"iterations", e.iterations}, {"residual", e.residual}, {"seconds", e.seconds}};
 }
 
-// Without an element where none is deformed.
+// Names no element where none is deformed.
 Json least_det_F_json(const FrameLog& log) {
   Json least = {{"value", log.least_J}};
   if (log.least_J_element >= 0) least["element"] = log.least_J_element;

@@ -36,10 +36,10 @@ struct Mesh {
   std::vector<std::int32_t> corner_node;       // (corner_offset.back())
   std::vector<std::int32_t> element_region;    // (n_elements) index into region_name
   std::vector<std::string> region_name;        // at least one, "" where the file names none
-  std::vector<double>
-      density_factor;  // (n_elements) keeps the mass when a cut moves nodes of a curved surface
-  std::vector<std::uint8_t>
-      cut_facets;  // (n_elements) bit f: facet f was opened by a cut (facets.h numbers them)
+  // (n_elements) keeps the mass when a cut moves nodes of a curved surface
+  std::vector<double> density_factor;
+  // (n_elements) bit f: facet f was opened by a cut (facets.h numbers them)
+  std::vector<std::uint8_t> cut_facets;
   // (n_elements) direction of the fibres, unit vectors in the reference; or empty: the material's.
   std::vector<Vec3> fibre;
   std::vector<NodeSet> node_sets;

@@ -10,9 +10,9 @@ namespace trocar {
 
 namespace {
 
-constexpr int row_lanes = 8;
-// Hexahedra outside rows take 1.39 times as long in double and 1.46 in single precision; others
-// never stand in any.
+constexpr int row_lanes = 8;  // as in solver/row_order.h
+// Hexahedra outside rows take 1.2 to 1.3 times as long in double and 1.4 to 1.5 in single precision
+// (docs/performance.md, "near box"); other elements never stand in rows.
 constexpr double outside_row = 1.4;
 
 // Elements of a part that are computed together, ascending.

@@ -9,8 +9,9 @@
 
 namespace trocar {
 
-// A corner's share of its element's step, in the ratio of docs/performance.md: a one-point
-// hexahedron takes some 2.7 times as long as a tetrahedron, a triangle 1.25 times.
+// Weight of a corner for the work of a step: a one-point hexahedron (8 x 4) counts for 2.7
+// tetrahedra (4 x 3), a triangle (3 x 5) for 1.25. Measured are 2.2 to 2.5 and 1.0 to 1.1 with
+// AVX-512, 1.9 to 3.0 and 0.8 to 0.9 with less (docs/performance-measured.md).
 int corner_work(ElementType type);
 
 // Work of the elements of the part that has most, those computed by several parts in each of them.

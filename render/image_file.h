@@ -1,5 +1,5 @@
-// Pictures and films on disk. libpng is seen by image_file.cpp alone; films are made by the ffmpeg
-// program.
+// Pictures and films on disk. libpng is seen by image_file_png.cpp alone; films are made by the
+// ffmpeg program.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
-// Off-screen pictures of tissue and instruments as an endoscope sees them. OSMesa and OpenGL are
-// seen by gl_context.cpp and renderer_gl.cpp alone; libOSMesa is loaded (dlopen) when the first
-// renderer is made, never before.
+// Off-screen pictures of tissue and instruments as an endoscope sees them. The headers of
+// OSMesa and OpenGL are seen by gl_*.h and gl_*.cpp alone; libOSMesa is loaded (dlopen) when the
+// first renderer is made, never before.
 #pragma once
 
 #include <array>

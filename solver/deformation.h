@@ -1,6 +1,5 @@
-// What decoupled materials are made of: invariants of H = F - I without cancellation
-// (numerics 1.4), and the four functions that their energy W(F) = W_iso(J^(-1/3) F) + K/2 (J - 1)^2
-// gives.
+// What decoupled materials are made of: invariants of H = F - I without cancellation, and the four
+// functions that their energy W(F) = W_iso(J^(-1/3) F) + K/2 (J - 1)^2 gives.
 #pragma once
 
 #include "solver/block_data.h"

@@ -1,5 +1,5 @@
 // Constants of one element from its reference positions, in the layout of element_<type>.h, and a
-// bound of its highest frequency (numerics 1.5).
+// bound of its highest frequency (frequency_bound).
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ struct ElementConstants {
 
 ElementConstants element_constants(Formulation formulation, const ElementInput& input);
 
-// In element_<type>_setup.cpp.
+// In element_<type>_setup.cpp, e.g. element_tet4_setup.cpp.
 ElementConstants constants_tri3(const ElementInput& input);
 ElementConstants constants_tri3_plane_stress(const ElementInput& input);
 ElementConstants constants_tet4(const ElementInput& input);

@@ -1,5 +1,5 @@
 // Decoupled neo-Hookean material: W = mu/2 (I1bar - 3) + K/2 (J - 1)^2, I1bar = J^(-2/3) tr C,
-// K = lambda + 2/3 mu, in the form that has no cancellation at small strain (numerics 1.4).
+// K = lambda + 2/3 mu, in the form that has no cancellation at small strain.
 #pragma once
 
 #include "solver/deformation.h"

@@ -1,5 +1,5 @@
 // St. Venant-Kirchhoff material: W = lambda/2 (tr E)^2 + mu E : E with the Green strain E. Softens
-// in compression (numerics 1.4): for moderate strain and large rotation.
+// in compression: for moderate strain and large rotation.
 #pragma once
 
 #include "solver/block_data.h"

@@ -23,7 +23,7 @@ constexpr FixedMask all_components = 7;
 
 struct SolverOptions {
   double mass_damping = 0;      // alpha of C = alpha M [1/s]
-  double hourglass = 0.15;      // c_mu of k = c_mu mu V sum|B|^2 / 8 (numerics 1.2), hex8
+  double hourglass = 0.15;      // c_mu of k = c_mu mu V sum|B|^2 / 8 (hourglass.h), hex8
   double thickness = 1e-3;      // of plane meshes [m]
   Vec3 gravity = Vec3::Zero();  // [m/s^2]
   Precision precision = Precision::in_double;
@@ -80,12 +80,7 @@ struct VolumeAverages {
   std::vector<double> share;         // (n_fields) s of element_tet4_nodal_pressure.h
 };
 
-// Where corner forces are added up: at their node in the order of the elements. Threads take runs
-// of blocks (counted through all lists). At a node that several runs meet, the first corners of the
-// order are added at the node as long as they are of one run; the others get a place each behind
-// the nodes, and are added up afterwards, in the same order. So the bits don't depend on the number
-// of runs.
-// Blocks that a run takes between two looks at the nodes: a stride.
+// Blocks that a run (SumOrder) takes between two looks at the nodes: a stride.
 inline constexpr std::int64_t stride_blocks = 32;
 
 // What a stride reads of displacements by component; `halo` is empty where it would lie behind
@@ -110,6 +105,11 @@ struct BlockPlace {
   auto operator<=>(const BlockPlace&) const = default;
 };
 
+// Where corner forces are added up: at their node in the order of the elements. Threads take runs
+// of blocks (counted through all lists). At a node that several runs meet, the first corners of the
+// order are added at the node as long as they are of one run; the others get a place each behind
+// the nodes, and are added up afterwards, in the same order. So the bits don't depend on the number
+// of runs.
 struct SumOrder {
   std::int32_t n_runs = 0;
   std::vector<std::int64_t> run_block;   // (n_runs + 1) first block of each run
@@ -156,13 +156,13 @@ struct Model {
   // node: where most hexahedra stand in rows, whole registers are added and loaded so.
   bool is_by_component = false;
   // Reference positions less the least of the mesh, (n_local * 4) with a zero, or (3 x
-  // component_stride(n_local)) by component, for elements
-  // that make their gradients of them (element_hex8.h); empty if there are none. [m]
+  // component_stride(n_local)) by component, for elements that make their gradients of them
+  // (element_hex8.h); empty if there are none. [m]
   AlignedVector<float> position;
   // One a (region, formulation), in this order, which is that of the sums.
   std::vector<ElementBlocks> blocks;
   SumOrder sums;
-  // (n local elements) stable step of the undeformed element (numerics 1.5) [s]
+  // (n local elements) stable step of the undeformed element (element_setup.h) [s]
   std::vector<double> element_step;
   std::int64_t n_history = 0;  // numbers of State::history
   VolumeAverages averages;

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double least_cosine = 4. / 9;  // 1 / T_p(d)
 constexpr int most_substeps = 64;
-constexpr double least_gain = 1.2;  // in element-steps, below which it isn't worth it
 
 // T_0 ... T_n at x, and the derivative of T_n.
 struct Chebyshev {
@@ -153,7 +152,7 @@ MultiRatePlan plan_multirate(const Mesh& mesh, const NodeCorners& corners,
     const auto gain = [&](std::size_t n_fine) {
       return longer * n / (n + p * static_cast<double>(n_fine));
     };
-    const double enough = std::max(least_gain, best.gain);
+    const double enough = std::max(least_local_gain, best.gain);
     if (gain(count_below(longer * least, resting)) <= enough) continue;
     const std::vector<std::int32_t> nodes = nodes_below(longer * least, mesh, resting);
     std::vector<std::int32_t> elements = elements_around(corners, nodes);

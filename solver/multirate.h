@@ -35,6 +35,9 @@ struct LocalSteps {
 // p: a power of two.
 LocalSteps local_steps(int p);
 
+// Local steps that save less than this factor of element-steps are not worth it.
+inline constexpr double least_local_gain = 1.2;
+
 // Which elements are computed p times a step.
 struct MultiRatePlan {
   int n_substeps = 1;                 // p, a power of two; 1: nothing is worth it

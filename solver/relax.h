@@ -1,7 +1,7 @@
-// Steady states by dynamic relaxation (Underwood 1983; numerics 1.7): damped motion with masses and
-// a step of its own choice, because the way to equilibrium does not matter. Masses let every
-// element have the same highest frequency; damping follows the lowest one that is still moving,
-// estimated as it goes.
+// Steady states by dynamic relaxation (Underwood 1983): damped motion with masses and a step of its
+// own choice, because the way to equilibrium does not matter. Masses let every element have the
+// same highest frequency; damping follows the lowest one that is still moving, estimated as it
+// goes.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
-// One explicit step (numerics 1.1, leapfrog form): force, then integrate. Between the two, engine
-// adds contact forces to scratch.force.
+// One explicit step (central differences as leapfrog): force, then integrate. Between the two,
+// engine adds contact forces to scratch.force.
 #pragma once
 
 #include <cstddef>

@@ -39,7 +39,8 @@ template <class Pack>
 
 // Of W = mu/2 (I1bar - 3) + K/2 (J - 1)^2, in the letters of tangent_bound.h: positive where the
 // bound may exceed the limit. M = 2 mu max lbar^2, t_i = mu (lbar_i^2 - mean), and with s_i s_j =
-// J / s_k, t_i + t_j = -t_k, r <= 1 + (max s^2 / min s^2 - 1)^2 / 32 beta is at most the largest of
+// J / s_k, t_i + t_j = -t_k, r <= 1 + (max s^2 / min s^2 - 1)^2 / 32; beta is at most the largest
+// of
 //   (M - p - t_min) / min s^2,  (M r - p + t_max / 2) max s / J,  (t_max + p) max s / J.
 // The cube root of J is concave and J^(-2/3) convex: 1 - 2 j/3 <= J^(-2/3) <= (1 + j/3) / J.
 template <class Pack>

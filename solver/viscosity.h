@@ -1,5 +1,4 @@
-// Prony viscoelasticity of the isochoric stress (Simo 1987; numerics 1.8): branches with history
-// h_b,
+// Prony viscoelasticity of the isochoric stress (Simo 1987): branches with history h_b,
 //   S = S_vol + (1 - sum g_b) S_iso + sum_b h_b,
 //   h_b+ = exp(-x) h_b + g_b (1 - exp(-x)) / x (S_iso+ - S_iso),  x = dt / tau_b
 // (viscous_history.h). S_iso is the second Piola-Kirchhoff stress of the elastic law (times the

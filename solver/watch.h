@@ -12,8 +12,8 @@
 namespace trocar {
 
 struct Watch {
-  // Least over this rank's elements in the present deformation: the undeformed bound of numerics
-  // 1.5 over the root of Material::stiffening. 0 where an element is not finite. [s]
+  // Least over this rank's elements in the present deformation: the undeformed bound of
+  // element_setup.h over the root of Material::stiffening. 0 where an element is not finite. [s]
   double stable_step = 0;
   std::int32_t stable_element = -1;  // global number of the element that sets it
   // Least det F (hex8: of the mean F); -infinity where it is not finite.
