@@ -11,8 +11,13 @@ namespace {
 // Of the power method, from random numbers: 2 % below the frequency and less.
 constexpr int rounds = 30;
 
-// moment: F R [N m]
-Tilt make_tilt(const ContactSet::Item& item, double moment, const ContactSet& set) {
+// Radius over edge of a tool that is flat to a triangle: its point goes from corner to corner as
+// the triangle tilts by a thousandth, and turns it no further. What may grow so stays unseen, and
+// its stiffness would cost a multiple of the steps.
+constexpr double flat_radius = 1000;
+
+// Without a turn if the tool is flat.
+Tilt make_tilt(const ContactSet::Item& item, double force, double radius, const ContactSet& set) {
   constexpr double flat = 1e-9;  // on plane meshes the third corner is a copy
   Tilt tilt{.place = item.place, .normal = item.reaction_sum.normalized()};
   std::array<Vec3, 3> x;
@@ -22,7 +27,8 @@ Tilt make_tilt(const ContactSet::Item& item, double moment, const ContactSet& se
     tilt.edge[a] = x[(a + 2) % 3] - x[(a + 1) % 3];
     longest2 = std::max(longest2, tilt.edge[a].squaredNorm());
   }
-  const double twice_area = tilt.edge[0].cross(tilt.edge[1]).norm();
+  if (radius * radius > flat_radius * flat_radius * longest2) return tilt;
+  const double moment = force * radius, twice_area = tilt.edge[0].cross(tilt.edge[1]).norm();
   if (twice_area > flat * longest2) {
     tilt.turn = moment / (twice_area * twice_area);
     return tilt;
@@ -40,8 +46,9 @@ std::vector<Tilt> find_tilts(const ContactDetector& detector, std::int64_t n_ste
   if (!set.is_counted_here) return tilts;
   for (const ContactSet::Item& item : set.items) {
     const double force = item.reaction_sum.norm() / static_cast<double>(n_steps);
-    if (const double moment = force * detector.radius(item.contact); moment > 0)
-      tilts.push_back(make_tilt(item, moment, set));
+    if (const double radius = detector.radius(item.contact); force * radius > 0)
+      if (const Tilt tilt = make_tilt(item, force, radius, set); tilt.turn > 0)
+        tilts.push_back(tilt);
   }
   return tilts;
 }

@@ -40,5 +40,11 @@ TEST(TiltFrequency, is_none_beneath_a_point) {
   EXPECT_EQ(pressed(0, {}), 0);
 }
 
+// Whose point goes from corner to corner as the triangle tilts by less than a thousandth.
+TEST(TiltFrequency, is_none_beneath_a_tool_that_is_flat_to_the_triangle) {
+  EXPECT_GT(pressed(999 * h, {}), 0);
+  EXPECT_EQ(pressed(1001 * h, {}), 0);
+}
+
 }  // namespace
 }  // namespace trocar

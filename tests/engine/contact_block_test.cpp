@@ -87,7 +87,9 @@ TEST(ContactOfABlock, holds_it_on_a_flatter_incline) {
   const double steps = static_cast<double>(block->s->state.step - first);
   std::printf("drift %.2g of the height in %.0f steps\n", drift, steps);
   // With a friction that had to slip in order to hold it slid by g sin(angle) dt / 0.2 t: 12 mm.
-  EXPECT_LT(std::abs(drift), 2e-3);
+  EXPECT_LT(std::abs(drift), 1e-7);
+  // A sphere as flat as that takes none of the step.
+  EXPECT_LT(steps, 4000);
   EXPECT_LT(block->s->log.rows.back().energy.kinetic, 1e-6);
 }
 
