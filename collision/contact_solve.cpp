@@ -115,6 +115,13 @@ Vec3 facet_of(const ContactSet& set, const ContactSet::Item& item) {
   return (x[1] - x[0]).cross(x[2] - x[0]);
 }
 
+// Out of the tissue, of an edge of a plane body, too.
+Vec3 outward(const ContactSet& set, const ContactSet::Item& item) {
+  if (item.place[1] != item.place[2]) return facet_of(set, item);
+  const std::array<Vec3, 3> x = corners_of(set, item).x;
+  return {x[1].y() - x[0].y(), x[0].x() - x[1].x(), 0};
+}
+
 // Where the tissue's surface at nodes beside blades looks, and which are the fronts of wounds.
 void face_nodes(const ContactDetector& detector, const ContactStep& step, ContactSet& set) {
   for (ContactSet::BesidePiece& b : set.beside) {
@@ -147,7 +154,7 @@ void find_deepest(const ContactDetector& detector, const ContactStep& step, Cont
   }
   for (std::size_t k = 0; k < set.items.size(); ++k) {
     const ContactSet::Item& item = set.items[k];
-    const Vec3 facet = facet_of(set, item);
+    const Vec3 facet = outward(set, item);
     for (std::size_t a = 0; a < 3; ++a) {
       const ContactSet::BesidePiece& beside = set.beside[to_size(item.beside[a])];
       const std::optional<NodeTouch>& found = beside.touch;

@@ -34,6 +34,15 @@ SignedDistance distance_from_flank(const PieceCore& core, const Vec3& x, const V
   return {};
 }
 
+// Not of a blade: that touches with its flanks, which edges find.
+std::optional<NodeTouch> touch_in_plane(const PieceCore& core, const Vec3& x, const Pose& pose,
+                                        double margin) {
+  if (core.least_flatness > 0) return std::nullopt;
+  const SignedDistance found = signed_distance(plane_section(core, pose), x);
+  if (!(found.gap < margin)) return std::nullopt;
+  return NodeTouch{.normal = found.normal, .gap = found.gap};
+}
+
 // Of a point in the tool's frame: between the sides of a blade that don't touch.
 bool is_in_outline(const PieceCore& core, const Vec3& x) {
   for (std::size_t k = 0; k < core.faces.normal.size(); ++k) {
@@ -306,8 +315,8 @@ bool ContactDetector::update(const Corners& corners, const Pose& pose, double ma
 std::optional<NodeTouch> ContactDetector::touch_node(const Contact& contact,
                                                      const SurfaceNode& node, const Pose& pose,
                                                      double margin) const {
-  if (!state_->plane.node.empty()) return std::nullopt;
   const PieceCore& core = state_->core_of(contact);
+  if (!state_->plane.node.empty()) return touch_in_plane(core, node.x, pose, margin);
   const Vec3 x = pose.apply_inverse(node.x);
   SignedDistance found = signed_distance(core, x);
   if (core.least_flatness > 0 && found.gap < 0)

@@ -82,7 +82,8 @@ class ContactDetector {
   bool update(const Corners& corners, const Pose& pose, double margin, Contact& contact) const;
   // Where a node lies in the contact's piece, nothing where its gap is `margin` or more. Of a hull:
   // the nearest of its faces, of a blade the flank that the tissue faces: nodes of both lips of a
-  // fresh wound lie in the middle of it. Nothing on plane meshes.
+  // fresh wound lie in the middle of it. On plane meshes of what z = 0 cuts out of the
+  // piece, and nothing of blades.
   struct SurfaceNode {
     Vec3 x, facing;  // facing: out of the tissue, of any length
   };

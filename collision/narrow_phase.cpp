@@ -14,6 +14,7 @@ constexpr double coincidence =
     1e-9;  // closest points nearer than this many edges have no direction
 constexpr double cast_tolerance = 1e-6;  // of a depth, in edges
 constexpr int max_cast_steps = 64;
+constexpr double at_border = 1e-6;                                // weight of a corner
 constexpr std::array<double, 4> nudges = {0, 3e-6, -3e-6, 1e-5};  // in edges
 
 struct CorePair {
@@ -92,21 +93,30 @@ std::optional<Below> deepest_of_segment(const Segment& segment, const Facet& fac
   return Below{.core = deepest, .tissue = closest_point_triangle(deepest, facet.x)};
 }
 
+bool is_at_border(const TrianglePoint& p) {
+  return *std::min_element(p.weight.begin(), p.weight.end()) < at_border;
+}
+
 // Lowers the triangle along -n below the hull and lets it rise until it touches, by conservative
-// advancement: it never passes the plane that separates the two.
+// advancement: it never passes the plane that separates the two. One that comes with its border
+// against a side of the hull that lies across belongs to an edge of the tissue that lies on this
+// side, as on a plate, and the other triangles there have the contact. (Blades touch with flanks.)
 std::optional<Below> deepest_of_hull(const PieceCore& core, const Facet& facet) {
   const double tolerance = cast_tolerance * facet.edge;
   double lowest = 0;
   for (const Vec3& p : core.points) lowest = std::min(lowest, facet.n.dot(p - facet.x[0]));
-  double shift = tolerance - lowest;
+  double shift = tolerance - lowest, closing = 1;
   for (int k = 0; k < max_cast_steps && shift >= 0; ++k) {
     Facet lowered = facet;
     for (Vec3& x : lowered.x) x -= shift * facet.n;
     const std::optional<HullPair> pair = closest_to_hull(*core.hull, lowered);
     if (!pair) return std::nullopt;
-    if (pair->distance <= 2 * tolerance)
+    if (pair->distance <= 2 * tolerance) {
+      const bool is_across = closing < epa_agreement && core.least_flatness == 0;
+      if (is_across && is_at_border(pair->on_triangle)) return std::nullopt;
       return Below{.core = pair->on_hull, .tissue = same_weights(pair->on_triangle, facet.x)};
-    const double closing = -facet.n.dot(pair->normal);
+    }
+    closing = -facet.n.dot(pair->normal);
     if (closing <= coincidence) return std::nullopt;  // it passes beside the hull
     shift -= pair->distance / closing;
   }

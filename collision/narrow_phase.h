@@ -53,9 +53,9 @@ struct Touch {
 // Core in front of the triangle (it sees the outer side): the closest points and their direction.
 // Core intersects it: a hull takes EPA's direction if that is within 60 degrees of -n, where n is
 // the triangle's outward normal; else the direction is -n and the point is the deepest of the core
-// straight below the triangle. Core behind it: that, too, or if nothing lies straight below,
-// touch_of_points. A piece whose box is beyond the margin and which is in front of the triangle (a
-// hull: its centre) does not touch it.
+// straight below the triangle, but none where the triangle only ends at a side of the hull. Core
+// behind it: that, too, or if nothing lies straight below, touch_of_points. A piece whose box is
+// beyond the margin and which is in front of the triangle (a hull: its centre) does not touch it.
 std::optional<Touch> touch(const PieceCore& core, const Triangle& triangle, double margin);
 
 // A core behind the triangle and farther than this from it has lost the surface.

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace trocar {
 
 namespace {
+
+constexpr double at_end = 1e-6;  // of an edge, over its length
 
 double cross_z(const Vec3& a, const Vec3& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -93,18 +96,32 @@ SegmentPair closest(const PlaneSection& section, const Segment& edge) {
   return best;
 }
 
+// Behind an edge; is_across: where a side of a polygon that lies across it leaves its strip.
+struct Behind {
+  Vec3 core;
+  bool is_across = false;
+};
+
+// normal: of a side.
+bool lies_across(const PlaneSection& section, const Vec3& normal, const Vec3& n) {
+  constexpr double facing = 0.5;  // cosine
+  return section.points.size() > 2 && -n.dot(normal) < facing;
+}
+
 // The core point straight behind the edge whose circle reaches deepest: an end of the part that
 // lies in the edge's strip and reaches the plane, or where the core passes through the plane.
-std::optional<Vec3> deepest_behind(const PlaneSection& section, const Segment& edge,
-                                   const Vec3& n) {
+std::optional<Behind> deepest_behind(const PlaneSection& section, const Segment& edge,
+                                     const Vec3& n) {
   const Vec3 along = edge[1] - edge[0];
-  std::optional<Vec3> deepest;
+  std::optional<Behind> deepest;
   double lowest = 0;
-  const auto offer = [&](const Vec3& p) {
+  const auto offer = [&](const Segment& s, double t) {
+    const Vec3 p = point_at(s, t);
     const double radius = std::max(0.0, circle_radius(section, p));
     const double height = n.dot(p - edge[0]);
     if (height > 0 || (deepest && height - radius >= lowest)) return;
-    deepest = p;
+    deepest =
+        Behind{.core = p, .is_across = t > 0 && t < 1 && lies_across(section, edge_normal(s), n)};
     lowest = height - radius;
   };
   for (std::size_t k = 0; k < n_sides(section); ++k) {
@@ -116,7 +133,7 @@ std::optional<Vec3> deepest_behind(const PlaneSection& section, const Segment& e
       continue;
     const double z0 = s[0].z(), z1 = s[1].z();
     const double through = z0 == z1 ? part.t0 : std::clamp(z0 / (z0 - z1), part.t0, part.t1);
-    for (const double t : {through, part.t0, part.t1}) offer(point_at(s, t));
+    for (const double t : {through, part.t0, part.t1}) offer(s, t);
   }
   return deepest;
 }
@@ -176,10 +193,15 @@ std::optional<Touch> touch_edge(const PlaneSection& section, const Segment& edge
   const SegmentPair pair = closest(section, edge);
   const double distance = (in_plane(pair.first) - pair.second).norm();
   const bool is_crossing = distance <= 1e-9 * length || contains(section, edge[0]);
-  std::optional<Vec3> deepest;
+  std::optional<Behind> deepest;
   if (is_crossing || n.dot(pair.second - pair.first) > 0)
     deepest = deepest_behind(section, edge, n);
-  const Vec3 core = deepest.value_or(is_crossing ? pair.second : pair.first);
+  // An end of it lies on that side, as a corner of tissue does on a plate.
+  if (deepest && deepest->is_across) return std::nullopt;
+  if (is_crossing && !deepest && std::min(pair.t, 1 - pair.t) < at_end &&
+      lies_across(section, signed_distance(section, pair.second).normal, n))
+    return std::nullopt;
+  const Vec3 core = deepest ? deepest->core : is_crossing ? pair.second : pair.first;
   const double radius = circle_radius(section, core);
   if (radius < 0 || (radius == 0 && section.radius > 0)) return std::nullopt;
   Touch touch = deepest ? touch_below(in_plane(core), straight_above(core, edge), n, radius)
@@ -188,6 +210,23 @@ std::optional<Touch> touch_edge(const PlaneSection& section, const Segment& edge
   if (touch.gap >= margin || is_lost(touch, limit)) return std::nullopt;
   if (touch.depth <= 1e-6 * length) touch.depth = 0;  // rounding decides what is inside
   return touch;
+}
+
+SignedDistance signed_distance(const PlaneSection& section, const Vec3& x) {
+  if (section.points.empty()) return {.gap = std::numeric_limits<double>::infinity()};
+  if (section.points.size() < 3) {
+    const Vec3 core = closest_points_segments({x, x}, side(section, 0)).second;
+    const Vec3 out = x - in_plane(core);
+    return {.normal = out.stableNormalized(), .gap = out.norm() - circle_radius(section, core)};
+  }
+  SignedDistance farthest{.gap = -std::numeric_limits<double>::infinity()};
+  for (std::size_t k = 0; k < n_sides(section); ++k) {
+    const Segment s = side(section, k);
+    const Vec3 normal = edge_normal(s);
+    const double gap = normal.dot(x - s[0]) - section.radius;
+    if (gap > farthest.gap) farthest = {.normal = normal, .gap = gap};
+  }
+  return farthest;
 }
 
 Vec3 plane_way_out(const PlaneEdges& edges, std::span<const Vec3> x, const Vec3& p) {

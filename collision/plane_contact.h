@@ -33,6 +33,9 @@ PlaneSection plane_section(const PieceCore& core, const Pose& pose);
 // As touch() for triangles, in the plane: the third weight is 0, the core point lies in the plane.
 std::optional<Touch> touch_edge(const PlaneSection& section, const Segment& edge, double margin);
 
+// Of a point in the plane from the section, as that of narrow_phase.h from a piece.
+SignedDistance signed_distance(const PlaneSection& section, const Vec3& x);
+
 // Outward normal of the nearest edge that p lies behind, for a p inside the mesh; zero outside.
 Vec3 plane_way_out(const PlaneEdges& edges, std::span<const Vec3> x, const Vec3& p);
 

@@ -10,7 +10,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 14;
+constexpr std::uint32_t checkpoint_format = 15;
 
 template <class Archive>
 static void visit(Archive& a, Mesh& mesh) {
@@ -65,9 +65,13 @@ static void visit(Archive& a, Searches& n) {
   a(n.n_of_body, n.n_of_parts);
 }
 template <class Archive>
+static void visit(Archive& a, Equilibrium& e) {
+  a(e.iterations, e.residual, e.seconds);
+}
+template <class Archive>
 static void visit(Archive& a, FrameLog& l) {
-  a(l.rows, l.n_roll_backs, l.n_deadlines_missed, l.searches, l.least_J, l.least_J_element,
-    l.least_stable_step, l.largest_stable_step, l.events);
+  a(l.rows, l.equilibrium, l.n_roll_backs, l.n_deadlines_missed, l.searches, l.least_J,
+    l.least_J_element, l.least_stable_step, l.largest_stable_step, l.events);
 }
 template <class Archive>
 static void visit(Archive& a, FrameEdit& e) {

@@ -114,9 +114,9 @@ bool start_in_equilibrium(const LoadedScene& loaded, Simulation& s, const std::a
     return false;
   }
   check_found(found, s);
-  s.equilibrium = Equilibrium{.iterations = found.iterations,
-                              .residual = found.residual,
-                              .seconds = monotonic_seconds() - start};
+  s.log.equilibrium = {.iterations = found.iterations,
+                       .residual = found.residual,
+                       .seconds = monotonic_seconds() - start};
   refresh_surface(s);
   if (s.contact)
     check_instruments_outside(loaded, 0,

@@ -68,9 +68,17 @@ struct Searches {
   std::int64_t n_of_body = 0, n_of_parts = 0;
 };
 
+// How the body came to rest before the first frame.
+struct Equilibrium {
+  std::int64_t iterations = 0;  // 0: it was not sought
+  double residual = 0;          // see Relaxation
+  double seconds = 0;
+};
+
 struct FrameLog {
   std::vector<FrameRow> rows;
   std::vector<FrameEdit> new_edits;  // of this frame
+  Equilibrium equilibrium;
   std::int64_t n_roll_backs = 0;
   std::int64_t n_deadlines_missed = 0;
   Searches searches;

@@ -185,7 +185,8 @@ void look_for_pairs(Simulation& s, const FrameSpan& span, std::int64_t k) {
 }
 
 void watch_sunk_tissue(Simulation& s, double time) {
-  if (is_told(s)) return;
+  // Of a frame with an edit, the pairs are of the surface before it.
+  if (is_told(s) || !s.log.new_edits.empty()) return;
   const std::vector<SunkNode> sunk = find_sunk(s);
   if (sunk.empty()) return;
   s.contact->detector.refit(s.view.x);

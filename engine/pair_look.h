@@ -22,7 +22,8 @@ bool is_pair_look_due(Simulation& s, const FrameSpan& span, std::int64_t k);
 void look_for_pairs(Simulation& s, const FrameSpan& span, std::int64_t k);
 
 // Warns, once a run, of the first frame at whose end tissue lies deeper in other tissue than pairs
-// are found: it will not come out of it. The view is of the frame's end. Collective.
+// are found: it will not come out of it. The view is of the frame's end. Not of a frame with an
+// edit. Collective.
 void watch_sunk_tissue(Simulation& s, double time);
 
 }  // namespace trocar

@@ -64,13 +64,6 @@ inline constexpr const char* phase_names[n_phases] = {"contact detection",
                                                       "checkpoint",
                                                       "waiting"};
 
-// How the body came to rest before the first frame.
-struct Equilibrium {
-  std::int64_t iterations = 0;
-  double residual = 0;  // see Relaxation
-  double seconds = 0;
-};
-
 // Searches for the highest frequency; the same on all ranks.
 struct SearchMemory {
   std::int64_t at_step = 0;  // State::step of the last one of the body
@@ -146,7 +139,6 @@ struct Simulation : RankBody {
   double edge_length = 0;  // mean of the mesh at time zero [m]
   std::optional<MassScaling> mass_scaling;  // only if the scene asks for it; replicated
   std::optional<AddedMass> added_mass;      // by it
-  std::optional<Equilibrium> equilibrium;   // only if this process looked for one
   FrameLog log;                             // what each frame told
   PhaseTimers timers;
 };

@@ -234,7 +234,7 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   j["mesh"] = mesh_json(s);
   j["mass_kg"] = total_mass(s);
   if (s.added_mass) j["added_mass"] = added_mass_json(*s.added_mass);
-  if (s.equilibrium) j["equilibrium"] = equilibrium_json(*s.equilibrium);
+  if (s.log.equilibrium.iterations > 0) j["equilibrium"] = equilibrium_json(s.log.equilibrium);
   j["duration_s"] = simulated;
   j["frames"] = s.frame;
   j["steps"] = s.state.step;

@@ -154,6 +154,21 @@ double depth_below(const Vec3& q, const Vec3& half, const Quat& rotation, const 
   return enter <= leave ? leave : -1;
 }
 
+// The plate's lower face is z = 0, and the tissue's outer side, about +x, ends `depth` above it.
+TEST(Touch, of_a_plate_does_not_push_tissue_aside_that_ends_at_it) {
+  const PieceCore plate = box(Vec3(-0.08, -0.08, 0), Vec3(0.08, 0.08, 0.01));
+  Random random(1);
+  for (const double depth : {1e-4, 1e-6, 1e-9, 1e-12, 0.0, -1e-9}) {
+    for (int k = 0; k < 200; ++k) {
+      const Vec3 top(random.between(-0.03, 0.03), random.between(-0.03, 0.03), depth);
+      const Vec3 low = top + Vec3(random.between(-5e-4, 5e-4), random.between(0, 0.01), -0.01);
+      const Vec3 along(random.between(-3e-4, 3e-4), 0.01, k % 2 == 0 ? 0 : -1e-3);
+      const auto found = touch(plate, {top, low, top + along}, 4e-3);
+      EXPECT_TRUE(!found || found->normal.z() < -0.5) << depth;
+    }
+  }
+}
+
 TEST(Touch, of_a_tilted_box_below_the_face_is_its_deepest_point_straight_below) {
   Random random(3);
   int n = 0;

@@ -95,6 +95,40 @@ TEST(TouchEdge, of_a_box_that_dips_below_the_edge_takes_its_lowest_corner) {
   EXPECT_EQ(found->tissue.weight[2], 0);
 }
 
+// The box's lower side is y = 0, and the tissue's side, about +x, ends `depth` above it.
+TEST(TouchEdge, of_a_box_does_not_push_tissue_aside_that_ends_at_it) {
+  ConvexPiece box;
+  for (const double x : {-0.08, 0.08})
+    for (const double y : {0.0, 0.01})
+      for (const double z : {-0.08, 0.08}) box.points.emplace_back(x, y, z);
+  Random random(1);
+  for (const double depth : {1e-4, 1e-6, 1e-9, 1e-12, 0.0, -1e-9}) {
+    for (int k = 0; k < 200; ++k) {
+      const Vec3 top(random.between(-0.03, 0.03), depth, 0);
+      const Vec3 low = top + Vec3(random.between(-5e-4, 5e-4), -0.01, 0);
+      const auto found = touch_edge(section_of(box), {low, top}, 4e-3);
+      EXPECT_TRUE(!found || found->normal.y() < -0.5) << depth;
+    }
+  }
+}
+
+TEST(SignedDistance, in_the_plane_is_that_of_the_circle_or_the_polygon) {
+  const PlaneSection circle = section_of({.points = {Vec3(1e-3, 2e-3, 3e-3)}, .radius = r});
+  const SignedDistance beside = signed_distance(circle, Vec3(1e-3, -1e-3, 0));
+  EXPECT_NEAR(beside.gap, 3e-3 - 4e-3, rounding);  // 3-4-5
+  EXPECT_NEAR((beside.normal + Vec3::UnitY()).norm(), 0, rounding);
+  ConvexPiece box;
+  for (const double x : {-4e-3, 4e-3})
+    for (const double y : {-3e-3, 3e-3})
+      for (const double z : {-1e-3, 1e-3}) box.points.emplace_back(x, y, z);
+  const SignedDistance inside = signed_distance(section_of(box), Vec3(3.5e-3, 1e-3, 0));
+  EXPECT_NEAR(inside.gap, -0.5e-3, rounding);
+  EXPECT_NEAR((inside.normal - Vec3::UnitX()).norm(), 0, rounding);
+  EXPECT_GT(
+      signed_distance(section_of({.points = {Vec3(0, 0, 6e-3)}, .radius = r}), Vec3::Zero()).gap,
+      0);
+}
+
 TEST(PlaneWayOut, is_the_normal_of_the_nearest_edge_for_points_inside_only) {
   const Mesh mesh = make_rectangle(0.07, 0.04, 10, 8);
   const PlaneEdges edges = boundary_edges(boundary_surface(mesh));

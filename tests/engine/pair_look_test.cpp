@@ -149,6 +149,9 @@ TEST(SunkTissue, is_told_with_its_place_where_it_lies_in_other_tissue) {
   s->contact->set.found_by[0] = -1;
   EXPECT_EQ(n_told(), 0U);  // no step has found it
   s->contact->set.found_by[0] = 0;
+  s->log.new_edits.resize(1);
+  EXPECT_EQ(n_told(), 0U);  // pairs of a surface that is no more
+  s->log.new_edits.clear();
   ASSERT_EQ(n_told(), 1U);
   EXPECT_NE(s->log.events[0].find("(0, 0, 0.006) m lies 6 mm deep"), std::string::npos)
       << s->log.events[0];

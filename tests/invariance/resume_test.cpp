@@ -66,9 +66,11 @@ std::string result_of(const std::string& folder) {
   for (auto& cut : summary["cuts"])
     for (const char* of_machine : {"milliseconds", "milliseconds_worst", "ranks"})
       cut.erase(of_machine);
+  if (summary.contains("equilibrium")) summary["equilibrium"].erase("seconds");
   std::string result;
-  for (const char* key : {"state_digest", "frames", "steps", "mesh", "mass_kg", "stable_step_s",
-                          "least_det_F", "instruments", "wound", "cuts", "energies_J", "events"})
+  for (const char* key :
+       {"state_digest", "frames", "steps", "equilibrium", "mesh", "mass_kg", "stable_step_s",
+        "least_det_F", "instruments", "wound", "cuts", "energies_J", "events"})
     result += std::string(key) + " " + summary[key].dump() + "\n";
   result += metrics_of(folder);
   const Finished list = run_trocar({"replay", folder + "/out/r.trocar", "--list"}, folder);

@@ -1,0 +1,139 @@
+// Flat instruments that cover all of a body's face press it alike everywhere, and slide on it:
+// force and direction have closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "engine_started.h"
+
+namespace trocar {
+namespace {
+
+constexpr double E = 5000, nu = 0.3, side = 0.04, stretch = 0.9;
+
+// A box of 160 x 160 x 10 mm with the middle of its lower face at the origin.
+void write_plate(const std::string& file) {
+  std::ofstream out(file);
+  for (const double z : {0.0, 0.01})
+    for (const double y : {-0.08, 0.08})
+      for (const double x : {-0.08, 0.08}) out << "v " << x << ' ' << y << ' ' << z << '\n';
+  out << "f 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\n"
+         "f 1 5 7\nf 1 7 3\nf 2 4 8\nf 2 8 6\n";
+}
+
+// Cauchy stress of the neo-Hookean law along the first of the stretches a, b, c. [Pa]
+double stress(double a, double b, double c) {
+  const double mu = E / (2 * (1 + nu)), K = E / (3 * (1 - 2 * nu)), J = a * b * c;
+  const double I1 = a * a + b * b + c * c;
+  return mu * std::pow(J, -5.0 / 3) * (a * a - I1 / 3) + K * (J - 1);
+}
+
+// Of a cube of tissue, or of a plate of tissue in plane strain, that may go aside freely. [N]
+double closed_form(bool is_plane, double thickness) {
+  const auto other = [&](double aside) { return is_plane ? 1 : aside; };
+  double low = 1, high = 1.5;  // of the stretch aside
+  for (int k = 0; k < 60; ++k) {
+    const double aside = 0.5 * (low + high);
+    (stress(aside, stretch, other(aside)) < 0 ? low : high) = aside;
+  }
+  return -stress(stretch, low, other(low)) * side * low * thickness * other(low);
+}
+
+// Presses along -z, in the plane along -y, for 0.2 s, rests until 0.4 s and slides along x.
+struct Slide {
+  std::string body, supports;
+  bool is_plane = false;
+  bool is_mesh = true;  // else a shaft that lies on the tissue
+};
+
+std::unique_ptr<Started> make_slide(const Slide& slide, double friction) {
+  const TestFolder folder;
+  write_plate(folder.file("plate.obj"));
+  const double lift = slide.is_mesh ? 0 : 0.003;
+  const auto at = [&](double x, double height) {
+    const std::string across = std::to_string(height + lift);
+    const std::string place = std::to_string(x) + (slide.is_plane ? ", " : ", 0, ") + across;
+    return "position = [" + place + (slide.is_plane ? ", 0]" : "]") +
+           (slide.is_plane && slide.is_mesh ? ", direction = [0, -1, 0]"
+            : slide.is_mesh                 ? ""
+                                            : ", direction = [-1, 0, 0], forward = [0, 0, 1]");
+  };
+  const double from = slide.is_mesh ? 0 : -0.06;
+  return built("[time]\nduration = 10\nframe_rate = 60\n" + slide.body +
+               "[tissue.material]\nyoung_modulus = 5000\npoisson_ratio = "
+               "0.3\n[solver]\nmass_damping = 60\n" +
+               slide.supports + "[contact]\nfriction = " + std::to_string(friction) +
+               "\n[[instrument]]\nkind = \"probe\"\nradius = 0.005\nlength = 0.2\n" +
+               (slide.is_mesh ? "mesh = \"" + folder.file("plate.obj") + "\"\n" : "") +
+               "path = [{ time = 0, " + at(from, side + 0.002) + " }, { time = 0.2, " +
+               at(from, stretch * side) + " }, { time = 0.4, " + at(from, stretch * side) +
+               " }, { time = 1, " + at(from + 0.03, stretch * side) + " }]\n");
+}
+
+const std::string rollers =
+    "[[support]]\nregion = \"x-\"\nfix = \"x\"\n[[support]]\nregion = \"y-\"\nfix = \"y\"\n";
+
+Slide on_cube(const std::string& elements, const std::string& supports) {
+  return {.body = "[tissue.shape]\nkind = \"box\"\nelements = \"" + elements +
+                  "\"\nlow = [-0.02, -0.02, 0]\nhigh = [0.02, 0.02, 0.04]\ncells = [4, 4, 4]\n",
+          .supports = supports};
+}
+
+Slide on_plane(const std::string& supports, bool is_mesh) {
+  return {.body =
+              "[tissue]\nthickness = 0.04\n[tissue.shape]\nkind = \"rectangle\"\n"
+              "high = [0.04, 0.04, 0]\ncells = [9, 9, 1]\n",
+          .supports = supports,
+          .is_plane = true,
+          .is_mesh = is_mesh};
+}
+
+// While only edges touched in the plane, each with one of its ends, tissue without friction was
+// two thirds of the way inside the plate, with a quarter of the force.
+TEST(ContactOfAPlate, that_tissue_may_slide_on_is_pressed_as_the_closed_form_says) {
+  const std::string on_foot = rollers + "[[support]]\nregion = \"z-\"\nfix = \"z\"\n";
+  for (const Slide& slide : {on_cube("hex8", on_foot), on_cube("tet4-kuhn", on_foot),
+                             on_plane(rollers, true), on_plane(rollers, false)}) {
+    const auto body = make_slide(slide, 0);
+    for (int frame = 0; frame < 22; ++frame) run_frame(*body->s, body->outputs);
+    const double force = body->s->log.rows.back().tools[0].force[slide.is_plane ? 1 : 2],
+                 exact = closed_form(slide.is_plane, side);
+    std::printf("pressed with %.5f N, closed form %.5f N\n", force, exact);
+    // Contacts are solved to 1e-3 of the deepest point.
+    EXPECT_NEAR(force, exact, 1e-3 * exact);
+  }
+}
+
+// What of a plate lies "straight below" the bulging sides that end at it dragged the body along
+// with up to a fifth of the force.
+TEST(ContactOfAPlate, that_slides_without_friction_drags_nothing_along) {
+  const std::string foot = "[[support]]\nregion = \"z-\"\n",
+                    plane_foot = "[[support]]\nregion = \"y-\"\n";
+  for (const Slide& slide : {on_cube("hex8", foot), on_cube("tet4-kuhn", foot),
+                             on_plane(plane_foot, true), on_plane(plane_foot, false)}) {
+    const auto body = make_slide(slide, 0);
+    double most = 0;
+    for (int frame = 0; frame < 60; ++frame) {
+      run_frame(*body->s, body->outputs);
+      most = std::max(most, std::abs(body->s->log.rows.back().tools[0].force.x()));
+    }
+    const double force = body->s->log.rows.back().tools[0].force[slide.is_plane ? 1 : 2];
+    std::printf("pressed with %.4f N, dragged with %.1e N at most\n", force, most);
+    EXPECT_LT(most, 1e-4 * force);
+  }
+}
+
+TEST(ContactOfAPlate, that_slides_drags_as_coulombs_law_says) {
+  for (const char* elements : {"hex8", "tet4-kuhn"}) {
+    const auto cube = make_slide(on_cube(elements, "[[support]]\nregion = \"z-\"\n"), 0.2);
+    for (int frame = 0; frame < 55; ++frame) run_frame(*cube->s, cube->outputs);
+    const Vec3& force = cube->s->log.rows.back().tools[0].force;
+    std::printf("pressed with %.4f N, dragged with %.4f N\n", force.z(), -force.x());
+    EXPECT_NEAR(-force.x(), 0.2 * force.z(), 2e-3 * force.z()) << elements;
+  }
+}
+
+}  // namespace
+}  // namespace trocar
