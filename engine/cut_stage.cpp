@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/sort_unique.h"
 #include "cutting/cut_plane_reaches.h"
+#include "cutting/cut_plane_slit.h"
 #include "engine/apply_cut.h"
 #include "engine/cut_look.h"
 #include "engine/frame_report.h"
@@ -130,6 +131,14 @@ void cut_reach(Simulation& s, CutStage& stage, bool may_grow, double h) {
   path = {is_continued ? X(cut.tip) : path.back()};
 }
 
+// Without what of it runs in a slit; the next reach begins there at the earliest.
+void leave_slit(const Simulation& s, double h, CutStage& stage, std::vector<Vec3>& part) {
+  const PathFromSlit rest = past_slit(s.mesh, part, stage.plane_tip, h);
+  part = rest.point;
+  stage.plane_path = {part.front()};
+  stage.plane_tip = rest.tip;
+}
+
 // Cuts the tip's path reach by reach, each once it is long enough or the next one begins. Legs
 // shorter than half an edge are left out: the next reach begins where they did.
 void cut_along_tip(Simulation& s, CutStage& stage, const BladeSweep& sweep, bool is_last) {
@@ -139,6 +148,7 @@ void cut_along_tip(Simulation& s, CutStage& stage, const BladeSweep& sweep, bool
   for (std::vector<Vec3>& part : parts) {
     const bool may_grow = !is_last && &part == &parts.back();
     part.front() = stage.plane_path.front();
+    leave_slit(s, h, stage, part);
     const double length = length_of(part);
     if (length >= (may_grow ? plane_advance : 0.5) * h) {
       stage.plane_path = part;

@@ -198,6 +198,29 @@ TEST(CutStage, crosses_its_own_slit_in_a_plate) {
   }
 }
 
+// Half through the plate, and then all through it: drawn back in the slit, or lifted and put into
+// it once more, on its line or 0.5 mm beside.
+TEST(CutStage, goes_on_from_the_end_of_its_slit_in_a_plate) {
+  const auto path = [](double x, double aside, bool is_lifted) {
+    const std::string first = key(0.05, x, -6, 0) + key(0.5, x, 22, 0);
+    const std::string back =
+        is_lifted ? key(0.6, x, 22, 20) + key(0.7, x + aside, -6, 20) + key(0.75, x + aside, -6, 0)
+                  : key(0.8, x, 8, 0);
+    return facing(first + back + key(1.4, x + aside, 46, 0), "[0, 1, 0]");
+  };
+  for (const double x : {26.3, 33.1})
+    for (const auto& [aside, is_lifted] : {std::pair{0.0, false}, {0.0, true}, {0.5, true}}) {
+      std::string text = plate_text({{0, -9}});
+      text = text.substr(0, text.find("path = [\n") + 9) + path(x, aside, is_lifted) + "]\n";
+      const auto started = built(text);
+      Simulation& s = *started->s;
+      while (s.frame < 45) run_frame(s, started->outputs);
+      EXPECT_EQ(s.n_pieces, 2) << x << ' ' << aside << ' ' << is_lifted;
+      for (const CutRecord& stroke : s.cuts[0].strokes)
+        EXPECT_EQ(stroke.n_refused, 0) << x << ' ' << aside << ' ' << is_lifted;
+    }
+}
+
 // Half of its 5 mm lies above z = 0. A blade of 20 mm that hangs down farther goes through it
 // higher up.
 TEST(CutStage, cuts_a_plate_at_every_depth_of_its_tip_within_or_below_it) {
