@@ -4,42 +4,12 @@
 #include <functional>
 
 #include "engine/simulation.h"
+#include "engine_plate.h"
 #include "engine_started.h"
 #include "scene_plate.h"
 
 namespace trocar {
 namespace {
-
-std::string key(double time, double x, double y, double z) {
-  const auto mm = [](double a) { return "\"" + std::to_string(a) + " mm\""; };
-  return "{ time = " + std::to_string(time) + ", position = [" + mm(x) + ", " + mm(y) + ", " +
-         mm(z) + "], direction = [0, 0, -1] },\n";
-}
-
-// The keys in a text with a way that the edge faces.
-std::string facing(std::string text, const std::string& forward) {
-  const std::string direction = "direction = [0, 0, -1]";
-  for (std::size_t at = text.find(direction); at != std::string::npos;
-       at = text.find(direction, at + 1))
-    text.insert(at + direction.size(), ", forward = " + forward);
-  return text;
-}
-
-// A plate of 70 x 40 mm, 20 x 16 cells; the scalpel's tip goes along the points [mm] at 50 mm/s.
-std::string plate_text(const std::vector<std::pair<double, double>>& points) {
-  std::string text =
-      "[time]\nduration = 4\n[tissue]\nthickness = 0.005\n[tissue.shape]\nkind = \"rectangle\"\n"
-      "high = [0.07, 0.04, 0]\ncells = [20, 16, 1]\n[solver]\nmass_damping = 20\n"
-      "[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"x+\"\n"
-      "[[instrument]]\nkind = \"scalpel\"\nradius = 0.001\npath = [\n";
-  double time = 0.1;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto [x, y] = points[k];
-    if (k > 0) time += std::hypot(x - points[k - 1].first, y - points[k - 1].second) / 50;
-    text += key(time, x, y, 0);
-  }
-  return text + key(time + 0.1, points.back().first, points.back().second, 20) + "]\n";
-}
 
 struct Slit {
   int n_opened = 0;
@@ -196,29 +166,6 @@ TEST(CutStage, crosses_its_own_slit_in_a_plate) {
     EXPECT_EQ(s.n_pieces, 4) << x;
     for (const CutRecord& stroke : s.cuts[0].strokes) EXPECT_EQ(stroke.n_refused, 0) << x;
   }
-}
-
-// Half through the plate, and then all through it: drawn back in the slit, or lifted and put into
-// it once more, on its line or 0.5 mm beside.
-TEST(CutStage, goes_on_from_the_end_of_its_slit_in_a_plate) {
-  const auto path = [](double x, double aside, bool is_lifted) {
-    const std::string first = key(0.05, x, -6, 0) + key(0.5, x, 22, 0);
-    const std::string back =
-        is_lifted ? key(0.6, x, 22, 20) + key(0.7, x + aside, -6, 20) + key(0.75, x + aside, -6, 0)
-                  : key(0.8, x, 8, 0);
-    return facing(first + back + key(1.4, x + aside, 46, 0), "[0, 1, 0]");
-  };
-  for (const double x : {26.3, 33.1})
-    for (const auto& [aside, is_lifted] : {std::pair{0.0, false}, {0.0, true}, {0.5, true}}) {
-      std::string text = plate_text({{0, -9}});
-      text = text.substr(0, text.find("path = [\n") + 9) + path(x, aside, is_lifted) + "]\n";
-      const auto started = built(text);
-      Simulation& s = *started->s;
-      while (s.frame < 45) run_frame(s, started->outputs);
-      EXPECT_EQ(s.n_pieces, 2) << x << ' ' << aside << ' ' << is_lifted;
-      for (const CutRecord& stroke : s.cuts[0].strokes)
-        EXPECT_EQ(stroke.n_refused, 0) << x << ' ' << aside << ' ' << is_lifted;
-    }
 }
 
 // Half of its 5 mm lies above z = 0. A blade of 20 mm that hangs down farther goes through it
