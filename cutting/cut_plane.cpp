@@ -268,7 +268,9 @@ PlaneCut cut_plane(const Mesh& mesh, std::span<const Vec3> path, std::int32_t co
   const int tip = continued_tip >= 0 ? local_node(patch, continued_tip) : -1;
   const SubPath whole = make_sub_path(point);
   const ClippedPath clipped = clip_to_body(patch, whole, tip);
+  if (clipped.pieces.empty() && clipped.rest < 0 && clipped.left_out.empty()) return {};
   if (clipped.pieces.empty()) return refused_at(position(whole, 0.5 * whole.length()));
+  if (!has_room_ahead(patch, clipped.pieces.back(), options.room_ahead)) return {};
   CutPlaneOptions within = options;  // elements that lie below the floor may not sink further
   within.least_step = std::min(options.least_step, find_slowest(patch, patch.X).bound);
   const Laid laid = lay_as_possible(patch, clipped.pieces, within);

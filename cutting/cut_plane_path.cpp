@@ -80,8 +80,8 @@ const PathCrossing* first_after(const std::vector<PathCrossing>& crossings, doub
   return nullptr;
 }
 
-// Calls use(facet, distance) for all facets of the boundary but those at `except`, with their
-// distance from p.
+// Calls use(facet, way) for all facets of the boundary but those at `except`, with the shortest way
+// from p to them.
 template <class Use>
 void for_boundary(const PlanePatch& patch, const Vec2& p, int except, const Use& use) {
   for (int e = 0; e < patch.n_elements(); ++e)
@@ -91,7 +91,7 @@ void for_boundary(const PlanePatch& patch, const Vec2& p, int except, const Use&
       if (i == except || j == except) continue;
       const Vec2 &a = patch.X[i], d = patch.X[j] - a;
       const double t = std::min(1.0, std::max(0.0, (p - a).dot(d) / d.squaredNorm()));
-      use(PatchFacet{e, f}, (p - a - t * d).norm());
+      use(PatchFacet{e, f}, Vec2(a + t * d - p));
     }
 }
 
@@ -102,7 +102,8 @@ double entered_distance(const PlanePatch& patch, const Vec2& p, const Vec2& way,
   constexpr double clear = 0.1;  // sine of the angle between a facet and a way through it
   const double distance = boundary_distance(patch, p, except, entered);
   double least = distance + same_crossing * patch.h;
-  for_boundary(patch, p, except, [&](const PatchFacet& facet, double d) {
+  for_boundary(patch, p, except, [&](const PatchFacet& facet, const Vec2& way_to) {
+    const double d = way_to.norm();
     const std::array<int, 3>& corner = patch.corner[facet.element];
     const Vec2 along =
         patch.X[corner[(facet.facet + 2) % 3]] - patch.X[corner[(facet.facet + 1) % 3]];
@@ -120,9 +121,10 @@ PathCrossing find_start(const PlanePatch& patch, const SubPath& path, int tip,
   PathCrossing start{0, {}};
   const double distance = entered_distance(patch, path.point[0], tangent(path, 0), -1, start.facet);
   const double ahead = std::min(2 * on_boundary * patch.h, 0.5 * path.length());
-  if (distance < on_boundary * patch.h && is_inside(patch, position(path, ahead))) return start;
-  if (is_inside(patch, path.point[0])) return {0, {}};
-  const PathCrossing* enter = first_after(crossings.enter, -1);
+  const bool is_on_boundary = distance < on_boundary * patch.h;
+  if (is_on_boundary && is_inside(patch, position(path, ahead))) return start;
+  if (!is_on_boundary && is_inside(patch, path.point[0])) return {0, {}};
+  const PathCrossing* enter = first_after(crossings.enter, is_on_boundary ? ahead : -1);
   return enter != nullptr ? *enter : PathCrossing{-1, {}};
 }
 
@@ -287,12 +289,25 @@ void draw_back_ends(const PlanePatch& patch, SubPath& path) {
 
 double boundary_distance(const PlanePatch& patch, const Vec2& p, int except, PatchFacet& nearest) {
   double least = std::numeric_limits<double>::max();
-  for_boundary(patch, p, except, [&](const PatchFacet& facet, double distance) {
+  for_boundary(patch, p, except, [&](const PatchFacet& facet, const Vec2& way) {
+    const double distance = way.norm();
     if (distance >= least) return;
     least = distance;
     nearest = facet;
   });
   return least;
+}
+
+bool has_room_ahead(const PlanePatch& patch, const SubPath& path, double room) {
+  constexpr double ahead = 0.5;  // cosine
+  if (path.end_on.element >= 0) return true;
+  const Vec2 tangent_at_end = tangent(path, path.length());
+  bool has_room = true;
+  for_boundary(patch, path.point.back(), path.tip, [&](const PatchFacet&, const Vec2& way) {
+    const double distance = way.norm();
+    if (distance < room * patch.h && tangent_at_end.dot(way) > ahead * distance) has_room = false;
+  });
+  return has_room;
 }
 
 ClippedPath clip_to_body(const PlanePatch& patch, const SubPath& path, int tip) {

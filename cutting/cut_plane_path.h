@@ -39,6 +39,8 @@ struct ClippedPath {
   std::vector<double> left_out;  // middles of other ones that the cut would have to part
 };
 ClippedPath clip_to_body(const PlanePatch& patch, const SubPath& path, int tip);
+// Whether no boundary lies ahead of its end, if that is inside, nearer than `room` (in h).
+bool has_room_ahead(const PlanePatch& patch, const SubPath& path, double room);
 
 // Leaves out where the paths run through elements with n_corners or more that are held, and half a
 // mean edge around: with three, none could be displaced onto the cut. Returns the middles of the

@@ -6,8 +6,8 @@
 #include "base/box.h"
 #include "base/error.h"
 #include "base/sort_unique.h"
-#include "cutting/cut_plane_reaches.h"
 #include "engine/apply_cut.h"
+#include "engine/cut_along_tip.h"
 #include "engine/cut_look.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
@@ -19,10 +19,6 @@
 namespace trocar {
 
 namespace {
-
-constexpr double least_way = 1e-9;  // of a blade within a frame, else it rests [m]
-constexpr double plane_advance =
-    3.0;  // mean edge lengths of the path that the paper's algorithm takes at a time
 
 // Where the tissue has been within the frame, and how far it has come at most.
 struct FrameTissue {
@@ -71,6 +67,8 @@ void add_figures(const CutFigures& figures, bool has_edit, CutRecord& record) {
   record.mean_edge = figures.mean_edge;
 }
 
+}  // namespace
+
 void note_edit(Simulation& s, const MeshEdit& edit, const CutFigures& figures, CutRecord& record) {
   add_figures(figures, !edit.is_empty(), record);
   if (edit.is_empty()) return;
@@ -84,69 +82,12 @@ void note_edit(Simulation& s, const MeshEdit& edit, const CutFigures& figures, C
   record.n_elements_dissolved += std::max<std::int64_t>(-difference, 0);
 }
 
+namespace {
+
 BladeSweep sweep_of(const Simulation& s, const Tool& tool, const FrameSpan& span) {
   return {.before = edge_in_body(s, tool, span.t0),
           .after = edge_in_body(s, tool, span.t1),
           .normal = tool.path.at(0.5 * (span.t0 + span.t1)).rotation * Vec3::UnitY()};
-}
-
-// In reference positions; a tip that has left the plane ends its path.
-void take_up_tip(const Simulation& s, const BladeSweep& sweep, CutStage& stage) {
-  std::vector<Vec3>& path = stage.plane_path;
-  if (path.empty()) {
-    const Location start = locate_nearest(s.mesh, s.cut_state.x, first_tip(sweep));
-    path.push_back(interpolate(s.mesh, start, s.mesh.X));
-  }
-  if (sweep.after.front().z() != 0) return;
-  const Location place = locate_nearest(s.mesh, s.cut_state.x, sweep.after.front());
-  const Vec3 point = interpolate(s.mesh, place, s.mesh.X);
-  if ((point - path.back()).norm() > least_way) path.push_back(point);
-}
-
-double length_of(const std::vector<Vec3>& path) {
-  double length = 0;
-  for (std::size_t k = 1; k < path.size(); ++k) length += (path[k] - path[k - 1]).norm();
-  return length;
-}
-
-// Along stage.plane_path, which then begins anew at the tip, or where its rest does. One that may
-// grow is tried again where it is refused.
-void cut_reach(Simulation& s, CutStage& stage, bool may_grow, double h) {
-  std::vector<Vec3>& path = stage.plane_path;
-  const std::vector<std::uint8_t> is_held = held_nodes(s.holds, s.fixed);
-  const PlaneCut cut =
-      cut_plane(s.mesh, path, stage.plane_tip, {is_held, s.loads.border}, stage.plane);
-  if (cut.edit.is_empty() && may_grow) return;
-  note_edit(s, cut.edit, cut.figures, stage.strokes.back());
-  if (!cut.rest.empty()) {
-    stage.plane_tip = cut.tip;
-    path = cut.rest;
-    return;
-  }
-  // A cut that ends before its path does, at nodes that are held, is not continued.
-  const auto X = [&](std::int32_t node) { return s.mesh.X[static_cast<std::size_t>(node)]; };
-  const bool is_continued = cut.tip >= 0 && (X(cut.tip) - path.back()).norm() < h;
-  stage.plane_tip = is_continued ? cut.tip : -1;
-  path = {is_continued ? X(cut.tip) : path.back()};
-}
-
-// Cuts the tip's path reach by reach, each once it is long enough or the next one begins. Legs
-// shorter than half an edge are left out: the next reach begins where they did.
-void cut_along_tip(Simulation& s, CutStage& stage, const BladeSweep& sweep, bool is_last) {
-  take_up_tip(s, sweep, stage);
-  const double h = mean_edge_length(s.mesh);
-  std::vector<std::vector<Vec3>> parts = reaches(stage.plane_path);
-  for (std::vector<Vec3>& part : parts) {
-    const bool may_grow = !is_last && &part == &parts.back();
-    part.front() = stage.plane_path.front();
-    const double length = length_of(part);
-    if (length >= (may_grow ? plane_advance : 0.5) * h) {
-      stage.plane_path = part;
-      cut_reach(s, stage, may_grow, h);
-    } else if (may_grow) {
-      stage.plane_path = part;
-    }
-  }
 }
 
 void end_stroke(CutStage& stage) {

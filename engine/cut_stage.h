@@ -72,6 +72,9 @@ struct CutStage : CutProgress {
 // Cuts along all blades' motion in the frame and applies the edits. Collective.
 void cut_along_blades(Simulation& s, const FrameSpan& span);
 
+// Applies an edit and puts it into the stroke's ledger. Collective.
+void note_edit(Simulation& s, const MeshEdit& edit, const CutFigures& figures, CutRecord& record);
+
 // All cutters' looks at the whole mesh, one each: from here on they follow its edits.
 void prepare_cutters(Simulation& s);
 

@@ -157,17 +157,30 @@ void note_refusals(Simulation& s, const CutRecord& record) {
 
 // Why a blade that was in the tissue has parted nothing.
 static std::string why_nothing(const Simulation& s, const CutStage& stage) {
-  constexpr double enough = 2;  // elements in the depth of a cut
-  double deepest = 0;
-  for (const CutRecord& stroke : stage.strokes) deepest = std::max(deepest, stroke.deepest);
-  if (s.mesh.dimension() == 2 || deepest >= enough * s.edge_length)
-    return "its strokes in the summary say where it was";
-  return "no more than " + short_text(1e3 * deepest) +
-         " mm of its edge was in the tissue, whose elements have edges of " +
-         short_text(1e3 * s.edge_length) +
-         " mm, and a cut that ends inside needs two or three of them in its depth: a finer mesh, "
-         "or let the blade go through" +
-         (s.scene.cutting.resistance > 0 ? " (resistance is felt all the same)" : "");
+  constexpr double enough = 2;        // elements in the depth of a cut
+  constexpr double far_enough = 1.5;  // elements that a cut may be behind its blade
+  double deepest = 0, way = 0;
+  bool is_told = false;  // by note_refusals
+  for (const CutRecord& stroke : stage.strokes) {
+    deepest = std::max(deepest, stroke.deepest);
+    way = std::max(way, stroke.blade_travel);
+    is_told |= !stroke.refusals.empty();
+  }
+  const std::string elements =
+      ", whose elements have edges of " + short_text(1e3 * s.edge_length) + " mm, and ";
+  if (s.mesh.dimension() == 3 && deepest < enough * s.edge_length)
+    return "no more than " + short_text(1e3 * deepest) + " mm of its edge was in the tissue" +
+           elements +
+           "a cut that ends inside needs two or three of them in its depth: a finer mesh, or let "
+           "the blade go through" +
+           (s.scene.cutting.resistance > 0 ? " (resistance is felt all the same)" : "");
+  if (is_told) return "its strokes in the summary say where tissue stays joined";
+  if (way < far_enough * s.edge_length)
+    return "it went no farther than " + short_text(1e3 * way) + " mm in the tissue" + elements +
+           "a cut follows its blade half of one to one and a half behind";
+  return "it went " + short_text(1e3 * way) +
+         " mm through the tissue, but along its edge, as one that stabs, or so near to a surface, "
+         "a support or an older cut that the slice is thinner than the mesh can show";
 }
 
 static void note_idle_blades(Simulation& s) {

@@ -57,6 +57,27 @@ TEST(CutPlanePath, path_that_leaves_and_enters_again_cuts_both_parts) {
   EXPECT_EQ(n_pieces(after), 1);
 }
 
+// A path that goes on outside of the body from where a cut has opened its outline: nothing is left
+// joined there. And one that may grow waits where a boundary lies less than 1.5 h ahead of it.
+TEST(CutPlanePath, cuts_and_refuses_nothing_beyond_the_outline_nor_near_before_it) {
+  const Mesh mesh = paper_mesh(2);
+  for (const double start : {39.99, 40.0, 40.01}) {
+    const PlaneCut beyond = cut(mesh, {{30 * mm, start * mm, 0}, {31 * mm, 52 * mm, 0}});
+    EXPECT_TRUE(beyond.edit.is_empty()) << start;
+    EXPECT_EQ(beyond.figures.n_refused, 0) << start;
+  }
+  const std::vector<std::uint8_t> is_held(mesh.X.size(), 0);
+  CutPlaneOptions growing;
+  growing.room_ahead = 1.5;
+  const auto is_cut = [&](double end) {
+    const std::vector<Vec3> path = {{30 * mm, 12 * mm, 0}, {31 * mm, end * mm, 0}};
+    return !cut_plane(mesh, path, -1, is_held, growing).edit.is_empty();
+  };
+  EXPECT_TRUE(is_cut(30));   // 3 h before it
+  EXPECT_FALSE(is_cut(37));  // 0.9 h
+  EXPECT_TRUE(is_cut(41));   // through it
+}
+
 // A leg that ends up to a quarter of an edge behind a slit, then the next one.
 TEST(CutPlanePath, end_close_behind_an_older_cut_is_cut_with_what_follows) {
   const Vec3 left(-1 * mm, 20 * mm, 0), right(80 * mm, 21 * mm, 0);

@@ -4,42 +4,12 @@
 #include <functional>
 
 #include "engine/simulation.h"
+#include "engine_plate.h"
 #include "engine_started.h"
 #include "scene_plate.h"
 
 namespace trocar {
 namespace {
-
-std::string key(double time, double x, double y, double z) {
-  const auto mm = [](double a) { return "\"" + std::to_string(a) + " mm\""; };
-  return "{ time = " + std::to_string(time) + ", position = [" + mm(x) + ", " + mm(y) + ", " +
-         mm(z) + "], direction = [0, 0, -1] },\n";
-}
-
-// The keys in a text with a way that the edge faces.
-std::string facing(std::string text, const std::string& forward) {
-  const std::string direction = "direction = [0, 0, -1]";
-  for (std::size_t at = text.find(direction); at != std::string::npos;
-       at = text.find(direction, at + 1))
-    text.insert(at + direction.size(), ", forward = " + forward);
-  return text;
-}
-
-// A plate of 70 x 40 mm, 20 x 16 cells; the scalpel's tip goes along the points [mm] at 50 mm/s.
-std::string plate_text(const std::vector<std::pair<double, double>>& points) {
-  std::string text =
-      "[time]\nduration = 4\n[tissue]\nthickness = 0.005\n[tissue.shape]\nkind = \"rectangle\"\n"
-      "high = [0.07, 0.04, 0]\ncells = [20, 16, 1]\n[solver]\nmass_damping = 20\n"
-      "[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"x+\"\n"
-      "[[instrument]]\nkind = \"scalpel\"\nradius = 0.001\npath = [\n";
-  double time = 0.1;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto [x, y] = points[k];
-    if (k > 0) time += std::hypot(x - points[k - 1].first, y - points[k - 1].second) / 50;
-    text += key(time, x, y, 0);
-  }
-  return text + key(time + 0.1, points.back().first, points.back().second, 20) + "]\n";
-}
 
 struct Slit {
   int n_opened = 0;

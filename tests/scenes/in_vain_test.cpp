@@ -144,7 +144,7 @@ TEST(InVain, intervals_and_files_of_an_earlier_run_are_told) {
   const std::string again = told(metrics + "0.03\n", folder).run.err;
   EXPECT_TRUE(has(again,
                   "output[0].every = 0.03 s is no whole number of frames of 50 Hz: it is "
-                  "taken as 0.04 s"))
+                  "taken as 2 of them, 0.04 s"))
       << again;
   EXPECT_TRUE(has(again, "has files of an earlier run")) << again;
   EXPECT_TRUE(

@@ -1,0 +1,130 @@
+#include "cutting/cut_plane_slit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cutting/cut_plane_path.h"
+#include "mesh/facets.h"
+
+namespace trocar {
+
+namespace {
+
+constexpr double beside = 0.3;       // h
+constexpr double spacing = 0.1;      // h, between two looks at the path
+constexpr double along_lip = 0.966;  // cosine of the path to a lip that it runs along: 15 degrees
+constexpr double at_tip = 0.45;      // h, of a path that leaves the slit there
+
+// A facet that a cut has opened, the tissue to its left.
+struct Lip {
+  std::array<std::int32_t, 2> node;
+  Vec2 from, along;
+
+  Vec2 foot(const Vec2& p) const {
+    const double t = (p - from).dot(along) / along.squaredNorm();
+    return from + std::clamp(t, 0.0, 1.0) * along;
+  }
+  bool is_beside(const Vec2& p) const {
+    constexpr double slack = 0.05;  // over the lip's length: an end may have slid along a surface
+    const double t = (p - from).dot(along) / along.squaredNorm();
+    return t >= -slack && t <= 1 + slack;
+  }
+};
+
+std::vector<Lip> find_lips(const Mesh& mesh) {
+  std::vector<Lip> lips;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    for (int f = 0; f < 3; ++f) {
+      if ((mesh.cut_facets[e] >> f & 1) == 0) continue;
+      const std::array<int, 4> corner = facet_corners(ElementType::tri3, f);
+      const std::int32_t a = mesh.corners(e)[corner[0]], b = mesh.corners(e)[corner[1]];
+      lips.push_back({{a, b}, mesh.X[a].head<2>(), (mesh.X[b] - mesh.X[a]).head<2>()});
+    }
+  return lips;
+}
+
+bool is_in_slit(std::span<const Lip> lips, const Vec2& p, const Vec2& way, double h) {
+  return std::ranges::any_of(lips, [&](const Lip& lip) {
+    return std::abs(lip.along.dot(way)) >= along_lip * lip.along.norm() && lip.is_beside(p) &&
+           (p - lip.foot(p)).norm() <= beside * h;
+  });
+}
+
+bool is_in_body(const Mesh& mesh, const Vec2& p) {
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    const auto X = [&](int a) -> Vec2 { return mesh.X[mesh.corners(e)[a]].head<2>(); };
+    const double least = -1e-6 * triangle_area(X(0), X(1), X(2));
+    if (triangle_area(X(0), X(1), p) >= least && triangle_area(X(1), X(2), p) >= least &&
+        triangle_area(X(2), X(0), p) >= least)
+      return true;
+  }
+  return false;
+}
+
+// Arc length up to which the path runs in the slit; it may come to its mouth from outside.
+double length_in_slit(const Mesh& mesh, std::span<const Lip> lips, const SubPath& path, double h) {
+  double in_slit = 0;
+  bool has_met = false;
+  for (int k = 0; (k - 1) * spacing * h < path.length(); ++k) {
+    const double s = std::min(k * spacing * h, path.length());
+    const Vec2 p = position(path, s);
+    if (is_in_slit(lips, p, tangent(path, s), h)) {
+      has_met = true;
+      in_slit = s;
+    } else if (has_met || is_in_body(mesh, p)) {
+      break;
+    }
+  }
+  return in_slit;
+}
+
+// Two lips meet there, with no tissue between them.
+bool meet_at_tip(const Lip& to, const Lip& from) {
+  constexpr double back = -0.9, rounding = 1e-6;
+  const double lengths = to.along.norm() * from.along.norm();
+  return to.node[1] == from.node[0] && to.along.dot(from.along) < back * lengths &&
+         cross(to.along, from.along) <= rounding * lengths;
+}
+
+// The slit's tip at p; -1: none.
+std::int32_t find_tip(const Mesh& mesh, std::span<const Lip> lips, const Vec2& p, double h) {
+  std::int32_t nearest = -1;
+  double least = at_tip * h;
+  for (const Lip& lip : lips) {
+    const double distance = (mesh.X[lip.node[1]].head<2>() - p).norm();
+    if (distance >= least ||
+        std::ranges::none_of(lips, [&](const Lip& other) { return meet_at_tip(lip, other); }))
+      continue;
+    least = distance;
+    nearest = lip.node[1];
+  }
+  return nearest;
+}
+
+Vec2 nearest_on_lips(std::span<const Lip> lips, const Vec2& p) {
+  const auto nearest = std::ranges::min_element(
+      lips, {}, [&](const Lip& lip) { return (p - lip.foot(p)).squaredNorm(); });
+  return nearest->foot(p);
+}
+
+}  // namespace
+
+PathFromSlit past_slit(const Mesh& mesh, std::span<const Vec3> path, std::int32_t tip, double h) {
+  const PathFromSlit as_it_is{{path.begin(), path.end()}, tip};
+  const std::vector<Lip> lips = find_lips(mesh);
+  if (lips.empty() || path.size() < 2) return as_it_is;
+  std::vector<Vec2> point;
+  for (const Vec3& X : path) point.emplace_back(X.head<2>());
+  const SubPath whole = make_sub_path(std::move(point));
+  const double s = length_in_slit(mesh, lips, whole, h);
+  const Vec2 end = position(whole, s);
+  const std::int32_t at = s < whole.length() ? find_tip(mesh, lips, end, h) : -1;
+  if (s == 0 && (at < 0 || tip >= 0)) return as_it_is;
+  const Vec2 start = at >= 0 ? Vec2(mesh.X[at].head<2>()) : nearest_on_lips(lips, end);
+  PathFromSlit rest{{Vec3(start.x(), start.y(), path.front().z())}, at};
+  for (std::size_t k = 0; k < path.size(); ++k)
+    if (whole.s[k] > s) rest.point.push_back(path[k]);
+  return rest;
+}
+
+}  // namespace trocar

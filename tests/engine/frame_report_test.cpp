@@ -1,0 +1,37 @@
+#include "engine/frame_report.h"
+
+#include "engine/simulation.h"
+#include "engine_started.h"
+
+namespace trocar {
+namespace {
+
+// The last event of a scene in which a blade of 50 mm that points to -y goes from one place to the
+// other, in a block of 20 mm that is supported below, with cells of 5 mm.
+std::string told_of_blade(const std::string& from, const std::string& to) {
+  const std::string pose = "], direction = [0, -1, 0] }";
+  const auto started = built(
+      "[time]\nduration = 0.1\nframe_rate = 50\n[tissue.shape]\nkind = \"box\"\nhigh = "
+      "[0.02, 0.02, 0.02]\ncells = [4, 4, 4]\n[[support]]\nregion = \"z-\"\n"
+      "[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.05\npath = [{ time = 0, "
+      "position = [" +
+      from + pose + ", { time = 0.05, position = [" + to + pose + "]\n");
+  Simulation& s = *started->s;
+  while (s.frame < 5) run_frame(s, started->outputs);
+  note_idle_tools(s);
+  return s.log.events.empty() ? "" : s.log.events.back();
+}
+
+TEST(IdleTools, that_were_deep_in_the_tissue_are_told_with_the_reason) {
+  const std::string beside_support = told_of_blade("-0.01, -0.02, 0.001", "0.03, -0.02, 0.001");
+  EXPECT_TRUE(contains(beside_support, "so near to a surface, a support or an older cut"))
+      << beside_support;
+  const std::string stab = told_of_blade("0.01, 0.03, 0.008", "0.01, -0.01, 0.008");
+  EXPECT_TRUE(contains(stab, "but along its edge, as one that stabs")) << stab;
+  const std::string half_in = told_of_blade("-0.005, -0.02, 0.008", "0.003, -0.02, 0.008");
+  EXPECT_TRUE(contains(half_in, "scalpel has cut nothing: it went no farther than ")) << half_in;
+  EXPECT_TRUE(contains(half_in, "a cut follows its blade half of one")) << half_in;
+}
+
+}  // namespace
+}  // namespace trocar
