@@ -177,7 +177,7 @@ static std::string why_nothing(const Simulation& s, const CutStage& stage) {
   if (is_told) return "its strokes in the summary say where tissue stays joined";
   if (way < far_enough * s.edge_length)
     return "it went no farther than " + short_text(1e3 * way) + " mm in the tissue" + elements +
-           "a cut follows its blade half of one to one and a half behind";
+           "a cut stays half an edge to one and a half behind its blade";
   return "it went " + short_text(1e3 * way) +
          " mm through the tissue, but along its edge, as one that stabs, or so near to a surface, "
          "a support or an older cut that the slice is thinner than the mesh can show";

@@ -30,7 +30,7 @@ TEST(IdleTools, that_were_deep_in_the_tissue_are_told_with_the_reason) {
   EXPECT_TRUE(contains(stab, "but along its edge, as one that stabs")) << stab;
   const std::string half_in = told_of_blade("-0.005, -0.02, 0.008", "0.003, -0.02, 0.008");
   EXPECT_TRUE(contains(half_in, "scalpel has cut nothing: it went no farther than ")) << half_in;
-  EXPECT_TRUE(contains(half_in, "a cut follows its blade half of one")) << half_in;
+  EXPECT_TRUE(contains(half_in, "a cut stays half an edge to one and a half behind")) << half_in;
 }
 
 }  // namespace
