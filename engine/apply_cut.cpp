@@ -149,7 +149,7 @@ void inherit_by_new_nodes(Simulation& s, const MeshEdit& edit, std::int32_t n_be
 }
 
 // Hexahedra that became tetrahedra take longer: beyond this, owners are chosen anew. Choosing takes
-// as long as 40 to 70 steps. It pays after 300 to 640 steps at an imbalance of 1.16, at 1.05 after
+// as long as 30 to 70 steps. It pays after 300 to 640 steps at an imbalance of 1.16, at 1.05 after
 // 740 and more, or never (docs/scaling.md).
 constexpr double tolerated_imbalance = 1.1;
 
