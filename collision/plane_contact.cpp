@@ -96,13 +96,14 @@ SegmentPair closest(const PlaneSection& section, const Segment& edge) {
   return best;
 }
 
-// Behind an edge; is_across: where a side of a polygon that lies across it leaves its strip.
+// A core point behind an edge. is_across: it lies in the middle of a side of a polygon, where that
+// leaves the edge's strip, and the side does not face the edge.
 struct Behind {
   Vec3 core;
   bool is_across = false;
 };
 
-// normal: of a side.
+// Whether a side of a polygon with this normal does not face an edge of normal n.
 bool lies_across(const PlaneSection& section, const Vec3& normal, const Vec3& n) {
   constexpr double facing = 0.5;  // cosine
   return section.points.size() > 2 && -n.dot(normal) < facing;
@@ -196,7 +197,8 @@ std::optional<Touch> touch_edge(const PlaneSection& section, const Segment& edge
   std::optional<Behind> deepest;
   if (is_crossing || n.dot(pair.second - pair.first) > 0)
     deepest = deepest_behind(section, edge, n);
-  // An end of it lies on that side, as a corner of tissue does on a plate.
+  // The edge only ends at that side, as one of tissue beside a plate does: the edges that the plate
+  // lies on have the contact.
   if (deepest && deepest->is_across) return std::nullopt;
   if (is_crossing && !deepest && std::min(pair.t, 1 - pair.t) < at_end &&
       lies_across(section, signed_distance(section, pair.second).normal, n))

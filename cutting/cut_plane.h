@@ -30,8 +30,9 @@ struct CutPlaneOptions {
   int rings = 3;            // vicinity that is homogenised
   double least_step = 0;    // floor under the step bounds of elements [m], see least_step_bound:
                             // what would sink below, or further, is not cut. 0: none
-  double room_ahead = 0;    // h: nearer ahead of a boundary no path is cut, as what is left of it
-                            // then has no room. For paths that may grow; 0: all are cut
+  double room_ahead = 0;    // h: a path that ends inside, nearer than this before a boundary, is
+                            // not cut, as what is left would have no room. For paths that may
+                            // grow; 0: all are cut
   bool operator==(const CutPlaneOptions&) const = default;
 };
 // As published: homogenised until the threshold, without flips for quality.

@@ -10,7 +10,7 @@ namespace trocar {
 
 namespace {
 
-constexpr double beside = 0.3;       // h
+constexpr double beside = 0.3;       // h, off a lip, of a path that runs in the slit
 constexpr double spacing = 0.1;      // h, between two looks at the path
 constexpr double along_lip = 0.966;  // cosine of the path to a lip that it runs along: 15 degrees
 constexpr double at_tip = 0.45;      // h, of a path that leaves the slit there
@@ -78,7 +78,8 @@ double length_in_slit(const Mesh& mesh, std::span<const Lip> lips, const SubPath
   return in_slit;
 }
 
-// Two lips meet there, with no tissue between them.
+// Whether the second lip begins where the first ends and leads back along it, with no tissue
+// between them: there is the slit's tip.
 bool meet_at_tip(const Lip& to, const Lip& from) {
   constexpr double back = -0.9, rounding = 1e-6;
   const double lengths = to.along.norm() * from.along.norm();

@@ -11,9 +11,9 @@ namespace trocar {
 namespace {
 
 constexpr double least_way = 1e-9;  // of a blade within a frame, else it rests [m]
-constexpr double plane_advance =
-    3.0;  // mean edge lengths of the path that the paper's algorithm takes at a time
-constexpr double plane_room = 1.5;  // as long: before a boundary a path waits to grow through it
+// In mean edge lengths: what the paper's algorithm takes of a path at a time, and how near before a
+// boundary a path that may grow waits until it goes through.
+constexpr double plane_advance = 3.0, plane_room = 1.5;
 
 // In reference positions; a tip that has left the plane ends its path.
 void take_up_tip(const Simulation& s, const BladeSweep& sweep, CutStage& stage) {
@@ -35,7 +35,8 @@ double length_of(const std::vector<Vec3>& path) {
 }
 
 // Along stage.plane_path, which then begins anew at the tip, or where its rest does. One that may
-// grow is tried again where it is refused.
+// grow is tried again where it is refused, and waits before a boundary until it is twice as long as
+// it has to be.
 void cut_reach(Simulation& s, CutStage& stage, bool may_grow, double h) {
   std::vector<Vec3>& path = stage.plane_path;
   const std::vector<std::uint8_t> is_held = held_nodes(s.holds, s.fixed);

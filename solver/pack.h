@@ -124,7 +124,8 @@ template <class Pack>
   __builtin_memcpy(to, &x, sizeof x);
 }
 
-// x in every lane. (What is added to zero is computed, since 0 + -0 is 0.)
+// x in every lane. Zero is taken away, not added: x - 0 is x and costs nothing, but 0 + -0 is 0, so
+// that sum would be computed.
 template <class Pack>
 [[gnu::always_inline]] inline Pack splat(RealOf<Pack> x) {
   return x - Pack{};
