@@ -11,8 +11,6 @@
 #include "engine/cut_look.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
-#include "engine/mesh_measures.h"
-#include "engine/plane_tip.h"
 #include "engine/simulation.h"
 #include "engine/tissue_way.h"
 
