@@ -219,7 +219,9 @@ SignedDistance signed_distance(const PlaneSection& section, const Vec3& x) {
   if (section.points.size() < 3) {
     const Vec3 core = closest_points_segments({x, x}, side(section, 0)).second;
     const Vec3 out = x - in_plane(core);
-    return {.normal = out.stableNormalized(), .gap = out.norm() - circle_radius(section, core)};
+    const double radius = circle_radius(section, core);
+    if (radius < 0) return {.gap = std::numeric_limits<double>::infinity()};
+    return {.normal = out.stableNormalized(), .gap = out.norm() - radius};
   }
   SignedDistance farthest{.gap = -std::numeric_limits<double>::infinity()};
   for (std::size_t k = 0; k < n_sides(section); ++k) {

@@ -101,6 +101,7 @@ void cut_along_tip(Simulation& s, CutStage& stage, const BladeSweep& sweep, bool
     }
     if (in_slit.empty()) continue;
     stage.plane_path = in_slit;
+    if (&part != &parts.back()) stage.plane_path = {in_slit.back()};
     stage.plane_tip = -1;
   }
 }

@@ -178,6 +178,9 @@ static std::string why_nothing(const Simulation& s, const CutStage& stage) {
   if (way < far_enough * s.edge_length)
     return "it went no farther than " + short_text(1e3 * way) + " mm in the tissue" + elements +
            "a cut stays half an edge to one and a half behind its blade";
+  if (s.mesh.dimension() == 2)
+    return "it went " + short_text(1e3 * way) +
+           " mm through the tissue, but where it was parted already, or along its boundary";
   return "it went " + short_text(1e3 * way) +
          " mm through the tissue, but along its edge, as one that stabs, or so near to a surface, "
          "a support or an older cut that the slice is thinner than the mesh can show";

@@ -166,6 +166,10 @@ TEST(Touch, of_a_plate_does_not_push_tissue_aside_that_ends_at_it) {
       const auto found = touch(plate, {top, low, top + along}, 4e-3);
       EXPECT_TRUE(!found || found->normal.z() < -0.5) << depth;
     }
+    const auto above =
+        touch(plate, {Vec3(0, 0, depth), Vec3(0.01, 0, depth), Vec3(0, 0.01, depth)}, 4e-3);
+    ASSERT_TRUE(above) << depth;
+    EXPECT_LT(above->normal.z(), -0.5) << depth;
   }
 }
 

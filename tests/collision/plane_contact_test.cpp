@@ -109,6 +109,10 @@ TEST(TouchEdge, of_a_box_does_not_push_tissue_aside_that_ends_at_it) {
       const auto found = touch_edge(section_of(box), {low, top}, 4e-3);
       EXPECT_TRUE(!found || found->normal.y() < -0.5) << depth;
     }
+    const auto above =
+        touch_edge(section_of(box), {Vec3(0.01, depth, 0), Vec3(-0.01, depth, 0)}, 4e-3);
+    ASSERT_TRUE(above) << depth;
+    EXPECT_LT(above->normal.y(), -0.5) << depth;
   }
 }
 
