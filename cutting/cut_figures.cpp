@@ -12,7 +12,12 @@ const char* reason_of(const CutRefusal& refusal) {
       "a hexahedron there is bent too much to become tetrahedra",
       "the stable step of elements there would fall below the floor",
       "nodes there are held",
-      "too few nodes are there for valid elements"};
+      "too few nodes are there for valid elements",
+      "a slice thinner than some third of an element stays with nodes of a support or a grasp, "
+      "which can't go to the blade: finer elements there, or a path farther from them",
+      "a slice thinner than some third of an element stays with nodes of the outer surface or of "
+      "an older cut, which can't go to the blade: finer elements there, another path, or "
+      "cutting.split_step_ratio where the tissue is one element thick"};
   return text[static_cast<std::size_t>(refusal.reason)];
 }
 

@@ -13,15 +13,19 @@ struct CutRefusal {
   enum Reason : std::int32_t {  // as checkpoints have them: new ones go to the end
     pinched,                    // a facet: the outer surface would be no 2-manifold
     chip,                       // elements below half a mean edge cubed stay with the other side
-    missed,   // an element, facet or edge on the blade's path that holds both sides together
-    bent,     // a facet at a hexahedron that is bent too much to become tetrahedra
-    slow,     // plane cuts: elements there would have a stable step below the floor …
-    held,     // … would need nodes that must not be displaced …
-    no_room,  // … or too few nodes are there for valid ones
+    missed,      // an element, facet or edge on the blade's path that holds both sides together
+    bent,        // a facet at a hexahedron that is bent too much to become tetrahedra
+    slow,        // plane cuts: elements there would have a stable step below the floor …
+    held,        // … would need nodes that must not be displaced …
+    no_room,     // … or too few nodes are there for valid ones
+    slice_held,  // a stretch thinner than the mesh can show stays with held nodes …
+    slice,       // … or with others of the outer surface or of a lip, which slide in that alone
     n_reasons
   };
-  Vec3 X = Vec3::Zero();  // its centre, or that of the stretch, reference configuration [m]
+  Vec3 X = Vec3::Zero();  // its centre, that of the stretch, or where the blade crossed the first
+                          // element of a slice, reference configuration [m]
   std::int32_t reason = pinched;
+  double area = 0;  // of the outer surface along a slice; else 0 [m^2]
 };
 
 // As the ledger says it.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cutting/cut_missed_slice.h"
 #include "cutting/cut_slice.h"
 
 namespace trocar {
@@ -126,6 +127,8 @@ std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut,
   add_unparted(cut, stroke, places);
   add_joined_facets(after, stroke, places);
   add_rims(after, stroke, places);
+  const std::vector<CutRefusal> slices = missed_slices(mesh, cut.around, stroke);
+  places.insert(places.end(), slices.begin(), slices.end());
   return places;
 }
 

@@ -11,7 +11,8 @@ namespace trocar {
 
 // At the end of a stroke that has gone through, which remembers `cut`, its last edit of `mesh`
 // (not applied yet): elements that the blade crossed and that got no side, facets between two
-// sides that are not open, and edges where both lips of an opened facet hang together.
+// sides that are not open, edges where both lips of an opened facet hang together, and slices too
+// thin to show.
 std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut, const CutStroke& stroke);
 
 }  // namespace trocar

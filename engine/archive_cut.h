@@ -37,7 +37,7 @@ void visit(Archive& a, CutStroke& s) {
 }
 template <class Archive>
 void visit(Archive& a, CutRefusal& r) {
-  a(r.X, r.reason);
+  a(r.X, r.reason, r.area);
 }
 template <class Archive>
 void visit(Archive& a, CutFigures& f) {

@@ -151,8 +151,9 @@ void note_refusals(Simulation& s, const CutRecord& record) {
   note_event(s, record.end,
              record.tool + " leaves tissue joined in " +
                  (is_one ? "one place" : std::to_string(record.n_refused) + " places, the first") +
-                 " at " + point_text(first.X) + " m of the undeformed body: " + reason_of(first) +
-                 (is_one ? "" : " (all: `refusals` in the summary)"));
+                 " at " + point_text(first.X) + " m of the undeformed body" +
+                 (first.area > 0 ? ", " + short_text(1e4 * first.area) + " cm^2" : "") + ": " +
+                 reason_of(first) + (is_one ? "" : " (all: `refusals` in the summary)"));
 }
 
 // Why a blade that was in the tissue has parted nothing.

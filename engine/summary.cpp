@@ -45,8 +45,10 @@ Json mesh_json(const Simulation& s) {
 
 Json refusals_json(const CutRecord& c) {
   Json list = Json::array();
-  for (const CutRefusal& r : c.refusals)
+  for (const CutRefusal& r : c.refusals) {
     list.push_back({{"X_m", {r.X.x(), r.X.y(), r.X.z()}}, {"reason", reason_of(r)}});
+    if (r.area > 0) list.back()["area_m2"] = r.area;
+  }
   return list;
 }
 

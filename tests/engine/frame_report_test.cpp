@@ -6,9 +6,9 @@
 namespace trocar {
 namespace {
 
-// The last event of a scene in which a blade of 50 mm that points to -y goes from one place to the
+// The events of a scene in which a blade of 50 mm that points to -y goes from one place to the
 // other, in a block of 20 mm that is supported below, with cells of 5 mm.
-std::string told_of_blade(const std::string& from, const std::string& to) {
+std::vector<std::string> events_of_blade(const std::string& from, const std::string& to) {
   const std::string pose = "], direction = [0, -1, 0] }";
   const auto started = built(
       "[time]\nduration = 0.1\nframe_rate = 50\n[tissue.shape]\nkind = \"box\"\nhigh = "
@@ -19,11 +19,29 @@ std::string told_of_blade(const std::string& from, const std::string& to) {
   Simulation& s = *started->s;
   while (s.frame < 5) run_frame(s, started->outputs);
   note_idle_tools(s);
-  return s.log.events.empty() ? "" : s.log.events.back();
+  return s.log.events;
+}
+
+std::string told_of_blade(const std::string& from, const std::string& to) {
+  const std::vector<std::string> events = events_of_blade(from, to);
+  return events.empty() ? "" : events.back();
+}
+
+// Of 1 mm.
+TEST(IdleTools, that_leave_a_slice_at_a_support_are_told_with_its_area) {
+  const std::vector<std::string> events =
+      events_of_blade("-0.01, -0.02, 0.001", "0.03, -0.02, 0.001");
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_TRUE(contains(events[0], "leaves tissue joined in one place at (")) << events[0];
+  EXPECT_TRUE(contains(events[0],
+                       ", 4 cm^2: a slice thinner than some third of an element "
+                       "stays with nodes of a support"))
+      << events[0];
+  EXPECT_TRUE(contains(events[1], "its strokes in the summary say where tissue stays joined"));
 }
 
 TEST(IdleTools, that_were_deep_in_the_tissue_are_told_with_the_reason) {
-  const std::string beside_support = told_of_blade("-0.01, -0.02, 0.001", "0.03, -0.02, 0.001");
+  const std::string beside_support = told_of_blade("-0.01, -0.02, 0.0001", "0.03, -0.02, 0.0001");
   EXPECT_TRUE(contains(beside_support, "so near to a surface, a support or an older cut"))
       << beside_support;
   const std::string stab = told_of_blade("0.01, 0.03, 0.008", "0.01, -0.01, 0.008");
