@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <string>
 
+#include "box_file.h"
 #include "engine_started.h"
 
 namespace trocar {
@@ -15,12 +15,7 @@ constexpr double E = 5000, nu = 0.3, side = 0.04, stretch = 0.9;
 
 // A box of 160 x 160 x 10 mm with the middle of its lower face at the origin.
 void write_plate(const std::string& file) {
-  std::ofstream out(file);
-  for (const double z : {0.0, 0.01})
-    for (const double y : {-0.08, 0.08})
-      for (const double x : {-0.08, 0.08}) out << "v " << x << ' ' << y << ' ' << z << '\n';
-  out << "f 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\n"
-         "f 1 5 7\nf 1 7 3\nf 2 4 8\nf 2 8 6\n";
+  write_box(file, Vec3(-0.08, -0.08, 0), Vec3(0.08, 0.08, 0.01));
 }
 
 // Cauchy stress of the neo-Hookean law along the first of the stretches a, b, c. [Pa]

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <string>
 
+#include "box_file.h"
 #include "collision/contact_tilt.h"
 #include "engine/energy_ledger.h"
 #include "engine_split.h"
@@ -29,12 +29,7 @@ struct Pressed {
 
 // A box with its lower end at the origin.
 void write_rod(const std::string& file) {
-  std::ofstream out(file);
-  for (const double z : {0.0, 0.02})
-    for (const double y : {-0.004, 0.004})
-      for (const double x : {-0.004, 0.004}) out << "v " << x << ' ' << y << ' ' << z << '\n';
-  out << "f 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\n"
-         "f 1 5 7\nf 1 7 3\nf 2 4 8\nf 2 8 6\n";
+  write_box(file, Vec3(-0.004, -0.004, 0), Vec3(0.004, 0.004, 0.02));
 }
 
 // Into a block of 80 x 60 x 40 mm with cells of 6.7 mm, within 0.7 s.

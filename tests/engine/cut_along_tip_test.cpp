@@ -26,9 +26,7 @@ TEST(CutAlongTip, goes_on_from_the_end_of_its_slit_in_a_plate) {
   };
   for (const double x : {26.3, 33.1})
     for (const auto& [aside, is_lifted] : {std::pair{0.0, false}, {0.0, true}, {0.5, true}}) {
-      std::string text = plate_text({{0, -9}});
-      text = text.substr(0, text.find("path = [\n") + 9) + path(x, aside, is_lifted) + "]\n";
-      const auto started = built(text);
+      const auto started = built(plate_with_keys(path(x, aside, is_lifted)));
       Simulation& s = *started->s;
       while (s.frame < 45) run_frame(s, started->outputs);
       EXPECT_EQ(s.n_pieces, 2) << x << ' ' << aside << ' ' << is_lifted;
@@ -49,10 +47,8 @@ TEST(CutAlongTip, parts_a_plate_along_a_way_that_closes) {
   for (const double x : {30.0, 32.5, 35.0, 37.5}) {
     const std::string first = key(0.05, x - 9, -6, 0) + key(0.6, x, 24, 0) + key(0.7, x, 24, 20);
     const std::string then = key(0.8, x + 9, -6, 20) + key(0.85, x + 9, -6, 0);
-    const std::string text = plate_text({{0, -9}});
     const auto started =
-        built(text.substr(0, text.find("path = [\n") + 9) +
-              facing(first + then + key(1.4, x - 0.6, 26, 0), "[0, 1, 0]") + "]\n");
+        built(plate_with_keys(facing(first + then + key(1.4, x - 0.6, 26, 0), "[0, 1, 0]")));
     Simulation& s = *started->s;
     while (s.frame < 46) run_frame(s, started->outputs);
     EXPECT_EQ(s.n_pieces, 2) << x;
