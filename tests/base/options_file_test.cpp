@@ -16,8 +16,8 @@
 namespace trocar {
 namespace {
 
-// Under the address sanitizer the bounds on time and memory mean nothing.
-#ifdef __SANITIZE_ADDRESS__
+// Under the sanitizers of addresses and threads the bounds on time and memory mean nothing.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool has_bounds = false;
 #else
 constexpr bool has_bounds = true;
