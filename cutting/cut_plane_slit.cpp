@@ -20,10 +20,7 @@ struct Lip {
   std::array<std::int32_t, 2> node;
   Vec2 from, along;
 
-  Vec2 foot(const Vec2& p) const {
-    const double t = (p - from).dot(along) / along.squaredNorm();
-    return from + std::clamp(t, 0.0, 1.0) * along;
-  }
+  Vec2 foot(const Vec2& p) const { return from + share_to(from, along, p) * along; }
   bool is_beside(const Vec2& p) const {
     constexpr double slack = 0.05;  // over the lip's length: an end may have slid along a surface
     const double t = (p - from).dot(along) / along.squaredNorm();
@@ -53,10 +50,7 @@ bool is_in_slit(std::span<const Lip> lips, const Vec2& p, const Vec2& way, doubl
 bool is_in_body(const Mesh& mesh, const Vec2& p) {
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
     const auto X = [&](int a) -> Vec2 { return mesh.X[mesh.corners(e)[a]].head<2>(); };
-    const double least = -1e-6 * triangle_area(X(0), X(1), X(2));
-    if (triangle_area(X(0), X(1), p) >= least && triangle_area(X(1), X(2), p) >= least &&
-        triangle_area(X(2), X(0), p) >= least)
-      return true;
+    if (is_in_triangle(X(0), X(1), X(2), p, 1e-6)) return true;
   }
   return false;
 }

@@ -2,6 +2,7 @@
 
 #include "cutting/cut_plane_reaches.h"
 #include "cutting/cut_plane_slit.h"
+#include "engine/cut_record.h"
 #include "engine/mesh_measures.h"
 #include "engine/plane_tip.h"
 #include "engine/simulation.h"
