@@ -30,6 +30,7 @@ struct PlanePatch {
   std::vector<int> region;                // (n_elements)
   std::vector<double> area;               // (n_elements) before the cut [m^2]
   std::vector<Vec2> X, x;                 // (n_nodes) before the cut and now [m]
+  std::vector<Vec2> present;              // (n_nodes) in the deformed body; none: as X [m]
   std::vector<int> star;                  // (n_nodes) an element around each node
   std::vector<Vec2> side;                 // (n_nodes) direction of a straight boundary, else zero
   std::vector<std::uint8_t> is_boundary;  // (n_nodes)
