@@ -168,7 +168,13 @@ Attempt best_attempt(const PlanePatch& patch, std::span<const SubPath> sub_paths
       for (AdaptOptions& a : adapt) a.at_corner = far_corner;
       continue;
     }
-    if (attempt.bad_chain >= 0) return best.altitude > 0 ? best : attempt;
+    if (attempt.bad_chain >= 0) {
+      if (best.altitude > 0) return best;
+      const int c = attempt.bad_chain, n = attempt.chains[c].n_segments();
+      if (n <= 1 || k + 1 == max_attempts) return attempt;
+      adapt[c] = {n - 1, far_corner};
+      continue;
+    }
     for (std::size_t c = 0; c < adapt.size(); ++c) adapt[c] = next_try(patch, attempt.chains[c], k);
     if (is_better(attempt, best, options)) best = std::move(attempt);
     if (is_good(best, options)) break;

@@ -117,7 +117,11 @@ PathCrossing find_start(const PlanePatch& patch, const SubPath& path, int tip,
   const double distance = entered_distance(patch, path.point[0], tangent(path, 0), -1, start.facet);
   const double ahead = std::min(2 * on_boundary * patch.h, 0.5 * path.length());
   const bool is_on_boundary = distance < on_boundary * patch.h;
-  if (is_on_boundary && is_inside(patch, position(path, ahead))) return start;
+  if (is_on_boundary && is_inside(patch, position(path, ahead))) {
+    for (const PathCrossing& enter : crossings.enter)  // from one lip to the other
+      if (enter.s > same_crossing * patch.h && enter.s < ahead) start = enter;
+    return start;
+  }
   if (!is_on_boundary && is_inside(patch, path.point[0])) return {0, {}};
   const PathCrossing* enter = first_after(crossings.enter, is_on_boundary ? ahead : -1);
   return enter != nullptr ? *enter : PathCrossing{-1, {}};
