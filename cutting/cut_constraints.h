@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "base/vec.h"
+
 namespace trocar {
 
 using BorderEdge = std::array<std::int32_t, 2>;
@@ -17,8 +19,13 @@ struct CutConstraints {
   // move along them only. Of a plane body the nodes that bound a part of its outline, each twice.
   std::span<const BorderEdge> border = {};
 
-  CutConstraints(std::span<const std::uint8_t> held, std::span<const BorderEdge> lines = {})
-      : is_held(held), border(lines) {}
+  // (n_nodes) Of plane cuts: where nodes are in the deformed body, in which no element may be
+  // inverted, either; none: as in the reference. [m]
+  std::span<const Vec3> x = {};
+
+  CutConstraints(std::span<const std::uint8_t> held, std::span<const BorderEdge> lines = {},
+                 std::span<const Vec3> present = {})
+      : is_held(held), border(lines), x(present) {}
   CutConstraints(const std::vector<std::uint8_t>& held) : is_held(held) {}
 };
 

@@ -17,7 +17,8 @@ const char* reason_of(const CutRefusal& refusal) {
       "which can't go to the blade: finer elements there, or a path farther from them",
       "a slice thinner than some third of an element stays with nodes of the outer surface or of "
       "an older cut, which can't go to the blade: finer elements there, another path, or "
-      "cutting.split_step_ratio where the tissue is one element thick"};
+      "cutting.split_step_ratio where the tissue is one element thick",
+      "tissue there is pressed together so far that an element would be inverted"};
   return text[static_cast<std::size_t>(refusal.reason)];
 }
 

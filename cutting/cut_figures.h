@@ -20,6 +20,7 @@ struct CutRefusal {
     no_room,     // … or too few nodes are there for valid ones
     slice_held,  // a stretch thinner than the mesh can show stays with held nodes …
     slice,       // … or with others of the outer surface or of a lip, which slide in that alone
+    crushed,     // plane cuts: an element there would be inverted in the deformed body
     n_reasons
   };
   Vec3 X = Vec3::Zero();  // its centre, that of the stretch, or where the blade crossed the first

@@ -7,6 +7,7 @@
 
 #include "base/sort_unique.h"
 #include "cutting/cut_carry.h"
+#include "cutting/cut_in_slit.h"
 #include "cutting/cut_near.h"
 #include "mesh/node_corners.h"
 
@@ -208,9 +209,9 @@ static std::vector<std::int32_t> elements_at_edge(const CutStroke& stroke) {
   return elements;
 }
 
-// Edges `use` that the band crosses, for each of their elements.
+// Edges `use` that the band crosses outside of older slits, for each of their elements.
 static std::vector<CutHit> find_hits(const Mesh& mesh, std::span<const Vec3> x, const Band& band,
-                                     const std::vector<EdgeUse>& use) {
+                                     const std::vector<EdgeUse>& use, const OlderSlits& slits) {
   std::vector<CutHit> found;
   Crossing crossing;
   for (std::size_t begin = 0, end = 0; begin < use.size(); begin = end) {
@@ -218,6 +219,7 @@ static std::vector<CutHit> find_hits(const Mesh& mesh, std::span<const Vec3> x, 
     while (end < use.size() && use[end].a == a && use[end].b == b) ++end;
     if (!find_crossing(band, x[a], x[b], crossing)) continue;
     const Vec3 X = mesh.X[a] + crossing.s * (mesh.X[b] - mesh.X[a]);
+    if (slits.hold(X, reference_normal(mesh, x, use[begin].element, crossing.normal))) continue;
     for (std::size_t k = begin; k < end; ++k) {
       const bool is_first_a = mesh.corners(use[k].element)[tet_edges[use[k].edge][0]] == a;
       found.push_back({use[k].element, use[k].edge, is_first_a == crossing.is_a_plus, X,
@@ -252,7 +254,8 @@ void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
   remember_edge(mesh, x, seen, element, stroke);
   if (band.triangle.empty()) return;
   const std::vector<EdgeUse> use = edge_uses(mesh, element);
-  std::vector<CutHit> found = find_hits(mesh, x, band, use);
+  std::vector<CutHit> found =
+      find_hits(mesh, x, band, use, {mesh, element, stroke, stroke.mean_edge});
   if (found.empty()) return;
   stroke.mean_edge = mean_length(mesh, use);
   for (const CutHit& hit : found) stroke.fresh.push_back(hit.element);

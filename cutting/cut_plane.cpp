@@ -1,6 +1,7 @@
 #include "cutting/cut_plane.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "base/check.h"
 #include "base/error.h"
@@ -10,6 +11,7 @@
 #include "cutting/cut_plane_homogenise.h"
 #include "cutting/cut_plane_patch.h"
 #include "cutting/cut_plane_path.h"
+#include "cutting/cut_plane_present.h"
 #include "cutting/cut_plane_smooth.h"
 
 namespace trocar {
@@ -19,7 +21,7 @@ namespace {
 constexpr int max_attempts = 5;          // each with one segment less
 constexpr double good_altitude = 0.5;    // least altitude after / before: no further attempt
 constexpr double floor_altitude = 0.1;   // below this a cut is refused, whatever the step
-constexpr int most_slow = 12;            // stretches left out for the step, then whole pieces are
+constexpr int most_left_out = 12;        // stretches, then whole pieces are
 constexpr double better_altitude = 1.5;  // worth a part of the cut that stays joined
 constexpr double far_corner = 0.4;       // h: ends bend into corners so far away in later attempts
 
@@ -36,6 +38,7 @@ struct Attempt {
   int bad_chain = -1;   // that could not be laid
   double altitude = 0;  // least altitude after / before; 0 if there is no valid mesh
   Slowest slowest;
+  Crushed crushed;
 };
 
 std::vector<Vec2> plane_path(std::span<const Vec3> path) {
@@ -77,7 +80,8 @@ Slowest find_slowest(const PlanePatch& patch, const std::vector<Vec2>& x) {
 }
 
 bool keeps_floors(const Attempt& attempt, const CutPlaneOptions& options) {
-  return attempt.altitude >= floor_altitude && attempt.slowest.bound >= options.least_step;
+  return attempt.altitude >= floor_altitude && attempt.slowest.bound >= options.least_step &&
+         attempt.crushed.ratio >= least_present_ratio;
 }
 
 bool is_good(const Attempt& attempt, const CutPlaneOptions& options) {
@@ -134,9 +138,11 @@ Attempt remesh(const PlanePatch& patch, std::span<const SubPath> sub_paths,
   attempt.bad_chain = lay_chains(attempt, adapt);
   if (attempt.bad_chain >= 0) return attempt;
   if (!remesh_around(attempt, options)) return attempt;
+  pull_back(patch, cut_nodes(attempt.patch, attempt.chains), attempt.patch);
   attempt.altitude =
       smallest_altitude(attempt.patch, attempt.patch.x) / smallest_altitude(patch, patch.X);
   attempt.slowest = find_slowest(attempt.patch, attempt.patch.x);
+  attempt.crushed = find_crushed(patch, attempt.patch);
   return attempt;
 }
 
@@ -162,7 +168,13 @@ Attempt best_attempt(const PlanePatch& patch, std::span<const SubPath> sub_paths
       for (AdaptOptions& a : adapt) a.at_corner = far_corner;
       continue;
     }
-    if (attempt.bad_chain >= 0) return best.altitude > 0 ? best : attempt;
+    if (attempt.bad_chain >= 0) {
+      if (best.altitude > 0) return best;
+      const int c = attempt.bad_chain, n = attempt.chains[c].n_segments();
+      if (n <= 1 || k + 1 == max_attempts) return attempt;
+      adapt[c] = {n - 1, far_corner};
+      continue;
+    }
     for (std::size_t c = 0; c < adapt.size(); ++c) adapt[c] = next_try(patch, attempt.chains[c], k);
     if (is_better(attempt, best, options)) best = std::move(attempt);
     if (is_good(best, options)) break;
@@ -180,18 +192,28 @@ CutRefusal refusal_at(const Vec2& place, CutRefusal::Reason reason) {
   return {{place.x(), place.y(), 0}, reason};
 }
 
-// Stretches whose elements would be too small for the step, and pieces that can't be cut (slices at
-// a corner, held nodes), are left joined, the others are cut; if it is not clear which piece is in
-// the way, the shortest goes first.
+// What a stretch of the path is in the way of, if that is known.
+std::optional<CutRefusal> in_the_way(const Attempt& attempt, const CutPlaneOptions& options) {
+  if (attempt.altitude <= 0) return {};
+  if (attempt.crushed.ratio < least_present_ratio)
+    return refusal_at(attempt.crushed.centre, CutRefusal::crushed);
+  if (options.least_step == 0) return {};
+  return refusal_at(attempt.slowest.centre, CutRefusal::slow);
+}
+
+// Stretches whose elements would be too small for the step or inverted, and pieces that can't be
+// cut (slices at a corner, held nodes), are left joined, the others are cut; if it is not clear
+// which piece is in the way, the shortest goes first.
 void cut_what_is_possible(const PlanePatch& patch, std::vector<SubPath>& sub_paths,
                           const CutPlaneOptions& options, Laid& laid) {
-  int n_slow = 0;
+  int n_left_out = 0;
   while (!sub_paths.empty()) {
     laid.attempt = best_attempt(patch, sub_paths, options);
     if (keeps_floors(laid.attempt, options)) return;
-    if (options.least_step > 0 && laid.attempt.altitude > 0 && n_slow++ < most_slow) {
-      laid.refusals.push_back(refusal_at(laid.attempt.slowest.centre, CutRefusal::slow));
-      leave_out_near(patch, laid.attempt.slowest.centre, sub_paths);
+    if (const std::optional<CutRefusal> stretch = in_the_way(laid.attempt, options);
+        stretch && n_left_out++ < most_left_out) {
+      laid.refusals.push_back(*stretch);
+      leave_out_near(patch, stretch->X.head<2>(), sub_paths);
       continue;
     }
     auto worst = std::min_element(

@@ -241,6 +241,8 @@ PlanePatch make_patch(const Mesh& mesh, std::span<const Vec2> path,
   classify_nodes(extraction, constraints, patch);
   mark_interfaces(mesh, patch);
   mark_border(extraction, constraints.border, patch);
+  if (!constraints.x.empty())
+    for (const std::int32_t i : patch.node) patch.present.emplace_back(constraints.x[i].head<2>());
   return patch;
 }
 

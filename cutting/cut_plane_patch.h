@@ -30,6 +30,7 @@ struct PlanePatch {
   std::vector<int> region;                // (n_elements)
   std::vector<double> area;               // (n_elements) before the cut [m^2]
   std::vector<Vec2> X, x;                 // (n_nodes) before the cut and now [m]
+  std::vector<Vec2> present;              // (n_nodes) in the deformed body; none: as X [m]
   std::vector<int> star;                  // (n_nodes) an element around each node
   std::vector<Vec2> side;                 // (n_nodes) direction of a straight boundary, else zero
   std::vector<std::uint8_t> is_boundary;  // (n_nodes)
@@ -60,6 +61,17 @@ inline double triangle_area(const Vec2& a, const Vec2& b, const Vec2& c) {
 inline double area(const PlanePatch& patch, int e) {
   const auto& [a, b, c] = patch.corner[e];
   return triangle_area(patch.x[a], patch.x[b], patch.x[c]);
+}
+// slack: how far outside p may be, over the triangle's area.
+inline bool is_in_triangle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& p,
+                           double slack) {
+  const double least = -slack * triangle_area(a, b, c);
+  return triangle_area(a, b, p) >= least && triangle_area(b, c, p) >= least &&
+         triangle_area(c, a, p) >= least;
+}
+// Which share of the segment from a along d leads to its point nearest to p.
+inline double share_to(const Vec2& a, const Vec2& d, const Vec2& p) {
+  return std::min(1.0, std::max(0.0, (p - a).dot(d) / d.squaredNorm()));
 }
 // 4 sqrt(3) A / sum l^2: 1 for equilateral, <= 0 for inverted triangles.
 inline double quality(const Vec2& a, const Vec2& b, const Vec2& c) {

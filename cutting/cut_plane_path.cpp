@@ -30,12 +30,8 @@ std::size_t segment_at(const SubPath& path, double s) {
 }
 
 bool contains(const PlanePatch& patch, int e, const Vec2& p) {
-  for (int a = 0; a < 3; ++a) {
-    const Vec2& from = patch.X[patch.corner[e][a]];
-    const Vec2& to = patch.X[patch.corner[e][(a + 1) % 3]];
-    if (triangle_area(from, to, p) < -1e-9 * patch.area[e]) return false;
-  }
-  return true;
+  const auto& [a, b, c] = patch.corner[e];
+  return is_in_triangle(patch.X[a], patch.X[b], patch.X[c], p, 1e-9);
 }
 
 bool is_inside(const PlanePatch& patch, const Vec2& p) {
@@ -90,8 +86,7 @@ void for_boundary(const PlanePatch& patch, const Vec2& p, int except, const Use&
       const int i = patch.corner[e][(f + 1) % 3], j = patch.corner[e][(f + 2) % 3];
       if (i == except || j == except) continue;
       const Vec2 &a = patch.X[i], d = patch.X[j] - a;
-      const double t = std::min(1.0, std::max(0.0, (p - a).dot(d) / d.squaredNorm()));
-      use(PatchFacet{e, f}, Vec2(a + t * d - p));
+      use(PatchFacet{e, f}, Vec2(a + share_to(a, d, p) * d - p));
     }
 }
 
@@ -122,7 +117,11 @@ PathCrossing find_start(const PlanePatch& patch, const SubPath& path, int tip,
   const double distance = entered_distance(patch, path.point[0], tangent(path, 0), -1, start.facet);
   const double ahead = std::min(2 * on_boundary * patch.h, 0.5 * path.length());
   const bool is_on_boundary = distance < on_boundary * patch.h;
-  if (is_on_boundary && is_inside(patch, position(path, ahead))) return start;
+  if (is_on_boundary && is_inside(patch, position(path, ahead))) {
+    for (const PathCrossing& enter : crossings.enter)  // from one lip to the other
+      if (enter.s > same_crossing * patch.h && enter.s < ahead) start = enter;
+    return start;
+  }
   if (!is_on_boundary && is_inside(patch, path.point[0])) return {0, {}};
   const PathCrossing* enter = first_after(crossings.enter, is_on_boundary ? ahead : -1);
   return enter != nullptr ? *enter : PathCrossing{-1, {}};
@@ -230,7 +229,7 @@ double nearest_on(const SubPath& path, const Vec2& p) {
   double least = std::numeric_limits<double>::max(), s = 0;
   for (std::size_t k = 0; k + 1 < path.point.size(); ++k) {
     const Vec2 &a = path.point[k], d = path.point[k + 1] - a;
-    const double t = std::min(1.0, std::max(0.0, (p - a).dot(d) / d.squaredNorm()));
+    const double t = share_to(a, d, p);
     const double distance = (p - a - t * d).norm();
     if (distance >= least) continue;
     least = distance;

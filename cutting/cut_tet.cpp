@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "cutting/cut_chips.h"
 #include "cutting/cut_edit.h"
+#include "cutting/cut_follow.h"
 #include "cutting/cut_hex.h"
 #include "cutting/cut_hits.h"
 #include "cutting/cut_homogenise.h"
@@ -226,8 +227,10 @@ void TetCutter::follow(const Mesh& mesh, const CutterEdit& edit) {
     f.index = {};
     return follow_splits(mesh, edit, f.stroke);
   }
+  if (edit.tets.is_empty()) forget_parted(mesh, edit, f.stroke);
   if (!is_prepared(mesh)) return;
   if (f.tets.mesh.X.empty()) return edit_index(mesh, edit, f.index);
+  forget_parted(f.tets.mesh, edit.tets, f.stroke);
   edit_index(f.tets.mesh, edit.tets, f.index);
   edit_hex_tets(edit.splits, edit.tets, f.tets);
 }

@@ -2,6 +2,7 @@
 
 #include "cutting/cut_plane_reaches.h"
 #include "cutting/cut_plane_slit.h"
+#include "engine/cut_record.h"
 #include "engine/mesh_measures.h"
 #include "engine/plane_tip.h"
 #include "engine/simulation.h"
@@ -14,6 +15,7 @@ constexpr double least_way = 1e-9;  // of a blade within a frame, else it rests 
 // In mean edge lengths: what the paper's algorithm takes of a path at a time, and how near before a
 // boundary a path that may grow waits until it goes through.
 constexpr double plane_advance = 3.0, plane_room = 1.5;
+constexpr double least_bridge = 0.1;  // mean edge lengths, as between two crossings
 
 // In reference positions; a tip that has left the plane ends its path.
 void take_up_tip(const Simulation& s, const BladeSweep& sweep, CutStage& stage) {
@@ -42,7 +44,8 @@ void cut_reach(Simulation& s, CutStage& stage, bool may_grow, double h) {
   const std::vector<std::uint8_t> is_held = held_nodes(s.holds, s.fixed);
   CutPlaneOptions options = stage.plane;
   if (may_grow && length_of(path) < 2 * plane_advance * h) options.room_ahead = plane_room;
-  const PlaneCut cut = cut_plane(s.mesh, path, stage.plane_tip, {is_held, s.loads.border}, options);
+  const CutConstraints constraints(is_held, s.loads.border, s.cut_state.x);
+  const PlaneCut cut = cut_plane(s.mesh, path, stage.plane_tip, constraints, options);
   if (cut.edit.is_empty() && may_grow) return;
   note_edit(s, cut.edit, cut.figures, stage.strokes.back());
   if (!cut.rest.empty()) {
@@ -79,10 +82,24 @@ std::vector<Vec3> take_end_in_slit(const Simulation& s, double h, const CutStage
   return {part.back(), end};
 }
 
+// Whether the blade has passed what is left there: into a slit or out of the body.
+bool has_left_tissue(const Simulation& s, const std::vector<Vec3>& in_slit, const Vec3& end) {
+  return !in_slit.empty() || locate_points(s.mesh, s.mesh.X, {&end, 1}).front().element < 0;
+}
+
+// What of a reach that ends in a slit was too short to be cut.
+void note_bridge(Simulation& s, double h, CutStage& stage) {
+  const std::vector<Vec3>& path = stage.plane_path;
+  if (length_of(path) < least_bridge * h) return;
+  const Vec3 middle = 0.5 * (path.front() + path.back());
+  note_edit(s, {}, {.n_refused = 1, .refusals = {{middle, CutRefusal::no_room}}},
+            stage.strokes.back());
+}
+
 }  // namespace
 
-// Each reach is cut once it is long enough, enters a slit, or the next one begins. Legs shorter
-// than half an edge are left out: the next reach begins where they did.
+// Each reach is cut once it is long enough, enters a slit, leaves the body, or the next one begins.
+// Other legs shorter than half an edge are left out: the next reach begins where they did.
 void cut_along_tip(Simulation& s, CutStage& stage, const BladeSweep& sweep, bool is_last) {
   take_up_tip(s, sweep, stage);
   const double h = mean_edge_length(s.mesh);
@@ -93,13 +110,15 @@ void cut_along_tip(Simulation& s, CutStage& stage, const BladeSweep& sweep, bool
     const std::vector<Vec3> in_slit = take_end_in_slit(s, h, stage, part);
     const bool may_grow = !is_last && &part == &parts.back() && in_slit.empty();
     const double length = length_of(part);
-    if (length >= (may_grow ? plane_advance : 0.5) * h) {
+    if (length >= (may_grow ? plane_advance : 0.5) * h ||
+        (!may_grow && length > 0 && has_left_tissue(s, in_slit, part.back()))) {
       stage.plane_path = part;
       cut_reach(s, stage, may_grow, h);
     } else if (may_grow) {
       stage.plane_path = part;
     }
     if (in_slit.empty()) continue;
+    note_bridge(s, h, stage);
     stage.plane_path = in_slit;
     if (&part != &parts.back()) stage.plane_path = {in_slit.back()};
     stage.plane_tip = -1;

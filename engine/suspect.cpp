@@ -80,16 +80,21 @@ void look_at_holds(const Simulation& s, std::span<const Vec3> all, const Vec3& x
   }
 }
 
-bool is_for_small_strains(const Material& material) {
-  return material.model == MaterialModel::linear ||
-         material.model == MaterialModel::st_venant_kirchhoff;
+// "" where no material is to blame.
+std::string material_cure(std::span<const Material> materials) {
+  const auto is_any = [&](MaterialModel model) {
+    return std::ranges::any_of(materials, [&](const Material& m) { return m.model == model; });
+  };
+  const std::string large = "a material for large strains such as neo-hookean";
+  if (is_any(MaterialModel::st_venant_kirchhoff))
+    return large + " (st-venant-kirchhoff softens as it is pressed together, and collapses), ";
+  return is_any(MaterialModel::linear) ? large + ", " : "";
 }
 
 // `mover` comes near in the frame; "" where none does.
 std::string cure(const Simulation& s, const std::string& mover) {
-  const bool is_weak = std::any_of(s.materials.begin(), s.materials.end(), is_for_small_strains);
-  return (mover.empty() ? "smaller loads" : "a slower or shorter path of " + mover) +
-         (is_weak ? ", a material for large strains such as neo-hookean" : "") +
+  return material_cure(s.materials) +
+         (mover.empty() ? "smaller loads" : "a slower or shorter path of " + mover) +
          ", a finer mesh or a lower poisson_ratio";
 }
 

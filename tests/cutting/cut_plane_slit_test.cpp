@@ -52,6 +52,30 @@ TEST(CutPlaneSlit, path_that_leaves_it_through_a_lip_begins_there) {
   EXPECT_NEAR(rest.point[0].y(), 12 * mm, 0.11 * plate.h);
 }
 
+// From a lip, to which the part before it was taken, or from the tip that another blade has left.
+TEST(CutPlaneSlit, path_that_turns_into_it_leaves_nothing_to_cut) {
+  SlitPlate plate;
+  const Vec3 beside(33.8 * mm, 6 * mm, 0), on(33.8 * mm, 12 * mm, 0);
+  EXPECT_EQ(plate.past({{33 * mm, 5 * mm, 0}, beside, on}).point.size(), 1u);
+  const Vec3 passed = plate.mesh.X[plate.tip];
+  const Vec3 end(33 * mm, 32 * mm, 0);
+  const PlaneCut further = cut(plate.mesh, {passed, end}, plate.tip);
+  plate.mesh = applied(further.edit, plate.mesh);
+  const PathFromSlit rest = plate.past(
+      {passed, {33.7 * mm, passed.y() + 0.8 * mm, 0}, {33.7 * mm, 36 * mm, 0}}, plate.tip);
+  EXPECT_EQ(rest.tip, further.tip);
+  EXPECT_EQ(rest.point.size(), 2u);
+}
+
+// As where the blade pushes the tissue to and fro.
+TEST(CutPlaneSlit, path_that_wavers_in_it_leaves_nothing_to_cut) {
+  const SlitPlate plate;
+  std::vector<Vec3> path;
+  for (int k = 0; k < 20; ++k)
+    path.emplace_back((33.3 + (k % 2 == 0 ? 0.2 : -0.2)) * mm, (3 + 0.8 * k) * mm, 0);
+  EXPECT_EQ(plate.past(path).point.size(), 1u);
+}
+
 TEST(CutPlaneSlit, other_paths_stay_what_they_are) {
   const SlitPlate plate;
   const Vec3 tip = plate.mesh.X[plate.tip];

@@ -65,6 +65,7 @@ TEST(CheckpointBytes, have_the_numbers_of_refusals_that_older_ones_have) {
   EXPECT_EQ(CutRefusal::bent, 3);
   EXPECT_EQ(CutRefusal::slice_held, 7);
   EXPECT_EQ(CutRefusal::slice, 8);
+  EXPECT_EQ(CutRefusal::crushed, 9);
 }
 
 TEST(CheckpointBytes, with_any_byte_changed_are_refused) {

@@ -55,5 +55,24 @@ TEST(CutAlongTip, parts_a_plate_along_a_way_that_closes) {
   }
 }
 
+// At once, one close behind the other and one long after it, up to 0.8 mm beside.
+TEST(CutAlongTip, second_scalpel_follows_the_slit_of_the_first) {
+  const auto keys = [](double start, double x) {
+    return facing(key(start, x, -6, 0) + key(start + 0.8, x, 46, 0), "[0, 1, 0]");
+  };
+  for (const double later : {0.0, 0.05, 0.1, 0.3})
+    for (const double aside : {0.0, 0.3, 0.8}) {
+      const auto started = built(plate_with_keys(keys(0.1, 33)) +
+                                 "[[instrument]]\nkind = \"scalpel\"\nname = \"second\"\nradius = "
+                                 "0.001\npath = [\n" +
+                                 keys(0.1 + later, 33 + aside) + "]\n");
+      Simulation& s = *started->s;
+      while (s.frame < 40) run_frame(s, started->outputs);
+      EXPECT_EQ(s.n_pieces, 2) << later << ' ' << aside;
+      for (const CutRecord& stroke : s.cuts[1].strokes)
+        EXPECT_EQ(stroke.n_refused + stroke.n_edits, 0) << later << ' ' << aside;
+    }
+}
+
 }  // namespace
 }  // namespace trocar

@@ -316,5 +316,31 @@ TEST(CutStage, tells_at_the_end_of_a_stroke_how_much_it_leaves_joined) {
   EXPECT_TRUE(contains(*event, reason_of(first.refusals[0]))) << *event;
 }
 
+// 15 mm behind the first one, at once with it, and 0.4 mm beside its slit.
+TEST(CutStage, second_scalpel_opens_no_slit_beside_that_of_the_first) {
+  const auto scalpel = [](double start, double x) {
+    return "[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.02\nradius = 0.001\nname = "
+           "\"from " +
+           std::to_string(start + x) + "\"\npath = [\n" +
+           facing(key(start, x, -6, 3) + key(start + 0.8, x, 36, 3), "[0, 1, 0]") + "]\n";
+  };
+  const std::string body =
+      "[time]\nduration = 2\nframe_rate = 60\n[tissue.shape]\nkind = \"box\"\nelements = "
+      "\"tet4-kuhn\"\nhigh = [0.06, 0.03, 0.012]\ncells = [20, 10, 4]\n[tissue.material]\n"
+      "young_modulus = 6000\npoisson_ratio = 0.4\n[solver]\nmass_damping = 20\n"
+      "[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"x+\"\n";
+  const std::array<std::array<double, 3>, 3> cases{{{30, 0.3, 0}, {31.1, 0, 0}, {30, 0.3, 0.4}}};
+  for (const auto& [x, later, aside] : cases) {
+    const auto started = built(body + scalpel(0.1, x) + scalpel(0.1 + later, x + aside + 1e-3));
+    Simulation& s = *started->s;
+    while (s.frame < 54 + 60 * later) run_frame(s, started->outputs);
+    std::int64_t n_first = 0, n_second = 0;
+    for (const CutRecord& stroke : s.cuts[0].strokes) n_first += stroke.n_opened_facets;
+    for (const CutRecord& stroke : s.cuts[1].strokes) n_second += stroke.n_opened_facets;
+    EXPECT_GT(n_first, 40) << x << ' ' << later;
+    EXPECT_LE(n_second, n_first / 5) << x << ' ' << later << ' ' << aside;
+  }
+}
+
 }  // namespace
 }  // namespace trocar

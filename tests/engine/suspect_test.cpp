@@ -45,8 +45,8 @@ TEST(Suspect, is_what_moves_most_of_all_that_come_near) {
   const Suspect suspect = suspect_of_cell(0, 1);  // beside x-, a cell away from y-
   EXPECT_TRUE(contains(suspect.place, " at (0.0125, 0.0375, 0.0625) m, ")) << suspect.place;
   EXPECT_TRUE(contains(suspect.place, "m from a node held by the support of \"y-\""));
-  EXPECT_TRUE(contains(suspect.cure, "path of the support of \"y-\", a material for large strains"))
-      << suspect.cure;
+  EXPECT_TRUE(suspect.cure.starts_with("a material for large strains")) << suspect.cure;
+  EXPECT_TRUE(contains(suspect.cure, "a slower or shorter path of the support of \"y-\""));
 }
 
 TEST(Suspect, is_the_near_one_where_what_moves_more_is_far) {

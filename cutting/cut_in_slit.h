@@ -1,0 +1,32 @@
+// Where a blade runs in a slit that is there already, or closely beside it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+#include "cutting/cut_stroke.h"
+#include "mesh/mesh.h"
+
+namespace trocar {
+
+// Facets that other strokes have opened, but for those at the front of a slit. What a blade crosses
+// at most 0.15 mean edges beside them, along them, has been parted already.
+class OlderSlits {
+ public:
+  // Of these elements of the mesh; h: mean edge [m].
+  OlderSlits(const Mesh& mesh, std::span<const std::int32_t> elements, const CutStroke& stroke,
+             double h);
+  // X: a crossing, N: unit normal of the band there, reference configuration.
+  bool hold(const Vec3& X, const Vec3& N) const;
+
+ private:
+  struct Lip {
+    std::array<Vec3, 3> X;
+    Vec3 normal;  // unit
+  };
+  std::vector<Lip> lips_;
+  double beside_;  // [m]
+};
+
+}  // namespace trocar
