@@ -138,11 +138,10 @@ Attempt remesh(const PlanePatch& patch, std::span<const SubPath> sub_paths,
   attempt.bad_chain = lay_chains(attempt, adapt);
   if (attempt.bad_chain >= 0) return attempt;
   if (!remesh_around(attempt, options)) return attempt;
-  pull_back(patch, cut_nodes(attempt.patch, attempt.chains), attempt.patch);
+  attempt.crushed = pull_back(patch, cut_nodes(attempt.patch, attempt.chains), attempt.patch);
   attempt.altitude =
       smallest_altitude(attempt.patch, attempt.patch.x) / smallest_altitude(patch, patch.X);
   attempt.slowest = find_slowest(attempt.patch, attempt.patch.x);
-  attempt.crushed = find_crushed(patch, attempt.patch);
   return attempt;
 }
 

@@ -1,5 +1,7 @@
 #include "cutting/cut_plane_present.h"
 
+#include <algorithm>
+
 #include "cutting/cut_plane_edit.h"
 
 namespace trocar {
@@ -32,43 +34,38 @@ double least_ratio(const PlanePatch& before) {
   return least;
 }
 
-// Calls use(e, ratio) for all elements that the cut changes.
-template <class Use>
-void for_changed(const PlanePatch& before, const PlanePatch& after, const Use& use) {
-  const double least = least_ratio(before);
+// What has least; is_pulled (n_nodes) gets nodes beside the cut around elements with too little.
+Crushed find_crushed(const PlanePatch& before, std::span<const std::uint8_t> is_cut,
+                     double least_before, const PlanePatch& after,
+                     std::vector<std::uint8_t>& is_pulled) {
+  Crushed crushed;
   const std::vector<Vec2> present = taken_along(before, after);
-  for (int e = 0; e < after.n_elements(); ++e)
-    if (const double A = area(after, e); A != before.area[e] || after.corner[e] != before.corner[e])
-      use(e, area_in(present, after.corner[e]) / (A * least));
+  for (int e = 0; e < after.n_elements(); ++e) {
+    const double A = area(after, e);
+    if (A == before.area[e] && after.corner[e] == before.corner[e]) continue;
+    const double ratio = area_in(present, after.corner[e]) / (A * least_before);
+    const auto& [a, b, c] = after.corner[e];
+    if (!(ratio >= crushed.ratio)) crushed = {ratio, (after.x[a] + after.x[b] + after.x[c]) / 3};
+    if (ratio >= least_present_ratio) continue;
+    for (const int i : {a, b, c})
+      if (is_cut[i] == 0 && after.x[i] != before.X[i]) is_pulled[i] = 1;
+  }
+  return crushed;
 }
 
 }  // namespace
 
-void pull_back(const PlanePatch& before, std::span<const std::uint8_t> is_cut, PlanePatch& after) {
-  if (before.present.empty()) return;
-  for (int round = 0; round < most_rounds; ++round) {
+Crushed pull_back(const PlanePatch& before, std::span<const std::uint8_t> is_cut,
+                  PlanePatch& after) {
+  if (before.present.empty()) return {};
+  const double least_before = least_ratio(before);
+  for (int round = 0;; ++round) {
     std::vector<std::uint8_t> is_pulled(after.node.size(), 0);
-    bool is_done = true;
-    for_changed(before, after, [&](int e, double ratio) {
-      if (ratio >= least_present_ratio) return;
-      for (const int i : after.corner[e])
-        if (is_cut[i] == 0 && after.x[i] != before.X[i]) is_pulled[i] = 1, is_done = false;
-    });
-    if (is_done) return;
+    const Crushed crushed = find_crushed(before, is_cut, least_before, after, is_pulled);
+    if (round == most_rounds || std::ranges::count(is_pulled, 1) == 0) return crushed;
     for (std::size_t i = 0; i < is_pulled.size(); ++i)
       if (is_pulled[i] != 0) after.x[i] = 0.5 * (after.x[i] + before.X[i]);
   }
-}
-
-Crushed find_crushed(const PlanePatch& before, const PlanePatch& after) {
-  Crushed crushed;
-  if (before.present.empty()) return crushed;
-  for_changed(before, after, [&](int e, double ratio) {
-    if (ratio >= crushed.ratio) return;
-    const auto& [a, b, c] = after.corner[e];
-    crushed = {ratio, (after.x[a] + after.x[b] + after.x[c]) / 3};
-  });
-  return crushed;
 }
 
 }  // namespace trocar

@@ -14,12 +14,12 @@ struct Crushed {
   double ratio = 1;
   Vec2 centre = Vec2::Zero();  // reference configuration [m]
 };
-// `before` is the patch as it was cut out of the mesh; elements that the cut leaves as they are
-// don't count.
-Crushed find_crushed(const PlanePatch& before, const PlanePatch& after);
 
 // Halves the moves of nodes beside the cut around elements that have less than
-// least_present_ratio of it, again and again; the reference has to be looked at anew.
-void pull_back(const PlanePatch& before, std::span<const std::uint8_t> is_cut, PlanePatch& after);
+// least_present_ratio of it, again and again; the reference has to be looked at anew. What then has
+// least of it. `before` is the patch as it was cut out of the mesh; elements that the cut leaves as
+// they are don't count.
+Crushed pull_back(const PlanePatch& before, std::span<const std::uint8_t> is_cut,
+                  PlanePatch& after);
 
 }  // namespace trocar
