@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine_started.h"
+#include "replaced.h"
 
 namespace trocar {
 namespace {
@@ -117,9 +118,8 @@ TEST(CutFront, of_a_plane_body_is_the_tip) {
   EXPECT_NEAR(work[1], 0, 0.02);
 }
 
-std::string stiffer(std::string text) {
-  const std::string modulus = "young_modulus = 20000";
-  return text.replace(text.find(modulus), modulus.size(), "young_modulus = 80000");
+std::string stiffer(const std::string& text) {
+  return replaced(text, "young_modulus = 20000", "young_modulus = 80000");
 }
 
 // From a column of 10 mm within one frame to a dozen frames in it, a quarter of a frame later each

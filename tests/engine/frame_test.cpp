@@ -8,6 +8,7 @@
 #include "allocation_count.h"
 #include "engine/energy_ledger.h"
 #include "engine_started.h"
+#include "replaced.h"
 #include "solver_body.h"
 
 namespace trocar {
@@ -55,8 +56,7 @@ TEST(Frame, with_contact_allocates_by_frames_and_not_by_steps) {
 // Of a free step nodes move as soon as their forces are known; whoever keeps the energies needs the
 // forces. Before the probe touches and while it does.
 TEST(Frame, moves_free_tissue_by_the_bits_of_tissue_whose_energies_are_kept) {
-  std::string text = pressed_text;
-  text.replace(text.find("21 mm"), 5, "26 mm");
+  const std::string text = replaced(pressed_text, "21 mm", "26 mm");
   const auto free = built(text),
              kept = built(text + "[[output]]\nkind = \"metrics\"\nfile = \"m.csv\"\n");
   ASSERT_TRUE(kept->s->energy && !free->s->energy);

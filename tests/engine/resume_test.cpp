@@ -9,6 +9,7 @@
 #include "engine_resume.h"
 #include "engine_split.h"
 #include "mesh/generate.h"
+#include "replaced.h"
 
 namespace trocar {
 namespace {
@@ -43,9 +44,8 @@ TEST(Resume, names_the_first_key_that_differs_and_both_values) {
 }
 
 TEST(Resume, names_a_key_within_lists_by_their_numbers) {
-  std::string text = resume_block_text;
-  const std::string key = "time = \"0.6 s\"";  // the grasper's second one
-  text.replace(text.find(key), key.size(), "time = \"0.65 s\"");
+  const std::string text =  // with another second key of the grasper
+      replaced(resume_block_text, "time = \"0.6 s\"", "time = \"0.65 s\"");
   const TestFolder folder;
   const LoadedScene now = load_scene(write_text(folder.file("s.toml"), text), {});
   const Scene before = block({}).scene;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "program.h"
+#include "replaced.h"
 
 namespace trocar {
 namespace {
@@ -15,12 +16,8 @@ constexpr int input_wrong = 2, machine_failed = 4;
 // Copies a configuration into `folder` with one text replaced.
 std::string changed_config(const std::string& folder, const std::string& name,
                            const std::string& from, const std::string& to) {
-  std::string text = read_text(config(name));
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  if (at != std::string::npos) text.replace(at, from.size(), to);
   const std::string file = folder + "/scene.toml";
-  std::ofstream(file) << text;
+  std::ofstream(file) << replaced(read_text(config(name)), from, to);
   return file;
 }
 

@@ -9,17 +9,12 @@
 #include "mesh_equal.h"
 #include "mesh_sample_files.h"
 #include "mesh_temporary_folder.h"
+#include "replaced.h"
 
 namespace trocar::test {
 namespace {
 
 constexpr const char* head_2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
 
 // "14:" if `what` begins in the 14th line.
 std::string line_of(const std::string& what, const std::string& content) {

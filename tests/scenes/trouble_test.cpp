@@ -8,6 +8,7 @@
 #include <string>
 
 #include "program.h"
+#include "replaced.h"
 
 namespace trocar {
 namespace {
@@ -38,10 +39,6 @@ fix = "xyz"
 kind = "metrics"
 file = "metrics.csv"
 )";
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  return text.replace(text.find(from), from.size(), to);
-}
 
 // Takes hold of the bar's end, waits for .1 s and moves it along the bar to x within 20 ms.
 std::string pushed_to(const std::string& x) {
