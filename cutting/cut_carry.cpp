@@ -31,6 +31,15 @@ static Vec3 at(const Mesh& mesh, std::int32_t e, std::span<const Vec3> X,
   return point;
 }
 
+// Of the element's point next to it, as good as: what lies outside is not strained with the
+// element.
+static std::array<double, 4> inside_of(std::array<double, 4> b) {
+  double sum = 0;
+  for (double& share : b) sum += share = std::max(share, 0.0);
+  for (double& share : b) share /= sum;
+  return b;
+}
+
 namespace {
 
 // The best element so far for a point, and its least barycentric coordinate there.
@@ -45,7 +54,12 @@ static void try_element(const Mesh& mesh, std::span<const Vec3> x, std::int32_t 
   const std::array<double, 4> b = barycentric(mesh, e, x, place.point.x);
   const double least = *std::min_element(b.begin(), b.end());
   if (least <= place.most) return;
-  place = {least, {e, least >= -tolerance, at(mesh, e, mesh.X, b), place.point.x}};
+  const std::array<double, 4> next = inside_of(b);
+  place.most = least;
+  place.point.element = e;
+  place.point.is_inside = least >= -tolerance;
+  place.point.X = at(mesh, e, mesh.X, next);
+  place.point.beyond = place.point.x - at(mesh, e, x, next);
 }
 
 // The first element of `near` that holds each point, else the nearest within `margin` [m].
@@ -139,7 +153,7 @@ BladeSweep carry_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSwee
   for (std::size_t k = 0; k < way.size(); ++k) {
     const BladePoint& p = stroke.edge[k];
     if (p.element < 0) continue;
-    way[k] = at(mesh, p.element, x, barycentric(mesh, p.element, mesh.X, p.X)) - p.x;
+    way[k] = at(mesh, p.element, x, barycentric(mesh, p.element, mesh.X, p.X)) + p.beyond - p.x;
     inside.push_back(k);
   }
   for (std::size_t k = 0; k < way.size(); ++k) {

@@ -39,8 +39,9 @@ struct OfElement {
 struct BladePoint {
   std::int32_t element = -1;  // that held it, or beside it; -1: far outside the body
   bool is_inside = false;
-  Vec3 X = Vec3::Zero();  // end of the band, reference position [m]
-  Vec3 x = Vec3::Zero();  // of the edge [m]
+  Vec3 X = Vec3::Zero();       // the element's point there or next to it, reference position [m]
+  Vec3 beyond = Vec3::Zero();  // from that point to the end of the band [m]
+  Vec3 x = Vec3::Zero();       // of the edge [m]
 };
 
 struct CutStroke {

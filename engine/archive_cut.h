@@ -28,7 +28,7 @@ void visit(Archive& a, OfElement<T>& entry) {
 }
 template <class Archive>
 void visit(Archive& a, BladePoint& p) {
-  a(p.element, p.is_inside, p.X, p.x);
+  a(p.element, p.is_inside, p.X, p.beyond, p.x);
 }
 template <class Archive>
 void visit(Archive& a, CutStroke& s) {

@@ -36,9 +36,9 @@ std::string snip_text(double width, const std::string& action) {
          pose + ", action = \"open\" } ]\n";
 }
 
-std::unique_ptr<Started> run_to(double time, const std::string& text) {
+std::unique_ptr<Started> run_to(double time, const std::string& text, double frame_rate = 100) {
   auto started = built(text);
-  while (static_cast<double>(started->s->frame) < 100 * time)
+  while (static_cast<double>(started->s->frame) < frame_rate * time)
     run_frame(*started->s, started->outputs);
   return started;
 }
@@ -62,6 +62,34 @@ TEST(Scissors, divide_a_strip_that_lies_between_their_blades) {
   }
   EXPECT_NEAR(all, 1000 * 0.005 * 0.04 * 0.005, 1e-12);
   EXPECT_NEAR(low / all, 21.0 / 40, 0.5 * 1.25 / 40);
+}
+
+// The cut's resistance has bent the strip down by two edges. As it comes apart the lips spring
+// back, behind the jaws, and are pushed aside: where the edge was beside them is no way of the
+// edge.
+TEST(Scissors, leave_lips_alone_that_spring_back_from_their_edge) {
+  const std::string pose =
+      "position = [0.02184, 0.006, -0.01], direction = [0, 0, -1], "
+      "forward = [0, 1, 0]";
+  const auto started = run_to(
+      0.45,
+      "[time]\nduration = 2\nframe_rate = 60\n[tissue.shape]\nkind = \"box\"\n"
+      "low = [0, 0, 0]\nhigh = [0.06, 0.012, 0.006]\ncells = [20, 4, 2]\n"
+      "elements = \"tet4-kuhn\"\n[tissue.material]\nyoung_modulus = 60e3\npoisson_ratio = 0.4\n"
+      "[solver]\nmass_damping = 15\ngravity = [0, 0, 0]\n[cutting]\nresistance = 12\n"
+      "[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"x+\"\n[checkpoint]\nevery = 0\n"
+      "[[instrument]]\nkind = \"scissors\"\nradius = 1.5e-3\nblade_length = 0.04\npath = [\n"
+      "{ time = 0, " +
+          pose + ", action = \"open\" },\n{ time = 0.1, " + pose +
+          " },\n"
+          "{ time = 0.4, " +
+          pose + ", action = \"close\" } ]\n",
+      60);
+  const Simulation& s = *started->s;
+  EXPECT_EQ(s.n_pieces, 2);
+  const CutRecord& record = s.cuts.at(0).strokes.at(0);
+  EXPECT_EQ(record.n_refused, 0);
+  EXPECT_LT(record.largest_deviation, 0.5 * record.mean_edge);
 }
 
 TEST(Scissors, cut_a_slit_into_a_plate_that_is_wider_than_they_open) {
