@@ -55,19 +55,6 @@ std::span<const std::int32_t> elements_of(const ElementBlocks& blocks, const Blo
   return {blocks.element_local.data() + begin, static_cast<std::size_t>(n)};
 }
 
-// Whether no lane can set a least value, as is so nearly everywhere. Growth counts as none below
-// that at rest.
-bool is_none_of_interest(double at_rest, std::size_t n, const Room& enough, const Room& J,
-                         const Room& growth, const LeastOfElements& least) {
-  constexpr double rounding = 1 + 1e-12;
-  std::int64_t n_others = 0;
-  for (std::size_t lane = 0; lane < n; ++lane)
-    n_others += static_cast<std::int64_t>((J[lane] > least.J.value) & (J[lane] < infinity) &
-                                          (rounding * growth[lane] < enough[lane]) &
-                                          (rounding * at_rest < enough[lane]));
-  return n_others == static_cast<std::int64_t>(n);
-}
-
 }  // namespace
 
 // What is known of a task's elements, lane by lane.
@@ -118,9 +105,9 @@ void ElementWatch::look(const Model& model, const ElementBlocks& blocks,
                     .earlier = values_of(wishes_.earlier, element, earlier_room)};
   find_enough(lanes, least, std::span(enough).first(n_lanes));
   std::fill(enough.begin() + static_cast<std::ptrdiff_t>(n_lanes), enough.end(), most_padding);
-  kernels.law.watch(task, enough.data(), J.data(), growth.data());
   const bool is_asked = !wishes_.stiffening.empty();
-  if (!is_asked && is_none_of_interest(lanes.at_rest, n_lanes, enough, J, growth, least)) return;
+  const WatchLimits limits{.enough = enough.data(), .J = least.J.value, .at_rest = lanes.at_rest};
+  if (!kernels.law.watch(task, limits, J.data(), growth.data()) && !is_asked) return;
   for (std::size_t lane = 0; lane < n_lanes; ++lane) {
     const double step = lanes.step[lane];
     const std::int32_t global = part_.element_global[element[lane]];
@@ -148,7 +135,7 @@ std::vector<GrownElement> find_grown(const Model& model, const Part& part, const
     enough.fill(most_padding);
     for (std::size_t lane = 0; lane < element.size(); ++lane)
       enough[lane] = blocks.stiffening_at_rest * growth * earlier_at[lane];
-    kernels.law.watch(task, enough.data(), J.data(), stiffening.data());
+    kernels.law.watch(task, {enough.data()}, J.data(), stiffening.data());
     for (std::size_t lane = 0; lane < element.size(); ++lane) {
       const double s = std::max(1.0, stiffening[lane] / blocks.stiffening_at_rest);
       if (!(s > growth * earlier_at[lane])) continue;

@@ -1,6 +1,8 @@
 // The materials' loops over blocks, written once for any pack, material and kind of law.
 #pragma once
 
+#include <limits>
+
 #include "solver/in_double.h"
 #include "solver/kernel_groups.h"
 #include "solver/law_averaged_pressure.h"
@@ -61,10 +63,16 @@ struct LawLoops {
   }
 
   // The bound of elements with several points grows at most as at the worst one.
-  static void watch(const BlockTask& task, const double* enough, double* J, double* stiffening) {
+  static bool watch(const BlockTask& task, const WatchLimits& limits, double* J,
+                    double* stiffening) {
+    constexpr bool is_single = sizeof(RealOf<Pack>) == sizeof(float);
+    constexpr auto rounding = real<Pack>(1 + (is_single ? 2e-7 : 1e-12));
+    constexpr auto infinite = std::numeric_limits<RealOf<Pack>>::infinity();
+    const auto least_J = real<Pack>(limits.J), at_rest = real<Pack>(limits.at_rest);
+    bool is_beyond = false;
     for_groups<Pack>(task, [&](const Group<Pack>& group, std::int64_t block, int lane) {
       const auto law = law_of_kind<kind>(Law<Material, Pack>{group.value}, task, group);
-      const Pack limit = load_rounded<Pack>(enough + block * lanes + lane);
+      const Pack limit = load_rounded<Pack>(limits.enough + block * lanes + lane);
       Pack least = zero_of(group.value(0)), most = least;
       for (std::int64_t k = 0; k < task.n_points; ++k) {
         const Tensor<Pack> H = law.full_strain(group.stash.get_tensor(k));
@@ -74,9 +82,14 @@ struct LawLoops {
         least = k == 0 ? j : (least < j ? least : j);
         most = k == 0 ? s : (most > s ? most : s);
       }
-      store_in_double(J + block * lanes + lane, Pack(1.0 + least));
+      least += 1.0;
+      store_in_double(J + block * lanes + lane, least);
       store_in_double(stiffening + block * lanes + lane, most);
+      const Pack zero = zero_of(most), growth = larger(Pack(zero + at_rest), most);
+      const auto is_within = (least > least_J) & (least < infinite) & (rounding * growth < limit);
+      is_beyond |= is_any((is_within ? zero : zero + 1.0) > 0.0);
     });
+    return is_beyond;
   }
 
  private:

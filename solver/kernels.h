@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "solver/element_list.h"
 #include "solver/material_list.h"
@@ -67,9 +68,15 @@ struct ElementKernels {
 // Viscoelastic elements have a history, [block][point][number][lane] of doubles (viscosity.h).
 struct ViscousStep;
 using ViscousKernel = void (*)(const BlockTask& task, const ViscousStep& step, double* history);
-// Least det F and growth of the bound of omega^2 (stiffening.h) to [block][lane]; a growth that is
-// at most `enough` of [block][lane] may come out as 1.
-using WatchKernel = void (*)(const BlockTask& task, const double* enough, double* J,
+// What a look asks for.
+struct WatchLimits {
+  const double* enough;  // [block][lane] a growth up to this may come out as 1
+  double J = std::numeric_limits<double>::infinity();
+  double at_rest = 0;  // growth counts as this where it is less
+};
+// Least det F and growth of the bound of omega^2 (stiffening.h) to [block][lane]. Whether a lane's
+// J is at most that of the limits, its growth at least enough, or one of them no number.
+using WatchKernel = bool (*)(const BlockTask& task, const WatchLimits& limits, double* J,
                              double* stiffening);
 
 // All null: elements of this kind can't be of this material.

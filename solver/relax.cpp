@@ -44,7 +44,7 @@ double greatest_stiffening(const Model& model, const State& state) {
     for_strained_blocks(
         model, blocks, state, 0, blocks.n_blocks,
         [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
-          kernels.law.watch(task, none.data(), J.data(), stiffening.data());
+          kernels.law.watch(task, {none.data()}, J.data(), stiffening.data());
           const std::int64_t n = std::min<std::int64_t>(task.n_blocks * blocks.lanes,
                                                         blocks.n_elements - block * blocks.lanes);
           for (std::int64_t lane = 0; lane < n; ++lane)

@@ -34,7 +34,7 @@ double thickness_stretch(const Model& model, const State& state, std::int32_t el
                                                   : area_stretch<double>(task, blocks, lane);
                           std::array<double, lanes_of_block<float>> enough, J, stiffening;
                           enough.fill(1e30);  // nobody asks for the growth
-                          kernels.law.watch(task, enough.data(), J.data(), stiffening.data());
+                          kernels.law.watch(task, {enough.data()}, J.data(), stiffening.data());
                           stretch = J[static_cast<std::size_t>(lane)] / area;
                         });
   }

@@ -2,7 +2,10 @@
 // threads find them.
 #include "solver/watch.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "base/check.h"
 #include "solver/block_ranges.h"
@@ -19,10 +22,17 @@ bool is_sane(double x) {
   return std::abs(x) < limit;  // false for NaN
 }
 
-bool is_sane(const double* x, std::size_t n) {
-  bool all = true;
-  for (std::size_t k = 0; k < n; ++k) all = all & is_sane(x[k]);
-  return all;
+// By the sum of squares, several at a time: none of them is near the limit where that is below its
+// square. Else one by one.
+bool are_sane(std::span<const double> x) {
+  constexpr std::size_t width = 8;
+  std::array<double, width> sum{};
+  std::size_t k = 0;
+  for (; k + width <= x.size(); k += width)
+    for (std::size_t j = 0; j < width; ++j) sum[j] += x[k + j] * x[k + j];
+  const double all = std::accumulate(sum.begin(), sum.end(), 0.0);
+  const std::size_t first = all < limit * limit ? k : 0;
+  return std::ranges::all_of(x.subspan(first), [](double value) { return is_sane(value); });
 }
 
 }  // namespace
@@ -52,7 +62,7 @@ Watch watch(const Model& model, const Part& part, const State& state,
 
 std::int32_t first_bad_node(const Model& model, const Part& part, const State& state) {
   const std::size_t n = 3 * static_cast<std::size_t>(model.n_owned);
-  if (is_sane(state.u.data(), n) && is_sane(state.v.data(), n)) return -1;
+  if (are_sane(std::span(state.u).first(n)) && are_sane(std::span(state.v).first(n))) return -1;
   std::size_t k = 0;
   while (is_sane(state.u[k]) && is_sane(state.v[k])) ++k;
   return part.node_global[k / 3];
