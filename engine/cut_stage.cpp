@@ -133,7 +133,10 @@ BladeWay way_of_blade(Simulation& s, const FrameSpan& span, const FrameTissue& t
   return blade;
 }
 
-void note_beside(Simulation& s, double time, const Tool& tool) {
+// Once a closing: tissue that swings goes in and out between the jaws.
+void note_beside(Simulation& s, double time, const Tool& tool, CutStage& stage) {
+  if (stage.has_told_beside) return;
+  stage.has_told_beside = true;
   note_event(s, time,
              tool.name +
                  " leaves tissue uncut that lies beside its open jaws: a longer blade_length "
@@ -193,7 +196,7 @@ bool take_up_stroke(Simulation& s, const BladeWay& blade, const BladeLook& look,
   }
   stage.n_idle_frames = look.has_met ? 0 : stage.n_idle_frames + 1;
   stage.strokes.back().end = blade.span.t1;
-  if (look.is_beside) note_beside(s, blade.span.t1, tool);
+  if (look.is_beside) note_beside(s, blade.span.t1, tool, stage);
   return true;
 }
 
@@ -204,6 +207,8 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
   if (stage.beside) stage.tissue_velocity = *stage.beside;
   const bool was_engaged = stage.is_in_stroke && !stage.engaged.empty();
   stage.engaged.clear();
+  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  stage.has_told_beside = stage.has_told_beside && is_cutting(tool, span.t0, span.t1);
   if (!blade.is_near && !stage.is_in_stroke) return;
 
   const double start = monotonic_seconds();
