@@ -112,6 +112,22 @@ static bool holds_some(const Mesh& mesh, std::span<const Vec3> x, std::int32_t e
   });
 }
 
+// A point that leaves its way by more than 45 degrees is on a new one, if it is not just pushed
+// aside. h: mean edge.
+static void follow_way(const BladePoint& before, const Vec3& way, double h, BladePoint& now) {
+  constexpr double pushed_aside = 0.5;  // h
+  now.farthest = before.farthest - way;
+  now.ahead = before.ahead;
+  const double behind = now.ahead.dot(now.farthest);
+  const double aside = (now.farthest - behind * now.ahead).norm();
+  const bool is_on_way = aside < std::abs(behind);
+  if (is_on_way && behind > 0) return;
+  const double rest = is_on_way || now.ahead.isZero(0) ? same_place : pushed_aside;
+  if (now.farthest.norm() <= rest * h) return;
+  now.ahead = -now.farthest.normalized();
+  now.farthest.setZero();
+}
+
 void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
                    std::span<const std::int32_t> near, CutStroke& stroke) {
   const double margin = stroke.mean_edge;
@@ -123,6 +139,9 @@ void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& 
   for (std::size_t k = 0; k < std::min(places.size(), stroke.edge.size()); ++k)
     if (places[k].most < 0 && stroke.edge[k].element >= 0)
       try_element(mesh, x, stroke.edge[k].element, places[k]);
+  for (std::size_t k = 0; k < places.size(); ++k)
+    follow_way(k < stroke.edge.size() ? stroke.edge[k] : BladePoint{},
+               sweep.after[k] - sweep.before[k], margin, places[k].point);
   stroke.edge.clear();
   for (const Place& place : places) stroke.edge.push_back(place.point);
   if (is_inside(places.front()) || is_inside(places.back())) stroke.ends_in_tissue = true;

@@ -12,6 +12,9 @@
 
 namespace trocar {
 
+// Part of the mean edge by which a point of the blade that trembles has not left its place.
+inline constexpr double same_place = 0.1;
+
 // Whether the edge was in the tissue or beside it when it was last remembered.
 bool is_remembered(const CutStroke& stroke, const BladeSweep& sweep);
 

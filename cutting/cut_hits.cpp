@@ -69,12 +69,16 @@ static void add_triangle(Band& band, const std::array<int, 3>& point, const Vec3
   band.triangle.push_back({point, normal, p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r)});
 }
 
-static Band make_band(const BladeSweep& sweep, double back) {
+// Begins behind its begin by `back`, but no farther than the blade has been.
+static Band make_band(const BladeSweep& sweep, double back, const CutStroke& stroke) {
   Band band;
   for (std::size_t k = 0; k < sweep.before.size(); ++k) {
     const Vec3 way = sweep.after[k] - sweep.before[k];
     const double length = way.norm();
-    band.point.push_back(length > 0 ? Vec3(sweep.before[k] - way * (back / length))
+    double longer = back;
+    if (k < stroke.edge.size() && stroke.edge[k].ahead.dot(way) < 0)
+      longer = std::clamp(stroke.edge[k].ahead.dot(stroke.edge[k].farthest), 0.0, back);
+    band.point.push_back(length > 0 ? Vec3(sweep.before[k] - way * (longer / length))
                                     : sweep.before[k]);
     band.point.push_back(sweep.after[k]);
   }
@@ -195,6 +199,33 @@ static void merge_hits(std::vector<CutHit>& hit, std::vector<CutHit>& found) {
   hit = std::move(merged);
 }
 
+// Whether an element's crossed edges part its corners.
+static bool part_corners(std::span<const CutHit> hits) {
+  unsigned crossed = 0, reached = 1;
+  for (const CutHit& hit : hits) crossed |= 1U << hit.edge;
+  for (int round = 0; round < 3; ++round)
+    for (unsigned k = 0; k < 6; ++k) {
+      const unsigned ends = 1U << tet_edges[k][0] | 1U << tet_edges[k][1];
+      if ((crossed >> k & 1) == 0 && (reached & ends) != 0) reached |= ends;
+    }
+  return reached != 15;
+}
+
+// Whether elements hold the edge that it has begun to cross and not parted yet. Lips of older slits
+// are no such: it crosses nothing there.
+static bool is_edge_amid(const Mesh& mesh, const CutStroke& stroke) {
+  const std::vector<std::span<const CutHit>> hits = hits_of(stroke, stroke.at_edge);
+  for (std::size_t k = 0; k < hits.size(); ++k) {
+    const std::int32_t e = stroke.at_edge[k];
+    const std::uint8_t* own = find_element(stroke.opened, e);
+    const bool is_older_lip = mesh.cut_facets[e] != (own != nullptr ? *own : 0);
+    if (!hits[k].empty() && !part_corners(hits[k]) && !is_older_lip &&
+        find_element(stroke.side, e) == nullptr)
+      return true;
+  }
+  return false;
+}
+
 static double mean_length(const Mesh& mesh, const std::vector<EdgeUse>& use) {
   double sum = 0;
   for (const EdgeUse& edge : use) sum += (mesh.X[edge.a] - mesh.X[edge.b]).norm();
@@ -229,6 +260,19 @@ static std::vector<CutHit> find_hits(const Mesh& mesh, std::span<const Vec3> x, 
   return found;
 }
 
+// Takes up what the band crosses of these elements.
+static void cross_edges(const Mesh& mesh, std::span<const Vec3> x, const Band& band,
+                        const std::vector<std::int32_t>& element, CutStroke& stroke) {
+  const std::vector<EdgeUse> use = edge_uses(mesh, element);
+  std::vector<CutHit> found =
+      find_hits(mesh, x, band, use, {mesh, element, stroke, stroke.mean_edge});
+  if (found.empty()) return;
+  stroke.mean_edge = mean_length(mesh, use);
+  for (const CutHit& hit : found) stroke.fresh.push_back(hit.element);
+  sort_unique(stroke.fresh);
+  merge_hits(stroke.hit, found);
+}
+
 void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
               const BladeSweep& sweep, CutStroke& stroke) {
   std::vector<std::int32_t> begin = elements_at_edge(stroke);
@@ -240,7 +284,7 @@ void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
     return;
   }
   stroke.swept += way;
-  const Band swept = make_band(seen, 0);
+  const Band swept = make_band(seen, 0, stroke);
   // The first band of a stroke may begin anywhere.
   if (stroke.edge.size() != sweep.before.size())
     begin = near_elements(mesh, index, positions, box_of(swept));
@@ -248,19 +292,12 @@ void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
     stroke.mean_edge = mean_length(
         mesh, edge_uses(mesh, near_elements(mesh, index, positions, box_of(swept), begin)));
   const std::span<const Vec3> x = positions.x();
-  const Band band = make_band(seen, overlap * stroke.mean_edge);
+  const Band band = make_band(seen, overlap * stroke.mean_edge, stroke);
   const std::vector<std::int32_t> element =
       near_elements(mesh, index, positions, box_of(band), begin);
   remember_edge(mesh, x, seen, element, stroke);
-  if (band.triangle.empty()) return;
-  const std::vector<EdgeUse> use = edge_uses(mesh, element);
-  std::vector<CutHit> found =
-      find_hits(mesh, x, band, use, {mesh, element, stroke, stroke.mean_edge});
-  if (found.empty()) return;
-  stroke.mean_edge = mean_length(mesh, use);
-  for (const CutHit& hit : found) stroke.fresh.push_back(hit.element);
-  sort_unique(stroke.fresh);
-  merge_hits(stroke.hit, found);
+  if (!band.triangle.empty()) cross_edges(mesh, x, band, element, stroke);
+  if (goes_on(stroke)) stroke.is_amid = is_edge_amid(mesh, stroke);
 }
 
 }  // namespace trocar

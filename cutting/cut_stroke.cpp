@@ -3,11 +3,19 @@
 
 #include <algorithm>
 
+#include "cutting/cut_carry.h"
+
 namespace trocar {
 
 bool has_gone_through(const CutStroke& stroke) {
   const auto is_outside = [](const BladePoint& p) { return !p.is_inside; };
-  return !stroke.ends_in_tissue && std::ranges::all_of(stroke.edge, is_outside);
+  return !stroke.ends_in_tissue && !stroke.is_amid && std::ranges::all_of(stroke.edge, is_outside);
+}
+
+bool goes_on(const CutStroke& stroke) {
+  return std::ranges::any_of(stroke.edge, [&](const BladePoint& p) {
+    return p.ahead.dot(p.farthest) <= same_place * stroke.mean_edge;
+  });
 }
 
 std::vector<std::span<const CutHit>> hits_of(const CutStroke& stroke,

@@ -39,9 +39,11 @@ struct OfElement {
 struct BladePoint {
   std::int32_t element = -1;  // that held it, or beside it; -1: far outside the body
   bool is_inside = false;
-  Vec3 X = Vec3::Zero();       // the element's point there or next to it, reference position [m]
-  Vec3 beyond = Vec3::Zero();  // from that point to the end of the band [m]
-  Vec3 x = Vec3::Zero();       // of the edge [m]
+  Vec3 X = Vec3::Zero();         // the element's point there or next to it, reference position [m]
+  Vec3 beyond = Vec3::Zero();    // from that point to the end of the band [m]
+  Vec3 x = Vec3::Zero();         // of the edge [m]
+  Vec3 farthest = Vec3::Zero();  // from there to the end of its way on, if it goes back now [m]
+  Vec3 ahead = Vec3::Zero();     // unit: where its way on leads
 };
 
 struct CutStroke {
@@ -62,13 +64,17 @@ struct CutStroke {
   std::vector<std::int32_t> at_edge;     // elements that hold it, ascending
   bool ends_in_tissue = false;  // the blade began there, or an end of its edge was there: it need
                                 // not go through
-  double mean_edge = 0;         // around the last hits [m]; 0: not known yet
-  double swept = 0;             // of the tissue, since the last edit [m]
+  bool is_amid = false;  // it went on into tissue and stopped there: if it is out now, it drew back
+  double mean_edge = 0;  // around the last hits [m]; 0: not known yet
+  double swept = 0;      // of the tissue, since the last edit [m]
 };
 
 // Whether the blade has left the tissue all along its edge, and cut what it swept from surface to
 // surface.
 bool has_gone_through(const CutStroke& stroke);
+
+// Whether the edge, or some of it, is not on its way back.
+bool goes_on(const CutStroke& stroke);
 
 // The entry of `element`, nullptr if there is none.
 template <class T>

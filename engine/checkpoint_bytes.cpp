@@ -27,8 +27,8 @@ static void visit(Archive& a, CutRecord& r) {
 }
 template <class Archive>
 static void visit(Archive& a, CutMemory& m) {
-  a(m.stroke, m.plane_path, m.plane_tip, m.is_in_stroke, m.n_idle_frames, m.strokes, m.engaged,
-    m.tissue_velocity, m.knows_tissue);
+  a(m.stroke, m.plane_path, m.plane_tip, m.is_in_stroke, m.n_idle_frames, m.has_told_beside,
+    m.strokes, m.engaged, m.tissue_velocity, m.knows_tissue);
 }
 template <class Archive>
 static void visit(Archive& a, Hold& h) {

@@ -94,6 +94,7 @@ void advance_stroke(const Simulation& s, const BladeSweep& sweep, CutStage& stag
   const std::vector<std::uint8_t> is_held = held_nodes(s.holds, s.fixed);
   look.edit = stage.tet.advance(s.mesh, positions, {is_held, s.loads.border}, sweep, look.is_last,
                                 look.figures);
+  look.goes_on = goes_on(stage.tet.stroke());
 }
 
 std::vector<int> ranks_around(const Simulation& s, const Box& blade, double way,

@@ -20,12 +20,13 @@ struct BladeLook {
   bool has_met = false;    // the tissue, or some of it since the frame's begin
   bool is_beside = false;  // tissue begins to lie beside open jaws
   bool is_last = false;    // frame of the stroke
+  bool goes_on = true;     // not back in its slit
   CutterEdit edit;
   CutFigures figures;
 };
 template <class Archive>
 void visit(Archive& a, BladeLook& l) {
-  a(l.engaged, l.has_met, l.is_beside, l.is_last, l.edit, l.figures);
+  a(l.engaged, l.has_met, l.is_beside, l.is_last, l.goes_on, l.edit, l.figures);
 }
 
 // The cutting edge, of a plane body's blade the tip alone.

@@ -76,6 +76,7 @@ void follow_tissue(const Simulation& s, double time, bool was_engaged, CutStage&
 
 // Whether a scalpel goes more than 60 degrees aside of where its edge faces, or backwards, and as
 // the tissue sees it, too: that may be pushed aside by the blade. Ways along the edge don't count.
+// Nor do those back in its slit, where what it parted ahead is opened.
 bool is_askew(const Simulation& s, const FrameSpan& span, const BladeSweep& sweep,
               const CutStage& stage) {
   constexpr double facing = 0.5;  // cosine
@@ -133,7 +134,10 @@ BladeWay way_of_blade(Simulation& s, const FrameSpan& span, const FrameTissue& t
   return blade;
 }
 
-void note_beside(Simulation& s, double time, const Tool& tool) {
+// Once a closing: tissue that swings goes in and out between the jaws.
+void note_beside(Simulation& s, double time, const Tool& tool, CutStage& stage) {
+  if (stage.has_told_beside) return;
+  stage.has_told_beside = true;
   note_event(s, time,
              tool.name +
                  " leaves tissue uncut that lies beside its open jaws: a longer blade_length "
@@ -193,7 +197,7 @@ bool take_up_stroke(Simulation& s, const BladeWay& blade, const BladeLook& look,
   }
   stage.n_idle_frames = look.has_met ? 0 : stage.n_idle_frames + 1;
   stage.strokes.back().end = blade.span.t1;
-  if (look.is_beside) note_beside(s, blade.span.t1, tool);
+  if (look.is_beside) note_beside(s, blade.span.t1, tool, stage);
   return true;
 }
 
@@ -204,6 +208,8 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
   if (stage.beside) stage.tissue_velocity = *stage.beside;
   const bool was_engaged = stage.is_in_stroke && !stage.engaged.empty();
   stage.engaged.clear();
+  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  stage.has_told_beside = stage.has_told_beside && is_cutting(tool, span.t0, span.t1);
   if (!blade.is_near && !stage.is_in_stroke) return;
 
   const double start = monotonic_seconds();
@@ -225,7 +231,8 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
   record.n_ranks = std::max<std::int64_t>(record.n_ranks, std::ssize(group.ranks()));
   if (record.n_edits > n_edits) {
     locate_edge_anew(s, blade, *way, stage);
-    if (is_askew(s, span, blade.sweep, stage)) record.n_askew += record.n_edits - n_edits;
+    if (look.goes_on && is_askew(s, span, blade.sweep, stage))
+      record.n_askew += record.n_edits - n_edits;
   }
   add_to_record(way_of_middle(blade.sweep).norm(), 1e3 * (monotonic_seconds() - start), stage);
   note_body(s, record);

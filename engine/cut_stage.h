@@ -23,6 +23,7 @@ struct CutProgress {
   std::int32_t plane_tip = -1;
   bool is_in_stroke = false;
   int n_idle_frames = 0;
+  bool has_told_beside = false;  // of tissue beside open jaws, in this closing
   std::vector<CutRecord> strokes;
   // Of the edge, what is inside the tissue at the frame's end.
   std::vector<SegmentPiece> engaged;

@@ -16,6 +16,7 @@ constexpr double cell = 1.0 / n_cells, middle = 0.53;
 // How a stroke ends.
 struct Outcome {
   int n_pieces = 0;
+  double lowest = 1;  // node of a lip
   std::vector<CutRefusal> refusals;
 };
 
@@ -26,16 +27,17 @@ std::vector<Vec3> edge_at(double z) {
   return points;
 }
 
-// From above the cube to below it in steps of 0.4 cells, but for what lies between `top` and
-// `bottom`: there the blade goes from one to the other without a cut.
-Outcome cut_all_but(double top, double bottom) {
+// One stroke along legs between two heights each, in steps of 0.4 cells; from leg to leg the blade
+// goes without a cut.
+Outcome cut_along(const std::vector<std::array<double, 2>>& legs) {
   Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {n_cells, n_cells, n_cells}, BoxElements::tet4_kuhn);
   jitter(mesh, 0.2, 3);
   Body body(std::move(mesh));
   TetCutter cutter{CutTetOptions{}};
   Outcome outcome;
-  const auto sweep_down = [&](double from, double to, bool is_end) {
-    const int n = int(std::ceil((from - to) / (0.4 * cell)));
+  for (const auto& [from, to] : legs) {
+    const bool is_end = from == legs.back()[0] && to == legs.back()[1];
+    const int n = int(std::ceil(std::abs(from - to) / (0.4 * cell)));
     for (int k = 0; k < n; ++k) {
       CutFigures figures;
       Ledger ledger;
@@ -49,18 +51,38 @@ Outcome cut_all_but(double top, double bottom) {
       outcome.refusals.insert(outcome.refusals.end(), figures.refusals.begin(),
                               figures.refusals.end());
     }
-  };
-  sweep_down(1.2, top, false);
-  sweep_down(bottom, -0.2, true);
+  }
   EXPECT_EQ(fault(body), "");
   outcome.n_pieces = n_pieces(body.mesh);
+  for (std::int32_t e = 0; e < body.mesh.n_elements(); ++e)
+    for (int f = 0; f < 4; ++f)
+      if ((body.mesh.cut_facets[std::size_t(e)] >> f & 1) != 0)
+        for (const int c : facet_corners(ElementType::tet4, f))
+          if (c >= 0)
+            outcome.lowest = std::min(outcome.lowest, body.mesh.X[body.mesh.corners(e)[c]].z());
   return outcome;
+}
+
+// From above the cube to below it but for what lies between `top` and `bottom`.
+Outcome cut_all_but(double top, double bottom) {
+  return cut_along({{1.2, top}, {bottom, -0.2}});
 }
 
 TEST(MissedPlaces, are_none_behind_a_blade_that_leaves_nothing_out) {
   const Outcome outcome = cut_all_but(0.5, 0.5);
   EXPECT_EQ(outcome.n_pieces, 2);
   EXPECT_TRUE(outcome.refusals.empty());
+}
+
+// Wherever it stops within its elements. It has parted no more than it has passed.
+TEST(MissedPlaces, are_none_of_a_blade_that_draws_back_in_its_slit) {
+  for (const double deepest : {0.62, 0.56, 0.5, 0.47, 0.4, 0.33, 0.28}) {
+    const Outcome outcome = cut_along({{1.2, deepest}, {deepest, 1.2}});
+    EXPECT_EQ(outcome.n_pieces, 1);
+    EXPECT_TRUE(outcome.refusals.empty()) << deepest << ": " << outcome.refusals.size();
+    EXPECT_GT(outcome.lowest, deepest - 0.05 * cell);  // nodes slide along the surface
+    EXPECT_LT(outcome.lowest, deepest + 1.5 * std::sqrt(3) * cell);
+  }
 }
 
 // As when tissue runs from the blade between two frames.

@@ -281,6 +281,27 @@ TEST(CutStage, tells_of_a_scalpel_whose_edge_does_not_face_its_way) {
   }
 }
 
+// The tissue is parted ahead of the blade's front on its way back, too: nothing of that is wrong.
+TEST(CutStage, has_nothing_to_tell_of_a_scalpel_that_draws_back_in_its_slit) {
+  for (const std::string elements : {"tet4-kuhn", "tet4-five", "hex8"}) {
+    const auto block =
+        built(plate_of(elements) + "[[support]]\nregion = \"x+\"\n" + scalpel_along("40 mm", R"(
+  { time = 0.1, position = ["3 mm", "-10 mm", "-10 mm"], forward = [0, 1, 0] },
+  { time = 0.4, position = ["3 mm", "11 mm", "-10 mm"], forward = [0, 1, 0] },
+  { time = 0.7, position = ["3 mm", "-10 mm", "-10 mm"], forward = [0, 1, 0] },
+)"));
+    Simulation& s = *block->s;
+    while (s.frame < 48) run_frame(s, block->outputs);
+    ASSERT_FALSE(s.cuts[0].strokes.empty());
+    EXPECT_GT(s.cuts[0].strokes[0].n_opened_facets, 0);
+    for (const CutRecord& stroke : s.cuts[0].strokes) {
+      EXPECT_EQ(stroke.n_refused, 0) << elements;
+      EXPECT_EQ(stroke.n_askew, 0) << elements;
+    }
+    for (const std::string& event : s.log.events) EXPECT_FALSE(contains(event, "scalpel")) << event;
+  }
+}
+
 // There and back in a plate one element thick: two strokes, each told at its end.
 TEST(CutStage, tells_at_the_end_of_a_stroke_how_much_it_leaves_joined) {
   const auto plate =
