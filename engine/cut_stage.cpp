@@ -76,7 +76,6 @@ void follow_tissue(const Simulation& s, double time, bool was_engaged, CutStage&
 
 // Whether a scalpel goes more than 60 degrees aside of where its edge faces, or backwards, and as
 // the tissue sees it, too: that may be pushed aside by the blade. Ways along the edge don't count.
-// Nor do those back in its slit, where what it parted ahead is opened.
 bool is_askew(const Simulation& s, const FrameSpan& span, const BladeSweep& sweep,
               const CutStage& stage) {
   constexpr double facing = 0.5;  // cosine
@@ -231,6 +230,7 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
   record.n_ranks = std::max<std::int64_t>(record.n_ranks, std::ssize(group.ranks()));
   if (record.n_edits > n_edits) {
     locate_edge_anew(s, blade, *way, stage);
+    // Back in its slit it opens what it parted ahead.
     if (look.goes_on && is_askew(s, span, blade.sweep, stage))
       record.n_askew += record.n_edits - n_edits;
   }
