@@ -76,19 +76,18 @@ static std::vector<Place> find_places(const Mesh& mesh, std::span<const Vec3> x,
   return places;
 }
 
-// Points a little beyond the edge's ends, all along their ways from the begin of the sweep to its
-// end: tissue there stays joined. An end that goes along the surface leaves none.
-static std::vector<Vec3> beyond_ends(const BladeSweep& sweep, double h) {
-  constexpr double spacing = 0.25, beyond = 0.05, most = 1000;  // over h; points
+// The edge's ends, and points a little beyond all along their ways from the begin of the sweep to
+// its end: tissue there stays joined. An end that goes along the surface leaves none.
+static std::vector<Vec3> ways_of_ends(const BladeSweep& sweep, double h) {
+  constexpr double spacing = 0.25, most = 1000;  // over h; points
   std::vector<Vec3> points;
   const std::size_t last = sweep.after.size() - 1;
   for (const auto& [end, inner] : {std::pair{std::size_t{0}, std::size_t{1}}, {last, last - 1}}) {
-    const auto past = [&](const std::vector<Vec3>& edge) -> Vec3 {
-      return edge[end] + beyond * h * (edge[end] - edge[inner]).normalized();
-    };
-    const Vec3 from = past(sweep.before), way = past(sweep.after) - from;
+    const Vec3 from = sweep.before[end], way = sweep.after[end] - from;
+    const Vec3 past = beyond_end * h * (sweep.after[end] - sweep.after[inner]).normalized();
     const int n = h > 0 ? static_cast<int>(std::min(way.norm() / (spacing * h), most)) + 1 : 1;
-    for (int k = 1; k <= n; ++k) points.push_back(from + way * (1.0 * k / n));
+    for (int k = 1; k <= n; ++k) points.push_back(from + way * (1.0 * k / n) + past);
+    points.push_back(sweep.after[end]);
   }
   return points;
 }
@@ -128,13 +127,23 @@ static void follow_way(const BladePoint& before, const Vec3& way, double h, Blad
   now.farthest.setZero();
 }
 
+static void add_to_rim(const std::vector<Place>& places, CutStroke& stroke) {
+  constexpr double least = 0.2;  // h
+  for (const Place& place : places)
+    if (place.point.is_inside && (stroke.rim.empty() || (place.point.X - stroke.rim.back()).norm() >
+                                                            least * stroke.mean_edge))
+      stroke.rim.push_back(place.point.X);
+}
+
 void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
                    std::span<const std::int32_t> near, CutStroke& stroke) {
   const double margin = stroke.mean_edge;
-  const auto is_inside = [](const Place& place) { return place.point.is_inside; };
-  if (stroke.edge.empty() &&
-      std::ranges::any_of(find_places(mesh, x, near, sweep.before, margin), is_inside))
-    stroke.ends_in_tissue = true;
+  std::vector<Vec3> ends = ways_of_ends(sweep, margin);
+  if (stroke.edge.empty()) {
+    const std::vector<Vec3> begin = refined(sweep.before);
+    ends.insert(ends.end(), begin.begin(), begin.end());
+  }
+  add_to_rim(find_places(mesh, x, near, ends, margin), stroke);
   std::vector<Place> places = find_places(mesh, x, near, sweep.after, margin);
   for (std::size_t k = 0; k < std::min(places.size(), stroke.edge.size()); ++k)
     if (places[k].most < 0 && stroke.edge[k].element >= 0)
@@ -144,10 +153,6 @@ void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& 
                sweep.after[k] - sweep.before[k], margin, places[k].point);
   stroke.edge.clear();
   for (const Place& place : places) stroke.edge.push_back(place.point);
-  if (is_inside(places.front()) || is_inside(places.back())) stroke.ends_in_tissue = true;
-  if (!stroke.ends_in_tissue)
-    stroke.ends_in_tissue = std::ranges::any_of(
-        find_places(mesh, x, near, beyond_ends(sweep, stroke.mean_edge), margin), is_inside);
   stroke.at_edge.clear();
   const std::vector<Vec3> points = refined(sweep.after);
   for (const std::int32_t e : near)

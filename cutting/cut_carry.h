@@ -15,6 +15,9 @@ namespace trocar {
 // Part of the mean edge by which a point of the blade that trembles has not left its place.
 inline constexpr double same_place = 0.1;
 
+// ... beyond an end of the blade's edge where tissue is looked for that it leaves joined.
+inline constexpr double beyond_end = 0.05;
+
 // Whether the edge was in the tissue or beside it when it was last remembered.
 bool is_remembered(const CutStroke& stroke, const BladeSweep& sweep);
 
@@ -25,7 +28,7 @@ BladeSweep carry_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSwee
                       const CutStroke& stroke);
 
 // Takes down the material points of sweep.after and the elements that the edge is in. The sweep: as
-// the tissue sees it. `near`: elements that may hold some.
+// the tissue sees it. `near`: elements that may hold some, or points beyond its ends.
 void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
                    std::span<const std::int32_t> near, CutStroke& stroke);
 

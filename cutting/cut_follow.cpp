@@ -17,11 +17,16 @@ void forget_parted(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
     const auto at = std::ranges::lower_bound(edit.cut_facets, e, {}, &CutFacets::element);
     return at != edit.cut_facets.end() && at->element == e && at->mask != mesh.cut_facets[e];
   };
-  std::erase_if(stroke.hit, [&](const CutHit& hit) {
+  const auto is_gone = [&](const CutHit& hit) {
     const std::array<int, 2>& end = tet_edges[hit.edge];
     const auto corner = mesh.corners(hit.element);
     return is_parted(corner[end[0]]) || is_parted(corner[end[1]]) || is_opened(hit.element);
-  });
+  };
+  for (const CutHit& hit : stroke.hit)
+    if (is_gone(hit)) stroke.in_slit.push_back(hit.element);
+  std::erase_if(stroke.hit, is_gone);
+  std::erase_if(stroke.left.hit, is_gone);
+  sort_unique(stroke.in_slit);
 }
 
 }  // namespace trocar

@@ -7,6 +7,7 @@
 
 #include "base/sort_unique.h"
 #include "cutting/cut_carry.h"
+#include "cutting/cut_go_on.h"
 #include "cutting/cut_in_slit.h"
 #include "cutting/cut_near.h"
 #include "mesh/node_corners.h"
@@ -240,9 +241,11 @@ static std::vector<std::int32_t> elements_at_edge(const CutStroke& stroke) {
   return elements;
 }
 
-// Edges `use` that the band crosses outside of older slits, for each of their elements.
+// Edges `use` that the band crosses outside of older slits, for each of their elements; those of
+// others, away from the slits' fronts, go to in_slit.
 static std::vector<CutHit> find_hits(const Mesh& mesh, std::span<const Vec3> x, const Band& band,
-                                     const std::vector<EdgeUse>& use, const OlderSlits& slits) {
+                                     const std::vector<EdgeUse>& use, const OlderSlits& slits,
+                                     std::vector<std::int32_t>& in_slit) {
   std::vector<CutHit> found;
   Crossing crossing;
   for (std::size_t begin = 0, end = 0; begin < use.size(); begin = end) {
@@ -250,7 +253,11 @@ static std::vector<CutHit> find_hits(const Mesh& mesh, std::span<const Vec3> x, 
     while (end < use.size() && use[end].a == a && use[end].b == b) ++end;
     if (!find_crossing(band, x[a], x[b], crossing)) continue;
     const Vec3 X = mesh.X[a] + crossing.s * (mesh.X[b] - mesh.X[a]);
-    if (slits.hold(X, reference_normal(mesh, x, use[begin].element, crossing.normal))) continue;
+    const OlderSlits::Place place =
+        slits.place_of(X, reference_normal(mesh, x, use[begin].element, crossing.normal));
+    for (std::size_t k = begin; place == OlderSlits::Place::inside && k < end; ++k)
+      in_slit.push_back(use[k].element);
+    if (place != OlderSlits::Place::outside) continue;
     for (std::size_t k = begin; k < end; ++k) {
       const bool is_first_a = mesh.corners(use[k].element)[tet_edges[use[k].edge][0]] == a;
       found.push_back({use[k].element, use[k].edge, is_first_a == crossing.is_a_plus, X,
@@ -265,12 +272,14 @@ static void cross_edges(const Mesh& mesh, std::span<const Vec3> x, const Band& b
                         const std::vector<std::int32_t>& element, CutStroke& stroke) {
   const std::vector<EdgeUse> use = edge_uses(mesh, element);
   std::vector<CutHit> found =
-      find_hits(mesh, x, band, use, {mesh, element, stroke, stroke.mean_edge});
+      find_hits(mesh, x, band, use, {mesh, element, stroke, stroke.mean_edge}, stroke.in_slit);
+  sort_unique(stroke.in_slit);
   if (found.empty()) return;
   stroke.mean_edge = mean_length(mesh, use);
   for (const CutHit& hit : found) stroke.fresh.push_back(hit.element);
   sort_unique(stroke.fresh);
   merge_hits(stroke.hit, found);
+  take_up_left(mesh, found, stroke);
 }
 
 void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
@@ -293,8 +302,10 @@ void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
         mesh, edge_uses(mesh, near_elements(mesh, index, positions, box_of(swept), begin)));
   const std::span<const Vec3> x = positions.x();
   const Band band = make_band(seen, overlap * stroke.mean_edge, stroke);
-  const std::vector<std::int32_t> element =
-      near_elements(mesh, index, positions, box_of(band), begin);
+  BandBox box = box_of(band);
+  box.low[1] -= 2 * beyond_end * stroke.mean_edge;
+  box.high[1] += 2 * beyond_end * stroke.mean_edge;
+  const std::vector<std::int32_t> element = near_elements(mesh, index, positions, box, begin);
   remember_edge(mesh, x, seen, element, stroke);
   if (!band.triangle.empty()) cross_edges(mesh, x, band, element, stroke);
   if (goes_on(stroke)) stroke.is_amid = is_edge_amid(mesh, stroke);

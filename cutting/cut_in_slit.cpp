@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/sort_unique.h"
 #include "mesh/facets.h"
 
 namespace trocar {
@@ -52,15 +53,23 @@ OlderSlits::OlderSlits(const Mesh& mesh, std::span<const std::int32_t> elements,
                        const CutStroke& stroke, double h)
     : beside_(beside * h) {
   const std::vector<OpenFacet> facets = older_facets(mesh, elements, stroke);
-  for (const OpenFacet& facet : facets) {
-    if (is_at_front(facet, facets)) continue;
-    const auto X = [&](std::size_t k) { return mesh.X[facet.node[k]]; };
-    lips_.push_back({{X(0), X(1), X(2)}, facet.normal});
-  }
+  std::vector<OpenFacet> lips;
+  std::vector<std::int32_t> front;  // nodes
+  for (const OpenFacet& facet : facets)
+    if (is_at_front(facet, facets))
+      front.insert(front.end(), facet.node.begin(), facet.node.end());
+    else
+      lips.push_back(facet);
+  sort_unique(front);
+  const auto is_front = [&](std::int32_t i) { return std::ranges::binary_search(front, i); };
+  for (const auto& [node, normal] : lips)
+    lips_.push_back({{mesh.X[node[0]], mesh.X[node[1]], mesh.X[node[2]]},
+                     normal,
+                     std::ranges::any_of(node, is_front)});
 }
 
-bool OlderSlits::hold(const Vec3& X, const Vec3& N) const {
-  return std::ranges::any_of(lips_, [&](const Lip& lip) {
+OlderSlits::Place OlderSlits::place_of(const Vec3& X, const Vec3& N) const {
+  const auto holds = [&](const Lip& lip) {
     const Vec3 way = X - lip.X[0];
     if (std::abs(lip.normal.dot(way)) > beside_ || std::abs(lip.normal.dot(N)) < least_cosine)
       return false;
@@ -68,7 +77,12 @@ bool OlderSlits::hold(const Vec3& X, const Vec3& N) const {
     const double v = n.dot(way.cross(q)) / n.squaredNorm(),
                  w = n.dot(p.cross(way)) / n.squaredNorm();
     return v >= -slack && w >= -slack && v + w <= 1 + slack;
-  });
+  };
+  Place place = Place::outside;
+  for (const Lip& lip : lips_)
+    if ((place == Place::outside || lip.is_near_front) && holds(lip))
+      place = lip.is_near_front ? Place::near_front : Place::inside;
+  return place;
 }
 
 }  // namespace trocar

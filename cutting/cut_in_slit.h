@@ -17,13 +17,15 @@ class OlderSlits {
   // Of these elements of the mesh; h: mean edge [m].
   OlderSlits(const Mesh& mesh, std::span<const std::int32_t> elements, const CutStroke& stroke,
              double h);
+  enum class Place : std::uint8_t { outside, inside, near_front };
   // X: a crossing, N: unit normal of the band there, reference configuration.
-  bool hold(const Vec3& X, const Vec3& N) const;
+  Place place_of(const Vec3& X, const Vec3& N) const;
 
  private:
   struct Lip {
     std::array<Vec3, 3> X;
-    Vec3 normal;  // unit
+    Vec3 normal;         // unit
+    bool is_near_front;  // shares a node with a facet at the front
   };
   std::vector<Lip> lips_;
   double beside_;  // [m]

@@ -76,7 +76,7 @@ static Extent extent_of(const CutSurroundings& around, const ElementSides& sides
 // it, it belongs to the front; if all its corners lie on the surface, the minimum cut decides.
 static void set_geometric_side(const Extent& extent, double h, std::int32_t e, CutLabels& labels) {
   if (extent.is_on_both_sides(h))
-    labels.kind[e] = labels.has_front ? CutKind::front : CutKind::separated;
+    labels.kind[e] = labels.is_passed[e] == 0 ? CutKind::front : CutKind::separated;
   else if (extent.high == extent.low)
     labels.kind[e] = CutKind::separated;
   else
@@ -86,9 +86,10 @@ static void set_geometric_side(const Extent& extent, double h, std::int32_t e, C
 // Sides of the corners of elements that were crossed but not parted, by their distances: behind a
 // blade that has gone through, these are elements of which it left out an edge (tissue that moves
 // from frame to frame slips past its edge).
-static void part_front(const CutSurroundings& around, std::vector<ElementSides>& sides) {
+static void part_front(const CutSurroundings& around, const CutLabels& labels,
+                       std::vector<ElementSides>& sides) {
   for (std::int32_t e = 0; e < around.patch.n_elements(); ++e) {
-    if (sides[e].kind != CutKind::front) continue;
+    if (labels.is_passed[e] == 0 || sides[e].kind != CutKind::front) continue;
     sides[e].kind = CutKind::separated;
     for (std::size_t c = 0; c < 4; ++c) {
       const double phi = distance_at(around, e, c);
@@ -219,7 +220,8 @@ bool part_bridges(const CutSurroundings& around, const CutStroke& stroke, CutLab
     is_going_on = false;
     for (const std::int32_t e : found) {
       const Extent extent = extent_of(around, sides[e], e);
-      if (is_unknown(labels, e) || extent.is_on_both_sides(around.h)) continue;
+      if (labels.is_passed[e] == 0 || is_unknown(labels, e) || extent.is_on_both_sides(around.h))
+        continue;
       set_geometric_side(extent, around.h, e, labels);
       is_going_on = true;
     }
@@ -233,12 +235,32 @@ bool part_bridges(const CutSurroundings& around, const CutStroke& stroke, CutLab
   return is_changed;
 }
 
+// A stroke that has gone through has passed everywhere. Another one ends at its rim, and where it
+// ran in an older slit.
+static std::vector<std::uint8_t> passed_elements(const CutSurroundings& around,
+                                                 const CutStroke& stroke) {
+  const CutPatch& patch = around.patch;
+  std::vector<std::uint8_t> is_passed(patch.element.size(), 1);
+  if (stroke.rim.empty()) return is_passed;
+  std::vector<std::uint8_t> is_at_slit(patch.node.size(), 0);
+  for (const std::int32_t element : stroke.in_slit)
+    if (const std::int32_t e = patch.local_element(element); e >= 0)
+      for (const std::int32_t i : patch.corner[e]) is_at_slit[i] = 1;
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
+    if (!is_clear_of_rim(stroke, centre_of(patch, {&e, 1})) ||
+        std::ranges::any_of(patch.corner[e], [&](std::int32_t i) { return is_at_slit[i] != 0; }))
+      is_passed[e] = 0;
+  return is_passed;
+}
+
 CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke, bool is_last) {
   std::vector<ElementSides> sides = element_sides(around, stroke);
   const std::vector<const std::int8_t*> known = find_elements(stroke.side, around.patch.element);
   CutLabels labels;
-  labels.has_front = !is_last || !has_gone_through(stroke);
-  if (!labels.has_front) part_front(around, sides);
+  labels.is_passed = is_last && has_left(stroke)
+                         ? passed_elements(around, stroke)
+                         : std::vector<std::uint8_t>(around.patch.element.size(), 0);
+  part_front(around, labels, sides);
   for (std::int32_t e = 0; e < around.patch.n_elements(); ++e) {
     labels.kind.push_back(known[e] != nullptr ? CutKind::separated : sides[e].kind);
     labels.side.push_back(known[e] != nullptr ? *known[e] : std::int8_t{0});

@@ -20,15 +20,15 @@ struct CutLabels {
   std::vector<std::uint8_t>
       is_front_node;  // (n_nodes) of an element of the front: the blade is still in there, and a
                       // node that moves could take an edge past it uncrossed
-  bool has_front = true;  // false at the end of a stroke that has gone through: all that it crossed
-                          // is parted then
+  std::vector<std::uint8_t> is_passed;  // (n_elements) the blade has left, and went through all
+                                        // around: what it crossed there is parted
 };
 
 CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke, bool is_last);
 
-// Behind a blade that has gone through, no edge may hold both sides together: elements around it
-// that the blade left beside it get the side they lie on. Those that lie on both were not cut.
-// Whether there were any.
+// Behind a blade that has passed, no edge may hold both sides together: elements around it that the
+// blade left beside it get the side they lie on. Those that lie on both were not cut. Whether there
+// were any.
 bool part_bridges(const CutSurroundings& around, const CutStroke& stroke, CutLabels& labels);
 
 // Cost of opening a facet: squared distances of its nodes plus a little for its area.

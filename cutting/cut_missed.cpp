@@ -129,6 +129,7 @@ std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut,
   add_rims(after, stroke, places);
   const std::vector<CutRefusal> slices = missed_slices(mesh, cut.around, stroke);
   places.insert(places.end(), slices.begin(), slices.end());
+  std::erase_if(places, [&](const CutRefusal& place) { return !is_clear_of_rim(stroke, place.X); });
   return places;
 }
 

@@ -245,11 +245,11 @@ void split_stroke(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
 
 void follow_splits(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
   const Inserted after{mesh, edit, SplitNumbers(edit.splits)};
-  for (auto* hits : {&stroke.hit, &stroke.earlier_hit}) follow_hits(after, *hits);
+  for (auto* hits : {&stroke.hit, &stroke.earlier_hit, &stroke.left.hit}) follow_hits(after, *hits);
   follow_values(after, stroke.side);
   follow_values(after, stroke.step);
   follow_opened(after, stroke.opened);
-  for (auto* elements : {&stroke.fresh, &stroke.unfinished, &stroke.at_edge})
+  for (auto* elements : {&stroke.fresh, &stroke.in_slit, &stroke.unfinished, &stroke.at_edge})
     *elements = after.numbers.all_after(*elements);
   follow_edge(after, stroke.edge);
 }

@@ -7,9 +7,22 @@
 
 namespace trocar {
 
-bool has_gone_through(const CutStroke& stroke) {
+// Over the mean edge: elements nearer to the rim than this may hold it, and stay joined.
+static constexpr double rim_width = 1.0;
+
+bool has_left(const CutStroke& stroke) {
   const auto is_outside = [](const BladePoint& p) { return !p.is_inside; };
-  return !stroke.ends_in_tissue && !stroke.is_amid && std::ranges::all_of(stroke.edge, is_outside);
+  return !stroke.is_amid && std::ranges::all_of(stroke.edge, is_outside);
+}
+
+bool has_gone_through(const CutStroke& stroke) {
+  return stroke.rim.empty() && has_left(stroke);
+}
+
+bool is_clear_of_rim(const CutStroke& stroke, const Vec3& X) {
+  const double width = rim_width * stroke.mean_edge;
+  return std::ranges::none_of(stroke.rim,
+                              [&](const Vec3& R) { return (R - X).squaredNorm() < width * width; });
 }
 
 bool goes_on(const CutStroke& stroke) {

@@ -35,6 +35,13 @@ struct OfElement {
   T value{};
 };
 
+// What strokes have crossed and not parted, around the ends of their slits: one that comes there
+// goes on with it (cut_go_on.h).
+struct CutLeft {
+  std::vector<CutHit> hit;         // ascending (element, edge)
+  std::vector<std::int32_t> node;  // surface_node of these strokes, ascending
+};
+
 // A point of the blade's edge at the end of a frame, and where in the tissue its band has ended.
 struct BladePoint {
   std::int32_t element = -1;  // that held it, or beside it; -1: far outside the body
@@ -49,6 +56,7 @@ struct BladePoint {
 struct CutStroke {
   std::vector<CutHit> hit;                      // ascending (element, edge)
   std::vector<CutHit> earlier_hit;              // of earlier strokes that parted nothing there
+  CutLeft left;                                 // of strokes that have ended
   std::vector<OfElement<std::int8_t>> side;     // +1 or -1: sides given at earlier advances
   std::vector<OfElement<std::uint8_t>> opened;  // bit f: facet f was opened by this stroke
   std::vector<OfElement<double>>
@@ -59,19 +67,27 @@ struct CutStroke {
       parted_node;  // nodes that this stroke gave a copy, and the copies, ascending
   std::vector<std::int32_t> made_node;   // that this stroke put on crossed edges, ascending
   std::vector<std::int32_t> fresh;       // elements crossed since the last edit, ascending
+  std::vector<std::int32_t> in_slit;     // elements that it crossed in an older slit, ascending
   std::vector<std::int32_t> unfinished;  // elements to look at again at the next edit, ascending
   std::vector<BladePoint> edge;          // where the blade's edge is in the tissue
   std::vector<std::int32_t> at_edge;     // elements that hold it, ascending
-  bool ends_in_tissue = false;  // the blade began there, or an end of its edge was there: it need
-                                // not go through
+  std::vector<Vec3> rim;  // where the swept surface ends inside the tissue: the edge at the begin,
+                          // the ways of its ends; reference positions [m]
   bool is_amid = false;  // it went on into tissue and stopped there: if it is out now, it drew back
   double mean_edge = 0;  // around the last hits [m]; 0: not known yet
   double swept = 0;      // of the tissue, since the last edit [m]
 };
 
-// Whether the blade has left the tissue all along its edge, and cut what it swept from surface to
-// surface.
+// Whether the blade has left the tissue all along its edge, and not by the way it came: but for
+// what lies at the rim, all that it crossed is parted then.
+bool has_left(const CutStroke& stroke);
+
+// Whether it has left, and cut what it swept from surface to surface.
 bool has_gone_through(const CutStroke& stroke);
+
+// Whether a place of the tissue (reference position) is too far from where the swept surface ends
+// in there to be joined for that.
+bool is_clear_of_rim(const CutStroke& stroke, const Vec3& X);
 
 // Whether the edge, or some of it, is not on its way back.
 bool goes_on(const CutStroke& stroke);

@@ -10,6 +10,7 @@
 #include "cutting/cut_chips.h"
 #include "cutting/cut_edit.h"
 #include "cutting/cut_follow.h"
+#include "cutting/cut_go_on.h"
 #include "cutting/cut_hex.h"
 #include "cutting/cut_hits.h"
 #include "cutting/cut_homogenise.h"
@@ -56,7 +57,15 @@ void TetCutter::start_stroke() {
   next.step = std::move(front_->stroke.step);
   next.earlier_hit = std::move(front_->stroke.earlier_hit);
   merge_earlier(front_->stroke, next.earlier_hit);
+  next.left = left_by(front_->stroke);
   front_->stroke = std::move(next);
+}
+
+CutLeft TetCutter::left() const {
+  return left_by(front_->stroke);
+}
+void TetCutter::take_over(const CutLeft& left) {
+  add_left(left, front_->stroke.left);
 }
 
 const CutStroke& TetCutter::stroke() const {
@@ -142,20 +151,20 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
   TetCut cut;
   cut.around = survey(mesh, tets.mesh.X.empty() ? nullptr : &tets, index, positions, constraints,
                       stroke, is_last);
-  const bool is_through = is_last && has_gone_through(stroke);
+  const bool is_out = is_last && has_left(stroke);
   if (cut.around.patch.n_elements() == 0) {
-    if (is_through) add_refusals(missed_places(mesh, cut, stroke), figures);
+    if (is_out) add_refusals(missed_places(mesh, cut, stroke), figures);
     return {};
   }
   std::vector<ThinSlice> slices;
   if (options.split_step_ratio > 0 && tets.mesh.X.empty())
     slices = thin_slices(mesh, cut.around, stroke);
-  if (is_through)
+  if (is_out && has_gone_through(stroke))
     if (MeshEdit edit = split(mesh, cut.around, slices, figures); !edit.is_empty()) return edit;
   cut.labels = label_elements(cut.around, stroke, is_last);
-  if (is_through) part_bridges(cut.around, stroke, cut.labels);
+  if (is_out) part_bridges(cut.around, stroke, cut.labels);
   if (is_last) cut.rungs.n_turned = mend_labels(cut.around, stroke, cut.labels);
-  if (is_through && part_bridges(cut.around, stroke, cut.labels))
+  if (is_out && part_bridges(cut.around, stroke, cut.labels))
     cut.rungs.n_turned += mend_labels(cut.around, stroke, cut.labels);
   std::vector<std::uint8_t> stays_whole(cut.around.patch.node.size(), 0);
   if (!is_last) stays_whole = unripe_nodes(cut.around, cut.labels);
@@ -172,7 +181,7 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
 
   figures = make_figures(cut, is_last);
   remember(cut, mesh.n_nodes(), stroke);
-  if (is_through) add_refusals(missed_places(mesh, cut, stroke), figures);
+  if (is_out) add_refusals(missed_places(mesh, cut, stroke), figures);
   MeshEdit edit = make_edit(mesh, cut);
   edit_index(mesh, edit, index);
   return edit;

@@ -79,6 +79,11 @@ class TetCutter {
   // A new stroke: forgets the front (faces that are open stay open).
   void start_stroke();
 
+  // What the stroke leaves crossed and not parted when it ends; what other cutters' strokes have
+  // left: one of this cutter that comes there goes on with it.
+  CutLeft left() const;
+  void take_over(const CutLeft& left);
+
   // All that a cut under way remembers, for checkpoints: with the same stroke another cutter goes
   // on to the same bits. Node and element numbers are global and survive edits.
   const CutStroke& stroke() const;

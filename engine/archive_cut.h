@@ -31,9 +31,14 @@ void visit(Archive& a, BladePoint& p) {
   a(p.element, p.is_inside, p.X, p.beyond, p.x, p.farthest, p.ahead);
 }
 template <class Archive>
+void visit(Archive& a, CutLeft& l) {
+  a(l.hit, l.node);
+}
+template <class Archive>
 void visit(Archive& a, CutStroke& s) {
-  a(s.hit, s.earlier_hit, s.side, s.opened, s.step, s.surface_node, s.parted_node, s.made_node,
-    s.fresh, s.unfinished, s.edge, s.at_edge, s.ends_in_tissue, s.is_amid, s.mean_edge, s.swept);
+  a(s.hit, s.earlier_hit, s.left, s.side, s.opened, s.step, s.surface_node, s.parted_node,
+    s.made_node, s.fresh, s.in_slit, s.unfinished, s.edge, s.at_edge, s.rim, s.is_amid, s.mean_edge,
+    s.swept);
 }
 template <class Archive>
 void visit(Archive& a, CutRefusal& r) {

@@ -10,7 +10,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 17;
+constexpr std::uint32_t checkpoint_format = 18;
 
 template <class Archive>
 static void visit(Archive& a, Mesh& mesh) {

@@ -95,6 +95,7 @@ void advance_stroke(const Simulation& s, const BladeSweep& sweep, CutStage& stag
   look.edit = stage.tet.advance(s.mesh, positions, {is_held, s.loads.border}, sweep, look.is_last,
                                 look.figures);
   look.goes_on = goes_on(stage.tet.stroke());
+  if (look.is_last) look.left = stage.tet.left();
 }
 
 std::vector<int> ranks_around(const Simulation& s, const Box& blade, double way,

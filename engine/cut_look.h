@@ -23,10 +23,11 @@ struct BladeLook {
   bool goes_on = true;     // not back in its slit
   CutterEdit edit;
   CutFigures figures;
+  CutLeft left;  // by the stroke, if it ends
 };
 template <class Archive>
 void visit(Archive& a, BladeLook& l) {
-  a(l.engaged, l.has_met, l.is_beside, l.is_last, l.goes_on, l.edit, l.figures);
+  a(l.engaged, l.has_met, l.is_beside, l.is_last, l.goes_on, l.edit, l.figures, l.left);
 }
 
 // The cutting edge, of a plane body's blade the tip alone.

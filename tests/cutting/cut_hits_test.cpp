@@ -89,7 +89,7 @@ TEST(AddHits, finds_where_tissue_moves_onto_an_edge_what_the_edge_finds_moving_a
       EXPECT_EQ(met.hit[k].key(), moving.hit[k].key());
       EXPECT_EQ(met.hit[k].is_first_plus, moving.hit[k].is_first_plus);
     }
-    EXPECT_FALSE(met.ends_in_tissue);
+    EXPECT_TRUE(met.rim.empty());
     EXPECT_NEAR(met.swept, way.norm(), 1e-12) << share;  // rounding of 60 steps of 4 / 60
   }
 }

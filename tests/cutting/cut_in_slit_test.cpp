@@ -7,6 +7,8 @@
 namespace trocar::cutting_test {
 namespace {
 
+using Place = OlderSlits::Place;
+
 int facets_opened(Body& body, double x) {
   const Vec3 normal = Vec3::UnitX();
   const Blade blade = straight_blade({x, -0.1, 0.5}, {x, -0.1, 1.1}, {0, 1.2, 0});
@@ -31,11 +33,17 @@ TEST(OlderSlits, hold_what_lies_beside_their_facets_and_along_them) {
   std::iota(all.begin(), all.end(), 0);
   const OlderSlits slits(body.mesh, all, {}, h);
   const Vec3 X(0.5, 0.5, 0.8), across = Vec3::UnitX();
-  EXPECT_TRUE(slits.hold(X, across));
-  EXPECT_TRUE(slits.hold(X + 0.14 * h * across, across));
-  EXPECT_FALSE(slits.hold(X + 0.16 * h * across, across));
-  EXPECT_FALSE(slits.hold(X, Vec3(1, 0.5, 0).normalized()));
-  EXPECT_FALSE(slits.hold({0.5, 0.5, 0.2}, across));
+  EXPECT_EQ(slits.place_of(X, across), Place::inside);
+  EXPECT_EQ(slits.place_of(X + 0.14 * h * across, across), Place::inside);
+  EXPECT_EQ(slits.place_of(X + 0.16 * h * across, across), Place::outside);
+  EXPECT_EQ(slits.place_of(X, Vec3(1, 0.5, 0).normalized()), Place::outside);
+  EXPECT_EQ(slits.place_of({0.5, 0.5, 0.2}, across), Place::outside);
+  std::vector<Place> deeper;
+  for (double z = 0.95; z > 0.1; z -= 0.01)
+    if (const Place place = slits.place_of({0.5, 0.5, z}, across);
+        deeper.empty() || deeper.back() != place)
+      deeper.push_back(place);
+  EXPECT_EQ(deeper, (std::vector{Place::inside, Place::near_front, Place::outside}));
 }
 
 }  // namespace

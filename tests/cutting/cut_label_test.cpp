@@ -48,7 +48,7 @@ CutLabels labels_of(const std::vector<std::int8_t>& side) {
   labels.side = side;
   for (const std::int8_t s : side)
     labels.kind.push_back(s == 0 ? CutKind::uncut : CutKind::separated);
-  labels.has_front = false;
+  labels.is_passed.assign(side.size(), 1);
   return labels;
 }
 
