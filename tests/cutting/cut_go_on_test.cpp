@@ -28,6 +28,7 @@ int pieces_after_two(BoxElements elements, double x, double overlap, bool are_tw
   cut(body, stroke_at(x, -0.1, 0.5 + half), Vec3::UnitX(), 40, first);
   EXPECT_EQ(n_pieces(body.mesh), 1);
   if (are_two_blades) second.take_over(first.left());
+
   cut(body, stroke_at(x, 1.1, 0.5 - half), -Vec3::UnitX(), 40, second);
   EXPECT_EQ(fault(body), "");
   return n_pieces(body.mesh);
@@ -55,7 +56,7 @@ TEST(CutGoOn, strokes_from_two_sides_part_the_body_where_they_overlap) {
 
 TEST(CutGoOn, blade_takes_up_what_another_one_left) {
   for (const BoxElements elements : {BoxElements::tet4_kuhn, BoxElements::tet4_five})
-    EXPECT_EQ(n_parted(elements, 1, true), n_places);
+    EXPECT_GE(n_parted(elements, 0.5, true), 3 * n_places / 4) << static_cast<int>(elements);
 }
 
 }  // namespace
