@@ -28,7 +28,6 @@ int pieces_after_two(BoxElements elements, double x, double overlap, bool are_tw
   cut(body, stroke_at(x, -0.1, 0.5 + half), Vec3::UnitX(), 40, first);
   EXPECT_EQ(n_pieces(body.mesh), 1);
   if (are_two_blades) second.take_over(first.left());
-
   cut(body, stroke_at(x, 1.1, 0.5 - half), -Vec3::UnitX(), 40, second);
   EXPECT_EQ(fault(body), "");
   return n_pieces(body.mesh);
