@@ -8,7 +8,8 @@
 namespace trocar {
 
 // Crossings of edges whose ends the edit has parted, and all those in elements at facets that it
-// opened: made again, they would be a second slit beside the first. `mesh` is that before the edit.
+// opened: made again, they would be a second slit beside the first. Elements of those of this
+// stroke go to in_slit. `mesh` is that before the edit.
 void forget_parted(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke);
 
 }  // namespace trocar

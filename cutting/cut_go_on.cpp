@@ -13,13 +13,6 @@ namespace trocar {
 static constexpr double reach_along = 1, reach_beside = 0.35;
 static constexpr double along_it = 0.87;  // of the angle between the surfaces
 
-// One for each edge, the first.
-static void sort_hits(std::vector<CutHit>& hits) {
-  std::ranges::stable_sort(hits, {}, &CutHit::key);
-  const auto same = std::ranges::unique(hits, {}, &CutHit::key);
-  hits.erase(same.begin(), same.end());
-}
-
 void add_left(const CutLeft& more, CutLeft& left) {
   left.hit.insert(left.hit.end(), more.hit.begin(), more.hit.end());
   sort_hits(left.hit);

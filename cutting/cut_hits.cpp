@@ -255,8 +255,8 @@ static std::vector<CutHit> find_hits(const Mesh& mesh, std::span<const Vec3> x, 
     const Vec3 X = mesh.X[a] + crossing.s * (mesh.X[b] - mesh.X[a]);
     const OlderSlits::Place place =
         slits.place_of(X, reference_normal(mesh, x, use[begin].element, crossing.normal));
-    for (std::size_t k = begin; place == OlderSlits::Place::inside && k < end; ++k)
-      in_slit.push_back(use[k].element);
+    if (place == OlderSlits::Place::inside)
+      for (std::size_t k = begin; k < end; ++k) in_slit.push_back(use[k].element);
     if (place != OlderSlits::Place::outside) continue;
     for (std::size_t k = begin; k < end; ++k) {
       const bool is_first_a = mesh.corners(use[k].element)[tet_edges[use[k].edge][0]] == a;
@@ -302,7 +302,7 @@ void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
         mesh, edge_uses(mesh, near_elements(mesh, index, positions, box_of(swept), begin)));
   const std::span<const Vec3> x = positions.x();
   const Band band = make_band(seen, overlap * stroke.mean_edge, stroke);
-  BandBox box = box_of(band);
+  BandBox box = box_of(band);  // and tissue beyond the edge's ends
   box.low[1] -= 2 * beyond_end * stroke.mean_edge;
   box.high[1] += 2 * beyond_end * stroke.mean_edge;
   const std::vector<std::int32_t> element = near_elements(mesh, index, positions, box, begin);

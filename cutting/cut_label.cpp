@@ -84,7 +84,7 @@ static void set_geometric_side(const Extent& extent, double h, std::int32_t e, C
 }
 
 // Sides of the corners of elements that were crossed but not parted, by their distances: behind a
-// blade that has gone through, these are elements of which it left out an edge (tissue that moves
+// blade that has passed, these are elements of which it left out an edge (tissue that moves
 // from frame to frame slips past its edge).
 static void part_front(const CutSurroundings& around, const CutLabels& labels,
                        std::vector<ElementSides>& sides) {
@@ -257,7 +257,7 @@ CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke,
   std::vector<ElementSides> sides = element_sides(around, stroke);
   const std::vector<const std::int8_t*> known = find_elements(stroke.side, around.patch.element);
   CutLabels labels;
-  labels.is_passed = is_last && has_left(stroke)
+  labels.is_passed = is_last && has_come_out(stroke)
                          ? passed_elements(around, stroke)
                          : std::vector<std::uint8_t>(around.patch.element.size(), 0);
   part_front(around, labels, sides);

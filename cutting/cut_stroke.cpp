@@ -10,13 +10,13 @@ namespace trocar {
 // Over the mean edge: elements nearer to the rim than this may hold it, and stay joined.
 static constexpr double rim_width = 1.0;
 
-bool has_left(const CutStroke& stroke) {
+bool has_come_out(const CutStroke& stroke) {
   const auto is_outside = [](const BladePoint& p) { return !p.is_inside; };
   return !stroke.is_amid && std::ranges::all_of(stroke.edge, is_outside);
 }
 
 bool has_gone_through(const CutStroke& stroke) {
-  return stroke.rim.empty() && has_left(stroke);
+  return stroke.rim.empty() && has_come_out(stroke);
 }
 
 bool is_clear_of_rim(const CutStroke& stroke, const Vec3& X) {
@@ -29,6 +29,12 @@ bool goes_on(const CutStroke& stroke) {
   return std::ranges::any_of(stroke.edge, [&](const BladePoint& p) {
     return p.ahead.dot(p.farthest) <= same_place * stroke.mean_edge;
   });
+}
+
+void sort_hits(std::vector<CutHit>& hits) {
+  std::ranges::stable_sort(hits, {}, &CutHit::key);
+  const auto same = std::ranges::unique(hits, {}, &CutHit::key);
+  hits.erase(same.begin(), same.end());
 }
 
 std::vector<std::span<const CutHit>> hits_of(const CutStroke& stroke,

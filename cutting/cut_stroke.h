@@ -80,7 +80,7 @@ struct CutStroke {
 
 // Whether the blade has left the tissue all along its edge, and not by the way it came: but for
 // what lies at the rim, all that it crossed is parted then.
-bool has_left(const CutStroke& stroke);
+bool has_come_out(const CutStroke& stroke);
 
 // Whether it has left, and cut what it swept from surface to surface.
 bool has_gone_through(const CutStroke& stroke);
@@ -102,6 +102,9 @@ std::vector<const T*> find_elements(const std::vector<OfElement<T>>& values,
 // Adds or overwrites entries; both ascending.
 template <class T>
 void merge_elements(std::vector<OfElement<T>>& values, const std::vector<OfElement<T>>& changes);
+
+// Ascending (element, edge), the first of those with the same.
+void sort_hits(std::vector<CutHit>& hits);
 
 // The crossings of elements' edges; elements ascending.
 std::vector<std::span<const CutHit>> hits_of(const CutStroke& stroke,

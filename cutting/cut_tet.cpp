@@ -45,9 +45,7 @@ TetCutter::TetCutter(TetCutter&&) noexcept = default;
 static void merge_earlier(const CutStroke& stroke, std::vector<CutHit>& earlier) {
   for (const CutHit& hit : stroke.hit)
     if (find_element(stroke.opened, hit.element) == nullptr) earlier.push_back(hit);
-  std::ranges::stable_sort(earlier, {}, &CutHit::key);
-  const auto same = std::ranges::unique(earlier, {}, &CutHit::key);
-  earlier.erase(same.begin(), same.end());
+  sort_hits(earlier);
 }
 
 // Step bounds are kept: the floor under them must not sink from stroke to stroke. So is where the
@@ -151,7 +149,7 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
   TetCut cut;
   cut.around = survey(mesh, tets.mesh.X.empty() ? nullptr : &tets, index, positions, constraints,
                       stroke, is_last);
-  const bool is_out = is_last && has_left(stroke);
+  const bool is_out = is_last && has_come_out(stroke);
   if (cut.around.patch.n_elements() == 0) {
     if (is_out) add_refusals(missed_places(mesh, cut, stroke), figures);
     return {};

@@ -154,8 +154,9 @@ void take_over(Simulation& s, const CutGroup& group, const BladeLook& look, CutS
   if (!look.edit.is_empty())
     for (CutStage& other : s.cuts)
       if (&other != &stage || !group.has_this_rank()) other.tet.follow(s.mesh, look.edit);
-  for (CutStage& other : s.cuts)
-    if (&other != &stage) other.tet.take_over(look.left);
+  if (look.is_last)
+    for (CutStage& other : s.cuts)
+      if (&other != &stage) other.tet.take_over(look.left);
   note_edit(s, look.edit, look.figures, stage.strokes.back());
 }
 

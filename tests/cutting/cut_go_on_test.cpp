@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "cutting_tet.h"
 
 namespace trocar::cutting_test {
