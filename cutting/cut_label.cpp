@@ -267,6 +267,7 @@ CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke,
   }
   set_terminals(around, sides, stroke.unfinished, labels);
   decide_sides(around, stroke, labels);
+  labels.is_left.assign(around.patch.node.size(), 0);
   labels.is_front_node.assign(around.patch.node.size(), 0);
   for (std::int32_t e = 0; e < around.patch.n_elements(); ++e)
     if (labels.kind[e] == CutKind::front ||

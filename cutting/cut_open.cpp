@@ -54,10 +54,10 @@ bool is_joined(const CutPatch& patch, const Corners& corner, std::int32_t e, int
   return true;
 }
 
-// Facets (lower element's side) between elements of different sides; in `bent` those that stay
-// joined because of a bent hexahedron.
+// Facets (lower element's side) between elements of different sides; in `refused` those that stay
+// joined because of a bent hexahedron or a slice that is left.
 static std::vector<TetFacet> facets_between_sides(const CutPatch& patch, const CutLabels& labels,
-                                                  std::vector<TetFacet>& bent) {
+                                                  std::vector<TetFacet>& refused) {
   std::vector<TetFacet> facet;
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     for (int f = 0; f < 4; ++f) {
@@ -68,8 +68,10 @@ static std::vector<TetFacet> facets_between_sides(const CutPatch& patch, const C
       const bool is_free = std::all_of(node.begin(), node.end(), [&](std::int32_t i) {
         return patch.is_whole(i) && patch.is_joined[i] == 0;
       });
-      const auto is_bent = [&](std::int32_t i) { return patch.is_bent[i] != 0; };
-      if (is_free) (std::ranges::any_of(node, is_bent) ? bent : facet).push_back({e, f});
+      const auto stays = [&](std::int32_t i) {
+        return patch.is_bent[i] != 0 || labels.is_left[i] != 0;
+      };
+      if (is_free) (std::ranges::any_of(node, stays) ? refused : facet).push_back({e, f});
     }
   return facet;
 }

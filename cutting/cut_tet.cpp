@@ -166,7 +166,7 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
     cut.rungs.n_turned += mend_labels(cut.around, stroke, cut.labels);
   std::vector<std::uint8_t> stays_whole(cut.around.patch.node.size(), 0);
   if (!is_last) stays_whole = unripe_nodes(cut.around, cut.labels);
-  if (!is_last) leave_slices(cut.around, slices, stays_whole);
+  if (!is_last) leave_slices(cut.around.patch, slices, cut.labels);
   cut.opening = open_facets(cut.around, cut.labels, stays_whole);
   while (cut.chips.size() < most_chips && attach_chip(mesh, index, stroke, cut))
     cut.opening = open_facets(cut.around, cut.labels, stays_whole);

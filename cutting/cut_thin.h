@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cutting/cut_label.h"
 #include "cutting/cut_surroundings.h"
 #include "mesh/edit.h"
 
@@ -22,9 +23,8 @@ struct ThinSlice {
 std::vector<ThinSlice> thin_slices(const Mesh& mesh, const CutSurroundings& around,
                                    const CutStroke& stroke);
 
-// Nodes of elements around the slices are not to be parted yet.
-void leave_slices(const CutSurroundings& around, const std::vector<ThinSlice>& slices,
-                  std::vector<std::uint8_t>& stays_whole);
+// Elements around the slices are not to be parted yet, nor to get sides that stay.
+void leave_slices(const CutPatch& patch, const std::vector<ThinSlice>& slices, CutLabels& labels);
 
 // Nodes for the crossed edges of all slices that are no chips, ascending by ends: at the crossing
 // or nearer to the middle of the edge, so that no part of an element of the patch gets a lower step

@@ -154,7 +154,7 @@ void take_over(Simulation& s, const CutGroup& group, const BladeLook& look, CutS
   if (!look.edit.is_empty())
     for (CutStage& other : s.cuts)
       if (&other != &stage || !group.has_this_rank()) other.tet.follow(s.mesh, look.edit);
-  if (look.is_last)
+  if (look.is_last && !is_unfinished(look))
     for (CutStage& other : s.cuts)
       if (&other != &stage) other.tet.take_over(look.left);
   note_edit(s, look.edit, look.figures, stage.strokes.back());

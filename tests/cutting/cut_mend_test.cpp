@@ -64,6 +64,7 @@ TEST(MendLabels, takes_a_tent_down_whose_tip_pinches_the_outer_surface) {
   const CutSurroundings around = surroundings_of(body);
   CutLabels labels;
   labels.kind.assign(body.mesh.element_type.size(), CutKind::separated);
+  labels.is_left.assign(body.mesh.X.size(), 0);
   for (std::int32_t e = 0; e < body.mesh.n_elements(); ++e) {
     const auto corner = body.mesh.corners(e);
     const bool is_at_axis = std::ranges::find(corner, middle) != corner.end();

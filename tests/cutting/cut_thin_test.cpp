@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 #include "cutting_tet.h"
 
 namespace trocar::cutting_test {
@@ -14,16 +17,23 @@ Mesh plate(BoxElements elements) {
   return make_box(Vec3(-1, -1, 0), Vec3(1, 1, 0.2), {10, 10, 1}, elements);
 }
 
+// Its nodes by up to 0.03 off their places in each direction, those of the surface, too.
+Mesh irregular(Mesh mesh, unsigned seed) {
+  std::mt19937_64 random(seed);
+  const auto shift = [&] { return 0.03 * (double(random() >> 11) * 0x1p-52 - 1); };
+  for (Vec3& X : mesh.X)
+    for (double& x : X) x += shift();
+  return mesh;
+}
+
 struct Cut {
   Body body;
-  std::vector<MeshEdit> edits{};
   int n_inserted = 0;
 };
 
 // A plane through `centre`, in n_steps frames.
-Cut cut_along(Mesh mesh, const Vec3& centre, const Vec3& normal, double ratio, int n_steps = 20) {
-  Cut result{.body = Body(std::move(mesh))};
-  TetCutter cutter{CutTetOptions{.split_step_ratio = ratio}};
+void add_plane(TetCutter& cutter, const Vec3& centre, const Vec3& normal, int n_steps,
+               Cut& result) {
   const Blade blade = plane_blade(centre, normal, 3);
   Ledger ledger;
   cutter.start_stroke();
@@ -33,9 +43,14 @@ Cut cut_along(Mesh mesh, const Vec3& centre, const Vec3& normal, double ratio, i
       const MeshEdit edit = advance(cutter, result.body, sweep, k + 1 == n_steps, ledger);
       is_parted = edit.inserted.empty();
       result.n_inserted += static_cast<int>(edit.inserted.size());
-      if (!edit.is_empty()) result.edits.push_back(edit);
     }
   }
+}
+
+Cut cut_along(Mesh mesh, const Vec3& centre, const Vec3& normal, double ratio, int n_steps = 20) {
+  Cut result{.body = Body(std::move(mesh))};
+  TetCutter cutter{CutTetOptions{.split_step_ratio = ratio}};
+  add_plane(cutter, centre, normal, n_steps, result);
   return result;
 }
 
@@ -96,6 +111,23 @@ TEST(ThinSlices, are_not_split_in_a_thick_body) {
     EXPECT_EQ(cut.n_inserted, 0) << z;
     EXPECT_EQ(cut.body.mesh.n_elements(), cube.n_elements());
     EXPECT_EQ(fault(cut.body), "");
+  }
+}
+
+// What lies above, or below, both of two planes that cross inside a plate is a prism that tapers to
+// nothing. Sides given to its elements before the second stroke was through would part it in bits.
+TEST(ThinSlices, between_two_planes_that_cross_in_a_plate_come_off_whole) {
+  for (int k = 0; k < 42; ++k) {
+    const double angle = 0.26 * k, tilt = 0.65 + 0.006 * k;
+    Cut cut{.body = Body(irregular(
+                plate(k % 2 == 0 ? BoxElements::tet4_kuhn : BoxElements::tet4_five), unsigned(k)))};
+    TetCutter cutter{CutTetOptions{.split_step_ratio = split_ratio}};
+    const Vec3 across = std::cos(tilt) * Vec3(-std::sin(angle), std::cos(angle), 0),
+               up = std::sin(tilt) * Vec3::UnitZ();
+    for (const Vec3& normal : {Vec3(across + up), Vec3(across - up)})
+      add_plane(cutter, Vec3(0, 0, 0.1), normal, 80, cut);
+    EXPECT_EQ(fault(cut.body), "");
+    EXPECT_EQ(n_pieces(cut.body.mesh), 4) << k;
   }
 }
 
