@@ -5,6 +5,7 @@
 
 #include "cutting/cut_flake.h"
 #include "cutting/cut_survey.h"
+#include "cutting/cut_thin.h"
 
 namespace trocar {
 
@@ -128,8 +129,18 @@ static std::vector<OfElement<std::int8_t>> given_sides(const TetCut& cut) {
   return side;
 }
 
+// Whether it was given nodes on edges, so that it is parted where the blade was.
+static bool is_of_slice(const Tissue& t, const SmallPiece& piece) {
+  const CutPatch& patch = t.cut.around.patch;
+  return std::ranges::any_of(piece.element, [&](std::int32_t e) {
+    return std::ranges::any_of(patch.corner[e], [&](std::int32_t i) {
+      return std::ranges::binary_search(t.stroke.made_node, patch.node[i]);
+    });
+  });
+}
+
 static bool is_chip(const Tissue& t, const SmallPiece& piece) {
-  if (piece.V < chip_volume) return true;
+  if (piece.V < (is_of_slice(t, piece) ? least_slice : chip_volume)) return true;
   std::vector<std::int32_t> element = piece.beyond;
   for (const std::int32_t e : piece.element) element.push_back(t.cut.around.patch.element[e]);
   std::ranges::sort(element);

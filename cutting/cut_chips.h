@@ -15,8 +15,9 @@ struct CutChip {
 };
 
 // Gives the smallest piece that the opening should not free the other side: a chip, below half a
-// mean edge cubed, or a flake (cut_flake.h). Adds it to cut.chips; false if there is none. The
-// facets are to be opened again then: what it joins may be one, too.
+// mean edge cubed, of a slice that got nodes on edges a quarter, or a flake (cut_flake.h). Adds it
+// to cut.chips; false if there is none. The facets are to be opened again then: what it joins may
+// be one, too.
 bool attach_chip(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke, TetCut& cut);
 
 }  // namespace trocar

@@ -227,9 +227,14 @@ static bool is_edge_amid(const Mesh& mesh, const CutStroke& stroke) {
   return false;
 }
 
-static double mean_length(const Mesh& mesh, const std::vector<EdgeUse>& use) {
+// Of tissue as it was before cuts split its elements.
+static double mean_length(const Mesh& mesh, const std::vector<EdgeUse>& use,
+                          const CutStroke& stroke) {
   double sum = 0;
-  for (const EdgeUse& edge : use) sum += (mesh.X[edge.a] - mesh.X[edge.b]).norm();
+  for (const EdgeUse& edge : use) {
+    const double* const whole = find_element(stroke.whole_edge, edge.element);
+    sum += whole != nullptr ? *whole : (mesh.X[edge.a] - mesh.X[edge.b]).norm();
+  }
   return use.empty() ? 0 : sum / static_cast<double>(use.size());
 }
 
@@ -275,7 +280,7 @@ static void cross_edges(const Mesh& mesh, std::span<const Vec3> x, const Band& b
       find_hits(mesh, x, band, use, {mesh, element, stroke, stroke.mean_edge}, stroke.in_slit);
   sort_unique(stroke.in_slit);
   if (found.empty()) return;
-  stroke.mean_edge = mean_length(mesh, use);
+  stroke.mean_edge = mean_length(mesh, use, stroke);
   for (const CutHit& hit : found) stroke.fresh.push_back(hit.element);
   sort_unique(stroke.fresh);
   merge_hits(stroke.hit, found);
@@ -299,7 +304,7 @@ void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
     begin = near_elements(mesh, index, positions, box_of(swept));
   if (stroke.mean_edge == 0)
     stroke.mean_edge = mean_length(
-        mesh, edge_uses(mesh, near_elements(mesh, index, positions, box_of(swept), begin)));
+        mesh, edge_uses(mesh, near_elements(mesh, index, positions, box_of(swept), begin)), stroke);
   const std::span<const Vec3> x = positions.x();
   const Band band = make_band(seen, overlap * stroke.mean_edge, stroke);
   BandBox box = box_of(band);  // and tissue beyond the edge's ends

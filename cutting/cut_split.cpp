@@ -223,6 +223,23 @@ static void keep_steps(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke
   merge_elements(stroke.step, step);
 }
 
+static double mean_edge(const Mesh& mesh, const Tet& tet) {
+  double sum = 0;
+  for (const auto& [a, b] : tet_edges)
+    sum += (mesh.X[tet[static_cast<std::size_t>(a)]] - mesh.X[tet[static_cast<std::size_t>(b)]])
+               .norm();
+  return sum / static_cast<double>(tet_edges.size());
+}
+
+// Parts are too small to say how fine a mesh is.
+static void keep_edges(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
+  std::vector<OfElement<double>> edge;
+  for (const ElementSplit& split : edit.splits)
+    if (find_element(stroke.whole_edge, split.element) == nullptr)
+      edge.push_back({split.element, mean_edge(mesh, corners_of(mesh, split.element))});
+  merge_elements(stroke.whole_edge, edge);
+}
+
 void split_stroke(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
   const std::vector<OfElement<std::int8_t>> sides = node_sides(mesh, stroke);
   keep_steps(mesh, edit, stroke);
@@ -244,10 +261,12 @@ void split_stroke(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
 }
 
 void follow_splits(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
+  keep_edges(mesh, edit, stroke);
   const Inserted after{mesh, edit, SplitNumbers(edit.splits)};
   for (auto* hits : {&stroke.hit, &stroke.earlier_hit, &stroke.left.hit}) follow_hits(after, *hits);
   follow_values(after, stroke.side);
   follow_values(after, stroke.step);
+  follow_values(after, stroke.whole_edge);
   follow_opened(after, stroke.opened);
   for (auto* elements : {&stroke.fresh, &stroke.in_slit, &stroke.unfinished, &stroke.at_edge})
     *elements = after.numbers.all_after(*elements);

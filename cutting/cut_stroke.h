@@ -61,6 +61,8 @@ struct CutStroke {
   std::vector<OfElement<std::uint8_t>> opened;  // bit f: facet f was opened by this stroke
   std::vector<OfElement<double>>
       step;  // its bound (step_bound) before the blade touched it first [m]
+  std::vector<OfElement<double>>
+      whole_edge;  // of parts of elements that cuts split: the mean edge of the whole one [m]
   std::vector<std::int32_t>
       surface_node;  // nodes of opened facets that lie on the swept surface, ascending
   std::vector<std::int32_t>

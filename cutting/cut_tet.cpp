@@ -48,11 +48,12 @@ static void merge_earlier(const CutStroke& stroke, std::vector<CutHit>& earlier)
   sort_hits(earlier);
 }
 
-// Step bounds are kept: the floor under them must not sink from stroke to stroke. So is where the
-// blade has been in vain: it does not part it twice.
+// Step bounds are kept: the floor under them must not sink from stroke to stroke. So are edges from
+// before elements were split, and where the blade has been in vain: it does not part it twice.
 void TetCutter::start_stroke() {
   CutStroke next;
   next.step = std::move(front_->stroke.step);
+  next.whole_edge = std::move(front_->stroke.whole_edge);
   next.earlier_hit = std::move(front_->stroke.earlier_hit);
   merge_earlier(front_->stroke, next.earlier_hit);
   next.left = left_by(front_->stroke);

@@ -9,8 +9,6 @@
 
 namespace trocar {
 
-// A slice with less (over h^3) stays with the other side.
-static constexpr double least_volume = 0.25;
 // A new node keeps this part of its edge to either side, and more by steps where the floor wants
 // it.
 static constexpr double least_part = 0.3, more_part = 0.1, half = 0.5;
@@ -82,7 +80,7 @@ std::vector<EdgeNode> nodes_in_slices(const Mesh& mesh, const CutSurroundings& a
                                       const std::vector<ThinSlice>& slices, double floor) {
   std::vector<EdgeNode> nodes;
   for (const ThinSlice& slice : slices)
-    if (slice.V >= least_volume * around.h * around.h * around.h)
+    if (slice.V >= least_slice * around.h * around.h * around.h)
       nodes.insert(nodes.end(), slice.crossing.begin(), slice.crossing.end());
   std::ranges::stable_sort(nodes, {}, &EdgeNode::end);
   const auto same = std::ranges::unique(nodes, {}, &EdgeNode::end);

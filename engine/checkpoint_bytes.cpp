@@ -10,7 +10,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 18;
+constexpr std::uint32_t checkpoint_format = 19;
 
 template <class Archive>
 static void visit(Archive& a, Mesh& mesh) {
