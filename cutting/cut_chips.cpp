@@ -140,7 +140,10 @@ static bool is_of_slice(const Tissue& t, const SmallPiece& piece) {
 }
 
 static bool is_chip(const Tissue& t, const SmallPiece& piece) {
-  if (piece.V < (is_of_slice(t, piece) ? least_slice : chip_volume)) return true;
+  return piece.V < (is_of_slice(t, piece) ? least_slice : chip_volume);
+}
+
+static bool is_flake(const Tissue& t, const SmallPiece& piece) {
   std::vector<std::int32_t> element = piece.beyond;
   for (const std::int32_t e : piece.element) element.push_back(t.cut.around.patch.element[e]);
   std::ranges::sort(element);
@@ -148,17 +151,32 @@ static bool is_chip(const Tissue& t, const SmallPiece& piece) {
                   given_sides(t.cut));
 }
 
-bool attach_chip(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke, TetCut& cut) {
+// Gives the piece the other side.
+static void attach(SmallPiece piece, TetCut& cut) {
+  for (const std::int32_t e : piece.element)
+    cut.labels.side[e] = static_cast<std::int8_t>(-cut.labels.side[e]);
+  CutChip chip{centre_of(cut.around.patch, piece.element), std::move(piece.element), {}};
+  for (const std::int32_t e : piece.beyond)
+    chip.beyond.push_back({e, cut.labels.side[chip.element.front()]});
+  cut.chips.push_back(std::move(chip));
+}
+
+static void leave(const SmallPiece& piece, TetCut& cut) {
+  for (const std::int32_t e : piece.element)
+    for (const std::int32_t i : cut.around.patch.corner[e]) cut.labels.is_left[i] = 1;
+}
+
+bool join_chip(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke, bool is_last,
+               TetCut& cut) {
   if (cut.opening.duplication.duplicate_parent.empty()) return false;
   const Tissue tissue{mesh, index, stroke, cut};
   for (SmallPiece& piece : small_pieces(tissue)) {
-    if (!is_chip(tissue, piece)) continue;
-    for (const std::int32_t e : piece.element)
-      cut.labels.side[e] = static_cast<std::int8_t>(-cut.labels.side[e]);
-    CutChip chip{centre_of(cut.around.patch, piece.element), std::move(piece.element), {}};
-    for (const std::int32_t e : piece.beyond)
-      chip.beyond.push_back({e, cut.labels.side[chip.element.front()]});
-    cut.chips.push_back(std::move(chip));
+    const bool is_decided = is_chip(tissue, piece);
+    if (!is_decided && !is_flake(tissue, piece)) continue;
+    if (is_decided || is_last)
+      attach(std::move(piece), cut);
+    else
+      leave(piece, cut);
     return true;
   }
   return false;

@@ -14,10 +14,11 @@ struct CutChip {
   std::vector<OfElement<std::int8_t>> beyond;  // the rest outside the patch, with its new side
 };
 
-// Gives the smallest piece that the opening should not free the other side: a chip, below half a
-// mean edge cubed, of a slice that got nodes on edges a quarter, or a flake (cut_flake.h). Adds it
-// to cut.chips; false if there is none. The facets are to be opened again then: what it joins may
-// be one, too.
-bool attach_chip(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke, TetCut& cut);
+// Joins the smallest piece that the opening should not free: a chip, below half a mean edge cubed,
+// of a slice that got nodes on edges a quarter, or a flake (cut_flake.h). It gets the other side
+// and is added to cut.chips; a flake, while the blade is on its way, stays joined for now. False if
+// there is none. The facets are to be opened again then: what it joins may be one, too.
+bool join_chip(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke, bool is_last,
+               TetCut& cut);
 
 }  // namespace trocar

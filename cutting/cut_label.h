@@ -20,8 +20,8 @@ struct CutLabels {
   std::vector<std::uint8_t>
       is_front_node;  // (n_nodes) of an element of the front: the blade is still in there, and a
                       // node that moves could take an edge past it uncrossed
-  std::vector<std::uint8_t> is_left;  // (n_nodes) of a slice to be parted once the stroke has gone
-                                      // through: facets at these stay joined (cut_thin.h)
+  std::vector<std::uint8_t> is_left;    // (n_nodes) facets at these stay joined for now: of slices
+                                        // (cut_thin.h) and flakes to be decided on later
   std::vector<std::uint8_t> is_passed;  // (n_elements) the blade has left, and went through all
                                         // around: what it crossed there is parted
 };

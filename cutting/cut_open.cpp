@@ -55,7 +55,7 @@ bool is_joined(const CutPatch& patch, const Corners& corner, std::int32_t e, int
 }
 
 // Facets (lower element's side) between elements of different sides; in `refused` those that stay
-// joined because of a bent hexahedron or a slice that is left.
+// joined because of a bent hexahedron, or for now.
 static std::vector<TetFacet> facets_between_sides(const CutPatch& patch, const CutLabels& labels,
                                                   std::vector<TetFacet>& refused) {
   std::vector<TetFacet> facet;

@@ -169,7 +169,7 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
   if (!is_last) stays_whole = unripe_nodes(cut.around, cut.labels);
   if (!is_last) leave_slices(cut.around.patch, slices, cut.labels);
   cut.opening = open_facets(cut.around, cut.labels, stays_whole);
-  while (cut.chips.size() < most_chips && attach_chip(mesh, index, stroke, cut))
+  while (cut.chips.size() < most_chips && join_chip(mesh, index, stroke, is_last, cut))
     cut.opening = open_facets(cut.around, cut.labels, stays_whole);
   set_roles(cut, stroke, is_last);
   cut.X = moved_nodes(cut, options, move_limits(cut.around, stroke, options.least_step_ratio));
