@@ -122,5 +122,23 @@ TEST(Flakes, stay_with_the_other_side_but_not_what_the_blade_parted) {
   EXPECT_EQ(pieces_of_sunk_block(-0.1), 3);
 }
 
+// Between two planes that cross in a coarse plate. What hangs together around the blade is parted
+// from its side for a while where tissue ahead of it is not parted yet.
+TEST(Flakes, are_not_decided_on_before_the_blade_has_left) {
+  for (const int k : {59, 94}) {
+    const BoxElements elements = k % 2 == 0 ? BoxElements::tet4_kuhn : BoxElements::tet4_five;
+    Body body(
+        irregular(make_box({-1, -1, 0}, {1, 1, 0.4}, {5, 5, 1}, elements), 0.08, unsigned(k)));
+    const double angle = 0.26 * k, tilt = 0.5 + 0.05 * (k % 10);
+    const Vec3 across = std::cos(tilt) * Vec3(-std::sin(angle), std::cos(angle), 0),
+               up = std::sin(tilt) * Vec3::UnitZ();
+    TetCutter cutter{CutTetOptions{}};
+    for (const Vec3& normal : {Vec3(across + up), Vec3(across - up)})
+      cut(body, plane_blade(Vec3(0, 0, 0.2), normal, 3), normal, 30, cutter);
+    EXPECT_EQ(fault(body), "");
+    EXPECT_EQ(n_pieces(body.mesh), 4) << k;
+  }
+}
+
 }  // namespace
 }  // namespace trocar

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "cutting_tet.h"
 
@@ -15,15 +14,6 @@ constexpr double split_ratio = 0.3;
 
 Mesh plate(BoxElements elements) {
   return make_box(Vec3(-1, -1, 0), Vec3(1, 1, 0.2), {10, 10, 1}, elements);
-}
-
-// Its nodes by up to 0.03 off their places in each direction, those of the surface, too.
-Mesh irregular(Mesh mesh, unsigned seed) {
-  std::mt19937_64 random(seed);
-  const auto shift = [&] { return 0.03 * (double(random() >> 11) * 0x1p-52 - 1); };
-  for (Vec3& X : mesh.X)
-    for (double& x : X) x += shift();
-  return mesh;
 }
 
 struct Cut {
@@ -122,8 +112,9 @@ TEST(ThinSlices, are_not_split_in_a_thick_body) {
 TEST(ThinSlices, between_two_planes_that_cross_in_a_plate_come_off_whole) {
   for (int k = 0; k < 42; ++k) {
     const double angle = 0.26 * k, tilt = 0.40 + 0.006 * k;
-    Cut cut{.body = Body(irregular(
-                plate(k % 2 == 0 ? BoxElements::tet4_kuhn : BoxElements::tet4_five), unsigned(k)))};
+    Cut cut{.body =
+                Body(irregular(plate(k % 2 == 0 ? BoxElements::tet4_kuhn : BoxElements::tet4_five),
+                               0.03, unsigned(k)))};
     TetCutter cutter{CutTetOptions{.split_step_ratio = split_ratio}};
     const Vec3 across = std::cos(tilt) * Vec3(-std::sin(angle), std::cos(angle), 0),
                up = std::sin(tilt) * Vec3::UnitZ();

@@ -166,6 +166,13 @@ double mean_edge_of(const Mesh& mesh) {
   return sum / double(edges.size());
 }
 
+Mesh irregular(Mesh mesh, double amount, unsigned seed) {
+  std::mt19937_64 random(seed);
+  for (Vec3& X : mesh.X)
+    for (double& x : X) x += amount * (double(random() >> 11) * 0x1p-52 - 1);
+  return mesh;
+}
+
 int boundary_euler(const Mesh& mesh) {
   const Surface surface = boundary_surface(mesh);
   std::vector<std::array<std::int32_t, 2>> edge;

@@ -98,6 +98,9 @@ int n_pieces(const Mesh& mesh);
 
 double mean_edge_of(const Mesh& mesh);
 
+// Its nodes by up to `amount` off their places in each direction, those of the surface, too [m].
+Mesh irregular(Mesh mesh, double amount, unsigned seed);
+
 // Vertices - edges + faces of the boundary.
 int boundary_euler(const Mesh& mesh);
 
