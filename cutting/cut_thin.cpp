@@ -27,10 +27,13 @@ struct Crossings {
   std::vector<const std::int8_t*> given;      // (n_elements) sides of earlier advances
   std::vector<std::uint8_t> is_made;          // (n_nodes) put on an edge by this stroke
   std::vector<std::uint8_t> is_outer;         // (n_nodes) on the outer surface, lips of cuts apart
+  std::vector<std::uint8_t> is_lip;           // (n_nodes) on lips of cuts
   std::vector<std::uint8_t> votes;  // (n_nodes) by crossed edges: bit 0 for the + side, bit 1 for -
   std::vector<std::int32_t> twin;   // (n_nodes) the next node at its place that this stroke has
                                     // parted it from, in a ring
 
+  // It doesn't say how thick the tissue was.
+  bool is_on_lip_alone(std::int32_t i) const { return is_lip[i] != 0 && is_outer[i] == 0; }
   bool is_crossed(std::int32_t e, std::int32_t k) const {
     const auto [a, b] = tet_edges[static_cast<std::size_t>(k)];
     const std::array<std::int32_t, 4>& c = around.patch.corner[e];
@@ -65,13 +68,16 @@ static std::vector<std::int32_t> twins_of(const CutPatch& patch, const CutStroke
   return twin;
 }
 
-static std::vector<std::uint8_t> outer_nodes(const Mesh& mesh, const CutPatch& patch) {
-  std::vector<std::uint8_t> is_outer(patch.node.size(), 0);
+// (n_nodes) On facets without a neighbour: that cuts have opened, or others.
+static std::vector<std::uint8_t> surface_nodes(const Mesh& mesh, const CutPatch& patch,
+                                               bool are_opened) {
+  std::vector<std::uint8_t> is_surface(patch.node.size(), 0);
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     for (int f = 0; f < 4; ++f)
-      if (patch.across[e][f] < 0 && (mesh.cut_facets[patch.element[e]] >> f & 1) == 0)
-        for (const std::int32_t i : facet_nodes(patch, e, f)) is_outer[i] = 1;
-  return is_outer;
+      if (patch.across[e][f] < 0 &&
+          ((mesh.cut_facets[patch.element[e]] >> f & 1) != 0) == are_opened)
+        for (const std::int32_t i : facet_nodes(patch, e, f)) is_surface[i] = 1;
+  return is_surface;
 }
 
 static Crossings find_crossings(const Mesh& mesh, const CutSurroundings& around,
@@ -82,7 +88,8 @@ static Crossings find_crossings(const Mesh& mesh, const CutSurroundings& around,
               hits_of(stroke, patch.element),
               find_elements(stroke.side, patch.element),
               none,
-              outer_nodes(mesh, patch),
+              surface_nodes(mesh, patch, false),
+              surface_nodes(mesh, patch, true),
               none,
               twins_of(patch, stroke)};
   for (const std::int32_t node : stroke.made_node)
@@ -247,6 +254,7 @@ static bool is_one_element_thick(const Crossings& c, const ThinSlice& slice) {
   double n = 0, n_outer = 0;
   for (const std::int32_t i : slice.node)
     for_crossed(c, i, [&](std::int32_t p, std::int32_t q, const Vec3& /*X*/) {
+      if (c.is_on_lip_alone(p) || c.is_on_lip_alone(q)) return;
       n += 1;
       n_outer += c.is_outer[p] != 0 && c.is_outer[q] != 0 ? 1 : 0;
     });

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "cutting_tet.h"
+#include "mesh/mesh_file.h"
 
 namespace trocar::cutting_test {
 namespace {
@@ -123,6 +125,19 @@ TEST(ThinSlices, between_two_planes_that_cross_in_a_plate_come_off_whole) {
     EXPECT_EQ(fault(cut.body), "");
     EXPECT_EQ(n_pieces(cut.body.mesh), 4) << k;
   }
+}
+
+// Where the second plane crosses the first one's lips, edges lead from the outer surface to these.
+TEST(ThinSlices, between_two_planes_that_cross_in_a_flap_come_off_whole) {
+  const std::filesystem::path file =
+      std::filesystem::path(TROCAR_SOURCE_DIR) / "../shared/data/sofaenv_tissue_flap.msh";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not beside the checkout";
+  Cut cut{.body = Body(read_mesh(file.string(), 10))};
+  TetCutter cutter{CutTetOptions{.split_step_ratio = split_ratio}};
+  for (const Vec3& normal : {Vec3(1, 1, 0).normalized(), Vec3(1, -1, 0).normalized()})
+    add_plane(cutter, Vec3(0, 0.09, 0), normal, 80, cut);
+  EXPECT_EQ(fault(cut.body), "");
+  EXPECT_EQ(n_pieces(cut.body.mesh), 4);
 }
 
 // Else a crumb among the parts would not count as a chip.
