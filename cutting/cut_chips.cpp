@@ -161,11 +161,6 @@ static void attach(SmallPiece piece, TetCut& cut) {
   cut.chips.push_back(std::move(chip));
 }
 
-static void leave(const SmallPiece& piece, TetCut& cut) {
-  for (const std::int32_t e : piece.element)
-    for (const std::int32_t i : cut.around.patch.corner[e]) cut.labels.is_left[i] = 1;
-}
-
 bool join_chip(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke, bool is_last,
                TetCut& cut) {
   if (cut.opening.duplication.duplicate_parent.empty()) return false;
@@ -176,7 +171,7 @@ bool join_chip(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke,
     if (is_decided || is_last)
       attach(std::move(piece), cut);
     else
-      leave(piece, cut);
+      leave_elements(cut.around.patch, piece.element, cut.labels);
     return true;
   }
   return false;

@@ -253,6 +253,12 @@ static std::vector<std::uint8_t> passed_elements(const CutSurroundings& around,
   return is_passed;
 }
 
+void leave_elements(const CutPatch& patch, std::span<const std::int32_t> element,
+                    CutLabels& labels) {
+  for (const std::int32_t e : element)
+    for (const std::int32_t i : patch.corner[e]) labels.is_left[i] = 1;
+}
+
 CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke, bool is_last) {
   std::vector<ElementSides> sides = element_sides(around, stroke);
   const std::vector<const std::int8_t*> known = find_elements(stroke.side, around.patch.element);

@@ -26,6 +26,10 @@ struct CutLabels {
                                         // around: what it crossed there is parted
 };
 
+// Facets at these elements stay joined for now.
+void leave_elements(const CutPatch& patch, std::span<const std::int32_t> element,
+                    CutLabels& labels);
+
 CutLabels label_elements(const CutSurroundings& around, const CutStroke& stroke, bool is_last);
 
 // Behind a blade that has passed, no edge may hold both sides together: elements around it that the

@@ -310,9 +310,7 @@ std::vector<ThinSlice> thin_slices(const Mesh& mesh, const CutSurroundings& arou
 void leave_slices(const CutPatch& patch, const std::vector<ThinSlice>& slices, CutLabels& labels) {
   for (const ThinSlice& slice : slices)
     for (const std::vector<std::int32_t>* nodes : {&slice.node, &slice.rim})
-      for (const std::int32_t i : *nodes)
-        for (const std::int32_t e : patch.star(i))
-          for (const std::int32_t j : patch.corner[e]) labels.is_left[j] = 1;
+      for (const std::int32_t i : *nodes) leave_elements(patch, patch.star(i), labels);
 }
 
 }  // namespace trocar

@@ -130,10 +130,8 @@ TEST(Flakes, are_not_decided_on_before_the_blade_has_left) {
     Body body(
         irregular(make_box({-1, -1, 0}, {1, 1, 0.4}, {5, 5, 1}, elements), 0.08, unsigned(k)));
     const double angle = 0.26 * k, tilt = 0.5 + 0.05 * (k % 10);
-    const Vec3 across = std::cos(tilt) * Vec3(-std::sin(angle), std::cos(angle), 0),
-               up = std::sin(tilt) * Vec3::UnitZ();
     TetCutter cutter{CutTetOptions{}};
-    for (const Vec3& normal : {Vec3(across + up), Vec3(across - up)})
+    for (const Vec3& normal : crossing_normals(angle, tilt))
       cut(body, plane_blade(Vec3(0, 0, 0.2), normal, 3), normal, 30, cutter);
     EXPECT_EQ(fault(body), "");
     EXPECT_EQ(n_pieces(body.mesh), 4) << k;

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 
 #include "cutting_tet.h"
@@ -23,22 +22,27 @@ struct Cut {
   int n_inserted = 0;
 };
 
+// One frame, and the cut itself where nodes are put on edges first. The other cutter takes it up.
+void step(TetCutter& cutter, BladeSweep sweep, bool is_last, Cut& result, Ledger& ledger,
+          TetCutter* other = nullptr) {
+  for (bool is_parted = false; !is_parted; sweep.before = sweep.after) {
+    const Mesh before = result.body.mesh;
+    const CutterEdit edit = advance(cutter, result.body, sweep, is_last, ledger);
+    if (other != nullptr && !edit.is_empty()) other->follow(before, edit);
+    is_parted = edit.inserted.empty();
+    result.n_inserted += static_cast<int>(edit.inserted.size());
+  }
+}
+
 // A plane through `centre`, in n_steps frames.
 void add_plane(TetCutter& cutter, const Vec3& centre, const Vec3& normal, int n_steps, Cut& result,
-               TetCutter* follower = nullptr) {
+               TetCutter* other = nullptr) {
   const Blade blade = plane_blade(centre, normal, 3);
   Ledger ledger;
   cutter.start_stroke();
-  for (int k = 0; k < n_steps; ++k) {
-    BladeSweep sweep{blade(double(k) / n_steps), blade(double(k + 1) / n_steps), normal};
-    for (bool is_parted = false; !is_parted; sweep.before = sweep.after) {
-      const Mesh before = result.body.mesh;
-      const CutterEdit edit = advance(cutter, result.body, sweep, k + 1 == n_steps, ledger);
-      if (follower != nullptr && !edit.is_empty()) follower->follow(before, edit);
-      is_parted = edit.inserted.empty();
-      result.n_inserted += static_cast<int>(edit.inserted.size());
-    }
-  }
+  for (int k = 0; k < n_steps; ++k)
+    step(cutter, {blade(double(k) / n_steps), blade(double(k + 1) / n_steps), normal},
+         k + 1 == n_steps, result, ledger, other);
 }
 
 Cut cut_along(Mesh mesh, const Vec3& centre, const Vec3& normal, double ratio, int n_steps = 20) {
@@ -118,9 +122,7 @@ TEST(ThinSlices, between_two_planes_that_cross_in_a_plate_come_off_whole) {
                 Body(irregular(plate(k % 2 == 0 ? BoxElements::tet4_kuhn : BoxElements::tet4_five),
                                0.03, unsigned(k)))};
     TetCutter cutter{CutTetOptions{.split_step_ratio = split_ratio}};
-    const Vec3 across = std::cos(tilt) * Vec3(-std::sin(angle), std::cos(angle), 0),
-               up = std::sin(tilt) * Vec3::UnitZ();
-    for (const Vec3& normal : {Vec3(across + up), Vec3(across - up)})
+    for (const Vec3& normal : crossing_normals(angle, tilt))
       add_plane(cutter, Vec3(0, 0, 0.1), normal, 80, cut);
     EXPECT_EQ(fault(cut.body), "");
     EXPECT_EQ(n_pieces(cut.body.mesh), 4) << k;
@@ -156,30 +158,23 @@ TEST(ThinSlices, leave_the_mean_edge_what_it_was) {
 
 // Nodes of elements that another stroke has under way: it must go on with their parts.
 TEST(ThinSlices, of_one_blade_are_followed_by_another) {
-  Body body(plate(BoxElements::tet4_five));
+  Cut cut{.body = Body(plate(BoxElements::tet4_five))};
   const CutTetOptions options{.split_step_ratio = split_ratio};
   TetCutter first{options}, second{options};
-  const Blade across = plane_blade(Vec3(0, 0, 0.1), Vec3::UnitX(), 3),
-              along = plane_blade(Vec3(0, 0, 0.1), Vec3::UnitZ(), 3);
+  const Vec3 centre(0, 0, 0.1);
+  const Blade across = plane_blade(centre, Vec3::UnitX(), 3);
   Ledger ledger;
   second.start_stroke();
   const int n = 20;
-  const auto step = [&](TetCutter& cutter, TetCutter& other, const Blade& blade, const Vec3& normal,
-                        int k) {
-    BladeSweep sweep{blade(double(k) / n), blade(double(k + 1) / n), normal};
-    for (bool is_parted = false; !is_parted; sweep.before = sweep.after) {
-      const Mesh before = body.mesh;
-      const CutterEdit edit = advance(cutter, body, sweep, k + 1 == n, ledger);
-      if (!edit.is_empty()) other.follow(before, edit);
-      is_parted = edit.inserted.empty();
-    }
+  const auto step_across = [&](int k) {
+    step(second, {across(double(k) / n), across(double(k + 1) / n), Vec3::UnitX()}, k + 1 == n, cut,
+         ledger, &first);
   };
-  for (int k = 0; k < n / 2; ++k) step(second, first, across, Vec3::UnitX(), k);
-  first.start_stroke();
-  for (int k = 0; k < n; ++k) step(first, second, along, Vec3::UnitZ(), k);
-  for (int k = n / 2; k < n; ++k) step(second, first, across, Vec3::UnitX(), k);
-  EXPECT_EQ(fault(body), "");
-  EXPECT_GE(n_pieces(body.mesh), 4);
+  for (int k = 0; k < n / 2; ++k) step_across(k);
+  add_plane(first, centre, Vec3::UnitZ(), n, cut, &second);
+  for (int k = n / 2; k < n; ++k) step_across(k);
+  EXPECT_EQ(fault(cut.body), "");
+  EXPECT_GE(n_pieces(cut.body.mesh), 4);
 }
 
 }  // namespace

@@ -173,6 +173,12 @@ Mesh irregular(Mesh mesh, double amount, unsigned seed) {
   return mesh;
 }
 
+std::array<Vec3, 2> crossing_normals(double angle, double tilt) {
+  const Vec3 across = std::cos(tilt) * Vec3(-std::sin(angle), std::cos(angle), 0),
+             up = std::sin(tilt) * Vec3::UnitZ();
+  return {across + up, across - up};
+}
+
 int boundary_euler(const Mesh& mesh) {
   const Surface surface = boundary_surface(mesh);
   std::vector<std::array<std::int32_t, 2>> edge;

@@ -101,6 +101,10 @@ double mean_edge_of(const Mesh& mesh);
 // Its nodes by up to `amount` off their places in each direction, those of the surface, too [m].
 Mesh irregular(Mesh mesh, double amount, unsigned seed);
 
+// Of two planes that cross along a line in the xy plane, `angle` from the x axis; the normals lie
+// `tilt` above and below that plane [rad].
+std::array<Vec3, 2> crossing_normals(double angle, double tilt);
+
 // Vertices - edges + faces of the boundary.
 int boundary_euler(const Mesh& mesh);
 
