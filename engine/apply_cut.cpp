@@ -20,6 +20,8 @@ namespace trocar {
 
 namespace {
 
+constexpr double tolerated = 0.005;  // of the edited elements' strain energy
+
 double least_element_step(const Simulation& s, std::span<const std::int32_t> elements) {
   double least = 1e300;
   for (const std::int32_t e : elements)
@@ -213,8 +215,7 @@ std::vector<std::int32_t> old_nodes(const Mesh& mesh, std::span<const std::int32
 
 Before measure_before(const Simulation& s, std::span<const std::int32_t> elements,
                       std::span<const std::int32_t> nodes, const GlobalState& global) {
-  const Vec3 centre = motion_of(nodes, s.mass, global, Vec3::Zero()).centre;
-  return {.motion = motion_of(nodes, s.mass, global, centre),
+  return {.motion = motion_about_centre(nodes, s.mass, global),
           .least_step = least_element_step(s, elements),
           .mass = mass_of(nodes, s.mass)};
 }
@@ -292,13 +293,15 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   nodes = united(nodes, nodes_of(s.mesh, edited.after));
   is_step_local &= is_local ? update_topology(s, {edit.splits, edited.after, nodes, global.x})
                             : rebuild_all(nodes, s);
-  restore_strain_energy(adjustable, strain, s.mesh,
-                        *make_strained_patch(s, edit, edited.after, nodes, global), global);
-  restore_momentum(nodes, s.mass, before.motion, global, record);
-  const double kinetic = motion_of(nodes, s.mass, global, before.motion.centre).kinetic;
-  add_kinetic_energy(adjustable, s.mass, before.motion.kinetic - kinetic, global, record);
+  const double surplus =
+      restore_strain_energy(adjustable, strain, tolerated * strain, s.mesh,
+                            *make_strained_patch(s, edit, edited.after, nodes, global), global);
+  restore_motion(nodes, adjustable, s.mass, before.motion, global, record);
+  double gained = is_energy_local ? energy_around(s, true, nodes, global) - energy : 0;
+  const TakenUp around = take_up_around(s, adjustable, surplus, tolerated * strain, global, record);
+  gained += around.energy;
   if (is_local)
-    scatter_edited(s, n_kept, nodes, global);
+    scatter_edited(s, n_kept, united(nodes, around.nodes), global);
   else
     scatter_state(s, global);
   find_scales(s.mesh, edited, history.origins);
@@ -310,8 +313,8 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   } else {
     watch_state(s);
   }
-  if (s.energy)
-    s.energy->memory.works.cut += energy_around(s, is_energy_local, nodes, global) - energy;
+  if (!is_energy_local) gained = energy_around(s, false, nodes, global) - energy;
+  if (s.energy) s.energy->memory.works.cut += gained;
   add_to_record(s, before, edited.after, nodes, record);
   s.log.new_edits.push_back({.frame = s.frame, .edit = edit});
 }

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/sort_unique.h"
+#include "engine/apply_cut_momentum.h"
 #include "solver/relax.h"
 #include "solver/step.h"
 #include "solver/watch.h"
@@ -15,8 +16,8 @@ namespace trocar {
 
 namespace {
 
-constexpr double tolerated = 0.005;  // of the energy that is wanted
 constexpr int most_rounds = 30;
+constexpr int most_rings = 3;
 constexpr int most_halvings = 5;
 constexpr double farthest_up = 1, farthest_down = 3;  // t of a round
 constexpr double least_J_ratio = 0.5;
@@ -79,6 +80,14 @@ double step_towards(double wanted, double least_J, double W, std::span<const std
   return energy_at(0, nodes, line, body);
 }
 
+// Nodes that are held or may go nowhere.
+std::vector<std::uint8_t> immovable_nodes(const Simulation& s) {
+  std::vector<std::uint8_t> is_immovable;
+  for (const FixedMask fixed : s.fixed) is_immovable.push_back(fixed == all_components ? 1 : 0);
+  for (const Hold& hold : s.holds.holds) is_immovable[static_cast<std::size_t>(hold.node)] = 1;
+  return is_immovable;
+}
+
 }  // namespace
 
 double strain_energy(RankBody& body) {
@@ -97,7 +106,7 @@ std::vector<std::int32_t> adjustable_nodes(const Simulation& s, const MeshEdit& 
   for (const ElementSplit& split : edit.splits)
     nodes.insert(nodes.end(), s.mesh.corners(split.element).begin(),
                  s.mesh.corners(split.element).end());
-  std::vector<std::uint8_t> is_held = held_nodes(s.holds, s.fixed);
+  std::vector<std::uint8_t> is_held = immovable_nodes(s);
   for (const EdgeNode& node : edit.inserted) {
     nodes.push_back(static_cast<std::int32_t>(is_held.size()));
     const auto held = [&](std::int32_t i) { return is_held[static_cast<std::size_t>(i)] != 0; };
@@ -118,37 +127,64 @@ std::unique_ptr<Patch> make_strained_patch(const Simulation& s, const MeshEdit& 
                                            GlobalState& global) {
   const bool averages = s.model.options.tet4 == Formulation::tet4_nodal_pressure;
   if (edit.splits.empty() && !averages) return make_patch_of(s, edited, {.global = global});
-  std::vector<std::int32_t> elements = elements_around(s.corners, nodes);
-  if (averages) elements = elements_around(s.corners, nodes_of(s.mesh, elements));
-  return make_patch_of(s, elements, {.global = global});
+  return make_patch_of(s, elements_of_forces(s, nodes), {.global = global});
 }
 
-void restore_strain_energy(std::span<const std::int32_t> nodes, double wanted, RankBody& body) {
+double restore_strain_energy(std::span<const std::int32_t> nodes, double wanted, double tolerance,
+                             RankBody& body) {
   double W = strain_energy(body);
-  if (std::abs(W - wanted) <= tolerated * wanted) return;
+  if (std::abs(W - wanted) <= tolerance) return W - wanted;
   const double least_J = least_J_ratio * watch(body.model, body.part, body.state).least_J;
   std::vector<double> stiffness = make_relaxer(body.model, {}).mass;
   for (double& k : stiffness) k *= 4;  // of the highest frequency 2 / step, step 1
-  for (int round = 0; round < most_rounds && std::abs(W - wanted) > tolerated * wanted; ++round) {
+  for (int round = 0; round < most_rounds && std::abs(W - wanted) > tolerance; ++round) {
     const double before = W;
     W = step_towards(wanted, least_J, W, nodes, stiffness, body);
-    if (W == before) return;
+    if (W == before) break;
   }
+  return W - wanted;
 }
 
-void restore_strain_energy(std::span<const std::int32_t> nodes, double wanted, const Mesh& mesh,
-                           Patch& patch, GlobalState& global) {
+double restore_strain_energy(std::span<const std::int32_t> nodes, double wanted, double tolerance,
+                             const Mesh& mesh, Patch& patch, GlobalState& global) {
   std::vector<std::int32_t> local;
   const std::vector<std::int32_t>& all = patch.sub.node;
   for (const std::int32_t i : nodes)
     local.push_back(
         static_cast<std::int32_t>(std::lower_bound(all.begin(), all.end(), i) - all.begin()));
-  restore_strain_energy(local, wanted, patch);
+  const double surplus = restore_strain_energy(local, wanted, tolerance, patch);
   for (std::size_t k = 0; k < local.size(); ++k) {
     const auto i = static_cast<std::size_t>(nodes[k]);
     std::copy_n(&patch.state.u[3 * static_cast<std::size_t>(local[k])], 3, &global.u[3 * i]);
     global.x[i] = mesh.X[i] + Vec3::Map(&global.u[3 * i]);
   }
+  return surplus;
+}
+
+TakenUp take_up_around(Simulation& s, std::span<const std::int32_t> nodes, double surplus,
+                       double tolerance, GlobalState& global, CutRecord& record) {
+  TakenUp taken;
+  if (std::abs(surplus) <= tolerance) return taken;
+  taken.nodes.assign(nodes.begin(), nodes.end());
+  const std::vector<std::uint8_t> is_immovable = immovable_nodes(s);
+  for (int ring = 0; ring < most_rings && std::abs(surplus) > tolerance; ++ring) {
+    taken.nodes = nodes_of(s.mesh, elements_around(s.corners, taken.nodes));
+    std::vector<std::int32_t> movable = taken.nodes;
+    std::erase_if(movable,
+                  [&](std::int32_t i) { return is_immovable[static_cast<std::size_t>(i)] != 0; });
+    const std::unique_ptr<Patch> patch =
+        make_patch_of(s, elements_of_forces(s, taken.nodes), {.global = global});
+    const auto energy = [&] {
+      return s.energy ? patch_energy(s, taken.nodes, {.global = global}) : 0.0;
+    };
+    const double before = energy();
+    const Motion motion = motion_about_centre(taken.nodes, s.mass, global);
+    const double wanted = strain_energy(*patch) - surplus;
+    surplus = restore_strain_energy(movable, wanted, tolerance, s.mesh, *patch, global);
+    restore_motion(taken.nodes, movable, s.mass, motion, global, record);
+    taken.energy += energy() - before;
+  }
+  return taken;
 }
 
 }  // namespace trocar

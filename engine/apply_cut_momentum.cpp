@@ -24,6 +24,11 @@ Motion motion_of(std::span<const std::int32_t> nodes, std::span<const double> ma
   return motion;
 }
 
+Motion motion_about_centre(std::span<const std::int32_t> nodes, std::span<const double> mass,
+                           const GlobalState& state) {
+  return motion_of(nodes, mass, state, motion_of(nodes, mass, state, Vec3::Zero()).centre);
+}
+
 void restore_momentum(std::span<const std::int32_t> nodes, std::span<const double> mass,
                       const Motion& before, GlobalState& state, CutRecord& record) {
   const Vec3 about = before.centre;
@@ -58,8 +63,8 @@ void restore_momentum(std::span<const std::int32_t> nodes, std::span<const doubl
 void add_kinetic_energy(std::span<const std::int32_t> nodes, std::span<const double> mass,
                         double energy, GlobalState& state, CutRecord& record) {
   constexpr double most = 1.5;
-  const Vec3 about = motion_of(nodes, mass, state, Vec3::Zero()).centre;
-  const Motion motion = motion_of(nodes, mass, state, about);
+  const Motion motion = motion_about_centre(nodes, mass, state);
+  const Vec3& about = motion.centre;
   // Nodes on a line have no inertia around it, nor angular momentum.
   const Vec3 w = motion.inertia.completeOrthogonalDecomposition().solve(motion.angular);
   const double rigid = 0.5 * (motion.momentum.squaredNorm() / motion.mass + motion.angular.dot(w));
@@ -75,6 +80,14 @@ void add_kinetic_energy(std::span<const std::int32_t> nodes, std::span<const dou
     }
   }
   record.kinetic_energy_change += motion_of(nodes, mass, state, about).kinetic - motion.kinetic;
+}
+
+void restore_motion(std::span<const std::int32_t> nodes, std::span<const std::int32_t> adjustable,
+                    std::span<const double> mass, const Motion& before, GlobalState& state,
+                    CutRecord& record) {
+  restore_momentum(nodes, mass, before, state, record);
+  const double kinetic = motion_of(nodes, mass, state, before.centre).kinetic;
+  add_kinetic_energy(adjustable, mass, before.kinetic - kinetic, state, record);
 }
 
 }  // namespace trocar

@@ -19,6 +19,10 @@ struct Motion {
 Motion motion_of(std::span<const std::int32_t> nodes, std::span<const double> mass,
                  const GlobalState& state, const Vec3& about);
 
+// About their own centre of mass.
+Motion motion_about_centre(std::span<const std::int32_t> nodes, std::span<const double> mass,
+                           const GlobalState& state);
+
 // Gives the nodes the rigid increment a + w x (x - centre) that makes momentum and angular momentum
 // what they were.
 void restore_momentum(std::span<const std::int32_t> nodes, std::span<const double> mass,
@@ -29,5 +33,11 @@ void restore_momentum(std::span<const std::int32_t> nodes, std::span<const doubl
 // momentum stay.
 void add_kinetic_energy(std::span<const std::int32_t> nodes, std::span<const double> mass,
                         double energy, GlobalState& state, CutRecord& record);
+
+// Momentum and angular momentum of `nodes` become what they were, and so does the kinetic energy,
+// as far as the motion of `adjustable` allows it.
+void restore_motion(std::span<const std::int32_t> nodes, std::span<const std::int32_t> adjustable,
+                    std::span<const double> mass, const Motion& before, GlobalState& state,
+                    CutRecord& record);
 
 }  // namespace trocar

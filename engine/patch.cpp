@@ -29,15 +29,6 @@ std::vector<std::int32_t> with_rings(const Simulation& s, std::vector<std::int32
   return nodes;
 }
 
-// All that the forces of the nodes depend on: pressures averaged at nodes take one ring more.
-std::vector<std::int32_t> elements_of_forces(const Simulation& s,
-                                             std::span<const std::int32_t> nodes) {
-  std::vector<std::int32_t> elements = elements_around(s, nodes);
-  if (s.model.options.tet4 == Formulation::tet4_nodal_pressure)
-    elements = elements_around(s, nodes_of(s.mesh, elements));
-  return elements;
-}
-
 // Grows until the clusters of scaled masses that it touches are whole: their mean motion takes all
 // their nodes.
 MassScaling take_in_clusters(const Simulation& s, SubMesh& sub) {
@@ -147,6 +138,14 @@ double sum_of(std::initializer_list<std::span<const double>> lists) {
 }
 
 }  // namespace
+
+std::vector<std::int32_t> elements_of_forces(const Simulation& s,
+                                             std::span<const std::int32_t> nodes) {
+  std::vector<std::int32_t> elements = elements_around(s, nodes);
+  if (s.model.options.tet4 == Formulation::tet4_nodal_pressure)
+    elements = elements_around(s, nodes_of(s.mesh, elements));
+  return elements;
+}
 
 std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
                                   const PatchState& state) {

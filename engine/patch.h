@@ -44,6 +44,10 @@ std::unique_ptr<Patch> make_present_patch_around(const Simulation& s,
                                                  std::span<const std::int32_t> nodes,
                                                  std::size_t most);
 
+// All that the forces of these nodes depend on: pressures averaged at nodes take one ring more.
+std::vector<std::int32_t> elements_of_forces(const Simulation& s,
+                                             std::span<const std::int32_t> nodes);
+
 // All elements of a patch around edited elements that have these nodes.
 std::vector<std::int32_t> elements_of_patch(const Simulation& s,
                                             std::span<const std::int32_t> nodes);

@@ -15,10 +15,12 @@ def numbers(v):
 
 
 def body(draw):
-    """(text, size in mm) of a box from the origin, or of a ball or cylinder in one."""
-    kind = draw.choice(["box", "box", "ball", "cylinder"])
+    """(text, size in mm) of a box from the origin, of a plate one or two cells thick, or of a ball or cylinder in a box."""
+    kind, is_plate = draw.choice([("box", False), ("box", False), ("box", True), ("ball", False), ("cylinder", False)])
     elements = draw.choice(["hex8", "tet4-kuhn"] + ["tet4-five"] * (kind == "box"))
     size, cells = [draw.uniform(20, 60) for _ in range(3)], [draw.randint(3, 12) for _ in range(3)]
+    if is_plate:
+        size[2], cells[2] = draw.uniform(2, 6), draw.randint(1, 2)
     if kind != "box":
         size[:2] = [draw.uniform(15, 40)] * 2
         cells[:2] = [2 * draw.randint(2, 5)] * 2
@@ -213,11 +215,11 @@ def scene(seed):
     parts = [f'name = "seed {seed}"\n[time]\nduration = {duration}\nframe_rate = {draw.choice([30, 60, 100])}\n[tissue]\n' + shape, tissue, steps,
              f'[contact]\nfriction = {draw.choice([0, 0.1, 0.5])}\ntissue = {"true" if touches else "false"}\n',
              f'[cutting]\nadvance = {draw.choice([0.25, 0.5, 1, 2])}\nresistance = "{draw.choice([0, 5, 30])} N/m"\n'
-             f"least_step_ratio = {draw.choice([0.3, 0.75, 0.75, 0.9])}\n", '[checkpoint]\nevery = "0.1 s"\n', supports(draw, size, duration)]
+             f"least_step_ratio = {draw.choice([0.3, 0.75, 0.75, 0.9])}\nsplit_step_ratio = {draw.choice([0, 0, 0.3, 0.5])}\n", '[checkpoint]\nevery = "0.1 s"\n', supports(draw, size, duration)]
     if draw.random() < 0.3:
         parts.append('[start]\nstate = "equilibrium"\n')
     add = plane_instrument if family == "plane" else instrument
-    parts += [add(draw, f"i{k}", size, duration) for k in range(draw.randint(0, 4))]
+    parts += [add(draw, f"i{k}", size, duration) for k in range(draw.choice([0, 1, 2, 2, 3, 4]))]
     parts.append(f'[[output]]\nkind = "metrics"\nfile = "{METRICS_FILE}"\n')
     if draw.random() < 0.5:
         parts.append(f'[[output]]\nkind = "recording"\nfile = "{RECORDING_FILE}"\n')
