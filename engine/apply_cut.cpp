@@ -300,6 +300,9 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   double gained = is_energy_local ? energy_around(s, true, nodes, global) - energy : 0;
   const TakenUp around = take_up_around(s, adjustable, surplus, tolerated * strain, global, record);
   gained += around.energy;
+  if (strain > 0)
+    record.strain_energy_change =
+        std::max(record.strain_energy_change, std::abs(around.surplus) / strain);
   if (is_local)
     scatter_edited(s, n_kept, united(nodes, around.nodes), global);
   else

@@ -163,11 +163,11 @@ double restore_strain_energy(std::span<const std::int32_t> nodes, double wanted,
 
 TakenUp take_up_around(Simulation& s, std::span<const std::int32_t> nodes, double surplus,
                        double tolerance, GlobalState& global, CutRecord& record) {
-  TakenUp taken;
+  TakenUp taken{.nodes = {}, .surplus = surplus};
   if (std::abs(surplus) <= tolerance) return taken;
   taken.nodes.assign(nodes.begin(), nodes.end());
   const std::vector<std::uint8_t> is_immovable = immovable_nodes(s);
-  for (int ring = 0; ring < most_rings && std::abs(surplus) > tolerance; ++ring) {
+  for (int ring = 0; ring < most_rings && std::abs(taken.surplus) > tolerance; ++ring) {
     taken.nodes = nodes_of(s.mesh, elements_around(s.corners, taken.nodes));
     std::vector<std::int32_t> movable = taken.nodes;
     std::erase_if(movable,
@@ -179,8 +179,8 @@ TakenUp take_up_around(Simulation& s, std::span<const std::int32_t> nodes, doubl
     };
     const double before = energy();
     const Motion motion = motion_about_centre(taken.nodes, s.mass, global);
-    const double wanted = strain_energy(*patch) - surplus;
-    surplus = restore_strain_energy(movable, wanted, tolerance, s.mesh, *patch, global);
+    const double wanted = strain_energy(*patch) - taken.surplus;
+    taken.surplus = restore_strain_energy(movable, wanted, tolerance, s.mesh, *patch, global);
     restore_motion(taken.nodes, movable, s.mass, motion, global, record);
     taken.energy += energy() - before;
   }

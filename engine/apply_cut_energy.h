@@ -37,11 +37,11 @@ double restore_strain_energy(std::span<const std::int32_t> nodes, double wanted,
 double restore_strain_energy(std::span<const std::int32_t> nodes, double wanted, double tolerance,
                              const Mesh& mesh, Patch& patch, GlobalState& global);
 
-// Nodes that were moved, ascending, and what that changed of the body's energy; 0 without a
-// ledger. [J]
+// Nodes that were moved, ascending, what that changed of the body's energy, 0 without a ledger, and
+// what strain energy is still too much. [J]
 struct TakenUp {
   std::vector<std::int32_t> nodes;
-  double energy = 0;
+  double energy = 0, surplus = 0;
 };
 
 // What these nodes could not bring back, `surplus`, is taken up around them: the nodes of a ring

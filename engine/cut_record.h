@@ -34,6 +34,7 @@ struct CutRecord {
   double mass_change = 0;            // largest |relative| of an edit
   double momentum_change = 0;        // |P after - P before| / sum |m v| around the cut, largest
   double kinetic_energy_change = 0;  // summed [J]
+  double strain_energy_change = 0;   // largest |relative| of the edited elements by an edit
   double largest_deviation = 0, mean_deviation = 0, mean_edge = 0;  // [m]
   double blade_travel = 0,
          deepest = 0;  // of the edge's middle with some of it inside; depth of the edge inside [m]

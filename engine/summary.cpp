@@ -58,6 +58,7 @@ Json edits_json(const CutRecord& c) {
           {"mass_change", c.mass_change},
           {"momentum_change", c.momentum_change},
           {"kinetic_energy_change_J", c.kinetic_energy_change},
+          {"strain_energy_change", c.strain_energy_change},
           {"deviation_max_m", c.largest_deviation},
           {"deviation_mean_m", c.mean_deviation},
           {"edge_mean_m", c.mean_edge}};
