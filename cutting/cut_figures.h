@@ -33,6 +33,7 @@ struct CutRefusal {
 const char* reason_of(const CutRefusal& refusal);
 
 struct CutFigures {
+  bool goes_through = false;  // at a stroke's end: the blade has swept from surface to surface
   std::int32_t n_opened_facets = 0;
   std::int32_t n_moved = 0;
   std::int32_t n_duplicated = 0;

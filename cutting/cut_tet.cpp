@@ -250,10 +250,11 @@ CutterEdit TetCutter::advance(const Mesh& mesh, PresentPositions& positions,
   figures = {};
   prepare(mesh);
   Front& f = *front_;
-  if (f.tets.mesh.X.empty())
-    return {f.advance(mesh, positions, constraints, sweep, is_last, figures), {}};
-  MeshEdit edit = f.advance(f.tets.mesh, positions, constraints, sweep, is_last, figures);
-  if (edit.is_empty()) return {edit, {}};
+  const bool has_tets = !f.tets.mesh.X.empty();
+  MeshEdit edit =
+      f.advance(has_tets ? f.tets.mesh : mesh, positions, constraints, sweep, is_last, figures);
+  figures.goes_through = is_last && has_gone_through(f.stroke);
+  if (!has_tets || edit.is_empty()) return {std::move(edit), {}};
   MeshEdit of_body = edit_of_body(mesh, positions, f.index, edit, f.tets, figures);
   return {std::move(of_body), std::move(edit)};
 }

@@ -99,7 +99,10 @@ Json stroke_json(const CutRecord& c) {
 Json cuts_json(const Simulation& s) {
   Json list = Json::array();
   for (const CutStage& stage : s.cuts)
-    for (const CutRecord& stroke : stage.strokes) list.push_back(stroke_json(stroke));
+    for (const CutRecord& stroke : stage.strokes) {
+      list.push_back(stroke_json(stroke));
+      if (s.mesh.dimension() == 3) list.back()["from_surface_to_surface"] = stroke.goes_through;
+    }
   return list;
 }
 

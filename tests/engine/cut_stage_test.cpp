@@ -75,6 +75,7 @@ TEST(CutStage, sharp_bend_takes_no_edges_from_its_legs) {
 struct Cut {
   std::int32_t n_pieces = 0;
   std::int64_t n_opened = 0, n_refused = 0;
+  bool goes_through = false;  // the last stroke
 };
 Cut cut_along(const std::string& tissue, const std::string& from, const std::string& to,
               double seconds, const std::string& direction, const std::string& held = "z-") {
@@ -94,6 +95,7 @@ Cut cut_along(const std::string& tissue, const std::string& from, const std::str
   for (const CutRecord& stroke : s.cuts[0].strokes) {
     cut.n_opened += stroke.n_opened_facets;
     cut.n_refused += stroke.n_refused;
+    cut.goes_through = stroke.goes_through;
   }
   return cut;
 }
@@ -111,12 +113,14 @@ TEST(CutStage, cuts_what_the_blade_passes_between_two_frames) {
         cut_along(column, "-0.03, -0.015, 0.02", "0.03, -0.015, 0.021", seconds, "[0, -1, 0]");
     EXPECT_EQ(cut.n_pieces, 2) << seconds;
     EXPECT_EQ(cut.n_refused, 0) << seconds;
+    EXPECT_TRUE(cut.goes_through) << seconds;
   }
   // Where the blade's tip passes through the tissue the cut ends there, as meant.
   const std::string sheet = box_text("-0.002, -0.02, 0", "0.002, 0.02, 0.04", "2, 20, 20");
   const Cut notch = cut_along(sheet, "-0.03, 0, 0.02", "0.03, 0, 0.02", 0.05, "[0, 0, -1]");
   EXPECT_EQ(notch.n_pieces, 1);
   EXPECT_GT(notch.n_opened, 20);
+  EXPECT_FALSE(notch.goes_through);
   EXPECT_EQ(notch.n_refused, 0);
 }
 
