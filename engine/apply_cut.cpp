@@ -297,9 +297,8 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
       restore_strain_energy(adjustable, strain, tolerated * strain, s.mesh,
                             *make_strained_patch(s, edit, edited.after, nodes, global), global);
   restore_motion(nodes, adjustable, s.mass, before.motion, global, record);
-  double gained = is_energy_local ? energy_around(s, true, nodes, global) - energy : 0;
+  const double gained = is_energy_local ? energy_around(s, true, nodes, global) - energy : 0;
   const TakenUp around = take_up_around(s, adjustable, surplus, tolerated * strain, global, record);
-  gained += around.energy;
   if (strain > 0)
     record.strain_energy_change =
         std::max(record.strain_energy_change, std::abs(around.surplus) / strain);
@@ -316,8 +315,9 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   } else {
     watch_state(s);
   }
-  if (!is_energy_local) gained = energy_around(s, false, nodes, global) - energy;
-  if (s.energy) s.energy->memory.works.cut += gained;
+  if (s.energy)
+    s.energy->memory.works.cut +=
+        is_energy_local ? gained + around.energy : energy_around(s, false, nodes, global) - energy;
   add_to_record(s, before, edited.after, nodes, record);
   s.log.new_edits.push_back({.frame = s.frame, .edit = edit});
 }

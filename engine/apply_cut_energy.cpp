@@ -80,14 +80,6 @@ double step_towards(double wanted, double least_J, double W, std::span<const std
   return energy_at(0, nodes, line, body);
 }
 
-// Nodes that are held or may go nowhere.
-std::vector<std::uint8_t> immovable_nodes(const Simulation& s) {
-  std::vector<std::uint8_t> is_immovable;
-  for (const FixedMask fixed : s.fixed) is_immovable.push_back(fixed == all_components ? 1 : 0);
-  for (const Hold& hold : s.holds.holds) is_immovable[static_cast<std::size_t>(hold.node)] = 1;
-  return is_immovable;
-}
-
 }  // namespace
 
 double strain_energy(RankBody& body) {
@@ -106,7 +98,7 @@ std::vector<std::int32_t> adjustable_nodes(const Simulation& s, const MeshEdit& 
   for (const ElementSplit& split : edit.splits)
     nodes.insert(nodes.end(), s.mesh.corners(split.element).begin(),
                  s.mesh.corners(split.element).end());
-  std::vector<std::uint8_t> is_held = immovable_nodes(s);
+  std::vector<std::uint8_t> is_held = immovable_nodes(s.holds, s.fixed);
   for (const EdgeNode& node : edit.inserted) {
     nodes.push_back(static_cast<std::int32_t>(is_held.size()));
     const auto held = [&](std::int32_t i) { return is_held[static_cast<std::size_t>(i)] != 0; };
@@ -166,7 +158,7 @@ TakenUp take_up_around(Simulation& s, std::span<const std::int32_t> nodes, doubl
   TakenUp taken{.nodes = {}, .surplus = surplus};
   if (std::abs(surplus) <= tolerance) return taken;
   taken.nodes.assign(nodes.begin(), nodes.end());
-  const std::vector<std::uint8_t> is_immovable = immovable_nodes(s);
+  const std::vector<std::uint8_t> is_immovable = immovable_nodes(s.holds, s.fixed);
   for (int ring = 0; ring < most_rings && std::abs(taken.surplus) > tolerance; ++ring) {
     taken.nodes = nodes_of(s.mesh, elements_around(s.corners, taken.nodes));
     std::vector<std::int32_t> movable = taken.nodes;

@@ -29,8 +29,10 @@ Motion motion_about_centre(std::span<const std::int32_t> nodes, std::span<const 
   return motion_of(nodes, mass, state, motion_of(nodes, mass, state, Vec3::Zero()).centre);
 }
 
-void restore_momentum(std::span<const std::int32_t> nodes, std::span<const double> mass,
-                      const Motion& before, GlobalState& state, CutRecord& record) {
+// Gives the nodes the rigid increment a + w x (x - centre) that makes momentum and angular momentum
+// what they were.
+static void restore_momentum(std::span<const std::int32_t> nodes, std::span<const double> mass,
+                             const Motion& before, GlobalState& state, CutRecord& record) {
   const Vec3 about = before.centre;
   Motion after = motion_of(nodes, mass, state, about);
   const double kinetic_before = before.kinetic;

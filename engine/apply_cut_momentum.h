@@ -23,11 +23,6 @@ Motion motion_of(std::span<const std::int32_t> nodes, std::span<const double> ma
 Motion motion_about_centre(std::span<const std::int32_t> nodes, std::span<const double> mass,
                            const GlobalState& state);
 
-// Gives the nodes the rigid increment a + w x (x - centre) that makes momentum and angular momentum
-// what they were.
-void restore_momentum(std::span<const std::int32_t> nodes, std::span<const double> mass,
-                      const Motion& before, GlobalState& state, CutRecord& record);
-
 // Gives `nodes` so much more kinetic energy [J], or less, where their motion apart from that of a
 // rigid body allows it: that part is scaled, by a factor of 1.5 at most. Momentum and angular
 // momentum stay.

@@ -12,22 +12,13 @@ bool acts_within(const InstrumentKey& key, double t0, double t1) {
   return key.action != GraspAction::none && key.time > t0 && key.time <= t1;
 }
 
-// 1 for each node that jaws can't take: one that is held, or supported in all components. What a
-// mirror plane supports goes along in the others.
-std::vector<std::uint8_t> nodes_not_to_take(const Holds& holds, std::span<const FixedMask> fixed) {
-  std::vector<std::uint8_t> is_taken(fixed.size());
-  for (std::size_t i = 0; i < fixed.size(); ++i) is_taken[i] = fixed[i] == all_components;
-  for (const Hold& hold : holds.holds) is_taken[static_cast<std::size_t>(hold.node)] = 1;
-  return is_taken;
-}
-
 GraspAct grasp(Holds& holds, const Tool& tool, std::int32_t number, const Pose& pose,
                std::span<const Vec3> x, std::span<const std::uint8_t> fixed) {
-  const std::vector<std::uint8_t> is_taken = nodes_not_to_take(holds, fixed);
+  const std::vector<std::uint8_t> is_immovable = immovable_nodes(holds, fixed);
   GraspAct act{.tool = number, .has_closed = true};
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < x.size(); ++i) {
-    if (is_taken[i] != 0) continue;
+    if (is_immovable[i] != 0) continue;
     const Vec3 offset = pose.apply_inverse(x[i]);
     nearest = std::min(nearest, offset.squaredNorm());
     if (offset.squaredNorm() > tool.grip_radius * tool.grip_radius) continue;
@@ -55,6 +46,13 @@ std::vector<std::uint8_t> held_nodes(const Holds& holds, std::span<const std::ui
   for (std::size_t i = 0; i < fixed.size(); ++i) is_held[i] = (fixed[i] & holding) != 0;
   for (const Hold& hold : holds.holds) is_held[static_cast<std::size_t>(hold.node)] = 1;
   return is_held;
+}
+
+std::vector<std::uint8_t> immovable_nodes(const Holds& holds, std::span<const std::uint8_t> fixed) {
+  std::vector<std::uint8_t> is_immovable(fixed.size());
+  for (std::size_t i = 0; i < fixed.size(); ++i) is_immovable[i] = fixed[i] == all_components;
+  for (const Hold& hold : holds.holds) is_immovable[static_cast<std::size_t>(hold.node)] = 1;
+  return is_immovable;
 }
 
 int release(Holds& holds, std::int32_t tool) {

@@ -36,6 +36,9 @@ struct Holds {
 // 1 for each node (n_nodes) that is held by anything or supported in a component in which not all
 // nodes are.
 std::vector<std::uint8_t> held_nodes(const Holds& holds, std::span<const std::uint8_t> fixed);
+// 1 for each node that is held or supported in all components: jaws can't take it, and nothing that
+// an edit restores moves it. What a mirror plane supports goes along in the others.
+std::vector<std::uint8_t> immovable_nodes(const Holds& holds, std::span<const std::uint8_t> fixed);
 
 // What a grasper did: closed on so many nodes, or opened.
 struct GraspAct {
