@@ -5,12 +5,9 @@
 
 #include "cutting/cut_flake.h"
 #include "cutting/cut_survey.h"
-#include "cutting/cut_thin.h"
 
 namespace trocar {
 
-// A piece with less volume than this part of the mean edge cubed is a chip.
-static constexpr double chip_volume = 0.5;
 // Flakes are looked for below this.
 static constexpr double flake_volume = 4;
 
@@ -129,20 +126,6 @@ static std::vector<OfElement<std::int8_t>> given_sides(const TetCut& cut) {
   return side;
 }
 
-// Whether it was given nodes on edges, so that it is parted where the blade was.
-static bool is_of_slice(const Tissue& t, const SmallPiece& piece) {
-  const CutPatch& patch = t.cut.around.patch;
-  return std::ranges::any_of(piece.element, [&](std::int32_t e) {
-    return std::ranges::any_of(patch.corner[e], [&](std::int32_t i) {
-      return std::ranges::binary_search(t.stroke.made_node, patch.node[i]);
-    });
-  });
-}
-
-static bool is_chip(const Tissue& t, const SmallPiece& piece) {
-  return piece.V < (is_of_slice(t, piece) ? least_slice : chip_volume);
-}
-
 static bool is_flake(const Tissue& t, const SmallPiece& piece) {
   std::vector<std::int32_t> element = piece.beyond;
   for (const std::int32_t e : piece.element) element.push_back(t.cut.around.patch.element[e]);
@@ -166,9 +149,9 @@ bool join_chip(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke,
   if (cut.opening.duplication.duplicate_parent.empty()) return false;
   const Tissue tissue{mesh, index, stroke, cut};
   for (SmallPiece& piece : small_pieces(tissue)) {
-    const bool is_decided = is_chip(tissue, piece);
-    if (!is_decided && !is_flake(tissue, piece)) continue;
-    if (is_decided || is_last)
+    const bool is_chip = piece.V < chip_volume;
+    if (!is_chip && !is_flake(tissue, piece)) continue;
+    if (is_chip || is_last)
       attach(std::move(piece), cut);
     else
       leave_elements(cut.around.patch, piece.element, cut.labels);

@@ -8,16 +8,19 @@ namespace trocar {
 
 struct TetCut;
 
+// Pieces and slices with less volume (over h^3) stay with the other side: some two elements.
+inline constexpr double chip_volume = 0.25;
+
 struct CutChip {
   Vec3 centre = Vec3::Zero();         // of its part in the patch, reference configuration [m]
   std::vector<std::int32_t> element;  // local
   std::vector<OfElement<std::int8_t>> beyond;  // the rest outside the patch, with its new side
 };
 
-// Joins the smallest piece that the opening should not free: a chip, below half a mean edge cubed,
-// of a slice that got nodes on edges a quarter, or a flake (cut_flake.h). It gets the other side
-// and is added to cut.chips; a flake, while the blade is on its way, stays joined for now. False if
-// there is none. The facets are to be opened again then: what it joins may be one, too.
+// Joins the smallest piece that the opening should not free: a chip or a flake (cut_flake.h). It
+// gets the other side and is added to cut.chips; a flake, while the blade is on its way, stays
+// joined for now. False if there is none. The facets are to be opened again then: what it joins may
+// be one, too.
 bool join_chip(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke, bool is_last,
                TetCut& cut);
 

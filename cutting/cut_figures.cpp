@@ -16,8 +16,7 @@ const char* reason_of(const CutRefusal& refusal) {
       "a slice thinner than some third of an element stays with nodes of a support or a grasp, "
       "which can't go to the blade: finer elements there, or a path farther from them",
       "a slice thinner than some third of an element stays with nodes of the outer surface or of "
-      "an older cut, which can't go to the blade: finer elements there, another path, or "
-      "cutting.split_step_ratio where the tissue is one element thick",
+      "an older cut, which can't go to the blade: finer elements there, or another path",
       "tissue there is pressed together so far that an element would be inverted"};
   return text[static_cast<std::size_t>(refusal.reason)];
 }

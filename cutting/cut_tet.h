@@ -33,7 +33,7 @@ struct CutTetOptions {
   double least_step_ratio = 0.75;
   // Where tissue is one element thick, edges get nodes that part it; no element's step bound sinks
   // below this part of the body's least one by that. 0: none are added.
-  double split_step_ratio = 0;
+  double split_step_ratio = 0.35;
   CutStages stages = CutStages::barrier;
 };
 

@@ -13,6 +13,8 @@ namespace trocar {
 static constexpr double thin_share = 0.8;
 // Of a slice's crossed edges from there to there.
 static constexpr double outer_part = 0.7;
+// Cosine of the outer normals of two faces that look away from each other.
+static constexpr double away = -0.5;
 // A corner this far beyond the surface (over h) still lies on this side.
 static constexpr double tolerance = 0.05;
 // Rings of thicker tissue that are split, too: a slice would come off from it at a neck.
@@ -23,6 +25,7 @@ namespace {
 // What the crossings say of a patch.
 struct Crossings {
   const CutSurroundings& around;
+  std::span<const std::uint8_t> cut_facets;   // of the mesh
   std::vector<std::span<const CutHit>> hits;  // (n_elements)
   std::vector<const std::int8_t*> given;      // (n_elements) sides of earlier advances
   std::vector<std::uint8_t> is_made;          // (n_nodes) put on an edge by this stroke
@@ -85,6 +88,7 @@ static Crossings find_crossings(const Mesh& mesh, const CutSurroundings& around,
   const CutPatch& patch = around.patch;
   const std::vector<std::uint8_t> none(patch.node.size(), 0);
   Crossings c{around,
+              mesh.cut_facets,
               hits_of(stroke, patch.element),
               find_elements(stroke.side, patch.element),
               none,
@@ -250,6 +254,43 @@ static bool is_in_thin_tissue(const Crossings& c, const ThinSlice& slice) {
   return static_cast<double>(n_outer) >= thin_share * static_cast<double>(near.size());
 }
 
+static std::vector<Vec3> outer_normals(const Crossings& c, std::int32_t i) {
+  const CutPatch& patch = c.around.patch;
+  std::vector<Vec3> normals;
+  for (const std::int32_t e : patch.star(i))
+    for (int f = 0; f < 4; ++f) {
+      if (patch.across[e][f] >= 0 || (c.cut_facets[patch.element[e]] >> f & 1) != 0) continue;
+      const std::array<std::int32_t, 3> t = facet_nodes(patch, e, f);
+      if (std::ranges::find(t, i) == t.end()) continue;
+      const Vec3& o = patch.X[t[0]];
+      normals.push_back((patch.X[t[1]] - o).cross(patch.X[t[2]] - o).normalized());
+    }
+  return normals;
+}
+
+// Whether the outer surface at node p looks away from that at q.
+static bool look_away(const Crossings& c, std::int32_t p, std::int32_t q) {
+  if (!c.around.patch.is_whole(p) || !c.around.patch.is_whole(q)) return false;
+  const std::vector<Vec3> at_p = outer_normals(c, p), at_q = outer_normals(c, q);
+  return std::ranges::any_of(at_p, [&](const Vec3& a) {
+    return std::ranges::any_of(at_q, [&](const Vec3& b) { return a.dot(b) < away; });
+  });
+}
+
+// Whether an element around the slice reaches from one face of the body to the other. At the edge
+// of a thick body none does: the faces that meet there don't look away from each other.
+static bool reaches_both_faces(const Crossings& c, const ThinSlice& slice) {
+  const CutPatch& patch = c.around.patch;
+  return std::ranges::any_of(slice.node, [&](std::int32_t i) {
+    return std::ranges::any_of(patch.star(i), [&](std::int32_t e) {
+      return std::ranges::any_of(tet_edges, [&](const std::array<int, 2>& end) {
+        return look_away(c, patch.corner[e][static_cast<std::size_t>(end[0])],
+                         patch.corner[e][static_cast<std::size_t>(end[1])]);
+      });
+    });
+  });
+}
+
 static bool is_one_element_thick(const Crossings& c, const ThinSlice& slice) {
   double n = 0, n_outer = 0;
   for (const std::int32_t i : slice.node)
@@ -258,7 +299,7 @@ static bool is_one_element_thick(const Crossings& c, const ThinSlice& slice) {
       n += 1;
       n_outer += c.is_outer[p] != 0 && c.is_outer[q] != 0 ? 1 : 0;
     });
-  return n_outer >= outer_part * n;
+  return n_outer >= outer_part * n && reaches_both_faces(c, slice);
 }
 
 // Borders of areas are left as they are, and so is what lies on both sides.

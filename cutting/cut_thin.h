@@ -13,9 +13,6 @@
 
 namespace trocar {
 
-// Slices with less volume (over h^3) stay with the other side.
-inline constexpr double least_slice = 0.25;
-
 struct ThinSlice {
   int side = 0;                      // +1 or -1
   std::vector<std::int32_t> node{};  // of the patch, on that side: none of their elements is whole

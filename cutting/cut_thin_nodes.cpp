@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/sort_unique.h"
+#include "cutting/cut_chips.h"
 #include "cutting/cut_split.h"
 #include "cutting/cut_thin.h"
 
@@ -80,7 +81,7 @@ std::vector<EdgeNode> nodes_in_slices(const Mesh& mesh, const CutSurroundings& a
                                       const std::vector<ThinSlice>& slices, double floor) {
   std::vector<EdgeNode> nodes;
   for (const ThinSlice& slice : slices)
-    if (slice.V >= least_slice * around.h * around.h * around.h)
+    if (slice.V >= chip_volume * around.h * around.h * around.h)
       nodes.insert(nodes.end(), slice.crossing.begin(), slice.crossing.end());
   std::ranges::stable_sort(nodes, {}, &EdgeNode::end);
   const auto same = std::ranges::unique(nodes, {}, &EdgeNode::end);

@@ -108,7 +108,7 @@ struct SceneContact {
 struct SceneCutting {
   double advance = 0.5;
   double least_step_ratio = std::numeric_limits<double>::quiet_NaN();  // not given
-  double split_step_ratio = 0;                                         // 0: no element is split
+  double split_step_ratio = 0.35;                                      // 0: no element is split
   double resistance = 0;  // force per length of engaged edge [N/m]
   CutMode mode = CutMode::robust;
   double spring = 1, particle = 0.1;

@@ -162,8 +162,8 @@ Options<SceneCutting> cutting_options() {
   c.number("split_step_ratio", &SceneCutting::split_step_ratio, dim::none, {.low = 0, .high = 1},
            "Tetrahedra where tissue is one element thick: edges may get new nodes that part it, as "
            "long as no element's step bound sinks below this part of the body's least one by that. "
-           "0.3 serves; above 0.5 parts of many elements can't keep it, and more stays joined than "
-           "with 0. 0: cuts add no nodes but copies.");
+           "Above 0.5 parts of many elements can't keep it, and more stays joined than with 0. "
+           "0: cuts add no nodes but copies.");
   c.number(
       "resistance", &SceneCutting::resistance, {.kilogram = 1, .second = -2}, not_negative,
       "Work of a cut over its area: the tissue's largest force against a blade per length of the "

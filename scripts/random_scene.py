@@ -215,7 +215,7 @@ def scene(seed):
     parts = [f'name = "seed {seed}"\n[time]\nduration = {duration}\nframe_rate = {draw.choice([30, 60, 100])}\n[tissue]\n' + shape, tissue, steps,
              f'[contact]\nfriction = {draw.choice([0, 0.1, 0.5])}\ntissue = {"true" if touches else "false"}\n',
              f'[cutting]\nadvance = {draw.choice([0.25, 0.5, 1, 2])}\nresistance = "{draw.choice([0, 5, 30])} N/m"\n'
-             f"least_step_ratio = {draw.choice([0.3, 0.75, 0.75, 0.9])}\nsplit_step_ratio = {draw.choice([0, 0, 0.3, 0.5])}\n", '[checkpoint]\nevery = "0.1 s"\n', supports(draw, size, duration)]
+             f"least_step_ratio = {draw.choice([0.3, 0.75, 0.75, 0.9])}\nsplit_step_ratio = {draw.choice([0, 0.35, 0.35, 0.5])}\n", '[checkpoint]\nevery = "0.1 s"\n', supports(draw, size, duration)]
     if draw.random() < 0.3:
         parts.append('[start]\nstate = "equilibrium"\n')
     add = plane_instrument if family == "plane" else instrument

@@ -112,7 +112,8 @@ int pieces_of_sunk_block(double depth) {
     if (X.z() == 2) X.z() = 1.2 + (X.x() < 2 || X.x() > 3 ? 1 : depth);
   Body body(std::move(mesh));
   const Blade blade = straight_blade({-1, -1, 1.2}, {-1, 3, 1.2}, {7, 0, 0});
-  cut(body, blade, Vec3::UnitZ(), 12);
+  TetCutter cutter{CutTetOptions{.split_step_ratio = 0}};
+  cut(body, blade, Vec3::UnitZ(), 12, cutter);
   EXPECT_EQ(fault(body), "");
   return n_pieces(body.mesh);
 }
@@ -130,7 +131,7 @@ TEST(Flakes, are_not_decided_on_before_the_blade_has_left) {
     Body body(
         irregular(make_box({-1, -1, 0}, {1, 1, 0.4}, {5, 5, 1}, elements), 0.08, unsigned(k)));
     const double angle = 0.26 * k, tilt = 0.5 + 0.05 * (k % 10);
-    TetCutter cutter{CutTetOptions{}};
+    TetCutter cutter{CutTetOptions{.split_step_ratio = 0}};
     for (const Vec3& normal : crossing_normals(angle, tilt))
       cut(body, plane_blade(Vec3(0, 0, 0.2), normal, 3), normal, 30, cutter);
     EXPECT_EQ(fault(body), "");

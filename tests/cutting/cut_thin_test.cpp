@@ -11,7 +11,7 @@
 namespace trocar::cutting_test {
 namespace {
 
-constexpr double split_ratio = 0.3;
+const double split_ratio = CutTetOptions{}.split_step_ratio;
 
 Mesh plate(BoxElements elements) {
   return make_box(Vec3(-1, -1, 0), Vec3(1, 1, 0.2), {10, 10, 1}, elements);
@@ -110,6 +110,19 @@ TEST(ThinSlices, are_not_split_in_a_thick_body) {
     EXPECT_EQ(cut.body.mesh.n_elements(), cube.n_elements());
     EXPECT_EQ(fault(cut.body), "");
   }
+}
+
+// Three planes leave a wedge at an edge of a cube, of which nearly all nodes lie on the outer
+// surface: on faces that meet there, though.
+TEST(ThinSlices, are_not_split_at_the_edge_of_a_thick_body) {
+  Cut cut{.body = Body(make_box(Vec3::Zero(), Vec3::Ones(), {6, 6, 6}, BoxElements::tet4_kuhn))};
+  TetCutter cutter{CutTetOptions{}};
+  for (const Vec3& normal : {Vec3(-0.2680, 0.3014, 0.9151), Vec3(-0.5776, 0.7099, -0.4030),
+                             Vec3(-0.7711, -0.6366, -0.0161)})
+    add_plane(cutter, Vec3(0.52, 0.53, 0.51), normal.normalized(), 60, cut);
+  EXPECT_EQ(fault(cut.body), "");
+  EXPECT_EQ(n_pieces(cut.body.mesh), 8);
+  EXPECT_EQ(cut.n_inserted, 0);
 }
 
 // What lies above, or below, both of two planes that cross inside a plate is a prism that tapers to

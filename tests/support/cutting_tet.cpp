@@ -80,8 +80,9 @@ Ledger cut(Body& body, const Blade& blade, const Vec3& normal, int n_steps, TetC
   cutter.start_stroke();
   for (int k = 0; k < n_steps; ++k) {
     if (motion) body.deform([&](const Vec3& X) { return motion(X, double(k) / n_steps); });
-    const BladeSweep sweep{blade(double(k) / n_steps), blade(double(k + 1) / n_steps), normal};
-    advance(cutter, body, sweep, k + 1 == n_steps, ledger);
+    BladeSweep sweep{blade(double(k) / n_steps), blade(double(k + 1) / n_steps), normal};
+    for (bool is_parted = false; !is_parted; sweep.before = sweep.after)
+      is_parted = advance(cutter, body, sweep, k + 1 == n_steps, ledger).inserted.empty();
   }
   return ledger;
 }

@@ -65,7 +65,8 @@ Blade straight_blade(const Vec3& from, const Vec3& to, const Vec3& way, int n = 
 // Positions at time t in [0, 1] of a body that moves while it is cut.
 using Motion = std::function<Vec3(const Vec3& X, double t)>;
 
-// One stroke: moves the blade through the body in n_steps frames.
+// One stroke: moves the blade through the body in n_steps frames, and lets it rest there for the
+// cut where that puts nodes on edges first.
 Ledger cut(Body& body, const Blade& blade, const Vec3& normal, int n_steps, TetCutter& cutter,
            const Motion& motion = nullptr);
 
