@@ -8,8 +8,8 @@
 
 namespace trocar {
 
-// Flakes are looked for below this.
-static constexpr double flake_volume = 4;
+// Flakes are looked for below this (over h^3).
+static constexpr double flake_volume = 16;
 
 namespace {
 
