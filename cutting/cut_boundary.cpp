@@ -45,6 +45,14 @@ static std::vector<BoundFacet> outer_facets(const CutPatch& patch, const CutStro
   return outer;
 }
 
+std::vector<Vec3> outer_normals(const CutPatch& patch, const CutStroke& stroke,
+                                std::span<const std::uint8_t> cut_facets, std::int32_t i) {
+  std::vector<Vec3> normals;
+  for (const BoundFacet& facet : outer_facets(patch, stroke, cut_facets, i))
+    if (!facet.is_cut) normals.push_back(facet.normal.normalized());
+  return normals;
+}
+
 // Each once, outward of the region of the lower number.
 static void add_interfaces(const CutPatch& patch, std::int32_t i, std::vector<BoundFacet>& bound) {
   for (const std::int32_t e : patch.star(i))

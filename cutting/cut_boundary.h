@@ -29,6 +29,10 @@ struct NodeBoundary {
 NodeBoundary node_boundary(const CutPatch& patch, const CutStroke& stroke,
                            std::span<const std::uint8_t> cut_facets, std::int32_t i);
 
+// Unit normals, outward, of the outer facets at node i that no cut has opened.
+std::vector<Vec3> outer_normals(const CutPatch& patch, const CutStroke& stroke,
+                                std::span<const std::uint8_t> cut_facets, std::int32_t i);
+
 // The nearest allowed position.
 Vec3 project_to_boundary(const NodeBoundary& boundary, const Vec3& X);
 // Part of a displacement that is allowed to first order.

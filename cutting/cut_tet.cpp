@@ -155,10 +155,11 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
     if (is_out) add_refusals(missed_places(mesh, cut, stroke), figures);
     return {};
   }
+  const bool is_through = is_last && has_gone_through(stroke);
   std::vector<ThinSlice> slices;
-  if (options.split_step_ratio > 0 && tets.mesh.X.empty())
+  if (options.split_step_ratio > 0 && tets.mesh.X.empty() && (!is_last || is_through))
     slices = thin_slices(mesh, cut.around, stroke);
-  if (is_out && has_gone_through(stroke))
+  if (is_through)
     if (MeshEdit edit = split(mesh, cut.around, slices, figures); !edit.is_empty()) return edit;
   cut.labels = label_elements(cut.around, stroke, is_last);
   if (is_out) part_bridges(cut.around, stroke, cut.labels);

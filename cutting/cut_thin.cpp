@@ -24,8 +24,9 @@ namespace {
 
 // What the crossings say of a patch.
 struct Crossings {
+  const Mesh& mesh;
   const CutSurroundings& around;
-  std::span<const std::uint8_t> cut_facets;   // of the mesh
+  const CutStroke& stroke;
   std::vector<std::span<const CutHit>> hits;  // (n_elements)
   std::vector<const std::int8_t*> given;      // (n_elements) sides of earlier advances
   std::vector<std::uint8_t> is_made;          // (n_nodes) put on an edge by this stroke
@@ -87,8 +88,9 @@ static Crossings find_crossings(const Mesh& mesh, const CutSurroundings& around,
                                 const CutStroke& stroke) {
   const CutPatch& patch = around.patch;
   const std::vector<std::uint8_t> none(patch.node.size(), 0);
-  Crossings c{around,
-              mesh.cut_facets,
+  Crossings c{mesh,
+              around,
+              stroke,
               hits_of(stroke, patch.element),
               find_elements(stroke.side, patch.element),
               none,
@@ -254,24 +256,14 @@ static bool is_in_thin_tissue(const Crossings& c, const ThinSlice& slice) {
   return static_cast<double>(n_outer) >= thin_share * static_cast<double>(near.size());
 }
 
-static std::vector<Vec3> outer_normals(const Crossings& c, std::int32_t i) {
-  const CutPatch& patch = c.around.patch;
-  std::vector<Vec3> normals;
-  for (const std::int32_t e : patch.star(i))
-    for (int f = 0; f < 4; ++f) {
-      if (patch.across[e][f] >= 0 || (c.cut_facets[patch.element[e]] >> f & 1) != 0) continue;
-      const std::array<std::int32_t, 3> t = facet_nodes(patch, e, f);
-      if (std::ranges::find(t, i) == t.end()) continue;
-      const Vec3& o = patch.X[t[0]];
-      normals.push_back((patch.X[t[1]] - o).cross(patch.X[t[2]] - o).normalized());
-    }
-  return normals;
-}
-
 // Whether the outer surface at node p looks away from that at q.
 static bool look_away(const Crossings& c, std::int32_t p, std::int32_t q) {
-  if (!c.around.patch.is_whole(p) || !c.around.patch.is_whole(q)) return false;
-  const std::vector<Vec3> at_p = outer_normals(c, p), at_q = outer_normals(c, q);
+  const CutPatch& patch = c.around.patch;
+  if (!patch.is_whole(p) || !patch.is_whole(q)) return false;
+  const auto normals_at = [&](std::int32_t i) {
+    return outer_normals(patch, c.stroke, c.mesh.cut_facets, i);
+  };
+  const std::vector<Vec3> at_p = normals_at(p), at_q = normals_at(q);
   return std::ranges::any_of(at_p, [&](const Vec3& a) {
     return std::ranges::any_of(at_q, [&](const Vec3& b) { return a.dot(b) < away; });
   });

@@ -1,7 +1,7 @@
 // Slices of tissue one element thick: on one side of the blade no element is whole, and the edges
-// that it crosses lead from outer surface to outer surface, so that no node can be displaced to in
-// between. They are left alone until the stroke has gone through, and get nodes on these edges
-// then.
+// that it crosses lead from outer surface to outer surface, where elements reach from one face of
+// the body to the other: no node can be displaced to in between. They are left alone until the
+// stroke has gone through, and get nodes on these edges then.
 #pragma once
 
 #include <cstdint>

@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "cutting_tet.h"
 #include "mesh/mesh_file.h"
+#include "real_file.h"
 
 namespace trocar {
 namespace {
@@ -129,10 +128,9 @@ TEST(Flakes, stay_with_the_other_side_but_not_what_the_blade_parted) {
 // Planes at 3 and 1 degrees to the axis leave wedges that taper to nothing: some 5 h^3 of these
 // came off.
 TEST(Flakes, of_a_slender_body_stay_with_the_other_side) {
-  const std::filesystem::path file =
-      std::filesystem::path(TROCAR_SOURCE_DIR) / "../shared/data/sofa_cylinder_pdms.vtk";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not beside the checkout";
-  const Mesh cylinder = read_mesh(file.string(), 1);
+  const std::string file = real_file("sofa_cylinder_pdms.vtk");
+  if (file.empty()) GTEST_SKIP() << "the cylinder is not beside the checkout";
+  const Mesh cylinder = read_mesh(file, 1);
   const auto n_pieces_after = [&](const Vec3& centre, const Vec3& normal, const Vec3& along) {
     Body body(cylinder);
     const Vec3 n = normal.normalized(), way = n.cross(along).normalized(), edge = way.cross(n);

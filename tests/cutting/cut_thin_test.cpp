@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "cutting_tet.h"
 #include "mesh/mesh_file.h"
+#include "real_file.h"
 
 namespace trocar::cutting_test {
 namespace {
@@ -126,8 +125,7 @@ TEST(ThinSlices, are_not_split_at_the_edge_of_a_thick_body) {
 }
 
 // What lies above, or below, both of two planes that cross inside a plate is a prism that tapers to
-// nothing. Sides given to its elements before the second stroke was through would part it in bits,
-// and some hold no half of a mean edge cubed.
+// nothing. Sides given to its elements before the second stroke was through would part it in bits.
 TEST(ThinSlices, between_two_planes_that_cross_in_a_plate_come_off_whole) {
   for (int k = 0; k < 42; ++k) {
     const double angle = 0.26 * k, tilt = 0.40 + 0.006 * k;
@@ -144,10 +142,9 @@ TEST(ThinSlices, between_two_planes_that_cross_in_a_plate_come_off_whole) {
 
 // Where the second plane crosses the first one's lips, edges lead from the outer surface to these.
 TEST(ThinSlices, between_two_planes_that_cross_in_a_flap_come_off_whole) {
-  const std::filesystem::path file =
-      std::filesystem::path(TROCAR_SOURCE_DIR) / "../shared/data/sofaenv_tissue_flap.msh";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not beside the checkout";
-  Cut cut{.body = Body(read_mesh(file.string(), 10))};
+  const std::string file = real_file("sofaenv_tissue_flap.msh");
+  if (file.empty()) GTEST_SKIP() << "the flap is not beside the checkout";
+  Cut cut{.body = Body(read_mesh(file, 10))};
   TetCutter cutter{CutTetOptions{.split_step_ratio = split_ratio}};
   for (const Vec3& normal : {Vec3(1, 1, 0).normalized(), Vec3(1, -1, 0).normalized()})
     add_plane(cutter, Vec3(0, 0.09, 0), normal, 80, cut);

@@ -1,21 +1,14 @@
 // Meshes as other programs write them. Their counts stand in LICENCES.md beside them.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <map>
 
 #include "mesh/mesh_file.h"
 #include "mesh/quality.h"
+#include "real_file.h"
 
 namespace trocar::test {
 namespace {
-
-// "" where the folder of real meshes is not at hand.
-std::string real_file(const std::string& name) {
-  const std::filesystem::path file =
-      std::filesystem::path(TROCAR_SOURCE_DIR) / "../shared/data" / name;
-  return std::filesystem::exists(file) ? file.string() : "";
-}
 
 void expect_volume_mesh(const std::string& name, std::int32_t n_nodes, std::int32_t n_elements,
                         double least_quality) {
