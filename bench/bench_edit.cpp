@@ -1,12 +1,13 @@
 // What an edit of a running scene costs: the same incision as in bench_cut scaling, 6 cells long
 // and 3 deep, in ever larger boxes of elements at rest, through the whole of cut_along_blades
 // (bench_cut times the cut alone). Markdown to stdout.
-// bench_edit [--energy] [--hexahedra] [--viscous] [--sleep] [--scaled] [--local-steps] [--once]
-// [--threads] [N]...: boxes of N cells a side (default 15, 30); --energy: with the ledger that a
-// metrics output keeps; --hexahedra: of hexahedra, which the blade splits; --viscous: of a material
-// with history; --sleep: what is at rest sleeps; --scaled: elements beside the cut get scaled
-// masses; --local-steps: a sliver far from the cut takes substeps of its own; --once: one run in
-// place of the quickest of five; --threads: on all cores in place of one thread
+// bench_edit [--thin] [--energy] [--hexahedra] [--viscous] [--sleep] [--scaled] [--local-steps]
+// [--once] [--threads] [N]...: boxes of N cells a side (default 15, 30); --thin: strips N cells
+// long, 6 wide and one thick, which a blade shaves (nodes are put on edges); --energy: with the
+// ledger that a metrics output keeps; --hexahedra: of hexahedra, which the blade splits; --viscous:
+// of a material with history; --sleep: what is at rest sleeps; --scaled: elements beside the cut
+// get scaled masses; --local-steps: a sliver far from the cut takes substeps of its own; --once:
+// one run in place of the quickest of five; --threads: on all cores in place of one thread
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -45,28 +46,42 @@ std::string path_of(double top, double shift) {
          key(0.085, 3.3, 1.6, low) + key(0.118, 3.3, 1.6, high) + "]\n";
 }
 
+// The blade lies across a strip and goes down through it along x, by an eighth of a cell a cell.
+std::string path_through_strip() {
+  const auto key = [&](double time, double x, double z) {
+    return "{ time = " + number(time) + ", position = [" + number(cell * x) + ", " +
+           number(3.5 * cell) + ", " + number(cell * z) +
+           "], direction = [0, 1, 0], forward = [1, 0, -0.125] },\n";
+  };
+  return "path = [\n" + key(0, -6.4, 1.3) + key(0.12, 6.4, -0.3) + "]\n";
+}
+
 struct Trial {
-  bool has_energy = false, is_of_hexahedra = false, is_viscous = false, does_sleep = false,
-       is_scaled = false, has_local_steps = false;
+  bool is_thin = false, has_energy = false, is_of_hexahedra = false, is_viscous = false,
+       does_sleep = false, is_scaled = false, has_local_steps = false;
   int n_runs = 5, n_threads = 1;
 };
 
 std::string scene_of(int n, const Trial& trial) {
-  const double side = cell * n / 2;
-  const std::string s = number(side), top = number(2 * side), cells = std::to_string(n);
+  const double side = cell * n / 2, height = trial.is_thin ? cell : 2 * side;
+  const std::string x = number(side), y = number(trial.is_thin ? 3 * cell : side),
+                    top = number(height), cells = std::to_string(n);
   return "[time]\nduration = 1\nframe_rate = " + number(frame_rate) +
          "\n[tissue.shape]\nkind = \"box\"\nelements = \"" +
-         (trial.is_of_hexahedra ? "hex8" : "tet4-kuhn") + "\"\nlow = [-" + s + ", -" + s +
-         ", 0]\nhigh = [" + s + ", " + s + ", " + top + "]\ncells = [" + cells + ", " + cells +
-         ", " + cells +
+         (trial.is_of_hexahedra ? "hex8"
+          : trial.is_thin       ? "tet4-five"
+                                : "tet4-kuhn") +
+         "\"\nlow = [-" + x + ", -" + y + ", 0]\nhigh = [" + x + ", " + y + ", " + top +
+         "]\ncells = [" + cells + (trial.is_thin ? ", 6, 1" : ", " + cells + ", " + cells) +
          "]\n[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\ndensity = 1000\n" +
          (trial.is_viscous ? "[[tissue.material.prony]]\nshare = 0.3\ntime = 0.1\n" : "") +
          "[solver]\n" + (trial.does_sleep ? "sleep = \"0.1 mm\"\n" : "") +
          (trial.is_scaled ? "mass_scaling_step = \"0.45 ms\"\n" : "") +
-         (trial.has_local_steps ? "multirate = true\n" : "") +
-         "[[support]]\nregion = \"z-\"\nfix = \"xyz\"\n"
-         "[[instrument]]\nkind = \"scalpel\"\nblade_length = \"16 mm\"\n" +
-         path_of(2 * side, n % 2 == 1 ? 0.5 : 0);
+         (trial.has_local_steps ? "multirate = true\n" : "") + "[[support]]\nregion = \"" +
+         (trial.is_thin ? "x-" : "z-") +
+         "\"\nfix = \"xyz\"\n[[instrument]]\nkind = \"scalpel\"\nblade_length = \"" +
+         (trial.is_thin ? "28 mm" : "16 mm") + "\"\n" +
+         (trial.is_thin ? path_through_strip() : path_of(2 * side, n % 2 == 1 ? 0.5 : 0));
 }
 
 struct Cost {
@@ -138,13 +153,15 @@ Cost least_cost(int n, const Trial& trial) {
 
 int main(int argc, char** argv) {
   constexpr const char* usage =
-      "bench_edit [--energy] [--hexahedra] [--viscous] [--sleep] "
+      "bench_edit [--thin] [--energy] [--hexahedra] [--viscous] [--sleep] "
       "[--scaled] [--local-steps] [--once] [--threads] [N]...";
   if (is_help_asked(argc, argv)) return print_usage(usage, stdout);
   std::vector<int> cells;
   Trial trial;
   for (int k = 1; k < argc; ++k)
-    if (std::strcmp(argv[k], "--energy") == 0)
+    if (std::strcmp(argv[k], "--thin") == 0)
+      trial.is_thin = true;
+    else if (std::strcmp(argv[k], "--energy") == 0)
       trial.has_energy = true;
     else if (std::strcmp(argv[k], "--hexahedra") == 0)
       trial.is_of_hexahedra = true;

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <array>
 
+#include "cutting/cut_patch.h"
 #include "mesh/facets.h"
 
 namespace trocar {
 
 bool is_index_of(const CutIndex& index, const Mesh& mesh) {
   return index.star_begin.size() == mesh.X.size() && index.n_elements == mesh.element_type.size() &&
-         index.corner_node == mesh.corner_node.data();
+         (index.corner_node == nullptr || index.corner_node == mesh.corner_node.data());
 }
 
 // A number for the facet, whatever the order of its nodes (the mixing of splitmix64).
@@ -52,7 +53,10 @@ static void leave_room(std::vector<T>& values) {
 }
 
 void update_index(const Mesh& mesh, CutIndex& index) {
-  if (is_index_of(index, mesh)) return;
+  if (is_index_of(index, mesh)) {
+    index.corner_node = mesh.corner_node.data();
+    return;
+  }
   NodeElements around = node_elements(mesh);
   index.star_begin.assign(around.offset.begin(), around.offset.end() - 1);
   index.star_size.resize(mesh.X.size());
@@ -64,6 +68,7 @@ void update_index(const Mesh& mesh, CutIndex& index) {
   index.local.assign(mesh.X.size(), -1);
   index.across.assign(mesh.element_type.size(), {not_known, not_known, not_known, not_known});
   index.local_element.assign(mesh.element_type.size(), -1);
+  index.step.clear();
   index.corner_node = mesh.corner_node.data();
   index.n_elements = mesh.element_type.size();
   for (auto* values : {&index.star_begin, &index.star_size, &index.local, &index.star_element})
@@ -107,17 +112,107 @@ static void add_opened_facets(const Mesh& mesh, const MeshEdit& edit, CutIndex& 
     }
 }
 
-void edit_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {
-  std::vector<CornerChange> change = edit.corners;
-  std::stable_sort(change.begin(), change.end(), [](const CornerChange& a, const CornerChange& b) {
-    return a.node != b.node ? a.node < b.node : a.element < b.element;
-  });
-  const std::size_t n_nodes = mesh.X.size() + edit.duplicate_parent.size();
+static void add_nodes(std::size_t n_nodes, CutIndex& index) {
   index.star_begin.resize(n_nodes);
   index.star_size.resize(n_nodes, 0);
   index.ring.resize(n_nodes, no_ring);
   index.local.resize(n_nodes, -1);
   index.is_surface.resize(n_nodes, 0);
+}
+
+namespace {
+
+// A part of a split element at one of its nodes.
+struct NodePart {
+  std::int32_t node, element;
+  const std::array<std::int32_t, 4>* corner;
+};
+
+}  // namespace
+
+// Ascending by node, then by element.
+static std::vector<NodePart> parts_at_nodes(const MeshEdit& edit, const SplitNumbers& numbers) {
+  std::vector<NodePart> parts;
+  for (const ElementSplit& split : edit.splits) {
+    std::int32_t e = numbers.after(split.element);
+    for (const std::array<std::int32_t, 4>& corner : split.tets()) {
+      for (const std::int32_t i : corner) parts.push_back({i, e, &corner});
+      ++e;
+    }
+  }
+  std::ranges::stable_sort(parts, {}, &NodePart::node);
+  return parts;
+}
+
+// Whether facets with the node come once among all elements around it, as in find_surface_nodes.
+static bool is_on_surface(std::span<const NodePart> around) {
+  std::uint64_t sum = 0;
+  for (const NodePart& part : around)
+    for (std::size_t f = 0; f < 4; ++f)
+      if ((*part.corner)[f] != part.node)
+        sum ^= facet_key(*part.corner, facet_corners(ElementType::tet4, static_cast<int>(f)));
+  return sum != 0;
+}
+
+// New stars go behind the others.
+static void add_to_star(std::span<const NodePart> around, CutIndex& index) {
+  std::vector<std::int32_t>& pool = index.star_element;
+  const std::int32_t node = around.front().node;
+  const auto begin = static_cast<std::int32_t>(pool.size());
+  for (std::int32_t k = 0; k < index.star_size[node]; ++k)
+    pool.push_back(pool[static_cast<std::size_t>(index.star_begin[node] + k)]);
+  for (const NodePart& part : around) pool.push_back(part.element);
+  std::inplace_merge(pool.begin() + begin, pool.end() - std::ssize(around), pool.end());
+  index.star_begin[node] = begin;
+  index.star_size[node] = static_cast<std::int32_t>(pool.size()) - begin;
+}
+
+// Elements get other numbers, so all of the body's are gone through, but not sorted anew.
+static void split_in_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {
+  if (edit.splits.empty()) return;
+  for (const ElementSplit& split : edit.splits)
+    for (const std::int32_t i : mesh.corners(split.element))
+      remove_from_star(index, i, split.element);
+  const SplitNumbers numbers(edit.splits);
+  numbers.renumber(index.star_element);
+  const std::vector<NodePart> parts = parts_at_nodes(edit, numbers);
+  for (auto part = parts.begin(); part != parts.end();) {
+    const auto end = std::ranges::find_if(part, parts.end(),
+                                          [&](const NodePart& p) { return p.node != part->node; });
+    const std::span<const NodePart> around(part, end);
+    add_to_star(around, index);
+    if (part->node >= mesh.n_nodes()) index.is_surface[part->node] = is_on_surface(around) ? 1 : 0;
+    part = end;
+  }
+  index.n_elements += static_cast<std::size_t>(n_added(edit.splits));
+  index.across.assign(index.n_elements, {not_known, not_known, not_known, not_known});
+  index.local_element.resize(index.n_elements, -1);
+  spread_over_splits(edit.splits, index.step);
+  for (const ElementSplit& split : edit.splits)
+    if (!index.step.empty())
+      std::fill_n(index.step.begin() + numbers.after(split.element), split.n_tets, 0.0);
+  index.corner_node = nullptr;
+}
+
+std::span<const double> find_steps(const Mesh& mesh, CutIndex& index) {
+  index.step.resize(index.n_elements, 0);
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    const std::span<const std::int32_t> c = mesh.corners(e);
+    if (index.step[e] == 0) index.step[e] = step_bound(mesh.X, {c[0], c[1], c[2], c[3]});
+  }
+  return index.step;
+}
+
+void edit_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {
+  std::vector<CornerChange> change = edit.corners;
+  std::stable_sort(change.begin(), change.end(), [](const CornerChange& a, const CornerChange& b) {
+    return a.node != b.node ? a.node < b.node : a.element < b.element;
+  });
+  add_nodes(mesh.X.size() + edit.n_new_nodes(), index);
+  split_in_index(mesh, edit, index);
+  for (const NodeMove& move : edit.moves)
+    for (const std::int32_t e : index.star(move.node))
+      if (!index.step.empty()) index.step[e] = 0;
   add_opened_facets(mesh, edit, index);
   for (const CornerChange& c : change) {
     const std::int32_t before = mesh.corners(c.element)[static_cast<std::size_t>(c.corner)];

@@ -32,7 +32,9 @@ struct CutIndex {
   std::vector<std::uint8_t> ring;
   std::vector<std::int32_t> local, local_element;
   std::vector<WaitingFacet> waiting;          // scratch of patches, anything between two uses
-  const std::int32_t* corner_node = nullptr;  // of the mesh that it belongs to
+  std::vector<double> step;  // step_bound, 0 where not known; empty unless asked for (n_elements)
+  // Of the mesh that it belongs to; nullptr if that has yet to be edited as the index has been.
+  const std::int32_t* corner_node = nullptr;
   std::size_t n_elements = 0;
 
   std::span<const std::int32_t> star(std::int32_t i) const {
@@ -47,7 +49,10 @@ bool is_index_of(const CutIndex& index, const Mesh& mesh);
 // Builds the index anew if it isn't that of `mesh`: another mesh, or one that somebody else has cut
 // (a cut adds nodes).
 void update_index(const Mesh& mesh, CutIndex& index);
-// What the index will be once `edit` is applied to `mesh`.
+// step_bound of all elements. Of tetrahedra alone. [m]
+std::span<const double> find_steps(const Mesh& mesh, CutIndex& index);
+// What the index will be once `edit`, one that splits elements or one that moves and parts them, is
+// applied to `mesh`.
 void edit_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& index);
 
 }  // namespace trocar

@@ -112,15 +112,15 @@ static void add_refusals(const std::vector<CutRefusal>& list, CutFigures& figure
 }
 
 // The least bound of the body before blades touched it.
-static double least_step(const Mesh& mesh, const CutStroke& stroke) {
+static double least_step(const Mesh& mesh, const CutStroke& stroke, CutIndex& index) {
   double least = std::numeric_limits<double>::infinity();
   auto before = stroke.step.begin();
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+  std::int32_t e = 0;
+  for (const double now : find_steps(mesh, index)) {
     while (before != stroke.step.end() && before->element < e) ++before;
     const bool is_known = before != stroke.step.end() && before->element == e;
-    const std::span<const std::int32_t> c = mesh.corners(e);
-    least =
-        std::min(least, is_known ? before->value : step_bound(mesh.X, {c[0], c[1], c[2], c[3]}));
+    least = std::min(least, is_known ? before->value : now);
+    ++e;
   }
   return least;
 }
@@ -129,14 +129,14 @@ static double least_step(const Mesh& mesh, const CutStroke& stroke) {
 MeshEdit TetCutter::Front::split(const Mesh& mesh, const CutSurroundings& around,
                                  const std::vector<ThinSlice>& slices, CutFigures& figures) {
   if (slices.empty()) return {};
-  const double floor = options.split_step_ratio * least_step(mesh, stroke);
+  const double floor = options.split_step_ratio * least_step(mesh, stroke, index);
   std::vector<EdgeNode> inserted = nodes_in_slices(mesh, around, slices, floor);
   if (inserted.empty()) return {};
   MeshEdit edit = split_edges(mesh, around.patch.element, std::move(inserted));
   split_stroke(mesh, edit, stroke);
   figures.n_inserted = static_cast<std::int32_t>(edit.inserted.size());
   figures.mean_edge = around.h;
-  index = {};
+  edit_index(mesh, edit, index);
   return edit;
 }
 
@@ -189,9 +189,9 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
 
 void TetCutter::prepare(const Mesh& mesh) {
   Front& f = *front_;
-  if (is_index_of(f.index, mesh)) return;  // which has no hexahedra then
-  if (!has_hexahedra(mesh)) {
-    f.tets = {};
+  const bool is_known = is_index_of(f.index, mesh);  // which has no hexahedra then
+  if (is_known || !has_hexahedra(mesh)) {
+    if (!is_known) f.tets = {};
     return update_index(mesh, f.index);
   }
   update_hex_tets(mesh, f.tets);
@@ -232,11 +232,10 @@ bool TetCutter::is_prepared(const Mesh& mesh) const {
 
 void TetCutter::follow(const Mesh& mesh, const CutterEdit& edit) {
   Front& f = *front_;
-  if (!edit.inserted.empty()) {  // of a body without hexahedra
-    f.index = {};
-    return follow_splits(mesh, edit, f.stroke);
-  }
-  if (edit.tets.is_empty()) forget_parted(mesh, edit, f.stroke);
+  if (!edit.inserted.empty())
+    follow_splits(mesh, edit, f.stroke);
+  else if (edit.tets.is_empty())
+    forget_parted(mesh, edit, f.stroke);
   if (!is_prepared(mesh)) return;
   if (f.tets.mesh.X.empty()) return edit_index(mesh, edit, f.index);
   forget_parted(f.tets.mesh, edit.tets, f.stroke);

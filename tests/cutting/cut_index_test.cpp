@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cutting/cut_patch.h"
+#include "cutting/cut_split.h"
 #include "cutting_tet.h"
 
 namespace trocar {
@@ -19,6 +20,48 @@ TEST(CutIndex, that_was_edited_is_the_index_of_the_edited_mesh) {
   for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)
     EXPECT_TRUE(std::ranges::equal(index.star(i), fresh.star(i))) << i;
   EXPECT_EQ(index.is_surface, fresh.is_surface);
+}
+
+// Nodes on edges of the surface and within, far from each other.
+TEST(CutIndex, whose_elements_were_split_is_the_index_of_the_edited_mesh) {
+  Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {5, 5, 5}, BoxElements::tet4_five);
+  jitter(mesh, 0.2, 7);
+  CutIndex index = index_of(mesh);
+  find_steps(mesh, index);
+  std::vector<std::int32_t> all;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) all.push_back(e);
+  std::vector<EdgeNode> inserted;
+  for (const std::int32_t e : {0, 62, 310, 620}) {
+    const std::span<const std::int32_t> c = mesh.corners(e);
+    inserted.push_back({.end = {std::min(c[0], c[1]), std::max(c[0], c[1])}, .s = 0.4});
+  }
+  std::ranges::sort(inserted, {}, &EdgeNode::end);
+  const MeshEdit edit = split_edges(mesh, all, inserted);
+  ASSERT_GT(edit.splits.size(), inserted.size());
+  edit_index(mesh, edit, index);
+  apply_edit(edit, mesh);
+
+  ASSERT_TRUE(is_index_of(index, mesh));
+  CutIndex fresh = index_of(mesh);
+  ASSERT_EQ(index.star_size, fresh.star_size);
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
+    EXPECT_TRUE(std::ranges::equal(index.star(i), fresh.star(i))) << i;
+  EXPECT_EQ(index.is_surface, fresh.is_surface);
+  EXPECT_GT(std::count(fresh.is_surface.end() - 4, fresh.is_surface.end(), 0), 0);
+  EXPECT_GT(std::count(fresh.is_surface.end() - 4, fresh.is_surface.end(), 1), 0);
+  EXPECT_TRUE(std::ranges::equal(find_steps(mesh, index), find_steps(mesh, fresh)));
+}
+
+// Moved nodes change the bounds of all elements around them.
+TEST(CutIndex, that_was_edited_finds_the_steps_of_the_edited_mesh) {
+  Body body(make_box({0, 0, 0}, {1, 1, 1}, {5, 5, 5}, BoxElements::tet4_five));
+  CutIndex index = index_of(body.mesh);
+  const auto find = [&](int) { find_steps(body.mesh, index); };
+  const auto check = [&] {
+    CutIndex fresh = index_of(body.mesh);
+    ASSERT_TRUE(std::ranges::equal(find_steps(body.mesh, index), find_steps(body.mesh, fresh)));
+  };
+  ASSERT_GT(cut_with_index(Vec3(1, 0.5, 0.2), body, index, find, check).n_edits, 3);
 }
 
 // Found patch by patch, and forgotten where an edit parts elements.
