@@ -6,6 +6,7 @@
 #include "apps/command_line.h"
 #include "base/communicator.h"
 #include "base/error.h"
+#include "base/heap.h"
 #include "base/log.h"
 #include "base/peer_watch.h"
 
@@ -17,6 +18,7 @@ static void check_was_printed() {
 
 int main(int argc, char** argv) {
   using namespace trocar;
+  keep_freed_memory();
   CommandLine line;
   ExitCode code = ExitCode::done;
   if (!parse_command_line(argc, argv, line, code)) return static_cast<int>(code);

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "base/heap.h"
 #include "base/threads.h"
 #include "base/timers.h"
 #include "bench/machine.h"
@@ -156,6 +157,7 @@ int main(int argc, char** argv) {
       "bench_edit [--thin] [--energy] [--hexahedra] [--viscous] [--sleep] "
       "[--scaled] [--local-steps] [--once] [--threads] [N]...";
   if (is_help_asked(argc, argv)) return print_usage(usage, stdout);
+  keep_freed_memory();
   std::vector<int> cells;
   Trial trial;
   for (int k = 1; k < argc; ++k)

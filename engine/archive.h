@@ -20,11 +20,14 @@ inline constexpr bool is_plain<std::array<T, n>> = is_plain<T>;
 
 class Saver {
  public:
+  Saver() = default;
+  explicit Saver(ByteSink sink) : writer_(std::move(sink)) {}
   template <class... Values>
   void operator()(Values&... values) {
     (put(values), ...);
   }
   std::vector<std::byte> take() { return writer_.take(); }
+  ByteWriter& writer() { return writer_; }
 
  private:
   void put(std::string& text) { writer_.put_text(text); }

@@ -102,7 +102,10 @@ TriangleMesh load_tool_mesh(const LoadedScene& loaded, std::size_t k, Communicat
 // Without the ranks of nodes, which follow from the rest: older checkpoints have none.
 std::uint32_t crc_of_body(Simulation& s) {
   std::vector<std::uint8_t> ranks = std::exchange(s.mesh.hex_split_rank, {});
-  std::uint32_t crc = crc32c(mesh_to_bytes(s.mesh));
+  std::uint32_t crc = 0;
+  ByteWriter writer([&](std::span<const std::byte> bytes) { crc = crc32c(bytes, crc); });
+  put_mesh(writer, s.mesh);
+  writer.flush();
   s.mesh.hex_split_rank = std::move(ranks);
   for (const Tool& tool : s.tools) crc = crc32c(std::as_bytes(std::span(tool.own_mesh.X)), crc);
   return crc;
@@ -213,8 +216,7 @@ void leave_room(std::size_t n, std::vector<T>& values) {
 void leave_room_for_edits(Simulation& s) {
   const std::size_t n = s.mesh.X.size();
   for (auto* values : {&s.mesh.X, &s.boxes.x, &s.view.x, &s.cut_state.x}) leave_room(n, *values);
-  for (auto* values :
-       {&s.cut_state.u, &s.cut_state.v, &s.state.u, &s.state.v, &s.look.u, &s.scratch.force})
+  for (auto* values : {&s.cut_state.u, &s.cut_state.v, &s.state.u, &s.state.v, &s.scratch.force})
     leave_room(3 * n, *values);
   for (auto* values : {&s.node_owner, &s.corners.first, &s.part.node_local, &s.part.node_global})
     leave_room(n, *values);
@@ -292,10 +294,7 @@ void follow_model(Simulation& s) {
   if (s.energy) localise_supports(s.scene.supports, s.mesh, s.part, s.energy->support_forces);
   // A component r of displacements strains tetrahedra by at most 4 sqrt(3) r / h, hexahedra at
   // their centre by 6 r / h, with the least altitude h.
-  std::vector<double> u = std::move(s.look.u);
-  u.clear();  // keeps its memory
-  s.look = {.u = std::move(u),
-            .reach = unseen_strain / 7 * s.communicator->all_min(s.least_altitude.value())};
+  s.look = {.reach = unseen_strain / 7 * s.communicator->all_min(s.least_altitude.value())};
   if (!s.contact) return;
   if (s.mesh.dimension() == 3)
     s.contact->detector.set_closed_surface(s.surface);

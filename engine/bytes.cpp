@@ -7,8 +7,20 @@
 namespace trocar {
 
 void ByteWriter::put_raw(const void* data, std::size_t size) {
-  const auto* first = static_cast<const std::byte*>(data);
-  bytes_.insert(bytes_.end(), first, first + size);
+  std::span<const std::byte> rest(static_cast<const std::byte*>(data), size);
+  while (sink_ && rest.size() >= piece_size - bytes_.size()) {
+    const std::size_t n = piece_size - bytes_.size();
+    bytes_.insert(bytes_.end(), rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(n));
+    rest = rest.subspan(n);
+    flush();
+  }
+  bytes_.insert(bytes_.end(), rest.begin(), rest.end());
+}
+
+void ByteWriter::flush() {
+  if (bytes_.empty()) return;
+  sink_(bytes_);
+  bytes_.clear();
 }
 
 void ByteWriter::put_text(const std::string& text) {
@@ -87,8 +99,7 @@ void check_copies(const Mesh& mesh) {
 
 }  // namespace
 
-std::vector<std::byte> mesh_to_bytes(const Mesh& mesh) {
-  ByteWriter writer;
+void put_mesh(ByteWriter& writer, const Mesh& mesh) {
   put_points(writer, mesh.X);
   writer.put_vector(mesh.element_type);
   writer.put_vector(mesh.corner_offset);
@@ -111,6 +122,19 @@ std::vector<std::byte> mesh_to_bytes(const Mesh& mesh) {
   if (leaves_out || !mesh.hex_split_rank.empty()) writer.put_vector(mesh.hex_split_rank);
   if (leaves_out)
     for (const NodeSet& set : mesh.node_sets) writer.put_vector(set.left_out);
+}
+
+std::size_t n_bytes_of(const Mesh& mesh) {
+  std::size_t n = 0;
+  ByteWriter writer([&](std::span<const std::byte> bytes) { n += bytes.size(); });
+  put_mesh(writer, mesh);
+  writer.flush();
+  return n;
+}
+
+std::vector<std::byte> mesh_to_bytes(const Mesh& mesh) {
+  ByteWriter writer;
+  put_mesh(writer, mesh);
   return writer.take();
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -15,8 +16,16 @@
 
 namespace trocar {
 
+// Takes bytes piece by piece.
+using ByteSink = std::function<void(std::span<const std::byte>)>;
+
 class ByteWriter {
  public:
+  ByteWriter() = default;
+  // Hands on what is written in pieces of piece_size bytes and keeps no more; the last one, a
+  // smaller one, when flush is called.
+  explicit ByteWriter(ByteSink sink) : sink_(std::move(sink)) {}
+  static constexpr std::size_t piece_size = std::size_t{1} << 20;
   template <class T>
   void put(const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -28,11 +37,13 @@ class ByteWriter {
     put_raw(values.data(), values.size() * sizeof(T));
   }
   void put_text(const std::string& text);
+  void flush();
   std::vector<std::byte> take() { return std::move(bytes_); }
 
  private:
   void put_raw(const void* data, std::size_t size);
   std::vector<std::byte> bytes_;
+  ByteSink sink_;
 };
 
 class ByteReader {
@@ -59,6 +70,8 @@ class ByteReader {
   std::span<const std::byte> bytes_;
 };
 
+void put_mesh(ByteWriter& writer, const Mesh& mesh);
+std::size_t n_bytes_of(const Mesh& mesh);
 std::vector<std::byte> mesh_to_bytes(const Mesh& mesh);
 Mesh mesh_from_bytes(std::span<const std::byte> bytes);
 std::vector<std::byte> edit_to_bytes(const MeshEdit& edit);

@@ -69,7 +69,7 @@ void check_machine(const Checkpoint& c) {
 // What the next watch starts from, and the energy ledger; one that the checkpoint lacks starts
 // here.
 void restore_searches(const Checkpoint& c, Simulation& s) {
-  s.look.u = of_owned(c.looked_at, s.part);
+  s.look.displacements = std::make_shared<std::vector<double>>(of_owned(c.looked_at, s.part));
   s.look.is_done = !c.looked_at.empty();
   static_cast<SearchMemory&>(s.look) = c.searches;
   s.look.stiffening.reset();
@@ -111,7 +111,7 @@ Checkpoint take_checkpoint(Simulation& s) {
                .history_time = s.state.history_time,
                .has_energies = s.energy != nullptr};
   if (s.energy) c.energy = s.energy->memory;
-  if (s.look.is_done) c.looked_at = gather_owned(s, s.look.u);
+  if (s.look.is_done) c.looked_at = gather_owned(s, s.look.u());
   c.searches = s.look;
   c.has_stiffening = s.look.is_done && s.look.stiffening;
   c.has_local_steps = s.multirate != nullptr;

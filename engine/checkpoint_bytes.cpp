@@ -1,5 +1,6 @@
-// A checkpoint's layout: mark, format, two packed blobs (displacements and velocities, whose bytes
-// are shuffled, and all the rest), checksum of everything before it.
+// A checkpoint's layout: mark, format, two sections (displacements and velocities, whose bytes are
+// shuffled, and all the rest), checksum of everything before it. A section is a row of packed
+// blobs, an empty one at its end, so that a large body is written piece by piece.
 #include "base/digest.h"
 #include "base/error.h"
 #include "engine/archive_cut.h"
@@ -10,11 +11,16 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 20;
+constexpr std::uint32_t checkpoint_format = 21;
 
-template <class Archive>
-static void visit(Archive& a, Mesh& mesh) {
-  visit_bytes(a, mesh, mesh_to_bytes, mesh_from_bytes);
+static void visit(Saver& a, Mesh& mesh) {
+  a.writer().put(std::uint64_t{n_bytes_of(mesh)});
+  put_mesh(a.writer(), mesh);
+}
+static void visit(Loader& a, Mesh& mesh) {
+  std::vector<std::byte> bytes;
+  a(bytes);
+  mesh = mesh_from_bytes(bytes);
 }
 template <class Archive>
 static void visit(Archive& a, CutRecord& r) {
@@ -113,21 +119,55 @@ static Blob get_blob(ByteReader& reader) {
   return blob;
 }
 
-std::vector<std::byte> checkpoint_to_bytes(Checkpoint checkpoint) {
-  std::vector<double> motion = std::move(checkpoint.u);
-  motion.insert(motion.end(), checkpoint.v.begin(), checkpoint.v.end());
-  Saver rest;
+// Turns pieces into blobs.
+static ByteSink packed_to(const ByteSink& sink, std::size_t item_size) {
+  return [&sink, item_size](std::span<const std::byte> plain) {
+    ByteWriter writer;
+    put_blob(writer, pack_blob(plain, item_size));
+    sink(writer.take());
+  };
+}
+
+void put_checkpoint(Checkpoint& checkpoint, const ByteSink& sink) {
+  std::uint32_t crc = 0;
+  const ByteSink checked = [&](std::span<const std::byte> bytes) {
+    crc = crc32c(bytes, crc);
+    sink(bytes);
+  };
+  ByteWriter head(checked);
+  head.put(checkpoint_mark);
+  head.put(checkpoint_format);
+  head.flush();
+  const ByteSink shuffled = packed_to(checked, sizeof(double)), plain = packed_to(checked, 1);
+  ByteWriter motion(shuffled);
+  motion.put_vector(checkpoint.u);
+  motion.put_vector(checkpoint.v);
+  motion.flush();
+  shuffled({});
+  Saver rest(plain);
   rest(checkpoint);
-  ByteWriter writer;
-  writer.put(checkpoint_mark);
-  writer.put(checkpoint_format);
-  put_blob(writer, pack_blob(std::as_bytes(std::span(motion)), sizeof(double)));
-  put_blob(writer, pack_blob(rest.take(), 1));
-  std::vector<std::byte> bytes = writer.take();
-  const std::array<std::uint32_t, 1> crc = {crc32c(bytes)};
-  const auto end = std::as_bytes(std::span(crc));
-  bytes.insert(bytes.end(), end.begin(), end.end());
+  rest.writer().flush();
+  plain({});
+  sink(std::as_bytes(std::span(&crc, 1)));
+}
+
+std::vector<std::byte> checkpoint_to_bytes(Checkpoint checkpoint) {
+  std::vector<std::byte> bytes;
+  put_checkpoint(checkpoint, [&](std::span<const std::byte> more) {
+    bytes.insert(bytes.end(), more.begin(), more.end());
+  });
   return bytes;
+}
+
+static std::vector<std::byte> get_section(ByteReader& reader, std::size_t item_size,
+                                          const std::string& name) {
+  std::vector<std::byte> bytes;
+  for (;;) {
+    const Blob blob = get_blob(reader);
+    if (blob.plain_size == 0) return bytes;
+    const std::vector<std::byte> more = unpack_blob(blob, item_size, name);
+    bytes.insert(bytes.end(), more.begin(), more.end());
+  }
 }
 
 // The blobs without mark, format and checksum.
@@ -149,18 +189,14 @@ static std::span<const std::byte> checked_body(std::span<const std::byte> bytes,
 
 Checkpoint checkpoint_from_bytes(std::span<const std::byte> bytes, const std::string& name) {
   ByteReader reader(checked_body(bytes, name));
-  const std::vector<std::byte> motion = unpack_blob(get_blob(reader), sizeof(double), name);
-  const std::vector<std::byte> rest = unpack_blob(get_blob(reader), 1, name);
+  const std::vector<std::byte> motion = get_section(reader, sizeof(double), name);
+  const std::vector<std::byte> rest = get_section(reader, 1, name);
   Checkpoint c;
   Loader load(rest);
   load(c);
-  const std::size_t n = motion.size() / sizeof(double) / 2;
-  c.u.resize(n);
-  c.v.resize(n);
-  if (n > 0) {
-    std::memcpy(c.u.data(), motion.data(), n * sizeof(double));
-    std::memcpy(c.v.data(), motion.data() + n * sizeof(double), n * sizeof(double));
-  }
+  ByteReader fields(motion);
+  c.u = fields.get_vector<double>();
+  c.v = fields.get_vector<double>();
   const std::vector<std::string> faults = validate(c.mesh, 1);
   if (!faults.empty()) throw InputError(name + ": mesh: " + faults.front());
   return c;

@@ -35,9 +35,17 @@ bool write_all(const OpenFile& file, std::span<const std::byte> bytes) {
   return true;
 }
 
-bool write_to_disk(const std::string& file, std::span<const std::byte> bytes) {
+// Returns the number of the error, 0 if there is none; n_bytes: that `put` has given.
+int write_to_disk(const std::string& file, const std::function<void(const ByteSink&)>& put,
+                  std::size_t& n_bytes) {
   const OpenFile stream(file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC);
-  return stream.number >= 0 && write_all(stream, bytes) && fsync(stream.number) == 0;
+  int trouble = stream.number >= 0 ? 0 : errno;
+  put([&](std::span<const std::byte> bytes) {
+    n_bytes += bytes.size();
+    if (trouble == 0 && !write_all(stream, bytes)) trouble = errno;
+  });
+  if (trouble == 0 && fsync(stream.number) != 0) trouble = errno;
+  return trouble;
 }
 
 // A rename is on the disk once the folder is. Some file systems can't: then it comes a little
@@ -50,13 +58,15 @@ void sync_folder(const std::string& file) {
 
 }  // namespace
 
-void replace_file(const std::string& file, std::span<const std::byte> bytes) {
+void replace_file(const std::string& file, const std::function<void(const ByteSink&)>& put) {
   const std::string fresh = file + ".new";
-  if (!write_to_disk(fresh, bytes) || std::rename(fresh.c_str(), file.c_str()) != 0) {
-    const std::string reason = std::strerror(errno);
+  std::size_t n_bytes = 0;
+  int trouble = write_to_disk(fresh, put, n_bytes);
+  if (trouble == 0 && std::rename(fresh.c_str(), file.c_str()) != 0) trouble = errno;
+  if (trouble != 0) {
     unlink(fresh.c_str());
-    throw MachineError(file + ": can't be written (" + reason + ", " +
-                       std::to_string(bytes.size()) + " bytes needed)");
+    throw MachineError(file + ": can't be written (" + std::strerror(trouble) + ", " +
+                       std::to_string(n_bytes) + " bytes needed)");
   }
   sync_folder(file);
 }

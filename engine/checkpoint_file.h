@@ -2,17 +2,19 @@
 // moment leaves the old one or the new one.
 #pragma once
 
-#include <cstddef>
-#include <span>
+#include <functional>
 #include <string>
+
+#include "engine/bytes.h"
 
 namespace trocar {
 
 inline constexpr const char* checkpoint_name = "checkpoint.bin";
 
-// Writes a neighbour of that name with ".new" at its end, waits until it is on the disk, renames
-// it. Throws MachineError "<file>: …" and leaves the old file as it was.
-void replace_file(const std::string& file, std::span<const std::byte> bytes);
+// Writes a neighbour of that name with ".new" at its end, all that `put` gives to the sink, waits
+// until it is on the disk, renames it. Throws MachineError "<file>: …" and leaves the old file as
+// it was.
+void replace_file(const std::string& file, const std::function<void(const ByteSink&)>& put);
 // Checkpoint and what a kill left of a new one.
 void remove_checkpoint(const std::string& folder);
 

@@ -23,7 +23,8 @@ std::vector<RecordingMark> recording_marks(const Simulation& s, const Outputs& o
 void save(Checkpoint checkpoint, Outputs& outputs) {
   for (const auto& recording : outputs.recordings)
     if (recording) recording->sync();
-  replace_file(outputs.folder + "/" + checkpoint_name, checkpoint_to_bytes(std::move(checkpoint)));
+  replace_file(outputs.folder + "/" + checkpoint_name,
+               [&](const ByteSink& sink) { put_checkpoint(checkpoint, sink); });
 }
 
 }  // namespace

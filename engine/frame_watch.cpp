@@ -28,14 +28,26 @@ void least_of_all(const Communicator& communicator, double& value, std::int32_t&
   value = least;
 }
 
-// Forces of displacements for the search, halos and all.
+// Forces of displacements for the search, halos and all. Fields go from hand to hand: a search has
+// many.
 void force_of(RankBody& body, State& probe, std::vector<double>& u, std::vector<double>& force) {
   probe.u.swap(u);
+  body.scratch.force.swap(force);
+  body.scratch.force.resize(3 * static_cast<std::size_t>(body.model.n_owned));
   start_exchange(body.neighbours, probe);
   find_force(body.model, body.neighbours, probe, body.scratch);
-  force.swap(body.scratch.force);
-  body.scratch.force.resize(force.size());
+  body.scratch.force.swap(force);
   probe.u.swap(u);
+}
+
+// Forces follow from displacements, the search's, and history.
+State without_motion(const State& state) {
+  return {.theta = state.theta,
+          .time = state.time,
+          .last_dt = state.last_dt,
+          .step = state.step,
+          .history = state.history,
+          .history_time = state.history_time};
 }
 
 double search_step(Simulation& s) {
@@ -83,8 +95,9 @@ bool may_look_different(const Simulation& s) {
   const ElementLook& look = s.look;
   const double reach = look.reach * std::min(1.0, s.watch.least_J);
   int has_moved = look.is_done && look.stiffening ? 0 : 1;
-  for (std::size_t k = 0; k < look.u.size() && has_moved == 0; ++k)
-    has_moved = std::abs(s.state.u[k] - look.u[k]) > reach ? 1 : 0;
+  const std::span<const double> u = look.u();
+  for (std::size_t k = 0; k < u.size() && has_moved == 0; ++k)
+    has_moved = std::abs(s.state.u[k] - u[k]) > reach ? 1 : 0;
   return s.communicator->all_max(has_moved) > 0;
 }
 
@@ -209,8 +222,8 @@ ForceScope::~ForceScope() {
 
 double search_step(RankBody& body, double amplitude, const Communicator& communicator,
                    double enough, const ForceOfDisplacement& more) {
-  State probe = body.state;
-  std::vector<double> here = body.scratch.force;
+  State probe = without_motion(body.state);
+  std::vector<double> here = std::exchange(body.scratch.force, {});
   const auto forces = [&](std::vector<double>& u, std::vector<double>& force) {
     force_of(body, probe, u, force);
     if (more) more(u, force);
@@ -229,7 +242,9 @@ void follow_from_here(Simulation& s, double step) {
   ElementLook& look = s.look;
   look.is_done = true;
   look.step = step;
-  look.u.assign(s.state.u.begin(), s.state.u.begin() + 3 * std::ptrdiff_t{s.model.n_owned});
+  const auto begin = s.state.u.begin();
+  look.displacements =
+      std::make_shared<std::vector<double>>(begin, begin + 3 * std::ptrdiff_t{s.model.n_owned});
   look.stiffening.reset();
   look.growth = look.asked = 1;
   look.searched.clear();
@@ -237,7 +252,7 @@ void follow_from_here(Simulation& s, double step) {
 
 void find_stiffening_at_look(Simulation& s) {
   State there = s.state;
-  std::copy(s.look.u.begin(), s.look.u.end(), there.u.begin());
+  std::ranges::copy(s.look.u(), there.u.begin());
   start_exchange(s.neighbours, there);
   update_volume_change(s.model, s.neighbours, there, s.scratch);
   s.look.stiffening.emplace(s.part.element_global.size());

@@ -56,7 +56,7 @@ double search_step(RankBody& body, double amplitude, const Communicator& communi
                    const ForceOfDisplacement& more = {});
 // Takes the present state, where `step` is stable [s], for the one that the step follows from.
 void follow_from_here(Simulation& s, double step);
-// s.look.stiffening, from s.look.u. Collective.
+// s.look.stiffening, from s.look.u(). Collective.
 void find_stiffening_at_look(Simulation& s);
 // Forces of a step dt in place of those at this moment, with solver.multirate. Collective.
 void refine_forces(Simulation& s, double dt);

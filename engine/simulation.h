@@ -78,7 +78,11 @@ struct SearchMemory {
 // Where the stable step of the body was last found, from which it follows (frame_watch.h).
 struct ElementLook : SearchMemory {
   bool is_done = false;
-  std::vector<double> u;  // (n_owned * 3) there [m]
+  // (n_owned * 3) [m] Displacements there, none before; frames share them with their beginnings.
+  std::shared_ptr<const std::vector<double>> displacements;
+  std::span<const double> u() const {
+    return displacements ? *displacements : std::span<const double>();
+  }
   // (n local elements) growth of their omega^2 there; none until it is needed, and the elements are
   // looked at in any case.
   std::optional<std::vector<double>> stiffening;

@@ -6,6 +6,7 @@
 
 #include "base/digest.h"
 #include "base/exact_sum.h"
+#include "base/heap.h"
 #include "base/threads.h"
 #include "engine/frame_report.h"
 #include "engine/version.h"
@@ -235,6 +236,8 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   j["ranks"] = s.communicator->size();
   j["threads"] = thread_count();
   j["traffic_of_rank_0"] = traffic_json(s.communicator->traffic());
+  j["peak_memory_bytes"] =
+      static_cast<std::int64_t>(s.communicator->all_max(static_cast<double>(peak_memory_bytes())));
   j["precision"] = name_of(s.scene.solver.precision);
   j["simd"] = simd_name();
   j["mesh"] = mesh_json(s);

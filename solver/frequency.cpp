@@ -32,7 +32,8 @@ struct Search {
   std::vector<std::size_t> fixed;  // components that supports hold
   Vector inertia, by_inertia;      // of each component, and one over it
   double most_inertia = 0;         // on all ranks
-  Vector force_at_rest, u, force, room;
+  std::span<const double> force_at_rest;
+  Vector u, force, room;
 
   std::size_t size() const { return 3 * static_cast<std::size_t>(model.n_owned); }
   // Products are no larger than `most`. The same bits on any ranks and threads.
@@ -201,8 +202,9 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
            .fixed = fixed_components(model),
            .u = state.u};
   find_inertia(s);
-  s.force_at_rest.assign(options.force.begin(), options.force.end());
-  if (s.force_at_rest.empty()) forces(s.u, s.force_at_rest);
+  Vector at_rest;
+  if (options.force.empty()) forces(s.u, at_rest);
+  s.force_at_rest = options.force.empty() ? at_rest : options.force;
   Vector x(s.size()), last(s.size(), 0.0);
   Direction next{.x = Vector(s.size()), .Mx = Vector(s.size())};
   Tridiagonal T;

@@ -58,6 +58,31 @@ TEST(CheckpointBytes, read_back_give_the_same_checkpoint) {
             edit_to_bytes(c.recordings[0].pending[0].edit));
 }
 
+// Of a mesh and of fields that don't fit into a piece.
+TEST(CheckpointBytes, of_a_large_body_are_handed_on_in_small_pieces) {
+  Checkpoint c = example_checkpoint();
+  c.mesh = make_box({0, 0, 0}, {1, 1, 1}, {33, 33, 33}, BoxElements::hex8);
+  const std::size_t n = 3 * c.mesh.X.size();
+  for (std::size_t k = 0; k < n; ++k) c.looked_at.push_back(std::sin(static_cast<double>(k)));
+  c.u.assign(c.looked_at.rbegin(), c.looked_at.rend());
+  c.v = c.looked_at;
+  ASSERT_GT(n_bytes_of(c.mesh), 2 * ByteWriter::piece_size);
+  ASSERT_GT(2 * n * sizeof(double), ByteWriter::piece_size);
+  std::vector<std::byte> bytes;
+  int n_pieces = 0;
+  put_checkpoint(c, [&](std::span<const std::byte> piece) {
+    EXPECT_LT(piece.size(), ByteWriter::piece_size + 1000);
+    ++n_pieces;
+    bytes.insert(bytes.end(), piece.begin(), piece.end());
+  });
+  EXPECT_GT(n_pieces, 6);
+  const Checkpoint back = checkpoint_from_bytes(bytes, "c");
+  EXPECT_TRUE(is_equal(back.mesh, c.mesh));
+  EXPECT_EQ(back.u, c.u);
+  EXPECT_EQ(back.v, c.v);
+  EXPECT_EQ(back.looked_at, c.looked_at);
+}
+
 TEST(CheckpointBytes, have_the_numbers_of_refusals_that_older_ones_have) {
   EXPECT_EQ(CutRefusal::pinched, 0);
   EXPECT_EQ(CutRefusal::chip, 1);

@@ -12,7 +12,7 @@ namespace trocar {
 namespace {
 
 void replace(const std::string& file, const std::string& text) {
-  replace_file(file, std::as_bytes(std::span(text)));
+  replace_file(file, [&](const ByteSink& sink) { sink(std::as_bytes(std::span(text))); });
 }
 
 int n_files(const TestFolder& folder) {
