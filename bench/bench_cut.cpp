@@ -16,7 +16,9 @@ namespace {
 constexpr const char* usage =
     R"(bench_cut [--count N] [--seed S] [--family NAME] [--kind NAME] [--mesh FILE]... [--json FILE]
           [--markdown FILE] [--stages springs|springs_then_barrier|barrier] [--split RATIO]
+          [--advances N]
          N random cuts of each mesh and kind (default 20) beside the subdivision of the same cuts;
+         --advances N: each stroke in N advances in place of its own
          --family layers: of bodies of two regions, also along where these meet
          --family plates: of plates one cell thick, in their plane
        bench_cut --cuts N [--seed S] [--minutes M]
@@ -27,7 +29,7 @@ constexpr const char* usage =
          the same incision in boxes of N x N x N cells (default: 6,000 to 1,000,000 tetrahedra))";
 
 struct Arguments {
-  int count = 20, cuts = 0, after = 0, steps = 10000;
+  int count = 20, advances = 0, cuts = 0, after = 0, steps = 10000;
   unsigned seed = 1;
   double minutes = 1e9;
   std::string family, kind, json, markdown;
@@ -44,6 +46,8 @@ CutStages stages_named(const std::string& name) {
 bool read_number(const std::string& name, const char* value, Arguments& a) {
   if (name == "--count")
     a.count = std::atoi(value);
+  else if (name == "--advances")
+    a.advances = std::atoi(value);
   else if (name == "--cuts")
     a.cuts = std::atoi(value);
   else if (name == "--after")
@@ -96,6 +100,15 @@ struct Cuts {
   std::vector<Kind> kinds;
 };
 
+Kind in_advances(Kind kind, int n) {
+  kind.strokes = [strokes = kind.strokes, n](const Mesh& mesh, std::mt19937_64& random) {
+    std::vector<Stroke> all = strokes(mesh, random);
+    for (Stroke& stroke : all) stroke.n_steps = n;
+    return all;
+  };
+  return kind;
+}
+
 Cuts asked_cuts(const Arguments& a) {
   if (a.family.starts_with("layers")) return {layered_families(), layered_kinds()};
   if (a.family.starts_with("plates")) return {plate_families(), plate_kinds()};
@@ -110,7 +123,8 @@ bool is_asked_for(const Family& family, const Kind& kind, const Arguments& a) {
 
 // Each cut has a generator of its own: --seed 7 --count 1 repeats the cut that the run before
 // printed as seed 7.
-Row run(const Family& family, const Kind& kind, const Arguments& a) {
+Row run(const Family& family, Kind kind, const Arguments& a) {
+  if (a.advances > 0) kind = in_advances(std::move(kind), a.advances);
   Row row{family.name, kind.name, {}};
   for (unsigned seed = a.seed; seed < a.seed + unsigned(a.count); ++seed) {
     std::mt19937_64 random(seed);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/sort_unique.h"
 #include "cutting/cut_flake.h"
 #include "cutting/cut_survey.h"
 
@@ -10,6 +11,8 @@ namespace trocar {
 
 // Flakes are looked for below this (over h^3).
 static constexpr double flake_volume = 16;
+// And above this their necks go with them where they can (over h^3).
+static constexpr double with_neck = 1;
 
 namespace {
 
@@ -126,12 +129,12 @@ static std::vector<OfElement<std::int8_t>> given_sides(const TetCut& cut) {
   return side;
 }
 
-static bool is_flake(const Tissue& t, const SmallPiece& piece) {
+static Flake find_flake(const Tissue& t, const SmallPiece& piece) {
   std::vector<std::int32_t> element = piece.beyond;
   for (const std::int32_t e : piece.element) element.push_back(t.cut.around.patch.element[e]);
   std::ranges::sort(element);
-  return is_flake(t.mesh, t.index, t.stroke, element, t.cut.labels.side[piece.element.front()],
-                  given_sides(t.cut));
+  return find_flake(t.mesh, t.index, t.stroke, element, t.cut.labels.side[piece.element.front()],
+                    given_sides(t.cut));
 }
 
 // Gives the piece the other side.
@@ -144,13 +147,41 @@ static void attach(SmallPiece piece, TetCut& cut) {
   cut.chips.push_back(std::move(chip));
 }
 
+// Gives the elements around the neck the flake's side, but those that an advance before gave the
+// other one, chips, and what is a neck already; whether there are any.
+static bool keep_neck(const Tissue& t, std::span<const std::int32_t> neck, std::int8_t side,
+                      TetCut& cut) {
+  const CutPatch& patch = cut.around.patch;
+  std::vector<std::int32_t> taken = cut.neck;
+  for (const CutChip& chip : cut.chips)
+    taken.insert(taken.end(), chip.element.begin(), chip.element.end());
+  sort_unique(taken);
+  const std::size_t n_before = cut.neck.size();
+  for (const std::int32_t node : neck) {
+    const std::int32_t i = patch.local_node(node);
+    if (i < 0 || !patch.is_whole(i)) continue;
+    for (const std::int32_t e : patch.star(i)) {
+      if (cut.labels.side[e] != -side || std::ranges::binary_search(taken, e) ||
+          find_element(t.stroke.side, patch.element[e]) != nullptr)
+        continue;
+      cut.labels.side[e] = side;
+      cut.neck.push_back(e);
+    }
+  }
+  return cut.neck.size() > n_before;
+}
+
 bool join_chip(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke, bool is_last,
                TetCut& cut) {
   if (cut.opening.duplication.duplicate_parent.empty()) return false;
   const Tissue tissue{mesh, index, stroke, cut};
   for (SmallPiece& piece : small_pieces(tissue)) {
     const bool is_chip = piece.V < chip_volume;
-    if (!is_chip && !is_flake(tissue, piece)) continue;
+    const Flake flake = is_chip ? Flake{} : find_flake(tissue, piece);
+    if (!is_chip && !flake.is_one) continue;
+    if (is_last && piece.V > with_neck &&
+        keep_neck(tissue, flake.neck, cut.labels.side[piece.element.front()], cut))
+      return true;
     if (is_chip || is_last)
       attach(std::move(piece), cut);
     else

@@ -19,8 +19,9 @@ struct CutChip {
 
 // Joins the smallest piece that the opening should not free: a chip or a flake (cut_flake.h). It
 // gets the other side and is added to cut.chips; a flake, while the blade is on its way, stays
-// joined for now. False if there is none. The facets are to be opened again then: what it joins may
-// be one, too.
+// joined for now, and a large one gets the elements of its neck in the end, which are added to
+// cut.neck, if the stroke has not parted them yet. False if there is none. The facets are to be
+// opened again then: what it joins may be one, too.
 bool join_chip(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke, bool is_last,
                TetCut& cut);
 

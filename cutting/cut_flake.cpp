@@ -19,13 +19,20 @@ struct Lip {
   std::int32_t element;
 };
 
+// Where a walk has come, and the place before it; -1: it began here.
+struct Met {
+  std::int32_t element, corner;
+  std::ptrdiff_t before;
+};
+
 struct Walk {
   const Mesh& mesh;
   const CutIndex& index;
   const CutStroke& stroke;
-  std::vector<Lip> lip;                           // sorted
-  std::vector<OfElement<std::uint8_t>> visited;   // bit c: corner c
-  std::vector<std::array<std::int32_t, 2>> open;  // element, corner
+  std::vector<Lip> lip;                          // sorted
+  std::vector<OfElement<std::uint8_t>> visited;  // bit c: corner c
+  std::vector<Met> met;                          // the nearest first
+  std::ptrdiff_t now = -1;
 };
 
 }  // namespace
@@ -91,7 +98,7 @@ static void visit(Walk& walk, std::int32_t e, std::size_t c) {
   if (at == walk.visited.end() || at->element != e) at = walk.visited.insert(at, {e, 0});
   if ((at->value >> c & 1) != 0) return;
   at->value = static_cast<std::uint8_t>(at->value | 1U << c);
-  walk.open.push_back({e, static_cast<std::int32_t>(c)});
+  walk.met.push_back({e, static_cast<std::int32_t>(c), walk.now});
 }
 
 static void go_on(Walk& walk, std::int32_t e, std::size_t c) {
@@ -121,23 +128,32 @@ static void begin(Walk& walk, const std::vector<std::int32_t>& piece, int side) 
     }
 }
 
-bool is_flake(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke,
-              const std::vector<std::int32_t>& piece, int side,
-              const std::vector<OfElement<std::int8_t>>& given) {
+static std::vector<std::int32_t> nodes_back(const Walk& walk) {
+  std::vector<std::int32_t> nodes;
+  for (std::ptrdiff_t k = walk.now; k >= 0;) {
+    const auto& [e, c, before] = walk.met[static_cast<std::size_t>(k)];
+    nodes.push_back(walk.mesh.corners(e)[static_cast<std::size_t>(c)]);
+    k = before;
+  }
+  return nodes;
+}
+
+Flake find_flake(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke,
+                 const std::vector<std::int32_t>& piece, int side,
+                 const std::vector<OfElement<std::int8_t>>& given) {
   Walk walk{mesh, index, stroke, lips(mesh, stroke), {}, {}};
   begin(walk, piece, side);
-  while (!walk.open.empty()) {
-    const auto [e, c] = walk.open.back();
-    walk.open.pop_back();
+  for (walk.now = 0; walk.now < std::ssize(walk.met); ++walk.now) {
+    const auto [e, c, before] = walk.met[static_cast<std::size_t>(walk.now)];
     if (!std::ranges::binary_search(piece, e)) {
       const std::int8_t* known = find_element(given, e);
       if (known == nullptr) known = find_element(stroke.side, e);
-      if (known != nullptr && *known == side) return true;
+      if (known != nullptr && *known == side) return {true, nodes_back(walk)};
     }
-    if (walk.visited.size() > n_walked) return true;
+    if (walk.visited.size() > n_walked) return {true, {}};
     go_on(walk, e, static_cast<std::size_t>(c));
   }
-  return false;
+  return {};
 }
 
 }  // namespace trocar

@@ -27,6 +27,7 @@ struct TetCut {
   std::vector<Vec3> X;               // (n_nodes) reference positions afterwards
   std::vector<NodeTransfer> transfer;  // of the moved nodes
   std::vector<CutChip> chips;          // that stay with the other side
+  std::vector<std::int32_t> neck;      // local elements that go with a flake
   CutRungs rungs;
 };
 

@@ -51,7 +51,9 @@ struct Bar {
       }
     std::ranges::sort(stroke.hit, {}, &CutHit::key);
   }
-  bool has_flake() const { return is_flake(mesh, index_of(mesh), stroke, piece, 1, stroke.side); }
+  bool has_flake() const {
+    return find_flake(mesh, index_of(mesh), stroke, piece, 1, stroke.side).is_one;
+  }
 };
 
 Bar make_bar(Mesh mesh) {
@@ -108,21 +110,33 @@ TEST(IsFlake, across_facets_that_this_stroke_opened_but_no_older_one) {
 
 // A block whose top sinks in the middle to `depth` above the blade: one end came off apart from the
 // other although the blade left them joined.
-int pieces_of_sunk_block(double depth) {
+Mesh cut_sunk_block(double depth, int n_steps) {
   Mesh mesh = make_box({0, 0, 0}, {5, 2, 2}, {5, 2, 2}, BoxElements::tet4_kuhn);
   for (Vec3& X : mesh.X)
     if (X.z() == 2) X.z() = 1.2 + (X.x() < 2 || X.x() > 3 ? 1 : depth);
   Body body(std::move(mesh));
   const Blade blade = straight_blade({-1, -1, 1.2}, {-1, 3, 1.2}, {7, 0, 0});
   TetCutter cutter{CutTetOptions{.split_step_ratio = 0}};
-  cut(body, blade, Vec3::UnitZ(), 12, cutter);
+  cut(body, blade, Vec3::UnitZ(), n_steps, cutter);
   EXPECT_EQ(fault(body), "");
-  return n_pieces(body.mesh);
+  return std::move(body.mesh);
 }
 
 TEST(Flakes, stay_with_the_other_side_but_not_what_the_blade_parted) {
-  EXPECT_EQ(pieces_of_sunk_block(0.1), 2);
-  EXPECT_EQ(pieces_of_sunk_block(-0.1), 3);
+  EXPECT_EQ(n_pieces(cut_sunk_block(0.1, 12)), 2);
+  EXPECT_EQ(n_pieces(cut_sunk_block(-0.1, 12)), 3);
+}
+
+// Both ends and the middle lie above a blade that passes in one advance: no neck is parted before.
+TEST(Flakes, keep_their_necks_where_a_blade_passes_at_once) {
+  const Mesh mesh = cut_sunk_block(0.1, 1);
+  std::vector<std::int32_t> piece;
+  ASSERT_EQ(mesh_pieces(mesh, piece), 2);
+  std::array<double, 2> V{};
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    V[std::size_t(piece[e])] += element_volume(mesh, e, mesh.X);
+  constexpr double above = 2 * (1 + 0.55 + 0.1 + 0.55 + 1);  // the blade
+  EXPECT_NEAR(std::min(V[0], V[1]), above, 0.1 * above);
 }
 
 // Planes at 3 and 1 degrees to the axis leave wedges that taper to nothing: some 5 h^3 of these
