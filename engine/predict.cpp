@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/heap.h"
 #include "base/threads.h"
 #include "base/timers.h"
 #include "engine/frame_watch.h"
@@ -47,6 +48,7 @@ std::string line(const char* name, const char* format, double value) {
 }  // namespace
 
 std::string predict(Simulation& s) {
+  const double program = s.communicator->all_max(static_cast<double>(peak_memory_bytes()));
   const MeshStatistics m = mesh_statistics(s.mesh);
   const double frame = 1 / s.scene.time.frame_rate;
   const double limit = s.scene.solver.step_factor * s.watch.stable_step;
@@ -73,6 +75,8 @@ std::string predict(Simulation& s) {
   text += line("steps a second", "%.0f (without contact, cuts and pictures)", 1 / step_seconds);
   text +=
       line("memory", "%.1f MB for model and scratch, all ranks", static_cast<double>(bytes) / 1e6);
+  text += line("program's memory", "%.0f MB to build and watch the body, on the rank that has most",
+               program / 1e6);
   text +=
       line("ranks x threads", "%.0f", static_cast<double>(s.communicator->size()) * thread_count());
   text += line("real-time factor", "%.2f predicted for the steps alone",
