@@ -63,26 +63,47 @@ struct Trial {
   int n_runs = 5, n_threads = 1;
 };
 
+// A body about x = y = 0 and above z = 0, what holds it, and the blade. [m]
+struct Setting {
+  double half_x, half_y, height;
+  std::string elements, cells, support, blade_length, path;
+};
+
+Setting box_of(int n) {
+  const double side = cell * n;
+  const std::string cells = std::to_string(n);
+  return {side / 2,
+          side / 2,
+          side,
+          "tet4-kuhn",
+          cells + ", " + cells + ", " + cells,
+          "z-",
+          "16 mm",
+          path_of(side, n % 2 == 1 ? 0.5 : 0)};
+}
+
+Setting strip_of(int n) {
+  return {
+      cell * n / 2,        3 * cell, cell, "tet4-five", std::to_string(n) + ", 6, 1", "x-", "28 mm",
+      path_through_strip()};
+}
+
 std::string scene_of(int n, const Trial& trial) {
-  const double side = cell * n / 2, height = trial.is_thin ? cell : 2 * side;
-  const std::string x = number(side), y = number(trial.is_thin ? 3 * cell : side),
-                    top = number(height), cells = std::to_string(n);
+  const Setting setting = trial.is_thin ? strip_of(n) : box_of(n);
+  const std::string x = number(setting.half_x), y = number(setting.half_y);
   return "[time]\nduration = 1\nframe_rate = " + number(frame_rate) +
          "\n[tissue.shape]\nkind = \"box\"\nelements = \"" +
-         (trial.is_of_hexahedra ? "hex8"
-          : trial.is_thin       ? "tet4-five"
-                                : "tet4-kuhn") +
-         "\"\nlow = [-" + x + ", -" + y + ", 0]\nhigh = [" + x + ", " + y + ", " + top +
-         "]\ncells = [" + cells + (trial.is_thin ? ", 6, 1" : ", " + cells + ", " + cells) +
+         (trial.is_of_hexahedra ? "hex8" : setting.elements) + "\"\nlow = [-" + x + ", -" + y +
+         ", 0]\nhigh = [" + x + ", " + y + ", " + number(setting.height) + "]\ncells = [" +
+         setting.cells +
          "]\n[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\ndensity = 1000\n" +
          (trial.is_viscous ? "[[tissue.material.prony]]\nshare = 0.3\ntime = 0.1\n" : "") +
          "[solver]\n" + (trial.does_sleep ? "sleep = \"0.1 mm\"\n" : "") +
          (trial.is_scaled ? "mass_scaling_step = \"0.45 ms\"\n" : "") +
          (trial.has_local_steps ? "multirate = true\n" : "") + "[[support]]\nregion = \"" +
-         (trial.is_thin ? "x-" : "z-") +
+         setting.support +
          "\"\nfix = \"xyz\"\n[[instrument]]\nkind = \"scalpel\"\nblade_length = \"" +
-         (trial.is_thin ? "28 mm" : "16 mm") + "\"\n" +
-         (trial.is_thin ? path_through_strip() : path_of(2 * side, n % 2 == 1 ? 0.5 : 0));
+         setting.blade_length + "\"\n" + setting.path;
 }
 
 struct Cost {

@@ -189,9 +189,8 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
 
 void TetCutter::prepare(const Mesh& mesh) {
   Front& f = *front_;
-  const bool is_known = is_index_of(f.index, mesh);  // which has no hexahedra then
-  if (is_known || !has_hexahedra(mesh)) {
-    if (!is_known) f.tets = {};
+  if (is_index_of(f.index, mesh) || !has_hexahedra(mesh)) {  // none if it is the index of `mesh`
+    f.tets = {};
     return update_index(mesh, f.index);
   }
   update_hex_tets(mesh, f.tets);

@@ -52,24 +52,6 @@ static PartsOfElement parts_of(const Mesh& mesh, std::span<const EdgeNode> nodes
   return parts;
 }
 
-// Of the elements, those that have one of these edges (ascending), or are among `also` (ascending).
-static std::vector<std::int32_t> with_edges(const Mesh& mesh, std::span<const std::int32_t> element,
-                                            std::span<const std::array<std::int32_t, 2>> edges,
-                                            std::span<const std::int32_t> also) {
-  const auto is_one = [&](std::int32_t e) {
-    const std::span<const std::int32_t> corner = mesh.corners(e);
-    return std::ranges::any_of(tet_edges, [&](const std::array<int, 2>& end) {
-      const std::int32_t a = corner[static_cast<std::size_t>(end[0])],
-                         b = corner[static_cast<std::size_t>(end[1])];
-      return std::ranges::binary_search(edges, std::array{std::min(a, b), std::max(a, b)});
-    });
-  };
-  std::vector<std::int32_t> found;
-  for (const std::int32_t e : element)
-    if (std::ranges::binary_search(also, e) || is_one(e)) found.push_back(e);
-  return found;
-}
-
 // Moves nodes of elements whose parts lie below the floor to the middle of their edges, those
 // farthest from it first. A node that doesn't get there goes, and its edge stays whole.
 static void keep_floor(const Mesh& mesh, std::span<const std::int32_t> element, double floor,
@@ -92,13 +74,16 @@ static void keep_floor(const Mesh& mesh, std::span<const std::int32_t> element, 
         std::ranges::find_if(too_near, [&](std::size_t n) { return part(n) == half; });
     const bool is_one_gone = in_middle != too_near.end();
     if (is_one_gone) too_near = {*in_middle};
-    std::vector<std::array<std::int32_t, 2>> changed;
+    std::vector<EdgeNode> changed;
     for (const std::size_t n : too_near) {
-      changed.push_back(nodes[n].end);
+      changed.push_back(nodes[n]);
       set_part(std::min(half, part_of(nodes[n]) + more_part), nodes[n]);
     }
     if (is_one_gone) nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(too_near.front()));
-    unsure = with_edges(mesh, element, changed, below);
+    unsure = std::move(below);
+    for (const ElementSplit& split : split_edges(mesh, element, std::move(changed)).splits)
+      unsure.push_back(split.element);
+    sort_unique(unsure);
   }
 }
 
