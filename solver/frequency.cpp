@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
 
@@ -20,6 +21,8 @@ double larger_or_bad(double a, double b) {
   return a > b || std::isnan(a) ? a : b;
 }
 
+constexpr std::int64_t piece = 512;  // components
+
 // Vectors are (n_owned * 3).
 struct Search {
   const Model& model;
@@ -30,10 +33,10 @@ struct Search {
   const Communicator& communicator;
   std::int64_t n = 0;              // components on all ranks
   std::vector<std::size_t> fixed;  // components that supports hold
-  Vector inertia, by_inertia;      // of each component, and one over it
-  double most_inertia = 0;         // on all ranks
+  double most_inertia = 0;         // of a node on all ranks
   std::span<const double> force_at_rest;
-  Vector u, force, room;
+  Vector u, room;
+  Vector force;  // or M x of a direction: they are never wanted at once
 
   std::size_t size() const { return 3 * static_cast<std::size_t>(model.n_owned); }
   // Products are no larger than `most`. The same bits on any ranks and threads.
@@ -49,18 +52,17 @@ struct Search {
                            body(static_cast<std::size_t>(k));
                        });
   }
-  // The same; returns the size of the largest component of what the body writes on all ranks, NaN
-  // if one is not finite. In pieces that are still in the first cache then.
+  // Calls body(begin, end) for pieces of the components that stay in the first cache; returns the
+  // size of the largest component of what the body writes on all ranks, NaN if one is not finite.
   template <class Body>
-  double for_components(const Vector& written, const Body& body) const {
+  double for_pieces(const Vector& written, const Body& body) const {
     double most = 0;
     std::mutex mutex;
     const auto pieces = [&](std::int64_t begin, std::int64_t end) {
-      constexpr std::int64_t piece = 512;
       double mine = 0;
       for (std::int64_t next; begin < end; begin = next) {
         next = std::min(end, begin + piece);
-        for (std::int64_t k = begin; k < next; ++k) body(static_cast<std::size_t>(k));
+        body(static_cast<std::size_t>(begin), static_cast<std::size_t>(next));
         const auto n_written = static_cast<std::size_t>(next - begin);
         mine = larger_or_bad(mine, largest_size({written.data() + begin, n_written}));
       }
@@ -69,6 +71,27 @@ struct Search {
     };
     parallel_for_nodes(static_cast<std::int64_t>(size()), pieces);
     return communicator.all_max(most);
+  }
+  // Calls body(k) for all components; returns as for_pieces.
+  template <class Body>
+  double for_components(const Vector& written, const Body& body) const {
+    return for_pieces(written, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) body(k);
+    });
+  }
+  // Calls body(k, inertia, one over it) likewise.
+  template <class Body>
+  double for_inertias(const Vector& written, const Body& body) const {
+    const std::vector<double>& of_node = inertia_of(model);
+    return for_pieces(written, [&](std::size_t begin, std::size_t end) {
+      std::array<double, piece + 4> m, by_m;  // from the first component of the first node on
+      const std::size_t first = begin / 3 * 3;
+      for (std::size_t node = begin / 3, at = 0; 3 * node < end; ++node, at += 3) {
+        std::fill_n(&m[at], 3, of_node[node]);
+        std::fill_n(&by_m[at], 3, 1 / of_node[node]);
+      }
+      for (std::size_t k = begin; k < end; ++k) body(k, m[k - first], by_m[k - first]);
+    });
   }
   void hold_supports(Vector& x) const {
     for (const std::size_t k : fixed) x[k] = 0;
@@ -82,39 +105,30 @@ std::vector<std::size_t> fixed_components(const Model& model) {
   return fixed;
 }
 
-void find_inertia(Search& s) {
-  const std::vector<double>& of_node = inertia_of(s.model);
-  s.inertia.resize(s.size());
-  s.by_inertia.resize(s.size());
-  s.most_inertia = s.for_components(s.inertia, [&](std::size_t k) {
-    s.inertia[k] = of_node[k / 3];
-    s.by_inertia[k] = 1 / of_node[k / 3];
-  });
-}
-
 // A direction as the iteration finds it, before it is made of length one.
 struct Direction {
-  Vector x, Mx;
+  Vector x;
   double largest = 0;  // component's size on all ranks
   double length = 0;   // in M; 0 if there is nothing to divide
 };
 
-// `largest` is that of x before supports took their part.
-void measure(const Search& s, double largest, Direction& d) {
+// `largest` is that of x before supports took their part; s.force: its products with inertias.
+void measure(Search& s, double largest, Direction& d) {
   s.hold_supports(d.x);
-  subtract_cluster_means(s.model, d.x, d.Mx);  // adds as much to M x as it has, at most
-  const double square = s.dot(d.x, d.Mx, 2 * s.most_inertia * largest * largest);
+  subtract_cluster_means(s.model, d.x, s.force);  // adds as much to M x as it has, at most
+  const double square = s.dot(d.x, s.force, 2 * s.most_inertia * largest * largest);
   d.largest = largest;
   d.length = square > 0 && std::isfinite(square) ? std::sqrt(square) : 0;
 }
 
 // Within +-1 by the global number alone, so that every mode of vibration has a share.
-void begin_with_noise(const Search& s, Direction& d) {
-  const double largest = s.for_components(d.x, [&](std::size_t k) {
+void begin_with_noise(Search& s, Direction& d) {
+  s.force.resize(s.size());
+  const double largest = s.for_inertias(d.x, [&](std::size_t k, double m, double) {
     const auto global = static_cast<std::uint64_t>(s.part.node_global[k / 3]);
     const auto bits = mix64(3 * global + k % 3 + 1) >> 11;
     d.x[k] = static_cast<double>(bits) * 0x1p-52 - 1;
-    d.Mx[k] = s.inertia[k] * d.x[k];
+    s.force[k] = m * d.x[k];
   });
   measure(s, largest, d);
 }
@@ -138,9 +152,9 @@ double apply_stiffness(Search& s, const Direction& d, Vector& x, Vector& Kx) {
 // d = M^-1 Kx - (a x + b last), where d.x is Kx.
 void go_on(Search& s, double a, const Vector& x, double b, const Vector& last, Direction& d) {
   add_cluster_force(s.model, {}, d.x, s.room);
-  const double largest = s.for_components(d.x, [&](std::size_t k) {
-    d.x[k] = s.by_inertia[k] * d.x[k] - (a * x[k] + b * last[k]);
-    d.Mx[k] = s.inertia[k] * d.x[k];
+  const double largest = s.for_inertias(d.x, [&](std::size_t k, double m, double by_m) {
+    d.x[k] = by_m * d.x[k] - (a * x[k] + b * last[k]);
+    s.force[k] = m * d.x[k];
   });
   measure(s, largest, d);
 }
@@ -201,12 +215,12 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
            .n = 3 * static_cast<std::int64_t>(communicator.all_sum(n_owned)),
            .fixed = fixed_components(model),
            .u = state.u};
-  find_inertia(s);
+  s.most_inertia = communicator.all_max(largest_size(inertia_of(model)));
   Vector at_rest;
   if (options.force.empty()) forces(s.u, at_rest);
   s.force_at_rest = options.force.empty() ? at_rest : options.force;
   Vector x(s.size()), last(s.size(), 0.0);
-  Direction next{.x = Vector(s.size()), .Mx = Vector(s.size())};
+  Direction next{.x = Vector(s.size())};
   Tridiagonal T;
   HighestFrequency found;
   begin_with_noise(s, next);
