@@ -112,22 +112,25 @@ std::int64_t n_of_lane(const Numbers& numbers, const ElementBlocks& list) {
   return std::ssize(numbers) / (std::int64_t{list.n_blocks} * list.lanes);
 }
 
-// Lane by lane from before[lane], whole blocks at once where they stay together. `to` may be `from`
-// if no lane is new: then they move down.
+// Each lane from before[lane], as many at once as stay together. `to` may be `from` if no lane is
+// new: then they move down.
 template <class T>
 void copy_lanes(const T* from, std::int64_t n, std::span<const std::int64_t> before,
                 std::int64_t lanes, T* to) {
-  const std::int64_t n_lanes = std::ssize(before);
   const auto first = [&](std::int64_t lane) { return lane / lanes * lanes * n + lane % lanes; };
-  for (std::int64_t lane = 0; lane < n_lanes; lane += lanes) {
-    const std::int64_t last = std::min(lane + lanes, n_lanes) - 1, source = before[lane];
-    const bool is_whole = source >= 0 && source % lanes == 0 && last - lane == lanes - 1 &&
-                          before[last] == source + lanes - 1;
-    if (is_whole && (from != to || source != lane))
+  std::int64_t n_together = 1;
+  for (std::int64_t lane = 0; lane < std::ssize(before); lane += n_together, n_together = 1) {
+    const std::int64_t source = before[lane];
+    if (source < 0 || (from == to && source == lane)) continue;
+    const std::int64_t most =
+        std::min({lanes - lane % lanes, lanes - source % lanes, std::ssize(before) - lane});
+    while (n_together < most && before[lane + n_together] == source + n_together) ++n_together;
+    if (n_together == lanes) {
       std::copy_n(from + source * n, lanes * n, to + lane * n);
-    for (std::int64_t l = lane; l <= last && !is_whole; ++l)
-      for (std::int64_t k = 0; before[l] >= 0 && k < n; ++k)
-        to[first(l) + k * lanes] = from[first(before[l]) + k * lanes];
+      continue;
+    }
+    for (std::int64_t k = 0; k < n; ++k)
+      std::copy_n(from + first(source) + k * lanes, n_together, to + first(lane) + k * lanes);
   }
 }
 

@@ -71,12 +71,13 @@ std::uint32_t row_break_of(const ElementBlocks& blocks, std::int64_t block) {
     start[a] = node[a * n];
   }
   if (!keeps_order(start, n, end)) return 0;
+  const auto follow = [&](const std::int32_t* at) {
+    return target == node || follow_each_other(at, n, end);
+  };
   for (int pair = 0; pair < 4; ++pair) {
     const std::int32_t* const at = target + corner_of_row(box_row, 2 * pair) * n;
     const std::int32_t* const beside = target + corner_of_row(box_row, 2 * pair + 1) * n;
-    if (at[0] != beside[0] + 1 || !follow_each_other(at, n, end) ||
-        !follow_each_other(beside, n, end))
-      unpaired |= 1U << pair;
+    if (at[0] != beside[0] + 1 || !follow(at) || !follow(beside)) unpaired |= 1U << pair;
   }
   return row_break(end.lane, unpaired, static_cast<std::uint32_t>(end.skip));
 }
@@ -102,6 +103,7 @@ bool has_wide_registers() {
 
 NodeRange united(const NodeRange& a, const NodeRange& b) {
   if (a.begin == a.end) return b;
+  if (b.begin == b.end) return a;
   return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
 }
 
@@ -109,16 +111,27 @@ StrideNodes united(const StrideNodes& a, const StrideNodes& b) {
   return {united(a.own, b.own), united(a.halo, b.halo)};
 }
 
+// Calls body(node) for the nodes of a block; of rows, where they ascend, for the outer lanes'
+// alone.
+template <class Body>
+void for_outer_nodes(const ElementBlocks& blocks, std::int64_t block, const Body& body) {
+  const std::int64_t n = corners_of_block(blocks);
+  const int way = blocks.row_break[block] > 0 ? blocks.lanes - 1 : 1;
+  for (std::int64_t corner = block * n; corner < (block + 1) * n; corner += blocks.lanes)
+    for (std::int64_t lane = 0; lane < blocks.lanes; lane += way)
+      body(blocks.corner[corner + lane]);
+}
+
 StrideNodes nodes_of_blocks(const Model& model, std::int64_t begin, std::int64_t end) {
   StrideNodes nodes;
+  const auto add = [&](std::int32_t node) {
+    NodeRange& of = node < model.n_owned ? nodes.own : nodes.halo;
+    of = united(of, {node, node + 1});
+  };
   for_block_range(model, begin, end,
                   [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
-                    const std::int64_t n_corners = corners_of_block(blocks);
-                    for (std::int64_t k = first * n_corners; k < (first + n) * n_corners; ++k) {
-                      const std::int32_t i = blocks.corner[k];
-                      NodeRange& of = i < model.n_owned ? nodes.own : nodes.halo;
-                      of = united(of, {i, i + 1});
-                    }
+                    for (std::int64_t block = first; block < first + n; ++block)
+                      for_outer_nodes(blocks, block, add);
                   });
   if (nodes.own.end < nodes.halo.begin || nodes.halo == NodeRange{}) return nodes;
   return {united(nodes.own, nodes.halo), {}};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <utility>
 
 #include "base/check.h"
@@ -71,13 +70,9 @@ bool has_node(const std::int32_t* corner, int n_corners, int lanes, std::int32_t
   return false;
 }
 
-// Where corners' places start, and the corners.
-using Starts = std::vector<std::pair<std::int32_t, std::uint32_t>>;
-
-// Whether corners that meet a place in different lanes come in the order of these: starts descend.
-bool is_order(std::uint32_t row, const Starts& descending) {
-  std::array<std::int32_t, 8> start{};
-  for (const auto& [first, a] : descending) start[a] = first;
+// Whether corners that meet a place in different lanes come in the order of these; start: the place
+// of each corner in the first lane.
+bool is_order(std::uint32_t row, const std::array<std::int32_t, 8>& start) {
   for (int k = 0; k < 8; ++k)
     for (int l = k + 1; l < 8; ++l) {
       const std::int32_t ahead = start[corner_of_row(row, l)] - start[corner_of_row(row, k)];
@@ -86,25 +81,32 @@ bool is_order(std::uint32_t row, const Starts& descending) {
   return true;
 }
 
+// The corners by their starts, the last one first.
+std::uint32_t descending(const std::array<std::int32_t, 8>& start, int n_corners) {
+  std::array<std::uint32_t, 8> corner{0, 1, 2, 3, 4, 5, 6, 7};
+  std::sort(corner.begin(), corner.begin() + n_corners, [&](std::uint32_t a, std::uint32_t b) {
+    return std::pair(start[a], a) > std::pair(start[b], b);
+  });
+  std::uint32_t row = 0;
+  for (int k = 0; k < n_corners; ++k) row |= corner[k] << (4 * k);
+  return row;
+}
+
 // Of the lanes from `lane` on.
 std::uint32_t row_of(const Model& model, const ElementBlocks& blocks, std::int64_t lane) {
   const std::int64_t block = lane / blocks.lanes, n = corners_of_block(blocks);
   const std::int64_t first = block * n + lane % blocks.lanes;
   const auto n_corners = static_cast<int>(n / blocks.lanes);
-  Starts start;
+  std::array<std::int32_t, 8> start{};
   for (int a = 0; a < n_corners; ++a) {
     const std::int64_t at = first + a * blocks.lanes;
     if (!are_consecutive(&blocks.corner[at]) || !are_consecutive(&targets(blocks)[at]))
       return has_node(&blocks.corner[first], n_corners, blocks.lanes, model.n_local - 1)
                  ? no_row_at_end
                  : no_row;
-    start.emplace_back(targets(blocks)[at], static_cast<std::uint32_t>(a));
+    start[a] = targets(blocks)[at];
   }
-  std::sort(start.begin(), start.end(), std::greater<>());
-  if (start.size() == 8 && is_order(box_row, start)) return box_row;
-  std::uint32_t row = 0;
-  for (std::size_t k = 0; k < start.size(); ++k) row |= start[k].second << (4 * k);
-  return row;
+  return n_corners == 8 && is_order(box_row, start) ? box_row : descending(start, n_corners);
 }
 
 void find_rows(Model& model) {
