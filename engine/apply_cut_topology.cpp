@@ -7,6 +7,7 @@
 #include "mesh/quality.h"
 #include "mesh/surface_edit.h"
 #include "solver/model_edit.h"
+#include "solver/model_lists.h"
 
 namespace trocar {
 
@@ -56,6 +57,12 @@ void update_part_and_model(Simulation& s, const ModelEdit& edit) {
   update_least(s, edit);
 }
 
+// Where no element of the part is edited.
+void follow_elsewhere(Simulation& s) {
+  s.part.node_local.resize(s.mesh.X.size(), -1);
+  take_positions({s.mesh, s.part, s.materials, s.model.options}, s.model);
+}
+
 bool holds_one(const Part& part, std::span<const std::int32_t> elements) {
   return std::any_of(elements.begin(), elements.end(),
                      [&](std::int32_t e) { return part.place_of(e) >= 0; });
@@ -92,7 +99,7 @@ bool update_topology(Simulation& s, const TopologyEdit& edit) {
   if (holds_one(s.part, edit.elements) || changes_averages(s, edit))
     update_part_and_model(s, {edit.elements, edit.nodes, touching, place_before});
   else
-    s.part.node_local.resize(s.mesh.X.size(), -1);
+    follow_elsewhere(s);
   if (s.sleep) fit_sleep(s);
   report_mass_scaling(s);
   const bool keeps_steps = follow_local_steps(edit.splits, edit.elements, edit.nodes, s);

@@ -1,9 +1,13 @@
 #include "engine/settling.h"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "base/reproducible_dot.h"
+#include "mesh/connected_nodes.h"
 #include "solver/mass_clusters.h"
 #include "solver/relax.h"
 
@@ -14,9 +18,31 @@ namespace {
 // Strains stay so small that they tell of the undeformed body.
 const Vec3 pull = Vec3::Constant(0.01);  // [m/s^2]
 
-Relaxation relax_pulled(Simulation& s, State& state) {
+// (n_nodes) 1 for nodes of pieces that something supports or holds.
+std::vector<std::uint8_t> supported_nodes(const Simulation& s) {
+  const std::vector<std::int32_t> piece = connected_nodes(s.mesh);
+  std::vector<std::uint8_t> is_supported(piece.size(), 0);  // of pieces, at their lowest node
+  for (std::size_t i = 0; i < piece.size(); ++i)
+    if (s.fixed[i] != 0) is_supported[static_cast<std::size_t>(piece[i])] = 1;
+  for (const Hold& hold : s.holds.holds)
+    is_supported[static_cast<std::size_t>(piece[static_cast<std::size_t>(hold.node)])] = 1;
+  for (std::size_t i = 0; i < piece.size(); ++i)
+    is_supported[i] = is_supported[static_cast<std::size_t>(piece[i])];
+  return is_supported;
+}
+
+// Pieces that would fall for ever stay where they are.
+std::vector<PrescribedNode> nodes_at_rest(const Simulation& s,
+                                          const std::vector<std::uint8_t>& is_supported) {
   std::vector<PrescribedNode> held = s.holds.prescribed;
   for (PrescribedNode& node : held) node.u_next = Vec3::Zero();
+  for (std::int32_t i = 0; i < s.model.n_owned; ++i)
+    if (is_supported[static_cast<std::size_t>(s.part.node_global[i])] == 0)
+      held.push_back({.node = i, .u_next = Vec3::Zero()});
+  return held;
+}
+
+Relaxation relax_pulled(Simulation& s, std::span<const PrescribedNode> held, State& state) {
   const Vec3 gravity = std::exchange(s.model.options.gravity, pull);
   const Relaxation found = relax(s.model,
                                  {.prescribed = held,
@@ -51,8 +77,10 @@ double rayleigh_quotient(const Simulation& s, std::span<const double> u) {
 }  // namespace
 
 double settling_time(Simulation& s) {
+  const std::vector<std::uint8_t> is_supported = supported_nodes(s);
+  if (std::ranges::count(is_supported, 1) == 0) return 0;
   State state = make_state(s.model);
-  if (!relax_pulled(s, state).is_converged) return 0;
+  if (!relax_pulled(s, nodes_at_rest(s, is_supported), state).is_converged) return 0;
   const auto n_owned = 3 * static_cast<std::size_t>(s.model.n_owned);
   const double omega2 = rayleigh_quotient(s, std::span(state.u).first(n_owned));
   if (!(omega2 > 0)) return 0;

@@ -32,25 +32,26 @@ void note_motion(Sleep& sleep, const State& state) {
       ++sleep.quiet[i];
 }
 
-// Nodes of contacts move with what they touch, which asks nobody.
-void disquiet_contacts(const Simulation& s, std::vector<double>& is_quiet) {
+// What is held or touched moves with that, which asks nobody, and has not been quiet when it is let
+// go.
+void disquiet_touched(Simulation& s) {
+  std::vector<std::int32_t>& quiet = s.sleep->quiet;
+  for (const PrescribedNode& held : s.holds.prescribed)
+    quiet[static_cast<std::size_t>(held.node)] = 0;
   if (!s.contact) return;
   for (const Contact& contact : s.contact->contacts)
     for (const std::int32_t node : contact.node) {
       const std::int32_t local = s.part.node_local[static_cast<std::size_t>(node)];
-      if (local >= 0) is_quiet[static_cast<std::size_t>(local)] = 0;
+      if (local >= 0 && local < s.model.n_owned) quiet[static_cast<std::size_t>(local)] = 0;
     }
 }
 
-// (n_local) 1 for nodes that have been quiet long enough and that nothing touches or holds.
+// (n_local) 1 for nodes that have been quiet long enough.
 std::vector<double> find_quiet(Simulation& s) {
   const double least = std::max(least_quiet_time, s.sleep->quiet_time) * s.scene.time.frame_rate;
   std::vector<double> is_quiet(static_cast<std::size_t>(s.model.n_local), 0.0);
   for (std::size_t i = 0; i < s.sleep->quiet.size(); ++i)
     is_quiet[i] = s.sleep->quiet[i] >= least ? 1 : 0;
-  for (const PrescribedNode& held : s.holds.prescribed)
-    is_quiet[static_cast<std::size_t>(held.node)] = 0;
-  disquiet_contacts(s, is_quiet);
   HaloExchange(s.halo, 1).exchange(is_quiet, *s.communicator);
   return is_quiet;
 }
@@ -159,13 +160,13 @@ bool is_touched(const Simulation& s) {
 
 void begin_sleep(Simulation& s) {
   if (s.scene.solver.sleep == 0) return;
-  const double quiet_time = s.sleep ? s.sleep->quiet_time : 0;
-  s.sleep = Sleep{.bound = s.scene.solver.sleep, .quiet_time = quiet_time};
+  s.sleep = Sleep{.bound = s.scene.solver.sleep};
   fit_sleep(s);
 }
 
 void fit_sleep(Simulation& s) {
   Sleep& sleep = *s.sleep;
+  sleep.quiet_time = 0;  // a flap is slower than the body that it is cut from
   const auto n = static_cast<std::size_t>(s.model.n_owned);
   sleep.anchor.resize(3 * n);
   sleep.quiet.resize(n, -1);
@@ -200,6 +201,7 @@ void show_asleep(Simulation& s) {
 void fall_asleep(Simulation& s) {
   Sleep& sleep = *s.sleep;
   note_motion(sleep, s.state);
+  disquiet_touched(s);
   std::vector<std::uint8_t> sleepers = find_sleepers(s);
   if (sleep.quiet_time == 0 && has_any(s, sleepers)) {
     sleep.quiet_time = std::max(least_quiet_time, settling_time(s));

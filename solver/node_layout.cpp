@@ -111,27 +111,32 @@ StrideNodes united(const StrideNodes& a, const StrideNodes& b) {
   return {united(a.own, b.own), united(a.halo, b.halo)};
 }
 
-// Calls body(node) for the nodes of a block; of rows, where they ascend, for the outer lanes'
-// alone.
+// Calls body(first, last) for nodes of a block that follow each other: those of a corner in a row.
 template <class Body>
-void for_outer_nodes(const ElementBlocks& blocks, std::int64_t block, const Body& body) {
+void for_node_runs(const ElementBlocks& blocks, std::int64_t block, const Body& body) {
   const std::int64_t n = corners_of_block(blocks);
-  const int way = blocks.row_break[block] > 0 ? blocks.lanes - 1 : 1;
-  for (std::int64_t corner = block * n; corner < (block + 1) * n; corner += blocks.lanes)
-    for (std::int64_t lane = 0; lane < blocks.lanes; lane += way)
-      body(blocks.corner[corner + lane]);
+  const std::uint32_t row = blocks.row_break[block];
+  for (std::int64_t corner = block * n; corner < (block + 1) * n; corner += blocks.lanes) {
+    const std::int32_t* const node = &blocks.corner[corner];
+    for (int lane = 0, end = 0; lane < blocks.lanes; lane = end) {
+      end = row == 0 ? lane + 1 : lane == 0 ? lane_of_break(row) : blocks.lanes;
+      body(node[lane], node[end - 1]);
+    }
+  }
 }
 
 StrideNodes nodes_of_blocks(const Model& model, std::int64_t begin, std::int64_t end) {
   StrideNodes nodes;
-  const auto add = [&](std::int32_t node) {
-    NodeRange& of = node < model.n_owned ? nodes.own : nodes.halo;
-    of = united(of, {node, node + 1});
+  const auto add = [&](std::int32_t first, std::int32_t last) {  // halo nodes may begin within
+    if (first < model.n_owned)
+      nodes.own = united(nodes.own, {first, std::min(last + 1, model.n_owned)});
+    if (last >= model.n_owned)
+      nodes.halo = united(nodes.halo, {std::max(first, model.n_owned), last + 1});
   };
   for_block_range(model, begin, end,
                   [&](const ElementBlocks& blocks, std::int64_t first, std::int64_t n) {
                     for (std::int64_t block = first; block < first + n; ++block)
-                      for_outer_nodes(blocks, block, add);
+                      for_node_runs(blocks, block, add);
                   });
   if (nodes.own.end < nodes.halo.begin || nodes.halo == NodeRange{}) return nodes;
   return {united(nodes.own, nodes.halo), {}};

@@ -232,6 +232,23 @@ inline const std::string loads =
     "[[load]]\nregion = \"z+\"\npressure = \"150 Pa\"\n[[load]]\nregion = \"y+\"\n"
     "force = [0, 0.02, 0.01]\npath = [{ time = 0, factor = 0.2 }, { time = 0.2, factor = 1 }]\n";
 
+// The cut moves the lowest node, from which positions in single precision are counted.
+inline const std::string ball_cut_at_its_pole = scene_start("0.36 s") + R"([tissue.shape]
+kind = "ball"
+elements = "hex8"
+radius = "30 mm"
+cells = [12, 12, 12]
+)" + soft_tissue + heavy + R"([[region]]
+name = "side"
+low = ["15 mm", -1, -1]
+high = [1, 1, 1]
+[[support]]
+region = "side"
+)" + scalpel_along("12 mm", R"(
+  { time = 0, position = ["-6 mm", "0.5 mm", "-40 mm"], direction = [-1, 0, 0], forward = [0, 0, 1] },
+  { time = 0.2, position = ["-6 mm", "0.5 mm", "-20 mm"], direction = [-1, 0, 0], forward = [0, 0, 1] },
+)");
+
 inline std::vector<SmallScene> small_scenes() {
   const std::string viscous = "prony = [ { share = 0.4, time = \"0.1 s\" } ]\n";
   const std::string held_sides = "[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"x+\"\n";
@@ -295,6 +312,7 @@ inline std::vector<SmallScene> small_scenes() {
        "0.2 s"},
       {"hex8 viscoelastic, under pressure from equilibrium", block(viscous_hex) + at_rest + loads},
       {"tet4, pulled and cut, resumed", block({}) + grasper + partial_cut, "0.2 s"},
+      {"hex8 ball, cut at its pole, resumed", ball_cut_at_its_pole, "0.2 s"},
       {"hex8 from equilibrium, cut, resumed", block(hexahedra()) + at_rest + curved_cut, "0.26 s"},
   };
 }

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "solver/block_ranges.h"
 #include "solver/row_order.h"
+#include "solver/sum_order.h"
 #include "solver_body.h"
 
 using namespace trocar;
@@ -44,6 +46,22 @@ bool have_same_bits(const Mesh& mesh, const SolverOptions& solver) {
   return by_component.model.is_by_component;
 }
 
+void check_stride_nodes(const Model& model) {
+  const ElementBlocks& blocks = model.blocks[0];
+  const std::int64_t n = corners_of_block(blocks), n_blocks = blocks.n_blocks;
+  std::int64_t block = 0, n_left_out = 0;
+  for (const auto& [own, halo] : model.sums.stride_nodes) {
+    const std::int64_t end = std::min(block + stride_blocks, n_blocks);
+    for (std::int64_t k = block * n; k < end * n; ++k) {
+      const std::int32_t i = blocks.corner[k];
+      const bool is_in = (own.begin <= i && i < own.end) || (halo.begin <= i && i < halo.end);
+      n_left_out += is_in ? 0 : 1;
+    }
+    block = end;
+  }
+  EXPECT_EQ(n_left_out, 0);
+}
+
 constexpr Formulation hexahedra[] = {Formulation::hex8_one_point, Formulation::hex8_enhanced,
                                      Formulation::hex8_full};
 
@@ -75,6 +93,22 @@ TEST(NodeLayout, by_component_gives_the_bits_of_node_by_node_on_several_threads)
       EXPECT_TRUE(have_same_bits(jittered_box(20, 20, 12), {.precision = precision}));
     }
   set_thread_count(1);
+}
+
+// In a part, rows lead from its own nodes into the halo: no node between is left out.
+TEST(NodeLayout, strides_take_all_nodes_of_their_rows) {
+  int n_rows = 0;
+  for (const Mesh& mesh : {jittered_box(13, 18, 23), jittered_box(20, 20, 20)})
+    for (int n_ranks = 1; n_ranks <= 5; ++n_ranks) {
+      const std::vector<std::int32_t> owner = partition_nodes(mesh, n_ranks);
+      for (int rank = 0; rank < n_ranks; ++rank)
+        for (const Precision precision : precisions) {
+          const Body body = make_body(mesh, {.solver = {.precision = precision}}, owner, rank);
+          n_rows += body.model.is_by_component ? 1 : 0;
+          check_stride_nodes(body.model);
+        }
+    }
+  EXPECT_GT(n_rows, 20);
 }
 
 // A window holds 4096 nodes here and the box 18,081; in threads' halves too.

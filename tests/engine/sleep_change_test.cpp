@@ -1,0 +1,106 @@
+// What is let go, or cut free, is as slow as it then is: what was known of it before says nothing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/sleep.h"
+#include "engine_scene.h"
+#include "engine_started.h"
+
+namespace trocar {
+namespace {
+
+// A bar whose end a grasper lifts and lets go of at 2 s.
+const std::string lifted_bar = R"([time]
+duration = "4 s"
+frame_rate = 1000
+[tissue.shape]
+kind = "box"
+low = [0, 0, 0]
+high = ["60 mm", "20 mm", "20 mm"]
+cells = [6, 2, 2]
+[tissue.material]
+young_modulus = "3 kPa"
+[solver]
+mass_damping = "60 1/s"
+[[support]]
+region = "x-"
+[[instrument]]
+kind = "grasper"
+radius = "2 mm"
+grip_radius = "18 mm"
+path = [
+  { time = 0, position = ["72 mm", "10 mm", "10 mm"], forward = [0, 1, 0], action = "open" },
+  { time = 0.2, position = ["72 mm", "10 mm", "10 mm"], forward = [0, 1, 0], action = "close" },
+  { time = 0.6, position = ["72 mm", "10 mm", "13 mm"], forward = [0, 1, 0] },
+  { time = 2, position = ["72 mm", "10 mm", "13 mm"], forward = [0, 1, 0], action = "open" },
+]
+)";
+
+// A bar on a table, which a blade cuts into a flap that rises slowly.
+const std::string slow_flap = R"([time]
+duration = "40 s"
+frame_rate = 10
+[tissue.shape]
+kind = "box"
+elements = "tet4-kuhn"
+low = [0, 0, 0]
+high = ["80 mm", "16 mm", "16 mm"]
+cells = [10, 2, 4]
+[tissue.material]
+young_modulus = "3 kPa"
+[solver]
+gravity = [0, 0, 0.2]
+mass_damping = "600 1/s"
+[[support]]
+region = "z-"
+[[instrument]]
+kind = "scalpel"
+radius = "0.5 mm"
+blade_length = "40 mm"
+path = [
+  { time = 3, position = ["100 mm", "-10 mm", "8 mm"], direction = [0, -1, 0], forward = [-1, 0, 0] },
+  { time = 4, position = ["12 mm", "-10 mm", "8 mm"], direction = [0, -1, 0], forward = [-1, 0, 0] },
+  { time = 4.5, position = ["100 mm", "-10 mm", "8 mm"], direction = [0, -1, 0], forward = [-1, 0, 0] },
+]
+)";
+
+struct LastFrame {
+  std::vector<double> u;
+  double share_asleep = 0;
+};
+
+LastFrame last_frame(const std::string& text, const std::vector<std::string>& overrides) {
+  const auto run = built(text, overrides);
+  Simulation& s = *run->s;
+  const auto n = std::lround(s.scene.time.duration * s.scene.time.frame_rate);
+  while (s.frame < n) run_frame(s, run->outputs);
+  return {s.state.u, s.sleep ? s.sleep->share : 0};
+}
+
+void expect_within(const std::string& text, double bound) {
+  const LastFrame awake = last_frame(text, {});
+  const LastFrame asleep =
+      last_frame(text, {"solver.sleep='" + std::to_string(1e3 * bound) + " mm'"});
+  ASSERT_EQ(awake.u.size(), asleep.u.size());
+  double most = 0;
+  for (std::size_t k = 0; k < awake.u.size(); ++k)
+    most = std::max(most, std::abs(awake.u[k] - asleep.u[k]));
+  std::printf("largest difference %.3f of the bound, share asleep %.2f\n", most / bound,
+              asleep.share_asleep);
+  EXPECT_LT(most, bound);
+  EXPECT_GT(asleep.share_asleep, 0.1);
+}
+
+}  // namespace
+
+TEST(Sleep, does_not_stop_what_a_grasper_has_let_go_of) {
+  expect_within(lifted_bar, 0.5e-3);
+}
+
+TEST(Sleep, waits_for_a_flap_that_is_slower_than_the_body_was) {
+  expect_within(slow_flap, 1e-3);
+}
+
+}  // namespace trocar
