@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "mesh/element_boxes.h"
+#include "mesh/facets.h"
 
 namespace trocar {
 
@@ -129,21 +131,66 @@ static void follow_way(const BladePoint& before, const Vec3& way, double h, Blad
 
 static void add_to_rim(const std::vector<Place>& places, CutStroke& stroke) {
   constexpr double least = 0.2;  // h
+  const auto is_known = [&](const Vec3& X) {
+    return std::ranges::any_of(
+        stroke.rim, [&](const Vec3& R) { return (R - X).norm() <= least * stroke.mean_edge; });
+  };
   for (const Place& place : places)
-    if (place.point.is_inside && (stroke.rim.empty() || (place.point.X - stroke.rim.back()).norm() >
-                                                            least * stroke.mean_edge))
-      stroke.rim.push_back(place.point.X);
+    if (place.point.is_inside && !is_known(place.point.X)) stroke.rim.push_back(place.point.X);
 }
 
-void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
-                   std::span<const std::int32_t> near, CutStroke& stroke) {
+// Whether X lies within `depth` below the triangle, or a little beside it.
+static bool is_below(const std::array<Vec3, 3>& triangle, const Vec3& X, double depth) {
+  constexpr double slack = 0.1;  // barycentric
+  const Vec3 p = triangle[1] - triangle[0], q = triangle[2] - triangle[0], n = p.cross(q);
+  const Vec3 way = X - triangle[0];
+  const double v = n.dot(way.cross(q)) / n.squaredNorm(), w = n.dot(p.cross(way)) / n.squaredNorm();
+  return std::abs(n.dot(way)) < depth * n.norm() && std::min({v, w, 1 - v - w}) > -slack;
+}
+
+// Of the elements' facets those whose nodes all lie on the surface.
+static std::vector<std::array<Vec3, 3>> surface_triangles(const Mesh& mesh, const CutIndex& index,
+                                                          std::span<const std::int32_t> elements) {
+  std::vector<std::array<Vec3, 3>> triangles;
+  for (const std::int32_t e : elements)
+    for (int f = 0; f < 4; ++f) {
+      std::array<Vec3, 3> X;
+      bool is_outer = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int corner = facet_corners(ElementType::tet4, f)[k];
+        const std::int32_t i = mesh.corners(e)[static_cast<std::size_t>(corner)];
+        is_outer = is_outer && index.is_surface[i] != 0;
+        X[k] = mesh.X[i];
+      }
+      if (is_outer) triangles.push_back(X);
+    }
+  return triangles;
+}
+
+// Where the edge begins inside. Where tissue comes towards the blade within the frame, by ways that
+// are known between nodes only, it seems to hold an edge that was outside: right below the surface
+// none begins.
+static std::vector<Place> places_at_begin(const Mesh& mesh, const CutIndex& index,
+                                          std::span<const Vec3> x, const BladeSweep& sweep,
+                                          std::span<const std::int32_t> near, double h) {
+  constexpr double depth = 0.25;  // h
+  std::vector<Place> places = find_places(mesh, x, near, refined(sweep.before), h);
+  std::erase_if(places, [](const Place& place) { return !place.point.is_inside; });
+  if (places.empty()) return places;
+  const std::vector<std::array<Vec3, 3>> surface = surface_triangles(mesh, index, near);
+  std::erase_if(places, [&](const Place& place) {
+    return std::ranges::any_of(surface, [&](const auto& triangle) {
+      return is_below(triangle, place.point.X, depth * h);
+    });
+  });
+  return places;
+}
+
+void remember_edge(const Mesh& mesh, const CutIndex& index, std::span<const Vec3> x,
+                   const BladeSweep& sweep, std::span<const std::int32_t> near, CutStroke& stroke) {
   const double margin = stroke.mean_edge;
-  std::vector<Vec3> ends = ways_of_ends(sweep, margin);
-  if (stroke.edge.empty()) {
-    const std::vector<Vec3> begin = refined(sweep.before);
-    ends.insert(ends.end(), begin.begin(), begin.end());
-  }
-  add_to_rim(find_places(mesh, x, near, ends, margin), stroke);
+  add_to_rim(find_places(mesh, x, near, ways_of_ends(sweep, margin), margin), stroke);
+  if (stroke.edge.empty()) add_to_rim(places_at_begin(mesh, index, x, sweep, near, margin), stroke);
   std::vector<Place> places = find_places(mesh, x, near, sweep.after, margin);
   for (std::size_t k = 0; k < std::min(places.size(), stroke.edge.size()); ++k)
     if (places[k].most < 0 && stroke.edge[k].element >= 0)

@@ -7,6 +7,7 @@
 
 #include "base/vec.h"
 #include "cutting/blade_sweep.h"
+#include "cutting/cut_index.h"
 #include "cutting/cut_stroke.h"
 #include "mesh/mesh.h"
 
@@ -29,7 +30,7 @@ BladeSweep carry_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSwee
 
 // Takes down the material points of sweep.after and the elements that the edge is in. The sweep: as
 // the tissue sees it. `near`: elements that may hold some, or points beyond its ends.
-void remember_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSweep& sweep,
-                   std::span<const std::int32_t> near, CutStroke& stroke);
+void remember_edge(const Mesh& mesh, const CutIndex& index, std::span<const Vec3> x,
+                   const BladeSweep& sweep, std::span<const std::int32_t> near, CutStroke& stroke);
 
 }  // namespace trocar

@@ -311,7 +311,7 @@ void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
   box.low[1] -= 2 * beyond_end * stroke.mean_edge;
   box.high[1] += 2 * beyond_end * stroke.mean_edge;
   const std::vector<std::int32_t> element = near_elements(mesh, index, positions, box, begin);
-  remember_edge(mesh, x, seen, element, stroke);
+  remember_edge(mesh, index, x, seen, element, stroke);
   if (!band.triangle.empty()) cross_edges(mesh, x, band, element, stroke);
   if (goes_on(stroke)) stroke.is_amid = is_edge_amid(mesh, stroke);
 }

@@ -30,10 +30,15 @@ struct Case {
     sweep.before = sweep.after;
     return sweep;
   }
+  void remember(const BladeSweep& sweep, const std::vector<std::int32_t>& near) {
+    CutIndex index;
+    update_index(mesh, index);
+    remember_edge(mesh, index, mesh.X, sweep, near, stroke);
+  }
   // Where points of the edge at `x` are after the tissue has moved.
   std::vector<Vec3> carried(double x, const std::vector<double>& z,
                             const std::vector<std::int32_t>& near) {
-    remember_edge(mesh, mesh.X, at(x, z), near, stroke);
+    remember(at(x, z), near);
     std::vector<Vec3> now;
     for (const Vec3& X : mesh.X) now.push_back(moved(X));
     return carry_edge(mesh, now, at(x, z), stroke).before;
@@ -74,17 +79,28 @@ TEST(CarryEdge, follows_the_tissue_that_it_is_told_of_while_it_remembers_none) {
   BladeSweep sweep = c.at(-9e-3, {1e-3, 2e-3});
   sweep.tissue_way = {{1e-3, 0, 0}, {0, 2e-3, 0}};
   for (const bool is_known : {false, true}) {
-    if (is_known) remember_edge(c.mesh, c.mesh.X, sweep, c.all, c.stroke);
+    if (is_known) c.remember(sweep, c.all);
     const std::vector<Vec3> before = carry_edge(c.mesh, c.mesh.X, sweep, c.stroke).before;
     for (std::size_t k = 0; k < 2; ++k)
       EXPECT_EQ(before[k], Vec3(sweep.before[k] + sweep.tissue_way[k])) << is_known;
   }
 }
 
+// An edge that seems to begin inside is at the rim of the stroke only if it is not right below the
+// surface.
+TEST(CarryEdge, tells_a_begin_in_the_tissue_from_one_at_its_surface) {
+  for (const auto& [x, is_rim] : {std::pair{0.2e-3, false}, {2e-3, true}}) {
+    Case c;
+    c.stroke.mean_edge = 2e-3;
+    c.remember(c.at(x, {-1e-3, 5e-3}), c.all);
+    EXPECT_EQ(!c.stroke.rim.empty(), is_rim) << x;
+  }
+}
+
 // As when the tissue has run from the blade and the band meets no element.
 TEST(CarryEdge, keeps_the_element_of_the_last_frame_while_the_band_meets_none) {
   Case c;
-  remember_edge(c.mesh, c.mesh.X, c.at(0.2e-3, {1e-3, 2e-3}), c.all, c.stroke);
+  c.remember(c.at(0.2e-3, {1e-3, 2e-3}), c.all);
   const std::vector<Vec3> before = c.carried(-0.5e-3, {1e-3, 2e-3}, {});
   const double strain = 0.06;
   EXPECT_LT((before[0] - c.moved({-0.5e-3, 2e-3, 1e-3})).norm(), strain * 0.5e-3);
