@@ -166,7 +166,7 @@ Result make_cut(const Mesh& mesh, const Kind& kind, std::mt19937_64& random,
   result.n_pulled_back = ledger.total.n_pulled_back;
   result.n_inverted_by_move = ledger.total.n_inverted;
   result.fault = cutting_test::fault(body);
-  result.n_pieces = cutting_test::n_pieces(body.mesh);
+  result.n_pieces = n_pieces(body.mesh);
   measure_elements(mesh, cut, result);
   measure_regions(mesh, body.mesh, result);
   measure_deviation(body.mesh, strokes, h, result);

@@ -6,7 +6,19 @@ target_precompile_headers(common_headers PRIVATE <algorithm> <array> <cmath> <cs
   <optional> <span> <string> <vector> <Eigen/Core>)
 
 # Names of a folder are its own, whichever file they stand in, so that its sources may compile as one.
-option(TROCAR_UNITY "Compile a dozen sources of a folder at a time: whole builds take half as long, single changes longer" OFF)
+option(TROCAR_UNITY "Compile a dozen sources or tests of a folder at a time: whole builds take half as long, single changes longer" OFF)
+
+# Names that other files hide and unnamed namespaces of classes that no header shows are no fault.
+add_library(together INTERFACE)
+target_compile_options(together INTERFACE -Wno-shadow -Wshadow=local -Wno-subobject-linkage)
+
+# Comes after what else a target links, so that its options have the last word.
+function(compile_together target)
+  if(TROCAR_UNITY)
+    target_link_libraries(${target} PRIVATE together)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+  endif()
+endfunction()
 
 # layer(<folder> <allowed folders...>): one library per folder. Its include root holds a link to that folder only, so
 # that including a folder that is not allowed does not compile.
@@ -24,11 +36,7 @@ function(layer folder)
   set_target_properties(${folder} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
   target_compile_options(${folder} PRIVATE ${TROCAR_WARNINGS})
   target_precompile_headers(${folder} REUSE_FROM common_headers)
-  if(TROCAR_UNITY)
-    # Names that other files hide and unnamed namespaces of classes that no header shows are no fault.
-    target_compile_options(${folder} PRIVATE -Wno-shadow -Wshadow=local -Wno-subobject-linkage)
-    set_target_properties(${folder} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
-  endif()
+  compile_together(${folder})
   foreach(below ${ARGN})
     target_link_libraries(${folder} PUBLIC ${below})
   endforeach()

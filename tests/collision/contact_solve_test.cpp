@@ -59,10 +59,6 @@ struct Crowd {
   }
 };
 
-Vec3 node_of(const std::vector<double>& field, std::size_t i) {
-  return {field[3 * i], field[3 * i + 1], field[3 * i + 2]};
-}
-
 TEST(SolveContacts, takes_the_point_of_one_contact_to_the_surface_and_no_further) {
   ContactBench bench({Vec3(0, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0)}, {1e-4, 3e-4, 5e-5});
   bench.options.friction = 0;

@@ -10,10 +10,6 @@
 namespace trocar {
 namespace {
 
-Vec3 node_of(const std::vector<double>& field, std::size_t i) {
-  return {field[3 * i], field[3 * i + 1], field[3 * i + 2]};
-}
-
 // A triangle in z = 0 and a node that comes through it from above within the step.
 ContactBench node_over_triangle(double friction) {
   ContactBench bench({Vec3(0, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0), Vec3(0.003, 0.002, 0)},

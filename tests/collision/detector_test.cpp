@@ -9,12 +9,11 @@
 #include "base/error.h"
 #include "collision/narrow_phase.h"
 #include "collision_random.h"
+#include "collision_tool.h"
 #include "mesh/generate.h"
 
 namespace trocar {
 namespace {
-
-constexpr double r = 5e-3;
 
 std::vector<Contact> detect(ContactDetector& detector, const std::vector<Vec3>& x,
                             const std::vector<Pose>& pose, double margin) {
@@ -31,8 +30,8 @@ std::vector<Contact> detect(const Mesh& mesh, const ToolShape& tool, const Pose&
   return detect(detector, mesh.X, {pose}, margin);
 }
 
-ToolShape sphere() {
-  return {.pieces = {{.points = {Vec3::Zero()}, .radius = r}}};
+ToolShape sphere_tool() {
+  return {.pieces = {{.points = {Vec3::Zero()}, .radius = tool_radius}}};
 }
 Pose at(const Vec3& x) {
   return {.translation = x};
@@ -47,7 +46,7 @@ ConvexPiece box_piece(const Vec3& half) {
 }
 
 std::vector<ToolShape> mixed_tools() {
-  return {sphere(),
+  return {sphere_tool(),
           {.pieces = {{.points = {Vec3(0, 0, 0), Vec3(0, 0, 0.05)}, .radius = 2e-3},
                       {.points = {Vec3::Zero()}, .radius = 3e-3}}},
           {.pieces = {box_piece(Vec3(2e-3, 4e-3, 8e-3)), box_piece(Vec3(0.2e-3, 3e-3, 1e-2))}}};
@@ -183,7 +182,7 @@ TEST(ContactDetector, gives_the_same_bits_after_any_history_and_with_a_rebuilt_t
 TEST(ContactDetector, keeps_pushing_inwards_while_a_sphere_sinks_and_slides) {
   const Mesh mesh =
       make_box(Vec3(0, 0, -0.036), Vec3(0.06, 0.06, 0), {10, 10, 6}, BoxElements::tet4_kuhn);
-  ContactDetector detector({sphere()});
+  ContactDetector detector({sphere_tool()});
   detector.set_surface(boundary_surface(mesh));
   for (int k = 0; k <= 400; ++k) {
     const double s = k / 400.0;
@@ -195,7 +194,7 @@ TEST(ContactDetector, keeps_pushing_inwards_while_a_sphere_sinks_and_slides) {
       for (const std::int32_t i : c.node) EXPECT_EQ(mesh.X[static_cast<std::size_t>(i)].z(), 0);
       if (c.normal.z() < -0.999999) deepest = std::min(deepest, c.gap);
     }
-    EXPECT_NEAR(deepest, centre.z() - r, 1e-14) << centre.transpose();
+    EXPECT_NEAR(deepest, centre.z() - tool_radius, 1e-14) << centre.transpose();
   }
 }
 
@@ -204,13 +203,13 @@ TEST(ContactDetector, leaves_the_far_side_of_a_thin_lobe_alone) {
   const Mesh lobe =
       make_box(Vec3(0, 0, -2e-3), Vec3(0.06, 0.06, 0), {20, 20, 1}, BoxElements::tet4_kuhn);
   for (const double z : {4e-3, 2e-3, 0.5e-3, -0.5e-3, -0.9e-3}) {
-    const auto contacts = detect(lobe, sphere(), at(Vec3(0.031, 0.032, z)));
+    const auto contacts = detect(lobe, sphere_tool(), at(Vec3(0.031, 0.032, z)));
     EXPECT_FALSE(contacts.empty());
     for (const Contact& c : contacts)
       for (const std::int32_t i : c.node) EXPECT_EQ(lobe.X[static_cast<std::size_t>(i)].z(), 0);
   }
   // Beyond the middle the lower side is nearer, and the tool has come through.
-  for (const Contact& c : detect(lobe, sphere(), at(Vec3(0.031, 0.032, -3e-3))))
+  for (const Contact& c : detect(lobe, sphere_tool(), at(Vec3(0.031, 0.032, -3e-3))))
     EXPECT_GE(c.normal.z(), 0);
 }
 
@@ -243,7 +242,7 @@ TEST(ContactDetector, spreads_the_two_lips_of_a_closed_cut) {
 
 TEST(ContactDetector, touches_a_plane_mesh_at_its_boundary_edges) {
   const Mesh mesh = make_rectangle(0.07, 0.04, 10, 8);
-  const auto contacts = detect(mesh, sphere(), at(Vec3(0.036, 0.044, 0)));
+  const auto contacts = detect(mesh, sphere_tool(), at(Vec3(0.036, 0.044, 0)));
   ASSERT_FALSE(contacts.empty());
   double least = 1;
   for (const Contact& c : contacts) {
@@ -253,20 +252,21 @@ TEST(ContactDetector, touches_a_plane_mesh_at_its_boundary_edges) {
     EXPECT_EQ(c.normal.z(), 0);
     least = std::min(least, c.gap);
   }
-  EXPECT_NEAR(least, 0.044 - 0.04 - r, 1e-14);
+  EXPECT_NEAR(least, 0.044 - 0.04 - tool_radius, 1e-14);
   // Inside the mesh and 8 mm below the edge: still pushed back to it, and no other edge.
-  for (const Contact& c : detect(mesh, sphere(), at(Vec3(0.036, 0.032, 0)))) {
+  for (const Contact& c : detect(mesh, sphere_tool(), at(Vec3(0.036, 0.032, 0)))) {
     EXPECT_LT(c.normal.y(), 0);
     EXPECT_EQ(mesh.X[static_cast<std::size_t>(c.node[0])].y(), 0.04);
   }
-  EXPECT_TRUE(detect(mesh, sphere(), at(Vec3(0.036, 0.044, 0.02))).empty());  // above the plane
+  EXPECT_TRUE(
+      detect(mesh, sphere_tool(), at(Vec3(0.036, 0.044, 0.02))).empty());  // above the plane
 }
 
 TEST(ContactDetector, finds_nothing_on_an_empty_surface_or_far_away) {
-  ContactDetector detector({sphere()});
+  ContactDetector detector({sphere_tool()});
   EXPECT_TRUE(detect(detector, {}, {at(Vec3::Zero())}, 1e-3).empty());
   const Mesh mesh = make_ball(Vec3::Zero(), 0.02, 4, BoxElements::tet4_kuhn);
-  EXPECT_TRUE(detect(mesh, sphere(), at(Vec3(0.03, 0, 0))).empty());
+  EXPECT_TRUE(detect(mesh, sphere_tool(), at(Vec3(0.03, 0, 0))).empty());
 }
 
 TEST(ContactDetector, refuses_impossible_pieces_with_a_sentence) {
@@ -287,7 +287,7 @@ TEST(ContactDetector, reports_its_time_on_twenty_thousand_triangles) {
   const Mesh mesh = make_ball(Vec3::Zero(), 0.05, 41, BoxElements::tet4_kuhn);
   const Surface surface = boundary_surface(mesh);
   const ToolShape probe{.pieces = {{.points = {Vec3(0, 0, 0.01), Vec3(0, 0, 0.3)}, .radius = 3e-3},
-                                   {.points = {Vec3(0, 0, 0.005)}, .radius = r}}};
+                                   {.points = {Vec3(0, 0, 0.005)}, .radius = tool_radius}}};
   const ToolShape blade{.pieces = {{.points = {Vec3(0, 0, 0.03), Vec3(0, 0, 0.3)}, .radius = 3e-3},
                                    box_piece(Vec3(3e-3, 0.2e-3, 1e-2))}};
   ContactDetector detector({probe, blade});

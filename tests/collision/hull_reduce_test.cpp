@@ -7,7 +7,7 @@
 namespace trocar {
 namespace {
 
-double reach(const std::vector<Vec3>& points, const Vec3& d) {
+double reach_along(const std::vector<Vec3>& points, const Vec3& d) {
   double high = d.dot(points[0]);
   for (const Vec3& p : points) high = std::max(high, d.dot(p));
   return high;
@@ -41,7 +41,7 @@ TEST(ReduceHull, of_a_sphere_loses_at_most_seven_percent_of_its_radius) {
   // covering density in the plane, 1.21): 1 - cos a >= 0.038. Farthest points come close to it.
   for (int k = 0; k < 2000; ++k) {
     const Vec3 d = random.direction();
-    EXPECT_GT(reach(reduced, d), 0.93 * reach(points, d));
+    EXPECT_GT(reach_along(reduced, d), 0.93 * reach_along(points, d));
   }
 }
 

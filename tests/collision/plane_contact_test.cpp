@@ -1,6 +1,7 @@
 #include "collision/plane_contact.h"
 
 #include "collision_random.h"
+#include "collision_tool.h"
 #include "mesh/generate.h"
 
 namespace trocar {
@@ -8,8 +9,7 @@ namespace {
 
 // Inside is to the left of a -> b: below, outward is +y.
 const Segment edge = {Vec3(0.01, 0, 0), Vec3(0, 0, 0)};
-constexpr double r = 5e-3, margin = 1e-3;
-constexpr double rounding = 1e-15;
+constexpr double edge_margin = 1e-3;
 
 PlaneSection section_of(const ConvexPiece& piece, const Pose& pose = {}) {
   return plane_section(make_core(piece), pose);
@@ -35,24 +35,27 @@ TEST(BoundaryEdges, of_a_closed_surface_are_none) {
 TEST(PlaneSection, of_a_sphere_has_the_radius_of_its_circle) {
   const double height = 3e-3;  // 3-4-5
   const auto found =
-      touch_edge(section_of({.points = {Vec3(5e-3, 4.5e-3, height)}, .radius = r}), edge, margin);
+      touch_edge(section_of({.points = {Vec3(5e-3, 4.5e-3, height)}, .radius = tool_radius}), edge,
+                 edge_margin);
   ASSERT_TRUE(found.has_value());
-  EXPECT_NEAR(found->gap, 0.5e-3, rounding);
-  EXPECT_NEAR((found->normal + Vec3::UnitY()).norm(), 0, rounding);
-  EXPECT_FALSE(
-      touch_edge(section_of({.points = {Vec3(5e-3, 1e-4, 6e-3)}, .radius = r}), edge, margin));
+  EXPECT_NEAR(found->gap, 0.5e-3, tool_rounding);
+  EXPECT_NEAR((found->normal + Vec3::UnitY()).norm(), 0, tool_rounding);
+  EXPECT_FALSE(touch_edge(section_of({.points = {Vec3(5e-3, 1e-4, 6e-3)}, .radius = tool_radius}),
+                          edge, edge_margin));
 }
 
 TEST(PlaneSection, of_a_shaft_across_the_plane_is_its_circle) {
-  const ConvexPiece shaft{.points = {Vec3(4e-3, 4e-3, -0.1), Vec3(4e-3, 4e-3, 0.1)}, .radius = r};
-  const auto found = touch_edge(section_of(shaft), edge, margin);
+  const ConvexPiece shaft{.points = {Vec3(4e-3, 4e-3, -0.1), Vec3(4e-3, 4e-3, 0.1)},
+                          .radius = tool_radius};
+  const auto found = touch_edge(section_of(shaft), edge, edge_margin);
   ASSERT_TRUE(found.has_value());
-  EXPECT_NEAR(found->gap, 4e-3 - r, rounding);
+  EXPECT_NEAR(found->gap, 4e-3 - tool_radius, tool_rounding);
   // Pushed through the edge it stays one: the circle's centre is 1 mm behind.
-  const ConvexPiece deep{.points = {Vec3(4e-3, -1e-3, -0.1), Vec3(4e-3, -1e-3, 0.1)}, .radius = r};
-  const auto behind = touch_edge(section_of(deep), edge, margin);
+  const ConvexPiece deep{.points = {Vec3(4e-3, -1e-3, -0.1), Vec3(4e-3, -1e-3, 0.1)},
+                         .radius = tool_radius};
+  const auto behind = touch_edge(section_of(deep), edge, edge_margin);
   ASSERT_TRUE(behind.has_value());
-  EXPECT_NEAR(behind->gap, -1e-3 - r, 1e-14);
+  EXPECT_NEAR(behind->gap, -1e-3 - tool_radius, 1e-14);
   EXPECT_NEAR(behind->depth, 1e-3, 1e-14);
   EXPECT_NEAR((behind->normal + Vec3::UnitY()).norm(), 0, 1e-12);
 }
@@ -88,10 +91,10 @@ TEST(TouchEdge, of_a_box_that_dips_below_the_edge_takes_its_lowest_corner) {
   for (const double x : {4e-3, 6e-3})
     for (const double y : {-0.5e-3, 3e-3})
       for (const double z : {-1e-3, 1e-3}) box.points.emplace_back(x, y, z);
-  const auto found = touch_edge(section_of(box), edge, margin);
+  const auto found = touch_edge(section_of(box), edge, edge_margin);
   ASSERT_TRUE(found.has_value());
-  EXPECT_NEAR(found->gap, -0.5e-3, rounding);
-  EXPECT_NEAR((found->normal + Vec3::UnitY()).norm(), 0, rounding);
+  EXPECT_NEAR(found->gap, -0.5e-3, tool_rounding);
+  EXPECT_NEAR((found->normal + Vec3::UnitY()).norm(), 0, tool_rounding);
   EXPECT_EQ(found->tissue.weight[2], 0);
 }
 
@@ -117,20 +120,22 @@ TEST(TouchEdge, of_a_box_does_not_push_tissue_aside_that_ends_at_it) {
 }
 
 TEST(SignedDistance, in_the_plane_is_that_of_the_circle_or_the_polygon) {
-  const PlaneSection circle = section_of({.points = {Vec3(1e-3, 2e-3, 3e-3)}, .radius = r});
+  const PlaneSection circle =
+      section_of({.points = {Vec3(1e-3, 2e-3, 3e-3)}, .radius = tool_radius});
   const SignedDistance beside = signed_distance(circle, Vec3(1e-3, -1e-3, 0));
-  EXPECT_NEAR(beside.gap, 3e-3 - 4e-3, rounding);  // 3-4-5
-  EXPECT_NEAR((beside.normal + Vec3::UnitY()).norm(), 0, rounding);
+  EXPECT_NEAR(beside.gap, 3e-3 - 4e-3, tool_rounding);  // 3-4-5
+  EXPECT_NEAR((beside.normal + Vec3::UnitY()).norm(), 0, tool_rounding);
   ConvexPiece box;
   for (const double x : {-4e-3, 4e-3})
     for (const double y : {-3e-3, 3e-3})
       for (const double z : {-1e-3, 1e-3}) box.points.emplace_back(x, y, z);
   const SignedDistance inside = signed_distance(section_of(box), Vec3(3.5e-3, 1e-3, 0));
-  EXPECT_NEAR(inside.gap, -0.5e-3, rounding);
-  EXPECT_NEAR((inside.normal - Vec3::UnitX()).norm(), 0, rounding);
-  EXPECT_GT(
-      signed_distance(section_of({.points = {Vec3(0, 0, 6e-3)}, .radius = r}), Vec3::Zero()).gap,
-      0);
+  EXPECT_NEAR(inside.gap, -0.5e-3, tool_rounding);
+  EXPECT_NEAR((inside.normal - Vec3::UnitX()).norm(), 0, tool_rounding);
+  EXPECT_GT(signed_distance(section_of({.points = {Vec3(0, 0, 6e-3)}, .radius = tool_radius}),
+                            Vec3::Zero())
+                .gap,
+            0);
 }
 
 TEST(PlaneWayOut, is_the_normal_of_the_nearest_edge_for_points_inside_only) {

@@ -66,13 +66,13 @@ struct Bodies {
   }
 };
 
-Mesh two_blocks() {
+Mesh unlike_blocks() {
   return joined(make_box({0, 0, 0}, {0.04, 0.03, 0.02}, {6, 5, 3}, BoxElements::tet4_kuhn),
                 make_box({0, 0, 0.022}, {0.04, 0.03, 0.04}, {5, 4, 3}, BoxElements::hex8));
 }
 
 TEST(SurfaceTree, finds_what_faces_each_other_like_a_plain_loop) {
-  const Mesh bodies[] = {two_blocks(),
+  const Mesh bodies[] = {unlike_blocks(),
                          joined(make_ball(Vec3(0, 0, 0), 0.02, 5, BoxElements::tet4_kuhn),
                                 make_ball(Vec3(0.038, 0.01, 0), 0.02, 5, BoxElements::tet4_kuhn))};
   unsigned seed = 1;

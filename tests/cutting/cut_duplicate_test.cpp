@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cutting_count.h"
 #include "mesh/generate.h"
 #include "mesh/quality.h"
 
@@ -41,16 +42,11 @@ Duplication duplicate(const Mesh& mesh, IsOpened is_opened) {
   return duplicate_nodes(mesh, opening.facets, opening.nodes, node_elements(mesh), across);
 }
 
-Mesh apply(const Duplication& duplication, Mesh mesh) {
+Mesh duplicated(const Duplication& duplication, Mesh mesh) {
   const MeshEdit edit{.duplicate_parent = duplication.duplicate_parent,
                       .corners = duplication.corners};
   apply_edit(edit, mesh);
   return mesh;
-}
-
-std::int32_t n_pieces(const Mesh& mesh) {
-  std::vector<std::int32_t> piece;
-  return mesh_pieces(mesh, piece);
 }
 
 // A grid line from side to side has ny = 5 nodes, all of which separate.
@@ -59,7 +55,7 @@ TEST(CutDuplicate, opened_grid_line_splits_a_rectangle_in_two) {
   const Duplication duplication =
       duplicate(mesh, [](const Vec3& X) { return std::abs(X.x() - 3) < 1e-9; });
   EXPECT_EQ(duplication.duplicate_parent.size(), 5u);
-  const Mesh after = apply(duplication, mesh);
+  const Mesh after = duplicated(duplication, mesh);
   EXPECT_EQ(n_pieces(after), 2);
   EXPECT_TRUE(validate(after).empty());
 }
@@ -74,7 +70,7 @@ TEST(CutDuplicate, tips_of_an_inner_crack_stay_single) {
     EXPECT_GT(mesh.X[node].x(), 1.5);
     EXPECT_LT(mesh.X[node].x(), 4.5);
   }
-  EXPECT_EQ(n_pieces(apply(duplication, mesh)), 1);
+  EXPECT_EQ(n_pieces(duplicated(duplication, mesh)), 1);
 }
 
 // The crossing has four components, so three duplicates; the 4 + 6 other nodes have one each.
@@ -90,7 +86,7 @@ TEST(CutDuplicate, crossing_lines_split_a_rectangle_in_four) {
   const Duplication duplication =
       duplicate_nodes(mesh, opening.facets, opening.nodes, node_elements(mesh), across);
   EXPECT_EQ(duplication.duplicate_parent.size(), 4u + 6u + 3u);
-  const Mesh after = apply(duplication, mesh);
+  const Mesh after = duplicated(duplication, mesh);
   EXPECT_EQ(n_pieces(after), 4);
   EXPECT_TRUE(validate(after).empty());
 }
@@ -100,7 +96,7 @@ TEST(CutDuplicate, opened_grid_plane_splits_a_box_of_tetrahedra_in_two) {
   const Duplication duplication =
       duplicate(mesh, [](const Vec3& X) { return std::abs(X.x() - 2) < 1e-9; });
   EXPECT_EQ(duplication.duplicate_parent.size(), 4u * 3u);
-  const Mesh after = apply(duplication, mesh);
+  const Mesh after = duplicated(duplication, mesh);
   EXPECT_EQ(n_pieces(after), 2);
   EXPECT_TRUE(validate(after).empty());
 }
@@ -112,7 +108,7 @@ TEST(CutDuplicate, front_nodes_of_a_half_plane_stay_single) {
       duplicate(mesh, [](const Vec3& X) { return std::abs(X.x() - 2) < 1e-9 && X.y() < 2 + 1e-9; });
   EXPECT_EQ(duplication.duplicate_parent.size(), 2u * 3u);
   for (const std::int32_t node : duplication.duplicate_parent) EXPECT_LT(mesh.X[node].y(), 1.5);
-  EXPECT_EQ(n_pieces(apply(duplication, mesh)), 1);
+  EXPECT_EQ(n_pieces(duplicated(duplication, mesh)), 1);
 }
 
 TEST(CutDuplicate, facets_opened_earlier_count_as_opened) {

@@ -12,8 +12,8 @@ namespace {
 
 using namespace cutting_test;
 
-constexpr double height = 0.4;
-constexpr int n_cells = 5, neck = 2;
+constexpr double blade_height = 0.4;
+constexpr int bar_end = 5, neck = 2;
 
 // Adds cells `from` to `to` of a bar.
 void add_cells(int from, int to, Mesh& mesh) {
@@ -34,9 +34,9 @@ int cell_of(const Mesh& mesh, std::int32_t e) {
   return int(x);
 }
 
-// A row of cells that a blade has gone through at `height`: all are on the + side but for the cell
-// of the neck.
-struct Bar {
+// A row of cells that a blade has gone through at `blade_height`: all are on the + side but for the
+// cell of the neck.
+struct CrossedBar {
   Mesh mesh;
   CutStroke stroke;
   std::vector<std::int32_t> piece;  // before the neck
@@ -56,36 +56,36 @@ struct Bar {
   }
 };
 
-Bar make_bar(Mesh mesh) {
-  Bar bar{std::move(mesh), {}, {}};
+CrossedBar crossed_bar(Mesh mesh) {
+  CrossedBar bar{std::move(mesh), {}, {}};
   for (std::int32_t e = 0; e < bar.mesh.n_elements(); ++e) {
     const int cell = cell_of(bar.mesh, e);
     bar.stroke.side.push_back({e, static_cast<std::int8_t>(cell == neck ? -1 : 1)});
     if (cell < neck) bar.piece.push_back(e);
   }
-  bar.cross([](const Vec3& X) { return X.z() - height; });
+  bar.cross([](const Vec3& X) { return X.z() - blade_height; });
   return bar;
 }
 
 Mesh whole_bar() {
   Mesh mesh;
   mesh.region_name = {""};
-  add_cells(0, n_cells, mesh);
+  add_cells(0, bar_end, mesh);
   return mesh;
 }
 
 TEST(IsFlake, a_piece_that_the_blade_left_joined_across_a_neck) {
-  EXPECT_TRUE(make_bar(whole_bar()).has_flake());
+  EXPECT_TRUE(crossed_bar(whole_bar()).has_flake());
 }
 
 TEST(IsFlake, no_piece_that_the_blade_parted_from_the_rest) {
-  Bar bar = make_bar(whole_bar());
+  CrossedBar bar = crossed_bar(whole_bar());
   bar.cross([](const Vec3& X) { return neck + 0.5 - X.x(); });
   EXPECT_FALSE(bar.has_flake());
 }
 
 TEST(IsFlake, no_piece_beside_which_none_has_its_side) {
-  Bar bar = make_bar(whole_bar());
+  CrossedBar bar = crossed_bar(whole_bar());
   for (OfElement<std::int8_t>& s : bar.stroke.side)
     if (cell_of(bar.mesh, s.element) > neck) s.value = -1;
   EXPECT_FALSE(bar.has_flake());
@@ -96,8 +96,8 @@ TEST(IsFlake, across_facets_that_this_stroke_opened_but_no_older_one) {
   Mesh mesh;
   mesh.region_name = {""};
   add_cells(0, neck, mesh);
-  add_cells(neck, n_cells, mesh);
-  Bar bar = make_bar(std::move(mesh));
+  add_cells(neck, bar_end, mesh);
+  CrossedBar bar = crossed_bar(std::move(mesh));
   EXPECT_FALSE(bar.has_flake());
   for (std::int32_t e = 0; e < bar.mesh.n_elements(); ++e)
     for (int f = 0; f < 4; ++f)

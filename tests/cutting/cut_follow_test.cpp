@@ -20,7 +20,7 @@ BladeSweep sweep_at(double x, int k) {
   return {.before = edge(k), .after = edge(k + 1), .normal = normal};
 }
 
-int facets_opened(BoxElements elements, double x, int n_blades) {
+int facets_opened_by(BoxElements elements, double x, int n_blades) {
   Body body(make_box({0, 0, 0}, {1, 1, 1}, {9, 9, 9}, elements));
   std::vector<TetCutter> cutters;
   for (int c = 0; c < n_blades; ++c) cutters.emplace_back(CutTetOptions{}).prepare(body.mesh);
@@ -39,9 +39,9 @@ int facets_opened(BoxElements elements, double x, int n_blades) {
 TEST(CutFollow, second_blade_on_the_same_line_opens_no_slit_of_its_own) {
   for (const BoxElements elements : {BoxElements::tet4_kuhn, BoxElements::tet4_five})
     for (const double x : {0.47, 0.5, 0.52, 0.55}) {
-      const int alone = facets_opened(elements, x, 1);
+      const int alone = facets_opened_by(elements, x, 1);
       EXPECT_GT(alone, 40) << x;
-      EXPECT_LE(facets_opened(elements, x, 2), 1.3 * alone) << x;
+      EXPECT_LE(facets_opened_by(elements, x, 2), 1.3 * alone) << x;
     }
 }
 

@@ -64,7 +64,7 @@ bool has_same_bits(const MeshEdit& a, const MeshEdit& b) {
 }
 
 // Far from all layers of the grid: nodes alone can't follow.
-const Vec3 tilted = Vec3(1, 0.9, 0.7).normalized();
+const Vec3 off_grid = Vec3(1, 0.9, 0.7).normalized();
 
 TEST(CutHex, a_cut_beside_a_layer_of_facets_displaces_nodes_and_converts_nothing) {
   Body body(hex_block(0));
@@ -82,7 +82,7 @@ TEST(CutHex, a_cut_beside_a_layer_of_facets_displaces_nodes_and_converts_nothing
 
 TEST(CutHex, a_cut_across_the_grid_converts_what_it_passes_through_and_no_more) {
   Body body(hex_block(0));
-  cut(body, plane_blade({0.02, 0.05, 0}, tilted, 1), tilted, 25);
+  cut(body, plane_blade({0.02, 0.05, 0}, off_grid, 1), off_grid, 25);
   const int n_hex = n_of(body.mesh, ElementType::hex8);
   const int n_tet = n_of(body.mesh, ElementType::tet4);
   EXPECT_EQ(n_hex + n_tet / 6, 216);
@@ -92,7 +92,7 @@ TEST(CutHex, a_cut_across_the_grid_converts_what_it_passes_through_and_no_more) 
     if (body.mesh.element_type[e] != ElementType::tet4) continue;
     Vec3 centre = Vec3::Zero();
     for (const std::int32_t i : body.mesh.corners(e)) centre += 0.25 * body.mesh.X[i];
-    EXPECT_LT(std::abs(tilted.dot(centre - Vec3(0.02, 0.05, 0))), 2 * std::sqrt(3.0) / 6);
+    EXPECT_LT(std::abs(off_grid.dot(centre - Vec3(0.02, 0.05, 0))), 2 * std::sqrt(3.0) / 6);
   }
   EXPECT_EQ(n_pieces(body.mesh), 2);
   EXPECT_EQ(boundary_euler(body.mesh), 4);
@@ -125,7 +125,7 @@ TEST(CutHex, positions_in_an_affine_field_stay_affine) {
   const auto map = [&](const Vec3& X) { return Vec3(A * X + Vec3(1, 2, 3)); };
   Body body(hex_block(0.1));
   body.deform(map);
-  const Vec3 normal = (A.inverse().transpose() * tilted).normalized();
+  const Vec3 normal = (A.inverse().transpose() * off_grid).normalized();
   cut(body, plane_blade(map({0.02, 0.05, 0}), normal, 2), normal, 40);
   EXPECT_GT(n_of(body.mesh, ElementType::tet4), 0);
   for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)  // edits carry rounding on
@@ -134,12 +134,12 @@ TEST(CutHex, positions_in_an_affine_field_stay_affine) {
 
 TEST(CutHex, another_cutter_with_the_stroke_goes_on_to_the_same_bits) {
   Body body(hex_block(0.1));
-  const Blade blade = plane_blade({0.02, 0.05, 0}, tilted, 1);
+  const Blade blade = plane_blade({0.02, 0.05, 0}, off_grid, 1);
   TetCutter cutter{CutTetOptions{}};
   Ledger ledger;
   int n_edits = 0;
   for (int k = 0; k < 25; ++k) {
-    const BladeSweep sweep{blade(k / 25.0), blade((k + 1) / 25.0), tilted};
+    const BladeSweep sweep{blade(k / 25.0), blade((k + 1) / 25.0), off_grid};
     TetCutter other{CutTetOptions{}};
     other.set_stroke(cutter.stroke());
     CutFigures figures;
@@ -156,7 +156,7 @@ TEST(CutHex, another_cutter_with_the_stroke_goes_on_to_the_same_bits) {
 // Of tetrahedra and of hexahedra. Every second edit is made by the other one.
 TEST(CutHex, a_cutter_that_follows_edits_makes_the_next_without_a_look_at_the_whole_mesh) {
   for (const BoxElements elements : {BoxElements::tet4_five, BoxElements::hex8}) {
-    const Blade blade = plane_blade({0.02, 0.05, 0}, tilted, 1);
+    const Blade blade = plane_blade({0.02, 0.05, 0}, off_grid, 1);
     Body body(make_box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, {6, 6, 6}, elements));
     Body alone = body;
     TetCutter cutters[] = {TetCutter(CutTetOptions{}), TetCutter(CutTetOptions{})},
@@ -164,7 +164,7 @@ TEST(CutHex, a_cutter_that_follows_edits_makes_the_next_without_a_look_at_the_wh
     for (TetCutter& cutter : cutters) cutter.prepare(body.mesh);
     Ledger ledger, ledger_alone;
     for (int k = 0; k < 25; ++k) {
-      const BladeSweep sweep{blade(k / 25.0), blade((k + 1) / 25.0), tilted};
+      const BladeSweep sweep{blade(k / 25.0), blade((k + 1) / 25.0), off_grid};
       TetCutter &first = cutters[ledger.n_edits % 2], &second = cutters[1 - ledger.n_edits % 2];
       EXPECT_TRUE(first.is_prepared(body.mesh)) << k;
       CutFigures figures;
@@ -183,8 +183,8 @@ TEST(CutHex, a_cutter_that_follows_edits_makes_the_next_without_a_look_at_the_wh
 
 TEST(CutHex, cuts_that_cross_leave_quarters) {
   Body body(hex_block(0));
-  const Vec3 other = tilted.unitOrthogonal();
-  cut(body, plane_blade({0.02, 0.05, 0}, tilted, 1), tilted, 25);
+  const Vec3 other = off_grid.unitOrthogonal();
+  cut(body, plane_blade({0.02, 0.05, 0}, off_grid, 1), off_grid, 25);
   cut(body, plane_blade({0.02, 0.05, 0}, other, 1), other, 25);
   EXPECT_EQ(n_pieces(body.mesh), 4);
   EXPECT_EQ(fault(body), "");
@@ -196,7 +196,7 @@ TEST(CutHex, held_nodes_stay_where_they_are) {
     body.is_held[i] = body.mesh.X[i].z() < -0.49 ? 1 : 0;
   const std::vector<Vec3> X = body.mesh.X;
   const std::vector<std::uint8_t> held = body.is_held;
-  cut(body, plane_blade({0.02, 0.05, 0}, tilted, 1), tilted, 25);
+  cut(body, plane_blade({0.02, 0.05, 0}, off_grid, 1), off_grid, 25);
   for (std::size_t i = 0; i < X.size(); ++i)
     EXPECT_TRUE(held[i] == 0 || body.mesh.X[i] == X[i]) << i;
   EXPECT_EQ(fault(body), "");
@@ -221,7 +221,7 @@ Vec3 zigzag(const Vec3& X, double amount) {
 
 TEST(CutHex, hexahedra_that_are_bent_stay_hexahedra_and_are_cut_once_they_are_straight) {
   // Opened facets have moved no node that lies in the zigzag when they are seen.
-  const Vec3 normal = tilted;
+  const Vec3 normal = off_grid;
   const Blade blade = plane_blade({0.02, 0.05, 0}, normal, 1);
   for (const bool straightens : {true, false}) {
     Body body(hex_block(0));
@@ -302,7 +302,7 @@ TEST(CutHex, what_stays_whole_does_so_after_cuts) {
   };
   const auto before = whole();
   ASSERT_EQ(before.size(), 8U);
-  cut(body, plane_blade({0.02, 0.05, 0}, tilted, 1), tilted, 25);
+  cut(body, plane_blade({0.02, 0.05, 0}, off_grid, 1), off_grid, 25);
   EXPECT_GT(n_of(body.mesh, ElementType::tet4), 0);
   EXPECT_EQ(fault(body), "");
   EXPECT_EQ(whole(), before);

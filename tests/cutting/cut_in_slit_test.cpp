@@ -9,7 +9,7 @@ namespace {
 
 using Place = OlderSlits::Place;
 
-int facets_opened(Body& body, double x) {
+int facets_opened_at(Body& body, double x) {
   const Vec3 normal = Vec3::UnitX();
   const Blade blade = straight_blade({x, -0.1, 0.5}, {x, -0.1, 1.1}, {0, 1.2, 0});
   return cut(body, blade, normal, 30).total.n_opened_facets;
@@ -20,15 +20,15 @@ TEST(OlderSlits, take_in_a_blade_that_runs_closely_beside_them) {
   for (const BoxElements elements : {BoxElements::tet4_kuhn, BoxElements::tet4_five}) {
     Body body(make_box({0, 0, 0}, {1, 1, 1}, {10, 9, 9}, elements));
     const double h = mean_edge_of(body.mesh);
-    const int first = facets_opened(body, 0.5);
-    EXPECT_LE(facets_opened(body, 0.5 + 0.12 * h), first / 10);
+    const int first = facets_opened_at(body, 0.5);
+    EXPECT_LE(facets_opened_at(body, 0.5 + 0.12 * h), first / 10);
   }
 }
 
 TEST(OlderSlits, hold_what_lies_beside_their_facets_and_along_them) {
   Body body(make_box({0, 0, 0}, {1, 1, 1}, {10, 9, 9}, BoxElements::tet4_kuhn));
   const double h = mean_edge_of(body.mesh);
-  facets_opened(body, 0.5);
+  facets_opened_at(body, 0.5);
   std::vector<std::int32_t> all(static_cast<std::size_t>(body.mesh.n_elements()));
   std::iota(all.begin(), all.end(), 0);
   const OlderSlits slits(body.mesh, all, {}, h);

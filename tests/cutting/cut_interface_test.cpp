@@ -9,10 +9,10 @@ namespace {
 
 using namespace cutting_test;
 
-constexpr double cell = 0.125;
+constexpr double cell_edge = 0.125;
 constexpr double interface_height = 0.5;
 
-Mesh layered(BoxElements elements) {
+Mesh layered_block(BoxElements elements) {
   Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, elements);
   add_region(mesh, [](const Vec3& X) { return X.z() > interface_height; });
   return mesh;
@@ -24,8 +24,8 @@ void expect_same_regions(const Mesh& before, const Mesh& after) {
   for (std::size_t r = 0; r < V.size(); ++r) EXPECT_NEAR(V[r] / V0[r], 1, 1e-12) << r;
 }
 
-void cut_and_check(BoxElements elements, const Vec3& centre, const Vec3& normal) {
-  const Mesh before = layered(elements);
+void cut_layers_and_check(BoxElements elements, const Vec3& centre, const Vec3& normal) {
+  const Mesh before = layered_block(elements);
   Body body(before);
   const Ledger ledger = cut(body, plane_blade(centre, normal, 1), normal, 20);
   expect_same_regions(before, body.mesh);
@@ -37,7 +37,8 @@ void cut_and_check(BoxElements elements, const Vec3& centre, const Vec3& normal)
 TEST(CutInterface, stays_where_it_is_when_a_plane_passes_beside_it) {
   for (const BoxElements elements : {BoxElements::tet4_kuhn, BoxElements::hex8})
     for (const double distance : {-0.9, -0.5, -0.35, -0.12, 0.05, 0.2, 0.36, 0.6})
-      cut_and_check(elements, {0.5, 0.5, interface_height + distance * cell}, Vec3::UnitZ());
+      cut_layers_and_check(elements, {0.5, 0.5, interface_height + distance * cell_edge},
+                           Vec3::UnitZ());
 }
 
 TEST(CutInterface, stays_where_it_is_when_planes_cross_it) {
@@ -46,13 +47,14 @@ TEST(CutInterface, stays_where_it_is_when_planes_cross_it) {
   for (const BoxElements elements : {BoxElements::tet4_kuhn, BoxElements::hex8})
     for (int k = 0; k < 8; ++k) {
       const Vec3 centre = Vec3::Constant(0.5) + 0.1 * Vec3(u(random), u(random), u(random));
-      cut_and_check(elements, centre, Vec3(u(random), u(random), 1.5 * u(random)).normalized());
+      cut_layers_and_check(elements, centre,
+                           Vec3(u(random), u(random), 1.5 * u(random)).normalized());
     }
 }
 
 TEST(CutInterface, stays_where_it_is_when_a_cut_ends_inside_the_body) {
   for (const double z : {0.42, 0.47, 0.53, 0.6}) {
-    const Mesh before = layered(BoxElements::tet4_kuhn);
+    const Mesh before = layered_block(BoxElements::tet4_kuhn);
     Body body(before);
     const Ledger ledger =
         cut(body, straight_blade({0.3, -0.2, z}, {0.7, -0.2, z + 0.02}, {0, 0.7, 0}),
@@ -87,7 +89,7 @@ TEST(CutBorder, of_an_area_stays_where_it_is_when_a_plane_passes_beside_it) {
       };
       for (const BorderEdge& edge : mesh_edges(body.mesh))
         if (is_on_border(edge[0]) && is_on_border(edge[1])) body.border.push_back(edge);
-      const double x = 0.5 + distance * cell;
+      const double x = 0.5 + distance * cell_edge;
       cut(body, straight_blade({x, -0.2, 0.4}, {x, -0.2, 1.2}, {0, 1.4, 0}), Vec3::UnitX(), 20);
       EXPECT_NEAR(left_area(body.mesh, is_left), 0.5, 1e-12) << distance;
       EXPECT_EQ(fault(body), "");

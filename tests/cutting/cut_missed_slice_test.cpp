@@ -3,22 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include "cutting_tet.h"
+#include "cutting_cube.h"
 
 namespace trocar {
 namespace {
 
 using namespace cutting_test;
 
-constexpr int n_cells = 6;
-constexpr double cell = 1.0 / n_cells;
 const Vec3 centre = Vec3::Constant(0.5), up = Vec3::UnitZ();
-
-Body cube(BoxElements elements = BoxElements::tet4_kuhn, double jittered = 0) {
-  Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {n_cells, n_cells, n_cells}, elements);
-  if (jittered > 0) jitter(mesh, jittered, 3);
-  return Body(std::move(mesh));
-}
 
 void hold(Body& body, const std::function<bool(const Vec3&)>& is_there) {
   for (std::size_t i = 0; i < body.is_held.size(); ++i)

@@ -3,15 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include "cutting_tet.h"
+#include "cutting_cube.h"
 
 namespace trocar {
 namespace {
 
 using namespace cutting_test;
 
-constexpr int n_cells = 6;
-constexpr double cell = 1.0 / n_cells, middle = 0.53;
+constexpr double blade_middle = 0.53;
 
 // How a stroke ends.
 struct Outcome {
@@ -23,16 +22,15 @@ struct Outcome {
 // The blade's edge at height z on its way down through a unit cube.
 std::vector<Vec3> edge_at(double z) {
   std::vector<Vec3> points;
-  for (int k = 0; k <= 8; ++k) points.emplace_back(middle + 0.2 * (z - 0.5), -0.2 + 0.175 * k, z);
+  for (int k = 0; k <= 8; ++k)
+    points.emplace_back(blade_middle + 0.2 * (z - 0.5), -0.2 + 0.175 * k, z);
   return points;
 }
 
 // One stroke along legs between two heights each, in steps of 0.4 cells; from leg to leg the blade
 // goes without a cut.
-Outcome cut_along(const std::vector<std::array<double, 2>>& legs) {
-  Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {n_cells, n_cells, n_cells}, BoxElements::tet4_kuhn);
-  jitter(mesh, 0.2, 3);
-  Body body(std::move(mesh));
+Outcome cut_along_legs(const std::vector<std::array<double, 2>>& legs) {
+  Body body = cube(BoxElements::tet4_kuhn, 0.2);
   TetCutter cutter{CutTetOptions{}};
   Outcome outcome;
   for (const auto& [from, to] : legs) {
@@ -65,7 +63,7 @@ Outcome cut_along(const std::vector<std::array<double, 2>>& legs) {
 
 // From above the cube to below it but for what lies between `top` and `bottom`.
 Outcome cut_all_but(double top, double bottom) {
-  return cut_along({{1.2, top}, {bottom, -0.2}});
+  return cut_along_legs({{1.2, top}, {bottom, -0.2}});
 }
 
 TEST(MissedPlaces, are_none_behind_a_blade_that_leaves_nothing_out) {
@@ -77,7 +75,7 @@ TEST(MissedPlaces, are_none_behind_a_blade_that_leaves_nothing_out) {
 // Wherever it stops within its elements. It has parted no more than it has passed.
 TEST(MissedPlaces, are_none_of_a_blade_that_draws_back_in_its_slit) {
   for (const double deepest : {0.62, 0.56, 0.5, 0.47, 0.4, 0.33, 0.28}) {
-    const Outcome outcome = cut_along({{1.2, deepest}, {deepest, 1.2}});
+    const Outcome outcome = cut_along_legs({{1.2, deepest}, {deepest, 1.2}});
     EXPECT_EQ(outcome.n_pieces, 1);
     EXPECT_TRUE(outcome.refusals.empty()) << deepest << ": " << outcome.refusals.size();
     EXPECT_GT(outcome.lowest, deepest - 0.05 * cell);  // nodes slide along the surface

@@ -10,19 +10,20 @@ namespace {
 
 using namespace cutting_test;
 
-constexpr int n_cells = 5;
+constexpr int n_bar_cells = 5;
 
 // A bar of cells in a row, all of it on the side of `distance` from the surface; the elements of
 // cell `other` got the other side.
-struct Bar {
+struct PartedBar {
   CutSurroundings around;
   CutLabels labels;
   std::vector<std::int32_t> cell;  // elements of `other`
 };
 
-Bar make_bar(int other, double distance) {
-  Bar bar;
-  const Body body(make_box({0, 0, 0}, {n_cells, 1, 1}, {n_cells, 1, 1}, BoxElements::tet4_kuhn));
+PartedBar parted_bar(int other, double distance) {
+  PartedBar bar;
+  const Body body(
+      make_box({0, 0, 0}, {n_bar_cells, 1, 1}, {n_bar_cells, 1, 1}, BoxElements::tet4_kuhn));
   bar.around.h = 1;
   bar.around.patch = whole_patch(body);
   bar.around.distance.assign(bar.around.patch.node.size(), distance);
@@ -38,15 +39,15 @@ Bar make_bar(int other, double distance) {
 
 TEST(JoinNecks, gives_what_parts_a_slice_the_side_that_it_lies_on) {
   for (const double distance : {0.5, -0.5}) {
-    Bar bar = make_bar(2, distance);
+    PartedBar bar = parted_bar(2, distance);
     EXPECT_EQ(join_necks(bar.around, bar.cell, bar.labels), bar.cell);
     for (const std::int8_t side : bar.labels.side) EXPECT_EQ(side, distance > 0 ? 1 : -1);
   }
 }
 
 TEST(JoinNecks, leaves_alone_the_end_of_a_slice_and_what_is_thinner_than_a_slice) {
-  for (const auto& [other, distance] : {std::pair{0, 0.5}, {n_cells - 1, 0.5}, {2, 0.3}}) {
-    Bar bar = make_bar(other, distance);
+  for (const auto& [other, distance] : {std::pair{0, 0.5}, {n_bar_cells - 1, 0.5}, {2, 0.3}}) {
+    PartedBar bar = parted_bar(other, distance);
     const std::vector<std::int8_t> side = bar.labels.side;
     EXPECT_TRUE(join_necks(bar.around, bar.cell, bar.labels).empty());
     EXPECT_EQ(bar.labels.side, side);
@@ -54,7 +55,7 @@ TEST(JoinNecks, leaves_alone_the_end_of_a_slice_and_what_is_thinner_than_a_slice
 }
 
 TEST(JoinNecks, turns_nothing_that_was_decided_before) {
-  Bar bar = make_bar(2, 0.5);
+  PartedBar bar = parted_bar(2, 0.5);
   const std::vector<std::int8_t> side = bar.labels.side;
   EXPECT_TRUE(join_necks(bar.around, {}, bar.labels).empty());
   EXPECT_EQ(bar.labels.side, side);

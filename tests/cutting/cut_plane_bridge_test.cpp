@@ -4,7 +4,7 @@
 namespace trocar {
 namespace {
 
-struct Outcome {
+struct BridgeCount {
   int n = 0, n_parted = 0, n_told = 0;
 };
 
@@ -28,7 +28,7 @@ struct Slits {
   }
 };
 
-void go_on_to_slit(int configuration, double x, double left, double aside, Outcome& outcome) {
+void go_on_to_slit(int configuration, double x, double left, double aside, BridgeCount& outcome) {
   const Slits slits(configuration, x, left);
   ASSERT_GE(slits.tip, 0);
   const Vec3 tip = slits.mesh.X[static_cast<std::size_t>(slits.tip)];
@@ -47,7 +47,7 @@ void go_on_to_slit(int configuration, double x, double left, double aside, Outco
 // With all cut points that the path has room for: 13 of 144. The others would need elements below
 // the floor under the step.
 TEST(CutPlaneBridge, between_a_tip_and_a_slit_is_parted_or_told) {
-  Outcome outcome;
+  BridgeCount outcome;
   for (const int configuration : {1, 2, 3, 4})
     for (const double x : {27.3, 33.0, 36.1, 41.9})
       for (const double left : {0.8, 1.0, 1.2, 1.6, 2.5})

@@ -1,7 +1,6 @@
 // Plane cuts beside, along and across the line between two regions. TROCAR_CUTS sets another number
 // of random ones per mesh.
 #include <cstdio>
-#include <cstdlib>
 
 #include "cutting_plane.h"
 
@@ -17,7 +16,7 @@ double row_height(const Mesh& mesh) {
 }
 
 // Configurations 2 and 4 have 16 rows of nodes.
-Mesh layered(int configuration) {
+Mesh layered_plate(int configuration) {
   Mesh mesh = paper_mesh(configuration);
   const double y = interface_row * row_height(mesh);
   mesh.region_name = {"lower", "upper"};
@@ -42,7 +41,7 @@ struct Count {
 };
 
 // The areas of both regions change by rounding alone.
-Mesh cut_and_check(const Mesh& mesh, const std::vector<Vec3>& path, Count& count) {
+Mesh cut_regions_and_check(const Mesh& mesh, const std::vector<Vec3>& path, Count& count) {
   const double floor = plane_step_ratio * least_step_bound(mesh);
   const PlaneCut result = cut_plane(mesh, path, -1, none_held(mesh), {.least_step = floor});
   count.n_places += result.figures.n_refused;
@@ -62,10 +61,7 @@ Mesh cut_and_check(const Mesh& mesh, const std::vector<Vec3>& path, Count& count
   return after;
 }
 
-int n_cuts() {
-  const char* wish = std::getenv("TROCAR_CUTS");
-  return wish != nullptr ? std::atoi(wish) : 200;
-}
+const int n_cuts_across = n_cuts_or(200);
 
 double uniform(std::mt19937& random, double a, double b) {
   return a + (b - a) * (random() / 4294967296.0);
@@ -80,11 +76,11 @@ void print(const char* kind, int configuration, const Count& count) {
 
 TEST(CutPlaneInterface, keeps_both_regions_when_a_cut_passes_beside_it) {
   for (const int c : {2, 4}) {
-    const Mesh mesh = layered(c);
+    const Mesh mesh = layered_plate(c);
     Count count;
     for (int k = -18; k <= 18; ++k) {
       const double y = (interface_row + 0.05 * k) * row_height(mesh);
-      cut_and_check(mesh, {{20 * mm, y, 0}, {50 * mm, y, 0}}, count);
+      cut_regions_and_check(mesh, {{20 * mm, y, 0}, {50 * mm, y, 0}}, count);
     }
     print("beside", c, count);
     EXPECT_EQ(count.n_cut, 37);
@@ -95,7 +91,7 @@ TEST(CutPlaneInterface, keeps_both_regions_when_a_cut_passes_beside_it) {
 
 TEST(CutPlaneInterface, is_opened_by_a_cut_along_it) {
   for (const int c : {2, 4}) {
-    const Mesh mesh = layered(c);
+    const Mesh mesh = layered_plate(c);
     const double y = interface_row * row_height(mesh);
     const PlaneCut through =
         cut_plane(mesh, std::vector<Vec3>{{-mm, y, 0}, {71 * mm, y, 0}}, -1, none_held(mesh), {});
@@ -110,36 +106,36 @@ TEST(CutPlaneInterface, is_opened_by_a_cut_along_it) {
 
 TEST(CutPlaneInterface, keeps_both_regions_when_through_cuts_cross_it) {
   for (const int c : {2, 4}) {
-    const Mesh mesh = layered(c);
+    const Mesh mesh = layered_plate(c);
     std::mt19937 random(5);
     Count count;
     int n_apart = 0;
-    for (int k = 0; k < n_cuts(); ++k) {
+    for (int k = 0; k < n_cuts_across; ++k) {
       const std::vector<Vec3> path = {{uniform(random, 12, 58) * mm, -mm, 0},
                                       {uniform(random, 12, 58) * mm, 16 * row_height(mesh), 0}};
-      n_apart += n_pieces(cut_and_check(mesh, path, count)) == 2 ? 1 : 0;
+      n_apart += n_pieces(cut_regions_and_check(mesh, path, count)) == 2 ? 1 : 0;
     }
     print("through", c, count);
-    EXPECT_EQ(n_apart, n_cuts());
+    EXPECT_EQ(n_apart, n_cuts_across);
   }
 }
 
 TEST(CutPlaneInterface, keeps_both_regions_when_cuts_inside_cross_it) {
   for (const int c : {2, 4}) {
-    const Mesh mesh = layered(c);
+    const Mesh mesh = layered_plate(c);
     const double top = 15 * row_height(mesh);
     std::mt19937 random(6);
     Count count;
-    for (int k = 0; k < n_cuts(); ++k) {
+    for (int k = 0; k < n_cuts_across; ++k) {
       std::vector<Vec3> path(2);
       do
         for (Vec3& p : path)
           p = {uniform(random, 10 * mm, 60 * mm), uniform(random, 10 * mm, top - 10 * mm), 0};
       while ((path[1] - path[0]).norm() < 12 * mm);
-      cut_and_check(mesh, path, count);
+      cut_regions_and_check(mesh, path, count);
     }
     print("inside", c, count);
-    EXPECT_EQ(count.n_cut, n_cuts());
+    EXPECT_EQ(count.n_cut, n_cuts_across);
   }
 }
 

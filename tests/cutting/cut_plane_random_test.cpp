@@ -1,17 +1,13 @@
 // Random cuts with a fixed seed; TROCAR_CUTS sets another number per mesh.
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 
 #include "cutting_plane.h"
 
 namespace trocar {
 namespace {
 
-int n_cuts() {
-  const char* wish = std::getenv("TROCAR_CUTS");
-  return wish != nullptr ? std::atoi(wish) : 300;
-}
+const int n_random_cuts = n_cuts_or(300);
 
 // Uniform in [a, b) without std::uniform_real_distribution, which differs between libraries.
 class Random {
@@ -53,7 +49,7 @@ struct Sample {
 
 // Bound of the stable step over the wave speed: omega^2 <= c^2 sum_a 1 / h_a^2 of an element with
 // the altitudes h_a. Not that of the module itself.
-double step_bound(const Mesh& mesh) {
+double bound_from_altitudes(const Mesh& mesh) {
   double least = 1e300;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
     double sum = 0;
@@ -73,7 +69,7 @@ void cut_and_check(const Mesh& mesh, const std::vector<Vec3>& path, int n_closed
                    std::vector<std::uint8_t> is_held = {}) {
   is_held.resize(mesh.X.size());
   const auto start = std::chrono::steady_clock::now();
-  const CutPlaneOptions options{.least_step = sample.floor * step_bound(mesh)};
+  const CutPlaneOptions options{.least_step = sample.floor * bound_from_altitudes(mesh)};
   const PlaneCut result = cut_plane(mesh, path, -1, is_held, options);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
   sample.milliseconds.push_back(time.count());
@@ -97,7 +93,7 @@ void cut_and_check(const Mesh& mesh, const std::vector<Vec3>& path, int n_closed
   EXPECT_EQ(n_marked_sides(after, are_on_boundary), 2 * result.figures.n_opened_facets);
   EXPECT_NEAR(total_mass(after) / total_mass(mesh), 1, 1e-12);
   sample.altitude.push_back(least_altitude(after) / least_altitude(mesh));
-  sample.step.push_back(step_bound(after) / step_bound(mesh));
+  sample.step.push_back(bound_from_altitudes(after) / bound_from_altitudes(mesh));
   EXPECT_GE(sample.step.back(), sample.floor * (1 - 1e-12));
 }
 
@@ -108,7 +104,7 @@ TEST(CutPlaneRandom, inner_cuts_are_valid_and_keep_half_the_least_altitude) {
     const double margin = 10 * mm, top = height(mesh) - margin;
     Random random(12345);
     Sample sample;
-    for (int k = 0; k < n_cuts(); ++k) {
+    for (int k = 0; k < n_random_cuts; ++k) {
       std::vector<Vec3> path;
       do {
         const double x0 = random(margin, 60 * mm), y0 = random(margin, top);
@@ -134,7 +130,7 @@ TEST(CutPlaneRandom, through_cuts_give_two_pieces) {
     const Mesh mesh = paper_mesh(c);
     Random random(777);
     Sample sample;
-    for (int k = 0; k < n_cuts(); ++k) {
+    for (int k = 0; k < n_random_cuts; ++k) {
       const std::vector<Vec3> path = {{random(12 * mm, 58 * mm), -1 * mm, 0},
                                       {random(12 * mm, 58 * mm), height(mesh) + mm, 0}};
       cut_and_check(mesh, path, 0, sample);
@@ -153,7 +149,7 @@ TEST(CutPlaneRandom, cuts_anywhere_are_valid_or_refused) {
     const Mesh mesh = paper_mesh(c);
     Random random(4242);
     Sample sample;
-    for (int k = 0; k < n_cuts(); ++k) {
+    for (int k = 0; k < n_random_cuts; ++k) {
       std::vector<Vec3> path;
       const int n_points = 2 + k % 3;
       for (int p = 0; p < n_points; ++p)
@@ -163,7 +159,7 @@ TEST(CutPlaneRandom, cuts_anywhere_are_valid_or_refused) {
       cut_and_check(mesh, path, -1, sample);
     }
     sample.print("cuts anywhere", c);
-    EXPECT_LE(sample.n_refused, n_cuts() / 8);
+    EXPECT_LE(sample.n_refused, n_random_cuts / 8);
   }
 }
 
@@ -173,14 +169,14 @@ TEST(CutPlaneRandom, steps_keep_any_floor) {
     const Mesh mesh = paper_mesh(4);
     Random random(31);
     Sample sample{.floor = floor};
-    for (int k = 0; k < n_cuts() / 3; ++k) {
+    for (int k = 0; k < n_random_cuts / 3; ++k) {
       const Vec3 start(random(-10 * mm, 80 * mm), random(-10 * mm, 60 * mm), 0);
       cut_and_check(mesh, {start, {random(20 * mm, 50 * mm), random(10 * mm, 30 * mm), 0}}, -1,
                     sample);
     }
     std::printf("floor %.2f: ", floor);
     sample.print("cuts from anywhere to the middle", 4);
-    EXPECT_GT(sample.n_opened, floor < 0.8 ? 5 * n_cuts() / 3 : 0);
+    EXPECT_GT(sample.n_opened, floor < 0.8 ? 5 * n_random_cuts / 3 : 0);
   }
 }
 
@@ -190,7 +186,7 @@ TEST(CutPlaneRandom, cuts_through_held_discs_move_no_held_node_and_open_the_rest
     const Mesh mesh = paper_mesh(c);
     Random random(99);
     Sample sample;
-    for (int k = 0; k < n_cuts() / 3; ++k) {
+    for (int k = 0; k < n_random_cuts / 3; ++k) {
       const std::vector<Vec3> path = {{random(12 * mm, 58 * mm), -1 * mm, 0},
                                       {random(12 * mm, 58 * mm), height(mesh) + mm, 0}};
       const Vec3 centre = path[0] + random(0, 1) * (path[1] - path[0]);

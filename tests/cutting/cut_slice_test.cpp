@@ -44,14 +44,14 @@ TEST(Slices, along_an_edge_of_the_body_come_off) {
 
 // A bar of three cells that all got the - side; nodes at its ends lie at `low` and `high`, the
 // others on the surface.
-struct Bar {
+struct SlicedBar {
   CutSurroundings around;
   CutLabels labels;
   std::vector<std::int32_t> element, high_end;  // all; those around nodes of the high end
 };
 
-Bar make_bar(double low, double high) {
-  Bar bar;
+SlicedBar sliced_bar(double low, double high) {
+  SlicedBar bar;
   const Body body(make_box({0, 0, 0}, {3, 1, 1}, {3, 1, 1}, BoxElements::tet4_kuhn));
   bar.around.h = 1;
   bar.around.patch = whole_patch(body);
@@ -67,16 +67,16 @@ Bar make_bar(double low, double high) {
 }
 
 TEST(JoinSlices, gives_the_elements_around_lost_nodes_their_side) {
-  Bar bar = make_bar(-0.5, 0.4);
+  SlicedBar bar = sliced_bar(-0.5, 0.4);
   EXPECT_EQ(join_slices(bar.around, {}, bar.element, bar.labels), bar.high_end);
   for (const std::int32_t e : bar.element)
     EXPECT_EQ(bar.labels.side[e] > 0, std::ranges::binary_search(bar.high_end, e));
 }
 
 TEST(JoinSlices, leaves_alone_thin_slices_parted_nodes_and_what_was_decided_before) {
-  Bar bar = make_bar(-0.5, 0.3);
+  SlicedBar bar = sliced_bar(-0.5, 0.3);
   EXPECT_TRUE(join_slices(bar.around, {}, bar.element, bar.labels).empty());
-  bar = make_bar(-0.5, 0.4);
+  bar = sliced_bar(-0.5, 0.4);
   EXPECT_TRUE(join_slices(bar.around, bar.around.patch.node, bar.element, bar.labels).empty());
   EXPECT_TRUE(join_slices(bar.around, {}, {}, bar.labels).empty());
   for (const std::int8_t side : bar.labels.side) EXPECT_EQ(side, -1);
@@ -89,7 +89,7 @@ TEST(JoinSlices, leaves_a_deeper_node_of_the_other_side_its_last_element) {
   mesh.region_name = {""};
   add_element(mesh, ElementType::tet4, std::array<std::int32_t, 4>{0, 1, 2, 3});
   for (const double high : {0.4, 0.6}) {
-    Bar bar{{}, {{CutKind::separated}, {-1}}, {0}, {}};
+    SlicedBar bar{{}, {{CutKind::separated}, {-1}}, {0}, {}};
     bar.around.h = 1;
     bar.around.patch = whole_patch(Body(mesh));
     bar.around.distance = {-0.5, -0.5, -0.5, high};

@@ -1,8 +1,6 @@
 // Random cuts, five meshes by turns. TROCAR_CUTS sets their number per test.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "cutting_tet.h"
 
 namespace trocar {
@@ -10,10 +8,7 @@ namespace {
 
 using namespace cutting_test;
 
-int n_cuts() {
-  const char* text = std::getenv("TROCAR_CUTS");
-  return text != nullptr ? std::atoi(text) : 50;
-}
+const int n_random_bodies = n_cuts_or(50);
 
 Mesh mesh_of(int kind) {
   const BoxElements elements = kind % 2 == 0 ? BoxElements::tet4_kuhn : BoxElements::tet4_five;
@@ -68,12 +63,12 @@ class Figures {
   int n_duplicated_ = 0, n_refused_ = 0, n_right_ = 0;
 };
 
-// Runs `stroke` on n_cuts() bodies; every one must stay sound and keep its mass.
+// Runs `stroke` on n_random_bodies bodies; every one must stay sound and keep its mass.
 template <class Stroke>
 Figures run(const std::string& name, int n_pieces_expected, const Stroke& stroke) {
   Figures figures(name);
   std::mt19937 random(7);
-  for (int k = 0; k < n_cuts(); ++k) {
+  for (int k = 0; k < n_random_bodies; ++k) {
     Body body(mesh_of(k));
     const double h = mean_edge_of(body.mesh), step = least_step_of(body.mesh);
     const double mass_before = mass(body.mesh);
@@ -94,7 +89,7 @@ TEST(RandomCuts, in_one_sweep_part_the_body) {
   const Figures f = run("one sweep", 2, [](Body& body, const Plane& p, double) {
     return cut(body, plane_blade(p.centre, p.normal, 1.5), p.normal, 1);
   });
-  EXPECT_EQ(f.n_right(), n_cuts());
+  EXPECT_EQ(f.n_right(), n_random_bodies);
   EXPECT_GE(f.least_ratio(), floor_of_step);
   EXPECT_LT(f.deviation(), 1);  // an edge
 }
@@ -103,7 +98,7 @@ TEST(RandomCuts, in_small_steps_part_the_body) {
   const Figures f = run("small steps", 2, [](Body& body, const Plane& p, double h) {
     return cut(body, plane_blade(p.centre, p.normal, 1.5), p.normal, int(3 / (0.35 * h)));
   });
-  EXPECT_EQ(f.n_right(), n_cuts());
+  EXPECT_EQ(f.n_right(), n_random_bodies);
   EXPECT_GE(f.least_ratio(), floor_of_step);
   EXPECT_LT(f.deviation(), 1);
 }
@@ -115,7 +110,7 @@ TEST(RandomCuts, that_stop_inside_leave_one_piece) {
     return cut(body, straight_blade(begin - 0.25 * u, begin + 0.25 * u, 1.2 * way), p.normal,
                int(1.2 / (0.35 * h)));
   });
-  EXPECT_EQ(f.n_right(), n_cuts());
+  EXPECT_EQ(f.n_right(), n_random_bodies);
   EXPECT_GE(f.least_ratio(), floor_of_step);
 }
 
@@ -128,7 +123,7 @@ TEST(RandomCuts, that_cross_make_four_pieces) {
     cut(body, plane_blade(p.centre, p.normal, 1.5), p.normal, n, cutter);
     return cut(body, plane_blade(p.centre, second, 1.5), second, n, cutter);
   });
-  EXPECT_EQ(f.n_right(), n_cuts());
+  EXPECT_EQ(f.n_right(), n_random_bodies);
   EXPECT_GE(f.least_ratio(), floor_of_step);
 }
 
@@ -147,7 +142,7 @@ TEST(RandomCuts, of_a_body_that_is_deformed_and_moves_stay_sound) {
     return cut(body, plane_blade(p.centre, p.normal, 1.5), p.normal, int(3 / (0.35 * h)), cutter,
                swayed);
   });
-  EXPECT_EQ(f.n_right(), n_cuts());
+  EXPECT_EQ(f.n_right(), n_random_bodies);
   EXPECT_GE(f.least_ratio(), floor_of_step);
 }
 

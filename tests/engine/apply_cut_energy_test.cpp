@@ -9,37 +9,30 @@
 
 #include "engine/apply_cut_momentum.h"
 #include "engine/energy_ledger.h"
+#include "engine_blocks.h"
 #include "engine_started.h"
 #include "solver/watch.h"
 
 namespace trocar {
 namespace {
 
-struct Kind {
-  std::string elements, material, solver;
-};
+const std::vector<BodyKind> kinds_to_shake = {
+    {"tet4-kuhn", "", ""},
+    {"tet4-five", "", "precision = \"single\"\n"},
+    {"tet4-kuhn", "", "tetrahedron = \"nodal-pressure\"\n"},
+    {"tet4-kuhn", "prony = [ { share = 0.4, time = 0.5 } ]\n", ""},
+    {"tet4-kuhn", "", "mass_scaling_step = \"0.4 ms\"\n"},
+    {"hex8", "", ""},
+    {"hex8", "", "hexahedron = \"full\"\n"}};
 
-const std::vector<Kind> kinds = {{"tet4-kuhn", "", ""},
-                                 {"tet4-five", "", "precision = \"single\"\n"},
-                                 {"tet4-kuhn", "", "tetrahedron = \"nodal-pressure\"\n"},
-                                 {"tet4-kuhn", "prony = [ { share = 0.4, time = 0.5 } ]\n", ""},
-                                 {"tet4-kuhn", "", "mass_scaling_step = \"0.4 ms\"\n"},
-                                 {"hex8", "", ""},
-                                 {"hex8", "", "hexahedron = \"full\"\n"}};
-
-// 20 x 20 x 30 mm in cells of 5 mm, held at one end.
-std::unique_ptr<Started> block(const Kind& kind) {
-  return built(
-      "[time]\nduration = \"1 s\"\nframe_rate = 100\n[tissue.shape]\nkind = \"box\"\n"
-      "low = [-0.01, -0.01, 0]\nhigh = [0.01, 0.01, 0.03]\ncells = [4, 4, 6]\nelements = \"" +
-      kind.elements +
-      "\"\n[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\ndensity = 1000\n" +
-      kind.material + "[solver]\n" + kind.solver + "[[support]]\nregion = \"z+\"\nfix = \"xyz\"\n");
+std::unique_ptr<Started> held_block(const BodyKind& kind) {
+  return built(short_block(kind.elements, kind.material + "[solver]\n" + kind.solver +
+                                              "[[support]]\nregion = \"z+\"\nfix = \"xyz\"\n"));
 }
 
 // A wave of an eighth of its length 30 mm; nothing happens to supported nodes. The velocities are
 // those of a wave too.
-void shake(Simulation& s) {
+void make_wave(Simulation& s) {
   for (std::size_t i = 0; i < s.mesh.X.size(); ++i) {
     const Vec3& X = s.mesh.X[i];
     const double phase = 2 * std::numbers::pi * (X.x() + X.z()) / 0.03;
@@ -67,11 +60,11 @@ double kinetic_energy(const Simulation& s) {
 }
 
 TEST(StrainEnergy, is_raised_or_lowered_by_the_nodes_that_may_move_alone) {
-  for (const Kind& kind : kinds)
+  for (const BodyKind& kind : kinds_to_shake)
     for (const double ratio : {0.9, 1.05}) {
-      const auto started = block(kind);
+      const auto started = held_block(kind);
       Simulation& s = *started->s;
-      shake(s);
+      make_wave(s);
       const std::vector<std::int32_t> nodes = inner_nodes(s);
       const std::vector<double> before = s.state.u;
       const double wanted = ratio * strain_energy(s);
@@ -86,9 +79,9 @@ TEST(StrainEnergy, is_raised_or_lowered_by_the_nodes_that_may_move_alone) {
 }
 
 TEST(StrainEnergy, that_is_near_what_it_was_moves_nothing) {
-  const auto started = block(kinds[0]);
+  const auto started = held_block(kinds_to_shake[0]);
   Simulation& s = *started->s;
-  shake(s);
+  make_wave(s);
   const std::vector<double> before = s.state.u;
   const double W = strain_energy(s);
   EXPECT_EQ(restore_strain_energy(inner_nodes(s), 1.004 * W, 0.005 * W, s), W - 1.004 * W);
@@ -96,9 +89,9 @@ TEST(StrainEnergy, that_is_near_what_it_was_moves_nothing) {
 }
 
 TEST(StrainEnergy, out_of_reach_crushes_no_element) {
-  const auto started = block(kinds[0]);
+  const auto started = held_block(kinds_to_shake[0]);
   Simulation& s = *started->s;
-  shake(s);
+  make_wave(s);
   const double W = strain_energy(s), J = watch(s.model, s.part, s.state).least_J;
   ASSERT_GT(J, 0);
   restore_strain_energy(inner_nodes(s), 1000 * W, W, s);
@@ -109,10 +102,10 @@ TEST(StrainEnergy, out_of_reach_crushes_no_element) {
 // Promised: 1 %. Each half of it, so that they don't cancel each other. Without what is adjusted it
 // is more.
 TEST(EditEnergy, is_that_of_before_to_one_percent) {
-  for (const Kind& kind : kinds) {
-    const auto started = block(kind);
+  for (const BodyKind& kind : kinds_to_shake) {
+    const auto started = held_block(kind);
     Simulation& s = *started->s;
-    shake(s);
+    make_wave(s);
     EXPECT_EQ(s.added_mass.has_value(), kind.solver.find("mass_scaling") != std::string::npos);
     const double strain = strain_energy(s), kinetic = kinetic_energy(s);
     GlobalState global = gather_state(s);
@@ -135,8 +128,8 @@ TEST(EditEnergy, is_that_of_before_to_one_percent) {
 
 // u = A X is carried exactly by interpolation: nobody has to move.
 TEST(EditEnergy, leaves_a_uniform_strain_as_it_is) {
-  for (const Kind& kind : {kinds[0], kinds[5]}) {
-    const auto started = block(kind);
+  for (const BodyKind& kind : {kinds_to_shake[0], kinds_to_shake[5]}) {
+    const auto started = held_block(kind);
     Simulation& s = *started->s;
     std::fill(s.fixed.begin(), s.fixed.end(), FixedMask{0});
     const auto displacement = [](const Vec3& X) {
@@ -162,13 +155,13 @@ Motion motion_of_all(const Simulation& s, const GlobalState& global) {
 
 // A fifth of the energy is more than the elements around one node have, so it takes rings.
 TEST(EditEnergy, is_taken_up_around_nodes_that_can_not_restore_it) {
-  for (const Kind& kind : kinds)
+  for (const BodyKind& kind : kinds_to_shake)
     for (const double share : {0.05, 0.2}) {
-      const auto started = block(kind);
+      const auto started = held_block(kind);
       Simulation& s = *started->s;
       s.corners = node_corners(s.mesh);
       open_energy_ledger(s);
-      shake(s);
+      make_wave(s);
       const double W = strain_energy(s), surplus = share * W;
       const EnergyState energy = mechanical_energy(s);
       GlobalState global = gather_state(s);
@@ -193,7 +186,7 @@ TEST(EditEnergy, is_taken_up_around_nodes_that_can_not_restore_it) {
 }
 
 TEST(EditEnergy, is_restored_by_nodes_that_may_go_somewhere) {
-  const auto started = block(kinds[5]);
+  const auto started = held_block(kinds_to_shake[5]);
   Simulation& s = *started->s;
   s.holds.holds = {{.node = 7, .tool = 0}};
   const std::int32_t n = s.mesh.n_nodes(), supported = n - 1;
@@ -213,9 +206,9 @@ TEST(EditEnergy, is_restored_by_nodes_that_may_go_somewhere) {
 }
 
 TEST(KineticEnergy, is_added_without_momentum) {
-  const auto started = block(kinds[0]);
+  const auto started = held_block(kinds_to_shake[0]);
   Simulation& s = *started->s;
-  shake(s);
+  make_wave(s);
   GlobalState global = gather_state(s);
   for (std::size_t k = 0; k < global.v.size(); k += 3) global.v[k] += 0.3;
   const std::vector<std::int32_t> nodes = inner_nodes(s);
@@ -239,7 +232,7 @@ TEST(KineticEnergy, is_added_without_momentum) {
 }
 
 TEST(KineticEnergy, of_a_rigid_motion_stays_what_it_is) {
-  const auto started = block(kinds[0]);
+  const auto started = held_block(kinds_to_shake[0]);
   Simulation& s = *started->s;
   GlobalState global = gather_state(s);
   for (std::size_t i = 0; i < s.mesh.X.size(); ++i)

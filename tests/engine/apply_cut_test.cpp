@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/frame_watch.h"
+#include "engine_blocks.h"
 #include "engine_scene.h"
 #include "engine_split.h"
 #include "engine_started.h"
@@ -19,14 +20,6 @@
 
 namespace trocar {
 namespace {
-
-// 20 x 20 x 30 mm in cells of 5 mm.
-std::string block_text(const std::string& elements, const std::string& more) {
-  return "[time]\nduration = \"1 s\"\nframe_rate = 100\n[tissue.shape]\nkind = \"box\"\n"
-         "low = [-0.01, -0.01, 0]\nhigh = [0.01, 0.01, 0.03]\ncells = [4, 4, 6]\nelements = \"" +
-         elements + "\"\n[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\n" +
-         "density = 1000\n" + more;
-}
 
 // A blade through the middle, 18 degrees off the level and more than the block wide, in 0.1 s.
 const std::string level_blade =
@@ -55,7 +48,7 @@ Vec3 centre_of(const Simulation& s, const std::vector<std::int32_t>& piece, std:
 
 TEST(FreedPiece, falls_like_a_body_of_its_own_and_is_counted) {
   for (const char* elements : {"tet4-kuhn", "hex8"}) {
-    const auto started = built(block_text(elements, hanging + level_blade));
+    const auto started = built(short_block(elements, hanging + level_blade));
     Simulation& s = *started->s;
     Outputs outputs;
     while (s.frame < 14) run_frame(s, outputs);
@@ -95,7 +88,7 @@ TEST(FreedPiece, can_be_grasped) {
       "{ time = 0, position = [0, 0, -0.003], direction = [0, 0, 1], forward = [0, 1, 0] },\n"
       "{ time = 0.05, position = [0, 0, -0.003], direction = [0, 0, 1], forward = [0, 1, 0], "
       "action = \"close\" } ]\n";
-  const auto started = built(block_text("hex8", hanging + level_blade + grasper));
+  const auto started = built(short_block("hex8", hanging + level_blade + grasper));
   Simulation& s = *started->s;
   Outputs outputs;
   while (s.frame < 40) run_frame(s, outputs);
@@ -108,13 +101,13 @@ TEST(FreedPiece, can_be_grasped) {
   EXPECT_GT(centre_of(s, piece, piece[0]).z(), -0.01);
 }
 
-struct Motion {
+struct MassAndMomenta {
   double mass = 0;
   Vec3 momentum = Vec3::Zero(), angular = Vec3::Zero();
 };
 
-Motion motion_of(const Simulation& s) {
-  Motion m;
+MassAndMomenta momenta_of(const Simulation& s) {
+  MassAndMomenta m;
   for (std::size_t i = 0; i < s.mass.size(); ++i) {
     const Vec3 u(s.state.u[3 * i], s.state.u[3 * i + 1], s.state.u[3 * i + 2]);
     const Vec3 v(s.state.v[3 * i], s.state.v[3 * i + 1], s.state.v[3 * i + 2]);
@@ -149,7 +142,7 @@ CutRecord cut_at_once(Simulation& s) {
 // whole body from nothing may only find a longer one, up to what either may stop short of.
 TEST(ApplyCut, does_not_miss_a_mode_that_is_faster_after_the_edit) {
   for (const char* elements : {"tet4-kuhn", "tet4-five", "hex8"}) {
-    const auto started = built(block_text(elements, hanging + level_blade));
+    const auto started = built(short_block(elements, hanging + level_blade));
     Simulation& s = *started->s;
     Outputs outputs;
     std::int64_t n_edits = 0;
@@ -167,12 +160,12 @@ TEST(ApplyCut, does_not_miss_a_mode_that_is_faster_after_the_edit) {
 }
 
 TEST(ApplyCut, keeps_mass_and_both_momenta_where_hexahedra_are_converted) {
-  const auto started = built(block_text("hex8", ""));
+  const auto started = built(short_block("hex8", ""));
   Simulation& s = *started->s;
   set_in_motion(s);
-  const Motion before = motion_of(s);
+  const MassAndMomenta before = momenta_of(s);
   const CutRecord record = cut_at_once(s);
-  const Motion after = motion_of(s);
+  const MassAndMomenta after = momenta_of(s);
   EXPECT_GT(record.n_converted, 0);
   EXPECT_EQ(s.n_pieces, 2);
   // Rounding of some hundred terms; velocities are of 2 m/s, positions of 0.03 m.
@@ -189,7 +182,7 @@ void step_once(Simulation& s, double dt) {
 // Velocities are of half a step before the positions: who forgets how long that step was takes the
 // next one's change of velocity over half of its time.
 TEST(ApplyCut, that_changes_nothing_leaves_the_motion_to_go_on) {
-  const auto plain = built(block_text("hex8", "")), edited = built(block_text("hex8", ""));
+  const auto plain = built(short_block("hex8", "")), edited = built(short_block("hex8", ""));
   for (Started* started : {plain.get(), edited.get()}) {
     set_in_motion(*started->s);
     for (int k = 0; k < 5; ++k) step_once(*started->s, 1e-4);
@@ -227,8 +220,8 @@ std::vector<std::vector<double>> history_per_volume(const Simulation& s) {
 TEST(ApplyCut, keeps_the_viscous_stress_of_converted_hexahedra) {
   for (const char* hexahedron : {"one-point", "full"}) {
     const auto started = built(
-        block_text("hex8", "prony = [ { share = 0.4, time = 0.5 } ]\n[solver]\nhexahedron = \"" +
-                               std::string(hexahedron) + "\"\n"));
+        short_block("hex8", "prony = [ { share = 0.4, time = 0.5 } ]\n[solver]\nhexahedron = \"" +
+                                std::string(hexahedron) + "\"\n"));
     Simulation& s = *started->s;
     for (std::size_t i = 0; i < s.mass.size(); ++i) {  // one stretch everywhere
       s.state.u[3 * i] = 0.1 * s.mesh.X[i].x();
@@ -261,14 +254,14 @@ TEST(ApplyCut, keeps_the_viscous_stress_of_split_tetrahedra_and_all_momenta) {
   for (const double value : before[0]) largest = std::max(largest, std::abs(value));
   ASSERT_GT(largest, 1);  // [Pa]
   set_in_motion(s);
-  const Motion motion = motion_of(s);
+  const MassAndMomenta motion = momenta_of(s);
   EXPECT_GT(split_plate(s).n_inserted, 300);
   const auto after = history_per_volume(s);
   EXPECT_GT(after.size(), 2 * before.size());
   for (const auto& element : after)
     for (std::size_t k = 0; k < element.size(); ++k)
       EXPECT_NEAR(element[k], before[0][k], 1e-12 * largest);  // rounding
-  const Motion now = motion_of(s);
+  const MassAndMomenta now = momenta_of(s);
   EXPECT_NEAR(now.mass, motion.mass, 1e-13 * motion.mass);
   EXPECT_LT((now.momentum - motion.momentum).norm(), 1e-12 * motion.mass * 2);
   EXPECT_LT((now.angular - motion.angular).norm(), 1e-12 * motion.mass * 2 * 0.03);

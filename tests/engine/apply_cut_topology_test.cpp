@@ -12,6 +12,7 @@
 #include "engine/apply_cut.h"
 #include "engine/energy_ledger.h"
 #include "engine/frame_watch.h"
+#include "engine_blocks.h"
 #include "engine_scene.h"
 #include "engine_split.h"
 #include "engine_started.h"
@@ -24,17 +25,6 @@
 
 namespace trocar {
 namespace {
-
-// 40 x 32 x 32 mm in cells of 4 mm, hanging.
-std::string scene_of(const std::string& elements, const std::string& solver) {
-  return "[time]\nduration = \"1 s\"\nframe_rate = 100\n[tissue.shape]\nkind = \"box\"\n"
-         "low = [-0.02, -0.016, 0]\nhigh = [0.02, 0.016, 0.032]\ncells = [10, 8, 8]\n"
-         "elements = \"" +
-         elements +
-         "\"\n[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\ndensity = 1000\n"
-         "[solver]\n" +
-         solver + "[[support]]\nregion = \"z+\"\nfix = \"xyz\"\n";
-}
 
 constexpr int n_bands = 8;
 
@@ -70,9 +60,9 @@ int for_edits(Simulation& s, const Body& body) {
 
 // Longer than the steps of elements beside a cut.
 const std::string scaled = "mass_scaling_step = \"0.45 ms\"\n", sleepy = "sleep = \"0.1 mm\"\n";
-const std::string local = "multirate = true\n";
+const std::string in_local_steps = "multirate = true\n";
 const std::string viscosity = "[[tissue.material.prony]]\nshare = 0.4\ntime = 0.1\n";
-const std::vector<std::pair<std::string, std::string>> kinds = {
+const std::vector<std::pair<std::string, std::string>> solved_kinds = {
     {"tet4-kuhn", ""},
     {"tet4-five", "precision = \"single\"\n"},
     {"tet4-kuhn", "tetrahedron = \"nodal-pressure\"\n"},
@@ -85,8 +75,8 @@ const std::vector<std::pair<std::string, std::string>> kinds = {
     {"tet4-kuhn", scaled},
     {"tet4-five", scaled + viscosity},
     {"hex8", scaled + sleepy},
-    {"tet4-kuhn", local},
-    {"hex8", local + sleepy}};
+    {"tet4-kuhn", in_local_steps},
+    {"hex8", in_local_steps + sleepy}};
 
 void make_half_stiffer(Simulation& s) {
   s.mesh.region_name = {"", "stiff"};
@@ -192,9 +182,9 @@ void apply_and_rebuild(Simulation& s, GlobalState& global, const MeshEdit& edit,
 
 TEST(Topology, after_an_edit_is_that_of_the_edited_mesh) {
   int n_with_local_steps = 0;
-  for (const auto& [elements, solver] : kinds)
+  for (const auto& [elements, solver] : solved_kinds)
     for (const int n_threads : {1, 2}) {
-      const auto started = built(scene_of(elements, solver));
+      const auto started = built(hanging_block({elements, "", solver}));
       set_thread_count(n_threads);
       Simulation& s = *started->s;
       if (n_threads == 2) make_half_stiffer(s);
@@ -225,7 +215,7 @@ TEST(Topology, after_elements_are_split_is_that_of_the_edited_mesh) {
   for (const std::string elements : {"tet4-kuhn", "tet4-five"})
     for (const std::string& solver : {std::string(), std::string("precision = \"single\"\n"),
                                       std::string("tetrahedron = \"nodal-pressure\"\n"), viscosity,
-                                      sleepy, scaled, local, scaled + viscosity}) {
+                                      sleepy, scaled, in_local_steps, scaled + viscosity}) {
       const auto started = built(plate_of(elements, solver) + "[[support]]\nregion = \"x+\"\n");
       Simulation& s = *started->s;
       set_thread_count(elements == "tet4-five" ? 2 : 1);
@@ -251,8 +241,8 @@ TEST(Topology, after_elements_are_split_is_that_of_the_edited_mesh) {
 }
 
 TEST(Topology, of_an_edit_changes_the_ledger_by_what_the_whole_body_gains) {
-  for (const auto& [elements, solver] : kinds) {
-    const auto started = built(scene_of(elements, "gravity = [1, 0, -9.81]\n" + solver));
+  for (const auto& [elements, solver] : solved_kinds) {
+    const auto started = built(hanging_block({elements, "", "gravity = [1, 0, -9.81]\n" + solver}));
     Simulation& s = *started->s;
     open_energy_ledger(s);
     bend_and_move(s);
@@ -284,9 +274,9 @@ bool is_inside(const Part& part, const Mesh& mesh, std::span<const std::int32_t>
 // The parts and models of three ranks, all in this process.
 TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
   int n_inside = 0, n_at_border = 0;  // edits
-  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
-    const auto& [elements, solver] = kinds[kind];
-    const auto started = built(scene_of(elements, solver));
+  for (std::size_t kind = 0; kind < solved_kinds.size(); ++kind) {
+    const auto& [elements, solver] = solved_kinds[kind];
+    const auto started = built(hanging_block({elements, "", solver}));
     set_thread_count(1 + static_cast<int>(kind % 2));
     Simulation& s = *started->s;
     s.corners = node_corners(s.mesh);

@@ -7,12 +7,13 @@
 #include <memory>
 
 #include "engine/energy_ledger.h"
+#include "engine_motion.h"
 #include "engine_started.h"
 
 namespace trocar {
 namespace {
 
-constexpr double g = 9.81, height = 0.03;
+constexpr double height = 0.03;
 
 // Of mass.
 double centre(const Simulation& s, int j) {

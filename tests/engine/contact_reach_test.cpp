@@ -60,7 +60,7 @@ TEST(ContactReach, is_that_of_the_far_end_of_a_shaft) {
 }
 
 // A plate whose supports at two sides take it upwards by 20 mm in 60 ms, against a ball 3 mm above.
-const std::string lifted = R"([tissue.shape]
+const std::string lifted_plate = R"([tissue.shape]
 kind = "box"
 low = [-0.02, -0.02, -0.004]
 high = [0.02, 0.02, 0]
@@ -84,7 +84,7 @@ path = [{ time = 0, position = [0, 0, 0.003] }]
 
 // With the speed at the frame's beginning alone, the plate passed the ball at 30 Hz.
 TEST(ContactReach, is_that_of_what_supports_take_along) {
-  expect_same_at_both_rates("lifted plate", 0.5, 0.5, lifted);
+  expect_same_at_both_rates("lifted plate", 0.5, 0.5, lifted_plate);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace trocar {
 namespace {
 
 // A slab of tissue with its upper side at z = 0.
-Mesh slab() {
+Mesh slab_mesh() {
   return make_box(Vec3(-0.05, -0.05, -0.02), Vec3(0.05, 0.05, 0), {10, 10, 2},
                   BoxElements::tet4_kuhn);
 }
@@ -31,14 +31,14 @@ bool is_shaft(const Contact& contact) {
   return contact.piece < first_working_piece;
 }
 
-struct Case {
-  Mesh mesh = slab();
+struct SlabUnderTool {
+  Mesh mesh = slab_mesh();
   std::vector<Tool> tools;
   Holds holds;
   SurfaceView view;
   ContactStage stage;
 
-  explicit Case(Tool tool)
+  explicit SlabUnderTool(Tool tool)
       : tools{std::move(tool)}, stage{.detector = ContactDetector({tools[0].shape})} {
     holds.is_open.assign(1, 1);
     view.x = mesh.X;
@@ -51,15 +51,16 @@ struct Case {
 };
 
 TEST(ContactStage, sees_a_probe_on_the_tissue_and_none_above_it) {
-  Case on(resting_tool(InstrumentKind::probe, {.position = Vec3(0.003, 0.002, -0.0005)}));
+  SlabUnderTool on(resting_tool(InstrumentKind::probe, {.position = Vec3(0.003, 0.002, -0.0005)}));
   EXPECT_FALSE(on.detect().empty());
-  Case above(resting_tool(InstrumentKind::probe, {.position = Vec3(0.003, 0.002, 0.0101)}));
+  SlabUnderTool above(
+      resting_tool(InstrumentKind::probe, {.position = Vec3(0.003, 0.002, 0.0101)}));
   EXPECT_TRUE(above.detect(0.01).empty());
   EXPECT_FALSE(above.detect(0.0102).empty());  // tissue may come up as far as that
 }
 
 TEST(ContactStage, looks_as_far_as_the_tool_travels_in_the_frame) {
-  Case c(resting_tool(InstrumentKind::probe, {.position = Vec3(0.003, 0.002, 0.005)}));
+  SlabUnderTool c(resting_tool(InstrumentKind::probe, {.position = Vec3(0.003, 0.002, 0.005)}));
   EXPECT_TRUE(c.detect().empty());
   SceneInstrument falling{.name = "p",
                           .path = {{.time = 0, .position = Vec3(0.003, 0.002, 0.005)},
@@ -75,7 +76,7 @@ TEST(ContactStage, looks_as_far_as_the_end_of_the_shaft_travels) {
   turning.path = {{.time = 0, .position = tip, .direction = Vec3(-1, 0, 0)},
                   {.time = 0.033, .position = tip, .direction = Vec3(-1, 0, 0.1)}};
   for (InstrumentKey& key : turning.path) key.forward = Vec3(0, 1, 0);
-  Case c(make_tool(turning, {}, 1e-3));
+  SlabUnderTool c(make_tool(turning, {}, 1e-3));
   EXPECT_FALSE(c.detect().empty());
   turning.path.pop_back();
   c.tools[0] = make_tool(turning, {}, 1e-3);
@@ -83,7 +84,7 @@ TEST(ContactStage, looks_as_far_as_the_end_of_the_shaft_travels) {
 }
 
 // Contacts of the slab as it lies, looked at anew.
-std::vector<Contact> touching(Case& c) {
+std::vector<Contact> touching(SlabUnderTool& c) {
   std::vector<Contact> found;
   for (Contact contact : c.detect()) {
     ContactDetector::Corners corners;
@@ -99,16 +100,16 @@ std::vector<Contact> touching(Case& c) {
 
 // Upright on its tip, a blade would touch with its edge: it cuts there instead.
 TEST(ContactStage, a_blade_does_not_touch_with_its_edge) {
-  Case c(resting_tool(InstrumentKind::scalpel, {.position = Vec3(0.003, 0.002, 0.0003)}));
+  SlabUnderTool c(resting_tool(InstrumentKind::scalpel, {.position = Vec3(0.003, 0.002, 0.0003)}));
   ASSERT_FALSE(c.detect().empty());
   EXPECT_TRUE(touching(c).empty());
 }
 
 // Lying flat: y of the blade's frame is the tissue's normal.
 TEST(ContactStage, a_blade_touches_with_its_flat_sides) {
-  Case c(resting_tool(InstrumentKind::scalpel, {.position = Vec3(0.003, 0.002, 0.0004),
-                                                .direction = Vec3(0, 1, 0),
-                                                .forward = Vec3(1, 0, 0)}));
+  SlabUnderTool c(resting_tool(InstrumentKind::scalpel, {.position = Vec3(0.003, 0.002, 0.0004),
+                                                         .direction = Vec3(0, 1, 0),
+                                                         .forward = Vec3(1, 0, 0)}));
   const std::vector<Contact> contacts = touching(c);
   const auto n_blade = std::count_if(contacts.begin(), contacts.end(), [](const Contact& contact) {
     return contact.piece >= first_working_piece;
@@ -121,18 +122,18 @@ TEST(ContactStage, a_blade_touches_with_its_flat_sides) {
 }
 
 TEST(ContactStage, a_probe_keeps_contacts_with_any_normal) {
-  Case c(resting_tool(InstrumentKind::probe,
-                      {.position = Vec3(0.003, 0.002, -0.0005), .direction = Vec3(0, 0, -1)}));
+  SlabUnderTool c(resting_tool(InstrumentKind::probe, {.position = Vec3(0.003, 0.002, -0.0005),
+                                                       .direction = Vec3(0, 0, -1)}));
   const std::vector<Contact>& contacts = c.detect();
   EXPECT_TRUE(std::any_of(contacts.begin(), contacts.end(),
                           [](const Contact& k) { return std::abs(k.normal.y()) < 0.7; }));
 }
 
 // A grasper lying on the slab: shaft and jaws both touch.
-Case lying_grasper() {
-  return Case(resting_tool(InstrumentKind::grasper, {.position = Vec3(0.003, -0.03, 0.001),
-                                                     .direction = Vec3(0, -1, -0.01),
-                                                     .forward = Vec3(1, 0, 0)}));
+SlabUnderTool lying_grasper() {
+  return SlabUnderTool(resting_tool(InstrumentKind::grasper, {.position = Vec3(0.003, -0.03, 0.001),
+                                                              .direction = Vec3(0, -1, -0.01),
+                                                              .forward = Vec3(1, 0, 0)}));
 }
 
 std::set<std::int32_t> pieces_of(const std::vector<Contact>& contacts) {
@@ -142,7 +143,7 @@ std::set<std::int32_t> pieces_of(const std::vector<Contact>& contacts) {
 }
 
 TEST(ContactStage, closed_jaws_touch_in_place_of_open_ones) {
-  Case c = lying_grasper();
+  SlabUnderTool c = lying_grasper();
   EXPECT_EQ(pieces_of(c.detect()), (std::set<std::int32_t>{0, 1, 2}));
   c.holds.is_open[0] = 0;
   EXPECT_EQ(pieces_of(c.detect()), (std::set<std::int32_t>{0, 3}));
@@ -150,7 +151,7 @@ TEST(ContactStage, closed_jaws_touch_in_place_of_open_ones) {
 
 // As deep as their axis lies.
 TEST(ContactStage, tissue_between_closed_jaws_does_not_touch_them) {
-  Case c = lying_grasper();
+  SlabUnderTool c = lying_grasper();
   c.holds.is_open[0] = 0;
   ASSERT_EQ(pieces_of(c.detect()).count(3), 1U);
   SceneInstrument lower{.kind = InstrumentKind::grasper, .name = "tool"};
@@ -160,7 +161,7 @@ TEST(ContactStage, tissue_between_closed_jaws_does_not_touch_them) {
 }
 
 TEST(ContactStage, a_shaft_does_not_touch_what_its_closed_jaws_hold) {
-  Case c = lying_grasper();
+  SlabUnderTool c = lying_grasper();
   c.holds.is_open[0] = 0;
   const std::vector<Contact> before = c.detect();
   ASSERT_FALSE(before.empty());
@@ -210,7 +211,7 @@ TEST(MoveTools, gives_no_velocity_to_a_resting_tool) {
 }
 
 TEST(ContactReactions, are_the_mean_over_the_substeps_by_tool) {
-  Case c(resting_tool(InstrumentKind::probe, {.position = Vec3::Zero()}));
+  SlabUnderTool c(resting_tool(InstrumentKind::probe, {.position = Vec3::Zero()}));
   c.stage.set.items.resize(3);
   for (std::size_t k = 0; k < 3; ++k) {
     c.stage.set.items[k].contact.tool = k == 2 ? 1 : 0;
@@ -229,7 +230,7 @@ TEST(ContactReactions, are_the_mean_over_the_substeps_by_tool) {
 }
 
 TEST(PrepareFrameContacts, starts_each_frame_without_reactions_and_moves_nothing_that_is_held) {
-  Case c(resting_tool(InstrumentKind::probe, {.position = Vec3(0.003, 0.002, -0.0005)}));
+  SlabUnderTool c(resting_tool(InstrumentKind::probe, {.position = Vec3(0.003, 0.002, -0.0005)}));
   ASSERT_FALSE(c.detect().empty());
   const std::vector<std::int32_t> owner(c.mesh.X.size(), 0);
   const std::vector<double> mass(c.mesh.X.size(), 1e-3);
@@ -251,7 +252,7 @@ TEST(PrepareFrameContacts, starts_each_frame_without_reactions_and_moves_nothing
 }
 
 TEST(SharePositions, puts_the_displacements_of_both_ends_of_the_step_on_the_nodes) {
-  Case c(resting_tool(InstrumentKind::probe, {.position = Vec3(0.003, 0.002, -0.0005)}));
+  SlabUnderTool c(resting_tool(InstrumentKind::probe, {.position = Vec3(0.003, 0.002, -0.0005)}));
   ASSERT_FALSE(c.detect().empty());
   const std::vector<std::int32_t> owner(c.mesh.X.size(), 0);
   const std::vector<double> mass(c.mesh.X.size(), 1e-3);

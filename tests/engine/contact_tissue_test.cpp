@@ -10,6 +10,7 @@
 #include "collision/tissue_pairs.h"
 #include "engine/energy_ledger.h"
 #include "engine/frame_report.h"
+#include "engine_motion.h"
 #include "engine_started.h"
 #include "mesh/generate.h"
 #include "mesh/mesh_file.h"
@@ -17,8 +18,6 @@
 
 namespace trocar {
 namespace {
-
-constexpr double g = 9.81;
 
 std::string with_tissue(double friction) {
   return "[contact]\ntissue = true\nfriction = " + std::to_string(friction) + "\n";

@@ -53,7 +53,7 @@ std::vector<double> works(const std::string& text, double area, const std::vecto
 
 // 30 x 20 x 12 mm; a blade below its bottom parts it.
 constexpr double way = 0.03, depth = 0.012, below = -0.004, above = 0.03;
-std::string block(const std::string& elements) {
+std::string block_shape(const std::string& elements) {
   return "kind = \"box\"\nelements = \"" + elements +
          "\"\nlow = [-0.015, -0.01, 0]\nhigh = [0.015, 0.01, 0.012]\ncells = [12, 8, 5]\n";
 }
@@ -63,7 +63,7 @@ constexpr double tolerance = 0.05;
 
 TEST(CutFront, is_nowhere_in_the_slit_that_the_blade_has_cut) {
   for (const std::string elements : {"tet4-kuhn", "tet4-five", "hex8"}) {
-    const std::vector<double> work = works(pass_text(block(elements), 60,
+    const std::vector<double> work = works(pass_text(block_shape(elements), 60,
                                                      {{0.1, -0.03, below},
                                                       {0.6, 0.03, below},
                                                       {0.7, 0.03, above},
@@ -80,7 +80,7 @@ TEST(CutFront, is_nowhere_in_the_slit_that_the_blade_has_cut) {
 
 // The slit ends up to an element of 2.5 mm behind where the blade was.
 TEST(CutFront, is_where_a_slit_ends_that_the_blade_goes_on_from) {
-  const std::vector<double> work = works(pass_text(block("tet4-kuhn"), 60,
+  const std::vector<double> work = works(pass_text(block_shape("tet4-kuhn"), 60,
                                                    {{0.1, -0.03, below},
                                                     {0.45, 0, below},
                                                     {0.55, 0, above},
@@ -96,7 +96,7 @@ TEST(CutFront, is_where_a_slit_ends_that_the_blade_goes_on_from) {
 // its slit it begins anew where that ends.
 TEST(CutFront, is_not_met_by_a_blade_that_goes_back) {
   for (const double back : {0.001, 0.01}) {
-    const std::vector<double> work = works(pass_text(block("tet4-kuhn"), 60,
+    const std::vector<double> work = works(pass_text(block_shape("tet4-kuhn"), 60,
                                                      {{0.1, -0.03, below},
                                                       {0.4, 0, below},
                                                       {0.6, -back, below},
@@ -142,9 +142,9 @@ TEST(CutFront, does_the_work_of_the_area_at_any_frame_rate_and_phase) {
 
 // Down along its edge and up again.
 TEST(CutFront, is_nowhere_along_an_edge_that_moves_along_itself) {
-  const std::vector<double> work =
-      works(pass_text(block("tet4-kuhn"), 60, {{0.1, 0, 0.03}, {0.3, 0, 0.002}, {0.5, 0, 0.03}}),
-            way * depth, {0.55});
+  const std::vector<double> work = works(
+      pass_text(block_shape("tet4-kuhn"), 60, {{0.1, 0, 0.03}, {0.3, 0, 0.002}, {0.5, 0, 0.03}}),
+      way * depth, {0.55});
   EXPECT_NEAR(work[0], 0, 1e-12);
 }
 

@@ -13,10 +13,10 @@ namespace {
 
 // Four cells a side, of which those facets are marked as cut that lie in the plane x = 0.5 below
 // z = 0.5.
-struct Slit {
+struct SlitBox {
   Mesh mesh;
   std::vector<std::int32_t> all;
-  explicit Slit(BoxElements elements)
+  explicit SlitBox(BoxElements elements)
       : mesh(make_box(Vec3::Zero(), Vec3::Ones(), {4, 4, 4}, elements)),
         all(static_cast<std::size_t>(mesh.n_elements())) {
     std::iota(all.begin(), all.end(), 0);
@@ -41,7 +41,7 @@ struct Slit {
 TEST(IsParted, where_a_segment_goes_through_a_cut_facet) {
   for (const BoxElements elements :
        {BoxElements::tet4_kuhn, BoxElements::tet4_five, BoxElements::hex8}) {
-    const Slit slit(elements);
+    const SlitBox slit(elements);
     for (const double y : {0.1, 0.25, 0.5, 0.61})
       for (const double z : {0.1, 0.25, 0.37}) {
         EXPECT_TRUE(slit.parts({0.4, y, z}, {0.6, y, z}));
@@ -53,13 +53,13 @@ TEST(IsParted, where_a_segment_goes_through_a_cut_facet) {
 }
 
 TEST(IsParted, not_by_a_slit_that_the_segment_goes_along) {
-  const Slit slit(BoxElements::tet4_kuhn);
+  const SlitBox slit(BoxElements::tet4_kuhn);
   EXPECT_FALSE(slit.parts({0.45, 0.1, 0.2}, {0.55, 0.4, 0.2})) << "71 degrees off the normal";
   EXPECT_FALSE(slit.parts({0.5, 0.1, 0.2}, {0.5, 0.4, 0.2}));
 }
 
 TEST(IsParted, not_by_the_outer_surface) {
-  const Slit slit(BoxElements::hex8);
+  const SlitBox slit(BoxElements::hex8);
   EXPECT_FALSE(slit.parts({-0.1, 0.3, 0.3}, {0.1, 0.3, 0.3}));
 }
 

@@ -11,7 +11,7 @@
 namespace trocar {
 namespace {
 
-std::string slab() {
+std::string slab_text() {
   return "[time]\nduration = 4\nframe_rate = 30\n[tissue.shape]\nkind = \"box\"\nelements = "
          "\"tet4-five\"\nhigh = [0.0456, 0.053, 0.0065]\ncells = [17, 20, "
          "2]\n[tissue.material]\nyoung_modulus = 3000\npoisson_ratio = 0.4\n[solver]\n"
@@ -35,7 +35,7 @@ TEST(CutSeveral, four_strokes_of_a_scalpel_free_the_piece_between_them) {
       "[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.0305\nradius = 0.001\npath = [\n" +
       stroke(0.03, 4.6, 17.9, 33.4, 0) + stroke(0.56, 31.3, 11.2, 0, 33.4) +
       stroke(1.09, 38, 37.9, -33.4, 0) + stroke(1.63, 11.2, 44.6, 0, -33.4) + "]\n";
-  const auto started = built(slab() + scalpel);
+  const auto started = built(slab_text() + scalpel);
   Simulation& s = *started->s;
   while (s.frame < 63) run_frame(s, started->outputs);
   EXPECT_EQ(s.n_pieces, 2);

@@ -1,5 +1,7 @@
 #include "engine/cut_stage.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <functional>
 
@@ -100,14 +102,14 @@ Cut cut_along(const std::string& tissue, const std::string& from, const std::str
   return cut;
 }
 
-std::string box_text(const std::string& low, const std::string& high, const std::string& cells) {
+std::string tet_box(const std::string& low, const std::string& high, const std::string& cells) {
   return "[tissue.shape]\nkind = \"box\"\nelements = \"tet4-kuhn\"\nlow = [" + low + "]\nhigh = [" +
          high + "]\ncells = [" + cells + "]\n";
 }
 
 // 60 mm in so many seconds, from 0.2 to 1.2 m/s: a column of 8 mm is left behind within a frame.
 TEST(CutStage, cuts_what_the_blade_passes_between_two_frames) {
-  const std::string column = box_text("-0.004, -0.004, 0", "0.004, 0.004, 0.04", "3, 3, 15");
+  const std::string column = tet_box("-0.004, -0.004, 0", "0.004, 0.004, 0.04", "3, 3, 15");
   for (const double seconds : {0.3, 0.21, 0.12, 0.07, 0.05}) {
     const Cut cut =
         cut_along(column, "-0.03, -0.015, 0.02", "0.03, -0.015, 0.021", seconds, "[0, -1, 0]");
@@ -116,7 +118,7 @@ TEST(CutStage, cuts_what_the_blade_passes_between_two_frames) {
     EXPECT_TRUE(cut.goes_through) << seconds;
   }
   // Where the blade's tip passes through the tissue the cut ends there, as meant.
-  const std::string sheet = box_text("-0.002, -0.02, 0", "0.002, 0.02, 0.04", "2, 20, 20");
+  const std::string sheet = tet_box("-0.002, -0.02, 0", "0.002, 0.02, 0.04", "2, 20, 20");
   const Cut notch = cut_along(sheet, "-0.03, 0, 0.02", "0.03, 0, 0.02", 0.05, "[0, 0, -1]");
   EXPECT_EQ(notch.n_pieces, 1);
   EXPECT_GT(notch.n_opened, 20);
@@ -125,7 +127,7 @@ TEST(CutStage, cuts_what_the_blade_passes_between_two_frames) {
 }
 
 TEST(CutStage, cuts_a_membrane_between_the_points_of_the_edge) {
-  const std::string membrane = box_text("-0.03, -0.01, 0", "0.03, 0.01, 0.0003", "30, 10, 1");
+  const std::string membrane = tet_box("-0.03, -0.01, 0", "0.03, 0.01, 0.0003", "30, 10, 1");
   for (const double tip : {-0.0116, -0.0108}) {
     const std::string y_z = ", 0, " + std::to_string(tip);
     const Cut cut = cut_along(membrane, "-0.035" + y_z, "0.035" + y_z, 0.3, "[0, 0, -1]");
@@ -233,7 +235,7 @@ Meeting meet(const std::string& tissue, double share, double resistance, double 
 
 // The blade goes through all of a bar of 8 x 24 x 10 mm.
 TEST(CutStage, cuts_what_moves_onto_the_blade_as_what_the_blade_moves_into) {
-  const std::string bar = box_text("-0.004, 0.008, 0", "0.004, 0.032, 0.01", "4, 12, 5");
+  const std::string bar = tet_box("-0.004, 0.008, 0", "0.004, 0.032, 0.01", "4, 12, 5");
   for (const double share : {1.0, 0.5, 0.0, -1.0}) {
     const Meeting meeting = meet(bar, share, 20, -0.005);
     EXPECT_EQ(meeting.n_pieces, 2) << share;
@@ -258,7 +260,7 @@ TEST(CutStage, cuts_a_plate_that_moves_onto_the_blade) {
 TEST(CutStage, leaves_tissue_at_rest_alone_around_a_blade_at_rest) {
   const auto started =
       built("[time]\nduration = 1\nframe_rate = 30\n" +
-            box_text("-0.004, -0.012, 0", "0.004, 0.012, 0.01", "4, 12, 5") +
+            tet_box("-0.004, -0.012, 0", "0.004, 0.012, 0.01", "4, 12, 5") +
             "[cutting]\nresistance = 20\n[[support]]\nregion = \"y-\"\n[[instrument]]\nkind = "
             "\"scalpel\"\nblade_length = 0.04\npath = [{ time = 0, position = [0.001, 0.0013, "
             "-0.005], forward = [-1, 0, 0] }]\n");

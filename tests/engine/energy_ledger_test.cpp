@@ -7,11 +7,10 @@
 #include <cmath>
 
 #include "engine_started.h"
+#include "scene_parts.h"
 
 namespace trocar {
 namespace {
-
-const std::string metrics = "[[output]]\nkind = \"metrics\"\nfile = \"m.csv\"\n";
 
 // Work of the relaxing part of the stress in simple shear by x(t) / 0.01 of 1e-6 m^3, linear with
 // mu = 1 kPa: stress - mu gamma = mu (h - g gamma), h' = g gamma' - h / tau.
@@ -53,7 +52,7 @@ region = "z-"
 region = "z+"
 path = [{ time = 0.00, displacement = [0.000, 0, 0] }, { time = 0.05, displacement = [0.001, 0, 0] },
         { time = 0.10, displacement = [0.001, 0, 0] }, { time = 0.15, displacement = [0.000, 0, 0] }]
-)" + metrics;
+)" + metrics_table;
 }
 
 TEST(EnergyLedger, viscous_work_of_simple_shear_is_the_closed_form) {
@@ -74,7 +73,7 @@ TEST(EnergyLedger, viscous_work_of_simple_shear_is_the_closed_form) {
   }
 }
 
-struct Kind {
+struct FallingBody {
   std::string shape, material, solver;
 };
 
@@ -86,13 +85,13 @@ const std::string sheet =
     "high = [0.02, 0.03, 0]\ncells = [5, 7, 1]\n";
 
 // Largest error of a body that falls into its supports, over the largest energy.
-double balance_error(const Kind& kind, double step_factor) {
+double error_of_fall(const FallingBody& kind, double step_factor) {
   const auto started =
       built("[time]\nduration = 1\nframe_rate = 100\n" + kind.shape +
                 "[tissue.material]\nyoung_modulus = 4000\npoisson_ratio = 0.4\n" + kind.material +
                 "prony = [ { share = 0.3, time = 0.02 }, { share = 0.2, time = 0.2 } ]\n"
                 "[solver]\ngravity = [0, -9.81, 0]\n" +
-                kind.solver + "[[support]]\nregion = \"y+\"\n" + metrics,
+                kind.solver + "[[support]]\nregion = \"y+\"\n" + metrics_table,
             {"solver.step_factor=" + std::to_string(step_factor)});
   double error = 0, most = 0;
   for (int frame = 0; frame < 30; ++frame) {
@@ -108,17 +107,18 @@ double balance_error(const Kind& kind, double step_factor) {
 // Up to the scheme's own error, which falls with the square of the step; in single precision not
 // below its rounding.
 TEST(EnergyLedger, closes_with_viscosity) {
-  for (const Kind& kind :
-       {Kind{box + "\"hex8\"\n", "", ""}, Kind{box + "\"hex8\"\n", "", "hexahedron = \"full\"\n"},
-        Kind{box + "\"tet4-kuhn\"\n", "model = \"linear\"\n", ""},
-        Kind{box + "\"tet4-kuhn\"\n", "", "tetrahedron = \"nodal-pressure\"\n"},
-        Kind{sheet, "", ""}, Kind{sheet, "", "triangle = \"plane-stress\"\n"}}) {
-    const double error = balance_error(kind, 0.8), smaller = balance_error(kind, 0.2);
+  for (const FallingBody& kind :
+       {FallingBody{box + "\"hex8\"\n", "", ""},
+        FallingBody{box + "\"hex8\"\n", "", "hexahedron = \"full\"\n"},
+        FallingBody{box + "\"tet4-kuhn\"\n", "model = \"linear\"\n", ""},
+        FallingBody{box + "\"tet4-kuhn\"\n", "", "tetrahedron = \"nodal-pressure\"\n"},
+        FallingBody{sheet, "", ""}, FallingBody{sheet, "", "triangle = \"plane-stress\"\n"}}) {
+    const double error = error_of_fall(kind, 0.8), smaller = error_of_fall(kind, 0.2);
     std::printf("%.2g of the energy, with a quarter of the step %.2g\n", error, smaller);
     EXPECT_LT(error, 0.01) << kind.shape << kind.solver;
     EXPECT_LT(smaller, error / 8) << kind.shape << kind.solver;
   }
-  EXPECT_LT(balance_error({box + "\"hex8\"\n", "", "precision = \"single\"\n"}, 0.2), 1e-3);
+  EXPECT_LT(error_of_fall({box + "\"hex8\"\n", "", "precision = \"single\"\n"}, 0.2), 1e-3);
 }
 
 // A bar of one layer of cells, bent by its end and then held until nine tenths of its shear modulus
@@ -132,7 +132,7 @@ double bent_bar_error(const std::string& hexahedron, double step_factor) {
           hexahedron + "\"\n[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"x+\"\n" +
           "path = [{ time = 0, displacement = [0, 0, 0] },"
           " { time = 0.1, displacement = [0, 0, 0.005] }]\n" +
-          metrics,
+          metrics_table,
       {"solver.step_factor=" + std::to_string(step_factor)});
   double error = 0;
   for (int frame = 0; frame < 30; ++frame) {
@@ -165,7 +165,7 @@ TEST(EnergyLedger, tells_when_and_how_much_the_balance_misses) {
   rows[0].energy_error = 0.1;
   rows[1].energy_error = -0.9;
   rows[2].energy_error = -1.2;
-  const BalanceError error = trocar::balance_error(rows);
+  const BalanceError error = balance_error(rows);
   EXPECT_EQ(error.largest, 1.2);
   EXPECT_DOUBLE_EQ(error.share, 1.2 / 8);
   EXPECT_DOUBLE_EQ(error.time, 0.2);
@@ -189,7 +189,7 @@ TEST(EnergyLedger, says_nothing_of_hourglass_energy_in_free_fall) {
   const auto started = built(
       "[time]\nduration = 0.5\n[tissue.shape]\nkind = \"box\"\ncells = [3, 4, 5]\n[solver]\n"
       "gravity = [0.3, 1.1, -9.7]\n" +
-      metrics);
+      metrics_table);
   Simulation& s = *started->s;
   while (s.frame < 14) run_frame(s, started->outputs);
   EXPECT_GT(s.log.rows.back().energy.kinetic, 1);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine_motion.h"
 #include "engine_scene.h"
 #include "engine_started.h"
 
@@ -24,19 +25,19 @@ std::string column_text(const std::string& elements, const std::string& material
 }
 
 const std::string downwards = "[solver]\ngravity = [0, 0, -9.81]\n";
-const std::string soft = "young_modulus = 6000\npoisson_ratio = 0.4\ndensity = 1000\n";
-const std::string viscous =
-    soft + "prony = [ { share = 0.4, time = 0.02 }, { share = 0.1, time = 0.1 } ]\n";
+const std::string soft_tissue = "young_modulus = 6000\npoisson_ratio = 0.4\ndensity = 1000\n";
+const std::string viscous_tissue =
+    soft_tissue + "prony = [ { share = 0.4, time = 0.02 }, { share = 0.1, time = 0.1 } ]\n";
 // A plane body that hangs from its left side.
 const std::string plane_text =
     "[time]\nduration = \"1 s\"\n[start]\nstate = \"equilibrium\"\n"
     "[tissue]\nthickness = 0.005\n[tissue.shape]\nkind = \"triangular-rectangle\"\n"
     "high = [0.04, 0.02, 0]\ncells = [9, 5, 1]\n[tissue.material]\n" +
-    soft + "[[support]]\nregion = \"x-\"\n[checkpoint]\nevery = 0\n" +
+    soft_tissue + "[[support]]\nregion = \"x-\"\n[checkpoint]\nevery = 0\n" +
     "[solver]\ngravity = [0, -9.81, 0]\n";
 
-std::unique_ptr<Started> started(const std::string& text,
-                                 const std::vector<std::string>& overrides = {}) {
+std::unique_ptr<Started> started_at_rest(const std::string& text,
+                                         const std::vector<std::string>& overrides = {}) {
   auto result = built(text, overrides);
   start_in_equilibrium(result->loaded, *result->s);
   return result;
@@ -48,16 +49,10 @@ double largest_of(const std::vector<double>& values) {
   return most;
 }
 
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
-  double most = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, std::abs(a[k] - b[k]));
-  return most;
-}
-
 TEST(Equilibrium, of_a_linear_column_under_its_own_weight_is_the_closed_form) {
   // nu = 0: E u'' = rho g with u(0) = 0 and u'(H) = 0 gives u = -rho g / E (H z - z^2/2), which
   // lumped masses and linear elements meet at their nodes.
-  const auto column = started(
+  const auto column = started_at_rest(
       column_text("hex8",
                   "model = \"linear\"\nyoung_modulus = 6000\npoisson_ratio = 0\ndensity = 1000\n",
                   downwards),
@@ -86,14 +81,15 @@ TEST(Equilibrium, is_where_long_damped_motion_ends) {
   // The slowest mode of all has more than 2 pi / s, so that 3 s with 60 / s leave less than 1e-4.
   const struct {
     std::string text, override;
-  } bodies[] = {{column_text("hex8", soft, downwards), "solver.precision='double'"},
-                {column_text("hex8", soft, downwards), "solver.precision='single'"},
-                {column_text("tet4-five", soft, downwards), "solver.tetrahedron='nodal-pressure'"},
-                {column_text("tet4-kuhn", viscous, downwards), "solver.tetrahedron='linear'"},
-                {column_text("hex8", viscous, downwards), "solver.hexahedron='full'"},
-                {plane_text, "solver.triangle='plane-strain'"}};
+  } bodies[] = {
+      {column_text("hex8", soft_tissue, downwards), "solver.precision='double'"},
+      {column_text("hex8", soft_tissue, downwards), "solver.precision='single'"},
+      {column_text("tet4-five", soft_tissue, downwards), "solver.tetrahedron='nodal-pressure'"},
+      {column_text("tet4-kuhn", viscous_tissue, downwards), "solver.tetrahedron='linear'"},
+      {column_text("hex8", viscous_tissue, downwards), "solver.hexahedron='full'"},
+      {plane_text, "solver.triangle='plane-strain'"}};
   for (const auto& body : bodies) {
-    const auto found = started(body.text, {body.override});
+    const auto found = started_at_rest(body.text, {body.override});
     const auto moved = built(body.text, {body.override, "solver.mass_damping=60"});
     settle(*moved->s, 3);
     const std::vector<double>& u = found->s->state.u;
@@ -104,10 +100,10 @@ TEST(Equilibrium, is_where_long_damped_motion_ends) {
 }
 
 TEST(Equilibrium, keeps_the_first_frames_at_rest) {
-  for (const std::string& material : {soft, viscous}) {
+  for (const std::string& material : {soft_tissue, viscous_tissue}) {
     const std::string text = column_text("hex8", material, downwards) +
                              "[[output]]\nkind = \"metrics\"\nfile = \"m.csv\"\n";
-    const auto rest = started(text, {"start.tolerance=1e-7"}), fall = built(text);
+    const auto rest = started_at_rest(text, {"start.tolerance=1e-7"}), fall = built(text);
     EXPECT_EQ(rest->s->energy->memory.works.sum(), 0);
     const std::vector<double> u = rest->s->state.u;
     settle(*rest->s, 0.2);
@@ -123,7 +119,8 @@ TEST(Equilibrium, keeps_the_first_frames_at_rest) {
 
 TEST(Equilibrium, has_moving_supports_where_they_are_at_the_beginning) {
   // Without gravity the free body follows its one support as a whole.
-  const auto moved = started(column_text("hex8", soft), {"support=[{region='z+', path=[{time=0.5, "
+  const auto moved =
+      started_at_rest(column_text("hex8", soft_tissue), {"support=[{region='z+', path=[{time=0.5, "
                                                          "displacement=[1e-3, 0, 2e-3]}]}]"});
   for (std::size_t i = 0; i < moved->s->mesh.X.size(); ++i)
     EXPECT_LT((Vec3::Map(&moved->s->state.u[3 * i]) - Vec3(1e-3, 0, 2e-3)).norm(), 1e-6) << i;
@@ -145,14 +142,14 @@ std::int64_t steps_to_settle(Simulation& s, const std::vector<double>& u, double
 TEST(Equilibrium, takes_less_work_than_waiting_until_the_body_has_settled) {
   // A cylinder of tetrahedra, squeezed where its square mesh was made round; to the accuracy that
   // relaxing has with its default tolerance.
-  const std::string text = column_text("tet4-kuhn", soft, downwards);
+  const std::string text = column_text("tet4-kuhn", soft_tissue, downwards);
   const std::vector<std::string> shape = {"tissue.shape.kind='cylinder'",
                                           "tissue.shape.radius=0.02", "tissue.shape.height=0.06",
                                           "tissue.shape.cells=[6,6,9]"};
   std::vector<std::string> settings = shape;
-  const auto found = started(text, settings);
+  const auto found = started_at_rest(text, settings);
   settings.push_back("start.tolerance=1e-9");
-  const auto exact = started(text, settings);
+  const auto exact = started_at_rest(text, settings);
   const std::vector<double>& u = exact->s->state.u;
   const double error = largest_difference(found->s->state.u, u);
   // The bundled scenes have 15 to 20 / s. Damping tuned by trial to the slowest mode of this body,
@@ -173,17 +170,17 @@ TEST(Equilibrium, does_not_exist_for_a_body_that_nothing_holds_against_gravity) 
   const auto sentence = [](const std::string& text, const std::string& override) {
     return input_error_of([&] { built(text, {override}); });
   };
-  const std::string text = column_text("hex8", soft, downwards);
+  const std::string text = column_text("hex8", soft_tissue, downwards);
   EXPECT_TRUE(contains(sentence(text, "support=[]"), "along z")) << sentence(text, "support=[]");
   EXPECT_TRUE(contains(sentence(text, "support=[{region='z-', fix='xy'}]"), "node 0 along z"));
   EXPECT_EQ(sentence(text, "support=[{region='z-', fix='z'}]"), "");
-  EXPECT_EQ(sentence(column_text("hex8", soft), "support=[]"), "");
+  EXPECT_EQ(sentence(column_text("hex8", soft_tissue), "support=[]"), "");
   EXPECT_TRUE(contains(sentence(plane_text, "support=[]"), "along y"));
 }
 
 TEST(Equilibrium, does_not_exist_for_a_body_that_nothing_holds_against_loads) {
   const auto sentence = [](const std::string& loads) {
-    return input_error_of([&] { built(column_text("hex8", soft) + loads, {"support=[]"}); });
+    return input_error_of([&] { built(column_text("hex8", soft_tissue) + loads, {"support=[]"}); });
   };
   const std::string up = "[[load]]\nregion = \"z+\"\nforce = [0, 0, 0.01]\n",
                     down = "[[load]]\nregion = \"z-\"\nforce = [0, 0, -0.01]\n";
@@ -193,7 +190,7 @@ TEST(Equilibrium, does_not_exist_for_a_body_that_nothing_holds_against_loads) {
 }
 
 TEST(Equilibrium, that_is_not_found_is_named_and_leaves_the_body_undeformed) {
-  const auto few = built(column_text("hex8", soft, downwards), {"start.max_iterations=50"});
+  const auto few = built(column_text("hex8", soft_tissue, downwards), {"start.max_iterations=50"});
   const std::string sentence =
       error_of<SimulationError>([&] { start_in_equilibrium(few->loaded, *few->s); });
   EXPECT_TRUE(contains(sentence, "after 50 iterations (start.max_iterations)")) << sentence;
@@ -201,7 +198,7 @@ TEST(Equilibrium, that_is_not_found_is_named_and_leaves_the_body_undeformed) {
 }
 
 TEST(Equilibrium, is_not_sought_on_after_a_signal) {
-  const auto column = built(column_text("hex8", soft, downwards));
+  const auto column = built(column_text("hex8", soft_tissue, downwards));
   const std::atomic<bool> stop = true;
   EXPECT_FALSE(start_in_equilibrium(column->loaded, *column->s, &stop));
   EXPECT_EQ(column->s->log.equilibrium.iterations, 0);
@@ -211,8 +208,9 @@ TEST(Equilibrium, is_not_sought_on_after_a_signal) {
 TEST(Equilibrium, is_refused_with_an_instrument_inside_the_body) {
   const auto sentence = [](const std::string& height) {
     return input_error_of([&] {
-      started(column_text("hex8", soft, downwards) +
-              instrument_text("probe", "{ time = 0, position = [0.01, 0.01, " + height + "] }"));
+      started_at_rest(
+          column_text("hex8", soft_tissue, downwards) +
+          instrument_text("probe", "{ time = 0, position = [0.01, 0.01, " + height + "] }"));
     });
   };
   EXPECT_TRUE(contains(sentence("0.03"), "\"probe\" reaches")) << sentence("0.03");

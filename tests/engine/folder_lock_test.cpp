@@ -12,7 +12,7 @@
 namespace trocar {
 namespace {
 
-std::string refusal(const TestFolder& folder) {
+std::string lock_refusal(const TestFolder& folder) {
   return input_error_of([&] { const FolderLock lock(folder.path()); });
 }
 
@@ -20,22 +20,22 @@ TEST(FolderLock, refuses_a_second_run_and_names_the_first) {
   const TestFolder folder;
   std::optional<FolderLock> first(folder.path());
   const std::string who = "in use by another run (process " + std::to_string(getpid()) + " on ";
-  EXPECT_TRUE(contains(refusal(folder), who)) << refusal(folder);
-  EXPECT_TRUE(contains(refusal(folder), "choose another one with -o"));
+  EXPECT_TRUE(contains(lock_refusal(folder), who)) << lock_refusal(folder);
+  EXPECT_TRUE(contains(lock_refusal(folder), "choose another one with -o"));
   first.reset();
-  EXPECT_EQ(refusal(folder), "");
+  EXPECT_EQ(lock_refusal(folder), "");
 }
 
 TEST(FolderLock, leaves_nothing_behind) {
   const TestFolder folder;
-  EXPECT_EQ(refusal(folder), "");
+  EXPECT_EQ(lock_refusal(folder), "");
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(FolderLock, of_a_killed_run_locks_nothing) {
   const TestFolder folder;
   write_text(folder.file(".trocar-lock"), "process 1 on elsewhere");
-  EXPECT_EQ(refusal(folder), "");
+  EXPECT_EQ(lock_refusal(folder), "");
 }
 
 TEST(FolderLock, goes_on_without_a_folder) {

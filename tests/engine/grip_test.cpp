@@ -56,7 +56,8 @@ TEST(GripForce, is_without_bound_if_absent) {
 }
 
 // A block from low_x to 20 mm that a grasper at its plane x = 0 takes by the top and lifts by 4 mm.
-FrameRow lifted(const std::string& low_x, const std::string& cells, const std::string& mirror) {
+FrameRow lifted_block(const std::string& low_x, const std::string& cells,
+                      const std::string& mirror) {
   const auto block =
       built("[time]\nduration = 10\nframe_rate = 20\n[tissue.shape]\nkind = \"box\"\nlow = [" +
             low_x + ", -0.01, 0]\nhigh = [0.02, 0.01, 0.01]\ncells = [" + cells +
@@ -74,8 +75,8 @@ FrameRow lifted(const std::string& low_x, const std::string& cells, const std::s
 // While jaws left out all that a support holds in any component, the half held 4 nodes, none of the
 // plane, and pulled with 0.36 of the whole.
 TEST(Grip, of_a_half_at_its_mirror_plane_is_half_of_the_whole) {
-  const FrameRow whole = lifted("-0.02", "16", ""),
-                 half = lifted("0", "8", "[[support]]\nregion = \"x-\"\nfix = \"x\"\n");
+  const FrameRow whole = lifted_block("-0.02", "16", ""),
+                 half = lifted_block("0", "8", "[[support]]\nregion = \"x-\"\nfix = \"x\"\n");
   const double pull = whole.tools[0].force.z(), of_half = half.tools[0].force.z();
   std::printf("whole: %ld nodes, %.5f N; half: %ld nodes, %.5f N\n", whole.n_held, pull,
               half.n_held, of_half);

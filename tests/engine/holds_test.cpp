@@ -25,12 +25,12 @@ std::vector<Tool> moving_tools() {
   return {make_tool(probe, {}, 1e-3), make_tool(grasper, {}, 1e-3)};
 }
 
-struct Case {
+struct GraspedPlate {
   std::vector<Tool> tools = moving_tools();
   Mesh mesh = make_rectangle(0.07, 0.04, 15, 9);
   std::vector<std::uint8_t> fixed = std::vector<std::uint8_t>(mesh.X.size(), 0);
   Holds holds;
-  Case() {
+  GraspedPlate() {
     holds.poses.resize(2);
     holds.is_open.assign(2, 1);
   }
@@ -55,7 +55,7 @@ std::vector<std::int32_t> nodes_near(const Mesh& mesh, const Vec3& centre, doubl
 }
 
 TEST(Grasp, takes_exactly_the_nodes_within_the_grip_radius_of_the_tip) {
-  Case c;
+  GraspedPlate c;
   const Vec3 tip = c.tools[1].path.at(1.02).translation;
   const std::vector<std::int32_t> expected = nodes_near(c.mesh, tip, grip);
   ASSERT_GT(expected.size(), 10u);
@@ -67,7 +67,7 @@ TEST(Grasp, takes_exactly_the_nodes_within_the_grip_radius_of_the_tip) {
 }
 
 TEST(Grasp, happens_in_the_frame_whose_half_open_span_holds_the_key) {
-  Case c;
+  GraspedPlate c;
   EXPECT_FALSE(will_act(c.tools, 0.5, 0.99));
   EXPECT_FALSE(will_act(c.tools, 1.0, 1.03));  // a key at the beginning belongs to the frame before
   EXPECT_TRUE(will_act(c.tools, 0.97, 1.0));
@@ -79,7 +79,7 @@ TEST(Grasp, happens_in_the_frame_whose_half_open_span_holds_the_key) {
 }
 
 TEST(Grasp, leaves_supported_nodes_and_those_of_another_holder_alone) {
-  Case c;
+  GraspedPlate c;
   const std::vector<std::int32_t> all = nodes_near(c.mesh, c.tools[1].path.at(1).translation, grip);
   c.fixed[static_cast<std::size_t>(all[0])] = 7;
   c.holds.holds = {{.node = all[3], .support = 0}};
@@ -95,7 +95,7 @@ TEST(Grasp, leaves_supported_nodes_and_those_of_another_holder_alone) {
 }
 
 TEST(Grasp, opening_releases_what_this_tool_holds_and_nothing_else) {
-  Case c;
+  GraspedPlate c;
   c.act(0.9, 1);
   c.holds.holds.insert(c.holds.holds.begin(), Hold{.node = 0, .support = 0});
   EXPECT_EQ(c.act(1.99, 2.01), 0);
@@ -104,21 +104,21 @@ TEST(Grasp, opening_releases_what_this_tool_holds_and_nothing_else) {
 }
 
 TEST(Grasp, closing_and_opening_within_one_frame_holds_nothing) {
-  Case c;
+  GraspedPlate c;
   EXPECT_GE(c.act(0.97, 2.0), 0);
   EXPECT_TRUE(c.holds.holds.empty());
   EXPECT_TRUE(c.holds.is_open[1]);
 }
 
 TEST(Grasp, of_nothing_is_reported_as_none_taken) {
-  Case c;
+  GraspedPlate c;
   for (Vec3& X : c.mesh.X) X += Vec3(1, 0, 0);
   EXPECT_EQ(c.act(0.9, 1), 0);
   EXPECT_FALSE(c.holds.is_open[1]);
 }
 
 TEST(Grasp, tells_how_far_the_nearest_free_node_is) {
-  Case c;
+  GraspedPlate c;
   for (Vec3& X : c.mesh.X) X += Vec3(1, 0, 0);
   const Vec3 tip = c.tools[1].path.at(1).translation;
   double nearest = 1;
@@ -134,14 +134,14 @@ TEST(Grasp, tells_how_far_the_nearest_free_node_is) {
   EXPECT_TRUE(std::isinf(acts()[0].nearest));
 }
 
-void expect_held(const Case& c, const std::vector<std::size_t>& expected) {
+void expect_held(const GraspedPlate& c, const std::vector<std::size_t>& expected) {
   const std::vector<std::uint8_t> is_held = held_nodes(c.holds, c.fixed);
   for (std::size_t i = 0; i < is_held.size(); ++i)
     EXPECT_EQ(is_held[i] != 0, std::count(expected.begin(), expected.end(), i) > 0) << i;
 }
 
 TEST(HeldNodes, are_those_supported_in_any_component_and_the_held) {
-  Case c;
+  GraspedPlate c;
   c.fixed[1] = 1;
   c.fixed[2] = 2;
   c.fixed[3] = 4;
@@ -151,7 +151,7 @@ TEST(HeldNodes, are_those_supported_in_any_component_and_the_held) {
 }
 
 TEST(HeldNodes, of_a_plane_body_are_not_those_that_only_its_plane_holds) {
-  Case c;
+  GraspedPlate c;
   std::fill(c.fixed.begin(), c.fixed.end(), FixedMask{4});
   c.fixed[1] = 5;
   c.fixed[2] = 6;
@@ -160,7 +160,7 @@ TEST(HeldNodes, of_a_plane_body_are_not_those_that_only_its_plane_holds) {
 }
 
 TEST(LargestTravel, is_of_supports_and_of_graspers_that_hold) {
-  Case c;
+  GraspedPlate c;
   EXPECT_EQ(largest_travel(c.holds, c.tools, 0, 1), 0);
   c.act(0.9, 1);
   const ToolPath bent = c.tools[1].path;
@@ -182,7 +182,7 @@ Part whole_part(const Mesh& mesh) {
 }
 
 TEST(HeldNodes, do_not_move_at_the_moment_of_the_grasp_and_then_move_with_the_tool) {
-  Case c;
+  GraspedPlate c;
   c.act(0.9, 1);
   localise_holds(c.holds, whole_part(c.mesh));
   ASSERT_EQ(c.holds.prescribed.size(), c.holds.holds.size());
@@ -199,7 +199,7 @@ TEST(HeldNodes, do_not_move_at_the_moment_of_the_grasp_and_then_move_with_the_to
 }
 
 TEST(HeldNodes, of_a_moving_support_have_the_displacement_of_its_path) {
-  Case c;
+  GraspedPlate c;
   const std::vector<SupportKey> keys = {{.time = 0},
                                         {.time = 2, .displacement = Vec3(0.01, 0.02, 0)}};
   c.holds.paths.emplace_back(keys);
@@ -214,7 +214,7 @@ TEST(HeldNodes, of_a_moving_support_have_the_displacement_of_its_path) {
 }
 
 TEST(HeldNodes, are_prescribed_by_their_owner_alone) {
-  Case c;
+  GraspedPlate c;
   c.act(0.9, 1);
   const std::vector<std::int32_t> owner = partition_nodes(c.mesh, 3);
   std::vector<std::int32_t> seen;
@@ -234,7 +234,7 @@ TEST(HeldNodes, are_prescribed_by_their_owner_alone) {
 }
 
 TEST(EditOfHolds, partners_of_held_nodes_are_held_at_the_same_offset_in_ascending_order) {
-  Case c;
+  GraspedPlate c;
   c.act(0.9, 1);
   const std::vector<Hold> before = c.holds.holds;
   const std::int32_t n_nodes = c.mesh.n_nodes();
@@ -256,7 +256,7 @@ TEST(EditOfHolds, partners_of_held_nodes_are_held_at_the_same_offset_in_ascendin
 }
 
 TEST(EditOfHolds, nodes_on_edges_are_held_between_two_ends_that_one_holder_has) {
-  Case c;
+  GraspedPlate c;
   c.act(0.9, 1);
   std::vector<Hold>& holds = c.holds.holds;
   holds[4].tool = 0;
@@ -300,7 +300,7 @@ double sum_of(const ExactSum& sum) {
 }
 
 TEST(HoldReactions, are_the_mean_over_the_substeps_with_the_sign_of_the_tissue_on_the_tool) {
-  Case c;
+  GraspedPlate c;
   c.holds.paths.emplace_back(std::vector<SupportKey>{{.time = 0}});
   c.holds.holds = {{.node = 1, .tool = 1}, {.node = 4, .tool = 1}, {.node = 9, .support = 0}};
   localise_holds(c.holds, whole_part(c.mesh));

@@ -10,7 +10,7 @@ namespace trocar {
 namespace {
 
 // 40 x 40 x 40 mm in cells of 5 mm, an instrument whose tip stands `height` above the bottom.
-std::string block_text(const std::string& kind, double height) {
+std::string block_under(const std::string& kind, double height) {
   return "[time]\nduration = \"1 s\"\n[tissue.shape]\nkind = \"box\"\nlow = [-0.02, -0.02, 0]\n"
          "high = [0.02, 0.02, 0.04]\ncells = [8, 8, 8]\nelements = \"tet4-five\"\n"
          "[tissue.material]\nyoung_modulus = 6000\n[[support]]\nregion = \"z-\"\nfix = \"xyz\"\n"
@@ -19,32 +19,27 @@ std::string block_text(const std::string& kind, double height) {
          "] } ]\n";
 }
 
-std::string refusal(const std::string& kind, double height) {
-  try {
-    built(block_text(kind, height));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+std::string start_refusal(const std::string& kind, double height) {
+  return input_error_of([&] { built(block_under(kind, height)); });
 }
 
 TEST(InstrumentCheck, refuses_a_tip_at_any_depth_and_says_which) {
   for (const double depth : {0.005, 0.01, 0.015, 0.018})
     for (const std::string kind : {"probe", "grasper"}) {
-      const std::string sentence = refusal(kind, 0.04 - depth);
+      const std::string sentence = start_refusal(kind, 0.04 - depth);
       EXPECT_NE(sentence.find("instrument[0].path[0].position"), std::string::npos)
           << kind << depth << sentence;
     }
   // The shaft, with a radius of its own, counts for less than the tip.
-  EXPECT_NE(refusal("probe", 0.022).find("reaches 0.018 m into the body"), std::string::npos)
-      << refusal("probe", 0.022);
+  EXPECT_NE(start_refusal("probe", 0.022).find("reaches 0.018 m into the body"), std::string::npos)
+      << start_refusal("probe", 0.022);
 }
 
 TEST(InstrumentCheck, lets_instruments_begin_outside_and_blades_anywhere) {
-  EXPECT_EQ(refusal("probe", 0.05), "");
-  EXPECT_EQ(refusal("grasper", 0.05), "");
-  EXPECT_EQ(refusal("scalpel", 0.05), "");
-  EXPECT_EQ(refusal("scalpel", 0.035), "");
+  EXPECT_EQ(start_refusal("probe", 0.05), "");
+  EXPECT_EQ(start_refusal("grasper", 0.05), "");
+  EXPECT_EQ(start_refusal("scalpel", 0.05), "");
+  EXPECT_EQ(start_refusal("scalpel", 0.035), "");
 }
 
 }  // namespace

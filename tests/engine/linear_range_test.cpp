@@ -10,8 +10,8 @@
 namespace trocar {
 namespace {
 
-std::unique_ptr<Started> body_of(const std::string& kind, const std::string& elements,
-                                 const std::string& model) {
+std::unique_ptr<Started> body_with_model(const std::string& kind, const std::string& elements,
+                                         const std::string& model) {
   return built("[time]\nduration = 1\n[tissue.shape]\nkind = \"" + kind + "\"\nelements = \"" +
                    elements + "\"\ncells = [3, 3, 3]\n[tissue.material]\nmodel = \"" + model +
                    "\"\n",
@@ -43,7 +43,7 @@ Mat3 rotation(double degrees) {
 TEST(LinearRange, ends_at_a_displacement_gradient_of_a_tenth) {
   for (const auto& [kind, elements] : {std::pair{"box", "hex8"}, std::pair{"box", "tet4-kuhn"},
                                        std::pair{"triangular-rectangle", "hex8"}}) {
-    const auto started = body_of(kind, elements, "linear");
+    const auto started = body_with_model(kind, elements, "linear");
     EXPECT_TRUE(told(*started, compression(0.0999)).empty()) << kind << elements;
     const std::vector<std::string> events = told(*started, compression(0.1001));
     ASSERT_EQ(events.size(), 1U) << kind << elements;
@@ -54,19 +54,19 @@ TEST(LinearRange, ends_at_a_displacement_gradient_of_a_tenth) {
 
 // 2 sin(t / 2) = 0.1 at 5.73 degrees.
 TEST(LinearRange, ends_at_six_degrees_of_rotation) {
-  const auto started = body_of("box", "hex8", "linear");
+  const auto started = body_with_model("box", "hex8", "linear");
   EXPECT_TRUE(told(*started, rotation(5.7)).empty());
   EXPECT_EQ(told(*started, rotation(5.8)).size(), 1U);
 }
 
 TEST(LinearRange, is_told_once) {
-  const auto started = body_of("box", "hex8", "linear");
+  const auto started = body_with_model("box", "hex8", "linear");
   EXPECT_EQ(told(*started, compression(0.2)).size(), 1U);
   EXPECT_EQ(told(*started, compression(0.3)).size(), 1U);
 }
 
 TEST(LinearRange, does_not_concern_other_materials) {
-  const auto started = body_of("box", "hex8", "neo-hookean");
+  const auto started = body_with_model("box", "hex8", "neo-hookean");
   EXPECT_TRUE(told(*started, compression(0.3)).empty());
 }
 

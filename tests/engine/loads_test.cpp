@@ -8,17 +8,18 @@
 
 #include "engine/equilibrium.h"
 #include "engine/frame_watch.h"
+#include "engine_motion.h"
 #include "engine_scene.h"
 #include "engine_split.h"
 #include "engine_started.h"
+#include "scene_parts.h"
 
 namespace trocar {
 namespace {
 
-const std::string metrics = "[[output]]\nkind = \"metrics\"\nfile = \"m.csv\"\n";
 const std::string at_rest = "[start]\nstate = \"equilibrium\"\ntolerance = 1e-8\n";
 
-std::string box_text(const std::string& elements, const std::string& material) {
+std::string loaded_box(const std::string& elements, const std::string& material) {
   return "[time]\nduration = 1\nframe_rate = 100\n[tissue.shape]\nkind = \"box\"\n"
          "high = [0.02, 0.02, 0.05]\ncells = [2, 3, 5]\nelements = \"" +
          elements + "\"\n[tissue.material]\ndensity = 1000\n" + material;
@@ -37,7 +38,7 @@ Vec3 total(const Loads& loads) {
 
 TEST(Loads, stretch_a_bar_by_the_closed_form) {
   for (const std::string elements : {"hex8", "tet4-kuhn", "tet4-five"}) {
-    const auto bar = built(at_rest + box_text(elements, linear) + foot + metrics +
+    const auto bar = built(at_rest + loaded_box(elements, linear) + foot + metrics_table +
                            "[[load]]\nregion = \"z+\"\nforce = [0, 0, \"0.02 N\"]\n");
     start_in_equilibrium(bar->loaded, *bar->s);
     const double strain = 0.02 / (6000 * 4e-4);
@@ -62,7 +63,7 @@ TEST(Loads, pressure_on_all_sides_shrinks_a_free_body_by_the_closed_form) {
       "elements = \"tet4-kuhn\"\n[tissue.material]\n" +
       soft;
   for (const std::string& text :
-       {box_text("hex8", soft) + sides, box_text("tet4-five", soft) + sides,
+       {loaded_box("hex8", soft) + sides, loaded_box("tet4-five", soft) + sides,
         ball + "[[load]]\nregion = \"surface\"\n" + pressure}) {
     const auto body = built(at_rest + text);
     start_in_equilibrium(body->loaded, *body->s);
@@ -76,14 +77,8 @@ TEST(Loads, pressure_on_all_sides_shrinks_a_free_body_by_the_closed_form) {
   }
 }
 
-Vec3 momentum(const Simulation& s) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < s.mass.size(); ++i) sum += s.mass[i] * Vec3::Map(&s.state.v[3 * i]);
-  return sum;
-}
-
 TEST(Loads, change_the_momentum_of_a_free_body_and_their_work_its_energy) {
-  const auto body = built(box_text("hex8", soft) + metrics +
+  const auto body = built(loaded_box("hex8", soft) + metrics_table +
                               "[[load]]\nregion = \"x-\"\nforce = [0.01, 0.002, 0]\n"
                               "[[load]]\nregion = \"z+\"\npressure = \"100 Pa\"\n"
                               "path = [{ time = 0.02, factor = 0 }, { time = 0.1, factor = 1 }]\n",
@@ -168,7 +163,7 @@ TEST(Loads, of_an_edge_in_plane_stress_push_on_the_present_thickness) {
 }
 
 TEST(Loads, of_a_region_without_faces_are_spread_over_its_nodes) {
-  const auto bar = built(box_text("hex8", soft) + foot +
+  const auto bar = built(loaded_box("hex8", soft) + foot +
                          "[[region]]\nname = \"corner\"\nlow = [-1, -1, 0.049]\n"
                          "high = [0.001, 0.001, 1]\n[[load]]\nregion = \"corner\"\n"
                          "force = [0.001, 0, 0]\n");
@@ -179,7 +174,7 @@ TEST(Loads, of_a_region_without_faces_are_spread_over_its_nodes) {
 
 // The cut opens the loaded side x-: its force stays what it was, and nothing presses on the wound.
 TEST(Loads, stay_on_their_side_after_a_cut) {
-  const auto bar = built(box_text("tet4-kuhn", soft) + foot +
+  const auto bar = built(loaded_box("tet4-kuhn", soft) + foot +
                          "[[load]]\nregion = \"x-\"\nforce = [0, \"0.1 N\", 0]\n"
                          "[[load]]\nregion = \"x-\"\npressure = \"10 Pa\"\n");
   Simulation& s = *bar->s;
@@ -287,7 +282,7 @@ TEST(Loads, act_on_the_facets_of_a_surface_in_the_file_alone) {
 }
 
 TEST(Loads, that_change_end_sleep) {
-  const auto bar = built(at_rest + box_text("hex8", soft) + foot +
+  const auto bar = built(at_rest + loaded_box("hex8", soft) + foot +
                              "[solver]\nsleep = \"0.1 mm\"\nmass_damping = 20\n"
                              "[[load]]\nregion = \"z+\"\nforce = [0, 0, -0.05]\n"
                              "path = [{ time = 0.75, factor = 1 }, { time = 0.8, factor = 3 }]\n",
@@ -310,11 +305,11 @@ TEST(Loads, are_refused_with_their_place) {
                 .find("load[0].path[1].time: the times of a path must ascend"),
             std::string::npos);
   EXPECT_NE(error_of<InputError>([] {
-              built(box_text("hex8", soft) + "[[load]]\nregion = \"top\"\npressure = 1\n");
+              built(loaded_box("hex8", soft) + "[[load]]\nregion = \"top\"\npressure = 1\n");
             }).find("load[0].region: the body has no region \"top\"; there are \"x-\""),
             std::string::npos);
   EXPECT_NE(error_of<InputError>([] {
-              built(box_text("hex8", soft) +
+              built(loaded_box("hex8", soft) +
                     "[[region]]\nname = \"in\"\nlow = [0.005, 0.005, 0.005]\n"
                     "high = [0.015, 0.015, 0.045]\n[[load]]\nregion = \"in\"\npressure = 1\n");
             }).find("load[0].region: no face of the surface lies in region \"in\""),

@@ -15,7 +15,7 @@
 namespace trocar {
 namespace {
 
-std::string bar_text(const std::string& elements, const std::string& markers) {
+std::string stretched_bar(const std::string& elements, const std::string& markers) {
   return "[time]\nduration = 1\nframe_rate = 100\n[start]\nstate = \"equilibrium\"\n"
          "tolerance = 1e-9\n[tissue.shape]\nkind = \"box\"\nlow = [-0.01, -0.01, 0]\n"
          "high = [0.01, 0.01, 0.05]\ncells = [3, 2, 5]\nelements = \"" +
@@ -38,7 +38,7 @@ TEST(Markers, go_with_the_tissue_of_a_stretched_bar) {
   std::string markers;
   for (std::size_t k = 0; k < X.size(); ++k) markers += marker(std::to_string(k), X[k]);
   for (const std::string elements : {"hex8", "tet4-kuhn"}) {
-    const auto bar = built(bar_text(elements, markers));
+    const auto bar = built(stretched_bar(elements, markers));
     start_in_equilibrium(bar->loaded, *bar->s);
     run_frame(*bar->s, bar->outputs);
     const std::vector<Vec3>& x = bar->s->log.rows.back().markers;
@@ -58,7 +58,7 @@ TEST(Markers, stay_where_they_are_beside_a_cut_that_moves_nodes_and_follow_their
       ++n;
     }
   for (const std::string elements : {"hex8", "tet4-five"}) {
-    const auto bar = built(bar_text(elements, markers));
+    const auto bar = built(stretched_bar(elements, markers));
     start_in_equilibrium(bar->loaded, *bar->s);
     Simulation& s = *bar->s;
     const auto positions = [&] {
@@ -160,7 +160,7 @@ TEST(Markers, stay_where_they_are_in_elements_that_are_split_and_follow_their_si
 
 TEST(Markers, are_refused_outside_the_body_and_by_the_same_name) {
   const auto error = [](const std::string& markers) {
-    return error_of<InputError>([&] { built(bar_text("hex8", markers)); });
+    return error_of<InputError>([&] { built(stretched_bar("hex8", markers)); });
   };
   EXPECT_NE(error(marker("m", Vec3(0, 0, 0.06)))
                 .find("marker[0].position: marker \"m\" lies outside the undeformed body"),

@@ -10,6 +10,7 @@
 #include "engine/checkpoint.h"
 #include "engine/equilibrium.h"
 #include "engine/frame_watch.h"
+#include "engine_motion.h"
 #include "engine_scene.h"
 #include "engine_split.h"
 #include "engine_started.h"
@@ -47,7 +48,7 @@ std::unique_ptr<Started> hung(const std::string& tools, BoxElements elements,
   return built(hung_text + tools, all);
 }
 
-void run_to(Started& started, std::int64_t frame) {
+void run_to_frame(Started& started, std::int64_t frame) {
   while (started.s->frame < frame) run_frame(*started.s, started.outputs);
 }
 
@@ -58,24 +59,19 @@ high = ["-29 mm", "21 mm", "6 mm"]
 [[support]]
 region = "left"
 )";
-const std::vector<std::string> local = {"solver.multirate=true"};
-
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
-  double most = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, std::abs(a[k] - b[k]));
-  return a.size() == b.size() ? most : HUGE_VAL;
-}
+const std::vector<std::string> with_local_steps = {"solver.multirate=true"};
 
 // Both differ from the exact motion by their steps' squares; the finer run is nearly exact.
 TEST(MultiRate, halves_the_steps_of_a_pressed_and_pulled_body_and_keeps_its_motion) {
   for (const BoxElements elements : {BoxElements::hex8, BoxElements::tet4_kuhn}) {
-    const auto plain = hung(tools_text, elements, {}), with = hung(tools_text, elements, local),
+    const auto plain = hung(tools_text, elements, {}),
+               with = hung(tools_text, elements, with_local_steps),
                exact = hung(tools_text, elements, {"solver.step_factor=0.25"});
     ASSERT_TRUE(with->s->multirate);
     EXPECT_FALSE(plain->s->multirate);
     double of_plain = 0, of_with = 0;
     for (std::int64_t frame = 1; frame <= 20; ++frame) {
-      for (Started* run : {plain.get(), with.get(), exact.get()}) run_to(*run, frame);
+      for (Started* run : {plain.get(), with.get(), exact.get()}) run_to_frame(*run, frame);
       of_plain = std::max(of_plain, largest_difference(plain->s->state.u, exact->s->state.u));
       of_with = std::max(of_with, largest_difference(with->s->state.u, exact->s->state.u));
     }
@@ -91,7 +87,7 @@ TEST(MultiRate, halves_the_steps_of_a_pressed_and_pulled_body_and_keeps_its_moti
   }
 }
 
-double balance_error(const Simulation& s) {
+double largest_balance_error(const Simulation& s) {
   double error = 0, turned_over = 0;
   for (const FrameRow& row : s.log.rows) {
     error = std::max(error, std::abs(row.energy_error));
@@ -108,10 +104,10 @@ TEST(MultiRate, energy_ledger_closes_with_contact_and_holds) {
     const auto run = hung(tools_text, BoxElements::tet4_kuhn,
                           {"output=[{kind='metrics',file='m.csv'}]", "solver.multirate=true",
                            k == 0 ? "solver.step_factor=0.8" : "solver.step_factor=0.2"});
-    run_to(*run, 20);
+    run_to_frame(*run, 20);
     EXPECT_NE(run->s->log.rows.back().works.contact, 0);
     EXPECT_NE(run->s->log.rows.back().works.holds, 0);
-    error[k] = balance_error(*run->s);
+    error[k] = largest_balance_error(*run->s);
   }
   std::printf("energy balance: %.2g of what was turned over, with a quarter of the step %.2g\n",
               error[0], error[1]);
@@ -131,7 +127,7 @@ TEST(MultiRate, leaves_a_loaded_body_in_its_equilibrium) {
     start_in_equilibrium(run->loaded, *run->s);
     ASSERT_TRUE(run->s->multirate);
     const std::vector<double> u = run->s->state.u;
-    run_to(*run, 20);
+    run_to_frame(*run, 20);
     EXPECT_LT(largest_difference(run->s->state.u, u), 1e-8);
     const FrameRow& row = run->s->log.rows.back();
     EXPECT_LT(std::abs(row.energy_error), 1e-9 * row.energy.strain);
@@ -139,21 +135,21 @@ TEST(MultiRate, leaves_a_loaded_body_in_its_equilibrium) {
 }
 
 TEST(MultiRate, goes_on_after_a_cut_and_after_a_restart_with_the_same_bits) {
-  const auto cut = [] { return hung(scalpel_text, BoxElements::tet4_kuhn, local); };
+  const auto cut = [] { return hung(scalpel_text, BoxElements::tet4_kuhn, with_local_steps); };
   const auto whole = cut();
   const std::int32_t n_before = whole->s->mesh.n_nodes();
-  run_to(*whole, 20);
+  run_to_frame(*whole, 20);
   EXPECT_GT(whole->s->mesh.n_nodes(), n_before);
   ASSERT_TRUE(whole->s->multirate);
   EXPECT_EQ(whole->s->multirate->of_whole.size(),
             static_cast<std::size_t>(whole->s->mesh.n_nodes()));
   for (const std::int64_t frame : {4, 12}) {
     const auto first = cut();
-    run_to(*first, frame);
+    run_to_frame(*first, frame);
     const std::vector<std::byte> bytes = checkpoint_to_bytes(take_checkpoint(*first->s));
     const auto second = cut();
     restore_checkpoint(checkpoint_from_bytes(bytes, "c"), *second->s);
-    run_to(*second, 20);
+    run_to_frame(*second, 20);
     EXPECT_EQ(second->s->state.u, whole->s->state.u) << frame;
     EXPECT_EQ(second->s->state.v, whole->s->state.v) << frame;
   }
@@ -170,17 +166,17 @@ TEST(MultiRate, goes_on_after_a_split_and_after_a_restart_with_the_same_bits) {
   std::string text = plate_of("tet4-five") + held_left_of_plate + plate_blade;
   const std::size_t from = text.find("[tissue.shape]"), to = text.find("[tissue.material]");
   text.replace(from, to - from, "[tissue]\nmesh = \"" + folder.file("m.msh") + "\"\n");
-  const auto whole = built(text, local);
+  const auto whole = built(text, with_local_steps);
   ASSERT_TRUE(whole->s->multirate);
   const std::int32_t n_before = whole->s->mesh.n_elements();
-  run_to(*whole, 24);
+  run_to_frame(*whole, 24);
   EXPECT_GT(whole->s->mesh.n_elements(), n_before + 1000);
   for (const std::int64_t frame : {8, 12, 13, 14, 18}) {
-    const auto first = built(text, local), second = built(text, local);
-    run_to(*first, frame);
+    const auto first = built(text, with_local_steps), second = built(text, with_local_steps);
+    run_to_frame(*first, frame);
     const std::vector<std::byte> bytes = checkpoint_to_bytes(take_checkpoint(*first->s));
     restore_checkpoint(checkpoint_from_bytes(bytes, "c"), *second->s);
-    run_to(*second, 24);
+    run_to_frame(*second, 24);
     EXPECT_EQ(second->s->state.u, whole->s->state.u) << frame;
     EXPECT_EQ(second->s->state.v, whole->s->state.v) << frame;
   }
@@ -199,7 +195,7 @@ double step_by_searches(Simulation& s) {
 // An edit looks for the step around it alone; a search through the whole body would find no less.
 TEST(MultiRate, keeps_a_stable_step_behind_each_edit) {
   for (const BoxElements elements : {BoxElements::hex8, BoxElements::tet4_kuhn}) {
-    const auto run = hung(scalpel_text, elements, local);
+    const auto run = hung(scalpel_text, elements, with_local_steps);
     Simulation& s = *run->s;
     int n_edits = 0;
     while (s.frame < 20) {
@@ -218,11 +214,11 @@ TEST(MultiRate, leaves_a_body_that_sleeps_where_it_is) {
   const auto run = hung("[start]\nstate = \"equilibrium\"\n", BoxElements::hex8,
                         {"solver.multirate=true", "solver.sleep='1 mm'"});
   start_in_equilibrium(run->loaded, *run->s);
-  run_to(*run, 17);
+  run_to_frame(*run, 17);
   ASSERT_TRUE(run->s->multirate);
   EXPECT_EQ(run->s->sleep->share, 1);
   const std::vector<double> u = run->s->state.u;
-  run_to(*run, 20);
+  run_to_frame(*run, 20);
   EXPECT_EQ(run->s->state.u, u);
 }
 

@@ -10,6 +10,7 @@
 #include "engine/cut_stage.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
+#include "engine_blocks.h"
 #include "engine_scene.h"
 #include "engine_started.h"
 #include "solver/frequency.h"
@@ -18,26 +19,18 @@
 namespace trocar {
 namespace {
 
-struct Kind {
-  std::string elements, material, solver;
-};
+const std::vector<BodyKind> kinds_to_cut = {
+    {"tet4-kuhn", "", ""},
+    {"tet4-five", "", ""},
+    {"tet4-kuhn", "prony = [ { share = 0.4, time = 0.5 } ]\n",
+     "tetrahedron = \"nodal-pressure\"\n"},
+    {"hex8", "", ""},
+    {"tet4-kuhn", "", "mass_scaling_step = \"0.16 ms\"\n"}};
 
-const std::vector<Kind> kinds = {{"tet4-kuhn", "", ""},
-                                 {"tet4-five", "", ""},
-                                 {"tet4-kuhn", "prony = [ { share = 0.4, time = 0.5 } ]\n",
-                                  "tetrahedron = \"nodal-pressure\"\n"},
-                                 {"hex8", "", ""},
-                                 {"tet4-kuhn", "", "mass_scaling_step = \"0.16 ms\"\n"}};
-
-// 40 x 32 x 32 mm in cells of 4 mm, hanging, cut from one side to beyond the middle.
-std::string scene_of(const Kind& kind) {
-  return "[time]\nduration = \"1 s\"\nframe_rate = 100\n[tissue.shape]\nkind = \"box\"\n"
-         "low = [-0.02, -0.016, 0]\nhigh = [0.02, 0.016, 0.032]\ncells = [10, 8, 8]\n"
-         "elements = \"" +
-         kind.elements +
-         "\"\n[tissue.material]\nyoung_modulus = 6000\npoisson_ratio = 0.4\ndensity = 1000\n" +
-         kind.material + "[solver]\ngravity = [0, 0, -9.81]\n" + kind.solver +
-         "[[support]]\nregion = \"z+\"\nfix = \"xyz\"\n"
+// Cut from one side to beyond the middle.
+std::string cut_scene_of(const BodyKind& kind) {
+  const std::string solver = "gravity = [0, 0, -9.81]\n" + kind.solver;
+  return hanging_block({kind.elements, kind.material, solver}) +
          "[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.02\npath = [\n"
          "{ time = 0.01, position = [-0.03, 0.02, 0.01], direction = [0, 1, 0], "
          "forward = [1, 0, 0.2] },\n"
@@ -92,10 +85,10 @@ void deform(Simulation& s, double shear, double noise) {
   watch_state(s);
 }
 
-struct Deformation {
+struct ShearAndNoise {
   double shear, noise;
 };
-constexpr Deformation deformations[] = {{0, 0}, {0.15, 0}, {0, 4e-4}, {-0.1, 2e-4}};
+constexpr ShearAndNoise deformations[] = {{0, 0}, {0.15, 0}, {0, 4e-4}, {-0.1, 2e-4}};
 
 // A frame's cut, in the body as it stands. False if there was nothing to cut.
 bool cut_at_rest(Simulation& s) {
@@ -127,9 +120,9 @@ void expect_modes_in_patch(Simulation& s, const std::vector<Vec3>& X_before, dou
 // body's highest frequency, up to what a search leaves out. The body stands still, so that all that
 // changes is the edit.
 TEST(Patch, has_the_mode_that_an_edit_made_the_fastest) {
-  for (const Kind& kind : kinds)
+  for (const BodyKind& kind : kinds_to_cut)
     for (const auto& [shear, noise] : deformations) {
-      const auto started = built(scene_of(kind));
+      const auto started = built(cut_scene_of(kind));
       Simulation& s = *started->s;
       deform(s, shear, noise);
       refresh_surface(s);
@@ -149,8 +142,8 @@ TEST(Patch, has_the_mode_that_an_edit_made_the_fastest) {
 // Where nothing else sets the step, the one taken after an edit is that of a search through the
 // body, from nothing: never longer by more than either search's margin.
 TEST(Patch, never_gives_a_longer_step_than_a_search_of_the_whole_body) {
-  for (const Kind& kind : kinds) {
-    const auto started = built(scene_of(kind));
+  for (const BodyKind& kind : kinds_to_cut) {
+    const auto started = built(cut_scene_of(kind));
     Simulation& s = *started->s;
     Outputs outputs;
     std::int64_t n_edits = 0;

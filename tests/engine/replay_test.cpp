@@ -22,11 +22,11 @@ ExampleRun replayable_run() {
   return run;
 }
 
-struct Case {
+struct RunToReplay {
   TestFolder folder;
   ExampleRun run = replayable_run();
   ReplayOptions options{.recording = folder.file("r"), .folder = folder.file("out"), .vtu = true};
-  Case() {
+  RunToReplay() {
     start_log(0, true);
     write_run(run, options.recording);
   }
@@ -37,7 +37,7 @@ struct Case {
 };
 
 TEST(Replay, writes_a_vtu_of_each_frame_with_the_displaced_mesh_of_that_frame) {
-  Case c;
+  RunToReplay c;
   replay(c.options);
   for (std::size_t k = 0; k < c.run.frames.size(); ++k) {
     const Mesh read = read_mesh(c.vtu(c.run.frames[k].frame), 1);
@@ -53,7 +53,7 @@ TEST(Replay, writes_a_vtu_of_each_frame_with_the_displaced_mesh_of_that_frame) {
 }
 
 TEST(Replay, lists_the_vtu_files_with_their_times_for_paraview) {
-  Case c;
+  RunToReplay c;
   replay(c.options);
   const std::string pvd = read_text(c.options.folder + "/recording.pvd");
   for (const RecordedFrame& frame : c.run.frames)
@@ -61,7 +61,7 @@ TEST(Replay, lists_the_vtu_files_with_their_times_for_paraview) {
 }
 
 TEST(Replay, shows_the_frames_of_the_chosen_time_alone) {
-  Case c;
+  RunToReplay c;
   c.options.from = c.run.frames[2].time;
   c.options.to = c.run.frames[4].time;
   replay(c.options);
@@ -70,14 +70,14 @@ TEST(Replay, shows_the_frames_of_the_chosen_time_alone) {
 }
 
 TEST(Replay, says_that_no_frame_lies_in_the_chosen_time) {
-  Case c;
+  RunToReplay c;
   c.options.from = 100;
   EXPECT_TRUE(contains(input_error_of([&] { replay(c.options); }),
                        "no recorded frame lies in the chosen time"));
 }
 
 TEST(Replay, lists_frames_with_times_and_digests_and_writes_nothing) {
-  Case c;
+  RunToReplay c;
   c.options.list = true;
   testing::internal::CaptureStdout();
   replay(c.options);
@@ -90,7 +90,7 @@ TEST(Replay, lists_frames_with_times_and_digests_and_writes_nothing) {
 }
 
 TEST(Replay, lists_the_whole_frames_behind_a_damaged_one) {
-  Case c;
+  RunToReplay c;
   c.options.list = true;
   const std::int64_t damaged = c.run.frames[1].frame;
   Database(c.options.recording, Database::Mode::read)
@@ -105,20 +105,20 @@ TEST(Replay, lists_the_whole_frames_behind_a_damaged_one) {
 }
 
 TEST(Replay, says_that_it_has_nothing_to_do) {
-  Case c;
+  RunToReplay c;
   c.options.vtu = false;
   EXPECT_TRUE(contains(input_error_of([&] { replay(c.options); }), "--vtu"));
 }
 
 TEST(Replay, names_a_camera_that_the_scene_lacks) {
-  Case c;
+  RunToReplay c;
   c.options.frames = true;
   c.options.camera = "other";
   EXPECT_TRUE(contains(input_error_of([&] { replay(c.options); }), "no camera \"other\""));
 }
 
 TEST(Replay, does_not_write_a_film_over_its_recording) {
-  Case c;
+  RunToReplay c;
   c.options.folder = c.folder.path();
   c.options.video = "./r";
   const std::string before = read_text(c.options.recording);
@@ -127,13 +127,13 @@ TEST(Replay, does_not_write_a_film_over_its_recording) {
 }
 
 TEST(Replay, says_which_folder_can_not_be_made) {
-  Case c;
+  RunToReplay c;
   write_text(c.options.folder, "a file");
   EXPECT_TRUE(contains(error_of<MachineError>([&] { replay(c.options); }), c.options.folder));
 }
 
 TEST(Replay, shows_the_other_frames_of_a_damaged_recording) {
-  Case c;
+  RunToReplay c;
   Database(c.options.recording, Database::Mode::read)
       .run("UPDATE frame SET step = step + 1 WHERE frame = 4");
   replay(c.options);
@@ -142,7 +142,7 @@ TEST(Replay, shows_the_other_frames_of_a_damaged_recording) {
 }
 
 TEST(Replay, refuses_a_frame_whose_displacements_are_not_those_of_the_mesh) {
-  Case c;
+  RunToReplay c;
   c.run.frames[3].u.resize(3);
   write_run(c.run, c.options.recording);
   EXPECT_TRUE(contains(input_error_of([&] { replay(c.options); }), "1 displacements for"));

@@ -15,30 +15,30 @@ namespace trocar {
 namespace {
 
 // The block scene as a file, changed by --set.
-LoadedScene block(const std::vector<std::string>& settings) {
+LoadedScene block_with(const std::vector<std::string>& settings) {
   const TestFolder folder;
   return load_scene(write_text(folder.file("s.toml"), resume_block_text), settings);
 }
 
-std::string refusal(const std::vector<std::string>& settings) {
-  const Scene before = block({}).scene;
+std::string resume_refusal(const std::vector<std::string>& settings) {
+  const Scene before = block_with({}).scene;
   return input_error_of(
-      [&] { require_same_scene(echo_options(scene_options(), &before), block(settings)); });
+      [&] { require_same_scene(echo_options(scene_options(), &before), block_with(settings)); });
 }
 
 TEST(Resume, takes_the_same_scene) {
-  EXPECT_EQ(refusal({}), "");
+  EXPECT_EQ(resume_refusal({}), "");
 }
 
 TEST(Resume, lets_duration_pace_checkpoints_cameras_and_outputs_differ) {
-  EXPECT_EQ(
-      refusal({"time.duration=9", "time.pace=real-time", "checkpoint.every=0.1",
-               "camera=[{eye=[0,-1,0],target=[0,0,0]}]", "output=[{kind='metrics',file='m.csv'}]"}),
-      "");
+  EXPECT_EQ(resume_refusal({"time.duration=9", "time.pace=real-time", "checkpoint.every=0.1",
+                            "camera=[{eye=[0,-1,0],target=[0,0,0]}]",
+                            "output=[{kind='metrics',file='m.csv'}]"}),
+            "");
 }
 
 TEST(Resume, names_the_first_key_that_differs_and_both_values) {
-  const std::string sentence = refusal({"tissue.material.young_modulus=7000"});
+  const std::string sentence = resume_refusal({"tissue.material.young_modulus=7000"});
   EXPECT_TRUE(contains(sentence, "tissue.material.young_modulus")) << sentence;
   EXPECT_TRUE(contains(sentence, "the stopped run had 6000")) << sentence;
 }
@@ -48,21 +48,21 @@ TEST(Resume, names_a_key_within_lists_by_their_numbers) {
       replaced(resume_block_text, "time = \"0.6 s\"", "time = \"0.65 s\"");
   const TestFolder folder;
   const LoadedScene now = load_scene(write_text(folder.file("s.toml"), text), {});
-  const Scene before = block({}).scene;
+  const Scene before = block_with({}).scene;
   const std::string sentence =
       input_error_of([&] { require_same_scene(echo_options(scene_options(), &before), now); });
   EXPECT_TRUE(contains(sentence, "instrument[1].path[1].time")) << sentence;
 }
 
 TEST(Resume, refuses_a_scene_with_one_instrument_less) {
-  EXPECT_NE(refusal({"instrument=[]"}), "");
+  EXPECT_NE(resume_refusal({"instrument=[]"}), "");
 }
 
 TEST(Resume, without_a_checkpoint_says_how_to_start) {
   const TestFolder folder;
   Communicator alone;
   const std::string sentence =
-      input_error_of([&] { load_checkpoint(folder.path(), block({}), alone); });
+      input_error_of([&] { load_checkpoint(folder.path(), block_with({}), alone); });
   EXPECT_EQ(sentence, "\"" + folder.path() +
                           "\" holds no checkpoint (checkpoint.bin) to resume from; start the run "
                           "without --resume");

@@ -258,7 +258,7 @@ std::vector<std::string> places(const std::string& lines) {
 }
 using Places = std::vector<std::string>;
 
-const std::string box_text = "[tissue.shape]\nkind = \"box\"\n";
+const std::string box_table = "[tissue.shape]\nkind = \"box\"\n";
 
 TEST(SceneCheck, tells_all_errors_of_a_scene_in_the_order_of_its_lines) {
   EXPECT_EQ(
@@ -296,7 +296,7 @@ file = "/a"
 
 // Of the tables whose keys could all be read.
 TEST(SceneCheck, tells_of_values_that_do_not_fit_beside_keys_that_can_not_be_read) {
-  EXPECT_EQ(places(box_text +
+  EXPECT_EQ(places(box_table +
                    "high = [1, 1, -1]\n[[support]]\nregion = 3\nfix = \"q\"\n[[support]]\nregion = "
                    "\"z-\"\nfix = \"q\"\n[[camra]]\n[[output]]\nkind = \"video\"\nfile = \"a\"\n"),
             (Places{"5:8 tissue.shape.high", "7:10 support[0].region", "11:7 support[1].fix",
@@ -307,24 +307,24 @@ TEST(SceneCheck, tells_of_values_that_do_not_fit_beside_keys_that_can_not_be_rea
 }
 
 TEST(SceneCheck, tells_once_what_follows_from_one_error) {
-  EXPECT_EQ(places(box_text + instrument_text("probe",
-                                              "{ time = 5, position = [0, 0, 1] }, { time = 3, "
-                                              "position = [0, 0, 1] }, { time = 2, position = [0, "
-                                              "0, 1] }")),
+  EXPECT_EQ(places(box_table + instrument_text("probe",
+                                               "{ time = 5, position = [0, 0, 1] }, { time = 3, "
+                                               "position = [0, 0, 1] }, { time = 2, position = [0, "
+                                               "0, 1] }")),
             (Places{"7:55 instrument[0].path[1].time"}));
-  EXPECT_EQ(places(box_text + output_text("video", "a") + output_text("frames", "b")),
+  EXPECT_EQ(places(box_table + output_text("video", "a") + output_text("frames", "b")),
             (Places{"6:8 output[0].kind"}));
-  EXPECT_EQ(places(box_text + output_text("metrics", "../a") + output_text("metrics", "../a")),
+  EXPECT_EQ(places(box_table + output_text("metrics", "../a") + output_text("metrics", "../a")),
             (Places{"7:8 output[0].file", "10:8 output[1].file"}));
-  EXPECT_EQ(places(box_text + "[tissue.material]\nmodel = \"ogden\"\nc10 = 3\n"),
+  EXPECT_EQ(places(box_table + "[tissue.material]\nmodel = \"ogden\"\nc10 = 3\n"),
             (Places{"6:9 tissue.material.model", "7:7 tissue.material.c10"}));
-  EXPECT_EQ(places(box_text + "[tissue.material]\ntissue = \"lever\"\nc10 = 3\n"),
+  EXPECT_EQ(places(box_table + "[tissue.material]\ntissue = \"lever\"\nc10 = 3\n"),
             (Places{"6:10 tissue.material.tissue"}));
 }
 
 TEST(SceneCheck, points_at_the_key_that_is_wrong) {
   const auto expect_place = [](const std::string& lines, const std::string& place) {
-    EXPECT_EQ(places(box_text + lines), Places{place}) << lines;
+    EXPECT_EQ(places(box_table + lines), Places{place}) << lines;
   };
   expect_place("[tissue.material]\nmodel = \"yeoh\"\n", "6:9 tissue.material.model");
   expect_place("[tissue.material]\nprony = [{ share = 2e-1, time = 1 }, { share = 1, time = 2 }]\n",

@@ -9,6 +9,7 @@
 
 #include "engine/checkpoint.h"
 #include "engine/equilibrium.h"
+#include "engine_motion.h"
 #include "engine_scene.h"
 #include "engine_split.h"
 #include "engine_started.h"
@@ -19,8 +20,8 @@ namespace {
 
 // A bar of 120 x 20 x 20 mm on the table in its weight; a probe presses one end from 0.8 s to 2.6
 // s.
-const std::string bar_text = time_table("3.2 s") + tissue_of_kpa(6) + solver_table("-9.81", 30) +
-                             R"([start]
+const std::string pressed_bar = time_table("3.2 s") + tissue_of_kpa(6) + solver_table("-9.81", 30) +
+                                R"([start]
 state = "equilibrium"
 [checkpoint]
 every = 0
@@ -39,25 +40,19 @@ region = "z-"
 )");
 constexpr double bound = 0.1e-3;
 
-std::unique_ptr<Started> started(const std::vector<std::string>& overrides,
-                                 const std::string& text = bar_text) {
+std::unique_ptr<Started> started_bar(const std::vector<std::string>& overrides,
+                                     const std::string& text = pressed_bar) {
   auto run = built(text, overrides);
   start_in_equilibrium(run->loaded, *run->s);
   return run;
 }
 
-const std::string at_rest = "[start]\nstate = \"equilibrium\"\n";
+const std::string in_equilibrium = "[start]\nstate = \"equilibrium\"\n";
 const std::vector<std::string> with_sleep = {"solver.sleep='0.1 mm'"};
 
-double largest_difference(const Simulation& a, const Simulation& b) {
-  double most = 0;
-  for (std::size_t k = 0; k < a.state.u.size(); ++k)
-    most = std::max(most, std::abs(a.state.u[k] - b.state.u[k]));
-  return most;
-}
-
 TEST(Sleep, leaves_supports_the_weight) {
-  const auto run = started({"solver.sleep='0.1 mm'", "output=[{kind='metrics', file='m.csv'}]"});
+  const auto run =
+      started_bar({"solver.sleep='0.1 mm'", "output=[{kind='metrics', file='m.csv'}]"});
   while (run->s->frame < 20) run_frame(*run->s, run->outputs);
   EXPECT_GT(run->s->sleep->share, 0.9);
   double weight = 0;
@@ -67,13 +62,13 @@ TEST(Sleep, leaves_supports_the_weight) {
 }
 
 TEST(Sleep, changes_displacements_by_less_than_the_bound_while_much_is_asleep) {
-  const auto awake = started({}), sleepy = started(with_sleep);
+  const auto awake = started_bar({}), sleepy = started_bar(with_sleep);
   double most = 0, moved = 0, share_while_pressed = 0;
   const auto start = awake->s->state.u;
   while (awake->s->frame < 96) {
     run_frame(*awake->s, awake->outputs);
     run_frame(*sleepy->s, sleepy->outputs);
-    most = std::max(most, largest_difference(*awake->s, *sleepy->s));
+    most = std::max(most, largest_difference(awake->s->state.u, sleepy->s->state.u));
     for (std::size_t k = 0; k < start.size(); ++k)
       moved = std::max(moved, std::abs(awake->s->state.u[k] - start[k]));
     if (awake->s->frame > 54 && awake->s->frame <= 69)  // a second and more after the first touch
@@ -102,7 +97,7 @@ TEST(Sleep, lets_slow_motion_turn_back) {
   while (awake->s->frame < 600) {
     run_frame(*awake->s, awake->outputs);
     run_frame(*sleepy->s, sleepy->outputs);
-    most = std::max(most, largest_difference(*awake->s, *sleepy->s));
+    most = std::max(most, largest_difference(awake->s->state.u, sleepy->s->state.u));
     moved = std::max(moved, *std::ranges::max_element(awake->s->state.u));
   }
   std::printf("quiet time %.2f s, largest difference %.3g m of %.3g, share asleep %.2f\n",
@@ -113,7 +108,7 @@ TEST(Sleep, lets_slow_motion_turn_back) {
 }
 
 TEST(Sleep, comes_over_a_body_at_rest_after_half_a_second_and_ends_with_the_first_contact) {
-  const auto run = started(with_sleep);
+  const auto run = started_bar(with_sleep);
   Simulation& s = *run->s;
   while (s.frame < 15) run_frame(s, run->outputs);
   EXPECT_EQ(s.sleep->share, 0);  // 14 intervals of rest so far, half a second takes 15
@@ -125,7 +120,7 @@ TEST(Sleep, comes_over_a_body_at_rest_after_half_a_second_and_ends_with_the_firs
 }
 
 TEST(Sleep, leaves_sleeping_nodes_where_they_are_without_velocity) {
-  const auto run = started(with_sleep);
+  const auto run = started_bar(with_sleep);
   Simulation& s = *run->s;
   while (s.frame < 66) run_frame(s, run->outputs);
   ASSERT_GT(s.sleep->share, 0);
@@ -144,7 +139,7 @@ TEST(Sleep, leaves_sleeping_nodes_where_they_are_without_velocity) {
 // Blocks are left out only where nobody asks for the force: with all blocks computed the same bits
 // come out at nodes that are awake.
 TEST(Sleep, forces_at_awake_nodes_do_not_depend_on_the_blocks_left_out) {
-  const auto run = started(with_sleep);
+  const auto run = started_bar(with_sleep);
   Simulation& s = *run->s;
   while (s.frame < 66) run_frame(s, run->outputs);
   ASSERT_GT(std::count(s.scratch.is_asleep.begin(), s.scratch.is_asleep.end(), 1), 0);
@@ -160,13 +155,13 @@ TEST(Sleep, forces_at_awake_nodes_do_not_depend_on_the_blocks_left_out) {
 }
 
 TEST(Sleep, goes_on_after_a_restart_with_the_same_bits) {
-  const auto whole = started(with_sleep);
+  const auto whole = started_bar(with_sleep);
   while (whole->s->frame < 67) run_frame(*whole->s, whole->outputs);
   for (const std::int64_t frame : {10, 30, 66}) {
-    const auto first = started(with_sleep);
+    const auto first = started_bar(with_sleep);
     while (first->s->frame < frame) run_frame(*first->s, first->outputs);
     const std::vector<std::byte> bytes = checkpoint_to_bytes(take_checkpoint(*first->s));
-    const auto second = built(bar_text, with_sleep);
+    const auto second = built(pressed_bar, with_sleep);
     restore_checkpoint(checkpoint_from_bytes(bytes, "c"), *second->s);
     EXPECT_EQ(second->s->sleep->share, first->s->sleep->share);
     while (second->s->frame < 67) run_frame(*second->s, second->outputs);
@@ -176,21 +171,22 @@ TEST(Sleep, goes_on_after_a_restart_with_the_same_bits) {
 }
 
 // What sleep changed in a scene, and how much of the body slept before and woke after `moment`.
-struct Compared {
+struct SleepEffect {
   double most = 0, moved = 0;
   double share_before = 0, least_share_after = 1;
 };
 
-Compared compare(const std::string& text, std::int64_t moment, std::int64_t n_frames) {
-  const auto awake = started({}, text), sleepy = started(with_sleep, text);
-  Compared compared;
+SleepEffect compare(const std::string& text, std::int64_t moment, std::int64_t n_frames) {
+  const auto awake = started_bar({}, text), sleepy = started_bar(with_sleep, text);
+  SleepEffect compared;
   const auto start = awake->s->state.u;
   while (awake->s->frame < n_frames) {
     run_frame(*awake->s, awake->outputs);
     run_frame(*sleepy->s, sleepy->outputs);
     // After a cut the two bodies may have been cut apart elsewhere.
     if (awake->s->state.u.size() == start.size() && sleepy->s->state.u.size() == start.size())
-      compared.most = std::max(compared.most, largest_difference(*awake->s, *sleepy->s));
+      compared.most =
+          std::max(compared.most, largest_difference(awake->s->state.u, sleepy->s->state.u));
     const double share = sleepy->s->sleep->share;
     if (awake->s->frame == moment) compared.share_before = share;
     if (awake->s->frame > moment)
@@ -203,18 +199,18 @@ Compared compare(const std::string& text, std::int64_t moment, std::int64_t n_fr
 
 // Without the probe, and with something else.
 std::string bar_with(const std::string& more) {
-  return bar_text.substr(0, bar_text.find("[[instrument]]")) + more;
+  return pressed_bar.substr(0, pressed_bar.find("[[instrument]]")) + more;
 }
 
 TEST(Sleep, ends_when_a_support_moves) {
-  const Compared compared = compare(bar_with(R"([[support]]
+  const SleepEffect compared = compare(bar_with(R"([[support]]
 region = "x-"
 path = [
   { time = "1.0 s", displacement = [0, 0, 0] },
   { time = "1.3 s", displacement = ["-3 mm", 0, 0] },
 ]
 )"),
-                                    29, 60);
+                                       29, 60);
   EXPECT_GT(compared.share_before, 0.8);  // all but the support and what hangs on it
   EXPECT_EQ(compared.least_share_after, 0);
   EXPECT_LT(compared.most, bound);
@@ -231,7 +227,7 @@ path = [
   { time = "1.5 s", position = ["-15 mm", "1 mm", "11 mm"] },
 ]
 )");
-  const auto run = started(with_sleep, text);
+  const auto run = started_bar(with_sleep, text);
   Simulation& s = *run->s;
   const std::int32_t n_nodes = s.mesh.n_nodes();
   while (s.frame < 24) run_frame(s, run->outputs);
@@ -250,12 +246,13 @@ path = [
 // It wakes, is split, sleeps again, and each goes on after a restart with the same bits.
 TEST(Sleep, ends_where_a_cut_splits_elements_and_comes_back) {
   const std::string text = plate_of("tet4-five") +
-                           "[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"x+\"\n" + at_rest;
+                           "[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"x+\"\n" +
+                           in_equilibrium;
   const std::vector<std::string> light = {"solver.sleep='0.1 mm'", "solver.gravity=[0,0,-0.01]"};
   const auto run_to = [](Started& run, std::int64_t frame) {
     while (run.s->frame < frame) run_frame(*run.s, run.outputs);
   };
-  const auto whole = started(light, text);
+  const auto whole = started_bar(light, text);
   Simulation& s = *whole->s;
   run_to(*whole, 35);
   EXPECT_EQ(s.sleep->share, 1);
@@ -288,7 +285,7 @@ TEST(Sleep, is_refused_for_viscoelastic_tissue) {
 }
 
 TEST(Sleep, is_absent_unless_it_is_asked_for) {
-  EXPECT_FALSE(started({})->s->sleep.has_value());
+  EXPECT_FALSE(started_bar({})->s->sleep.has_value());
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace trocar {
 namespace {
 
 // 2 x 2 x 5 cm, linear with E = 6 kPa and nu = 0.
-const std::string bar_text = R"(
+const std::string linear_bar = R"(
 [time]
 duration = 1
 frame_rate = 100
@@ -42,7 +42,7 @@ TEST(SupportForces, bear_the_weight_of_a_body_at_rest) {
        {"[[support]]\nregion = \"z-\"\n",
         "[[support]]\nregion = \"z-\"\npath = [{ time = 0, displacement = [0, 0, 0] }]\n"}) {
     const auto bar =
-        built("[start]\nstate = \"equilibrium\"\ntolerance = 1e-9\n" + bar_text + down + support);
+        built("[start]\nstate = \"equilibrium\"\ntolerance = 1e-9\n" + linear_bar + down + support);
     start_in_equilibrium(bar->loaded, *bar->s);
     run_frame(*bar->s, bar->outputs);
     const double weight = 1000 * 2e-5 * 9.81;
@@ -51,7 +51,7 @@ TEST(SupportForces, bear_the_weight_of_a_body_at_rest) {
 }
 
 TEST(SupportForces, of_a_stretched_bar_are_its_tension_at_both_ends) {
-  const auto bar = built("[start]\nstate = \"equilibrium\"\ntolerance = 1e-9\n" + bar_text +
+  const auto bar = built("[start]\nstate = \"equilibrium\"\ntolerance = 1e-9\n" + linear_bar +
                          "[[support]]\nregion = \"z-\"\n[[support]]\nregion = \"z+\"\n"
                          "path = [{ time = 0, displacement = [0, 0, 0.001] }]\n");
   start_in_equilibrium(bar->loaded, *bar->s);
@@ -61,7 +61,7 @@ TEST(SupportForces, of_a_stretched_bar_are_its_tension_at_both_ends) {
   EXPECT_LT((forces_of(*bar)[1] + Vec3(0, 0, tension)).norm(), 1e-6 * tension);
 }
 
-Vec3 momentum(const Simulation& s) {
+Vec3 momentum_of_scaled(const Simulation& s) {
   Vec3 sum = Vec3::Zero();
   for (std::int64_t i = 0; i < s.model.n_owned; ++i)
     sum += s.model.mass[static_cast<std::size_t>(i)] * Vec3::Map(&s.state.v[3 * i]);
@@ -72,7 +72,7 @@ Vec3 momentum(const Simulation& s) {
 // scaled.
 TEST(SupportForces, and_weight_are_all_that_changes_the_momentum) {
   for (const std::string scaling : {"", "mass_scaling_step = \"4 ms\"\n"}) {
-    const auto bar = built(bar_text + down + scaling + R"(
+    const auto bar = built(linear_bar + down + scaling + R"(
 [[support]]
 region = "z-"
 [[support]]
@@ -83,7 +83,7 @@ region = "y+"
 path = [{ time = 0, displacement = [0, 0, 0] }, { time = 0.5, displacement = [0.002, 0.001, 0] }]
 )");
     for (int frame = 0; frame < 3; ++frame) run_frame(*bar->s, bar->outputs);
-    const Vec3 before = momentum(*bar->s);
+    const Vec3 before = momentum_of_scaled(*bar->s);
     const double dt = bar->s->log.rows.back().dt;
     run_frame(*bar->s, bar->outputs);
     ASSERT_EQ(bar->s->log.rows.back().dt, dt);
@@ -92,13 +92,13 @@ path = [{ time = 0, displacement = [0, 0, 0] }, { time = 0.5, displacement = [0.
       EXPECT_GT(on_support.norm(), 1e-3);
       force -= on_support;
     }
-    EXPECT_LT((momentum(*bar->s) - before - force * 0.01).norm(), 1e-12 * force.norm());
+    EXPECT_LT((momentum_of_scaled(*bar->s) - before - force * 0.01).norm(), 1e-12 * force.norm());
     EXPECT_EQ(bar->s->added_mass.has_value(), !scaling.empty());
   }
 }
 
 TEST(SupportForces, of_a_component_that_several_fix_go_to_the_first) {
-  const auto bar = built(bar_text +
+  const auto bar = built(linear_bar +
                          "[[support]]\nregion = \"z-\"\nfix = \"x\"\n"
                          "[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"z-\"\n");
   const SupportForces& forces = bar->s->energy->support_forces;
@@ -110,7 +110,7 @@ TEST(SupportForces, of_a_component_that_several_fix_go_to_the_first) {
 
 TEST(SupportForces, have_the_nodes_that_a_cut_makes) {
   const auto bar =
-      built(bar_text + "[[support]]\nregion = \"x-\"\n", {"tissue.shape.elements='tet4-kuhn'"});
+      built(linear_bar + "[[support]]\nregion = \"x-\"\n", {"tissue.shape.elements='tet4-kuhn'"});
   Simulation& s = *bar->s;
   GlobalState global = gather_state(s);
   CutFigures figures;
@@ -154,14 +154,14 @@ TEST(SupportForces, and_weight_are_all_that_changes_the_momentum_of_a_split_plat
   const double mass = std::accumulate(s.mass.begin(), s.mass.end(), 0.0);
   int n_compared = 0;
   for (int k = 0; k < 10; ++k) {
-    const Vec3 before = momentum(s);
+    const Vec3 before = momentum_of_scaled(s);
     const double dt = k > 0 ? s.log.rows.back().dt : 0;
     run_frame(s, plate->outputs);
     if (s.log.rows.back().dt != dt) continue;  // velocities are of half a step before
     ++n_compared;
     const Vec3 force = Vec3(0, 0, -0.3 * mass) - forces_of(*plate)[0] - forces_of(*plate)[1];
     EXPECT_GT(forces_of(*plate)[1].norm(), 0);
-    EXPECT_LT((momentum(s) - before - force / 50).norm(), 1e-10 * force.norm());
+    EXPECT_LT((momentum_of_scaled(s) - before - force / 50).norm(), 1e-10 * force.norm());
   }
   EXPECT_GT(n_compared, 1);
 }

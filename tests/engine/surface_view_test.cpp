@@ -10,7 +10,7 @@
 namespace trocar {
 namespace {
 
-struct Case {
+struct BoxSurface {
   Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(0.1, 0.1, 0.1), {3, 4, 3}, BoxElements::hex8);
   Surface surface = boundary_surface(mesh);
 };
@@ -28,7 +28,7 @@ std::vector<double> local_field(const Part& part) {
 }
 
 TEST(SurfaceView, on_one_rank_has_the_present_positions_of_all_surface_nodes) {
-  Case c;
+  BoxSurface c;
   const std::vector<std::int32_t> owner(c.mesh.X.size(), 0);
   const Part part = make_part(c.mesh, owner, 0);
   SurfaceView view = make_surface_view(c.surface, c.mesh.X, owner, part);
@@ -39,7 +39,7 @@ TEST(SurfaceView, on_one_rank_has_the_present_positions_of_all_surface_nodes) {
 }
 
 TEST(SurfaceView, lists_each_surface_node_once_by_owner_and_number) {
-  Case c;
+  BoxSurface c;
   const std::vector<std::int32_t> owner = partition_nodes(c.mesh, 3);
   const SurfaceView view =
       make_surface_view(c.surface, c.mesh.X, owner, make_part(c.mesh, owner, 1));
@@ -53,7 +53,7 @@ TEST(SurfaceView, lists_each_surface_node_once_by_owner_and_number) {
 
 // What the ranks send, one after the other, must be what every rank expects to receive.
 TEST(SurfaceView, the_ranks_values_in_rank_order_meet_the_nodes_in_the_order_of_the_list) {
-  Case c;
+  BoxSurface c;
   const std::vector<std::int32_t> owner = partition_nodes(c.mesh, 3);
   std::vector<std::int32_t> sent;
   std::vector<std::int32_t> expected;
@@ -70,7 +70,7 @@ TEST(SurfaceView, the_ranks_values_in_rank_order_meet_the_nodes_in_the_order_of_
 }
 
 TEST(SurfaceView, after_an_edit_is_that_of_the_edited_surface_and_keeps_where_the_others_are) {
-  Case c;
+  BoxSurface c;
   std::vector<std::int32_t> owner = partition_nodes(c.mesh, 3);
   const Part part = make_part(c.mesh, owner, 1);
   SurfaceView view = make_surface_view(c.surface, c.mesh.X, owner, part);

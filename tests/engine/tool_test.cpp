@@ -8,7 +8,7 @@
 namespace trocar {
 namespace {
 
-SceneInstrument instrument(InstrumentKind kind) {
+SceneInstrument instrument_of(InstrumentKind kind) {
   return {.kind = kind, .name = "tool", .path = {{.time = 0, .position = Vec3(0.1, 0.2, 0.3)}}};
 }
 
@@ -22,7 +22,7 @@ double lowest(const ConvexPiece& piece, int axis) {
 TEST(Tool, of_every_kind_has_a_shaft_a_working_piece_and_a_picture) {
   for (const InstrumentKind kind : {InstrumentKind::probe, InstrumentKind::grasper,
                                     InstrumentKind::scalpel, InstrumentKind::scissors}) {
-    const Tool tool = make_tool(instrument(kind), {}, 1e-3);
+    const Tool tool = make_tool(instrument_of(kind), {}, 1e-3);
     ASSERT_GT(tool.shape.pieces.size(), static_cast<std::size_t>(first_working_piece));
     EXPECT_FALSE(tool.parts.empty());
     for (const ToolPart& part : tool.parts) {
@@ -37,14 +37,14 @@ TEST(Tool, of_every_kind_has_a_shaft_a_working_piece_and_a_picture) {
 }
 
 TEST(Tool, the_tip_of_a_probe_is_a_ball_that_touches_the_origin) {
-  const SceneInstrument probe = instrument(InstrumentKind::probe);
+  const SceneInstrument probe = instrument_of(InstrumentKind::probe);
   const Tool tool = make_tool(probe, {}, 1e-3);
   EXPECT_DOUBLE_EQ(lowest(tool.shape.pieces[1], 2), 0);
   for (const ConvexPiece& piece : tool.shape.pieces) EXPECT_GE(lowest(piece, 2), -1e-18);
 }
 
 TEST(Tool, a_scalpel_has_its_edge_on_the_z_axis_from_the_tip_to_the_blades_length) {
-  SceneInstrument scalpel = instrument(InstrumentKind::scalpel);
+  SceneInstrument scalpel = instrument_of(InstrumentKind::scalpel);
   scalpel.blade_length = 0.02;
   for (const double spacing : {1e-3, 3e-3, 1.0}) {
     const Tool tool = make_tool(scalpel, {}, spacing);
@@ -59,12 +59,12 @@ TEST(Tool, a_scalpel_has_its_edge_on_the_z_axis_from_the_tip_to_the_blades_lengt
 }
 
 TEST(Tool, the_body_of_a_blade_lies_behind_its_edge) {
-  const Tool tool = make_tool(instrument(InstrumentKind::scalpel), {}, 1e-3);
+  const Tool tool = make_tool(instrument_of(InstrumentKind::scalpel), {}, 1e-3);
   for (const Vec3& point : tool.shape.pieces[first_working_piece].points) EXPECT_LE(point.x(), 0);
 }
 
 TEST(Tool, the_jaws_of_a_grasper_mirror_each_other) {
-  const Tool tool = make_tool(instrument(InstrumentKind::grasper), {}, 1e-3);
+  const Tool tool = make_tool(instrument_of(InstrumentKind::grasper), {}, 1e-3);
   ASSERT_EQ(tool.shape.pieces.size(), 4u);
   const ConvexPiece &upper = tool.shape.pieces[1], &lower = tool.shape.pieces[2];
   for (std::size_t k = 0; k < upper.points.size(); ++k)
@@ -75,7 +75,7 @@ TEST(Tool, the_jaws_of_a_grasper_mirror_each_other) {
 
 TEST(Tool, closed_jaws_lie_between_the_open_ones) {
   for (const InstrumentKind kind : {InstrumentKind::grasper, InstrumentKind::scissors}) {
-    const Tool tool = make_tool(instrument(kind), {}, 1e-3);
+    const Tool tool = make_tool(instrument_of(kind), {}, 1e-3);
     ASSERT_EQ(tool.shape.pieces.size(), tool.closed_begin + 1);
     EXPECT_EQ(tool.open_end, tool.closed_begin);
     const ConvexPiece& closed = tool.shape.pieces.back();
@@ -90,7 +90,7 @@ TEST(Tool, closed_jaws_lie_between_the_open_ones) {
 
 TEST(Tool, the_box_round_a_tool_holds_its_thickened_pieces) {
   for (const InstrumentKind kind : {InstrumentKind::probe, InstrumentKind::grasper}) {
-    const Tool tool = make_tool(instrument(kind), {}, 1e-3);
+    const Tool tool = make_tool(instrument_of(kind), {}, 1e-3);
     double low = 0;
     for (const ConvexPiece& piece : tool.shape.pieces) low = std::min(low, lowest(piece, 0));
     EXPECT_EQ(tool.box.low.x(), low);
@@ -100,7 +100,7 @@ TEST(Tool, the_box_round_a_tool_holds_its_thickened_pieces) {
 
 TEST(Tool, a_surface_of_the_users_own_replaces_the_working_piece_and_the_picture) {
   const TriangleMesh own = make_box_surface(Vec3(-1e-3, -1e-3, 0), Vec3(1e-3, 1e-3, 5e-3));
-  const Tool tool = make_tool(instrument(InstrumentKind::probe), own, 1e-3);
+  const Tool tool = make_tool(instrument_of(InstrumentKind::probe), own, 1e-3);
   ASSERT_EQ(tool.shape.pieces.size(), 2u);
   EXPECT_EQ(tool.shape.pieces[first_working_piece].points, own.X);
   EXPECT_EQ(tool.shape.pieces[first_working_piece].radius, 0);
@@ -110,7 +110,7 @@ TEST(Tool, a_surface_of_the_users_own_replaces_the_working_piece_and_the_picture
 }
 
 Tool tool_with(InstrumentKind kind, const std::vector<std::pair<double, GraspAction>>& actions) {
-  SceneInstrument result = instrument(kind);
+  SceneInstrument result = instrument_of(kind);
   result.path.clear();
   for (const auto& [time, action] : actions)
     result.path.push_back({.time = time, .action = action});

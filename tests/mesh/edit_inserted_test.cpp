@@ -69,10 +69,10 @@ struct BisectedBox {
   }
 };
 
-constexpr unsigned n_seeds = 8;
+constexpr unsigned n_bisected_boxes = 8;
 
 TEST(EditOfEdgeNodes, leaves_a_sound_mesh_of_the_same_volume_and_mass) {
-  for (unsigned seed = 0; seed < n_seeds; ++seed) {
+  for (unsigned seed = 0; seed < n_bisected_boxes; ++seed) {
     const BisectedBox box(seed);
     ASSERT_GT(box.edit.inserted.size(), 5u);
     const Mesh after = box.after();
@@ -113,7 +113,7 @@ TEST(EditOfEdgeNodes, keeps_affine_fields) {
 }
 
 TEST(EditOfEdgeNodes, numbers_elements_by_what_they_are_parts_of) {
-  for (unsigned seed = 0; seed < n_seeds; ++seed) {
+  for (unsigned seed = 0; seed < n_bisected_boxes; ++seed) {
     const BisectedBox box(seed);
     const SplitNumbers numbers(box.edit.splits);
     const std::vector<std::int32_t> parent = element_parents(box.mesh, box.edit);
@@ -133,7 +133,7 @@ TEST(EditOfEdgeNodes, numbers_elements_by_what_they_are_parts_of) {
 }
 
 TEST(EditOfEdgeNodes, carries_corners_and_surface_and_boxes) {
-  for (unsigned seed = 0; seed < n_seeds; ++seed) {
+  for (unsigned seed = 0; seed < n_bisected_boxes; ++seed) {
     const BisectedBox box(seed);
     const Mesh after = box.after();
     NodeCorners corners = node_corners(box.mesh);
@@ -217,7 +217,7 @@ TEST(EditOfEdgeNodes, puts_a_node_into_the_sets_of_both_ends_and_parts_facets_th
 }
 
 TEST(EditOfEdgeNodes, gives_each_rank_the_part_of_the_edited_mesh) {
-  for (unsigned seed = 0; seed < n_seeds; ++seed) {
+  for (unsigned seed = 0; seed < n_bisected_boxes; ++seed) {
     const BisectedBox box(seed);
     const Mesh after = box.after();
     const std::vector<std::int32_t> owner_before = partition_nodes(box.mesh, 3);

@@ -37,10 +37,10 @@ struct SplitBox {
   }
 };
 
-constexpr unsigned n_seeds = 12;
+constexpr unsigned n_split_boxes = 12;
 
 TEST(EditOfSplits, numbers_elements_by_what_they_are_parts_of) {
-  for (unsigned seed = 0; seed < n_seeds; ++seed) {
+  for (unsigned seed = 0; seed < n_split_boxes; ++seed) {
     const SplitBox box(seed);
     const SplitNumbers numbers(box.edit.splits);
     const std::vector<std::int32_t> parent = element_parents(box.mesh, box.edit);
@@ -60,7 +60,7 @@ TEST(EditOfSplits, numbers_elements_by_what_they_are_parts_of) {
 }
 
 TEST(EditOfSplits, leaves_others_their_corners) {
-  for (unsigned seed = 0; seed < n_seeds; ++seed) {
+  for (unsigned seed = 0; seed < n_split_boxes; ++seed) {
     const SplitBox box(seed);
     const SplitNumbers numbers(box.edit.splits);
     Mesh after = box.mesh;
@@ -84,7 +84,7 @@ TEST(EditOfSplits, leaves_others_their_corners) {
 }
 
 TEST(EditOfSplits, carries_the_corners_at_nodes) {
-  for (unsigned seed = 0; seed < n_seeds; ++seed) {
+  for (unsigned seed = 0; seed < n_split_boxes; ++seed) {
     const SplitBox box(seed);
     ASSERT_FALSE(box.edit.corners.empty());
     NodeCorners corners = node_corners(box.mesh);
@@ -98,7 +98,7 @@ TEST(EditOfSplits, carries_the_corners_at_nodes) {
 }
 
 TEST(EditOfSplits, keeps_tetrahedra_in_the_box_of_their_hexahedron) {
-  for (unsigned seed = 0; seed < n_seeds; ++seed) {
+  for (unsigned seed = 0; seed < n_split_boxes; ++seed) {
     const SplitBox box(seed);
     ElementBoxes boxes = make_element_boxes(box.mesh, box.mesh.X);
     const std::vector<std::int32_t> leaf = boxes.leaf;

@@ -28,7 +28,7 @@ void split(Mesh& mesh, const std::vector<std::int32_t>& elements) {
 }
 
 // Numbers the nodes anew at random: every pattern of diagonals comes up.
-Mesh shuffled(Mesh mesh, unsigned seed) {
+Mesh numbered_at_random(Mesh mesh, unsigned seed) {
   std::vector<std::int32_t> number(mesh.X.size());
   std::iota(number.begin(), number.end(), 0);
   std::mt19937 random(seed);
@@ -44,7 +44,7 @@ Mesh shuffled(Mesh mesh, unsigned seed) {
 
 TEST(ElementSplit, tetrahedra_fill_a_body_of_hexahedra_whatever_its_numbers) {
   for (unsigned seed = 0; seed < 20; ++seed) {
-    Mesh mesh = shuffled(hex_box({3, 3, 3}), seed);
+    Mesh mesh = numbered_at_random(hex_box({3, 3, 3}), seed);
     std::vector<std::int32_t> all(27);
     std::iota(all.begin(), all.end(), 0);
     split(mesh, all);
@@ -75,7 +75,7 @@ TEST(ElementSplit, neighbours_agree_about_diagonals_of_any_ranks) {
 
 TEST(ElementSplit, a_body_of_both_kinds_is_one_piece_with_the_surface_of_the_uncut_one) {
   for (unsigned seed = 0; seed < 20; ++seed) {
-    Mesh mesh = shuffled(hex_box({3, 3, 3}), seed);
+    Mesh mesh = numbered_at_random(hex_box({3, 3, 3}), seed);
     std::mt19937 random(seed);
     for (std::size_t i = 0; i < mesh.X.size() && seed % 2 == 1; ++i)
       mesh.hex_split_rank.push_back(static_cast<std::uint8_t>(random() % 3));

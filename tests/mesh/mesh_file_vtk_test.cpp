@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "mesh/mesh_file.h"
 #include "mesh_equal.h"
+#include "mesh_refusal.h"
 #include "mesh_sample_files.h"
 #include "mesh_temporary_folder.h"
 
@@ -12,15 +13,11 @@ namespace {
 
 const std::string cube_points = "POINTS 8 float\n0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1\n";
 
-std::string refusal(const std::string& content) {
-  const TemporaryFolder folder;
-  const std::string file = folder.file("a.vtk", content);
-  const std::string message = error_of([&] { read_mesh(file, 1); });
-  EXPECT_TRUE(message.starts_with(file + ":")) << message;
-  return message.substr(std::min(message.size(), file.size() + 1));
+std::string vtk_refusal(const std::string& content) {
+  return refusal_by(read_mesh, "a.vtk", content);
 }
 
-Mesh accepted(const std::string& content) {
+Mesh vtk_mesh(const std::string& content) {
   const TemporaryFolder folder;
   return read_mesh(folder.file("a.vtk", content), 1);
 }
@@ -31,7 +28,7 @@ std::string ascii(const std::string& rest) {
 
 TEST(LegacyVtk, a_voxel_is_a_hexahedron_in_another_order) {
   const Mesh mesh =
-      accepted(ascii(cube_points + "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n11\n"));
+      vtk_mesh(ascii(cube_points + "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n11\n"));
   ASSERT_EQ(mesh.n_elements(), 1);
   EXPECT_EQ(mesh.element_type[0], ElementType::hex8);
   EXPECT_EQ(element_volume(mesh, 0, mesh.X), 1);  // sums of integers: exact
@@ -39,7 +36,7 @@ TEST(LegacyVtk, a_voxel_is_a_hexahedron_in_another_order) {
 }
 
 TEST(LegacyVtk, vertices_and_lines_are_left_out) {
-  const Mesh mesh = accepted(ascii(
+  const Mesh mesh = vtk_mesh(ascii(
       cube_points +
       "CELLS 4 16\n1 0\n4 0 1 2 3\n3 0 1 2\n4 0 1 2 4\nCELL_TYPES 4\n1\n4\n4\n10\nPOINT_DATA 8\n"));
   EXPECT_EQ(mesh.n_elements(), 1);
@@ -99,7 +96,7 @@ std::string binary_with_data() {
 // Up to within the data of cells and points: the tetrahedron alone is a whole file.
 TEST(LegacyVtk, a_file_cut_off_within_the_data_of_cells_or_points_is_refused) {
   for (const std::string& whole : {ascii_with_data(), binary_with_data()}) {
-    EXPECT_EQ(accepted(whole).n_elements(), 1);
+    EXPECT_EQ(vtk_mesh(whole).n_elements(), 1);
     int n_accepted = 0;
     for (std::size_t n = whole.find("SCALARS") + 1; n < whole.size(); ++n) {
       const TemporaryFolder folder;
@@ -108,12 +105,12 @@ TEST(LegacyVtk, a_file_cut_off_within_the_data_of_cells_or_points_is_refused) {
     }
     // Between two arrays, where a line may also lack its end, and within the last number.
     EXPECT_LE(n_accepted, 40) << whole.size();
-    EXPECT_NE(refusal(whole.substr(0, whole.find("NORMALS") + 30)), "");
+    EXPECT_NE(vtk_refusal(whole.substr(0, whole.find("NORMALS") + 30)), "");
   }
 }
 
 TEST(LegacyVtk, keywords_count_in_any_case) {
-  EXPECT_EQ(accepted("# vtk DataFile Version 2.0\nt\nascii\ndataset unstructured_grid\n" +
+  EXPECT_EQ(vtk_mesh("# vtk DataFile Version 2.0\nt\nascii\ndataset unstructured_grid\n" +
                      cube_points + "cells 1 5\n4 0 1 2 4\ncell_types 1\n10\n")
                 .n_elements(),
             1);
@@ -121,22 +118,22 @@ TEST(LegacyVtk, keywords_count_in_any_case) {
 
 TEST(LegacyVtk, cells_that_do_not_fit_are_named) {
   // Four lines of head, two of points, CELLS in the 7th.
-  EXPECT_EQ(refusal(ascii(cube_points + "CELLS 1 5\n4 0 1 2 8\nCELL_TYPES 1\n10\n")),
+  EXPECT_EQ(vtk_refusal(ascii(cube_points + "CELLS 1 5\n4 0 1 2 8\nCELL_TYPES 1\n10\n")),
             " cell 0 refers to point 8, but the points run from 0 to 7");
-  EXPECT_EQ(refusal(ascii(cube_points + "CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n1\n")),
+  EXPECT_EQ(vtk_refusal(ascii(cube_points + "CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n1\n")),
             " cell 0 has 4 corners, which does not fit VTK type 1");
   EXPECT_EQ(
-      refusal(ascii(cube_points + "CELLS 1 7\n6 0 1 2 3 4 5\nCELL_TYPES 1\n13\n")),
+      vtk_refusal(ascii(cube_points + "CELLS 1 7\n6 0 1 2 3 4 5\nCELL_TYPES 1\n13\n")),
       " cell 0 is a prism (VTK type 13); triangles, tetrahedra, hexahedra and voxels are read "
       "(types 5, 10, 12, 11)");
-  EXPECT_EQ(refusal(ascii(cube_points + "CELLS 1 5\n9 0 1 2 4\nCELL_TYPES 1\n10\n")),
+  EXPECT_EQ(vtk_refusal(ascii(cube_points + "CELLS 1 5\n9 0 1 2 4\nCELL_TYPES 1\n10\n")),
             "8: cell 0 does not fit into the 5 numbers of CELLS");
-  EXPECT_EQ(refusal(ascii(cube_points + "CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 2\n10 10\n")),
+  EXPECT_EQ(vtk_refusal(ascii(cube_points + "CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 2\n10 10\n")),
             " has 2 cell types, but 1 cells");
 }
 
 TEST(LegacyVtk, other_data_sets_are_named) {
-  EXPECT_EQ(refusal("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"),
+  EXPECT_EQ(vtk_refusal("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"),
             "4: the data set is \"POLYDATA\"; only UNSTRUCTURED_GRID is read");
 }
 
@@ -144,7 +141,7 @@ TEST(LegacyVtk, points_that_are_not_finite_are_refused_in_binary_data) {
   std::string content = vtk_4_binary();
   const std::size_t at = content.find("double\n") + 7;
   content.replace(at, 8, "\x7f\xf0\0\0\0\0\0\0", 8);  // big-endian infinity
-  EXPECT_EQ(refusal(content), " byte " + std::to_string(at) + ": a coordinate is not finite");
+  EXPECT_EQ(vtk_refusal(content), " byte " + std::to_string(at) + ": a coordinate is not finite");
 }
 
 }  // namespace

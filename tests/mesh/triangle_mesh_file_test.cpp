@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "mesh/mesh_file.h"
 #include "mesh_equal.h"
+#include "mesh_refusal.h"
 #include "mesh_sample_files.h"
 #include "mesh_temporary_folder.h"
 
@@ -16,11 +17,7 @@ TriangleMesh accepted(const std::string& name, const std::string& content) {
 }
 
 std::string refusal(const std::string& name, const std::string& content) {
-  const TemporaryFolder folder;
-  const std::string file = folder.file(name, content);
-  const std::string message = error_of([&] { read_triangle_mesh(file, 1); });
-  EXPECT_TRUE(message.starts_with(file + ":")) << message;
-  return message.substr(std::min(message.size(), file.size() + 1));
+  return refusal_by(read_triangle_mesh, name, content);
 }
 
 // The positions of the corners, triangle by triangle: what does not depend on vertex numbers.

@@ -14,7 +14,7 @@ using namespace trocar;
 
 static constexpr double pi = std::numbers::pi;
 
-static void expect_sound(const TriangleMesh& mesh, double volume) {
+static void expect_closed(const TriangleMesh& mesh, double volume) {
   EXPECT_TRUE(is_closed(mesh.triangle));
   EXPECT_EQ(euler_characteristic(mesh.triangle), 2);
   EXPECT_NEAR(enclosed_volume(mesh.triangle, mesh.X), volume, 1e-12 * volume);
@@ -30,15 +30,15 @@ TEST(ConeSurface, has_the_volume_of_a_frustum_of_a_pyramid) {
   for (const int n : {3, 5, 8, 30})
     for (const double radius_b : {0.2, 0.07}) {
       const double A = polygon_area(n, 0.2), B = polygon_area(n, radius_b);
-      expect_sound(make_cone_surface(a, b, 0.2, radius_b, n),
-                   (b - a).norm() * (A + B + std::sqrt(A * B)) / 3);
+      expect_closed(make_cone_surface(a, b, 0.2, radius_b, n),
+                    (b - a).norm() * (A + B + std::sqrt(A * B)) / 3);
     }
 }
 
 TEST(ConeSurface, may_end_in_a_point_at_either_end) {
   const Vec3 a(0, 0, 0), b(0, 0, 2);
-  expect_sound(make_cone_surface(a, b, 0.3, 0, 7), 2 * polygon_area(7, 0.3) / 3);
-  expect_sound(make_cone_surface(a, b, 0, 0.3, 7), 2 * polygon_area(7, 0.3) / 3);
+  expect_closed(make_cone_surface(a, b, 0.3, 0, 7), 2 * polygon_area(7, 0.3) / 3);
+  expect_closed(make_cone_surface(a, b, 0, 0.3, 7), 2 * polygon_area(7, 0.3) / 3);
 }
 
 // Latitudes k / m of a quarter turn: a stack of frustums of pyramids.
@@ -57,7 +57,7 @@ TEST(SphereSurface, has_all_vertices_on_the_sphere) {
   for (const int n : {3, 8, 24}) {
     const TriangleMesh mesh = make_sphere_surface(centre, 0.004, n);
     for (const Vec3& X : mesh.X) EXPECT_NEAR((X - centre).norm(), 0.004, 1e-16);
-    expect_sound(mesh, 2 * half_sphere_volume(n, n < 8 ? 2 : n / 4) * std::pow(0.004, 3));
+    expect_closed(mesh, 2 * half_sphere_volume(n, n < 8 ? 2 : n / 4) * std::pow(0.004, 3));
   }
 }
 
@@ -65,9 +65,9 @@ TEST(CapsuleSurface, is_a_prism_between_two_half_spheres) {
   const Vec3 a(0.1, 0.2, 0.3), b(0.4, -0.1, 0.9);
   const double r = 0.05;
   for (const int n : {6, 16, 32})
-    expect_sound(make_capsule_surface(a, b, r, n),
-                 polygon_area(n, r) * (b - a).norm() +
-                     2 * half_sphere_volume(n, n < 8 ? 2 : n / 4) * r * r * r);
+    expect_closed(make_capsule_surface(a, b, r, n),
+                  polygon_area(n, r) * (b - a).norm() +
+                      2 * half_sphere_volume(n, n < 8 ? 2 : n / 4) * r * r * r);
 }
 
 TEST(CapsuleSurface, keeps_its_radius_from_the_axis_segment) {
@@ -81,7 +81,7 @@ TEST(CapsuleSurface, keeps_its_radius_from_the_axis_segment) {
 TEST(BoxSurface, has_the_volume_and_the_corners_of_the_box) {
   const Vec3 low(-0.1, 0.2, 0.7), high(0.2, 0.4, 0.9);
   const TriangleMesh mesh = make_box_surface(low, high);
-  expect_sound(mesh, (high - low).prod());
+  expect_closed(mesh, (high - low).prod());
   ASSERT_EQ(mesh.X.size(), 8U);
   for (const Vec3& X : mesh.X)
     for (int k = 0; k < 3; ++k) EXPECT_TRUE(X[k] == low[k] || X[k] == high[k]);
@@ -90,7 +90,7 @@ TEST(BoxSurface, has_the_volume_and_the_corners_of_the_box) {
 TEST(PlateSurface, has_the_volume_of_outline_times_thickness) {
   const std::vector<Vec3> outline = {{0, 0, 1}, {3, 0, 1}, {4, 1, 1}, {2, 3, 1}, {0, 2, 1}};
   // Shoelace: (3*1 - 4*0) + (4*3 - 2*1) + (2*2 - 0*3) = 3 + 10 + 4, halved.
-  expect_sound(make_plate_surface(outline, Vec3::UnitZ(), 0.1), 17.0 / 2 * 0.1);
+  expect_closed(make_plate_surface(outline, Vec3::UnitZ(), 0.1), 17.0 / 2 * 0.1);
 }
 
 TEST(TriangleMesh, append_keeps_both_surfaces) {

@@ -10,7 +10,7 @@ using namespace trocar;
 
 namespace {
 
-Body cube(Formulation formulation, MaterialModel model, Precision precision) {
+Body irregular_cube(Formulation formulation, MaterialModel model, Precision precision) {
   SolverOptions options = with(formulation);
   options.precision = precision;
   const ElementType shape = shape_of(formulation);
@@ -44,7 +44,7 @@ LeastOfElements by_all(const Body& body, std::span<const double> earlier) {
   return least;
 }
 
-void expect_same(const LeastOfElements& a, const LeastOfElements& b) {
+void expect_same_least(const LeastOfElements& a, const LeastOfElements& b) {
   EXPECT_EQ(a.step.value, b.step.value);
   EXPECT_EQ(a.step.number, b.step.number);
   EXPECT_EQ(a.J.value, b.J.value);
@@ -57,7 +57,7 @@ TEST(ElementWatch, that_leaves_elements_out_finds_what_a_look_at_all_finds) {
     for (const MaterialModel model : all_models())
       for (const Precision precision : {Precision::in_double, Precision::in_single}) {
         if (!is_possible(formulation, model)) continue;
-        Body body = cube(formulation, model, precision);
+        Body body = irregular_cube(formulation, model, precision);
         std::vector<double> earlier(body.part.element_global.size());
         deform(body, .1, 1);
         watch(body.model, body.part, body.state, earlier);
@@ -67,14 +67,14 @@ TEST(ElementWatch, that_leaves_elements_out_finds_what_a_look_at_all_finds) {
             ElementWatch elements(body.part, {.earlier = earlier});
             if (begin_with >= 0) elements.begin_with(body.model, body.state, begin_with);
             watch_elements(body.model, body.state, elements);
-            expect_same(elements.found(), by_all(body, earlier));
+            expect_same_least(elements.found(), by_all(body, earlier));
           }
         }
       }
 }
 
 TEST(ElementWatch, sees_inverted_and_broken_elements_among_sound_ones) {
-  Body body = cube(Formulation::tet4, MaterialModel::neo_hookean, Precision::in_double);
+  Body body = irregular_cube(Formulation::tet4, MaterialModel::neo_hookean, Precision::in_double);
   const std::vector<double> earlier(body.part.element_global.size(), 1.0);
   for (const double far : {.05, 1e200, std::numeric_limits<double>::quiet_NaN()}) {
     deform(body, .2, 3);
@@ -91,7 +91,8 @@ TEST(ElementWatch, sees_inverted_and_broken_elements_among_sound_ones) {
 }
 
 TEST(ElementWatch, of_forces_on_any_threads_is_that_of_elements_alone) {
-  Body body = cube(Formulation::hex8_one_point, MaterialModel::neo_hookean, Precision::in_double);
+  Body body =
+      irregular_cube(Formulation::hex8_one_point, MaterialModel::neo_hookean, Precision::in_double);
   deform(body, .2, 4);
   const std::vector<double> earlier(body.part.element_global.size(), 1.0);
   const LeastOfElements all = by_all(body, earlier);
@@ -101,7 +102,7 @@ TEST(ElementWatch, of_forces_on_any_threads_is_that_of_elements_alone) {
     ElementWatch elements(body.part, {.earlier = earlier});
     Neighbours none;
     find_force(body.model, none, body.state, body.scratch, &elements);
-    expect_same(elements.found(), all);
+    expect_same_least(elements.found(), all);
     EXPECT_EQ(body.scratch.force, force_alone);
   }
   set_thread_count(1);

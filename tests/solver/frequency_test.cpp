@@ -25,7 +25,7 @@ HighestFrequency search(Body& body, double tolerance = .01, int most = 100) {
   return search(body, {.tolerance = tolerance, .most_iterations = most});
 }
 
-Mesh cube(BoxElements elements, int n, double irregularity) {
+Mesh cube_mesh(BoxElements elements, int n, double irregularity) {
   Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(.1, .1, .1), {n, n, n}, elements);
   jitter(mesh, irregularity, 5);
   return mesh;
@@ -35,7 +35,7 @@ TEST(HighestFrequency, agrees_with_the_eigenvalues_of_the_assembled_stiffness) {
   for (const BoxElements elements : {BoxElements::hex8, BoxElements::tet4_kuhn})
     for (const double irregularity : {0., .2})
       for (const double strain : {0., 3e-3}) {
-        Body body = make_body(cube(elements, 4, irregularity));
+        Body body = make_body(cube_mesh(elements, 4, irregularity));
         shake(body.state.u, strain, 3);
         const double omega = 2 / true_limit(body, 1e-7);
         EXPECT_NEAR(search(body, 1e-6, 300).omega / omega, 1, 1e-6);  // differences of 1e-9 m
@@ -82,7 +82,7 @@ TEST(HighestFrequency, of_a_block_of_cubes_is_the_known_one) {
       {0, 1}, {.3, .981}, {.45, .894}, {.49, .860}, {.499, .853}};
   for (const auto& [nu, steps] : known) {
     const Material material{MaterialModel::neo_hookean, 3000, nu, 1000};
-    Body body = make_body(cube(BoxElements::hex8, 10, 0), {.materials = {material}});
+    Body body = make_body(cube_mesh(BoxElements::hex8, 10, 0), {.materials = {material}});
     const double c_d = std::sqrt((bulk_modulus(material) + 4. / 3 * lame_mu(material)) / 1000);
     const HighestFrequency found = search(body, 1e-3, 200);
     EXPECT_TRUE(found.is_converged);
@@ -94,7 +94,7 @@ TEST(HighestFrequency, of_a_block_of_cubes_is_the_known_one) {
 }
 
 TEST(HighestFrequency, leaves_supported_components_out) {
-  const Mesh mesh = cube(BoxElements::tet4_kuhn, 2, .2);
+  const Mesh mesh = cube_mesh(BoxElements::tet4_kuhn, 2, .2);
   Body body = make_body(mesh, {.fixed = std::vector<FixedMask>(mesh.X.size(), 5)});  // x and z
   Eigen::MatrixXd K = tangent_stiffness(body, 1e-7);
   for (Eigen::Index i = 0; i < K.rows(); ++i)
@@ -108,8 +108,8 @@ TEST(HighestFrequency, leaves_supported_components_out) {
 }
 
 TEST(HighestFrequency, of_single_precision_elements_is_within_a_percent) {
-  Body body =
-      make_body(cube(BoxElements::hex8, 4, .2), {.solver = {.precision = Precision::in_single}});
+  Body body = make_body(cube_mesh(BoxElements::hex8, 4, .2),
+                        {.solver = {.precision = Precision::in_single}});
   const double omega = 2 / true_limit(body, 1e-4);
   EXPECT_NEAR(search(body, {.amplitude = 1e-4, .tolerance = .02}).omega / omega, 1, .01);
 }

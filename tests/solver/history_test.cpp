@@ -10,17 +10,15 @@
 
 #include "solver/isochoric.h"
 #include "solver_body.h"
+#include "solver_viscous.h"
 
 using namespace trocar;
 
-constexpr double mu = 1000, K = 9000;
-
 static Body viscous_body(std::vector<PronyBranch> prony, MaterialModel model,
                          Precision precision = Precision::in_double, int element = 1) {
-  Material material = material_of(model, mu, K);
-  material.prony = std::move(prony);
   return make_body(irregular_elements()[static_cast<std::size_t>(element)],
-                   {.materials = {material}, .solver = {.precision = precision}});
+                   {.materials = {viscous_material(std::move(prony), model)},
+                    .solver = {.precision = precision}});
 }
 
 static void shear(Body& body, double g) {
@@ -54,8 +52,7 @@ TEST(Viscosity, relaxes_after_a_step_of_strain_by_its_shares_whatever_the_law) {
 
 // The share in the volume's energy that averages would change plays no part at J = 1.
 TEST(Viscosity, relaxes_tetrahedra_with_averaged_pressure_by_the_same_shares) {
-  Material material = material_of(MaterialModel::neo_hookean, mu, K);
-  material.prony = {{.5, .1}};
+  const Material material = viscous_material({{.5, .1}});
   Body body =
       make_body(make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {2, 2, 2}, BoxElements::tet4_kuhn),
                 {.materials = {material}, .solver = with(Formulation::tet4_nodal_pressure)});
@@ -187,8 +184,7 @@ TEST(Viscosity, a_body_without_it_has_no_history) {
 // A body of two ranks is rebuilt as one of one: element numbers tell whose history is whose.
 TEST(Viscosity, history_goes_over_to_another_distribution_of_elements) {
   const Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(.03, .01, .01), {3, 1, 1}, BoxElements::tet4_kuhn);
-  Material material = material_of(MaterialModel::neo_hookean, mu, K);
-  material.prony = {{.4, .1}};
+  const Material material = viscous_material({{.4, .1}});
   const std::vector<std::int32_t> owner = partition_nodes(mesh, 2);
   std::vector<Body> ranks = {make_body(mesh, {.materials = {material}}, owner, 0),
                              make_body(mesh, {.materials = {material}}, owner, 1)};

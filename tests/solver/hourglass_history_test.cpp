@@ -8,24 +8,23 @@
 
 #include "solver/history.h"
 #include "solver_body.h"
+#include "solver_viscous.h"
 
 using namespace trocar;
 
 namespace {
 
-constexpr double mu = 1000, K = 9000, tau = .1;
+constexpr double tau = .1;
 constexpr Formulation with_hourglass[] = {Formulation::hex8_one_point, Formulation::hex8_enhanced};
 
 Body body_of(Mesh mesh, Formulation formulation, std::vector<PronyBranch> prony,
              MaterialModel model = MaterialModel::neo_hookean,
              Precision precision = Precision::in_double) {
-  Material material = material_of(model, mu, K);
-  material.prony = std::move(prony);
-  return make_body(std::move(mesh), {.materials = {material},
+  return make_body(std::move(mesh), {.materials = {viscous_material(std::move(prony), model)},
                                      .solver = with(formulation, {.precision = precision})});
 }
 
-Mesh cube() {
+Mesh one_hexahedron() {
   return make_box(Vec3(0, 0, 0), Vec3(.01, .01, .01), {1, 1, 1}, BoxElements::hex8);
 }
 
@@ -54,8 +53,10 @@ TEST(HourglassHistory, forces_relax_after_a_step_of_strain_by_the_shares) {
   const std::vector<PronyBranch> prony = {{.3, tau}, {.4, 5 * tau}};
   for (const Formulation formulation : with_hourglass)
     for (const Precision precision : precisions) {
-      Body body = body_of(cube(), formulation, prony, MaterialModel::neo_hookean, precision);
-      Body elastic = body_of(cube(), formulation, {}, MaterialModel::neo_hookean, precision);
+      Body body =
+          body_of(one_hexahedron(), formulation, prony, MaterialModel::neo_hookean, precision);
+      Body elastic =
+          body_of(one_hexahedron(), formulation, {}, MaterialModel::neo_hookean, precision);
       bend(body, 20);
       bend(elastic, 20);
       ASSERT_GT(largest(force(elastic)), 1e-4);
@@ -72,8 +73,8 @@ TEST(HourglassHistory, forces_relax_after_a_step_of_strain_by_the_shares) {
 TEST(HourglassHistory, forces_follow_a_ramp_of_strain_exactly) {
   const double g = .6, t = .15, exact = (1 - g) * t + g * tau * (1 - std::exp(-t / tau));
   for (const Formulation formulation : with_hourglass) {
-    Body body = body_of(cube(), formulation, {{g, tau}});
-    Body elastic = body_of(cube(), formulation, {});
+    Body body = body_of(one_hexahedron(), formulation, {{g, tau}});
+    Body elastic = body_of(one_hexahedron(), formulation, {});
     bend(elastic, 20);
     for (int k = 0; k <= 40; ++k) {
       bend(body, 20 * t * k / 40);
@@ -90,10 +91,10 @@ TEST(HourglassHistory, a_relaxed_element_is_its_elastic_twin_in_any_deformation)
     for (const double share : {.5, .9}) {
       if (shape_of(formulation) == ElementType::tri3) continue;
       Body body = body_of(irregular_patch(formulation), formulation, {{share, tau}});
-      Body twin =
-          make_body(irregular_patch(formulation),
-                    {.materials = {material_of(MaterialModel::neo_hookean, (1 - share) * mu, K)},
-                     .solver = with(formulation)});
+      Body twin = make_body(irregular_patch(formulation),
+                            {.materials = {material_of(MaterialModel::neo_hookean,
+                                                       (1 - share) * viscous_mu, viscous_K)},
+                             .solver = with(formulation)});
       shake(body.state.u, 2e-3, 7);
       twin.state.u = body.state.u;
       force(body);
@@ -176,8 +177,7 @@ TEST(HourglassHistory, all_instruction_sets_agree_to_rounding) {
 
 TEST(HourglassHistory, goes_over_to_another_distribution_of_elements) {
   const Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(.05, .03, .01), {5, 5, 1}, BoxElements::hex8);
-  Material material = material_of(MaterialModel::neo_hookean, mu, K);
-  material.prony = {{.4, tau}};
+  const Material material = viscous_material({{.4, tau}});
   const std::vector<std::int32_t> owner = partition_nodes(mesh, 2);
   Body alone = make_body(mesh, {.materials = {material}});
   const auto twist = [](Body& body) {
@@ -213,7 +213,7 @@ TEST(HourglassHistory, exists_of_one_point_hexahedra_with_viscosity_alone) {
 
 TEST(HourglassHistory, a_flattened_element_keeps_a_finite_history) {
   for (const Formulation formulation : with_hourglass) {
-    Body body = body_of(cube(), formulation, {{.5, tau}});
+    Body body = body_of(one_hexahedron(), formulation, {{.5, tau}});
     for (const double s : {1., .15, 1e-9, 0., -1e-9, -.1, 1e-12, .15, 1.}) {
       displace(body, [&](const Vec3& X) { return Vec3(20 * X.y() * X.z(), 0, (s - 1) * X.z()); });
       body.state.time += 1e-3;
@@ -221,7 +221,7 @@ TEST(HourglassHistory, a_flattened_element_keeps_a_finite_history) {
     }
     // q does not change, Q = F^-1 q by at most the 1.155 / J0 of isochoric.h: eight steps leave
     // less than eight times that of the force of q.
-    Body elastic = body_of(cube(), formulation, {});
+    Body elastic = body_of(one_hexahedron(), formulation, {});
     displace(elastic, [&](const Vec3& X) { return Vec3(20 * X.y() * X.z(), 0, 0); });
     EXPECT_LT(largest(force(body)), 8 * 1.155 / .2 * largest(force(elastic)));
   }

@@ -6,7 +6,7 @@
 
 using namespace trocar;
 
-static void expect_same(const RanksResult& a, const RanksResult& b) {
+static void expect_same_result(const RanksResult& a, const RanksResult& b) {
   EXPECT_EQ(a.u, b.u);
   EXPECT_EQ(a.v, b.v);
   EXPECT_EQ(a.stable_step, b.stable_step);
@@ -22,12 +22,12 @@ static void check_ranks_and_threads(const Mesh& mesh, const SolverOptions& solve
   EXPECT_LT(largest(alone.u), 1e-1);  // and has not blown up
   EXPECT_EQ(alone.strain.size(), mesh.element_type.size());
   for (const int n_ranks : {2, 3, 5})
-    expect_same(run_on_ranks(mesh, solver, 200, n_ranks, 1), alone);
+    expect_same_result(run_on_ranks(mesh, solver, 200, n_ranks, 1), alone);
   for (const int n_threads : {2, 3})
-    expect_same(run_on_ranks(mesh, solver, 200, 1, n_threads), alone);
-  expect_same(run_on_ranks(mesh, solver, 200, 2, 2), alone);
+    expect_same_result(run_on_ranks(mesh, solver, 200, 1, n_threads), alone);
+  expect_same_result(run_on_ranks(mesh, solver, 200, 2, 2), alone);
   for (const auto& [n_ranks, n_threads] : {std::pair{1, 1}, {1, 3}, {3, 1}, {2, 2}})
-    expect_same(run_on_ranks(mesh, solver, 200, n_ranks, n_threads, Motion::at_once), alone);
+    expect_same_result(run_on_ranks(mesh, solver, 200, n_ranks, n_threads, Motion::at_once), alone);
 }
 
 TEST(Invariance, any_number_of_ranks_and_threads_gives_the_same_bits_after_200_steps) {

@@ -7,25 +7,9 @@
 #include "solver/material_list.h"
 #include "solver/material_setup.h"
 #include "solver_algebra.h"
-#include "solver_body.h"
+#include "solver_material.h"
 
 using namespace trocar;
-
-constexpr double mu = 1000, K = 49000;
-
-// The table's material in the first lane of a block, volume 1; fibres along x, the two families
-// in the plane of x and y.
-template <class M, class Pack>
-struct BlockOfOne {
-  using Real = RealOf<Pack>;
-  std::array<Real, static_cast<std::size_t>(M::n_values) * block_lanes<Pack>> number{};
-  BlockOfOne() {
-    std::array<double, max_material_values> value{};
-    fill_material(material_of(M::model, mu, K), 1, Vec3(1, 0, 0), value);
-    for (std::size_t k = 0; k < M::n_values; ++k)
-      number[k * block_lanes<Pack>] = static_cast<Real>(value[k]);
-  }
-};
 
 template <class M, class Pack = double>
 static Mat3 stress_of_gradient(const Mat3& H) {
@@ -33,25 +17,11 @@ static Mat3 stress_of_gradient(const Mat3& H) {
   Tensor<Pack> T;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) T(i, j) = Pack{} + static_cast<RealOf<Pack>>(H(i, j));
-  const Tensor<Pack> P = M::stress(T, BlockValues<Pack>{block.number.data()});
+  const Tensor<Pack> P = M::stress(T, block.values());
   Mat3 A;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) store_in_double(&A(i, j), P(i, j));
   return A;
-}
-
-template <class M>
-static Mat3 stress(const Mat3& F) {
-  return stress_of_gradient<M>(F - Mat3::Identity());
-}
-
-template <class M>
-static double energy(const Mat3& F) {
-  const BlockOfOne<M, double> block;
-  Tensor<double> H;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) H(i, j) = F(i, j) - (i == j ? 1 : 0);
-  return M::energy(H, BlockValues<double>{block.number.data()});
 }
 
 // Newton for the stretches of the free directions, whose stress vanishes.

@@ -7,6 +7,7 @@
 #include "solver/material_list.h"
 #include "solver/material_setup.h"
 #include "solver_body.h"
+#include "solver_material.h"
 
 using namespace trocar;
 
@@ -22,7 +23,7 @@ static Body triangle(const Material& material, double a, double b) {
 }
 
 // P11 and P22 from the forces V P B_a with B_1 = (1/edge, 0), B_2 = (0, 1/edge). [Pa]
-static std::array<double, 2> stress(Body& body) {
+static std::array<double, 2> stress_in_plane(Body& body) {
   const std::vector<double>& f = force(body);
   const double scale = .5 * edge * body.model.options.thickness;
   return {-f[3] / scale, -f[7] / scale};
@@ -36,7 +37,7 @@ TEST(PlaneStress, a_bar_has_the_known_neo_hookean_stress_and_none_across) {
                             {1.5, 1043.554101, .82078721}};
   for (const auto& [l, P11, b] : row) {
     Body body = triangle(material_of(MaterialModel::neo_hookean, 1000, 49000), l, b);
-    const std::array<double, 2> P = stress(body);
+    const std::array<double, 2> P = stress_in_plane(body);
     // 5e-9 of rounding in b times a stiffness of at most 10 mu.
     EXPECT_NEAR(P[0], P11, 5e-5);
     EXPECT_NEAR(P[1], 0, 5e-5);
@@ -49,10 +50,10 @@ static std::array<double, 2> uniaxial(const Material& material, double a) {
   for (int k = 0; k < 60; ++k) {
     const double b = (low + high) / 2;
     Body body = triangle(material, a, b);
-    (stress(body)[1] < 0 ? low : high) = b;
+    (stress_in_plane(body)[1] < 0 ? low : high) = b;
   }
   Body body = triangle(material, a, low);
-  return {low, stress(body)[0]};
+  return {low, stress_in_plane(body)[0]};
 }
 
 TEST(PlaneStress, a_bar_with_fibres_has_the_known_stress) {
@@ -79,7 +80,7 @@ TEST(PlaneStress, a_bar_with_two_dispersed_families_of_fibres_has_the_known_stre
 TEST(PlaneStress, the_linear_material_has_the_textbook_stiffness) {
   const double E = 3000, nu = .3, strain = .02;
   Body body = triangle({MaterialModel::linear, E, nu, 1000}, 1 + strain, 1);
-  const std::array<double, 2> P = stress(body);
+  const std::array<double, 2> P = stress_in_plane(body);
   EXPECT_NEAR(P[0], E / (1 - nu * nu) * strain, 1e-12 * E);
   EXPECT_NEAR(P[1], nu * E / (1 - nu * nu) * strain, 1e-12 * E);
 }
@@ -89,7 +90,7 @@ TEST(PlaneStress, a_nearly_incompressible_sheet_keeps_its_volume) {
   Body body = triangle({MaterialModel::neo_hookean, 3000, nu, 1000}, a, b);
   // Incompressible: P11 = mu (a - 1/(a^3 b^2)), and the error is of the order mu/K.
   const double mu = lame_mu(body.materials[0]);
-  EXPECT_NEAR(stress(body)[0], mu * (a - 1 / (a * a * a * b * b)), 2e-3 * mu);
+  EXPECT_NEAR(stress_in_plane(body)[0], mu * (a - 1 / (a * a * a * b * b)), 2e-3 * mu);
 }
 
 // |P33| that is left at the in-plane gradient H, over lambda + 2 mu or the greatest stress.
@@ -148,11 +149,6 @@ static double worst_residual(double nu, double amount) {
     worst = std::max(worst, residual<M, Real>(material, H));
   }
   return worst;
-}
-
-template <class... Ms, class Body>
-static void for_each_material(TypeList<Ms...>, const Body& body) {
-  (body.template operator()<Ms>(), ...);
 }
 
 TEST(PlaneStress, the_thickness_is_free_of_stress_to_rounding) {
@@ -224,13 +220,13 @@ TEST(PlaneStress, a_relaxing_sheet_follows_the_solid_law_without_stress_across_i
       sheet.state.time = solid.state.time = .02 * k;
       displace_by(sheet, path(k / 20.));
       const Mat3 P = sheet_stress(solid, path(k / 20.));
-      const std::array<double, 2> P_sheet = stress(sheet);
+      const std::array<double, 2> P_sheet = stress_in_plane(sheet);
       // Thicknesses that are 1e-13 and 1e-16 off, times a stiffness of some 1e5 Pa.
       EXPECT_NEAR(P_sheet[0], P(0, 0), 1e-7) << static_cast<int>(model) << " at step " << k;
       EXPECT_NEAR(P_sheet[1], P(1, 1), 1e-7) << static_cast<int>(model) << " at step " << k;
       EXPECT_LT(std::abs(P(2, 2)), 1e-7);
     }
-    EXPECT_GT(std::abs(stress(sheet)[0]), 10);  // there is something to compare
+    EXPECT_GT(std::abs(stress_in_plane(sheet)[0]), 10);  // there is something to compare
   }
 }
 
@@ -253,11 +249,11 @@ static double held_sheet_error(int n_steps) {
   Material material = material_of(MaterialModel::linear, 1000, 4000);
   material.prony = {{g, tau}};
   Body body = triangle(material, 1 + e, 1);
-  double P11 = stress(body)[0];
+  double P11 = stress_in_plane(body)[0];
   EXPECT_NEAR(P11, held_sheet(e, 0, g, tau), 1e-9);
   for (int k = 1; k <= n_steps; ++k) {
     body.state.time = end * k / n_steps;
-    P11 = stress(body)[0];
+    P11 = stress_in_plane(body)[0];
   }
   return P11 - held_sheet(e, end, g, tau);
 }
@@ -276,10 +272,10 @@ TEST(PlaneStress, a_second_call_at_the_same_time_changes_no_more_than_rounding) 
     Material material = material_of(model, 1000, 9000);
     material.prony = {{.5, .1}};
     Body body = triangle(material, 1.2, .9);
-    stress(body);
+    stress_in_plane(body);
     body.state.time = .07;
     displace_by(body, path(.8));
-    const std::array<double, 2> first = stress(body), again = stress(body);
+    const std::array<double, 2> first = stress_in_plane(body), again = stress_in_plane(body);
     for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(again[i], first[i], 1e-13 * 1e5);
   }
 }

@@ -33,7 +33,7 @@ static Mesh mesh_for(Formulation formulation) {
 }
 
 // Half a unit in the last place of 1, what one operation is off by.
-static double rounding(const Body& body) {
+static double rounding_of(const Body& body) {
   return body.model.options.precision == Precision::in_single ? 6e-8 : 1.1e-16;
 }
 
@@ -77,7 +77,7 @@ TEST(SinglePrecision, takes_subnormal_numbers_as_zero_and_leaves_double_precisio
 
 TEST(Simd, every_instruction_set_gives_the_scalar_forces_energies_and_watch_to_rounding) {
   for_each_body([](Body& body) {
-    const double eps = rounding(body);
+    const double eps = rounding_of(body);
     const WithSimd scalar("scalar");
     const std::vector<double> f = force(body);
     const double W = stored_energy(body);

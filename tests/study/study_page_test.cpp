@@ -10,7 +10,7 @@
 namespace trocar {
 namespace {
 
-std::vector<std::string> cells_of(const std::string& line) {
+std::vector<std::string> page_cells(const std::string& line) {
   std::vector<std::string> cells;
   std::istringstream stream(line.substr(1));
   for (std::string cell; std::getline(stream, cell, '|');) cells.push_back(cell);
@@ -24,9 +24,9 @@ TEST(StudyPage, a_table_has_a_heading_of_its_own_for_each_column) {
     std::istringstream table(front_table(study));
     std::string head, line;
     std::getline(table, head);
-    const std::vector<std::string> names = cells_of(head);
+    const std::vector<std::string> names = page_cells(head);
     EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size()) << head;
-    while (std::getline(table, line)) EXPECT_EQ(cells_of(line).size(), names.size()) << line;
+    while (std::getline(table, line)) EXPECT_EQ(page_cells(line).size(), names.size()) << line;
   }
 }
 

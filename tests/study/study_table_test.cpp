@@ -12,7 +12,7 @@ namespace trocar {
 namespace {
 
 // Cells of a line; quotes as in RFC 4180.
-std::vector<std::string> cells_of(const std::string& line) {
+std::vector<std::string> csv_cells(const std::string& line) {
   std::vector<std::string> cells(1);
   bool is_quoted = false;
   for (std::size_t k = 0; k < line.size(); ++k) {
@@ -68,10 +68,10 @@ TEST(StudyTable, csv_has_the_same_cells_as_json) {
   std::stringstream csv(study_csv(study));
   std::string line;
   std::getline(csv, line);
-  const std::vector<std::string> names = cells_of(line);
+  const std::vector<std::string> names = csv_cells(line);
   std::size_t n_rows = 0;
   while (std::getline(csv, line)) {
-    const std::vector<std::string> cells = cells_of(line);
+    const std::vector<std::string> cells = csv_cells(line);
     ASSERT_EQ(cells.size(), names.size());
     for (std::size_t k = 0; k < names.size(); ++k) {
       const nlohmann::ordered_json& value = all["runs"][n_rows][names[k]];

@@ -13,6 +13,10 @@ Part whole_part(std::int32_t n_nodes) {
   return part;
 }
 
+Vec3 node_of(const std::vector<double>& field, std::size_t i) {
+  return {field[3 * i], field[3 * i + 1], field[3 * i + 2]};
+}
+
 Contact node_contact(std::int32_t node, const Vec3& n, const Vec3& point) {
   return {.node = {node, node, node}, .weight = {1, 0, 0}, .point = point, .normal = n};
 }

@@ -9,6 +9,9 @@ namespace trocar {
 
 Part whole_part(std::int32_t n_nodes);
 
+// Of a field (n_nodes * 3).
+Vec3 node_of(const std::vector<double>& field, std::size_t i);
+
 // A node on a tool that fills the half-space below `point`, normal n (from tool to tissue).
 Contact node_contact(std::int32_t node, const Vec3& n, const Vec3& point = Vec3::Zero());
 

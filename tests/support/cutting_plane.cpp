@@ -38,11 +38,6 @@ double least_altitude(const Mesh& mesh) {
   return least;
 }
 
-std::int32_t n_pieces(const Mesh& mesh) {
-  std::vector<std::int32_t> piece;
-  return mesh_pieces(mesh, piece);
-}
-
 bool has_closed_boundary(const Mesh& mesh) {
   const FacetNeighbours across = facet_neighbours(mesh);
   std::map<std::int32_t, int> in, out;

@@ -11,6 +11,7 @@
 
 #include "cutting/cut_plane.h"
 #include "cutting/cut_plane_paper.h"
+#include "cutting_count.h"
 #include "mesh/facets.h"
 #include "mesh/generate.h"
 #include "mesh/quality.h"
@@ -31,8 +32,6 @@ double total_area(const Mesh& mesh);
 double total_mass(const Mesh& mesh);
 
 double least_altitude(const Mesh& mesh);
-
-std::int32_t n_pieces(const Mesh& mesh);
 
 // Every boundary edge runs from a node to the next, one in and one out a node.
 bool has_closed_boundary(const Mesh& mesh);

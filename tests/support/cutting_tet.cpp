@@ -155,11 +155,6 @@ double least_step_of(const Mesh& mesh) {
   return least;
 }
 
-int n_pieces(const Mesh& mesh) {
-  std::vector<std::int32_t> piece;
-  return mesh_pieces(mesh, piece);
-}
-
 double mean_edge_of(const Mesh& mesh) {
   double sum = 0;
   const auto edges = mesh_edges(mesh);

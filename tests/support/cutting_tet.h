@@ -15,6 +15,7 @@
 #include "cutting/cut_index.h"
 #include "cutting/cut_patch.h"
 #include "cutting/cut_tet.h"
+#include "cutting_count.h"
 #include "mesh/edit.h"
 #include "mesh/facets.h"
 #include "mesh/generate.h"
@@ -94,8 +95,6 @@ double volume(const Mesh& mesh);
 
 // In proportion to the least element bound of the stable step.
 double least_step_of(const Mesh& mesh);
-
-int n_pieces(const Mesh& mesh);
 
 double mean_edge_of(const Mesh& mesh);
 

@@ -21,6 +21,8 @@ inline std::string solver_table(const std::string& gravity, int mass_damping) {
          std::to_string(mass_damping) + " 1/s\"\n";
 }
 
+inline const std::string metrics_table = "[[output]]\nkind = \"metrics\"\nfile = \"m.csv\"\n";
+
 // The block of with_thin_layer, held at its left side.
 inline const std::string held_left = R"([[region]]
 name = "left"

@@ -26,16 +26,19 @@ inline Mat3 matrix(const Tensor<double>& T) {
 // The constants of the table: mu = 1000 Pa, K = 49000 Pa.
 inline constexpr double mu = 1000, K = 49000, lambda = K - 2 * mu / 3;
 
-// The table's material in the first lane of a block, volume 1.
-template <class M>
+// The table's material in the first lane of a block, volume 1; fibres along x, the two families in
+// the plane of x and y.
+template <class M, class Pack = double>
 struct BlockOfOne {
-  std::array<double, static_cast<std::size_t>(M::n_values) * block_lanes<double>> number{};
+  using Real = RealOf<Pack>;
+  std::array<Real, static_cast<std::size_t>(M::n_values) * block_lanes<Pack>> number{};
   explicit BlockOfOne(const Material& material = material_of(M::model, mu, K)) {
     std::array<double, M::n_values> value{};
     fill_material(material, 1, Vec3(1, 0, 0), value);
-    for (std::size_t k = 0; k < value.size(); ++k) number[k * block_lanes<double>] = value[k];
+    for (std::size_t k = 0; k < value.size(); ++k)
+      number[k * block_lanes<Pack>] = static_cast<Real>(value[k]);
   }
-  BlockValues<double> values() const { return {number.data()}; }
+  BlockValues<Pack> values() const { return {number.data()}; }
 };
 
 template <class M>

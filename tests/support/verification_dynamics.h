@@ -10,6 +10,10 @@ namespace trocar {
 // Adds to scratch.force at the present time; empty: nothing.
 using AddForce = std::function<void(Body& body)>;
 
+struct Momenta {
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+};
+
 void forced_step(Body& body, double dt, const AddForce& add_force = {});
 
 // Steps to time t with `factor` of the stable step of the deformed elements, looked at every 20

@@ -41,6 +41,10 @@ double face_share(const Vec3& X, const Vec3& size, const std::array<int, 3>& n, 
   return share;
 }
 
+bool is_inside(const Vec3& X, double side) {
+  return (X.array() > 1e-9).all() && (X.array() < side - 1e-9).all();
+}
+
 std::vector<double> load_by(const Body& body, const std::function<Vec3(const Vec3& X)>& force) {
   std::vector<double> load;
   for (const Vec3& X : body.mesh.X)

@@ -35,6 +35,8 @@ SolverOptions solver_options(const Variant& variant);
 
 std::string mesh_name(const Variant& variant, const std::array<int, 3>& n);
 
+inline const Material soft_tissue = {MaterialModel::neo_hookean, 3000, .45, 1000};
+
 // Supports by position; the body is the box [0, size] after `map`.
 struct BoxProblem {
   Vec3 size;
@@ -49,6 +51,9 @@ Body make_box_body(const Variant& variant, const BoxProblem& problem);
 
 // Share of node X in a uniform traction on a face of the box that lies across `axis`.
 double face_share(const Vec3& X, const Vec3& size, const std::array<int, 3>& n, int axis);
+
+// Of a point of the cube [0, side]^3.
+bool is_inside(const Vec3& X, double side);
 
 std::vector<double> load_by(const Body& body, const std::function<Vec3(const Vec3& X)>& force);
 

@@ -5,8 +5,6 @@
 
 using namespace trocar;
 
-static const Material tissue = {MaterialModel::neo_hookean, 3000, .45, 1000};
-
 struct EnergyHistory {
   double first = 0, range = 0, drift = 0;  // drift: last tenth's mean over the first's
 };
@@ -30,9 +28,10 @@ static EnergyHistory energy_history(Body& body, double dt, int n_steps) {
 
 static Body swinging_cantilever(const Variant& variant, const std::array<int, 3>& n) {
   Body body = make_box_body(
-      variant, {.size = {.1, .02, .02}, .n = n, .material = tissue, .fixed = [](const Vec3& X) {
-                  return FixedMask(X.x() < 1e-9 ? 7 : 0);
-                }});
+      variant,
+      {.size = {.1, .02, .02}, .n = n, .material = soft_tissue, .fixed = [](const Vec3& X) {
+         return FixedMask(X.x() < 1e-9 ? 7 : 0);
+       }});
   set_velocity(body, [](const Vec3& X) { return Vec3(0, 0, .3 * std::pow(X.x() / .1, 2)); });
   return body;
 }
@@ -66,7 +65,7 @@ TEST(V25Energy, does_not_drift_over_a_million_steps_at_nine_tenths_of_the_true_l
 static Body hourglass_cube(double alpha) {
   Body body =
       make_body(make_box(Vec3::Zero(), Vec3(.01, .01, .01), {1, 1, 1}, BoxElements::hex8),
-                {.materials = {tissue}, .solver = {.mass_damping = alpha, .hourglass = .15}});
+                {.materials = {soft_tissue}, .solver = {.mass_damping = alpha, .hourglass = .15}});
   displace(body, [](const Vec3& X) {
     return Vec3(1e-6 * ((X.x() > .005) == (X.y() > .005) ? 1 : -1), 0, 0);
   });
@@ -114,10 +113,6 @@ TEST(V26Hourglass, the_mode_neither_grows_in_many_steps_nor_survives_damping) {
 }
 
 // V27
-struct Momenta {
-  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
-};
-
 static Momenta momenta(const Body& body) {
   Momenta m;
   for (std::int32_t i = 0; i < body.model.n_owned; ++i) {
@@ -131,7 +126,7 @@ static Momenta momenta(const Body& body) {
 // Of 4 x 3 x 2 cubes of edge `cell`.
 static Body spinning_block(const Variant& variant, double cell, const Vec3& drift) {
   const Vec3 size = cell * Vec3(4, 3, 2), centre = .5 * size;
-  Body body = make_box_body(variant, {.size = size, .n = {4, 3, 2}, .material = tissue});
+  Body body = make_box_body(variant, {.size = size, .n = {4, 3, 2}, .material = soft_tissue});
   set_velocity(body, [&](const Vec3& X) { return Vec3(drift + Vec3(3, 8, 5).cross(X - centre)); });
   return body;
 }

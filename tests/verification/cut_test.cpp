@@ -2,25 +2,21 @@
 #include "cutting/cut_duplicate.h"
 #include "cutting_tet.h"
 #include "solver/relax.h"
+#include "verification_dynamics.h"
 #include "verification_figure.h"
 #include "verification_statics.h"
 
 using namespace trocar;
 
-constexpr const char* problem = "V30 Cut = pre-cut";
-static const Material tissue = {MaterialModel::neo_hookean, 3000, .45, 1000};
+constexpr const char* cut_problem = "V30 Cut = pre-cut";
 
 struct CutBody {
   Mesh mesh;
   std::vector<double> u, v;  // (n_nodes * 3)
 };
 
-struct Momenta {
-  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
-};
-
 static Momenta momenta_of(const CutBody& body) {
-  const std::vector<double> density = {tissue.density};
+  const std::vector<double> density = {soft_tissue.density};
   const std::vector<double> mass = lumped_mass(body.mesh, density, 1);
   Momenta m;
   for (std::size_t i = 0; i < mass.size(); ++i) {
@@ -116,7 +112,7 @@ static Mesh piece_of(const Mesh& mesh, std::int32_t wanted, std::vector<std::int
 }
 
 static Body settled_in(const Mesh& mesh, const std::vector<double>& u) {
-  Body body = make_body(mesh, {.materials = {tissue}});
+  Body body = make_body(mesh, {.materials = {soft_tissue}});
   body.state.u = u;
   return body;
 }
@@ -144,8 +140,8 @@ static double difference_of_forces(const CutBody& cut) {
 }
 
 static void check_forces(const std::string& cut_name, const CutBody& cut) {
-  EXPECT_EQ(cutting_test::n_pieces(cut.mesh), 2);
-  check_figure({problem, "difference of forces, " + cut_name, "tet4 8 x 6 x 6",
+  EXPECT_EQ(n_pieces(cut.mesh), 2);
+  check_figure({cut_problem, "difference of forces, " + cut_name, "tet4 8 x 6 x 6",
                 difference_of_forces(cut), 0, 1e-14, "two meshes, relative"});
 }
 
@@ -160,10 +156,10 @@ TEST(V30Cut, a_cut_that_moves_no_nodes_keeps_linear_and_angular_momentum) {
   EXPECT_EQ(cut.mesh.n_nodes(), block.mesh.n_nodes() + 49);  // 7 x 7 partners
   const Momenta before = momenta_of(block), after = momenta_of(cut);
   // Partners share the mass and take the velocity. Some hundred roundings.
-  check_figure({problem, "change of linear momentum", "tet4 8 x 6 x 6",
+  check_figure({cut_problem, "change of linear momentum", "tet4 8 x 6 x 6",
                 (after.linear - before.linear).norm() / before.linear.norm(), 0, 1e-13,
                 "conservation, relative"});
-  check_figure({problem, "change of angular momentum", "tet4 8 x 6 x 6",
+  check_figure({cut_problem, "change of angular momentum", "tet4 8 x 6 x 6",
                 (after.angular - before.angular).norm() / before.angular.norm(), 0, 1e-13,
                 "conservation, relative"});
 }
@@ -174,6 +170,6 @@ TEST(V30Cut, both_halves_relax_to_zero_strain) {
   const double before = stored_energy(body);
   settle(body, {.ramp_iterations = 0, .tolerance = 1e-6});
   // The residual is 1e-9 of the greatest, so the energy 1e-18; softer modes hold more of it.
-  check_figure({problem, "energy left after relaxation", "tet4 8 x 6 x 6",
+  check_figure({cut_problem, "energy left after relaxation", "tet4 8 x 6 x 6",
                 stored_energy(body) / before, 0, 1e-12, "relative"});
 }

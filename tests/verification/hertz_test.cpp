@@ -8,17 +8,14 @@
 #include "mesh/facets.h"
 #include "verification_dynamics.h"
 #include "verification_figure.h"
+#include "verification_layer.h"
 #include "verification_statics.h"
 
 using namespace trocar;
 
 using std::numbers::pi;
 
-constexpr double E = 3000, nu = .49, radius = .01;
-constexpr double plane_strain_E = E / (1 - nu * nu);
-// Of a layer bonded to its ground (Dimitriadis et al. 2002, eq. 12, 13).
-constexpr double alpha0 = -(1.2876 - 1.4678 * nu + 1.3442 * nu * nu) / (1 - nu);
-constexpr double beta0 = (.6387 - 1.0277 * nu + 1.5164 * nu * nu) / (1 - nu);
+constexpr double sphere_radius = .01;
 
 // A quarter of a layer that ends `width` away; cells grow from `h0` at the indenter.
 struct Layer {
@@ -44,7 +41,7 @@ static Body make_layer(const Variant& variant, const Layer& layer) {
       variant,
       {.size = {1, 1, 1},
        .n = {layer.n, layer.n, layer.n_z},
-       .material = {MaterialModel::linear, E, nu, 1000},
+       .material = {MaterialModel::linear, layer_E, layer_nu, 1000},
        .fixed =
            [](const Vec3& s) {
              if (s.z() < 1e-9) return FixedMask{7};
@@ -106,7 +103,7 @@ struct Indentation {
 };
 
 static ToolShape sphere() {
-  return {.pieces = {{.points = {Vec3(0, 0, radius)}, .radius = radius}}};
+  return {.pieces = {{.points = {Vec3(0, 0, sphere_radius)}, .radius = sphere_radius}}};
 }
 
 // Relaxes while the sphere comes down to `depth`.
@@ -134,8 +131,8 @@ static double indent(const Layer& layer, double depth) {
 
 // Of a paraboloid of curvature 1 / radius.
 static double layer_force(double depth, double thickness) {
-  const double x = std::sqrt(radius * depth) / thickness, a3 = alpha0 * alpha0 * alpha0;
-  return 4. / 3 * plane_strain_E * std::sqrt(radius) * std::pow(depth, 1.5) *
+  const double x = std::sqrt(sphere_radius * depth) / thickness, a3 = alpha0 * alpha0 * alpha0;
+  return 4. / 3 * plane_strain_E * std::sqrt(sphere_radius) * std::pow(depth, 1.5) *
          (1 - 2 * alpha0 / pi * x + 4 * alpha0 * alpha0 / (pi * pi) * x * x -
           8 / std::pow(pi, 3) * (a3 + 4 * pi * pi / 15 * beta0) * x * x * x +
           16 * alpha0 / std::pow(pi, 4) * (a3 + 3 * pi * pi / 5 * beta0) * x * x * x * x);
@@ -144,14 +141,17 @@ static double layer_force(double depth, double thickness) {
 // What a half space opposes to a sphere, over what it opposes to that paraboloid (Sneddon 1965):
 //   d = a/2 log((R + a)/(R - a)),  F = E* [ (a^2 + R^2)/2 log((R + a)/(R - a)) - a R ].
 static double sphere_over_paraboloid(double depth) {
-  double low = 0, high = .99 * radius;
-  const auto logarithm = [](double a) { return std::log((radius + a) / (radius - a)); };
+  double low = 0, high = .99 * sphere_radius;
+  const auto logarithm = [](double a) {
+    return std::log((sphere_radius + a) / (sphere_radius - a));
+  };
   for (int k = 0; k < 60; ++k) {
     const double a = (low + high) / 2;
     (a / 2 * logarithm(a) < depth ? low : high) = a;
   }
   const double F =
-      plane_strain_E * ((low * low + radius * radius) / 2 * logarithm(low) - low * radius);
+      plane_strain_E *
+      ((low * low + sphere_radius * sphere_radius) / 2 * logarithm(low) - low * sphere_radius);
   return F / layer_force(depth, 1e6);
 }
 
@@ -161,7 +161,7 @@ TEST(V22Hertz, the_formula_is_that_of_the_table_for_a_thick_layer) {
 
 // Cells of an eighth of the contact's radius, and of a quarter.
 static void check_indentation(double thickness, double depth) {
-  const double a = std::sqrt(radius * depth);
+  const double a = std::sqrt(sphere_radius * depth);
   const Layer coarse{.thickness = thickness, .h0 = a / 4, .n = 14, .n_z = thickness > .02 ? 12 : 8};
   const Layer fine = finer(coarse);
   const double F_coarse = indent(coarse, depth), F = indent(fine, depth);
@@ -169,7 +169,7 @@ static void check_indentation(double thickness, double depth) {
   // The pressure ends like the root of the distance: where the contact ends is known to a cell, so
   // that the order is 3/2. The formula itself is that of small slopes: walls of the contact lean by
   // up to a/R, the square of which counts, d/R.
-  const double tolerance = two_mesh_tolerance(F_coarse, F, exact, 1.5) + depth / radius;
+  const double tolerance = two_mesh_tolerance(F_coarse, F, exact, 1.5) + depth / sphere_radius;
   std::printf("half as fine: %.8g; tolerance %.3g\n", F_coarse, tolerance);
   check_figure({"V22 Sphere on a bonded layer",
                 "force, h = " + std::to_string(thickness).substr(0, 4) +

@@ -10,11 +10,12 @@ using namespace trocar;
 using std::numbers::pi;
 
 constexpr double L = .1, A = .006, w = 2 * pi / .05, rho = 1000, E = 3000;
-static const Vec3 direction(1, -.6, .8);
+static const Vec3 motion_direction(1, -.6, .8);
 
 static Vec3 exact(const Vec3& X, double t) {
   const Vec3 p = pi / L * X;
-  return A * std::sin(w * t) * std::sin(p.x()) * std::sin(p.y()) * std::sin(p.z()) * direction;
+  return A * std::sin(w * t) * std::sin(p.x()) * std::sin(p.y()) * std::sin(p.z()) *
+         motion_direction;
 }
 
 // dW/dF of mu/2 (J^-2/3 tr C - 3) + K/2 (J - 1)^2 at the exact displacement.
@@ -24,7 +25,7 @@ static Mat3 stress(const Vec3& X, double t, double mu, double K) {
   const Vec3 c(std::cos(p.x()), std::cos(p.y()), std::cos(p.z()));
   const Vec3 g = A * std::sin(w * t) * pi / L *
                  Vec3(c.x() * s.y() * s.z(), s.x() * c.y() * s.z(), s.x() * s.y() * c.z());
-  const Mat3 F = Mat3::Identity() + direction * g.transpose();
+  const Mat3 F = Mat3::Identity() + motion_direction * g.transpose();
   const double J = F.determinant();
   const Mat3 F_inverse_T = F.inverse().transpose();
   return mu * std::pow(J, -2.0 / 3) * (F - F.squaredNorm() / 3 * F_inverse_T) +

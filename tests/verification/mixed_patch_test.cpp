@@ -24,10 +24,6 @@ Mat3 gradient() {
   return A;
 }
 
-bool is_interior(const Vec3& X) {
-  return (X.array() > 1e-9).all() && (X.array() < side - 1e-9).all();
-}
-
 // A cube whose cells for which `is_tet` (by number) are tetrahedra; its surface is held where the
 // linear field puts it, the interior starts there.
 template <class IsTet>
@@ -46,7 +42,7 @@ Body mixed_patch(const IsTet& is_tet) {
   apply_edit(edit, mesh);
   BodyOptions options{.materials = {{MaterialModel::neo_hookean, 3000, .4, 1000}}};
   for (const Vec3& X : mesh.X)
-    options.fixed.push_back(is_interior(X) ? FixedMask{0} : FixedMask{7});
+    options.fixed.push_back(is_inside(X, side) ? FixedMask{0} : FixedMask{7});
   Body body = make_body(std::move(mesh), options);
   displace(body, [](const Vec3& X) { return Vec3(gradient() * X); });
   return body;
@@ -56,7 +52,7 @@ double greatest_interior_force(Body& body) {
   const std::vector<double>& f = force(body);
   double most = 0;
   for (std::int32_t i = 0; i < body.model.n_owned; ++i)
-    if (is_interior(body.mesh.X[i])) most = std::max(most, Vec3::Map(&f[3 * i]).norm());
+    if (is_inside(body.mesh.X[i], side)) most = std::max(most, Vec3::Map(&f[3 * i]).norm());
   return most;
 }
 
@@ -94,7 +90,7 @@ TEST(MixedPatch,
   const double h = side / n_cells, strain = gradient().norm();
   for (std::int32_t i = 0; i < body.model.n_owned; ++i) {
     const Vec3& X = body.mesh.X[i];
-    if (!is_interior(X)) continue;
+    if (!is_inside(X, side)) continue;
     const double error = (Vec3::Map(&body.state.u[3 * i]) - gradient() * X).norm() / (strain * h);
     most = std::max(most, error);
     sum += error * error;

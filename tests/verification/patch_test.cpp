@@ -1,7 +1,7 @@
 // V2, finite-strain patch test: an affine displacement of a block of distorted elements leaves the
 // interior in equilibrium and has the energy of the homogeneous deformation.
-#include "solver_body.h"
 #include "verification_figure.h"
+#include "verification_statics.h"
 
 using namespace trocar;
 
@@ -29,10 +29,6 @@ static std::string mesh_of(Formulation formulation, Precision precision) {
   return std::string(name_of(formulation)) + " " + name_of(precision) + " 6 x 6 x 6";
 }
 
-static bool is_interior(const Vec3& X) {
-  return (X.array() > 1e-9).all() && (X.array() < .06 - 1e-9).all();
-}
-
 TEST(PatchTest, interior_nodes_of_distorted_elements_are_in_equilibrium) {
   for (const Formulation formulation : solid_formulations())
     for (const Precision precision : precisions) {
@@ -41,7 +37,7 @@ TEST(PatchTest, interior_nodes_of_distorted_elements_are_in_equilibrium) {
       double interior = 0, boundary = 0;
       for (std::int32_t i = 0; i < body.model.n_owned; ++i) {
         const double norm = Vec3::Map(&f[3 * i]).norm();
-        double& most = is_interior(body.mesh.X[i]) ? interior : boundary;
+        double& most = is_inside(body.mesh.X[i], .06) ? interior : boundary;
         most = std::max(most, norm);
       }
       // numerics V2: rounding.

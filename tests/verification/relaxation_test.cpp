@@ -7,7 +7,7 @@ using namespace trocar;
 namespace {
 
 const Vec3 size(.06, .01, .01);
-constexpr double mu = 11500, K = 25000, tau = .005;
+constexpr double bar_mu = 11500, bar_K = 25000, tau = .005;
 
 bool is_end(const Vec3& X) {
   return X.x() > size.x() - 1e-9;
@@ -46,14 +46,14 @@ double force_after(double time, const Variant& variant, const std::array<int, 3>
 }
 
 Material bar_of(double share, double time) {
-  Material material = material_of(MaterialModel::neo_hookean, mu, K);
+  Material material = material_of(MaterialModel::neo_hookean, bar_mu, bar_K);
   if (share > 0) material.prony = {{share, time}};
   return material;
 }
 
 void check_relaxed_force(const Variant& variant, const std::array<int, 3>& n, double share) {
-  const double twin =
-      static_force(variant, n, material_of(MaterialModel::neo_hookean, (1 - share) * mu, K));
+  const double twin = static_force(
+      variant, n, material_of(MaterialModel::neo_hookean, (1 - share) * bar_mu, bar_K));
   const std::string mesh = mesh_name(variant, n);
   const std::string what = "bent bar, share " + std::to_string(share).substr(0, 3);
   // What creeps has time constants up to tau / (1 - share) = .05 s: exp(-16) = 1e-7 is left of it,

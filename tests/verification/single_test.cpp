@@ -5,7 +5,7 @@
 
 using namespace trocar;
 
-constexpr const char* problem = "Single precision beside double";
+constexpr const char* single_problem = "Single precision beside double";
 
 static Variant in_single(Variant variant) {
   variant.precision = Precision::in_single;
@@ -31,9 +31,10 @@ TEST(SinglePrecision, rounding_of_forces_does_not_grow_when_strains_are_small) {
   for (const Variant& variant :
        {hex_one_point, hex_enhanced, hex_full, tet_plain, tet_nodal_pressure})
     for (const double strain : {1e-1, 1e-3, 1e-5})
-      check_figure(
-          {problem, "forces at nu = 0.49 and a strain of " + std::to_string(strain).substr(0, 7),
-           mesh_name(variant, {4, 4, 4}), force_error(variant, .49, strain), 0, 3e-6, "relative"});
+      check_figure({single_problem,
+                    "forces at nu = 0.49 and a strain of " + std::to_string(strain).substr(0, 7),
+                    mesh_name(variant, {4, 4, 4}), force_error(variant, .49, strain), 0, 3e-6,
+                    "relative"});
 }
 
 static Body swing(const Variant& variant) {
@@ -68,7 +69,7 @@ TEST(SinglePrecision, trajectories_of_a_large_swing_stay_together) {
   const int n_steps = is_report() ? 30000 : 5000;
   for (const Variant& variant : {hex_one_point, tet_plain})
     for (const double factor : {.1, .9})
-      check_figure({problem,
+      check_figure({single_problem,
                     "displacement over " + std::to_string(n_steps) + " steps at " +
                         std::to_string(factor).substr(0, 3) + " dt_c",
                     mesh_name(variant, {10, 2, 2}), trajectory_error(variant, factor, n_steps), 0,

@@ -9,7 +9,7 @@
 
 using namespace trocar;
 
-constexpr double A = 1, B = 2;
+constexpr double inner_radius = 1, outer_radius = 2;
 
 // Positions on the surface of the cube [0, n]^3 away from the origin, as nodes of a layer.
 struct Octant {
@@ -64,7 +64,8 @@ static Mesh eighth_sphere(int n, int n_layers, bool is_hex) {
   mesh.region_name = {""};
   for (int k = 0; k <= n_layers; ++k)
     for (const std::array<int, 3>& p : octant.point)
-      mesh.X.emplace_back((A + (B - A) * k / n_layers) * direction(p, n));
+      mesh.X.emplace_back((inner_radius + (outer_radius - inner_radius) * k / n_layers) *
+                          direction(p, n));
   for (int k = 0; k < n_layers; ++k)
     for (const auto& [a, b, c, d] : octant.quad) {
       const std::int32_t low = k * layer, high = low + layer;
@@ -80,21 +81,21 @@ static Mesh eighth_sphere(int n, int n_layers, bool is_hex) {
   return mesh;
 }
 
-// p / mu of the incompressible sphere whose inner radius is `la` A.
+// p / mu of the incompressible sphere whose inner radius grows by the factor la.
 static double exact_pressure(double la) {
-  const double lb = std::cbrt(1 + (la * la * la - 1) * std::pow(A / B, 3));
+  const double lb = std::cbrt(1 + (la * la * la - 1) * std::pow(inner_radius / outer_radius, 3));
   const auto term = [](double l) { return 2 / l + 1 / (2 * l * l * l * l); };
   return term(lb) - term(la);
 }
 
 // From the virtual work of a radial motion of the inner surface: sum f.x = p 3 V of the octant's
-// cavity, V = pi/6 (la A)^3.
+// cavity, V = pi/6 (la inner_radius)^3.
 static double inner_pressure(const Body& body, double la) {
   double work = 0;
   for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)
-    if (body.mesh.X[i].norm() < A * (1 + 1e-9))
+    if (body.mesh.X[i].norm() < inner_radius * (1 + 1e-9))
       work -= la * body.mesh.X[i].dot(Vec3::Map(&body.scratch.force[3 * i]));
-  return work / (3 * std::numbers::pi / 6 * std::pow(la * A, 3));
+  return work / (3 * std::numbers::pi / 6 * std::pow(la * inner_radius, 3));
 }
 
 static double pressure(const Variant& variant, int n, double la) {
@@ -107,7 +108,7 @@ static double pressure(const Variant& variant, int n, double la) {
     for (int j = 0; j < 3; ++j)
       if (mesh.X[i][j] < 1e-9) mask |= 1U << j;
     options.fixed.push_back(static_cast<FixedMask>(mask));
-    if (mesh.X[i].norm() < A * (1 + 1e-9))
+    if (mesh.X[i].norm() < inner_radius * (1 + 1e-9))
       inner.push_back({.node = i, .u_next = (la - 1) * mesh.X[i]});
   }
   Body body = make_body(std::move(mesh), options);

@@ -7,17 +7,19 @@
 using namespace trocar;
 
 static const std::string mixed_solver = "implicit Q3/P2 mixed solver";
-static const Material tissue = {MaterialModel::neo_hookean, 3000, .49, 1000};
+static const Material near_incompressible = {MaterialModel::neo_hookean, 3000, .49, 1000};
 
 // A quarter of the cube of edge .1 about the z axis, mirror planes x = 0 and y = 0, top moved by
 // `lift`. n: cells over half an edge.
 static Body bonded_cube(const Variant& variant, int n, double lift) {
   Body body = make_box_body(
-      variant,
-      {.size = {.05, .05, .1}, .n = {n, n, 2 * n}, .material = tissue, .fixed = [](const Vec3& X) {
-         if (X.z() < 1e-9 || X.z() > .1 - 1e-9) return FixedMask{3};
-         return static_cast<FixedMask>((X.x() < 1e-9 ? 1 : 0) | (X.y() < 1e-9 ? 2 : 0));
-       }});
+      variant, {.size = {.05, .05, .1},
+                .n = {n, n, 2 * n},
+                .material = near_incompressible,
+                .fixed = [](const Vec3& X) {
+                  if (X.z() < 1e-9 || X.z() > .1 - 1e-9) return FixedMask{3};
+                  return static_cast<FixedMask>((X.x() < 1e-9 ? 1 : 0) | (X.y() < 1e-9 ? 2 : 0));
+                }});
   std::vector<PrescribedNode> ends;
   for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i) {
     const double z = body.mesh.X[i].z();
@@ -60,11 +62,13 @@ TEST(V11BondedCube, force_and_bulge_are_those_of_the_mixed_solver) {
 // A quarter of the block .1 x .1 x .05, its glued top pressed in by a Gaussian of width .012.
 static Body indented_block(const Variant& variant, int n) {
   Body body = make_box_body(
-      variant,
-      {.size = {.05, .05, .05}, .n = {n, n, n}, .material = tissue, .fixed = [](const Vec3& X) {
-         if (X.z() < 1e-9) return FixedMask{7};
-         return static_cast<FixedMask>((X.x() < 1e-9 ? 1 : 0) | (X.y() < 1e-9 ? 2 : 0));
-       }});
+      variant, {.size = {.05, .05, .05},
+                .n = {n, n, n},
+                .material = near_incompressible,
+                .fixed = [](const Vec3& X) {
+                  if (X.z() < 1e-9) return FixedMask{7};
+                  return static_cast<FixedMask>((X.x() < 1e-9 ? 1 : 0) | (X.y() < 1e-9 ? 2 : 0));
+                }});
   std::vector<PrescribedNode> top;
   for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i) {
     const Vec3& X = body.mesh.X[i];
@@ -93,7 +97,7 @@ static Indented indented(const Variant& variant, int n) {
 }
 
 // `stated`: force of such elements at this n in numerics V12, none: 0.
-static void check_indentation(const Variant& variant, int n, double stated) {
+static void check_smooth_indentation(const Variant& variant, int n, double stated) {
   const Indented coarse = indented(variant, n / 2), fine = indented(variant, n);
   const std::string name = "V12 Smooth indentation", mesh = mesh_name(variant, {n, n, n});
   const auto check = [&](const char* quantity, double Indented::*of, double reference,
@@ -113,10 +117,10 @@ static void check_indentation(const Variant& variant, int n, double stated) {
 }
 
 TEST(V12SmoothIndentation, force_and_energy_are_those_of_the_mixed_solver) {
-  check_indentation(hex_one_point, 8, -.9796);
-  check_indentation(hex_one_point_single, 8, -.9796);
-  check_indentation(hex_enhanced, 8, 0);
-  if (is_report()) check_indentation(hex_one_point, 16, -.9759);
+  check_smooth_indentation(hex_one_point, 8, -.9796);
+  check_smooth_indentation(hex_one_point_single, 8, -.9796);
+  check_smooth_indentation(hex_enhanced, 8, 0);
+  if (is_report()) check_smooth_indentation(hex_one_point, 16, -.9759);
 }
 
 static double locked_force(const Variant& variant, const std::string& remark) {
