@@ -19,6 +19,7 @@ namespace {
 struct Tissue {
   const Mesh& mesh;
   const CutIndex& index;
+  std::span<const std::uint8_t> is_held;  // (n_nodes)
   const CutStroke& stroke;
   const TetCut& cut;
 };
@@ -64,14 +65,15 @@ static bool add_beyond(const Tissue& t, std::int32_t element, int f, SmallPiece&
   return local < 0 || std::ranges::find(piece.element, local) != piece.element.end();
 }
 
-// Whether an element of another shape has the node.
-static bool is_joined_node(const Tissue& t, std::int32_t i) {
-  return std::ranges::any_of(
-      t.index.star(i), [&](std::int32_t e) { return t.mesh.element_type[e] != ElementType::tet4; });
+// Whether the node is held, or an element of another shape has it.
+static bool is_fast(const Tissue& t, std::int32_t i) {
+  return t.is_held[i] != 0 || std::ranges::any_of(t.index.star(i), [&](std::int32_t e) {
+           return t.mesh.element_type[e] != ElementType::tet4;
+         });
 }
 
-// Adds what hangs together with the piece outside the patch; false if that is not small, or the
-// piece hangs together with more of the patch, or with other shapes, there.
+// Adds what hangs together with the piece outside the patch; false if that is not small, something
+// holds it, or the piece hangs together with more of the patch there.
 static bool follow_beyond(const Tissue& t, SmallPiece& piece) {
   const CutPatch& patch = t.cut.around.patch;
   const auto is_rim = [&](std::int32_t i) { return !patch.is_whole(i); };
@@ -82,9 +84,8 @@ static bool follow_beyond(const Tissue& t, SmallPiece& piece) {
   for (std::size_t k = 0; k < piece.beyond.size(); ++k) {
     const std::int32_t u = piece.beyond[k];
     const std::span<const std::int32_t> c = t.mesh.corners(u);
-    const auto is_joined_here = [&](std::int32_t i) { return is_joined_node(t, i); };
     if (!add_volume(t, t.mesh.X, {c[0], c[1], c[2], c[3]}, piece) ||
-        std::ranges::any_of(c, is_joined_here))
+        std::ranges::any_of(c, [&](std::int32_t i) { return is_fast(t, i); }))
       return false;
     for (int f = 0; f < 4; ++f)
       if (!add_beyond(t, u, f, piece)) return false;
@@ -171,10 +172,10 @@ static bool keep_neck(const Tissue& t, std::span<const std::int32_t> neck, std::
   return cut.neck.size() > n_before;
 }
 
-bool join_chip(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke, bool is_last,
-               TetCut& cut) {
+bool join_chip(const Mesh& mesh, const CutIndex& index, std::span<const std::uint8_t> is_held,
+               const CutStroke& stroke, bool is_last, TetCut& cut) {
   if (cut.opening.duplication.duplicate_parent.empty()) return false;
-  const Tissue tissue{mesh, index, stroke, cut};
+  const Tissue tissue{mesh, index, is_held, stroke, cut};
   for (SmallPiece& piece : small_pieces(tissue)) {
     const bool is_chip = piece.V < chip_volume;
     const Flake flake = is_chip ? Flake{} : find_flake(tissue, piece);

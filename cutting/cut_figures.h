@@ -12,7 +12,7 @@ namespace trocar {
 struct CutRefusal {
   enum Reason : std::int32_t {  // as checkpoints have them: new ones go to the end
     pinched,                    // a facet: the outer surface would be no 2-manifold
-    chip,                       // elements below half a mean edge cubed stay with the other side
+    chip,        // elements below a quarter of a mean edge cubed stay with the other side
     missed,      // an element, facet or edge on the blade's path that holds both sides together
     bent,        // a facet at a hexahedron that is bent too much to become tetrahedra
     slow,        // plane cuts: elements there would have a stable step below the floor …

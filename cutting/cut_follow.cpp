@@ -3,10 +3,51 @@
 #include <algorithm>
 
 #include "base/sort_unique.h"
+#include "cutting/cut_patch.h"
 
 namespace trocar {
 
-void forget_parted(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
+void keep_steps(const Mesh& mesh, std::span<const std::int32_t> element, CutStroke& stroke) {
+  std::vector<OfElement<double>> step;
+  for (const std::int32_t e : element) {
+    if (mesh.element_type[e] != ElementType::tet4 || find_element(stroke.step, e) != nullptr)
+      continue;
+    const std::span<const std::int32_t> c = mesh.corners(e);
+    step.push_back({e, step_bound(mesh.X, {c[0], c[1], c[2], c[3]})});
+  }
+  merge_elements(stroke.step, step);
+}
+
+void keep_steps_around(const Mesh& mesh, const CutIndex& index, const MeshEdit& edit,
+                       CutStroke& stroke) {
+  std::vector<std::int32_t> around;
+  for (const NodeMove& move : edit.moves) {
+    const std::span<const std::int32_t> star = index.star(move.node);
+    around.insert(around.end(), star.begin(), star.end());
+  }
+  sort_unique(around);
+  keep_steps(mesh, around, stroke);
+}
+
+// Whether the other blade passed along the crossing's surface there.
+static bool is_along(std::span<const CutHit> along, const CutHit& hit) {
+  constexpr double least_cosine = 0.87;
+  if (along.empty()) return true;
+  const auto nearest = std::ranges::min_element(
+      along, {}, [&](const CutHit& other) { return (other.X - hit.X).squaredNorm(); });
+  return std::abs(nearest->N.dot(hit.N)) >= least_cosine;
+}
+
+static void add_copies(const Mesh& mesh, const MeshEdit& edit, std::vector<std::int32_t>& nodes) {
+  const std::size_t n = nodes.size();
+  for (std::size_t k = 0; k < edit.duplicate_parent.size(); ++k)
+    if (std::binary_search(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(n),
+                           edit.duplicate_parent[k]))
+      nodes.push_back(mesh.n_nodes() + static_cast<std::int32_t>(k));
+}
+
+void follow_opening(const Mesh& mesh, const MeshEdit& edit, std::span<const CutHit> along,
+                    CutStroke& stroke) {
   if (edit.is_empty()) return;
   std::vector<std::int32_t> parted = edit.duplicate_parent;
   sort_unique(parted);
@@ -20,13 +61,16 @@ void forget_parted(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
   const auto is_gone = [&](const CutHit& hit) {
     const std::array<int, 2>& end = tet_edges[hit.edge];
     const auto corner = mesh.corners(hit.element);
-    return is_parted(corner[end[0]]) || is_parted(corner[end[1]]) || is_opened(hit.element);
+    return (is_parted(corner[end[0]]) || is_parted(corner[end[1]]) || is_opened(hit.element)) &&
+           is_along(along, hit);
   };
   for (const CutHit& hit : stroke.hit)
     if (is_gone(hit)) stroke.in_slit.push_back(hit.element);
   std::erase_if(stroke.hit, is_gone);
   std::erase_if(stroke.left.hit, is_gone);
   sort_unique(stroke.in_slit);
+  for (auto* nodes : {&stroke.surface_node, &stroke.parted_node, &stroke.left.node})
+    add_copies(mesh, edit, *nodes);
 }
 
 }  // namespace trocar

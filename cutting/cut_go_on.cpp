@@ -1,6 +1,7 @@
 #include "cutting/cut_go_on.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/box.h"
@@ -13,11 +14,30 @@ namespace trocar {
 static constexpr double reach_along = 1, reach_beside = 0.35;
 static constexpr double along_it = 0.87;  // of the angle between the surfaces
 
+// Each once, by its coordinates.
+static void sort_points(std::vector<SurfacePoint>& points) {
+  const auto key = [](const SurfacePoint& p) {
+    return std::array{p.X.x(), p.X.y(), p.X.z(), p.N.x(), p.N.y(), p.N.z()};
+  };
+  std::ranges::sort(points, {}, key);
+  const auto same = std::ranges::unique(points, {}, key);
+  points.erase(same.begin(), same.end());
+}
+
 void add_left(const CutLeft& more, CutLeft& left) {
   left.hit.insert(left.hit.end(), more.hit.begin(), more.hit.end());
   sort_hits(left.hit);
   left.node.insert(left.node.end(), more.node.begin(), more.node.end());
   sort_unique(left.node);
+  left.parted.insert(left.parted.end(), more.parted.begin(), more.parted.end());
+  sort_points(left.parted);
+}
+
+static std::vector<SurfacePoint> parted_points(const CutStroke& stroke) {
+  std::vector<SurfacePoint> points;
+  for (const CutHit& hit : stroke.hit)
+    if (find_element(stroke.opened, hit.element) != nullptr) points.push_back({hit.X, hit.N});
+  return points;
 }
 
 static std::vector<CutHit> unparted_hits(const CutStroke& stroke) {
@@ -29,7 +49,9 @@ static std::vector<CutHit> unparted_hits(const CutStroke& stroke) {
 
 CutLeft left_by(const CutStroke& stroke) {
   CutLeft left = stroke.left;
-  add_left({.hit = unparted_hits(stroke), .node = stroke.surface_node}, left);
+  add_left(
+      {.hit = unparted_hits(stroke), .node = stroke.surface_node, .parted = parted_points(stroke)},
+      left);
   return left;
 }
 

@@ -1,7 +1,10 @@
 #include "cutting/cut_in_slit.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
+#include "base/box.h"
 #include "base/sort_unique.h"
 #include "mesh/facets.h"
 
@@ -9,9 +12,14 @@ namespace trocar {
 
 namespace {
 
-constexpr double beside = 0.15;         // h
-constexpr double least_cosine = 0.966;  // of the angle between band and lip
-constexpr double slack = 0.05;          // barycentric
+// How far from a lip, or from where a blade has been, a crossing counts as parted (over h, cosine
+// of the angle between the surfaces, barycentric).
+struct Reach {
+  double beside, cosine, slack;
+};
+constexpr Reach strict{0.15, 0.966, 0.05};
+// Lips lie that far from the blade that parted them, and turn to and fro about its surface.
+constexpr Reach where_parted{1, 0.3, 0.3};
 
 // A facet that another stroke has opened, and its unit normal out of the element.
 struct OpenFacet {
@@ -39,27 +47,45 @@ std::vector<OpenFacet> older_facets(const Mesh& mesh, std::span<const std::int32
   return facets;
 }
 
-// Whether both lips have a node of the facet: it lies at the slit's front, where the cut goes on.
-bool is_at_front(const OpenFacet& facet, std::span<const OpenFacet> facets) {
-  return std::ranges::any_of(facets, [&](const OpenFacet& other) {
-    return other.normal.dot(facet.normal) < 0 &&
-           std::ranges::find_first_of(other.node, facet.node) != other.node.end();
-  });
+// Of each facet, whether both lips have a node of it: it lies at the slit's front, where the cut
+// goes on.
+std::vector<std::uint8_t> are_at_front(std::span<const OpenFacet> facets) {
+  std::vector<std::pair<std::int32_t, std::size_t>> use;  // node, facet
+  for (std::size_t k = 0; k < facets.size(); ++k)
+    for (const std::int32_t i : facets[k].node) use.emplace_back(i, k);
+  std::ranges::sort(use);
+  std::vector<std::uint8_t> is_at_front(facets.size(), 0);
+  for (auto begin = use.begin(); begin != use.end();) {
+    const auto end = std::find_if(begin, use.end(),
+                                  [&](const auto& other) { return other.first != begin->first; });
+    for (auto a = begin; a != end; ++a)
+      for (auto b = begin; b != a; ++b)
+        if (facets[a->second].normal.dot(facets[b->second].normal) < 0)
+          is_at_front[a->second] = is_at_front[b->second] = 1;
+    begin = end;
+  }
+  return is_at_front;
 }
 
 }  // namespace
 
 OlderSlits::OlderSlits(const Mesh& mesh, std::span<const std::int32_t> elements,
                        const CutStroke& stroke, double h)
-    : beside_(beside * h) {
+    : h_(h) {
+  Box box;
+  for (const std::int32_t e : elements)
+    for (const std::int32_t i : mesh.corners(e)) box.add(mesh.X[i]);
+  std::ranges::copy_if(stroke.left.parted, std::back_inserter(parted_),
+                       [&](const SurfacePoint& p) { return box.holds(p.X, h); });
   const std::vector<OpenFacet> facets = older_facets(mesh, elements, stroke);
   std::vector<OpenFacet> lips;
   std::vector<std::int32_t> front;  // nodes
-  for (const OpenFacet& facet : facets)
-    if (is_at_front(facet, facets))
-      front.insert(front.end(), facet.node.begin(), facet.node.end());
+  const std::vector<std::uint8_t> is_at_front = are_at_front(facets);
+  for (std::size_t k = 0; k < facets.size(); ++k)
+    if (is_at_front[k] != 0)
+      front.insert(front.end(), facets[k].node.begin(), facets[k].node.end());
     else
-      lips.push_back(facet);
+      lips.push_back(facets[k]);
   sort_unique(front);
   const auto is_front = [&](std::int32_t i) { return std::ranges::binary_search(front, i); };
   for (const auto& [node, normal] : lips)
@@ -68,15 +94,26 @@ OlderSlits::OlderSlits(const Mesh& mesh, std::span<const std::int32_t> elements,
                      std::ranges::any_of(node, is_front)});
 }
 
+bool OlderSlits::is_parted(const Vec3& X, const Vec3& N) const {
+  const auto distance = [&](const SurfacePoint& p) { return (p.X - X).squaredNorm(); };
+  const auto nearest = std::ranges::min_element(parted_, {}, distance);
+  return nearest != parted_.end() && distance(*nearest) < h_ * h_ &&
+         std::abs(nearest->N.dot(N)) >= strict.cosine &&
+         std::abs(nearest->N.dot(X - nearest->X)) <= strict.beside * h_;
+}
+
 OlderSlits::Place OlderSlits::place_of(const Vec3& X, const Vec3& N) const {
+  if (lips_.empty()) return Place::outside;
+  const Reach& reach = is_parted(X, N) ? where_parted : strict;
   const auto holds = [&](const Lip& lip) {
     const Vec3 way = X - lip.X[0];
-    if (std::abs(lip.normal.dot(way)) > beside_ || std::abs(lip.normal.dot(N)) < least_cosine)
+    if (std::abs(lip.normal.dot(way)) > reach.beside * h_ ||
+        std::abs(lip.normal.dot(N)) < reach.cosine)
       return false;
     const Vec3 p = lip.X[1] - lip.X[0], q = lip.X[2] - lip.X[0], n = p.cross(q);
     const double v = n.dot(way.cross(q)) / n.squaredNorm(),
                  w = n.dot(p.cross(way)) / n.squaredNorm();
-    return v >= -slack && w >= -slack && v + w <= 1 + slack;
+    return std::min({v, w, 1 - v - w}) >= -reach.slack;
   };
   Place place = Place::outside;
   for (const Lip& lip : lips_)

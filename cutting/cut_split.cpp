@@ -7,6 +7,7 @@
 
 #include "base/check.h"
 #include "base/sort_unique.h"
+#include "cutting/cut_follow.h"
 
 namespace trocar {
 
@@ -215,14 +216,6 @@ static std::int8_t side_of(std::span<const OfElement<std::int8_t>> sides, const 
   return side;
 }
 
-static void keep_steps(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
-  std::vector<OfElement<double>> step;
-  for (const ElementSplit& split : edit.splits)
-    if (find_element(stroke.step, split.element) == nullptr)
-      step.push_back({split.element, step_bound(mesh.X, corners_of(mesh, split.element))});
-  merge_elements(stroke.step, step);
-}
-
 static double mean_edge(const Mesh& mesh, const Tet& tet) {
   double sum = 0;
   for (const auto& [a, b] : tet_edges)
@@ -242,7 +235,6 @@ static void keep_edges(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke
 
 void split_stroke(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
   const std::vector<OfElement<std::int8_t>> sides = node_sides(mesh, stroke);
-  keep_steps(mesh, edit, stroke);
   follow_splits(mesh, edit, stroke);
   const SplitNumbers numbers(edit.splits);
   std::vector<OfElement<std::int8_t>> part_side;  // of all parts, 0: not known
@@ -261,6 +253,9 @@ void split_stroke(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
 }
 
 void follow_splits(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
+  std::vector<std::int32_t> whole;
+  for (const ElementSplit& split : edit.splits) whole.push_back(split.element);
+  keep_steps(mesh, whole, stroke);
   keep_edges(mesh, edit, stroke);
   const Inserted after{mesh, edit, SplitNumbers(edit.splits)};
   for (auto* hits : {&stroke.hit, &stroke.earlier_hit, &stroke.left.hit}) follow_hits(after, *hits);

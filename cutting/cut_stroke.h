@@ -28,6 +28,12 @@ struct CutHit {
   std::pair<std::int32_t, std::int32_t> key() const { return {element, edge}; }
 };
 
+// Of a swept surface, reference configuration.
+struct SurfacePoint {
+  Vec3 X = Vec3::Zero();  // [m]
+  Vec3 N = Vec3::Zero();  // unit, towards +
+};
+
 // A value of an element; vectors of them are ascending by element.
 template <class T>
 struct OfElement {
@@ -35,11 +41,13 @@ struct OfElement {
   T value{};
 };
 
-// What strokes have crossed and not parted, around the ends of their slits: one that comes there
-// goes on with it (cut_go_on.h).
+// What strokes leave to others. What they have crossed and not parted, around the ends of their
+// slits: one that comes there goes on with it (cut_go_on.h). And where they have parted: one that
+// comes again crosses nothing there (cut_in_slit.h).
 struct CutLeft {
-  std::vector<CutHit> hit;         // ascending (element, edge)
-  std::vector<std::int32_t> node;  // surface_node of these strokes, ascending
+  std::vector<CutHit> hit;           // ascending (element, edge)
+  std::vector<std::int32_t> node;    // surface_node of these strokes, ascending
+  std::vector<SurfacePoint> parted;  // crossings of elements that they have opened, ascending
 };
 
 // A point of the blade's edge at the end of a frame, and where in the tissue its band has ended.

@@ -36,7 +36,7 @@ SurfacePlane fit_surface(std::span<const SurfacePoint> points, const Vec3& X, do
     sum += w;
   }
   const double size = N.norm();
-  // Normals that cancel: two sheets of one stroke meet here; the nearest one is as good as any.
+  // Normals that cancel: two sheets of one stroke meet here; one is as good as the other.
   if (!(size > 0.1 * sum)) return {points.front().N, points.front().N.dot(points.front().X)};
   SurfacePlane plane{N / size, 0};
   plane.offset = plane.N.dot(X) - distance / sum;

@@ -12,11 +12,6 @@
 
 namespace trocar {
 
-struct SurfacePoint {
-  Vec3 X = Vec3::Zero();
-  Vec3 N = Vec3::Zero();  // unit, towards +
-};
-
 // phi(X) = N . X - offset: signed distance to the surface near the point where it was fitted. [m]
 struct SurfacePlane {
   Vec3 N = Vec3::Zero();

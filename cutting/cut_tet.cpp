@@ -170,7 +170,8 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
   if (!is_last) stays_whole = unripe_nodes(cut.around, cut.labels);
   if (!is_last) leave_slices(cut.around.patch, slices, cut.labels);
   cut.opening = open_facets(cut.around, cut.labels, stays_whole);
-  while (cut.chips.size() < most_chips && join_chip(mesh, index, stroke, is_last, cut))
+  while (cut.chips.size() < most_chips &&
+         join_chip(mesh, index, constraints.is_held, stroke, is_last, cut))
     cut.opening = open_facets(cut.around, cut.labels, stays_whole);
   set_roles(cut, stroke, is_last);
   cut.X = moved_nodes(cut, options, move_limits(cut.around, stroke, options.least_step_ratio));
@@ -231,15 +232,29 @@ bool TetCutter::is_prepared(const Mesh& mesh) const {
 
 void TetCutter::follow(const Mesh& mesh, const CutterEdit& edit) {
   Front& f = *front_;
+  const bool is_known = is_prepared(mesh);
   if (!edit.inserted.empty())
     follow_splits(mesh, edit, f.stroke);
   else if (edit.tets.is_empty())
-    forget_parted(mesh, edit, f.stroke);
-  if (!is_prepared(mesh)) return;
-  if (f.tets.mesh.X.empty()) return edit_index(mesh, edit, f.index);
-  forget_parted(f.tets.mesh, edit.tets, f.stroke);
+    follow_opening(mesh, edit, edit.along, f.stroke);
+  if (!is_known) return;
+  if (f.tets.mesh.X.empty()) {
+    keep_steps_around(mesh, f.index, edit, f.stroke);
+    return edit_index(mesh, edit, f.index);
+  }
+  keep_steps_around(f.tets.mesh, f.index, edit.tets, f.stroke);
+  follow_opening(f.tets.mesh, edit.tets, edit.along, f.stroke);
   edit_index(f.tets.mesh, edit.tets, f.index);
   edit_hex_tets(edit.splits, edit.tets, f.tets);
+}
+
+static std::vector<CutHit> crossings_in(std::span<const CutFacets> opened,
+                                        const CutStroke& stroke) {
+  std::vector<CutHit> hits;
+  for (const CutHit& hit : stroke.hit)
+    if (std::ranges::binary_search(opened, hit.element, {}, &CutFacets::element))
+      hits.push_back(hit);
+  return hits;
 }
 
 CutterEdit TetCutter::advance(const Mesh& mesh, PresentPositions& positions,
@@ -253,9 +268,10 @@ CutterEdit TetCutter::advance(const Mesh& mesh, PresentPositions& positions,
   MeshEdit edit =
       f.advance(has_tets ? f.tets.mesh : mesh, positions, constraints, sweep, is_last, figures);
   figures.goes_through = is_last && has_gone_through(f.stroke);
-  if (!has_tets || edit.is_empty()) return {std::move(edit), {}};
+  std::vector<CutHit> along = crossings_in(edit.cut_facets, f.stroke);
+  if (!has_tets || edit.is_empty()) return {std::move(edit), {}, std::move(along)};
   MeshEdit of_body = edit_of_body(mesh, positions, f.index, edit, f.tets, figures);
-  return {std::move(of_body), std::move(edit)};
+  return {std::move(of_body), std::move(edit), std::move(along)};
 }
 
 }  // namespace trocar

@@ -40,6 +40,7 @@ struct CutTetOptions {
 // Of the mesh, and of the tetrahedra that the cutter sees in its place, none without hexahedra.
 struct CutterEdit : MeshEdit {
   MeshEdit tets;
+  std::vector<CutHit> along;  // the stroke's crossings of the elements that it opens
 };
 
 // One blade's cut from its entry into tissue to its exit.

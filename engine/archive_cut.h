@@ -14,13 +14,14 @@ void visit(Archive& a, MeshEdit& edit) {
   visit_bytes(a, edit, edit_to_bytes, edit_from_bytes);
 }
 template <class Archive>
+void visit(Archive& a, CutHit& h) {
+  a(h.element, h.edge, h.is_first_plus, h.X, h.N);
+}
+template <class Archive>
 void visit(Archive& a, CutterEdit& edit) {
   visit(a, static_cast<MeshEdit&>(edit));
   visit(a, edit.tets);
-}
-template <class Archive>
-void visit(Archive& a, CutHit& h) {
-  a(h.element, h.edge, h.is_first_plus, h.X, h.N);
+  a(edit.along);
 }
 template <class Archive, class T>
 void visit(Archive& a, OfElement<T>& entry) {
@@ -31,8 +32,12 @@ void visit(Archive& a, BladePoint& p) {
   a(p.element, p.is_inside, p.X, p.beyond, p.x, p.farthest, p.ahead);
 }
 template <class Archive>
+void visit(Archive& a, SurfacePoint& p) {
+  a(p.X, p.N);
+}
+template <class Archive>
 void visit(Archive& a, CutLeft& l) {
-  a(l.hit, l.node);
+  a(l.hit, l.node, l.parted);
 }
 template <class Archive>
 void visit(Archive& a, CutStroke& s) {

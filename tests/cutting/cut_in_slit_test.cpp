@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "cutting_tet.h"
 
 namespace trocar::cutting_test {
@@ -44,6 +46,29 @@ TEST(OlderSlits, hold_what_lies_beside_their_facets_and_along_them) {
         deeper.empty() || deeper.back() != place)
       deeper.push_back(place);
   EXPECT_EQ(deeper, (std::vector{Place::inside, Place::near_front, Place::outside}));
+}
+
+// Of the body's lips most lie farther from the blade than that, and none lies along it: where it
+// has been tells. By its own cutter, and by one that has been told.
+TEST(OlderSlits, of_any_plane_take_in_a_blade_that_comes_again) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> gauss;
+  int n_first = 0, n_again = 0;
+  for (int k = 0; k < 24; ++k) {
+    const Vec3 normal = Vec3(gauss(random), gauss(random), gauss(random)).normalized();
+    const BoxElements elements = k % 2 == 0 ? BoxElements::tet4_kuhn : BoxElements::tet4_five;
+    Body body(make_box({0, 0, 0}, {1, 1, 1}, {6, 6, 6}, elements));
+    const Blade blade = plane_blade({0.5, 0.47, 0.52}, normal, 1);
+    TetCutter cutter{CutTetOptions{}}, other{CutTetOptions{}};
+    n_first += cut(body, blade, normal, 25, cutter).total.n_opened_facets;
+    EXPECT_EQ(n_pieces(body.mesh), 2) << k;
+    other.take_over(cutter.left());
+    n_again += cut(body, blade, normal, 25, k % 4 < 2 ? cutter : other).total.n_opened_facets;
+    EXPECT_EQ(n_pieces(body.mesh), 2) << k;
+    EXPECT_EQ(fault(body), "");
+  }
+  std::printf("%d facets opened, %d when the blade came again\n", n_first, n_again);
+  EXPECT_LE(n_again, n_first / 100);
 }
 
 }  // namespace

@@ -244,9 +244,9 @@ low = ["15 mm", -1, -1]
 high = [1, 1, 1]
 [[support]]
 region = "side"
-)" + scalpel_along("12 mm", R"(
+)" + scalpel_along("24 mm", R"(
   { time = 0, position = ["-6 mm", "0.5 mm", "-40 mm"], direction = [-1, 0, 0], forward = [0, 0, 1] },
-  { time = 0.2, position = ["-6 mm", "0.5 mm", "-20 mm"], direction = [-1, 0, 0], forward = [0, 0, 1] },
+  { time = 0.2, position = ["-6 mm", "0.5 mm", "-12 mm"], direction = [-1, 0, 0], forward = [0, 0, 1] },
 )");
 
 inline std::vector<SmallScene> small_scenes() {
