@@ -69,8 +69,10 @@ void print_trial(const Cut2dTrial& trial, Cut2dMode mode) {
                 reason_of(refusal));
 }
 
-std::string nothing_cut_text(const Mesh& mesh) {
-  const auto [low, high] = bounding_box(mesh.X);
+std::string nothing_cut_text(const Cut2dTrial& trial) {
+  if (!trial.refusals.empty())
+    return "nothing was cut: what the path crosses stays joined, for the reasons that are told";
+  const auto [low, high] = bounding_box(trial.before.X);
   char text[200];
   std::snprintf(
       text, sizeof text,
@@ -85,7 +87,7 @@ ExitCode cut_one(const Cut2dCommand& command) {
       run_trial(mesh_of(command), paths_of(command),
                 options_of(mode_of(command.mode), command.repetitions, command.least_step_ratio));
   draw_trial(command, "", trial);
-  if (trial.n_opened_edges == 0) log_warning(nothing_cut_text(trial.before));
+  if (trial.n_opened_edges == 0) log_warning(nothing_cut_text(trial));
   if (command.is_json)
     std::fputs(trial_json(trial, command.mode).c_str(), stdout);
   else

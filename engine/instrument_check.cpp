@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/box.h"
 #include "base/log.h"
 #include "base/options.h"
 #include "collision/closest_point.h"
@@ -46,6 +47,24 @@ void warn_if_hasty(const SceneInstrument& instrument, const std::string& place, 
               "; let more time pass between the two actions");
 }
 
+// Of the tip, and of shafts, which may go right through.
+double depth_of_axes(const Simulation& s, const Tool& tool) {
+  constexpr int n_parts = 64;  // of a shaft
+  const Pose pose = tool.path.at(0);
+  std::vector<Vec3> points = {pose.translation};
+  for (const ConvexPiece& piece : tool.shape.pieces)
+    for (int k = 0; k <= n_parts && piece.points.size() == 2; ++k)
+      points.push_back(
+          pose.apply(piece.points[0] + (piece.points[1] - piece.points[0]) * (1.0 * k / n_parts)));
+  Box body;
+  for (const std::int32_t node : s.view.node) body.add(s.view.x[static_cast<std::size_t>(node)]);
+  double deepest = 0;
+  for (const Vec3& point : points)
+    if (body.holds(point, 0))
+      deepest = std::max(deepest, depth_in_body(s.surface, s.view.x, point));
+  return deepest;
+}
+
 }  // namespace
 
 void warn_of_hasty_jaws(const Scene& scene) {
@@ -64,7 +83,7 @@ void warn_of_hasty_jaws(const Scene& scene) {
   }
 }
 
-// Contacts are sought at the surface: a tip that is well inside meets none, so it is looked for.
+// Contacts are sought at the surface: what is well inside meets none, so it is looked for.
 void check_instruments_outside(const LoadedScene& loaded, double allowed, const std::string& what,
                                Simulation& s) {
   OptionErrors errors(loaded.where);
@@ -77,8 +96,7 @@ void check_instruments_outside(const LoadedScene& loaded, double allowed, const 
   for (std::size_t k = 0; k < s.tools.size(); ++k) {
     const Tool& tool = s.tools[k];
     if (s.mesh.dimension() == 3 && tool.edge.empty())
-      depth[k] =
-          std::max(depth[k], depth_in_body(s.surface, s.view.x, tool.path.at(0).translation));
+      depth[k] = std::max(depth[k], depth_of_axes(s, tool));
     if (depth[k] <= allowed) continue;
     char text[40];
     std::snprintf(text, sizeof text, "%.3g m", depth[k]);

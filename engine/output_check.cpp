@@ -41,10 +41,12 @@ void refuse(const std::string& input, const std::string& folder) {
 void warn_of_rounding(const std::string& key, double seconds, double frame_rate) {
   const double n = std::max(1.0, std::round(seconds * frame_rate));
   if (std::abs(seconds * frame_rate - n) < 1e-6 * n) return;
-  log_warning(key + " = " + short_text(seconds) + " s is no whole number of frames of " +
+  const double taken = n / frame_rate;
+  const bool is_clear = short_text(seconds) != short_text(taken);
+  const auto text = [&](double value) { return is_clear ? short_text(value) : number_text(value); };
+  log_warning(key + " = " + text(seconds) + " s is no whole number of frames of " +
               short_text(frame_rate) + " Hz: it is taken as " +
-              std::to_string(static_cast<std::int64_t>(n)) + " of them, " +
-              short_text(n / frame_rate) + " s");
+              std::to_string(static_cast<std::int64_t>(n)) + " of them, " + text(taken) + " s");
 }
 
 }  // namespace

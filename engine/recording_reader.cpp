@@ -164,6 +164,7 @@ struct RecordingReader::Database {
 void RecordingReader::Database::read_head() {
   Statement row(file, "SELECT format, version, scene, n_tools, row_crc, mesh, size, crc FROM head");
   if (!row.step()) throw InputError(name + ": is an empty recording");
+  if (row.integer(0) < 1) throw InputError(name + ": damaged (it does not tell its format)");
   if (row.integer(0) != recording_format)
     throw InputError(name + ": has recording format " + std::to_string(row.integer(0)) +
                      ", this program reads " + std::to_string(recording_format));

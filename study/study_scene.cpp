@@ -172,6 +172,7 @@ SceneStudy load_study(const SceneStudyOptions& options, Communicator& communicat
   SceneStudy study{.loaded = load_scene(options.scene_file, options.overrides),
                    .communicator = &communicator};
   study.loaded.scene.outputs.clear();
+  study.loaded.scene.markers.clear();
   study.loaded.scene.time.pace = Pace::fast;
   if (study.n_frames() < 1) throw InputError("the scene has no frame to compare");
   if (study.has_shape() && !options.meshes.empty())

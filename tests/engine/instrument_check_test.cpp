@@ -35,6 +35,12 @@ TEST(InstrumentCheck, refuses_a_tip_at_any_depth_and_says_which) {
       << start_refusal("probe", 0.022);
 }
 
+// A shaft of 150 mm that comes from above and ends 30 mm below.
+TEST(InstrumentCheck, refuses_a_shaft_that_goes_through) {
+  for (const std::string kind : {"probe", "grasper"})
+    EXPECT_NE(start_refusal(kind, -0.03).find("into the body"), std::string::npos) << kind;
+}
+
 TEST(InstrumentCheck, lets_instruments_begin_outside_and_blades_anywhere) {
   EXPECT_EQ(start_refusal("probe", 0.05), "");
   EXPECT_EQ(start_refusal("grasper", 0.05), "");
