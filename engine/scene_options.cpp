@@ -262,7 +262,8 @@ Options<SceneInstrument> instrument_options() {
            "Scissors cut what is between their blades when they close.", Need::required);
   i.text("name", &SceneInstrument::name, "Name in the metrics; the kind if absent.");
   i.number("radius", &SceneInstrument::radius, dim::length, positive, "Of the tip and shaft.");
-  i.number("length", &SceneInstrument::length, dim::length, positive, "Of the shaft.");
+  i.number("length", &SceneInstrument::length, dim::length, positive,
+           "From the tip to the end of the shaft; at least twice a scalpel's blade_length.");
   i.number("blade_length", &SceneInstrument::blade_length, dim::length, positive,
            "Of a scalpel's straight edge, from the tip up; of scissors, from tip to pivot: open, "
            "each stands 0.3 rad off the shaft, and what lies beside them is not cut.");

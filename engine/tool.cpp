@@ -15,6 +15,22 @@ constexpr double first_crossing = 0.15;  // of scissors' blades from the pivot, 
 // Of the depth at which the middle of closed jaws lies.
 constexpr double caught_share = 0.5;
 
+constexpr double grasper_jaw = 0.022;  // [m]
+
+// From the tip: a shaft that ended short of its blade or jaws would lie across them.
+double least_length(const SceneInstrument& s) {
+  switch (s.kind) {
+    case InstrumentKind::scalpel:
+      return 2 * s.blade_length;
+    case InstrumentKind::scissors:
+      return s.blade_length + 4 * s.radius;
+    case InstrumentKind::grasper:
+      return grasper_jaw + 4 * s.radius;
+    default:
+      return 4 * s.radius;
+  }
+}
+
 ConvexPiece shaft_piece(double from, double to, double radius) {
   return {.points = {Vec3(0, 0, from), Vec3(0, 0, to)}, .radius = radius};
 }
@@ -73,7 +89,7 @@ void add_hinge_and_shaft(Tool& tool, const SceneInstrument& s) {
 }
 
 void make_grasper(Tool& tool, const SceneInstrument& s) {
-  const double jaw = 0.022, thick = 0.55 * s.radius;
+  const double jaw = grasper_jaw, thick = 0.55 * s.radius;
   tool.hinge_height = jaw;
   tool.grip_radius = s.grip_radius;
   tool.grip_force = s.grip_force;
@@ -157,7 +173,9 @@ Box box_round(const ToolShape& shape) {
 
 }  // namespace
 
-Tool make_tool(const SceneInstrument& s, const TriangleMesh& mesh, double edge_spacing) {
+Tool make_tool(const SceneInstrument& instrument, const TriangleMesh& mesh, double edge_spacing) {
+  SceneInstrument s = instrument;
+  s.length = std::max(s.length, least_length(s));
   Tool tool{.kind = s.kind, .name = s.name, .path = ToolPath(s.path), .keys = s.path};
   if (s.kind == InstrumentKind::probe) make_probe(tool, s);
   if (s.kind == InstrumentKind::scalpel) make_scalpel(tool, s, edge_spacing);

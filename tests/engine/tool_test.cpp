@@ -36,6 +36,20 @@ TEST(Tool, of_every_kind_has_a_shaft_a_working_piece_and_a_picture) {
   }
 }
 
+// A scalpel's that ended beside its long blade would push away what the blade should cut.
+TEST(Tool, the_shaft_begins_behind_blade_and_jaws_and_leads_away_from_them) {
+  for (const InstrumentKind kind : {InstrumentKind::probe, InstrumentKind::grasper,
+                                    InstrumentKind::scalpel, InstrumentKind::scissors}) {
+    SceneInstrument instrument = instrument_of(kind);
+    instrument.blade_length = 0.25;
+    instrument.length = 0.01;
+    const Tool tool = make_tool(instrument, {}, 1e-2);
+    const std::vector<Vec3>& shaft = tool.shape.pieces[0].points;
+    EXPECT_GT(shaft[1].z(), shaft[0].z());
+    for (const Vec3& point : tool.edge) EXPECT_LT(point.z(), shaft[0].z());
+  }
+}
+
 TEST(Tool, the_tip_of_a_probe_is_a_ball_that_touches_the_origin) {
   const SceneInstrument probe = instrument_of(InstrumentKind::probe);
   const Tool tool = make_tool(probe, {}, 1e-3);
