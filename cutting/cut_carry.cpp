@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "cutting/cut_patch.h"
 #include "mesh/element_boxes.h"
 #include "mesh/facets.h"
 
@@ -142,10 +143,8 @@ static void add_to_rim(const std::vector<Place>& places, CutStroke& stroke) {
 // Whether X lies within `depth` below the triangle, or a little beside it.
 static bool is_below(const std::array<Vec3, 3>& triangle, const Vec3& X, double depth) {
   constexpr double slack = 0.1;  // barycentric
-  const Vec3 p = triangle[1] - triangle[0], q = triangle[2] - triangle[0], n = p.cross(q);
-  const Vec3 way = X - triangle[0];
-  const double v = n.dot(way.cross(q)) / n.squaredNorm(), w = n.dot(p.cross(way)) / n.squaredNorm();
-  return std::abs(n.dot(way)) < depth * n.norm() && std::min({v, w, 1 - v - w}) > -slack;
+  const Vec3 n = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+  return std::abs(n.dot(X - triangle[0])) < depth * n.norm() && least_share(triangle, X) > -slack;
 }
 
 // Of the elements' facets those whose nodes all lie on the surface.

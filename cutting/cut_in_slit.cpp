@@ -6,6 +6,7 @@
 
 #include "base/box.h"
 #include "base/sort_unique.h"
+#include "cutting/cut_patch.h"
 #include "mesh/facets.h"
 
 namespace trocar {
@@ -67,16 +68,26 @@ std::vector<std::uint8_t> are_at_front(std::span<const OpenFacet> facets) {
   return is_at_front;
 }
 
+// Of points that ascend by x those at most h beside the elements' box.
+std::vector<SurfacePoint> points_near(const Mesh& mesh, std::span<const std::int32_t> elements,
+                                      double h, std::span<const SurfacePoint> points) {
+  Box box;
+  for (const std::int32_t e : elements)
+    for (const std::int32_t i : mesh.corners(e)) box.add(mesh.X[i]);
+  const auto x = [](const SurfacePoint& p) { return p.X.x(); };
+  const auto begin = std::ranges::lower_bound(points, box.low.x() - h, {}, x),
+             end = std::ranges::upper_bound(points, box.high.x() + h, {}, x);
+  std::vector<SurfacePoint> near;
+  std::copy_if(begin, end, std::back_inserter(near),
+               [&](const SurfacePoint& p) { return box.holds(p.X, h); });
+  return near;
+}
+
 }  // namespace
 
 OlderSlits::OlderSlits(const Mesh& mesh, std::span<const std::int32_t> elements,
                        const CutStroke& stroke, double h)
     : h_(h) {
-  Box box;
-  for (const std::int32_t e : elements)
-    for (const std::int32_t i : mesh.corners(e)) box.add(mesh.X[i]);
-  std::ranges::copy_if(stroke.left.parted, std::back_inserter(parted_),
-                       [&](const SurfacePoint& p) { return box.holds(p.X, h); });
   const std::vector<OpenFacet> facets = older_facets(mesh, elements, stroke);
   std::vector<OpenFacet> lips;
   std::vector<std::int32_t> front;  // nodes
@@ -92,6 +103,7 @@ OlderSlits::OlderSlits(const Mesh& mesh, std::span<const std::int32_t> elements,
     lips_.push_back({{mesh.X[node[0]], mesh.X[node[1]], mesh.X[node[2]]},
                      normal,
                      std::ranges::any_of(node, is_front)});
+  if (!lips_.empty()) parted_ = points_near(mesh, elements, h, stroke.left.parted);
 }
 
 bool OlderSlits::is_parted(const Vec3& X, const Vec3& N) const {
@@ -106,14 +118,8 @@ OlderSlits::Place OlderSlits::place_of(const Vec3& X, const Vec3& N) const {
   if (lips_.empty()) return Place::outside;
   const Reach& reach = is_parted(X, N) ? where_parted : strict;
   const auto holds = [&](const Lip& lip) {
-    const Vec3 way = X - lip.X[0];
-    if (std::abs(lip.normal.dot(way)) > reach.beside * h_ ||
-        std::abs(lip.normal.dot(N)) < reach.cosine)
-      return false;
-    const Vec3 p = lip.X[1] - lip.X[0], q = lip.X[2] - lip.X[0], n = p.cross(q);
-    const double v = n.dot(way.cross(q)) / n.squaredNorm(),
-                 w = n.dot(p.cross(way)) / n.squaredNorm();
-    return std::min({v, w, 1 - v - w}) >= -reach.slack;
+    return std::abs(lip.normal.dot(X - lip.X[0])) <= reach.beside * h_ &&
+           std::abs(lip.normal.dot(N)) >= reach.cosine && least_share(lip.X, X) >= -reach.slack;
   };
   Place place = Place::outside;
   for (const Lip& lip : lips_)

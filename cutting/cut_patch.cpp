@@ -238,4 +238,11 @@ CutPatch make_patch(const Mesh& mesh, CutIndex& index, PresentPositions& positio
   return patch;
 }
 
+double least_share(const std::array<Vec3, 3>& triangle, const Vec3& X) {
+  const Vec3 p = triangle[1] - triangle[0], q = triangle[2] - triangle[0], way = X - triangle[0];
+  const Vec3 n = p.cross(q);
+  const double v = n.dot(way.cross(q)) / n.squaredNorm(), w = n.dot(p.cross(way)) / n.squaredNorm();
+  return std::min({v, w, 1 - v - w});
+}
+
 }  // namespace trocar

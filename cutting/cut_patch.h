@@ -62,6 +62,9 @@ std::array<std::int32_t, 3> facet_nodes(const CutPatch& patch, std::int32_t e, i
 // The facet of `e` that neighbour `u` lies behind.
 int facet_towards(const CutPatch& patch, std::int32_t e, std::int32_t u);
 
+// The least barycentric coordinate of the triangle's plane's point next to X.
+double least_share(const std::array<Vec3, 3>& triangle, const Vec3& X);
+
 // Six times the volume of a tetrahedron. [m^3]
 double six_volumes(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner);
 // 6 V / sqrt(sum of squared double facet areas): in proportion to the element's bound of the stable
