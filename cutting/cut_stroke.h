@@ -85,7 +85,7 @@ struct CutStroke {
                           // the ways of its ends; reference positions [m]
   bool is_amid = false;  // it went on into tissue and stopped there: if it is out now, it drew back
   double mean_edge = 0;  // around the last hits [m]; 0: not known yet
-  double swept = 0;      // of the tissue, since the last edit [m]
+  double swept = 0;  // as the tissue sees it, since the last edit; in the air before it, too [m]
 };
 
 // Whether the blade has left the tissue all along its edge, and not by the way it came: but for
