@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/sort_unique.h"
+#include "cutting/cut_follow.h"
 #include "mesh/quality.h"
 
 namespace trocar {
@@ -174,16 +175,13 @@ static void remember_nodes(const TetCut& cut, std::int32_t n_nodes, CutStroke& s
   sort_unique(stroke.parted_node);
 }
 
-static void remember_steps(const TetCut& cut, CutStroke& stroke) {
-  const CutPatch& patch = cut.around.patch;
-  std::vector<OfElement<double>> step;
-  for (const std::int32_t e : moved_elements(cut))
-    if (find_element(stroke.step, patch.element[e]) == nullptr)
-      step.push_back({patch.element[e], step_bound(patch.X, patch.corner[e])});
-  merge_elements(stroke.step, step);
+static void remember_steps(const TetCut& cut, const Mesh& mesh, CutStroke& stroke) {
+  std::vector<std::int32_t> moved;
+  for (const std::int32_t e : moved_elements(cut)) moved.push_back(cut.around.patch.element[e]);
+  keep_steps(mesh, moved, stroke);
 }
 
-void remember(const TetCut& cut, std::int32_t n_nodes, CutStroke& stroke) {
+void remember(const TetCut& cut, const Mesh& mesh, CutStroke& stroke) {
   const CutPatch& patch = cut.around.patch;
   stroke.swept = 0;
   stroke.fresh.clear();
@@ -194,8 +192,8 @@ void remember(const TetCut& cut, std::int32_t n_nodes, CutStroke& stroke) {
   }
   remember_sides(cut, stroke);
   sort_unique(stroke.unfinished);
-  remember_nodes(cut, n_nodes, stroke);
-  remember_steps(cut, stroke);
+  remember_nodes(cut, mesh.n_nodes(), stroke);
+  remember_steps(cut, mesh, stroke);
   std::vector<OfElement<std::uint8_t>> opened = opened_facets(cut);
   for (OfElement<std::uint8_t>& entry : opened)
     if (const std::uint8_t* before = find_element(stroke.opened, entry.element))

@@ -10,6 +10,6 @@ namespace trocar {
 MeshEdit make_edit(const Mesh& mesh, const TetCut& cut);
 CutFigures make_figures(const TetCut& cut, bool is_last);
 // `n_nodes` of the mesh before the edit: copies are numbered from there.
-void remember(const TetCut& cut, std::int32_t n_nodes, CutStroke& stroke);
+void remember(const TetCut& cut, const Mesh& mesh, CutStroke& stroke);
 
 }  // namespace trocar

@@ -9,12 +9,9 @@ namespace trocar {
 
 void keep_steps(const Mesh& mesh, std::span<const std::int32_t> element, CutStroke& stroke) {
   std::vector<OfElement<double>> step;
-  for (const std::int32_t e : element) {
-    if (mesh.element_type[e] != ElementType::tet4 || find_element(stroke.step, e) != nullptr)
-      continue;
-    const std::span<const std::int32_t> c = mesh.corners(e);
-    step.push_back({e, step_bound(mesh.X, {c[0], c[1], c[2], c[3]})});
-  }
+  for (const std::int32_t e : element)
+    if (mesh.element_type[e] == ElementType::tet4 && find_element(stroke.step, e) == nullptr)
+      step.push_back({e, tet_step_bound(mesh, e)});
   merge_elements(stroke.step, step);
 }
 

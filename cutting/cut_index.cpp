@@ -196,10 +196,8 @@ static void split_in_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& ind
 
 std::span<const double> find_steps(const Mesh& mesh, CutIndex& index) {
   index.step.resize(index.n_elements, 0);
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    const std::span<const std::int32_t> c = mesh.corners(e);
-    if (index.step[e] == 0) index.step[e] = step_bound(mesh.X, {c[0], c[1], c[2], c[3]});
-  }
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    if (index.step[e] == 0) index.step[e] = tet_step_bound(mesh, e);
   return index.step;
 }
 

@@ -238,6 +238,11 @@ CutPatch make_patch(const Mesh& mesh, CutIndex& index, PresentPositions& positio
   return patch;
 }
 
+double tet_step_bound(const Mesh& mesh, std::int32_t e) {
+  const std::span<const std::int32_t> c = mesh.corners(e);
+  return step_bound(mesh.X, {c[0], c[1], c[2], c[3]});
+}
+
 double least_share(const std::array<Vec3, 3>& triangle, const Vec3& X) {
   const Vec3 p = triangle[1] - triangle[0], q = triangle[2] - triangle[0], way = X - triangle[0];
   const Vec3 n = p.cross(q);

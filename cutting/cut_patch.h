@@ -70,6 +70,8 @@ double six_volumes(std::span<const Vec3> X, const std::array<std::int32_t, 4>& c
 // 6 V / sqrt(sum of squared double facet areas): in proportion to the element's bound of the stable
 // step; negative if inverted. [m]
 double step_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner);
+// Of tetrahedron e in the reference.
+double tet_step_bound(const Mesh& mesh, std::int32_t e);
 // The least one of the elements around node i, all at the positions X.
 double star_step(const CutPatch& patch, std::span<const Vec3> X, std::int32_t i);
 

@@ -181,7 +181,7 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
   cut.rungs.n_pulled_back = count_different(wanted, cut.X);
 
   figures = make_figures(cut, is_last);
-  remember(cut, mesh.n_nodes(), stroke);
+  remember(cut, mesh, stroke);
   if (is_out) add_refusals(missed_places(mesh, cut, stroke), figures);
   MeshEdit edit = make_edit(mesh, cut);
   edit_index(mesh, edit, index);
@@ -232,12 +232,11 @@ bool TetCutter::is_prepared(const Mesh& mesh) const {
 
 void TetCutter::follow(const Mesh& mesh, const CutterEdit& edit) {
   Front& f = *front_;
-  const bool is_known = is_prepared(mesh);
   if (!edit.inserted.empty())
     follow_splits(mesh, edit, f.stroke);
   else if (edit.tets.is_empty())
     follow_opening(mesh, edit, edit.along, f.stroke);
-  if (!is_known) return;
+  if (!is_prepared(mesh)) return;
   if (f.tets.mesh.X.empty()) {
     keep_steps_around(mesh, f.index, edit, f.stroke);
     return edit_index(mesh, edit, f.index);
@@ -251,6 +250,7 @@ void TetCutter::follow(const Mesh& mesh, const CutterEdit& edit) {
 static std::vector<CutHit> crossings_in(std::span<const CutFacets> opened,
                                         const CutStroke& stroke) {
   std::vector<CutHit> hits;
+  if (opened.empty()) return hits;
   for (const CutHit& hit : stroke.hit)
     if (std::ranges::binary_search(opened, hit.element, {}, &CutFacets::element))
       hits.push_back(hit);

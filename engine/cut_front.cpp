@@ -187,9 +187,7 @@ std::vector<Look> looks_of(const Motion& motion) {
 
 // False of blades that are clear of the body.
 bool is_near(const Simulation& s, const Box& blade) {
-  Box tissue;
-  for (const std::int32_t node : s.view.node) tissue.add(s.view.x[static_cast<std::size_t>(node)]);
-  return blade.overlaps(tissue);
+  return blade.overlaps(box_of(s.view));
 }
 
 }  // namespace

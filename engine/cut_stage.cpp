@@ -24,9 +24,7 @@ struct FrameTissue {
 };
 
 FrameTissue tissue_in_frame(const Simulation& s) {
-  FrameTissue tissue{.box = {}, .way = largest_surface_way(s)};
-  for (const std::int32_t node : s.view.node)
-    tissue.box.add(s.view.x[static_cast<std::size_t>(node)]);
+  FrameTissue tissue{.box = box_of(s.view), .way = largest_surface_way(s)};
   tissue.box.low.array() -= tissue.way;
   tissue.box.high.array() += tissue.way;
   return tissue;

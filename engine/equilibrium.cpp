@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/error.h"
 #include "base/timers.h"
@@ -15,24 +14,6 @@
 namespace trocar {
 
 namespace {
-
-// (n_nodes) Components that supports hold anywhere in the piece, at the piece's lowest node.
-std::vector<FixedMask> held_components(const Simulation& s, std::span<const std::int32_t> piece) {
-  std::vector<FixedMask> held(piece.size(), 0);
-  const auto hold = [&](std::size_t node, FixedMask mask) {
-    FixedMask& of_piece = held[static_cast<std::size_t>(piece[node])];
-    of_piece = static_cast<FixedMask>(of_piece | mask);
-  };
-  for (std::size_t node = 0; node < piece.size(); ++node) hold(node, s.fixed[node]);
-  for (const Hold& moved : s.holds.holds) hold(static_cast<std::size_t>(moved.node), 7);
-  return held;
-}
-
-std::vector<std::int32_t> pieces_of(const Mesh& mesh) {
-  std::vector<std::int32_t> all(mesh.element_type.size());
-  std::iota(all.begin(), all.end(), 0);
-  return connected_nodes(mesh, all);
-}
 
 [[noreturn]] void give_up(Simulation& s, const std::string& cause) {
   s.state = make_state(s.model);
@@ -90,8 +71,19 @@ void check_loads_are_held(std::span<const FixedMask> held, const Simulation& s,
 
 }  // namespace
 
+std::vector<FixedMask> held_components(const Simulation& s, std::span<const std::int32_t> piece) {
+  std::vector<FixedMask> held(piece.size(), 0);
+  const auto hold = [&](std::size_t node, FixedMask mask) {
+    FixedMask& of_piece = held[static_cast<std::size_t>(piece[node])];
+    of_piece = static_cast<FixedMask>(of_piece | mask);
+  };
+  for (std::size_t node = 0; node < piece.size(); ++node) hold(node, s.fixed[node]);
+  for (const Hold& moved : s.holds.holds) hold(static_cast<std::size_t>(moved.node), 7);
+  return held;
+}
+
 void check_is_held(const Simulation& s, OptionErrors& errors) {
-  const std::vector<std::int32_t> piece = pieces_of(s.mesh);
+  const std::vector<std::int32_t> piece = connected_nodes(s.mesh);
   const std::vector<FixedMask> held = held_components(s, piece);
   const Vec3& gravity = s.scene.solver.gravity;
   check_loads_are_held(held, s, errors);

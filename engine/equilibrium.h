@@ -3,11 +3,18 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "engine/scene.h"
 #include "engine/simulation.h"
 
 namespace trocar {
+
+// (n_nodes) Components that supports and holds keep anywhere in a piece, at its lowest node. piece:
+// of each node (connected_nodes).
+std::vector<FixedMask> held_components(const Simulation& s, std::span<const std::int32_t> piece);
 
 // An error if gravity or loads move a piece of the body along an axis in which nothing holds it.
 void check_is_held(const Simulation& s, OptionErrors& errors);

@@ -56,8 +56,7 @@ double depth_of_axes(const Simulation& s, const Tool& tool) {
     for (int k = 0; k <= n_parts && piece.points.size() == 2; ++k)
       points.push_back(
           pose.apply(piece.points[0] + (piece.points[1] - piece.points[0]) * (1.0 * k / n_parts)));
-  Box body;
-  for (const std::int32_t node : s.view.node) body.add(s.view.x[static_cast<std::size_t>(node)]);
+  const Box body = box_of(s.view);
   double deepest = 0;
   for (const Vec3& point : points)
     if (body.holds(point, 0))

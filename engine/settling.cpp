@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/reproducible_dot.h"
+#include "engine/equilibrium.h"
 #include "mesh/connected_nodes.h"
 #include "solver/mass_clusters.h"
 #include "solver/relax.h"
@@ -18,28 +19,16 @@ namespace {
 // Strains stay so small that they tell of the undeformed body.
 const Vec3 pull = Vec3::Constant(0.01);  // [m/s^2]
 
-// (n_nodes) 1 for nodes of pieces that something supports or holds.
-std::vector<std::uint8_t> supported_nodes(const Simulation& s) {
-  const std::vector<std::int32_t> piece = connected_nodes(s.mesh);
-  std::vector<std::uint8_t> is_supported(piece.size(), 0);  // of pieces, at their lowest node
-  for (std::size_t i = 0; i < piece.size(); ++i)
-    if (s.fixed[i] != 0) is_supported[static_cast<std::size_t>(piece[i])] = 1;
-  for (const Hold& hold : s.holds.holds)
-    is_supported[static_cast<std::size_t>(piece[static_cast<std::size_t>(hold.node)])] = 1;
-  for (std::size_t i = 0; i < piece.size(); ++i)
-    is_supported[i] = is_supported[static_cast<std::size_t>(piece[i])];
-  return is_supported;
-}
-
-// Pieces that would fall for ever stay where they are.
-std::vector<PrescribedNode> nodes_at_rest(const Simulation& s,
-                                          const std::vector<std::uint8_t>& is_supported) {
-  std::vector<PrescribedNode> held = s.holds.prescribed;
-  for (PrescribedNode& node : held) node.u_next = Vec3::Zero();
+// Pieces that nothing holds (piece: of each node; held: held_components) would fall for ever: they
+// stay where they are.
+std::vector<PrescribedNode> nodes_at_rest(const Simulation& s, std::span<const std::int32_t> piece,
+                                          std::span<const FixedMask> held) {
+  std::vector<PrescribedNode> nodes = s.holds.prescribed;
+  for (PrescribedNode& node : nodes) node.u_next = Vec3::Zero();
   for (std::int32_t i = 0; i < s.model.n_owned; ++i)
-    if (is_supported[static_cast<std::size_t>(s.part.node_global[i])] == 0)
-      held.push_back({.node = i, .u_next = Vec3::Zero()});
-  return held;
+    if (held[piece[s.part.node_global[i]]] == 0)
+      nodes.push_back({.node = i, .u_next = Vec3::Zero()});
+  return nodes;
 }
 
 Relaxation relax_pulled(Simulation& s, std::span<const PrescribedNode> held, State& state) {
@@ -77,10 +66,11 @@ double rayleigh_quotient(const Simulation& s, std::span<const double> u) {
 }  // namespace
 
 double settling_time(Simulation& s) {
-  const std::vector<std::uint8_t> is_supported = supported_nodes(s);
-  if (std::ranges::count(is_supported, 1) == 0) return 0;
+  const std::vector<std::int32_t> piece = connected_nodes(s.mesh);
+  const std::vector<FixedMask> held = held_components(s, piece);
+  if (std::ranges::count(held, 0) == std::ssize(held)) return 0;
   State state = make_state(s.model);
-  if (!relax_pulled(s, nodes_at_rest(s, is_supported), state).is_converged) return 0;
+  if (!relax_pulled(s, nodes_at_rest(s, piece, held), state).is_converged) return 0;
   const auto n_owned = 3 * static_cast<std::size_t>(s.model.n_owned);
   const double omega2 = rayleigh_quotient(s, std::span(state.u).first(n_owned));
   if (!(omega2 > 0)) return 0;

@@ -22,6 +22,12 @@ void gather(const SurfaceView& view, std::span<const double> field, Communicator
 
 }  // namespace
 
+Box box_of(const SurfaceView& view) {
+  Box box;
+  for (const std::int32_t node : view.node) box.add(view.x[static_cast<std::size_t>(node)]);
+  return box;
+}
+
 SurfaceView make_surface_view(const Surface& surface, std::span<const Vec3> X,
                               std::span<const std::int32_t> node_owner, const Part& part) {
   SurfaceView view;

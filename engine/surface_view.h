@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/box.h"
 #include "base/communicator.h"
 #include "mesh/facets.h"
 #include "mesh/partition.h"
@@ -19,6 +20,9 @@ struct SurfaceView {
       node;  // surface nodes by (owner, number): the order in which they arrive
   std::vector<std::int32_t> local;  // this rank's ones, local numbers
 };
+
+// Round the surface's nodes.
+Box box_of(const SurfaceView& view);
 
 SurfaceView make_surface_view(const Surface& surface, std::span<const Vec3> X,
                               std::span<const std::int32_t> node_owner, const Part& part);

@@ -27,7 +27,7 @@ TEST(Remember, keeps_the_sides_of_chips_though_nothing_is_open_there) {
   cut.X = patch.X;
   cut.chips = {{Vec3::Zero(), {1, 4}}};
   CutStroke stroke;
-  remember(cut, body.mesh.n_nodes(), stroke);
+  remember(cut, body.mesh, stroke);
   ASSERT_EQ(stroke.side.size(), 2U);
   EXPECT_EQ(stroke.side[0].element, 1);
   EXPECT_EQ(stroke.side[1].element, 4);

@@ -5,10 +5,9 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <random>
 
-#include "cutting_tet.h"
+#include "cutting_cube.h"
 
 namespace trocar::cutting_test {
 namespace {
@@ -125,23 +124,13 @@ TEST(CutFollow, two_blades_at_once_whose_planes_cross_part_the_body_in_four) {
       const Vec3 centre = Vec3::Constant(0.5) + 0.1 * random_direction(random);
       for (Plane& plane : planes) plane = {centre, random_direction(random)};
     } while (std::abs(planes[0].normal.dot(planes[1].normal)) > 0.5);
-    TwoBlades blades(Body(make_box({0, 0, 0}, {1, 1, 1}, {6, 6, 6}, BoxElements::tet4_kuhn)),
-                     planes);
+    TwoBlades blades(cube(), planes);
     blades.advance_both();
     EXPECT_EQ(fault(blades.body()), "");
     n_right += n_pieces(blades.body().mesh) == 4 ? 1 : 0;
   }
   std::printf("%d of %d in four pieces\n", n_right, n);
   EXPECT_GE(n_right, n - 2);
-}
-
-double least_bound(const Mesh& mesh) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    const std::span<const std::int32_t> c = mesh.corners(e);
-    least = std::min(least, step_bound(mesh.X, {c[0], c[1], c[2], c[3]}));
-  }
-  return least;
 }
 
 // By one cutter, or by one for each stroke: bounds are over those from before any cut.
@@ -151,11 +140,11 @@ TEST(CutFollow, floors_do_not_sink_from_blade_to_blade) {
     std::array<Plane, 2> planes;
     for (Plane& plane : planes)
       plane = {Vec3::Constant(0.5) + 0.1 * random_direction(random), random_direction(random)};
-    const Body body(make_box({0, 0, 0}, {1, 1, 1}, {6, 6, 6}, BoxElements::tet4_kuhn));
+    const Body body = cube();
     for (const bool by_one_cutter : {true, false}) {
       TwoBlades blades(body, planes);
       blades.cut_in_turn(by_one_cutter);
-      EXPECT_GE(least_bound(blades.body().mesh), 0.7499 * least_bound(body.mesh))
+      EXPECT_GE(least_step_of(blades.body().mesh), 0.7499 * least_step_of(body.mesh))
           << k << by_one_cutter;
     }
   }

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "cutting_tet.h"
+#include "cutting_cube.h"
 
 namespace trocar::cutting_test {
 namespace {
@@ -56,8 +56,7 @@ TEST(OlderSlits, of_any_plane_take_in_a_blade_that_comes_again) {
   int n_first = 0, n_again = 0;
   for (int k = 0; k < 24; ++k) {
     const Vec3 normal = Vec3(gauss(random), gauss(random), gauss(random)).normalized();
-    const BoxElements elements = k % 2 == 0 ? BoxElements::tet4_kuhn : BoxElements::tet4_five;
-    Body body(make_box({0, 0, 0}, {1, 1, 1}, {6, 6, 6}, elements));
+    Body body = cube(k % 2 == 0 ? BoxElements::tet4_kuhn : BoxElements::tet4_five);
     const Blade blade = plane_blade({0.5, 0.47, 0.52}, normal, 1);
     TetCutter cutter{CutTetOptions{}}, other{CutTetOptions{}};
     n_first += cut(body, blade, normal, 25, cutter).total.n_opened_facets;

@@ -1,10 +1,10 @@
 // What is let go, or cut free, is as slow as it then is: what was known of it before says nothing.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "engine/sleep.h"
+#include "engine_motion.h"
 #include "engine_scene.h"
 #include "engine_started.h"
 
@@ -84,9 +84,7 @@ void expect_within(const std::string& text, double bound) {
   const LastFrame asleep =
       last_frame(text, {"solver.sleep='" + std::to_string(1e3 * bound) + " mm'"});
   ASSERT_EQ(awake.u.size(), asleep.u.size());
-  double most = 0;
-  for (std::size_t k = 0; k < awake.u.size(); ++k)
-    most = std::max(most, std::abs(awake.u[k] - asleep.u[k]));
+  const double most = largest_difference(awake.u, asleep.u);
   std::printf("largest difference %.3f of the bound, share asleep %.2f\n", most / bound,
               asleep.share_asleep);
   EXPECT_LT(most, bound);

@@ -148,10 +148,8 @@ double volume(const Mesh& mesh) {
 
 double least_step_of(const Mesh& mesh) {
   double least = std::numeric_limits<double>::infinity();
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    const auto c = mesh.corners(e);
-    least = std::min(least, step_bound(mesh.X, {c[0], c[1], c[2], c[3]}));
-  }
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    least = std::min(least, tet_step_bound(mesh, e));
   return least;
 }
 
