@@ -45,6 +45,8 @@ void GlPost::fill_screen() const {
 
 void GlPost::find_shade(GLuint depth, GLuint shadow_map, const View& view) const {
   gl_.Disable(GL_DEPTH_TEST);
+  bind_target(gl_, shade_);
+  gl_.Clear(GL_COLOR_BUFFER_BIT);  // the blur looks beyond the middle
   bind_middle(gl_, shade_, view.visible_part);
   bind_texture(gl_, 0, GL_TEXTURE_2D, depth);
   bind_texture(gl_, 1, GL_TEXTURE_2D, shadow_map);

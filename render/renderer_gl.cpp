@@ -230,7 +230,7 @@ void Renderer::Gl::draw_picture(const SceneView& scene, const View& view) const 
   bind_texture(gl, 2, GL_TEXTURE_3D, bump);
   draw_cavity(scene, view);
   bind_target(gl, samples);
-  gl.Clear(GL_DEPTH_BUFFER_BIT);
+  gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);  // glow looks beyond the middle
   bind_middle(gl, samples, view.visible_part);
   use_with_light(instrument, view);
   draw_instruments(scene);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "larger_or_nan.h"
 #include "render/renderer.h"
 #include "render_scene.h"
 
@@ -68,7 +69,7 @@ int difference(const Image& a, const Image& b, int x, int y) {
   int largest = 0;
   for (int c = 0; c < 3; ++c) {
     const int k = (y * a.width + x) * 3 + c;
-    largest = std::max(largest, std::abs(a.rgb[k] - b.rgb[k]));
+    largest = larger_or_nan(largest, std::abs(a.rgb[k] - b.rgb[k]));
   }
   return largest;
 }
@@ -243,6 +244,23 @@ TEST(Renderer, endoscope_shows_a_round_picture_on_black) {
   EXPECT_GT(mean_level(open, 8, 90, 4, 0), 3);
   EXPECT_LT(mean_level(round, 8, 90, 4, 0), 1);
   EXPECT_GT(mean_level(round, 160, 90, 4, 0), 0.9 * mean_level(open, 160, 90, 4, 0));
+}
+
+// Its glow looks beyond what the mask leaves, where another camera's picture was.
+TEST(Renderer, endoscope_shows_the_same_whatever_was_drawn_before) {
+  const Sheet sheet = make_sheet(2, 2);
+  SceneView scene{.camera = camera_above(0.2)};
+  scene.tissues = {view_of(sheet)};
+  SceneView bright = scene;
+  bright.tissues[0].look.colour = Vec3(1, 1, 1);
+  scene.camera.has_endoscope_mask = true;
+  Renderer renderer(320, 200);
+  Image first, other, again;
+  renderer.draw(scene, first);
+  renderer.draw(bright, other);
+  renderer.draw(scene, again);
+  EXPECT_NE(other.rgb, first.rgb);
+  EXPECT_EQ(again.rgb, first.rgb);
 }
 
 TEST_F(Picture, caption_changes_the_lower_left_corner_only) {
