@@ -18,6 +18,7 @@ constexpr Method all_methods[] = {
     {"tet4", Formulation::tet4, BoxElements::tet4_kuhn},
     {"tet4-nodal-pressure", Formulation::tet4_nodal_pressure, BoxElements::tet4_kuhn},
     {"tri3", Formulation::tri3_plane_strain},
+    {"tri3-plane-stress", Formulation::tri3_plane_stress},
 };
 
 std::string listed(const std::vector<std::string>& names) {

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "engine/build.h"
+#include "engine/equilibrium.h"
 #include "engine/frame.h"
 #include "engine/frame_watch.h"
 #include "engine/mesh_measures.h"
@@ -66,8 +67,8 @@ LoadedScene scene_of(const SceneStudy& study, const Case& c) {
   return loaded;
 }
 
-std::unique_ptr<Simulation> build_case(const SceneStudy& study, const Case& c) {
-  std::unique_ptr<Simulation> simulation = build(scene_of(study, c), *study.communicator);
+std::unique_ptr<Simulation> build_case(const LoadedScene& loaded, Communicator& communicator) {
+  std::unique_ptr<Simulation> simulation = build(loaded, communicator);
   if (!simulation->cuts.empty())
     throw InputError(
         "the scene cuts its body: meshes that are cut have different nodes, so a study can't "
@@ -103,11 +104,14 @@ void run_frames(const SceneStudy& study, Simulation& s, Outcome& outcome) {
 Outcome solve(const SceneStudy& study, const Case& c) {
   Outcome outcome;
   const double start = processor_seconds();
-  const std::unique_ptr<Simulation> simulation = build_case(study, c);
-  outcome.setup_seconds = processor_seconds() - start;
+  const LoadedScene loaded = scene_of(study, c);
+  const std::unique_ptr<Simulation> simulation = build_case(loaded, *study.communicator);
   outcome.h = mean_edge_length(simulation->mesh);
   outcome.n_elements = simulation->mesh.n_elements();
   try {
+    if (loaded.scene.start.state == StartState::equilibrium)
+      start_in_equilibrium(loaded, *simulation);
+    outcome.setup_seconds = processor_seconds() - start;
     run_frames(study, *simulation, outcome);
   } catch (const SimulationError& trouble) {
     outcome.trouble = trouble.what();
@@ -135,6 +139,7 @@ std::vector<int> sizes_of(const SceneStudy& study, const std::vector<int>& wante
   if (study.has_shape()) {
     const int n = most_cells(*study.loaded.scene.tissue.shape);
     sizes = wanted.empty() ? std::vector<int>{std::max(1, n / 4), std::max(1, n / 2), n} : wanted;
+    std::sort(sizes.begin(), sizes.end());
     sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
   } else {
     for (int k = 1; k <= std::max(1, static_cast<int>(study.meshes.size())); ++k)
@@ -143,9 +148,12 @@ std::vector<int> sizes_of(const SceneStudy& study, const std::vector<int>& wante
   return sizes;
 }
 
-// Shapes of elements that the scene's body can have.
-bool has_shape(const SceneStudy& study, const Mesh& mesh, ElementType shape) {
+// Whether the scene's body can have elements of this formulation. In a plane strain and stress are
+// two bodies and not two ways to compute one.
+bool can_have(const SceneStudy& study, const Mesh& mesh, Formulation formulation) {
+  const ElementType shape = shape_of(formulation);
   const bool is_plane = mesh.dimension() == 2;
+  if (is_plane && formulation != study.loaded.scene.solver.triangle) return false;
   if (study.has_shape()) return is_plane == (shape == ElementType::tri3);
   return std::find(mesh.element_type.begin(), mesh.element_type.end(), shape) !=
          mesh.element_type.end();
@@ -199,7 +207,7 @@ Problem problem_of_scene(const SceneStudyOptions& options, Communicator& communi
   const Mesh mesh = load_tissue(scene_of(*study, coarsest), communicator);
   study->points = surface_points(mesh, most_sample_points);
   for (const Method& method : methods())
-    if (has_shape(*study, mesh, shape_of(method.formulation))) problem.methods.push_back(method);
+    if (can_have(*study, mesh, method.formulation)) problem.methods.push_back(method);
   problem.solve = [study](const Case& c) { return solve(*study, c); };
   return problem;
 }

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "larger_or_nan.h"
 #include "mesh/generate.h"
 #include "mesh/mesh_file.h"
 #include "mesh_temporary_folder.h"
+#include "replaced.h"
 #include "study/study_sweep.h"
 #include "study/study_text.h"
 
@@ -83,11 +85,49 @@ TEST(StudyScene, tetrahedra_and_hexahedra_of_one_scene_come_to_the_same_place) {
   ASSERT_EQ(hexes.samples.size(), tets.samples.size());
   double greatest = 0, difference = 0;
   for (std::size_t k = 0; k < hexes.samples.size(); ++k) {
-    greatest = std::max(greatest, hexes.samples[k].norm());
-    difference = std::max(difference, (hexes.samples[k] - tets.samples[k]).norm());
+    greatest = larger_or_nan(greatest, hexes.samples[k].norm());
+    difference = larger_or_nan(difference, (hexes.samples[k] - tets.samples[k]).norm());
   }
   EXPECT_GT(difference, 0);
   EXPECT_LT(difference, .15 * greatest);  // plain tetrahedra are too stiff
+}
+
+TEST(StudyScene, starts_where_the_scene_starts) {
+  const TemporaryFolder folder;
+  Communicator alone;
+  const auto most_moved = [&](const char* start) {
+    const Problem problem =
+        problem_of_scene({.scene_file = folder.file("scene.toml", std::string(hanging_box) + shape),
+                          .overrides = {std::string("start.state='") + start + "'"},
+                          .sizes = {4}},
+                         alone);
+    const Outcome outcome = problem.solve({.method = method_named("hex8"), .n = 4});
+    const auto n_points = outcome.samples.size() / 5;  // sample times
+    double most = 0;
+    for (std::size_t k = n_points; k < outcome.samples.size(); ++k)
+      most = std::max(most, (outcome.samples[k] - outcome.samples[k % n_points]).norm());
+    return most;
+  };
+  EXPECT_LT(most_moved("equilibrium"), 1e-5);
+  EXPECT_GT(most_moved("undeformed"), 1e-2);
+}
+
+TEST(StudyScene, in_a_plane_computes_the_scene_s_own_stress_or_strain) {
+  const TemporaryFolder folder;
+  Communicator alone;
+  const std::string plane =
+      "[tissue.shape]\nkind = \"rectangle\"\ncells = [8, 16, 1]\nhigh = [\"50 mm\", \"100 mm\", "
+      "0]\n";
+  const std::string held =
+      replaced(replaced(hanging_box, "0, 0, \"-9.81 m/s^2\"", "0, -9.81, 0"), "\"z+\"", "\"y+\"");
+  const std::string scene = folder.file("scene.toml", held + plane);
+  for (const char* name : {"plane-stress", "plane-strain"}) {
+    const Problem problem = problem_of_scene(
+        {.scene_file = scene, .overrides = {std::string("solver.triangle='") + name + "'"}}, alone);
+    ASSERT_EQ(problem.methods.size(), 1u);
+    EXPECT_EQ(problem.methods[0].formulation == Formulation::tri3_plane_stress,
+              std::string(name) == "plane-stress");
+  }
 }
 
 TEST(StudyScene, mesh_files_take_the_place_of_cells) {
