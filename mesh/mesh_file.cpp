@@ -56,9 +56,16 @@ TriangleMesh read_triangles(Format format, ByteReader& in) {
   return format == Format::stl ? read_stl(in) : read_obj(in);
 }
 
+// Some editors put a mark of UTF-8 before the text.
+std::string_view without_mark(std::string_view bytes) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  return bytes.starts_with(mark) ? bytes.substr(mark.size()) : bytes;
+}
+
 // The bytes of the file are freed before the mesh is made of what was read.
 RawMesh read_raw_mesh(const std::string& file) {
-  const std::string bytes = read_whole_file(file);
+  const std::string whole = read_whole_file(file);
+  const std::string_view bytes = without_mark(whole);
   ByteReader in(file, bytes);
   const Format format = find_format(file, bytes);
   if (format == Format::unknown)
@@ -73,7 +80,8 @@ RawMesh read_raw_mesh(const std::string& file) {
 }
 
 TriangleMesh read_surface(const std::string& file) {
-  const std::string bytes = read_whole_file(file);
+  const std::string whole = read_whole_file(file);
+  const std::string_view bytes = without_mark(whole);
   ByteReader in(file, bytes);
   const Format format = find_format(file, bytes);
   if (format == Format::unknown)

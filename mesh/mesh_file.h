@@ -29,7 +29,7 @@ bool is_surface_file(const std::string& file);
 TriangleMesh read_triangle_mesh(const std::string& file, double scale);
 
 // .msh 4.1 ASCII with node sets as physical groups of points; read_mesh gives the same mesh again
-// if every node is used. Throws MachineError if the file can't be written.
+// if every node is used, but for fibres. Throws MachineError if the file can't be written.
 void write_mesh(const Mesh& mesh, const std::string& file);
 
 }  // namespace trocar

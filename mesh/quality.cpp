@@ -115,8 +115,7 @@ MeshStatistics mesh_statistics(const Mesh& mesh) {
   statistics.n_nodes = mesh.n_nodes();
   statistics.n_surface_triangles =
       static_cast<std::int32_t>(boundary_surface(mesh).triangle.size());
-  std::vector<std::int32_t> element_piece;
-  statistics.n_pieces = mesh_pieces(mesh, element_piece);
+  statistics.n_pieces = count_pieces(mesh);
   if (!mesh.X.empty()) {
     const Box box = bounding_box(mesh.X);
     statistics.low = box.low;

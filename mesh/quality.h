@@ -28,7 +28,8 @@ struct ElementStatistics {
 };
 ElementStatistics element_statistics(const Mesh& mesh);
 
-// With what takes a look at all facets and edges.
+// With what takes a look at all facets and edges; of meshes with broken facets, too. Pieces are
+// those of count_pieces.
 struct MeshStatistics : ElementStatistics {
   std::int32_t n_nodes = 0, n_surface_triangles = 0, n_pieces = 0;
   std::int32_t n_unjoined = 0;  // nodes of pieces, see count_unjoined; within 1e-6 mean edges

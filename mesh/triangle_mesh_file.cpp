@@ -127,8 +127,11 @@ bool is_binary_stl(std::string_view bytes) {
 
 TriangleMesh read_stl(ByteReader& in) {
   // A binary file may begin with "solid" as well: its length tells.
-  ByteReader look = in;  // a header of blanks stays unread
-  if (!is_binary_stl(in.rest()) && look.peek_word() == "solid") return read_ascii_stl(in);
+  if (is_binary_stl(in.rest())) return read_binary_stl(in);
+  std::string text(in.rest());  // some programs write its keywords in capitals
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 'a' - 'A') : c;
+  ByteReader of_text(in.file(), text);
+  if (of_text.peek_word() == "solid") return read_ascii_stl(of_text);
   return read_binary_stl(in);
 }
 

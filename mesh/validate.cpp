@@ -233,8 +233,8 @@ std::vector<std::string> validate(const Mesh& mesh, int most) {
   check_nodes(report, mesh);
   check_node_sets(report, mesh);
   if (!is_sound || report.is_full()) return report.sentences;
-  check_facets(report, mesh);
   check_duplicates(report, mesh);
+  check_facets(report, mesh);
   return report.sentences;
 }
 

@@ -103,6 +103,14 @@ TEST(MeshStatistics, name_the_worst_element) {
   EXPECT_EQ(element_quality(mesh, s.worst_element, mesh.X), s.quality_min);
 }
 
+TEST(MeshStatistics, are_found_of_elements_that_share_a_facet_by_threes) {
+  Mesh mesh;
+  mesh.X = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 2}, {0, 0, 3}};
+  for (const int top : {3, 4, 5}) add_element(mesh, ElementType::tet4, std::array{0, 1, 2, top});
+  EXPECT_EQ(mesh_statistics(mesh).n_pieces, 1);
+  EXPECT_FALSE(validate(mesh).empty());
+}
+
 TEST(MeshPieces, are_connected_through_facets_only) {
   Mesh mesh;  // two pairs of tetrahedra; the pairs share the edge 1 2 alone
   mesh.X = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {2, 2, 0}, {1, 2, 1}};

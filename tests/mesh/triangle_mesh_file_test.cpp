@@ -46,6 +46,15 @@ TEST(SurfaceFile, every_format_gives_the_same_tetrahedron) {
   }
 }
 
+TEST(SurfaceFile, of_capitals_or_behind_a_mark_of_its_encoding_is_read) {
+  const std::string mark = "\xEF\xBB\xBF";
+  std::string capitals = stl_ascii();
+  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  for (const auto& [name, content] :
+       {std::pair{"a.stl", capitals}, {"a.stl", mark + stl_ascii()}, {"a.obj", mark + obj()}})
+    EXPECT_EQ(corners(accepted(name, content)), expected_corners());
+}
+
 TEST(SurfaceFile, several_solids_make_one_surface) {
   EXPECT_EQ(accepted("a.stl", stl_ascii() + stl_ascii()).triangle.size(), 8U);
   EXPECT_EQ(accepted("a.stl", stl_ascii() + stl_ascii()).X.size(), 4U);
