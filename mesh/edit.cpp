@@ -67,17 +67,14 @@ std::vector<std::int32_t> SplitNumbers::all_after(std::span<const std::int32_t> 
 
 void SplitNumbers::renumber(std::span<std::int32_t> elements) const {
   if (splits_.empty()) return;
-  std::int32_t low = 0, high = -1, way = 0;  // of elements from low to high
-  for (std::int32_t& e : elements) {
-    if (e < low || e > high) {
-      const std::int32_t k = count_before(splits_, e);
-      low = k > 0 ? splits_[static_cast<std::size_t>(k - 1)].element + 1 : 0;
-      high = k < std::ssize(splits_) ? splits_[static_cast<std::size_t>(k)].element
-                                     : std::numeric_limits<std::int32_t>::max();
-      way = n_added_[static_cast<std::size_t>(k)];
-    }
-    e += way;
-  }
+  const std::int32_t first = splits_.front().element, last = splits_.back().element;
+  std::vector<std::int32_t> way;  // of elements from the first split to behind the last
+  way.reserve(static_cast<std::size_t>(last - first + 2));
+  for (std::size_t k = 0; k < splits_.size(); ++k)
+    way.resize(static_cast<std::size_t>(splits_[k].element - first + 1), n_added_[k]);
+  way.push_back(n_added_.back());
+  for (std::int32_t& e : elements)
+    e += way[static_cast<std::size_t>(std::clamp(e, first, last + 1) - first)];
 }
 
 std::vector<std::int32_t> element_parents(const Mesh& mesh, const MeshEdit& edit) {

@@ -93,7 +93,7 @@ class SplitNumbers {
   bool is_split(std::int32_t before) const { return find(before) != nullptr; }
   // All that these elements (ascending, before) become.
   std::vector<std::int32_t> all_after(std::span<const std::int32_t> before) const;
-  // From those before to those after: quick where they mostly ascend.
+  // From those before to those after; takes a table of all elements between the splits.
   void renumber(std::span<std::int32_t> elements) const;
 
  private:
