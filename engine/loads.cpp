@@ -40,13 +40,28 @@ std::vector<LoadFace> all_faces(const Mesh& mesh, const Surface& surface) {
   return mesh.dimension() == 2 ? outer_edges(mesh) : outer_faces(surface);
 }
 
-// Outward, as long as the area [m^2]; x(node) is a position.
+// Each node's part of the face, outward and as long as its area [m^2]: the integral of the node's
+// shape function times the normal. Equal parts of a face that is no parallelogram would turn the
+// body. x(node) is a position.
 template <class Positions>
-Vec3 area_vector(const LoadFace& face, double thickness, const Positions& x) {
+std::array<Vec3, 4> area_vectors(const LoadFace& face, double thickness, const Positions& x) {
   const Vec3 a = x(face[0]), b = x(face[1]);
-  if (face[2] < 0) return thickness * Vec3(b.y() - a.y(), a.x() - b.x(), 0);
+  std::array<Vec3, 4> parts{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  if (face[2] < 0) {
+    std::fill_n(parts.begin(), 2, thickness / 2 * Vec3(b.y() - a.y(), a.x() - b.x(), 0));
+    return parts;
+  }
   const Vec3 c = x(face[2]);
-  return face[3] < 0 ? 0.5 * (b - a).cross(c - a) : 0.5 * (c - a).cross(x(face[3]) - b);
+  if (face[3] < 0) {
+    std::fill_n(parts.begin(), 3, (b - a).cross(c - a) / 6);
+    return parts;
+  }
+  // The bilinear face m + along xi + up eta + twist xi eta.
+  const Vec3 d = x(face[3]), along = (b + c - a - d) / 4, up = (c + d - a - b) / 4,
+             twist = (a + c - b - d) / 4;
+  const Vec3 whole = along.cross(up), by_xi = along.cross(twist) / 3, by_eta = twist.cross(up) / 3;
+  return {whole - by_xi - by_eta, whole + by_xi - by_eta, whole + by_xi + by_eta,
+          whole - by_xi + by_eta};
 }
 
 // (n_nodes) the part of a whole force that acts at each.
@@ -55,11 +70,11 @@ std::vector<double> parts_of(const Mesh& mesh, const NodeSet& region,
   std::vector<double> part(mesh.X.size(), 0.0);
   double sum = 0;
   for (const LoadFace& face : faces) {
-    const double area = area_vector(face, 1, [&](std::int32_t i) {
-                          return mesh.X[static_cast<std::size_t>(i)];
-                        }).norm();
-    sum += area;
-    for (int k = 0; k < size_of(face); ++k) part[face[k]] += area / size_of(face);
+    const std::array<Vec3, 4> areas =
+        area_vectors(face, 1, [&](std::int32_t i) { return mesh.X[static_cast<std::size_t>(i)]; });
+    const Vec3 area = areas[0] + areas[1] + areas[2] + areas[3];
+    sum += area.norm();
+    for (int k = 0; k < size_of(face); ++k) part[face[k]] += areas[k].dot(area.normalized());
   }
   if (!(sum > 0)) {
     for (const std::int32_t node : region.node) part[node] = 1;
@@ -242,10 +257,10 @@ void find_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Part& 
            Vec3(u[3 * local], u[3 * local + 1], u[3 * local + 2]);
   };
   for (const Loads::Face& face : loads.faces) {
-    const Vec3 of_node = -loads.factor[face.load] * scene[face.load].pressure / size_of(face.node) *
-                         area_vector(face.node, face.stretch * thickness, x);
-    for (const std::int32_t place : face.place)
-      if (place >= 0) loads.force[place] += of_node;
+    const double pressure = loads.factor[face.load] * scene[face.load].pressure;
+    const std::array<Vec3, 4> areas = area_vectors(face.node, face.stretch * thickness, x);
+    for (std::size_t k = 0; k < 4; ++k)
+      if (face.place[k] >= 0) loads.force[face.place[k]] -= pressure * areas[k];
   }
 }
 

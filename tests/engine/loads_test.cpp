@@ -13,6 +13,7 @@
 #include "engine_split.h"
 #include "engine_started.h"
 #include "scene_parts.h"
+#include "solver_body.h"
 
 namespace trocar {
 namespace {
@@ -75,6 +76,27 @@ TEST(Loads, pressure_on_all_sides_shrinks_a_free_body_by_the_closed_form) {
     }
     EXPECT_NEAR(volume, 0.7 * before, 1e-5 * before) << text;
   }
+}
+
+// Whose faces are no parallelograms, and twisted: equal parts of them at the corners turn the body.
+TEST(Loads, of_pressure_on_all_sides_do_not_turn_a_body_of_any_hexahedra) {
+  std::string sides;
+  for (const std::string side : {"x-", "x+", "y-", "y+", "z-", "z+"})
+    sides += "[[load]]\nregion = \"" + side + "\"\npressure = 500\n";
+  const auto body = built(loaded_box("hex8", soft) + sides);
+  Simulation& s = *body->s;
+  std::vector<double> shift(3 * s.mesh.X.size(), 0.0);
+  shake(shift, 1e-3, 3);
+  for (std::size_t i = 0; i < s.mesh.X.size(); ++i) s.mesh.X[i] += Vec3::Map(&shift[3 * i]);
+  find_loads(s.scene.loads, s.mesh, s.part, 1, 0, s.state.u, s.loads);
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  for (std::size_t k = 0; k < s.loads.node.size(); ++k) {
+    force += s.loads.force[k];
+    moment += s.mesh.X[static_cast<std::size_t>(s.loads.node[k])].cross(s.loads.force[k]);
+  }
+  const double of_a_side = 500 * 0.02 * 0.05;
+  EXPECT_LT(force.norm(), 1e-12 * of_a_side);
+  EXPECT_LT(moment.norm(), 1e-12 * of_a_side * 0.05);
 }
 
 TEST(Loads, change_the_momentum_of_a_free_body_and_their_work_its_energy) {
