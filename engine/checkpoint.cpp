@@ -116,6 +116,7 @@ Checkpoint take_checkpoint(Simulation& s) {
   c.has_stiffening = s.look.is_done && s.look.stiffening;
   c.has_local_steps = s.multirate != nullptr;
   if (s.sleep) c.sleep = gather_sleep(s);
+  if (s.sleep) c.quiet_range = s.sleep->range;
   for (const CutStage& stage : s.cuts) c.cuts.push_back(memory_of(stage));
   return c;
 }
@@ -140,6 +141,7 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   if (!c.history.empty())
     restore_history(s.model, s.part, c.history, unedited_elements(s.mesh.n_elements()), s.state);
   if (s.sleep) restore_sleep(c.sleep, s);
+  if (s.sleep) s.sleep->range = c.quiet_range;
   for (std::size_t k = 0; k < s.cuts.size(); ++k) remember(c.cuts[k], s.cuts[k]);
   prepare_cutters(s);
   s.step_scale = c.step_scale;

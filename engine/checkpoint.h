@@ -49,6 +49,7 @@ struct Checkpoint {
   std::vector<double> looked_at;  // ElementLook::u (n_nodes * 3), or empty
   bool has_stiffening = false, has_local_steps = false;
   std::vector<double> sleep;  // gather_sleep, empty: nothing ever sleeps
+  QuietRange quiet_range;
   bool has_energies = false;  // in the rows of the log
   EnergyMemory energy;
   std::vector<RecordingMark> recordings;

@@ -11,7 +11,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 22;
+constexpr std::uint32_t checkpoint_format = 23;
 
 static void visit(Saver& a, Mesh& mesh) {
   a.writer().put(std::uint64_t{n_bytes_of(mesh)});
@@ -93,6 +93,10 @@ static void visit(Archive& a, SearchMemory& m) {
   a(m.at_step, m.step, m.growth, m.asked, m.searched);
 }
 template <class Archive>
+static void visit(Archive& a, QuietRange& r) {
+  a(r.recent, r.low, r.high);
+}
+template <class Archive>
 static void visit(Archive& a, RecordingMark& m) {
   a(m.file, m.last_frame, m.pending);
 }
@@ -102,7 +106,7 @@ static void visit(Archive& a, Checkpoint& c) {
   a(c.version, c.simd, c.scene, c.body_crc, c.frame, c.digest, c.mesh, c.fixed, c.duplicate_parent,
     c.duplicate_node, c.time, c.last_dt, c.step, c.step_scale, c.held_step, c.watch, c.holds,
     c.is_open, c.cuts, c.log, c.history, c.history_time, c.searches, c.looked_at, c.has_stiffening,
-    c.has_local_steps, c.sleep, c.has_energies, c.energy, c.recordings);
+    c.has_local_steps, c.sleep, c.quiet_range, c.has_energies, c.energy, c.recordings);
 }
 
 static void put_blob(ByteWriter& writer, const Blob& blob) {

@@ -273,7 +273,7 @@ void run_frame(Simulation& s, Outputs& outputs) {
   FrameRow row = report_forces(s, span);
   let_slip(s, span, row);
   if (!s.cuts.empty()) cut_along_blades(s, span);
-  if (s.sleep) fall_asleep(s);
+  if (s.sleep) fall_asleep(s, row.tools);
   ++s.frame;
   // What the frame tells, and what is due.
   if (needs_surface(s, outputs)) refresh_surface(s);

@@ -1,6 +1,7 @@
 #include "engine/sleep.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/settling.h"
@@ -46,9 +47,27 @@ void disquiet_touched(Simulation& s) {
     }
 }
 
+// Each tool's force and its moment about the origin, each support's way.
+std::vector<double> actions_on(const Simulation& s, std::span<const ToolRow> tools) {
+  std::vector<double> actions;
+  const auto add = [&](const Vec3& v) { actions.insert(actions.end(), v.begin(), v.end()); };
+  for (const ToolRow& tool : tools) {
+    add(tool.force);
+    add(tool.position.cross(tool.force));
+  }
+  const double time = static_cast<double>(s.frame + 1) / s.scene.time.frame_rate;
+  for (const DisplacementPath& path : s.holds.paths) add(path.at(time));
+  return actions;
+}
+
+// [frames]
+double frames_to_sleep(const Simulation& s) {
+  return std::max(least_quiet_time, s.sleep->quiet_time) * s.scene.time.frame_rate;
+}
+
 // (n_local) 1 for nodes that have been quiet long enough.
 std::vector<double> find_quiet(Simulation& s) {
-  const double least = std::max(least_quiet_time, s.sleep->quiet_time) * s.scene.time.frame_rate;
+  const double least = frames_to_sleep(s);
   std::vector<double> is_quiet(static_cast<std::size_t>(s.model.n_local), 0.0);
   for (std::size_t i = 0; i < s.sleep->quiet.size(); ++i)
     is_quiet[i] = s.sleep->quiet[i] >= least ? 1 : 0;
@@ -128,10 +147,20 @@ void follow_sleepers(Simulation& s) {
   show_asleep(s);
 }
 
-double share_of_sleepers(const Simulation& s) {
-  const auto first = s.sleep->is_asleep.begin();
-  const auto n = static_cast<std::uint64_t>(std::count(first, first + s.model.n_owned, 1));
-  return static_cast<double>(s.communicator->all_sum(n)) / s.mesh.n_nodes();
+// Of owned nodes that sleep and of those that didn't `before`, over all ranks.
+std::array<std::uint64_t, 2> count_sleepers(const Simulation& s,
+                                            const std::vector<std::uint8_t>& before) {
+  std::array<std::uint64_t, 2> n{};
+  for (std::size_t i = 0; i < s.sleep->quiet.size(); ++i) {
+    n[0] += s.sleep->is_asleep[i];
+    n[1] += s.sleep->is_asleep[i] > before[i] ? 1 : 0;
+  }
+  s.communicator->all_sum(n);
+  return n;
+}
+
+double share_of(std::uint64_t n_sleepers, const Simulation& s) {
+  return static_cast<double>(n_sleepers) / s.mesh.n_nodes();
 }
 
 bool has_any(const Simulation& s, const std::vector<std::uint8_t>& sleepers) {
@@ -184,6 +213,8 @@ void wake_all(Simulation& s) {
   std::fill(sleep.quiet.begin(), sleep.quiet.end(), -1);
   sleep.block_sleeps.clear();
   sleep.share = 0;
+  sleep.range.low.clear();
+  sleep.range.high.clear();
 }
 
 void show_awake(Simulation& s) {
@@ -198,8 +229,11 @@ void show_asleep(Simulation& s) {
   s.scratch.is_asleep = sleep.block_sleeps;
 }
 
-void fall_asleep(Simulation& s) {
+void fall_asleep(Simulation& s, std::span<const ToolRow> tools) {
   Sleep& sleep = *s.sleep;
+  const std::vector<double> actions = actions_on(s, tools);
+  note_actions(actions, static_cast<std::size_t>(frames_to_sleep(s)), sleep.range);
+  if (leave_range(sleep.range)) wake_all(s);
   note_motion(sleep, s.state);
   disquiet_touched(s);
   std::vector<std::uint8_t> sleepers = find_sleepers(s);
@@ -207,11 +241,11 @@ void fall_asleep(Simulation& s) {
     sleep.quiet_time = std::max(least_quiet_time, settling_time(s));
     sleepers = find_sleepers(s);
   }
-  if (sleepers != sleep.is_asleep) {
-    sleep.is_asleep = std::move(sleepers);
-    follow_sleepers(s);
-  }
-  sleep.share = share_of_sleepers(s);
+  std::swap(sleepers, sleep.is_asleep);
+  if (sleepers != sleep.is_asleep) follow_sleepers(s);
+  const auto [n, n_new] = count_sleepers(s, sleepers);
+  sleep.share = share_of(n, s);
+  if (n_new > 0) narrow_range(actions.size(), sleep.range);
 }
 
 void wake_touched(Simulation& s) {
@@ -259,7 +293,7 @@ void restore_sleep(std::span<const double> memory, Simulation& s) {
     const double quiet = of_node(i)[6];
     sleep.quiet[i] = static_cast<std::int32_t>(quiet <= -2 ? -2 - quiet : quiet);
   }
-  sleep.share = share_of_sleepers(s);
+  sleep.share = share_of(count_sleepers(s, sleep.is_asleep)[0], s);
 }
 
 }  // namespace trocar

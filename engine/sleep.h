@@ -7,15 +7,20 @@
 // A frame in which a node beside sleeping ones goes further than a quarter of the bound from where
 // it was when it came to lie there, or in which a contact, a hold or a blade touches sleeping ones,
 // or a load changes, is done again with all awake: pressure waves cross an organ within a frame, so
-// there is no use in waking a neighbourhood. What sleeps thus misses the eighth in which it was
-// found quiet and about as much as its surroundings moved, a quarter. That is an estimate, not a
-// proof: what no support holds may turn back more slowly, and is stopped, too.
+// there is no use in waking a neighbourhood. All wake, too, after a frame in which the forces on
+// instruments or the ways of supports have left the range that sleepers were quiet in: what is
+// awake around the place is held by those asleep, so its motion doesn't tell. What sleeps thus
+// misses the eighth in which it was found quiet and about as much as its surroundings moved, a
+// quarter. That is an estimate, not a proof: what no support holds may turn back more slowly, and
+// is stopped, too.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "engine/frame_log.h"
+#include "engine/quiet_range.h"
 #include "mesh/partition.h"
 #include "solver/model.h"
 
@@ -34,12 +39,13 @@ struct Sleep {
   std::vector<FixedMask> awake_fixed;      // (n_owned) Model::fixed with all awake
   std::vector<std::uint8_t> block_sleeps;  // Scratch::is_asleep
   double share = 0;                        // of all nodes that sleep
+  QuietRange range;
 };
 
 // All awake, after the topology was built; nothing if the scene doesn't ask for sleep.
 void begin_sleep(Simulation& s);
-// After a frame that went well, before its outputs. Collective.
-void fall_asleep(Simulation& s);
+// After a frame that went well and told this of the tools, before its outputs. Collective.
+void fall_asleep(Simulation& s, std::span<const ToolRow> tools);
 // Wakes all if a contact, a hold or a blade touches what sleeps or a load changes. Collective.
 void wake_touched(Simulation& s);
 // Whether a node beside sleeping ones has moved too far; then all are awake. Collective.

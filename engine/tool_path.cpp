@@ -114,11 +114,10 @@ DisplacementPath::DisplacementPath(const std::vector<SupportKey>& keys) {
 }
 
 Vec3 DisplacementPath::at(double time) const {
-  return interpolate(time_, position_, slope_, time);
+  return time_.empty() ? Vec3::Zero() : interpolate(time_, position_, slope_, time);
 }
 
 double DisplacementPath::travel(double t0, double t1) const {
-  if (time_.empty()) return 0;
   double way = 0;
   for (int k = 1; k <= samples; ++k)
     way += (at(t0 + (t1 - t0) * k / samples) - at(t0 + (t1 - t0) * (k - 1) / samples)).norm();

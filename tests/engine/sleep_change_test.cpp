@@ -66,6 +66,33 @@ path = [
 ]
 )";
 
+// A probe bends a bar at 0.5 s, rests, and leaves it at 4 s.
+const std::string bent_bar = R"([time]
+duration = "6 s"
+frame_rate = 50
+[tissue.shape]
+kind = "box"
+low = [0, "-5 mm", "-5 mm"]
+high = ["50 mm", "5 mm", "5 mm"]
+cells = [10, 2, 2]
+[tissue.material]
+young_modulus = "30 kPa"
+poisson_ratio = 0.3
+[solver]
+mass_damping = "20 1/s"
+[[support]]
+region = "x-"
+[[instrument]]
+kind = "probe"
+radius = "4 mm"
+path = [
+  { time = 0, position = ["35 mm", 0, "5.1 mm"] },
+  { time = 0.5, position = ["35 mm", 0, "2.5 mm"] },
+  { time = 4, position = ["35 mm", 0, "2.5 mm"] },
+  { time = 4.5, position = ["35 mm", 0, "10 mm"] },
+]
+)";
+
 struct LastFrame {
   std::vector<double> u;
   double share_asleep = 0;
@@ -95,6 +122,11 @@ void expect_within(const std::string& text, double bound) {
 
 TEST(Sleep, does_not_stop_what_a_grasper_has_let_go_of) {
   expect_within(lifted_bar, 0.5e-3);
+}
+
+// Few nodes are awake around the probe, and sleepers hold them where they are.
+TEST(Sleep, does_not_stay_bent_when_what_bent_it_leaves) {
+  expect_within(bent_bar, 0.5e-3);
 }
 
 TEST(Sleep, waits_for_a_flap_that_is_slower_than_the_body_was) {
