@@ -146,4 +146,15 @@ PathFromSlit past_slit(const Mesh& mesh, std::span<const Vec3> path, std::int32_
   return rest;
 }
 
+std::vector<Vec3> before_slit(const Mesh& mesh, const PathFromSlit& path, double h) {
+  double length = 0;
+  for (std::size_t k = 1; k < path.point.size(); ++k)
+    length += (path.point[k] - path.point[k - 1]).norm();
+  if (length < h) return path.point;
+  const std::vector<Vec3> back(path.point.rbegin(), path.point.rend());
+  const PathFromSlit before = past_slit(mesh, back, -1, h);
+  if (before.point.size() < 2 || (before.tip >= 0 && before.tip == path.tip)) return path.point;
+  return {before.point.rbegin(), before.point.rend()};
+}
+
 }  // namespace trocar

@@ -19,5 +19,8 @@ struct PathFromSlit {
 // `tip`: the node that `path` begins at, or -1. h: mean edge length [m]. As near as 0.3 h beside a
 // slit the blade is in it: what lies between is no piece that could be cut off.
 PathFromSlit past_slit(const Mesh& mesh, std::span<const Vec3> path, std::int32_t tip, double h);
+// What of a path that has left its slit lies before another one that it ends in; all of it if it
+// ends in none. Its end may lie at the tip that it begins at.
+std::vector<Vec3> before_slit(const Mesh& mesh, const PathFromSlit& path, double h);
 
 }  // namespace trocar

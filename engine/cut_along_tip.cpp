@@ -71,14 +71,9 @@ void leave_slit(const Simulation& s, double h, CutStage& stage, std::vector<Vec3
 // Takes the end of a path that runs in a slit from it, from where it enters the slit on.
 std::vector<Vec3> take_end_in_slit(const Simulation& s, double h, const CutStage& stage,
                                    std::vector<Vec3>& part) {
-  if (length_of(part) < h) return {};  // its end may lie at the tip that it begins at
-  const std::vector<Vec3> back(part.rbegin(), part.rend());
-  const PathFromSlit before = past_slit(s.mesh, back, -1, h);
   const Vec3 end = part.back();
-  if (before.point.size() < 2 || before.point.front() == end ||
-      (before.tip >= 0 && before.tip == stage.plane_tip))
-    return {};
-  part.assign(before.point.rbegin(), before.point.rend());
+  part = before_slit(s.mesh, {part, stage.plane_tip}, h);
+  if (part.back() == end) return {};
   return {part.back(), end};
 }
 

@@ -6,7 +6,9 @@
 
 #include "base/error.h"
 #include "cutting/cut_plane_reaches.h"
+#include "cutting/cut_plane_slit.h"
 #include "cutting/cut_plane_subdivide.h"
+#include "engine/mesh_measures.h"
 #include "mesh/quality.h"
 
 namespace trocar {
@@ -29,6 +31,13 @@ void add_figures(const CutFigures& figures, Cut2dTrial& trial) {
   trial.largest_deviation = std::max(trial.largest_deviation, figures.largest_deviation);
 }
 
+// What of a reach does not run in slits that are there.
+PathFromSlit outside_slits(const Mesh& mesh, const Cut2dPath& reach, std::int32_t tip, double h) {
+  PathFromSlit path = past_slit(mesh, reach, tip, h);
+  path.point = before_slit(mesh, path, h);
+  return path;
+}
+
 // Time from mesh and path to the edited mesh.
 double displace(const Cut2dOptions& options, Cut2dTrial& trial) {
   double seconds = 0;
@@ -38,6 +47,7 @@ double displace(const Cut2dOptions& options, Cut2dTrial& trial) {
   CutPlaneOptions plane = options.plane;
   if (options.mode == Cut2dMode::robust)
     plane.least_step = options.least_step_ratio * least_step_bound(trial.before);
+  const double h = mean_edge_length(trial.before);
   for (const Cut2dPath& path : trial.paths) {
     std::int32_t tip = -1;   // where the last reach ended
     std::vector<Vec3> rest;  // of it
@@ -45,7 +55,11 @@ double displace(const Cut2dOptions& options, Cut2dTrial& trial) {
       if (!rest.empty()) reach.front() = rest.front();
       const std::vector<std::uint8_t> is_held(trial.after.X.size(), 0);
       const Clock::time_point start = Clock::now();
-      const PlaneCut cut = cut_plane(trial.after, reach, tip, is_held, plane);
+      PathFromSlit from{reach, tip};
+      if (options.mode == Cut2dMode::robust && trial.n_opened_edges > 0)
+        from = outside_slits(trial.after, reach, tip, h);
+      if (from.point.size() < 2) continue;
+      const PlaneCut cut = cut_plane(trial.after, from.point, from.tip, is_held, plane);
       apply_edit(cut.edit, trial.after);
       seconds += seconds_since(start);
       tip = cut.tip;

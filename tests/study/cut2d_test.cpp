@@ -99,6 +99,26 @@ TEST(Cut2dTrial, several_paths_are_cut_one_after_another) {
   EXPECT_EQ(trial.n_new_nodes, trial.n_opened_edges + 3);
 }
 
+// Nothing is cut twice, and nothing told as joined that is open.
+TEST(Cut2dTrial, path_that_begins_or_stays_in_an_older_slit_goes_on_from_it) {
+  const auto trial_of = [](const std::vector<Cut2dPath>& paths) {
+    return run_trial(paper_mesh(2), paths, options_of(Cut2dMode::robust, 1, 0));
+  };
+  const Cut2dPath whole = read_path("-1,20 71,20"), first = read_path("-1,20 40,20");
+  const int n_whole = trial_of({whole}).n_opened_edges, n_first = trial_of({first}).n_opened_edges;
+  for (const char* rest : {"38,20 71,20", "20,20 71,20", "71,20 20,20"}) {
+    const Cut2dTrial trial = trial_of({first, read_path(rest)});
+    EXPECT_NEAR(trial.n_opened_edges, n_whole, 1) << rest;
+    EXPECT_EQ(trial.n_refused, 0) << rest;
+  }
+  EXPECT_LT(n_first, n_whole - 5);
+  for (const char* again : {"-1,20 71,20", "20,20 50,20"}) {
+    const Cut2dTrial trial = trial_of({whole, read_path(again)});
+    EXPECT_EQ(trial.n_opened_edges, n_whole) << again;
+    EXPECT_EQ(trial.n_refused, 0) << again;
+  }
+}
+
 TEST(Cut2dTrial, repetitions_change_nothing_but_times) {
   const std::vector<Cut2dPath> paths = {paper_cut(1)};
   const Cut2dTrial once = run_trial(paper_mesh(1), paths, options_of(Cut2dMode::paper, 1));
