@@ -47,6 +47,32 @@ bool begins_beside(const Simulation& s, const CutStage& stage, const BladeSweep&
          !(stage.is_in_stroke && goes_on_beside(s, positions, sweep.before));
 }
 
+double length_of(std::span<const SegmentPiece> pieces) {
+  double length = 0;
+  for (const SegmentPiece& piece : pieces) length += piece.length;
+  return length;
+}
+
+// By some places of the edge where it enters or leaves the tissue within the frame.
+void measure_inside(const Simulation& s, BodyPositions& positions, const BladeSweep& sweep,
+                    bool was_engaged, BladeLook& look) {
+  look.share_inside = 1;
+  look.most_inside = length_of(look.engaged);
+  if (was_engaged && !look.engaged.empty()) return;
+  constexpr int n_places = 16;
+  int n_inside = 0;
+  for (int k = 0; k < n_places; ++k) {
+    const double t = (k + 0.5) / n_places;
+    std::vector<Vec3> edge;
+    for (std::size_t i = 0; i < sweep.before.size(); ++i)
+      edge.push_back((1 - t) * sweep.before[i] + t * sweep.after[i]);
+    const double inside = length_of(locate_edge(s, positions, edge));
+    n_inside += inside > 0 ? 1 : 0;
+    look.most_inside = std::max(look.most_inside, inside);
+  }
+  look.share_inside = static_cast<double>(n_inside) / n_places;
+}
+
 // True if this is the edge's last frame in the tissue.
 bool leaves_tissue(const Simulation& s, const CutStage& stage, const BladeWay& way, bool has_met) {
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
@@ -75,7 +101,7 @@ std::vector<SegmentPiece> locate_edge(const Simulation& s, BodyPositions& positi
   return locate_segment(s.mesh, positions.x(), ends, near);
 }
 
-BladeLook look_and_cut(const Simulation& s, const BladeWay& way, CutStage& stage,
+BladeLook look_and_cut(const Simulation& s, const BladeWay& way, bool was_engaged, CutStage& stage,
                        BodyPositions& positions) {
   const BladeSweep& sweep = way.sweep;
   BladeLook look{.engaged = locate_edge(s, positions, sweep.after)};
@@ -83,6 +109,7 @@ BladeLook look_and_cut(const Simulation& s, const BladeWay& way, CutStage& stage
   if (!stage.is_in_stroke && !look.has_met) return look;
   look.is_beside = begins_beside(s, stage, sweep, positions);
   look.is_last = leaves_tissue(s, stage, way, look.has_met);
+  measure_inside(s, positions, sweep, was_engaged, look);
   if (s.mesh.dimension() == 2) return look;
   if (!stage.is_in_stroke) stage.tet.start_stroke();
   advance_stroke(s, sweep, stage, positions, look);

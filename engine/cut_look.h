@@ -17,17 +17,20 @@ struct BladeWay {
 
 struct BladeLook {
   std::vector<SegmentPiece> engaged;
-  bool has_met = false;    // the tissue, or some of it since the frame's begin
-  bool is_beside = false;  // tissue begins to lie beside open jaws
-  bool is_last = false;    // frame of the stroke
-  bool goes_on = true;     // not back in its slit
+  bool has_met = false;     // the tissue, or some of it since the frame's begin
+  bool is_beside = false;   // tissue begins to lie beside open jaws
+  bool is_last = false;     // frame of the stroke
+  bool goes_on = true;      // not back in its slit
+  double share_inside = 0;  // of the frame's way, with some of the edge in the tissue
+  double most_inside = 0;   // of the edge, at most [m]
   CutterEdit edit;
   CutFigures figures;
   CutLeft left;  // by the stroke, if it ends
 };
 template <class Archive>
 void visit(Archive& a, BladeLook& l) {
-  a(l.engaged, l.has_met, l.is_beside, l.is_last, l.goes_on, l.edit, l.figures, l.left);
+  a(l.engaged, l.has_met, l.is_beside, l.is_last, l.goes_on, l.share_inside, l.most_inside, l.edit,
+    l.figures, l.left);
 }
 
 // The cutting edge, of a plane body's blade the tip alone.
@@ -39,8 +42,9 @@ std::vector<SegmentPiece> locate_edge(const Simulation& s, BodyPositions& positi
                                       std::span<const Vec3> edge);
 
 // Begins a stroke of stage.tet where there is none and the blade has met the tissue, and takes it
-// on by the blade's way.
-BladeLook look_and_cut(const Simulation& s, const BladeWay& way, CutStage& stage,
+// on by the blade's way. was_engaged: whether some of the edge was in the tissue at the frame's
+// begin.
+BladeLook look_and_cut(const Simulation& s, const BladeWay& way, bool was_engaged, CutStage& stage,
                        BodyPositions& positions);
 
 // The edit and the figures of what the sweep does in the stroke that is under way.

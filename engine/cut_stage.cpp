@@ -100,15 +100,12 @@ void note_askew(Simulation& s, const CutRecord& record) {
                  " edits: it cuts all the same, but a blade would not (`forward` in its path)");
 }
 
-void add_to_record(double travel, double milliseconds, CutStage& stage) {
-  CutRecord& record = stage.strokes.back();
+void add_to_record(const BladeLook& look, const BladeSweep& sweep, double milliseconds,
+                   CutRecord& record) {
   record.milliseconds += milliseconds;
   record.worst_milliseconds = std::max(record.worst_milliseconds, milliseconds);
-  if (stage.engaged.empty()) return;
-  record.blade_travel += travel;
-  double length = 0;
-  for (const SegmentPiece& piece : stage.engaged) length += piece.length;
-  record.deepest = std::max(record.deepest, length);
+  record.blade_travel += look.share_inside * way_of_middle(sweep).norm();
+  record.deepest = std::max(record.deepest, look.most_inside);
 }
 
 // way: see begin_positions; none until a blade is near.
@@ -144,6 +141,17 @@ void note_beside(Simulation& s, double time, const Tool& tool, CutStage& stage) 
 // Whether nodes were put on edges, and the cut itself is still to come.
 bool is_unfinished(const BladeLook& look) {
   return !look.edit.inserted.empty();
+}
+
+// Tissue that hangs by a stretched neck may spring farther than moved nodes can follow.
+void note_energy_change(Simulation& s, const CutRecord& record) {
+  constexpr double quiet = 0.15;
+  if (record.strain_energy_change > quiet)
+    note_event(s, record.end,
+               record.tool + ": an edit has changed the strain energy around it by " +
+                   short_text(100 * record.strain_energy_change) +
+                   " % (strain_energy_change): tissue was stretched far there; a finer mesh or a "
+                   "slower pull helps");
 }
 
 // What the group's cutters have made, on all ranks.
@@ -217,8 +225,8 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
   const CutGroup group(s, ranks_around(s, blade.box, *way, stage));
   bring_stroke(s, group.ranks(), stage);
   BodyPositions positions(s, group, *way);
-  const auto look =
-      found_by<BladeLook>(group, [&] { return look_and_cut(s, blade, stage, positions); });
+  const auto look = found_by<BladeLook>(
+      group, [&] { return look_and_cut(s, blade, was_engaged, stage, positions); });
   if (!take_up_stroke(s, blade, look, stage)) return;
   follow_tissue(s, span.t1 - span.t0, was_engaged, stage);
   const std::int64_t n_edits = stage.strokes.back().n_edits;
@@ -235,11 +243,12 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
     if (look.goes_on && is_askew(s, span, blade.sweep, stage))
       record.n_askew += record.n_edits - n_edits;
   }
-  add_to_record(way_of_middle(blade.sweep).norm(), 1e3 * (monotonic_seconds() - start), stage);
+  add_to_record(look, blade.sweep, 1e3 * (monotonic_seconds() - start), record);
   note_body(s, record);
   if (!look.is_last) return;
   note_askew(s, record);
   note_refusals(s, record);
+  note_energy_change(s, record);
   end_stroke(stage);
 }
 
