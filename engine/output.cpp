@@ -1,6 +1,7 @@
 #include "engine/output.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -200,11 +201,14 @@ void make_output_folder(const std::string& folder) {
   std::error_code trouble;
   std::filesystem::create_directories(folder, trouble);
   const std::string probe = folder + "/.trocar-write-test";
-  const bool is_writable = !trouble && std::ofstream(probe).put('x').flush();
-  if (!is_writable)
-    throw MachineError("the output folder \"" + folder + "\" can't be written" +
-                       (trouble ? ": " + trouble.message() : "") + "; choose another one with -o");
-  std::filesystem::remove(probe, trouble);
+  errno = 0;
+  if (!trouble && !std::ofstream(probe).put('x').flush())
+    trouble = std::error_code(errno, std::generic_category());
+  std::error_code ignored;
+  std::filesystem::remove(probe, ignored);
+  if (trouble)
+    throw MachineError("the output folder \"" + folder + "\" can't be written: " +
+                       trouble.message() + "; choose another one with -o");
 }
 
 void write_text_file(const std::string& file, const std::string& text) {

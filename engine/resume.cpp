@@ -1,5 +1,6 @@
 #include "engine/resume.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -85,17 +86,22 @@ void require_same_scene(const std::string& before, const LoadedScene& now) {
   Scene old;
   SourceMap where;
   read_options_text(scene_options(), before, "the checkpoint's scene", {}, &old, where);
-  const std::vector<KeyValue> a = keys_of(without_free_keys(old)),
-                              b = keys_of(without_free_keys(now.scene));
-  for (std::size_t k = 0; k < std::max(a.size(), b.size()); ++k) {
-    const KeyValue was = k < a.size() ? a[k] : KeyValue{}, is = k < b.size() ? b[k] : KeyValue{};
-    if (was.key == is.key && was.value == is.value) continue;
-    const bool is_same_key = was.key == is.key;
-    now.where.fail(is.key.empty() ? was.key : is.key,
-                   "the stopped run had " +
-                       (is_same_key ? was.value : "no such key here, but \"" + was.key + "\"") +
-                       ": resume it with the same scene, or start anew without --resume");
+  const std::vector<KeyValue> earlier = keys_of(without_free_keys(old)),
+                              after = keys_of(without_free_keys(now.scene));
+  const auto fail = [&](const KeyValue& at, const std::string& sentence) {
+    now.where.fail(at.key, "the stopped run had " + sentence +
+                               ": resume it with the same scene, or start anew without --resume");
+  };
+  const auto find = [](const std::vector<KeyValue>& keys, const KeyValue& wanted) {
+    return std::ranges::find(keys, wanted.key, &KeyValue::key);
+  };
+  for (const KeyValue& is : after) {
+    const auto was = find(earlier, is);
+    if (was == earlier.end()) fail(is, "no such key");
+    if (was->value != is.value) fail(is, was->value);
   }
+  for (const KeyValue& was : earlier)
+    if (find(after, was) == after.end()) fail(was, was.value + ", and this scene has no such key");
 }
 
 Checkpoint load_checkpoint(const std::string& folder, const LoadedScene& loaded,

@@ -55,7 +55,14 @@ TEST(Resume, names_a_key_within_lists_by_their_numbers) {
 }
 
 TEST(Resume, refuses_a_scene_with_one_instrument_less) {
-  EXPECT_NE(resume_refusal({"instrument=[]"}), "");
+  const std::string sentence = resume_refusal({"instrument=[]"});
+  EXPECT_TRUE(contains(sentence, "instrument[0].kind: the stopped run had \"")) << sentence;
+  EXPECT_TRUE(contains(sentence, ", and this scene has no such key")) << sentence;
+}
+
+TEST(Resume, names_a_key_that_is_new) {
+  const std::string sentence = resume_refusal({"region=[{name='q',low=[0,0,0],high=[1,1,1]}]"});
+  EXPECT_TRUE(contains(sentence, "region[0].name: the stopped run had no such key")) << sentence;
 }
 
 TEST(Resume, without_a_checkpoint_says_how_to_start) {
