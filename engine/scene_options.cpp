@@ -265,7 +265,9 @@ Options<SceneInstrument> instrument_options() {
   i.number("length", &SceneInstrument::length, dim::length, positive,
            "From the tip to the end of the shaft; at least twice a scalpel's blade_length.");
   i.number("blade_length", &SceneInstrument::blade_length, dim::length, positive,
-           "Of a scalpel's straight edge, from the tip up; of scissors, from tip to pivot: open, "
+           "Of a scalpel's straight edge, from the tip up, behind which the blade is 0.28 times as "
+           "wide: along a narrow curve a long one presses the lips apart; of scissors, from tip to "
+           "pivot: open, "
            "each stands 0.3 rad off the shaft, and what lies beside them is not cut.");
   i.number("grip_radius", &SceneInstrument::grip_radius, dim::length, positive,
            "A closing grasper holds the nodes within.");
@@ -274,7 +276,7 @@ Options<SceneInstrument> instrument_options() {
            "jaws, all at once. 0: they hold whatever pulls.");
   i.text("mesh", &SceneInstrument::mesh,
          "Surface (.stl, .obj) of the tip instead of the built-in shape; its origin is the tip, "
-         "its +z the shaft. Tissue feels its convex hull.");
+         "its +z the shaft. Tissue feels its convex hull, of a flat one as of a plate of 0.05 mm.");
   i.number("scale", &SceneInstrument::scale, dim::length, positive,
            "Length of one unit of that file.");
   i.list("path", &SceneInstrument::path, key,

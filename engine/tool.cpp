@@ -1,7 +1,9 @@
 #include "engine/tool.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 namespace trocar {
 
@@ -151,11 +153,33 @@ void make_scissors(Tool& tool, const SceneInstrument& s, double edge_spacing) {
   for (int k = 0; k <= n; ++k) tool.edge.emplace_back(reach * (2.0 * k / n - 1), 0, 0);
 }
 
+// A hull without volume would hold nothing back: points to both sides of a flat one.
+std::vector<Vec3> with_thickness(std::vector<Vec3> points) {
+  constexpr double least = 0.05e-3;  // [m]
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& point : points) middle += point / static_cast<double>(points.size());
+  Mat3 spread = Mat3::Zero();
+  for (const Vec3& point : points) spread += (point - middle) * (point - middle).transpose();
+  const Mat3 axes = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvectors();
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 axis = axes.col(k);
+    const auto [low, high] = std::ranges::minmax(
+        points | std::views::transform([&](const Vec3& point) { return axis.dot(point); }));
+    if (high - low >= least) continue;
+    const std::size_t n = points.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      points.push_back(points[i] + least / 2 * axis);
+      points[i] -= least / 2 * axis;
+    }
+  }
+  return points;
+}
+
 // The user's surface replaces the working piece: its hull touches, its triangles show. It has no
 // jaws that open.
 void use_mesh(Tool& tool, const TriangleMesh& mesh) {
   tool.shape.pieces.resize(first_working_piece);
-  tool.shape.pieces.push_back({.points = mesh.X, .radius = 0});
+  tool.shape.pieces.push_back({.points = with_thickness(mesh.X), .radius = 0});
   tool.open_end = no_piece;
   tool.closed_begin = tool.kind == InstrumentKind::grasper ? first_working_piece : no_piece;
   tool.caught = std::numeric_limits<double>::infinity();

@@ -140,6 +140,22 @@ Tool moving_scissors() {
                    {{0, GraspAction::none}, {1, GraspAction::close}, {2, GraspAction::open}});
 }
 
+// Else nothing would ever lie inside.
+TEST(Tool, a_flat_surface_of_the_users_own_touches_as_a_thin_plate) {
+  const TriangleMesh flat{.X = {{0, 0, 0}, {0.02, 0, 0.02}, {0.02, 0.01, 0.02}, {0, 0.01, 0}},
+                          .triangle = {{0, 1, 2}, {0, 2, 3}}};
+  const Tool tool = make_tool(instrument_of(InstrumentKind::probe), flat, 1e-3);
+  const Vec3 normal = Vec3(-1, 0, 1).normalized();
+  double low = 0, high = 0;
+  for (const Vec3& point : tool.shape.pieces.back().points) {
+    low = std::min(low, normal.dot(point));
+    high = std::max(high, normal.dot(point));
+  }
+  EXPECT_NEAR(low, -0.025e-3, 1e-9);
+  EXPECT_NEAR(high, 0.025e-3, 1e-9);
+  EXPECT_EQ(tool.parts[0].surface.X, flat.X);
+}
+
 TEST(Scissors, cut_only_while_they_close) {
   const Tool tool = moving_scissors();
   EXPECT_FALSE(is_cutting(tool, 0.5, 0.6));
