@@ -11,17 +11,22 @@
 #include "base/peer_watch.h"
 
 // What was asked for on standard output must not be lost in silence, e.g. on a full disk.
-static void check_was_printed() {
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-    throw trocar::MachineError("standard output can't be written");
+static bool was_printed() {
+  return std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
 }
+
+static constexpr const char* not_printed = "standard output can't be written";
 
 int main(int argc, char** argv) {
   using namespace trocar;
   keep_freed_memory();
   CommandLine line;
   ExitCode code = ExitCode::done;
-  if (!parse_command_line(argc, argv, line, code)) return static_cast<int>(code);
+  if (!parse_command_line(argc, argv, line, code)) {
+    if (was_printed()) return static_cast<int>(code);
+    std::fprintf(stderr, "trocar: error: %s\n", not_printed);
+    return static_cast<int>(ExitCode::machine);
+  }
 
   MpiSession session(&argc, &argv);
   const int rank = session.world().rank();
@@ -29,7 +34,7 @@ int main(int argc, char** argv) {
   const PeerWatch watch(session.world());
   try {
     code = run_command(line, session.world());
-    check_was_printed();
+    if (!was_printed()) throw MachineError(not_printed);
     return static_cast<int>(code);
   } catch (const InputError& trouble) {  // thrown on every rank alike
     code = ExitCode::input;

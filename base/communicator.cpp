@@ -46,6 +46,7 @@ constexpr int exchange_tag = 1, group_tag = 2;
 constexpr const char* bytes_at_once = "32768";
 
 // MPI counts with int.
+constexpr std::size_t most_bytes_at_once = std::size_t{1} << 30;
 int count_of(std::size_t n) {
   CHECK_OP(n, <=, static_cast<std::size_t>(std::numeric_limits<int>::max()));
   return static_cast<int>(n);
@@ -209,7 +210,9 @@ void Communicator::broadcast(std::vector<std::byte>& bytes, int root) const {
   MPI_Ibcast(&n_bytes, 1, MPI_UINT64_T, root, handle_->group, request.data());
   wait_politely(request);  // the root may be at work
   bytes.resize(n_bytes);
-  MPI_Bcast(bytes.data(), count_of(n_bytes), MPI_BYTE, root, handle_->group);
+  for (std::size_t first = 0; first < n_bytes; first += most_bytes_at_once)
+    MPI_Bcast(bytes.data() + first, count_of(std::min(most_bytes_at_once, n_bytes - first)),
+              MPI_BYTE, root, handle_->group);
 }
 
 std::vector<double> Communicator::all_gather(std::span<const double> values) const {
