@@ -27,9 +27,13 @@ double stops_between_marks(const Body& body) {
   }
   int status = 0;
   double n = 0;
-  waitpid(child, &status, 0);
+  waitpid(child, &status, WUNTRACED);
   do {
-    ptrace(PTRACE_SINGLESTEP, child, nullptr, nullptr);
+    if (ptrace(PTRACE_SINGLESTEP, child, nullptr, nullptr) != 0) {
+      std::perror("bench_instructions: ptrace");
+      kill(child, SIGKILL);
+      std::exit(4);
+    }
     waitpid(child, &status, 0);
     ++n;
   } while (WIFSTOPPED(status) && WSTOPSIG(status) == SIGTRAP);

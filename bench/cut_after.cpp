@@ -3,6 +3,7 @@
 
 #include "cut_case.h"
 #include "engine/apply_cut.h"
+#include "larger_or_nan.h"
 #include "stability_body.h"
 
 namespace trocar::cut_bench {
@@ -167,7 +168,7 @@ static double growth(trocar::Body body, const Rule& rule, int n_steps) {
       dt = rule.part * limit;
     }
     if (done == 0) first = energy;
-    most = std::max(most, energy);
+    most = larger_or_nan(most, energy);
   }
   return most / first - 1;
 }
@@ -208,7 +209,7 @@ static std::string jumps(const std::vector<After>& cuts) {
   for (const After& cut : cuts)
     for (const double jump : cut.jump) {
       size.push_back(100 * std::abs(jump));
-      most = std::max(most, 100 * jump);
+      most = larger_or_nan(most, 100 * jump);
     }
   if (size.empty()) return "-";
   std::sort(size.begin(), size.end());
@@ -221,7 +222,7 @@ static void print_family(const std::string& name, const std::vector<After>& cuts
   double most_in_cut = 0;
   for (const After& cut : cuts) {
     n_edits += cut.jump.size();
-    most_in_cut = std::max(most_in_cut, cut.most);
+    most_in_cut = larger_or_nan(most_in_cut, cut.most);
   }
   std::fprintf(file, "| %s | %zu | %zu | %s | %s | %s | %.3f |", name.c_str(), cuts.size(), n_edits,
                least_and_median(cuts, [](const After& c) { return c.bound_ratio; }).c_str(),
@@ -233,7 +234,7 @@ static void print_family(const std::string& name, const std::vector<After>& cuts
     for (const After& cut : cuts) {
       n_blown += cut.growth[k] < blown_up ? 0 : 1;
       n_uncut += cut.uncut[k] < blown_up ? 0 : 1;
-      if (cut.growth[k] < blown_up) most = std::max(most, cut.growth[k]);
+      if (cut.growth[k] < blown_up) most = larger_or_nan(most, cut.growth[k]);
     }
     std::fprintf(file, " %d (%d), %.3f |", n_blown, n_uncut, 1 + most);
   }
@@ -244,7 +245,7 @@ static void print_family(const std::string& name, const std::vector<After>& cuts
 static bool keeps_promises(const std::string& name, unsigned seed, const After& after,
                            std::FILE* file) {
   double most = 0;
-  for (const double jump : after.jump) most = std::max(most, std::abs(jump));
+  for (const double jump : after.jump) most = larger_or_nan(most, std::abs(jump));
   if (most <= 0.01 && after.least_J > 0) return true;
   std::fprintf(file, "seed %u: %s, an edit changed the energy by %.2f %%, least det F %.3f\n", seed,
                name.c_str(), 100 * most, after.least_J);

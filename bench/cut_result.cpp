@@ -6,6 +6,7 @@
 #include "base/sort_unique.h"
 #include "cutting/cut_hex.h"
 #include "cutting/cut_hex_shape.h"
+#include "larger_or_nan.h"
 
 namespace trocar::cut_bench {
 
@@ -29,7 +30,7 @@ static double least_dihedral(const Mesh& mesh, std::int32_t e) {
   }
   double largest = -1;  // cosine of the angle
   for (int f = 0; f < 4; ++f)
-    for (int g = f + 1; g < 4; ++g) largest = std::max(largest, -normal[f].dot(normal[g]));
+    for (int g = f + 1; g < 4; ++g) largest = larger_or_nan(largest, -normal[f].dot(normal[g]));
   return std::acos(std::min(1.0, largest)) * 180 / 3.14159265358979323846;
 }
 

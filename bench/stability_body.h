@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "larger_or_nan.h"
 #include "solver/frequency.h"
 #include "solver_body.h"
 #include "stability.h"
@@ -80,7 +81,7 @@ inline double energy_growth(Body& body, double dt, int n) {
     }
     const double energy = step_and_measure(body, dt);
     if (k == 1) start = energy;
-    most = std::max(most, energy);
+    most = larger_or_nan(most, energy);
   }
   return is_finite(body) ? most / start - 1 : std::numeric_limits<double>::infinity();
 }

@@ -2,6 +2,7 @@
 #include "cutting/cut_plane_path.h"
 
 #include "cutting_plane.h"
+#include "larger_or_nan.h"
 
 namespace trocar {
 namespace {
@@ -219,7 +220,7 @@ TEST(CutPlanePath, deviation_of_ends_bent_into_corners_is_reported) {
   const Mesh after = applied(result.edit, mesh);
   double largest = 0;
   for (const std::int32_t i : result.edit.duplicate_parent)
-    largest = std::max(largest, std::abs(after.X[i].y() - 17 * mm));
+    largest = larger_or_nan(largest, std::abs(after.X[i].y() - 17 * mm));
   EXPECT_GT(largest, 1 * mm);
   EXPECT_NEAR(result.figures.largest_deviation, largest, 1e-15);
 }

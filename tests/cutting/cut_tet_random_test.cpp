@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cutting_tet.h"
+#include "larger_or_nan.h"
 
 namespace trocar {
 namespace {
@@ -36,7 +37,7 @@ class Figures {
   explicit Figures(std::string name) : name_(std::move(name)) {}
   void add(double ratio, const Ledger& ledger, double h, bool is_right) {
     ratio_.push_back(ratio);
-    deviation_ = std::max(deviation_, ledger.total.largest_deviation / h);
+    deviation_ = larger_or_nan(deviation_, ledger.total.largest_deviation / h);
     deviation_sum_ += ledger.deviation_sum / h;
     n_duplicated_ += ledger.total.n_duplicated;
     n_refused_ += ledger.total.n_refused;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine_started.h"
+#include "larger_or_nan.h"
 
 namespace trocar {
 namespace {
@@ -60,7 +61,7 @@ TEST(ClosedJaws, do_not_push_what_they_took_hold_of) {
     (row.n_held == 0 ? before : most) = std::max(row.n_held == 0 ? force : most, force);
     if (row.n_held == 0) continue;
     for (const ContactSet::Item& item : block->s->contact->set.items)
-      pushed = std::max(pushed, item.reaction_sum.norm());
+      pushed = larger_or_nan(pushed, item.reaction_sum.norm());
   }
   std::printf("before closing %.4f N, afterwards at most %.4f N\n", before, most);
   ASSERT_FALSE(block->s->holds.holds.empty());

@@ -7,6 +7,7 @@
 
 #include "box_file.h"
 #include "engine_started.h"
+#include "larger_or_nan.h"
 
 namespace trocar {
 namespace {
@@ -112,7 +113,7 @@ TEST(ContactOfAPlate, that_slides_without_friction_drags_nothing_along) {
     double most = 0;
     for (int frame = 0; frame < 60; ++frame) {
       run_frame(*body->s, body->outputs);
-      most = std::max(most, std::abs(body->s->log.rows.back().tools[0].force.x()));
+      most = larger_or_nan(most, std::abs(body->s->log.rows.back().tools[0].force.x()));
     }
     const double force = body->s->log.rows.back().tools[0].force[slide.is_plane ? 1 : 2];
     std::printf("pressed with %.4f N, dragged with %.1e N at most\n", force, most);

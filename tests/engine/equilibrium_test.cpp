@@ -10,6 +10,7 @@
 #include "engine_motion.h"
 #include "engine_scene.h"
 #include "engine_started.h"
+#include "larger_or_nan.h"
 
 namespace trocar {
 namespace {
@@ -45,7 +46,7 @@ std::unique_ptr<Started> started_at_rest(const std::string& text,
 
 double largest_of(const std::vector<double>& values) {
   double most = 0;
-  for (const double value : values) most = std::max(most, std::abs(value));
+  for (const double value : values) most = larger_or_nan(most, std::abs(value));
   return most;
 }
 

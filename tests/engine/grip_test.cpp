@@ -5,6 +5,7 @@
 
 #include "engine_split.h"
 #include "engine_started.h"
+#include "larger_or_nan.h"
 
 namespace trocar {
 namespace {
@@ -40,7 +41,7 @@ TEST(GripForce, lets_tissue_slip_that_pulls_harder) {
     }
     EXPECT_TRUE(before <= 0.3 || row.n_held == 0) << row.n_held;
     was_held = was_held || row.n_held > 3;
-    before = std::max(before, pull);
+    before = larger_or_nan(before, pull);
   }
   EXPECT_TRUE(was_held);
   EXPECT_GT(before, 0.3);

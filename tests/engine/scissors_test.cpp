@@ -7,6 +7,7 @@
 
 #include "engine_scene.h"
 #include "engine_started.h"
+#include "larger_or_nan.h"
 #include "mesh/connected_nodes.h"
 
 namespace trocar {
@@ -138,7 +139,8 @@ TEST(Scissors, push_what_stands_in_the_crotch_of_their_open_blades) {
   double top = 0;  // beneath the crotch
   for (const std::int32_t i : s.surface.node) {
     const Vec3& x = s.view.x[static_cast<std::size_t>(i)];
-    if (std::abs(x.y() - 0.001) < 0.4e-3 && std::abs(x.x()) < 0.5e-3) top = std::max(top, x.z());
+    if (std::abs(x.y() - 0.001) < 0.4e-3 && std::abs(x.x()) < 0.5e-3)
+      top = larger_or_nan(top, x.z());
   }
   // As of a beam with both ends clamped, 192 E I w / L^3; tissue that is pressed in yields more.
   const double force = 192 * 6000 * (std::pow(0.005, 4) / 12) * 0.002 / std::pow(0.04, 3);

@@ -13,6 +13,7 @@
 #include "engine_scene.h"
 #include "engine_split.h"
 #include "engine_started.h"
+#include "larger_or_nan.h"
 #include "scene_parts.h"
 
 namespace trocar {
@@ -68,11 +69,11 @@ TEST(Sleep, changes_displacements_by_less_than_the_bound_while_much_is_asleep) {
   while (awake->s->frame < 96) {
     run_frame(*awake->s, awake->outputs);
     run_frame(*sleepy->s, sleepy->outputs);
-    most = std::max(most, largest_difference(awake->s->state.u, sleepy->s->state.u));
+    most = larger_or_nan(most, largest_difference(awake->s->state.u, sleepy->s->state.u));
     for (std::size_t k = 0; k < start.size(); ++k)
-      moved = std::max(moved, std::abs(awake->s->state.u[k] - start[k]));
+      moved = larger_or_nan(moved, std::abs(awake->s->state.u[k] - start[k]));
     if (awake->s->frame > 54 && awake->s->frame <= 69)  // a second and more after the first touch
-      share_while_pressed = std::max(share_while_pressed, sleepy->s->sleep->share);
+      share_while_pressed = larger_or_nan(share_while_pressed, sleepy->s->sleep->share);
   }
   EXPECT_LT(most, bound);
   EXPECT_GT(most, 0);            // it did leave something out
@@ -97,8 +98,8 @@ TEST(Sleep, lets_slow_motion_turn_back) {
   while (awake->s->frame < 600) {
     run_frame(*awake->s, awake->outputs);
     run_frame(*sleepy->s, sleepy->outputs);
-    most = std::max(most, largest_difference(awake->s->state.u, sleepy->s->state.u));
-    moved = std::max(moved, *std::ranges::max_element(awake->s->state.u));
+    most = larger_or_nan(most, largest_difference(awake->s->state.u, sleepy->s->state.u));
+    moved = larger_or_nan(moved, *std::ranges::max_element(awake->s->state.u));
   }
   std::printf("quiet time %.2f s, largest difference %.3g m of %.3g, share asleep %.2f\n",
               sleepy->s->sleep->quiet_time, most, moved, sleepy->s->sleep->share);
@@ -186,14 +187,14 @@ SleepEffect compare(const std::string& text, std::int64_t moment, std::int64_t n
     // After a cut the two bodies may have been cut apart elsewhere.
     if (awake->s->state.u.size() == start.size() && sleepy->s->state.u.size() == start.size())
       compared.most =
-          std::max(compared.most, largest_difference(awake->s->state.u, sleepy->s->state.u));
+          larger_or_nan(compared.most, largest_difference(awake->s->state.u, sleepy->s->state.u));
     const double share = sleepy->s->sleep->share;
     if (awake->s->frame == moment) compared.share_before = share;
     if (awake->s->frame > moment)
       compared.least_share_after = std::min(compared.least_share_after, share);
   }
   for (std::size_t k = 0; k < start.size(); ++k)
-    compared.moved = std::max(compared.moved, std::abs(awake->s->state.u[k] - start[k]));
+    compared.moved = larger_or_nan(compared.moved, std::abs(awake->s->state.u[k] - start[k]));
   return compared;
 }
 

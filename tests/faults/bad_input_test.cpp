@@ -218,10 +218,13 @@ TEST(BadInput, ranks_that_would_compute_with_different_instructions_are_refused)
 }
 
 TEST(Help, that_can_not_be_printed_is_an_error_of_the_machine) {
-  const Finished run = run_words({"sh", "-c", "\"$0\" help scene > /dev/full", TROCAR_PROGRAM},
-                                 test_folder("help-full"));
-  EXPECT_EQ(run.exit_code, machine_failed);
-  EXPECT_NE(run.err.find("standard output can't be written"), std::string::npos) << run.err;
+  for (const char* words : {"help scene", "--help", "run --help", "--version"}) {
+    const Finished run =
+        run_words({"sh", "-c", std::string("\"$0\" ") + words + " > /dev/full", TROCAR_PROGRAM},
+                  test_folder("help-full"));
+    EXPECT_EQ(run.exit_code, machine_failed) << words;
+    EXPECT_NE(run.err.find("standard output can't be written"), std::string::npos) << run.err;
+  }
 }
 
 TEST(BadInput, a_study_refuses_what_it_would_ignore) {

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "base/error.h"
+#include "larger_or_nan.h"
 #include "solver_stiffness.h"
 
 using namespace trocar;
@@ -165,7 +166,7 @@ static void check_bound(Formulation formulation, Precision precision, double tol
     // Linear forces have no truncation error; the others are differenced close to zero.
     const double ratio = least_element_step(body) / true_limit(body, is_averaged ? 1e-7 : 1e-4);
     EXPECT_LT(ratio, 1 + tolerance);
-    sharpest = std::max(sharpest, ratio);
+    sharpest = larger_or_nan(sharpest, ratio);
     loosest = std::min(loosest, ratio);
   }
   std::printf("%s, %s: bound / true limit of the step %.4f to %.4f\n", name_of(formulation),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "larger_or_nan.h"
 #include "solver/symmetric_eigen.h"
 #include "solver_algebra.h"
 #include "solver_body.h"
@@ -22,7 +23,7 @@ static double worst_error(const Function& function, const Exact& exact, double l
     for (const double x : {size, -size}) {
       if (x <= low || x >= high) continue;
       const double y = function(x);
-      worst = std::max(worst, std::abs(y - exact(x)) / std::abs(exact(x)));
+      worst = larger_or_nan(worst, std::abs(y - exact(x)) / std::abs(exact(x)));
     }
   return worst;
 }

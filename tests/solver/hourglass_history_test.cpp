@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "larger_or_nan.h"
 #include "solver/history.h"
 #include "solver_body.h"
 #include "solver_viscous.h"
@@ -45,7 +46,7 @@ double difference(const std::vector<double>& forces, double share,
                   const std::vector<double>& others) {
   double most = 0;
   for (std::size_t k = 0; k < forces.size(); ++k)
-    most = std::max(most, std::abs(forces[k] - share * others[k]));
+    most = larger_or_nan(most, std::abs(forces[k] - share * others[k]));
   return most / largest(others);
 }
 

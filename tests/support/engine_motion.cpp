@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "larger_or_nan.h"
+
 namespace trocar {
 
 Vec3 momentum(const Simulation& s) {
@@ -14,7 +16,7 @@ Vec3 momentum(const Simulation& s) {
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.size() != b.size()) return HUGE_VAL;
   double most = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, std::abs(a[k] - b[k]));
+  for (std::size_t k = 0; k < a.size(); ++k) most = larger_or_nan(most, std::abs(a[k] - b[k]));
   return most;
 }
 

@@ -1,6 +1,7 @@
 #include "program.h"
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,10 +10,27 @@
 
 namespace trocar {
 
+namespace {
+
+// Of this process; stays for a look where a test failed.
+struct AllFolders {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("trocar-test-" + std::to_string(getpid()));
+
+  AllFolders() { std::filesystem::remove_all(path); }
+  AllFolders(const AllFolders&) = delete;
+  AllFolders& operator=(const AllFolders&) = delete;
+  ~AllFolders() {
+    std::error_code trouble;
+    if (!testing::UnitTest::GetInstance()->Failed()) std::filesystem::remove_all(path, trouble);
+  }
+};
+
+}  // namespace
+
 std::string test_folder(const std::string& name) {
-  const std::string folder = (std::filesystem::temp_directory_path() /
-                              ("trocar-test-" + std::to_string(getpid()) + "-" + name))
-                                 .string();
+  static const AllFolders all;
+  const std::string folder = (all.path / name).string();
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

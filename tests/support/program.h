@@ -12,7 +12,7 @@ extern char** environ;
 
 namespace trocar {
 
-// A folder of its own for a test, empty at the beginning.
+// A folder of its own for a test, empty at the beginning and gone with the process.
 std::string test_folder(const std::string& name);
 
 std::string read_text(const std::string& file);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "larger_or_nan.h"
+
 namespace trocar {
 
 // Test bodies are too small for threads; invariance_test.cpp asks for more where it wants them.
@@ -77,10 +79,7 @@ double sum(const std::vector<double>& values) {
 
 double largest(const std::vector<double>& values) {
   double most = 0;
-  for (const double value : values) {
-    if (std::isnan(value)) return value;
-    most = std::max(most, std::abs(value));
-  }
+  for (const double value : values) most = larger_or_nan(most, std::abs(value));
   return most;
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/SparseCore>
 
+#include "larger_or_nan.h"
 #include "solver_body.h"
 
 using namespace trocar;
@@ -111,8 +112,9 @@ static void expect_same_trajectory(const Mesh& mesh) {
     step(body, dt);
     reference.step(options.fixed);
     const Vector u = Eigen::Map<const Eigen::VectorXd>(body.state.u.data(), n).cast<Real>();
-    largest_u = std::max(largest_u, u.lpNorm<Eigen::Infinity>());
-    largest_difference = std::max(largest_difference, (u - reference.U).lpNorm<Eigen::Infinity>());
+    largest_u = larger_or_nan(largest_u, u.lpNorm<Eigen::Infinity>());
+    largest_difference =
+        larger_or_nan(largest_difference, (u - reference.U).lpNorm<Eigen::Infinity>());
   }
   std::printf("largest displacement %Lg m, relative difference %.2Lg\n", largest_u,
               largest_difference / largest_u);

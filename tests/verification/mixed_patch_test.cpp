@@ -6,6 +6,7 @@
 // 3 at the ends of the diagonal and A t / 6 at the others from the triangles: what is left is the
 // self-equilibrated pattern A t / 12 (+, -, +, -). Diagonals in one direction cancel it between the
 // quads around a node inside a plane interface; at its rim, and around scattered cells, it stays.
+#include "larger_or_nan.h"
 #include "mesh/edit.h"
 #include "mesh/hex_split.h"
 #include "verification_figure.h"
@@ -52,7 +53,7 @@ double greatest_interior_force(Body& body) {
   const std::vector<double>& f = force(body);
   double most = 0;
   for (std::int32_t i = 0; i < body.model.n_owned; ++i)
-    if (is_inside(body.mesh.X[i], side)) most = std::max(most, Vec3::Map(&f[3 * i]).norm());
+    if (is_inside(body.mesh.X[i], side)) most = larger_or_nan(most, Vec3::Map(&f[3 * i]).norm());
   return most;
 }
 
@@ -92,7 +93,7 @@ TEST(MixedPatch,
     const Vec3& X = body.mesh.X[i];
     if (!is_inside(X, side)) continue;
     const double error = (Vec3::Map(&body.state.u[3 * i]) - gradient() * X).norm() / (strain * h);
-    most = std::max(most, error);
+    most = larger_or_nan(most, error);
     sum += error * error;
     ++n;
   }

@@ -1,5 +1,6 @@
 // What elements in single precision lose beside the same ones in double: rounding of forces, and
 // what it makes of trajectories.
+#include "larger_or_nan.h"
 #include "verification_dynamics.h"
 #include "verification_figure.h"
 
@@ -22,7 +23,7 @@ static double force_error(const Variant& variant, double nu, double strain) {
   rounded.state.u = exact.state.u;
   const std::vector<double>&f = force(exact), &g = force(rounded);
   double most = 0;
-  for (std::size_t k = 0; k < f.size(); ++k) most = std::max(most, std::abs(f[k] - g[k]));
+  for (std::size_t k = 0; k < f.size(); ++k) most = larger_or_nan(most, std::abs(f[k] - g[k]));
   return most / largest(f);
 }
 
@@ -55,10 +56,10 @@ static double trajectory_error(const Variant& variant, double factor, int n_step
   for (int k = 0; k < n_steps; ++k) {
     step(exact, dt);
     step(rounded, dt);
-    most = std::max(most, largest(exact.state.u));
+    most = larger_or_nan(most, largest(exact.state.u));
     if (k % 100 != 99) continue;
     for (std::size_t i = 0; i < exact.state.u.size(); ++i)
-      error = std::max(error, std::abs(exact.state.u[i] - rounded.state.u[i]));
+      error = larger_or_nan(error, std::abs(exact.state.u[i] - rounded.state.u[i]));
   }
   return error / most;
 }
