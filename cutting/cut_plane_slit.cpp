@@ -116,6 +116,12 @@ std::int32_t find_tip(const Mesh& mesh, std::span<const Lip> lips, const Vec2& p
   return nearest;
 }
 
+SubPath path_along(std::span<const Vec3> points) {
+  std::vector<Vec2> point;
+  for (const Vec3& X : points) point.emplace_back(X.head<2>());
+  return make_sub_path(std::move(point));
+}
+
 Vec2 nearest_on_lips(std::span<const Lip> lips, const Vec2& p) {
   const auto nearest = std::ranges::min_element(
       lips, {}, [&](const Lip& lip) { return (p - lip.foot(p)).squaredNorm(); });
@@ -129,9 +135,7 @@ PathFromSlit past_slit(const Mesh& mesh, std::span<const Vec3> path, std::int32_
   if (tip >= 0 && !is_tip(lips, tip)) tip = -1;  // another blade has gone on from there
   const PathFromSlit as_it_is{{path.begin(), path.end()}, tip};
   if (lips.empty() || path.size() < 2) return as_it_is;
-  std::vector<Vec2> point;
-  for (const Vec3& X : path) point.emplace_back(X.head<2>());
-  SubPath whole = make_sub_path(std::move(point));
+  SubPath whole = path_along(path);
   whole.tip = tip;
   const double off = (nearest_on_lips(lips, whole.point[0]) - whole.point[0]).norm();
   const bool is_on_lip = tip < 0 && off < on_lip * h;
@@ -147,10 +151,7 @@ PathFromSlit past_slit(const Mesh& mesh, std::span<const Vec3> path, std::int32_
 }
 
 std::vector<Vec3> before_slit(const Mesh& mesh, const PathFromSlit& path, double h) {
-  double length = 0;
-  for (std::size_t k = 1; k < path.point.size(); ++k)
-    length += (path.point[k] - path.point[k - 1]).norm();
-  if (length < h) return path.point;
+  if (path.point.size() < 2 || path_along(path.point).length() < h) return path.point;
   const std::vector<Vec3> back(path.point.rbegin(), path.point.rend());
   const PathFromSlit before = past_slit(mesh, back, -1, h);
   if (before.point.size() < 2 || (before.tip >= 0 && before.tip == path.tip)) return path.point;

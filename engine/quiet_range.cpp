@@ -14,8 +14,8 @@ void note_actions(std::span<const double> values, std::size_t n_frames, QuietRan
   range.recent.erase(range.recent.begin(), range.recent.end() - static_cast<std::ptrdiff_t>(n));
 }
 
-void narrow_range(std::size_t n, QuietRange& range) {
-  constexpr double infinity = std::numeric_limits<double>::infinity(), accuracy = 1e-3;
+void narrow_range(std::size_t n, double share, QuietRange& range) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   if (range.low.empty()) {
     range.low.assign(n, -infinity);
     range.high.assign(n, infinity);
@@ -27,8 +27,7 @@ void narrow_range(std::size_t n, QuietRange& range) {
       low = low.cwiseMin(vector);
       high = high.cwiseMax(vector);
     }
-    const double beyond =
-        accuracy * std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+    const double beyond = share * std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
     for (std::size_t j = 0; j < 3; ++j) {
       const auto axis = static_cast<Eigen::Index>(j);
       range.low[first + j] = std::max(range.low[first + j], low[axis] - beyond);

@@ -15,9 +15,9 @@ struct QuietRange {
 
 // Keeps the last n_frames. values (n).
 void note_actions(std::span<const double> values, std::size_t n_frames, QuietRange& range);
-// For who falls asleep now, having been quiet in all frames that are kept. Contact finds forces to
-// a thousandth: by so much of a vector they may go beyond.
-void narrow_range(std::size_t n, QuietRange& range);
+// For who falls asleep now, having been quiet in all frames that are kept. Vectors may go beyond by
+// this share of themselves.
+void narrow_range(std::size_t n, double share, QuietRange& range);
 // Whether the newest are outside.
 bool leave_range(const QuietRange& range);
 

@@ -95,13 +95,14 @@ void require_same_scene(const std::string& before, const LoadedScene& now) {
   const auto find = [](const std::vector<KeyValue>& keys, const KeyValue& wanted) {
     return std::ranges::find(keys, wanted.key, &KeyValue::key);
   };
-  for (const KeyValue& is : after) {
-    const auto was = find(earlier, is);
-    if (was == earlier.end()) fail(is, "no such key");
-    if (was->value != is.value) fail(is, was->value);
+  for (const KeyValue& was : earlier) {
+    const auto is = find(after, was);
+    if (is == after.end() && was.value != "[]")
+      fail(was, was.value + ", and this scene has no such key");
+    if (is != after.end() && is->value != was.value) fail(was, was.value);
   }
-  for (const KeyValue& was : earlier)
-    if (find(after, was) == after.end()) fail(was, was.value + ", and this scene has no such key");
+  for (const KeyValue& is : after)
+    if (find(earlier, is) == earlier.end() && is.value != "[]") fail(is, "no such key");
 }
 
 Checkpoint load_checkpoint(const std::string& folder, const LoadedScene& loaded,

@@ -31,7 +31,7 @@ class ToolPath {
 class DisplacementPath {
  public:
   explicit DisplacementPath(const std::vector<SupportKey>& keys);
-  Vec3 at(double time) const;  // zero without keys
+  Vec3 at(double time) const;                 // zero without keys
   double travel(double t0, double t1) const;  // as of a tool's point
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 // A bar whose end a grasper lifts and lets go of at 2 s.
 const std::string lifted_bar = R"([time]
-duration = "4 s"
+duration = "6 s"
 frame_rate = 1000
 [tissue.shape]
 kind = "box"
