@@ -130,7 +130,8 @@ Options<SceneSolver> solver_options() {
            "Largest error of displacements that may come from leaving out what is at rest: who "
            "stays within a sixteenth of it for half a second, or for the time in which the slowest "
            "motion of the body turns back or dies down, sleeps until its surroundings move or are "
-           "touched. Not for viscoelastic tissue. 0: nothing sleeps.");
+           "touched, or what acts on the body changes. Not for viscoelastic tissue. 0: nothing "
+           "sleeps.");
   s.boolean("multirate", &SceneSolver::is_multirate,
             "Small elements take substeps of their own where that saves work, so that they don't "
             "set everyone's step. Needs stable_step = \"frequency\"; not for viscoelastic tissue, "
