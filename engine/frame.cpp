@@ -43,12 +43,18 @@ FrameSpan plan_frame(const Simulation& s) {
   return span;
 }
 
+// What is held otherwise moves otherwise.
+void take_up_holds(Simulation& s) {
+  localise_holds(s.holds, s.part);
+  if (s.sleep) s.sleep->quiet_time = 0;
+}
+
 void grasp(Simulation& s, const FrameSpan& span) {
   const double before = static_cast<double>(s.frame - 1) / s.scene.time.frame_rate;
   if (!will_act(s.tools, before, span.t0)) return;
   const std::vector<GraspAct> acts =
       act_graspers(s.holds, s.tools, before, span.t0, gather_state(s).x, s.fixed);
-  if (!acts.empty()) localise_holds(s.holds, s.part);
+  if (!acts.empty()) take_up_holds(s);
   for (const GraspAct& act : acts) note_grasp(s, span.t0, act);
 }
 
@@ -239,7 +245,7 @@ void let_slip(Simulation& s, const FrameSpan& span, const FrameRow& row) {
     if (most == 0 || pull <= most) continue;
     const int n = release(s.holds, static_cast<std::int32_t>(k));
     if (n == 0) continue;
-    localise_holds(s.holds, s.part);
+    take_up_holds(s);
     note_event(s, span.t1,
                "tissue slips out of " + s.tools[k].name + ", " + std::to_string(n) +
                    " nodes: it pulls with " + short_text(pull) + " N, grip_force is " +

@@ -106,7 +106,7 @@ void take_force(std::int32_t load, const Mesh& mesh, const NodeSet& region,
                 std::span<const LoadFace> faces, Placing& placing) {
   const std::vector<double> parts = parts_of(mesh, region, faces);
   for (const std::int32_t node : region.node) {
-    const std::int32_t place = parts[node] > 0 ? placing(node) : -1;
+    const std::int32_t place = parts[node] != 0 ? placing(node) : -1;
     if (place >= 0)
       placing.loads.shares.push_back({.load = load, .place = place, .part = parts[node]});
   }
@@ -242,7 +242,7 @@ void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Su
 
 bool do_loads_change(const Loads& loads, double t0, double t1) {
   return std::any_of(loads.path.begin(), loads.path.end(),
-                     [&](const DisplacementPath& path) { return path.at(t0) != path.at(t1); });
+                     [&](const DisplacementPath& path) { return path.travel(t0, t1) > 0; });
 }
 
 void find_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Part& part,

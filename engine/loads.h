@@ -56,7 +56,7 @@ struct Loads {
 // After a change of part or topology.
 void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Surface& surface,
                     const Part& part, Loads& loads);
-// Whether any is another at t1 than at t0.
+// Whether any is another at some time from t0 to t1.
 bool do_loads_change(const Loads& loads, double t0, double t1);
 // What acts at a time [s] on the body with displacements u (n_local * 3); thickness at rest [m].
 void find_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Part& part,

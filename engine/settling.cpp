@@ -16,8 +16,7 @@ namespace trocar {
 
 namespace {
 
-// Strains stay so small that they tell of the undeformed body.
-const Vec3 pull = Vec3::Constant(0.01);  // [m/s^2]
+constexpr double pull = 0.01;  // so little that strains tell of the undeformed body [m/s^2]
 
 // Pieces that nothing holds (piece: of each node; held: held_components) would fall for ever: they
 // stay where they are.
@@ -31,13 +30,15 @@ std::vector<PrescribedNode> nodes_at_rest(const Simulation& s, std::span<const s
   return nodes;
 }
 
-Relaxation relax_pulled(Simulation& s, std::span<const PrescribedNode> held, State& state) {
-  const Vec3 gravity = std::exchange(s.model.options.gravity, pull);
+// Supports bear a slender body's bending couple, which is many times the pull.
+Relaxation relax_pulled(Simulation& s, int axis, std::span<const PrescribedNode> held,
+                        State& state) {
+  const Vec3 gravity = std::exchange(s.model.options.gravity, pull * Vec3::Unit(axis));
   const Relaxation found = relax(s.model,
                                  {.prescribed = held,
                                   .ramp_iterations = 0,
                                   .max_iterations = 20000,
-                                  .tolerance = 0.01,
+                                  .tolerance = 1e-3,
                                   .neighbours = &s.neighbours},
                                  state, s.scratch);
   s.model.options.gravity = gravity;
@@ -45,22 +46,28 @@ Relaxation relax_pulled(Simulation& s, std::span<const PrescribedNode> held, Sta
   return found;
 }
 
-// u.M pull / u.M u: the static answer to a force M pull has u.K u = u.M pull.
-double rayleigh_quotient(const Simulation& s, std::span<const double> u) {
-  std::vector<double> pulled(u.size()), momentum(u.size());
-  const std::vector<double>& mass = inertia_of(s.model);
-  for (std::size_t k = 0; k < u.size(); ++k) {
-    pulled[k] = s.model.mass[k / 3] * pull[static_cast<Eigen::Index>(k % 3)];
-    momentum[k] = mass[k / 3] * u[k];
-  }
+// How much slower the motion u is for masses that are scaled: u.I u / u.M u.
+double share_of_inertia(const Simulation& s, std::span<const double> u) {
+  const std::vector<double>& inertia = inertia_of(s.model);
+  if (&inertia == &s.model.mass) return 1;
   const auto n = static_cast<std::int64_t>(s.communicator->all_sum(std::uint64_t{u.size()}));
-  const auto dot = [&](std::span<const double> with) {
+  const auto dot = [&](const std::vector<double>& mass) {
+    std::vector<double> momentum(u.size());
+    for (std::size_t k = 0; k < u.size(); ++k) momentum[k] = mass[k / 3] * u[k];
     const double most =
-        s.communicator->all_max(largest_size(u)) * s.communicator->all_max(largest_size(with));
-    return reproducible_dot(u, with, n, most, *s.communicator);
+        s.communicator->all_max(largest_size(u)) * s.communicator->all_max(largest_size(momentum));
+    return reproducible_dot(u, momentum, n, most, *s.communicator);
   };
-  const double inertia = dot(momentum);
-  return inertia > 0 ? dot(pulled) / inertia : 0;
+  const double of_mass = dot(s.model.mass);
+  return of_mass > 0 ? dot(inertia) / of_mass : 1;
+}
+
+// 1 / omega^2 of the slowest motion, at most: where all nodes follow a force on any of them, it is
+// no more than the farthest one's way by the pull. [s^2]
+double farthest_by_pull(const Simulation& s, std::span<const double> u) {
+  double most = 0;
+  for (std::size_t k = 0; k < u.size(); k += 3) most = std::max(most, Vec3::Map(&u[k]).norm());
+  return s.communicator->all_max(most) / pull * share_of_inertia(s, u);
 }
 
 }  // namespace
@@ -69,14 +76,17 @@ double settling_time(Simulation& s) {
   const std::vector<std::int32_t> piece = connected_nodes(s.mesh);
   const std::vector<FixedMask> held = held_components(s, piece);
   if (std::ranges::count(held, 0) == std::ssize(held)) return 0;
-  State state = make_state(s.model);
-  if (!relax_pulled(s, nodes_at_rest(s, piece, held), state).is_converged) return 0;
+  const std::vector<PrescribedNode> at_rest = nodes_at_rest(s, piece, held);
   const auto n_owned = 3 * static_cast<std::size_t>(s.model.n_owned);
-  const double omega2 = rayleigh_quotient(s, std::span(state.u).first(n_owned));
-  if (!(omega2 > 0)) return 0;
+  double slowest = 0;  // 1 / omega^2
+  for (int axis = 0; axis < 3; ++axis) {
+    State state = make_state(s.model);
+    if (!relax_pulled(s, axis, at_rest, state).is_converged) return longest_settling;
+    slowest = std::max(slowest, farthest_by_pull(s, std::span(state.u).first(n_owned)));
+  }
   constexpr double half_turn = 3.14, to_a_fifth = 1.6;
-  return std::max(half_turn / std::sqrt(omega2),
-                  to_a_fifth * s.model.options.mass_damping / omega2);
+  return std::min(longest_settling, std::max(half_turn * std::sqrt(slowest),
+                                             to_a_fifth * s.model.options.mass_damping * slowest));
 }
 
 }  // namespace trocar

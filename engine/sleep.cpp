@@ -16,7 +16,7 @@ constexpr double least_quiet_time = 0.5;                       // [s]
 
 bool has_left(const std::vector<double>& from, double reach, const State& state, std::int64_t i) {
   for (std::int64_t k = 3 * i; k < 3 * i + 3; ++k)
-    if (std::abs(state.u[k] - from[k]) > reach) return true;
+    if (!(std::abs(state.u[k] - from[k]) <= reach)) return true;  // NaN, too
   return false;
 }
 
@@ -73,7 +73,7 @@ double share_unseen(const Simulation& s) {
 
 // [frames]
 double frames_to_sleep(const Simulation& s) {
-  return std::max(least_quiet_time, s.sleep->quiet_time) * s.scene.time.frame_rate;
+  return std::max(1.0, std::max(least_quiet_time, s.sleep->quiet_time) * s.scene.time.frame_rate);
 }
 
 // (n_local) 1 for nodes that have been quiet long enough.

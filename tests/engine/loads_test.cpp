@@ -94,9 +94,29 @@ TEST(Loads, of_pressure_on_all_sides_do_not_turn_a_body_of_any_hexahedra) {
     force += s.loads.force[k];
     moment += s.mesh.X[static_cast<std::size_t>(s.loads.node[k])].cross(s.loads.force[k]);
   }
-  const double of_a_side = 500 * 0.02 * 0.05;
-  EXPECT_LT(force.norm(), 1e-12 * of_a_side);
-  EXPECT_LT(moment.norm(), 1e-12 * of_a_side * 0.05);
+  EXPECT_LT(force.norm(), 1e-12 * 500 * 0.02 * 0.05);
+  EXPECT_LT(moment.norm(), 1e-12 * 500 * 0.02 * 0.05 * 0.05);
+}
+
+// A corner of a face that is not convex has a negative part of it.
+TEST(Loads, of_a_force_on_a_dart_are_all_of_it) {
+  const auto body = built(loaded_box("hex8", soft) + foot +
+                          "[[load]]\nregion = \"z+\"\nforce = [0.1, 0.2, 0.3]\n");
+  Simulation& s = *body->s;
+  for (Vec3& X : s.mesh.X)
+    if ((X - Vec3(0.02, 0.02, 0.05)).norm() < 1e-9)
+      X -= Vec3(0.008, 0.0055, 0);  // of a cell of 10 x 6.7 mm
+  localise_loads(s.scene.loads, s.mesh, s.surface, s.part, s.loads);
+  find_loads(s.scene.loads, s.mesh, s.part, 1, 0, s.state.u, s.loads);
+  EXPECT_LT((total(s.loads) - Vec3(0.1, 0.2, 0.3)).norm(), 1e-12);
+}
+
+TEST(Loads, that_come_and_go_within_a_frame_change) {
+  const auto body = built(loaded_box("hex8", soft) + foot +
+                          "[[load]]\nregion = \"z+\"\nforce = [0.1, 0, 0]\npath = [{time = 0.01, "
+                          "factor = 0}, {time = 0.1, factor = 1}, {time = 0.19, factor = 0}]\n");
+  EXPECT_TRUE(do_loads_change(body->s->loads, 0, 0.2));
+  EXPECT_FALSE(do_loads_change(body->s->loads, 0.2, 0.4));
 }
 
 TEST(Loads, change_the_momentum_of_a_free_body_and_their_work_its_energy) {

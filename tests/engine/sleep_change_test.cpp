@@ -3,17 +3,19 @@
 
 #include <cmath>
 
+#include "engine/settling.h"
 #include "engine/sleep.h"
 #include "engine_motion.h"
 #include "engine_scene.h"
 #include "engine_started.h"
+#include "replaced.h"
 
 namespace trocar {
 namespace {
 
 // A bar whose end a grasper lifts and lets go of at 2 s.
 const std::string lifted_bar = R"([time]
-duration = "6 s"
+duration = "10 s"
 frame_rate = 1000
 [tissue.shape]
 kind = "box"
@@ -40,7 +42,7 @@ path = [
 
 // A bar on a table, which a blade cuts into a flap that rises slowly.
 const std::string slow_flap = R"([time]
-duration = "40 s"
+duration = "150 s"
 frame_rate = 10
 [tissue.shape]
 kind = "box"
@@ -127,6 +129,36 @@ TEST(Sleep, does_not_stop_what_a_grasper_has_let_go_of) {
 // Few nodes are awake around the probe, and sleepers hold them where they are.
 TEST(Sleep, does_not_stay_bent_when_what_bent_it_leaves) {
   expect_within(bent_bar, 0.5e-3);
+}
+
+// Half a second is less than a frame.
+TEST(Sleep, does_not_stay_bent_at_a_frame_a_second) {
+  expect_within(
+      replaced(replaced(bent_bar, "frame_rate = 50", "frame_rate = 1"), "\"6 s\"", "\"20 s\""),
+      0.5e-3);
+}
+
+// omega = 3.516 h / L^2 sqrt(E / 12 rho): supports bear 60 times the weight as bending couples.
+TEST(SettlingTime, of_a_slender_bar_along_any_axis_is_half_a_swing_or_somewhat_more) {
+  for (const std::string size :
+       {"\"300 mm\", \"10 mm\", \"10 mm\"", "\"10 mm\", \"300 mm\", \"10 mm\"",
+        "\"10 mm\", \"10 mm\", \"300 mm\""}) {
+    const std::size_t axis = size.starts_with("\"300") ? 0 : size.ends_with("300 mm\"") ? 2 : 1;
+    std::string cells = "2, 2, 2", side = "x-";
+    cells.replace(3 * axis, 1, "30");
+    side[0] = static_cast<char>('x' + axis);
+    const auto bar =
+        built("[time]\nduration = 1\n[tissue.shape]\nkind = \"box\"\nlow = [0, 0, 0]\nhigh = [" +
+              size + "]\ncells = [" + cells +
+              "]\n[tissue.material]\nyoung_modulus = 30000\npoisson_ratio = 0.3\n"
+              "density = 1000\n[solver]\nhexahedron = \"enhanced\"\n[[support]]\nregion = \"" +
+              side + "\"\n");
+    const double omega = 3.516 * 0.01 / (0.3 * 0.3) * std::sqrt(30000 / (12 * 1000.));
+    const double found = settling_time(*bar->s) * omega / 3.14159;
+    std::printf("%.3f of half a swing\n", found);
+    EXPECT_GT(found, 0.95);
+    EXPECT_LT(found, 1.4);
+  }
 }
 
 TEST(Sleep, waits_for_a_flap_that_is_slower_than_the_body_was) {
