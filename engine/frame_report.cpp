@@ -161,22 +161,23 @@ static std::string why_nothing(const Simulation& s, const CutStage& stage) {
   constexpr double enough = 2;        // elements in the depth of a cut
   constexpr double far_enough = 1.5;  // elements that a cut may be behind its blade
   double deepest = 0, way = 0;
-  bool is_told = false;  // by note_refusals
+  bool goes_through = false, is_told = false;  // by note_refusals
   for (const CutRecord& stroke : stage.strokes) {
     deepest = std::max(deepest, stroke.deepest);
     way = std::max(way, stroke.blade_travel);
+    goes_through |= stroke.goes_through;
     is_told |= !stroke.refusals.empty();
   }
   const std::string elements =
       ", whose elements have edges of " + short_text(1e3 * s.edge_length) + " mm, and ";
-  if (s.mesh.dimension() == 3 && deepest < enough * s.edge_length)
+  if (s.mesh.dimension() == 3 && !goes_through && deepest < enough * s.edge_length)
     return "no more than " + short_text(1e3 * deepest) + " mm of its edge was in the tissue" +
            elements +
            "a cut that ends inside needs two or three of them in its depth: a finer mesh, or let "
            "the blade go through" +
            (s.scene.cutting.resistance > 0 ? " (resistance is felt all the same)" : "");
   if (is_told) return "its strokes in the summary say where tissue stays joined";
-  if (way < far_enough * s.edge_length)
+  if (!goes_through && way < far_enough * s.edge_length)
     return "it went no farther than " + short_text(1e3 * way) + " mm in the tissue" + elements +
            "a cut stays half an edge to one and a half behind its blade";
   if (s.mesh.dimension() == 2)

@@ -98,8 +98,7 @@ TEST(Loads, of_pressure_on_all_sides_do_not_turn_a_body_of_any_hexahedra) {
   EXPECT_LT(moment.norm(), 1e-12 * 500 * 0.02 * 0.05 * 0.05);
 }
 
-// A corner of a face that is not convex has a negative part of it.
-TEST(Loads, of_a_force_on_a_dart_are_all_of_it) {
+TEST(Loads, of_a_force_on_a_face_that_is_not_convex_are_all_of_it) {
   const auto body = built(loaded_box("hex8", soft) + foot +
                           "[[load]]\nregion = \"z+\"\nforce = [0.1, 0.2, 0.3]\n");
   Simulation& s = *body->s;
