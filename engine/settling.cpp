@@ -18,14 +18,14 @@ namespace {
 
 constexpr double pull = 0.01;  // so little that strains tell of the undeformed body [m/s^2]
 
-// Pieces that nothing holds (piece: of each node; held: held_components) would fall for ever: they
-// stay where they are.
+// Pieces that nothing holds along the axis (piece: of each node; held: held_components) would fall
+// for ever: they stay where they are.
 std::vector<PrescribedNode> nodes_at_rest(const Simulation& s, std::span<const std::int32_t> piece,
-                                          std::span<const FixedMask> held) {
+                                          std::span<const FixedMask> held, int axis) {
   std::vector<PrescribedNode> nodes = s.holds.prescribed;
   for (PrescribedNode& node : nodes) node.u_next = Vec3::Zero();
   for (std::int32_t i = 0; i < s.model.n_owned; ++i)
-    if (held[piece[s.part.node_global[i]]] == 0)
+    if ((held[piece[s.part.node_global[i]]] >> axis & 1) == 0)
       nodes.push_back({.node = i, .u_next = Vec3::Zero()});
   return nodes;
 }
@@ -76,12 +76,12 @@ double settling_time(Simulation& s) {
   const std::vector<std::int32_t> piece = connected_nodes(s.mesh);
   const std::vector<FixedMask> held = held_components(s, piece);
   if (std::ranges::count(held, 0) == std::ssize(held)) return 0;
-  const std::vector<PrescribedNode> at_rest = nodes_at_rest(s, piece, held);
   const auto n_owned = 3 * static_cast<std::size_t>(s.model.n_owned);
   double slowest = 0;  // 1 / omega^2
   for (int axis = 0; axis < 3; ++axis) {
     State state = make_state(s.model);
-    if (!relax_pulled(s, axis, at_rest, state).is_converged) return longest_settling;
+    if (!relax_pulled(s, axis, nodes_at_rest(s, piece, held, axis), state).is_converged)
+      return longest_settling;
     slowest = std::max(slowest, farthest_by_pull(s, std::span(state.u).first(n_owned)));
   }
   constexpr double half_turn = 3.14, to_a_fifth = 1.6;

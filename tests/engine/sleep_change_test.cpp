@@ -161,6 +161,11 @@ TEST(SettlingTime, of_a_slender_bar_along_any_axis_is_half_a_swing_or_somewhat_m
   }
 }
 
+TEST(SettlingTime, of_a_body_that_may_slide_is_that_of_where_it_is_held) {
+  const std::string on_x = bent_bar, on_z = replaced(bent_bar, "\"x-\"", "\"z-\"\nfix = \"z\"");
+  EXPECT_LT(settling_time(*built(on_z)->s), 0.2 * settling_time(*built(on_x)->s));
+}
+
 TEST(Sleep, waits_for_a_flap_that_is_slower_than_the_body_was) {
   expect_within(slow_flap, 1e-3);
 }
