@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/frame_report.h"
 #include "engine/settling.h"
 #include "engine/simulation.h"
 
@@ -250,6 +251,9 @@ void fall_asleep(Simulation& s, std::span<const ToolRow> tools) {
   std::vector<std::uint8_t> sleepers = find_sleepers(s);
   if (sleep.quiet_time == 0 && has_any(s, sleepers)) {
     sleep.quiet_time = std::max(least_quiet_time, settling_time(s));
+    if (sleep.quiet_time == longest_settling)
+      note_event(s, static_cast<double>(s.frame + 1) / s.scene.time.frame_rate,
+                 "nothing falls asleep (solver.sleep): the body's slowest motion was not found");
     sleepers = find_sleepers(s);
   }
   std::swap(sleepers, sleep.is_asleep);
