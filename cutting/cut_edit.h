@@ -9,7 +9,7 @@ namespace trocar {
 
 MeshEdit make_edit(const Mesh& mesh, const TetCut& cut);
 CutFigures make_figures(const TetCut& cut, bool is_last);
-// `n_nodes` of the mesh before the edit: copies are numbered from there.
+// mesh: before the edit; copies are numbered from its end.
 void remember(const TetCut& cut, const Mesh& mesh, CutStroke& stroke);
 
 }  // namespace trocar

@@ -115,8 +115,10 @@ Checkpoint take_checkpoint(Simulation& s) {
   c.searches = s.look;
   c.has_stiffening = s.look.is_done && s.look.stiffening;
   c.has_local_steps = s.multirate != nullptr;
-  if (s.sleep) c.sleep = gather_sleep(s);
-  if (s.sleep) c.quiet_range = s.sleep->range;
+  if (s.sleep) {
+    c.sleep = gather_sleep(s);
+    c.quiet_range = s.sleep->range;
+  }
   for (const CutStage& stage : s.cuts) c.cuts.push_back(memory_of(stage));
   return c;
 }
@@ -140,8 +142,10 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   scatter_state(s, {.u = c.u, .v = c.v});
   if (!c.history.empty())
     restore_history(s.model, s.part, c.history, unedited_elements(s.mesh.n_elements()), s.state);
-  if (s.sleep) restore_sleep(c.sleep, s);
-  if (s.sleep) s.sleep->range = c.quiet_range;
+  if (s.sleep) {
+    restore_sleep(c.sleep, s);
+    s.sleep->range = c.quiet_range;
+  }
   for (std::size_t k = 0; k < s.cuts.size(); ++k) remember(c.cuts[k], s.cuts[k]);
   prepare_cutters(s);
   s.step_scale = c.step_scale;
