@@ -64,7 +64,8 @@ double moved_bytes(const Body& body) {
     sum += bytes(blocks.data) + bytes(blocks.data_single) +
            (model.is_by_component
                 ? bytes(blocks.row_break) + bytes(blocks.row_start) + bytes(blocks.row_target)
-                : bytes(blocks.corner) + bytes(blocks.target) + bytes(blocks.row));
+                : bytes(blocks.corner) + bytes(blocks.target) + bytes(blocks.target_block) +
+                      bytes(blocks.row));
   return sum;
 }
 

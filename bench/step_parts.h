@@ -34,9 +34,8 @@ inline void run_elements(Body& body, Until last) {
           if (last == Until::strain) return;
           kernels.law.stress(task);
           if (last == Until::law) return;
-          const std::int64_t corner = block * kernels.element.n_corners * blocks.lanes;
           with_sums(body.model, body.scratch, [&](auto& sum) {
-            kernels.element.force(task, targets(blocks).data() + corner, sum.data());
+            kernels.element.force(task, targets(blocks, block), sum.data());
           });
         });
 }

@@ -77,7 +77,7 @@ std::vector<std::int32_t> whole_hexahedra(const Mesh& mesh) {
     if (mesh.element_type[e] == ElementType::hex8 &&
         (is_marked_whole(mesh, e) || !(least_step_bound(mesh, e) > 0)))
       whole.push_back(e);
-  for (const SplitQuad& quad : split_quads(mesh, sorted_facet_sides(mesh)))
+  for (const SplitQuad& quad : split_quads(mesh, single_sides(mesh)))
     if (!has_own_diagonal(mesh, quad)) whole.push_back(quad.hex);
   sort_unique(whole);
   return whole;

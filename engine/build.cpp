@@ -195,6 +195,7 @@ void check_slow_element(const LoadedScene& loaded, const Simulation& s) {
 
 std::vector<double> least_altitudes(const Simulation& s) {
   std::vector<double> altitude;
+  altitude.reserve(s.part.element_global.size());
   for (const std::int32_t e : s.part.element_global)
     altitude.push_back(least_altitude(s.mesh, e, s.mesh.X));
   return altitude;
@@ -280,7 +281,7 @@ void rebuild_topology(Simulation& s) {
   s.altitude = least_altitudes(s);
   s.least_altitude = LeastOfMany(s.altitude);
   s.least_element_step = LeastOfMany(s.model.element_step);
-  s.view = make_surface_view(s.surface, s.mesh.X, s.node_owner, s.part);
+  s.view = make_surface_view(s.surface, s.node_owner, s.part);
   s.boxes = {};
   follow_model(s);
 }
@@ -322,7 +323,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   errors.throw_if_any();
   if (!s.cuts.empty()) prepare_first_cut(s);
   s.state = make_state(s.model);
-  refresh_surface(s);
+  if (s.contact) refresh_surface(s);
   watch_state(s);
   check_slow_element(loaded, s);
   if (s.contact && s.scene.start.state == StartState::undeformed)

@@ -50,7 +50,7 @@ void check_fit(const Checkpoint& c, const Simulation& s) {
         "the body or an instrument's surface is not the one that the checkpoint was made with: a "
         "mesh "
         "file has changed; put the old one back, or start without --resume");
-  const std::size_t n = c.mesh.X.size();
+  const std::size_t n = c.mesh->X.size();
   if (c.u.size() != 3 * n || c.v.size() != 3 * n || c.fixed.size() != n ||
       (!c.looked_at.empty() && c.looked_at.size() != 3 * n) ||
       c.sleep.size() != (s.sleep ? 7 * n + 1 : 0) || c.cuts.size() != s.cuts.size() ||
@@ -92,7 +92,7 @@ Checkpoint take_checkpoint(Simulation& s) {
                .body_crc = s.body_crc,
                .frame = s.frame,
                .digest = state_digest(s),
-               .mesh = s.mesh,
+               .mesh = {std::shared_ptr<void>(), &s.mesh},
                .fixed = s.fixed,
                .duplicate_parent = s.duplicate_parent,
                .duplicate_node = s.duplicate_node,
@@ -126,7 +126,7 @@ Checkpoint take_checkpoint(Simulation& s) {
 void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   check_fit(c, s);
   check_machine(c);
-  s.mesh = c.mesh;
+  s.mesh = *c.mesh;
   s.corners = {};
   s.fixed = c.fixed;
   s.node_owner = partition_nodes(s.mesh, *s.communicator);
@@ -154,10 +154,17 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   s.log = c.log;
   s.frame = s.first_frame = c.frame;
   restore_searches(c, s);
-  refresh_surface(s);
+  if (s.contact) refresh_surface(s);
   if (state_digest(s) != c.digest)
     throw InputError("the checkpoint does not give the state that it was made of: its digest is " +
                      digest_text(state_digest(s)) + " instead of " + digest_text(c.digest));
+}
+
+// Of the stiffening only whether it was known: a checkpoint has no more of it.
+static ElementLook without_stiffening(const ElementLook& look) {
+  ElementLook without{look, look.is_done, look.displacements, {}, look.decisive, look.reach};
+  if (look.stiffening) without.stiffening.emplace();
+  return without;
 }
 
 FrameStart start_of_frame(const Simulation& s) {
@@ -166,7 +173,7 @@ FrameStart start_of_frame(const Simulation& s) {
           .step_scale = s.step_scale,
           .holds = s.holds.holds,
           .is_open = s.holds.is_open,
-          .look = s.look,
+          .look = without_stiffening(s.look),
           .sleep = s.sleep,
           .n_events = s.log.events.size(),
           .n_roll_backs = s.log.n_roll_backs,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,8 @@ struct Checkpoint {
   std::int64_t frame = 0;
   std::uint64_t digest = 0;  // state_digest
 
-  Mesh mesh;
+  // The simulation's own in what take_checkpoint makes: to be written before that changes.
+  std::shared_ptr<const Mesh> mesh;
   std::vector<FixedMask> fixed;                                // (n_nodes)
   std::vector<std::int32_t> duplicate_parent, duplicate_node;  // partner nodes
   std::vector<double> u, v;                                    // (n_nodes * 3) [m], [m/s]

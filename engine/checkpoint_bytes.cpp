@@ -13,14 +13,14 @@ namespace trocar {
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
 constexpr std::uint32_t checkpoint_format = 23;
 
-static void visit(Saver& a, Mesh& mesh) {
-  a.writer().put(std::uint64_t{n_bytes_of(mesh)});
-  put_mesh(a.writer(), mesh);
+static void visit(Saver& a, std::shared_ptr<const Mesh>& mesh) {
+  a.writer().put(std::uint64_t{n_bytes_of(*mesh)});
+  put_mesh(a.writer(), *mesh);
 }
-static void visit(Loader& a, Mesh& mesh) {
+static void visit(Loader& a, std::shared_ptr<const Mesh>& mesh) {
   std::vector<std::byte> bytes;
   a(bytes);
-  mesh = mesh_from_bytes(bytes);
+  mesh = std::make_shared<const Mesh>(mesh_from_bytes(bytes));
 }
 template <class Archive>
 static void visit(Archive& a, CutRecord& r) {
@@ -201,7 +201,7 @@ Checkpoint checkpoint_from_bytes(std::span<const std::byte> bytes, const std::st
   ByteReader fields(motion);
   c.u = fields.get_vector<double>();
   c.v = fields.get_vector<double>();
-  const std::vector<std::string> faults = validate(c.mesh, 1);
+  const std::vector<std::string> faults = validate(*c.mesh, 1);
   if (!faults.empty()) throw InputError(name + ": mesh: " + faults.front());
   return c;
 }

@@ -109,12 +109,13 @@ bool start_in_equilibrium(const LoadedScene& loaded, Simulation& s, const std::a
   s.log.equilibrium = {.iterations = found.iterations,
                        .residual = found.residual,
                        .seconds = monotonic_seconds() - start};
-  refresh_surface(s);
-  if (s.contact)
+  if (s.contact) {
+    refresh_surface(s);
     check_instruments_outside(loaded, 0,
                               "the body in equilibrium, which is found without instruments: let it "
                               "begin outside, or start with state = \"undeformed\"",
                               s);
+  }
   s.log.least_J = s.watch.least_J;
   s.log.least_J_element = s.watch.least_J_element;
   s.log.least_stable_step = s.log.largest_stable_step = s.watch.stable_step;

@@ -143,6 +143,7 @@ double step_by_frequency(Simulation& s, double growth) {
     if (growth < beyond_search) return s.look.step / std::sqrt(growth);
   }
   ++s.log.searches.n_of_body;
+  s.look.stiffening.reset();
   const double step = step_of_frequency(s);
   std::vector<double> stiffening(s.part.element_global.size());
   watch(s.model, s.part, s.state, stiffening);
@@ -320,6 +321,7 @@ std::string go_back(Simulation& s, const FrameSpan& span, const Watch& failed,
   }
   forget_hold_reactions(s.holds);
   s.look.is_done = false;  // it was of a state that is gone
+  s.look.displacements.reset();
   return "rolled back: " + trouble;
 }
 

@@ -28,17 +28,16 @@ Box box_of(const SurfaceView& view) {
   return box;
 }
 
-SurfaceView make_surface_view(const Surface& surface, std::span<const Vec3> X,
-                              std::span<const std::int32_t> node_owner, const Part& part) {
+SurfaceView make_surface_view(const Surface& surface, std::span<const std::int32_t> node_owner,
+                              const Part& part) {
   SurfaceView view;
-  view.x.assign(X.begin(), X.end());
   update_surface_view(surface, node_owner, part, view);
   return view;
 }
 
 void update_surface_view(const Surface& surface, std::span<const std::int32_t> node_owner,
                          const Part& part, SurfaceView& view) {
-  view.x.resize(node_owner.size(), Vec3::Zero());
+  if (!view.x.empty()) view.x.resize(node_owner.size(), Vec3::Zero());
   view.node = surface.node;
   const auto owner = [&](std::int32_t node) { return node_owner[static_cast<std::size_t>(node)]; };
   const auto by_owner = [&](std::int32_t a, std::int32_t b) { return owner(a) < owner(b); };
@@ -52,6 +51,7 @@ void update_surface_view(const Surface& surface, std::span<const std::int32_t> n
 
 void gather_surface(SurfaceView& view, std::span<const Vec3> X, std::span<const double> u,
                     Communicator& communicator) {
+  if (view.x.empty()) view.x.assign(X.begin(), X.end());
   gather(view, u, communicator,
          [&](std::size_t node, const Vec3& value) { view.x[node] = X[node] + value; });
 }

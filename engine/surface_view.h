@@ -14,7 +14,7 @@
 namespace trocar {
 
 struct SurfaceView {
-  std::vector<Vec3> x;  // (n_nodes), valid at surface nodes [m]
+  std::vector<Vec3> x;  // (n_nodes), valid at surface nodes; empty until they are gathered [m]
   std::vector<Vec3> v;  // the same, where tissue touches tissue; else empty [m/s]
   std::vector<std::int32_t>
       node;  // surface nodes by (owner, number): the order in which they arrive
@@ -24,8 +24,8 @@ struct SurfaceView {
 // Round the surface's nodes.
 Box box_of(const SurfaceView& view);
 
-SurfaceView make_surface_view(const Surface& surface, std::span<const Vec3> X,
-                              std::span<const std::int32_t> node_owner, const Part& part);
+SurfaceView make_surface_view(const Surface& surface, std::span<const std::int32_t> node_owner,
+                              const Part& part);
 // The same after an edit, in time of the surface's; positions of new nodes wait for the next
 // gathering.
 void update_surface_view(const Surface& surface, std::span<const std::int32_t> node_owner,

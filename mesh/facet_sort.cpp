@@ -1,7 +1,8 @@
-// Counting sorts by one node after the other: 7 ms for 100,000 tetrahedra, 20 ms with comparisons.
+// Around one node after the other, so that a million hexahedra take 36 MB: all sides at once 340.
 #include "mesh/facet_sort.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "mesh/facets.h"
 
@@ -28,41 +29,38 @@ static FacetSide facet_side(const Mesh& mesh, std::int32_t e, int f) {
   return side;
 }
 
-static std::int32_t lowest_node(const FacetSide& side) {
-  for (const std::int32_t i : side.node)
-    if (i >= 0) return i;
-  return -1;
+static std::int32_t lowest_node(const Mesh& mesh, std::int32_t e, int f) {
+  const std::span<const std::int32_t> node = mesh.corners(e);
+  std::int32_t lowest = std::numeric_limits<std::int32_t>::max();
+  for (const int corner : facet_corners(mesh.element_type[e], f))
+    if (corner >= 0) lowest = std::min(lowest, node[static_cast<std::size_t>(corner)]);
+  return lowest;
 }
 
-// By key(side) in [-1, n_keys - 1); equal ones stay in their order.
-template <class Key>
-static void sort_by(const Key& key, std::size_t n_keys, std::vector<FacetSide>& side,
-                    std::vector<FacetSide>& room) {
-  std::vector<std::size_t> begin(n_keys + 1, 0);
-  for (const FacetSide& s : side) ++begin[static_cast<std::size_t>(key(s) + 2)];
-  for (std::size_t i = 1; i <= n_keys; ++i) begin[i] += begin[i - 1];
-  room.resize(side.size());
-  for (const FacetSide& s : side) room[begin[static_cast<std::size_t>(key(s) + 1)]++] = s;
-  side.swap(room);
-}
-
-std::vector<FacetSide> sorted_facet_sides(const Mesh& mesh) {
-  std::vector<FacetSide> side, room;
-  side.reserve(mesh.corner_node.size());
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-    for (int f = 0; f < n_facets(mesh.element_type[e]); ++f) side.push_back(facet_side(mesh, e, f));
-  const std::size_t n_keys = mesh.X.size() + 1;
-  for (std::size_t a = 4; a-- > 0;) {
-    const auto node = [a](const FacetSide& s) { return s.node[a]; };
-    const bool is_empty =
-        std::ranges::all_of(side, [&](const FacetSide& s) { return node(s) < 0; });
-    if (!is_empty) sort_by(node, n_keys, side, room);
+void for_each_facet(const Mesh& mesh,
+                    const std::function<void(std::span<const FacetSide>)>& visit) {
+  const NodeElements around = node_elements(mesh);
+  std::vector<FacetSide> side;  // of the facets whose lowest node is i
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) {
+    side.clear();
+    for (const std::int32_t e : around.of(i))
+      for (int f = 0; f < n_facets(mesh.element_type[e]); ++f)
+        if (lowest_node(mesh, e, f) == i) side.push_back(facet_side(mesh, e, f));
+    std::sort(side.begin(), side.end());
+    for (auto begin = side.begin(), end = begin; begin != side.end(); begin = end) {
+      end = std::find_if(begin, side.end(),
+                         [&](const FacetSide& s) { return s.node != begin->node; });
+      visit({begin, end});
+    }
   }
-  const auto n_unused = [](const FacetSide& s) { return std::ranges::count(s.node, -1); };
-  const bool is_mixed = std::ranges::any_of(
-      side, [&](const FacetSide& s) { return n_unused(s) != n_unused(side[0]); });
-  if (is_mixed) sort_by(lowest_node, n_keys, side, room);
-  return side;
+}
+
+std::vector<FacetSide> single_sides(const Mesh& mesh) {
+  std::vector<FacetSide> single;
+  for_each_facet(mesh, [&](std::span<const FacetSide> side) {
+    if (side.size() == 1) single.push_back(side[0]);
+  });
+  return single;
 }
 
 std::span<const std::array<int, 2>> edge_corners(ElementType type) {

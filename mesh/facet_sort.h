@@ -1,10 +1,11 @@
-// Facets and edges of all elements sorted by their nodes, so that equal ones stand side by side:
-// what neighbours, surfaces, edges and the check for broken meshes are made of.
+// Facets with the elements on their sides, and the edges of an element: what neighbours, surfaces
+// and the check for broken meshes are made of.
 #pragma once
 
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,8 +22,12 @@ struct FacetSide {
   auto operator<=>(const FacetSide&) const = default;
 };
 
-// All sides: by lowest node, then by the others, then by element. Corner numbers must be in range.
-std::vector<FacetSide> sorted_facet_sides(const Mesh& mesh);
+// Calls `visit` with the sides of one facet after the other: facets by lowest node, then by the
+// others, sides by element. Corner numbers must be in range.
+void for_each_facet(const Mesh& mesh, const std::function<void(std::span<const FacetSide>)>& visit);
+
+// Of facets that one element has, in that order.
+std::vector<FacetSide> single_sides(const Mesh& mesh);
 
 // Corner pairs of the edges of an element.
 std::span<const std::array<int, 2>> edge_corners(ElementType type);

@@ -41,20 +41,22 @@ FacetNeighbours facet_neighbours(const Mesh& mesh) {
     result.offset.push_back(result.offset.back() + n_facets(type));
   result.neighbour.assign(static_cast<std::size_t>(result.offset.back()), -1);
 
-  const std::vector<FacetSide> side = sorted_facet_sides(mesh);
-  for (std::size_t k = 0; k + 1 < side.size(); ++k) {
-    if (side[k].node != side[k + 1].node) continue;
-    if (k + 2 < side.size() && side[k].node == side[k + 2].node)
-      throw InputError("the facet of nodes" + nodes_text(side[k]) +
-                       " is shared by more than two elements: " + std::to_string(side[k].element) +
-                       ", " + std::to_string(side[k + 1].element) + ", " +
-                       std::to_string(side[k + 2].element));
-    const FacetSide &a = side[k], &b = side[k + 1];
+  std::vector<FacetSide> single;
+  for_each_facet(mesh, [&](std::span<const FacetSide> side) {
+    if (side.size() > 2)
+      throw InputError("the facet of nodes" + nodes_text(side[0]) +
+                       " is shared by more than two elements: " + std::to_string(side[0].element) +
+                       ", " + std::to_string(side[1].element) + ", " +
+                       std::to_string(side[2].element));
+    if (side.size() == 1) {
+      single.push_back(side[0]);
+      return;
+    }
+    const FacetSide &a = side[0], &b = side[1];
     result.neighbour[result.offset[a.element] + a.facet] = b.element;
     result.neighbour[result.offset[b.element] + b.facet] = a.element;
-    ++k;
-  }
-  for (const SplitQuad& quad : split_quads(mesh, side)) {
+  });
+  for (const SplitQuad& quad : split_quads(mesh, single)) {
     const auto& [s, t] = quad.triangle;
     result.neighbour[result.offset[quad.hex] + quad.facet] = s.element;
     result.neighbour[result.offset[s.element] + s.facet] = quad.hex;
@@ -123,17 +125,15 @@ void add_facet(Surface& surface, const Mesh& mesh, std::int32_t e, int f) {
 
 std::vector<std::uint8_t> boundary_facets(const Mesh& mesh) {
   std::vector<std::uint8_t> is_boundary(mesh.element_type.size(), 0);
-  const std::vector<FacetSide> side = sorted_facet_sides(mesh);
-  for (std::size_t begin = 0, end = 0; begin < side.size(); begin = end) {
-    while (end < side.size() && side[end].node == side[begin].node) ++end;
-    if (end - begin > 1) continue;
-    std::uint8_t& bits = is_boundary[side[begin].element];
-    bits = static_cast<std::uint8_t>(bits | 1U << side[begin].facet);
+  const std::vector<FacetSide> single = single_sides(mesh);
+  for (const FacetSide& side : single) {
+    std::uint8_t& bits = is_boundary[side.element];
+    bits = static_cast<std::uint8_t>(bits | 1U << side.facet);
   }
   const auto clear = [&](std::int32_t e, std::int32_t f) {
     is_boundary[e] = static_cast<std::uint8_t>(is_boundary[e] & ~(1U << f));
   };
-  for (const SplitQuad& quad : split_quads(mesh, side)) {
+  for (const SplitQuad& quad : split_quads(mesh, single)) {
     clear(quad.hex, quad.facet);
     for (const FacetSide& triangle : quad.triangle) clear(triangle.element, triangle.facet);
   }

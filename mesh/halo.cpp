@@ -39,6 +39,8 @@ Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int r
   part.n_owned = part.n_local();
   for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
     if (node_owner[i] != rank && is_touched[i] != 0) part.node_global.push_back(i);
+  part.node_global.shrink_to_fit();
+  part.element_global.shrink_to_fit();
   part.node_local.assign(mesh.X.size(), -1);
   for (std::int32_t k = 0; k < part.n_local(); ++k) part.node_local[part.node_global[k]] = k;
   return part;

@@ -93,15 +93,6 @@ int hex_facet_of(const Mesh& mesh, std::int32_t e, const std::array<std::int32_t
   return -1;
 }
 
-// Sides of facets that no other element has, quads and triangles apart.
-static void collect_single_sides(std::span<const FacetSide> side, std::vector<FacetSide>& quad,
-                                 std::vector<FacetSide>& triangle) {
-  for (std::size_t begin = 0, end = 0; begin < side.size(); begin = end) {
-    while (end < side.size() && side[end].node == side[begin].node) ++end;
-    if (end - begin == 1) (side[begin].node[0] < 0 ? triangle : quad).push_back(side[begin]);
-  }
-}
-
 static const FacetSide* find_triangle(const std::vector<FacetSide>& triangle, std::int32_t a,
                                       std::int32_t b, std::int32_t c) {
   std::array<std::int32_t, 4> node{-1, a, b, c};
@@ -112,14 +103,14 @@ static const FacetSide* find_triangle(const std::vector<FacetSide>& triangle, st
   return at != triangle.end() && at->node == node ? &*at : nullptr;
 }
 
-std::vector<SplitQuad> split_quads(const Mesh& mesh, std::span<const FacetSide> side) {
+std::vector<SplitQuad> split_quads(const Mesh& mesh, std::span<const FacetSide> single) {
   const auto has_type = [&](ElementType type) {
     return std::find(mesh.element_type.begin(), mesh.element_type.end(), type) !=
            mesh.element_type.end();
   };
   if (!has_type(ElementType::hex8) || !has_type(ElementType::tet4)) return {};
   std::vector<FacetSide> quad, triangle;
-  collect_single_sides(side, quad, triangle);
+  for (const FacetSide& side : single) (side.node[0] < 0 ? triangle : quad).push_back(side);
   std::vector<SplitQuad> found;
   for (const FacetSide& q : quad) {
     std::array<std::int32_t, 4> n{};

@@ -41,7 +41,7 @@ struct SplitQuad {
   std::int32_t hex = 0, facet = 0;
   std::array<FacetSide, 2> triangle;
 };
-// All of them, ascending by (lowest node, …). `side`: sorted_facet_sides(mesh).
-std::vector<SplitQuad> split_quads(const Mesh& mesh, std::span<const FacetSide> side);
+// All of them, ascending by (lowest node, …). `single`: single_sides(mesh).
+std::vector<SplitQuad> split_quads(const Mesh& mesh, std::span<const FacetSide> single);
 
 }  // namespace trocar

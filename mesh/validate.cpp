@@ -188,18 +188,16 @@ void check_sides(Report& report, const Mesh& mesh, const FacetSide& a, const Fac
 }
 
 void check_facets(Report& report, const Mesh& mesh) {
-  const std::vector<FacetSide> side = sorted_facet_sides(mesh);
-  for (std::size_t begin = 0, end = 0; begin < side.size() && !report.is_full(); begin = end) {
+  for_each_facet(mesh, [&](std::span<const FacetSide> side) {
+    if (report.is_full()) return;
+    if (side.size() == 2) check_sides(report, mesh, side[0], side[1]);
+    if (side.size() <= 2) return;
     std::string elements;
-    for (; end < side.size() && side[end].node == side[begin].node; ++end)
-      if (end - begin >= 2 && end - begin < 6)  // a few are enough to find the place
-        elements += ", " + std::to_string(side[end].element);
-    if (end - begin > 2)
-      report.add("the facet of nodes" + nodes_text(side[begin].node) + " is shared by " +
-                 std::to_string(end - begin) + " elements: " + std::to_string(side[begin].element) +
-                 ", " + std::to_string(side[begin + 1].element) + elements);
-    if (end - begin == 2) check_sides(report, mesh, side[begin], side[begin + 1]);
-  }
+    for (const FacetSide& s : side.first(std::min<std::size_t>(side.size(), 6)))
+      elements += (elements.empty() ? "" : ", ") + std::to_string(s.element);
+    report.add("the facet of nodes" + nodes_text(side[0].node) + " is shared by " +
+               std::to_string(side.size()) + " elements: " + elements);
+  });
 }
 
 void check_duplicates(Report& report, const Mesh& mesh) {

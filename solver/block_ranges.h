@@ -135,6 +135,16 @@ inline BlockTask block_task(const Model& model, const ElementBlocks& blocks,
   return task;
 }
 
+// How many blocks from `block` on, at most n, have targets that follow each other.
+inline std::int64_t n_with_targets_in_row(const ElementBlocks& blocks, std::int64_t block,
+                                          std::int64_t n) {
+  if (blocks.target_block.empty()) return n;
+  const auto has_targets = [&](std::int64_t k) { return blocks.target_block[block + k] >= 0; };
+  std::int64_t k = 1;
+  while (k < n && has_targets(k) == has_targets(0)) ++k;
+  return k;
+}
+
 // Calls body(kernels, task, block) for the blocks [first, first + n) of a list, some at a time,
 // with their strains in the stash; block is the first of them.
 template <class Body>
@@ -146,8 +156,8 @@ void for_strained_blocks(const Model& model, const ElementBlocks& blocks, const 
   const BlockKernels kernels = kernels_for(active_kernels(), blocks);
   const std::int64_t step = blocks_at_once(kernels);
   BlockTask task = block_task(model, blocks, kernels, state, components, first, step, stash);
-  for (std::int64_t at = first; at < first + n; at += step) {
-    task.n_blocks = std::min(step, first + n - at);
+  for (std::int64_t at = first; at < first + n; at += task.n_blocks) {
+    task.n_blocks = n_with_targets_in_row(blocks, at, std::min(step, first + n - at));
     kernels.element.strain(task);
     body(kernels, task, at);
     advance(blocks, kernels, task.n_blocks, task);

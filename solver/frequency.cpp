@@ -35,12 +35,15 @@ struct Search {
   std::vector<std::size_t> fixed;  // components that supports hold
   double most_inertia = 0;         // of a node on all ranks
   std::span<const double> force_at_rest;
-  Vector u, room;
-  Vector force;  // or M x of a direction: they are never wanted at once
+  // Displacements that forces are asked of (n_local * 3); or of the owned nodes M x of a direction:
+  // they are never wanted at once.
+  Vector u;
+  Vector room;
 
   std::size_t size() const { return 3 * static_cast<std::size_t>(model.n_owned); }
+  std::span<double> Mx() { return std::span(u).first(size()); }
   // Products are no larger than `most`. The same bits on any ranks and threads.
-  double dot(const Vector& a, const Vector& b, double most) const {
+  double dot(std::span<const double> a, std::span<const double> b, double most) const {
     return reproducible_dot(a, b, n, most, communicator);
   }
   // Calls body(k) for all components.
@@ -112,49 +115,50 @@ struct Direction {
   double length = 0;   // in M; 0 if there is nothing to divide
 };
 
-// `largest` is that of x before supports took their part; s.force: its products with inertias.
+// `largest` is that of x before supports took their part; s.Mx(): its products with inertias.
 void measure(Search& s, double largest, Direction& d) {
   s.hold_supports(d.x);
-  subtract_cluster_means(s.model, d.x, s.force);  // adds as much to M x as it has, at most
-  const double square = s.dot(d.x, s.force, 2 * s.most_inertia * largest * largest);
+  subtract_cluster_means(s.model, d.x, s.Mx());  // adds as much to M x as it has, at most
+  const double square = s.dot(d.x, s.Mx(), 2 * s.most_inertia * largest * largest);
   d.largest = largest;
   d.length = square > 0 && std::isfinite(square) ? std::sqrt(square) : 0;
 }
 
 // Within +-1 by the global number alone, so that every mode of vibration has a share.
 void begin_with_noise(Search& s, Direction& d) {
-  s.force.resize(s.size());
+  const std::span<double> Mx = s.Mx();
   const double largest = s.for_inertias(d.x, [&](std::size_t k, double m, double) {
     const auto global = static_cast<std::uint64_t>(s.part.node_global[k / 3]);
     const auto bits = mix64(3 * global + k % 3 + 1) >> 11;
     d.x[k] = static_cast<double>(bits) * 0x1p-52 - 1;
-    s.force[k] = m * d.x[k];
+    Mx[k] = m * d.x[k];
   });
   measure(s, largest, d);
 }
 
-// Kx = -(f(u + h x) - f(u)) / h for x = d / |d|, with h so that the largest displacement is the
-// amplitude. Returns its largest component's size.
-double apply_stiffness(Search& s, const Direction& d, Vector& x, Vector& Kx) {
+// x = d / |d|, and d.x = Kx = -(f(u + h x) - f(u)) / h with h so that the largest displacement is
+// the amplitude. Returns its largest component's size.
+double apply_stiffness(Search& s, Direction& d, Vector& x) {
   const double by_length = 1 / d.length, h = s.options.amplitude * d.length / d.largest;
   s.for_components([&](std::size_t k) {
     x[k] = by_length * d.x[k];
     s.u[k] = s.state.u[k] + h * x[k];
   });
-  s.forces(s.u, s.force);
+  s.forces(s.u, d.x);
   const double by_h = -1 / h;
-  const double largest = s.for_components(
-      Kx, [&](std::size_t k) { Kx[k] = by_h * (s.force[k] - s.force_at_rest[k]); });
-  s.hold_supports(Kx);
+  const double largest =
+      s.for_components(d.x, [&](std::size_t k) { d.x[k] = by_h * (d.x[k] - s.force_at_rest[k]); });
+  s.hold_supports(d.x);
   return largest;
 }
 
 // d = M^-1 Kx - (a x + b last), where d.x is Kx.
 void go_on(Search& s, double a, const Vector& x, double b, const Vector& last, Direction& d) {
   add_cluster_force(s.model, {}, d.x, s.room);
+  const std::span<double> Mx = s.Mx();
   const double largest = s.for_inertias(d.x, [&](std::size_t k, double m, double by_m) {
     d.x[k] = by_m * d.x[k] - (a * x[k] + b * last[k]);
-    s.force[k] = m * d.x[k];
+    Mx[k] = m * d.x[k];
   });
   measure(s, largest, d);
 }
@@ -227,7 +231,7 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
   if (next.length == 0) return found;
   while (!found.is_converged && found.n_iterations < options.most_iterations) {
     const double by_length = 1 / next.length, largest = by_length * next.largest;
-    const double largest_K = apply_stiffness(s, next, x, next.x);
+    const double largest_K = apply_stiffness(s, next, x);
     ++found.n_iterations;
     T.diagonal.push_back(s.dot(x, next.x, largest * largest_K));
     go_on(s, T.diagonal.back(), x, T.beside.empty() ? 0 : T.beside.back(), last, next);

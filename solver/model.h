@@ -51,8 +51,9 @@ struct ElementBlocks {
   int lanes = 0;                            // of a block, 64 bytes' worth of the precision
   std::vector<std::int32_t> element_local;  // (n_blocks * lanes) position in Part::element_global
   std::vector<std::int32_t> corner;         // [block][corner][lane] local node
-  // [block][corner][lane] where its force is added in Scratch::sum; empty: at its node
-  std::vector<std::int32_t> target;
+  // Where corner forces are added in Scratch::sum if not all of a block's are at their nodes:
+  // [such block][corner][lane], and (n_blocks) which one a block is, -1: none; empty: none is one.
+  std::vector<std::int32_t> target, target_block;
   std::vector<std::uint32_t> row;  // (n_blocks * lanes / row_lanes) of row_order.h
   // (n_blocks) where nodal fields lie by component, see node_layout.h; else empty
   std::vector<std::uint32_t> row_break;

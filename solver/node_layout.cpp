@@ -47,19 +47,21 @@ bool keeps_order(const std::array<std::int32_t, 8>& start, int n_lanes, const Ro
   return true;
 }
 
-// Of each block's first lane.
-std::vector<std::int32_t> first_lanes(const std::vector<std::int32_t>& number, int lanes) {
+// [block][corner] The first lane of numbers_of(block) [corner][lane].
+template <class Numbers>
+std::vector<std::int32_t> first_lanes(const ElementBlocks& blocks, const Numbers& numbers_of) {
+  const std::int64_t n = corners_of_block(blocks);
   std::vector<std::int32_t> first;
-  first.reserve(number.size() / static_cast<std::size_t>(lanes));
-  for (std::size_t k = 0; k < number.size(); k += static_cast<std::size_t>(lanes))
-    first.push_back(number[k]);
+  first.reserve(static_cast<std::size_t>(blocks.n_blocks * n / blocks.lanes));
+  for (std::int64_t block = 0; block < blocks.n_blocks; ++block)
+    for (std::int64_t k = 0; k < n; k += blocks.lanes) first.push_back(numbers_of(block)[k]);
   return first;
 }
 
 std::uint32_t row_break_of(const ElementBlocks& blocks, std::int64_t block) {
   const int n = blocks.lanes;
   const std::int32_t* const node = &blocks.corner[block * corners_of_block(blocks)];
-  const std::int32_t* const target = &targets(blocks)[block * corners_of_block(blocks)];
+  const std::int32_t* const target = targets(blocks, block);
   RowEnd end{.lane = 1};
   while (end.lane < n && node[end.lane] == node[0] + end.lane) ++end.lane;
   if (end.lane < n) end.skip = node[end.lane] - node[0] - end.lane;
@@ -220,8 +222,13 @@ void lay_out_nodes(Model& model) {
   if (!model.is_by_component) sums.stride_nodes.clear();
   for (ElementBlocks& blocks : model.blocks)
     if (model.is_by_component) {
-      blocks.row_start = first_lanes(blocks.corner, blocks.lanes);
-      blocks.row_target = first_lanes(blocks.target, blocks.lanes);
+      blocks.row_start = first_lanes(blocks, [&](std::int64_t block) {
+        return blocks.corner.data() + block * corners_of_block(blocks);
+      });
+      blocks.row_target.clear();
+      if (!blocks.target.empty())
+        blocks.row_target =
+            first_lanes(blocks, [&](std::int64_t block) { return targets(blocks, block); });
     } else {
       blocks.row_break = std::vector<std::uint32_t>();
       blocks.row_start = blocks.row_target = std::vector<std::int32_t>();

@@ -31,21 +31,21 @@ struct ThreadWatch {
 void add_list(const Model& model, const ElementBlocks& blocks, std::int64_t first, std::int64_t n,
               const Components& components, State& state, Scratch& scratch, ThreadWatch& watch,
               RunPrefetch& prefetch) {
-  for_strained_blocks(
-      model, blocks, state, components, first, n,
-      [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
-        prefetch.beside(blocks, block, task.n_blocks);
-        if (watch.all != nullptr) watch.all->look(model, blocks, kernels, task, block, watch.least);
-        if (blocks.prony.empty() || scratch.is_elastic)
-          kernels.law.stress(task);
-        else
-          put_viscous_stress(blocks, kernels, task, scratch.viscous[&blocks - model.blocks.data()],
-                             history_at(blocks, block, state));
-        const std::int64_t corner = block * kernels.element.n_corners * blocks.lanes;
-        with_sums(model, scratch, [&](auto& sum) {
-          kernels.element.force(task, targets(blocks).data() + corner, sum.data());
-        });
-      });
+  for_strained_blocks(model, blocks, state, components, first, n,
+                      [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
+                        prefetch.beside(blocks, block, task.n_blocks);
+                        if (watch.all != nullptr)
+                          watch.all->look(model, blocks, kernels, task, block, watch.least);
+                        if (blocks.prony.empty() || scratch.is_elastic)
+                          kernels.law.stress(task);
+                        else
+                          put_viscous_stress(blocks, kernels, task,
+                                             scratch.viscous[&blocks - model.blocks.data()],
+                                             history_at(blocks, block, state));
+                        with_sums(model, scratch, [&](auto& sum) {
+                          kernels.element.force(task, targets(blocks, block), sum.data());
+                        });
+                      });
 }
 
 // Calls body(begin, end) for the runs of blocks within [begin, end) that don't sleep.
@@ -257,8 +257,9 @@ std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
       bytes(scratch.u_by_component) + bytes(scratch.force);
   for (const ElementBlocks& blocks : model.blocks)
     sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.target) +
-           bytes(blocks.row) + bytes(blocks.row_break) + bytes(blocks.row_start) +
-           bytes(blocks.row_target) + bytes(blocks.data) + bytes(blocks.data_single);
+           bytes(blocks.target_block) + bytes(blocks.row) + bytes(blocks.row_break) +
+           bytes(blocks.row_start) + bytes(blocks.row_target) + bytes(blocks.data) +
+           bytes(blocks.data_single);
   const MassClusters& clusters = model.clusters;
   sum += bytes(clusters.offset) + bytes(clusters.node) + bytes(clusters.added) +
          bytes(clusters.total) + bytes(clusters.of_node) + bytes(scratch.given) +

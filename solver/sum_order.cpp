@@ -100,11 +100,12 @@ std::uint32_t row_of(const Model& model, const ElementBlocks& blocks, std::int64
   std::array<std::int32_t, 8> start{};
   for (int a = 0; a < n_corners; ++a) {
     const std::int64_t at = first + a * blocks.lanes;
-    if (!are_consecutive(&blocks.corner[at]) || !are_consecutive(&targets(blocks)[at]))
+    const std::int32_t* const target = &targets(blocks, block)[at - block * n];
+    if (!are_consecutive(&blocks.corner[at]) || !are_consecutive(target))
       return has_node(&blocks.corner[first], n_corners, blocks.lanes, model.n_local - 1)
                  ? no_row_at_end
                  : no_row;
-    start[a] = targets(blocks)[at];
+    start[a] = *target;
   }
   return n_corners == 8 && is_order(box_row, start) ? box_row : descending(start, n_corners);
 }
@@ -239,26 +240,22 @@ std::int32_t strides_before_halo(const Model& model) {
   return static_cast<std::int32_t>((first_blocks(model)[first.list] + first.block) / stride_blocks);
 }
 
-// After nodes were added behind the owned ones: halo nodes and places have moved up. blocks: those
-// whose corners have changed.
-void move_places_up(std::span<const BlockPlace> blocks, Model& model) {
+// After nodes were added behind the owned ones: halo nodes and places have moved up.
+void move_places_up(Model& model) {
   SumOrder& sums = model.sums;
   const std::int64_t n_before = sums.n_places - std::ssize(sums.place_node);
   const auto n_added = static_cast<std::int32_t>(model.n_local - n_before);
   sums.n_places += n_added;
   for (std::int32_t& node : sums.place_node)
     if (node >= model.n_owned - n_added) node += n_added;
-  const auto move = [&](ElementBlocks& list, std::int64_t block) {
-    const std::int64_t n = corners_of_block(list);
-    for (std::int64_t k = block * n; k < (block + 1) * n; ++k)
-      list.target[k] = list.target[k] >= n_before ? list.target[k] + n_added : list.corner[k];
-  };
-  if (sums.n_runs < 2) return;
-  std::vector<BlockPlace> places(blocks.begin(), blocks.end());
-  places.insert(places.end(), sums.place_block.begin(), sums.place_block.end());
-  places.insert(places.end(), sums.halo_block.begin(), sums.halo_block.end());
-  sort_unique(places);
-  for (const BlockPlace& place : places) move(model.blocks[place.list], place.block);
+  for (const BlockPlace& place : sums.place_block) {
+    ElementBlocks& list = model.blocks[place.list];
+    const std::int64_t n = corners_of_block(list), at = list.target_block[place.block] * n;
+    for (std::int64_t k = 0; k < n; ++k) {
+      std::int32_t& target = list.target[at + k];
+      target = target >= n_before ? target + n_added : list.corner[place.block * n + k];
+    }
+  }
 }
 
 // Around an edit that no other run meets; false if one does.
@@ -277,7 +274,7 @@ bool edit_around(std::span<const std::int32_t> nodes, std::span<const BlockPlace
     strides.push_back(stride_of(first[place.list] + place.block, sums));
   sort_unique(strides);
   edit_own_nodes(nodes, use.last_stride, strides, sums);
-  move_places_up(blocks, model);
+  move_places_up(model);
   edit_rows(blocks, model);
   lay_out_nodes(model);
   return true;
@@ -300,7 +297,10 @@ std::vector<BlockPlace> blocks_with_halo(const Model& model, std::int32_t n_owne
 }
 
 void order_sums(Model& model) {
-  for (ElementBlocks& blocks : model.blocks) blocks.target.clear();
+  for (ElementBlocks& blocks : model.blocks) {
+    blocks.target.clear();
+    blocks.target_block.clear();
+  }
   model.sums = make_runs(model);
   if (model.n_local > model.n_owned) model.sums.halo_block = blocks_with_halo(model, model.n_owned);
   model.sums.n_strides_before_halo = strides_before_halo(model);

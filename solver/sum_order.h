@@ -35,9 +35,12 @@ inline std::int64_t corners_of_block(const ElementBlocks& blocks) {
   return std::ssize(blocks.corner) / blocks.n_blocks;
 }
 
-// Where the corner forces of a list are added.
-inline const std::vector<std::int32_t>& targets(const ElementBlocks& blocks) {
-  return blocks.target.empty() ? blocks.corner : blocks.target;
+// [corner][lane] Where the corner forces of a block are added.
+inline const std::int32_t* targets(const ElementBlocks& blocks, std::int64_t block) {
+  const std::int64_t n = corners_of_block(blocks);
+  if (blocks.target_block.empty() || blocks.target_block[block] < 0)
+    return blocks.corner.data() + block * n;
+  return blocks.target.data() + blocks.target_block[block] * n;
 }
 
 // Calls body(the sums of the model's precision).

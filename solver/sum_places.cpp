@@ -135,6 +135,15 @@ std::int32_t place_slots(std::span<const std::int32_t> nodes, const LaterCorners
   return n_slots;
 }
 
+// Of a block behind those that have some: its nodes, for a start.
+void add_targets(std::int32_t block, ElementBlocks& blocks) {
+  const std::int64_t n = corners_of_block(blocks);
+  blocks.target_block.resize(static_cast<std::size_t>(blocks.n_blocks), -1);
+  blocks.target_block[block] = static_cast<std::int32_t>(std::ssize(blocks.target) / n);
+  const auto corner = blocks.corner.begin() + block * n;
+  blocks.target.insert(blocks.target.end(), corner, corner + n);
+}
+
 }  // namespace
 
 bool are_consecutive(const std::int32_t* number) {
@@ -160,15 +169,22 @@ void place_shared_corners(std::span<const std::int32_t> run, Model& model) {
   sums.n_slots = place_slots(sums.shared_node, later, first, place, sums);
   place_slots(of_halo, later, first, place, sums);
   sums.slot_first.push_back(static_cast<std::int32_t>(sums.place_node.size()));
-  for (ElementBlocks& blocks : model.blocks) blocks.target = blocks.corner;
-  for (const auto& [list, at, slot] : later.corners) {
-    ElementBlocks& blocks = model.blocks[list];
-    blocks.target[at] = place[first[blocks.corner[at]] + slot];
-    const BlockPlace block{list, static_cast<std::int32_t>(at / corners_of_block(blocks))};
-    if (sums.place_block.empty() || sums.place_block.back() != block)
-      sums.place_block.push_back(block);
-  }
+  const auto block_of = [&](const LaterCorner& corner) -> BlockPlace {
+    const std::int64_t n = corners_of_block(model.blocks[corner.list]);
+    return {corner.list, static_cast<std::int32_t>(corner.at / n)};
+  };
+  for (const LaterCorner& corner : later.corners)
+    if (sums.place_block.empty() || sums.place_block.back() != block_of(corner))
+      sums.place_block.push_back(block_of(corner));
   sort_unique(sums.place_block);
+  for (const BlockPlace& block : sums.place_block)
+    add_targets(block.block, model.blocks[block.list]);
+  for (const LaterCorner& corner : later.corners) {
+    ElementBlocks& blocks = model.blocks[corner.list];
+    const std::int64_t n = corners_of_block(blocks), block = block_of(corner).block;
+    blocks.target[blocks.target_block[block] * n + corner.at % n] =
+        place[first[blocks.corner[corner.at]] + corner.slot];
+  }
 }
 
 }  // namespace trocar

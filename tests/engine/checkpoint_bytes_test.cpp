@@ -12,7 +12,7 @@ namespace {
 // Every kind of member once, with numbers that can't be mistaken for each other.
 Checkpoint example_checkpoint() {
   Checkpoint c{.version = "trocar test", .scene = "name = \"x\"\n", .frame = 17, .digest = 99};
-  c.mesh = make_rectangle(0.02, 0.01, 3, 2);
+  c.mesh = std::make_shared<const Mesh>(make_rectangle(0.02, 0.01, 3, 2));
   c.fixed = {1, 2, 3, 4, 5, 6};
   for (int i = 0; i < 18; ++i) {
     c.u.push_back(0.1 * i);
@@ -29,7 +29,7 @@ Checkpoint example_checkpoint() {
   c.log.rows[1].tools = {{.position = Vec3(7, 8, 9)}};
   c.log.events = {"0.1 s: something"};
   c.recordings = {{.file = "r.trocar", .last_frame = 16}};
-  c.recordings[0].pending = {{.frame = 17, .edit = example_edit(c.mesh, 1)}};
+  c.recordings[0].pending = {{.frame = 17, .edit = example_edit(*c.mesh, 1)}};
   return c;
 }
 
@@ -39,7 +39,7 @@ TEST(CheckpointBytes, read_back_give_the_same_checkpoint) {
   EXPECT_EQ(back.scene, c.scene);
   EXPECT_EQ(back.frame, 17);
   EXPECT_EQ(back.digest, 99u);
-  EXPECT_TRUE(is_equal(back.mesh, c.mesh));
+  EXPECT_TRUE(is_equal(*back.mesh, *c.mesh));
   EXPECT_EQ(back.fixed, c.fixed);
   EXPECT_EQ(back.u, c.u);
   EXPECT_EQ(back.v, c.v);
@@ -61,12 +61,13 @@ TEST(CheckpointBytes, read_back_give_the_same_checkpoint) {
 // Of a mesh and of fields that don't fit into a piece.
 TEST(CheckpointBytes, of_a_large_body_are_handed_on_in_small_pieces) {
   Checkpoint c = example_checkpoint();
-  c.mesh = make_box({0, 0, 0}, {1, 1, 1}, {33, 33, 33}, BoxElements::hex8);
-  const std::size_t n = 3 * c.mesh.X.size();
+  c.mesh =
+      std::make_shared<const Mesh>(make_box({0, 0, 0}, {1, 1, 1}, {33, 33, 33}, BoxElements::hex8));
+  const std::size_t n = 3 * c.mesh->X.size();
   for (std::size_t k = 0; k < n; ++k) c.looked_at.push_back(std::sin(static_cast<double>(k)));
   c.u.assign(c.looked_at.rbegin(), c.looked_at.rend());
   c.v = c.looked_at;
-  ASSERT_GT(n_bytes_of(c.mesh), 2 * ByteWriter::piece_size);
+  ASSERT_GT(n_bytes_of(*c.mesh), 2 * ByteWriter::piece_size);
   ASSERT_GT(2 * n * sizeof(double), ByteWriter::piece_size);
   std::vector<std::byte> bytes;
   int n_pieces = 0;
@@ -77,7 +78,7 @@ TEST(CheckpointBytes, of_a_large_body_are_handed_on_in_small_pieces) {
   });
   EXPECT_GT(n_pieces, 6);
   const Checkpoint back = checkpoint_from_bytes(bytes, "c");
-  EXPECT_TRUE(is_equal(back.mesh, c.mesh));
+  EXPECT_TRUE(is_equal(*back.mesh, *c.mesh));
   EXPECT_EQ(back.u, c.u);
   EXPECT_EQ(back.v, c.v);
   EXPECT_EQ(back.looked_at, c.looked_at);

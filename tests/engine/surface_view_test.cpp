@@ -31,7 +31,7 @@ TEST(SurfaceView, on_one_rank_has_the_present_positions_of_all_surface_nodes) {
   BoxSurface c;
   const std::vector<std::int32_t> owner(c.mesh.X.size(), 0);
   const Part part = make_part(c.mesh, owner, 0);
-  SurfaceView view = make_surface_view(c.surface, c.mesh.X, owner, part);
+  SurfaceView view = make_surface_view(c.surface, owner, part);
   Communicator alone;
   gather_surface(view, c.mesh.X, local_field(part), alone);
   EXPECT_EQ(view.node, c.surface.node);
@@ -41,8 +41,7 @@ TEST(SurfaceView, on_one_rank_has_the_present_positions_of_all_surface_nodes) {
 TEST(SurfaceView, lists_each_surface_node_once_by_owner_and_number) {
   BoxSurface c;
   const std::vector<std::int32_t> owner = partition_nodes(c.mesh, 3);
-  const SurfaceView view =
-      make_surface_view(c.surface, c.mesh.X, owner, make_part(c.mesh, owner, 1));
+  const SurfaceView view = make_surface_view(c.surface, owner, make_part(c.mesh, owner, 1));
   for (std::size_t k = 1; k < view.node.size(); ++k)
     EXPECT_LT(std::pair(owner[view.node[k - 1]], view.node[k - 1]),
               std::pair(owner[view.node[k]], view.node[k]));
@@ -59,7 +58,7 @@ TEST(SurfaceView, the_ranks_values_in_rank_order_meet_the_nodes_in_the_order_of_
   std::vector<std::int32_t> expected;
   for (int rank = 0; rank < 3; ++rank) {
     const Part part = make_part(c.mesh, owner, rank);
-    const SurfaceView view = make_surface_view(c.surface, c.mesh.X, owner, part);
+    const SurfaceView view = make_surface_view(c.surface, owner, part);
     for (const std::int32_t local : view.local) {
       EXPECT_LT(local, part.n_owned);
       sent.push_back(part.node_global[local]);
@@ -73,7 +72,8 @@ TEST(SurfaceView, after_an_edit_is_that_of_the_edited_surface_and_keeps_where_th
   BoxSurface c;
   std::vector<std::int32_t> owner = partition_nodes(c.mesh, 3);
   const Part part = make_part(c.mesh, owner, 1);
-  SurfaceView view = make_surface_view(c.surface, c.mesh.X, owner, part);
+  SurfaceView view = make_surface_view(c.surface, owner, part);
+  view.x = c.mesh.X;
   const Vec3 there(1, 2, 3);
   view.x[static_cast<std::size_t>(c.surface.node[0])] = there;
 
@@ -89,7 +89,7 @@ TEST(SurfaceView, after_an_edit_is_that_of_the_edited_surface_and_keeps_where_th
   const Surface surface = boundary_surface(c.mesh);
   const Part after = make_part(c.mesh, owner, 1);
   update_surface_view(surface, owner, after, view);
-  const SurfaceView expected = make_surface_view(surface, c.mesh.X, owner, after);
+  const SurfaceView expected = make_surface_view(surface, owner, after);
   EXPECT_EQ(view.node, expected.node);
   EXPECT_EQ(view.local, expected.local);
   EXPECT_EQ(view.x.size(), c.mesh.X.size());

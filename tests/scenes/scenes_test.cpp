@@ -50,6 +50,18 @@ struct Ran {
   std::map<std::string, Column> metrics;
 };
 
+double peak_memory_of_block(int cells, const std::string& precision) {
+  const std::string folder = test_folder("memory"), n = std::to_string(cells);
+  const Finished program =
+      run_trocar({"run", config("block_hex.toml"), "-q", "-o", folder, "--set", "output=[]",
+                  "--set", "instrument=[]", "--set", "time.duration=0.1 s", "--set",
+                  "solver.precision='" + precision + "'", "--set",
+                  "tissue.shape.cells=[" + n + "," + n + "," + n + "]"},
+                 folder);
+  EXPECT_EQ(program.exit_code, 0) << program.err;
+  return read_summary(folder)["peak_memory_bytes"];
+}
+
 Ran run_scene_file(const std::string& name, const std::string& outputs) {
   Ran ran{.folder = test_folder("scene-" + name)};
   ran.program = run_trocar_on(
@@ -89,6 +101,20 @@ const Ran& liver_run() {
       "liver_incision.toml",
       "[{kind='metrics', file='metrics.csv'}, {kind='recording', file='liver.trocar'}]");
   return ran;
+}
+
+// Bytes of a hexahedron more: mesh, surface, a search and a frame's beginning included.
+TEST(Memory, of_the_whole_program_is_half_a_kilobyte_a_hexahedron_in_single_precision) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer has memory of its own";
+#endif
+  for (const auto& [precision, most] : {std::pair("single", 480.0), std::pair("double", 680.0)}) {
+    const double small = peak_memory_of_block(30, precision),
+                 large = peak_memory_of_block(50, precision);
+    const double bytes = (large - small) / (50 * 50 * 50 - 30 * 30 * 30);
+    EXPECT_LT(bytes, most) << precision;
+    EXPECT_GT(bytes, 200) << precision;
+  }
 }
 
 TEST(LiverIncision, is_pressed_grasped_cut_and_opened) {

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/threads.h"
 #include "solver/row_order.h"
+#include "solver/sum_order.h"
 #include "solver_body.h"
 
 using namespace trocar;
@@ -47,10 +48,11 @@ static void check_places(int n_threads) {
   std::vector<std::int64_t> run(node.size(), -1);
   std::vector<int> n_targets(node.size(), 0);
   const ElementBlocks& blocks = body.model.blocks[0];
-  for (std::size_t k = 0; k < blocks.corner.size(); ++k) {
-    const std::int32_t place = blocks.target.empty() ? blocks.corner[k] : blocks.target[k];
+  const std::int64_t n = corners_of_block(blocks);
+  for (std::int64_t k = 0; k < std::ssize(blocks.corner); ++k) {
+    const std::int64_t block = k / n;
+    const std::int32_t place = targets(blocks, block)[k % n];
     ++n_targets[place];
-    const auto block = static_cast<std::int64_t>(k / (4 * static_cast<std::size_t>(blocks.lanes)));
     const std::int64_t run_of_block =
         std::ranges::upper_bound(sums.run_block, block) - sums.run_block.begin() - 1;
     EXPECT_TRUE(run[place] < 0 || run[place] == run_of_block);  // or threads would meet there

@@ -14,6 +14,7 @@ inline void expect_equal(const ElementBlocks& a, const ElementBlocks& b) {
   EXPECT_EQ(a.element_local, b.element_local);
   EXPECT_EQ(a.corner, b.corner);
   EXPECT_EQ(a.target, b.target);
+  EXPECT_EQ(a.target_block, b.target_block);
   EXPECT_EQ(a.row, b.row);
   EXPECT_EQ(a.row_break, b.row_break);
   EXPECT_EQ(a.row_start, b.row_start);
