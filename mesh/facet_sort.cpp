@@ -1,8 +1,9 @@
-// Around one node after the other, so that a million hexahedra take 36 MB: all sides at once 340.
+// Around one node after the other, so that a million hexahedra take 28 MB: all sides at once 340.
 #include "mesh/facet_sort.h"
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "mesh/facets.h"
 
@@ -37,15 +38,41 @@ static std::int32_t lowest_node(const Mesh& mesh, std::int32_t e, int f) {
   return lowest;
 }
 
+// Facets of all elements by their lowest node.
+struct FacetsOfNodes {
+  std::vector<std::uint32_t> begin;  // (n_nodes + 2) into `facet`
+  std::vector<std::uint32_t> facet;  // 8 element + facet
+
+  std::span<const std::uint32_t> of(std::int32_t node) const {
+    return std::span(facet).subspan(begin[node], begin[node + 1] - begin[node]);
+  }
+};
+
+static FacetsOfNodes facets_of_nodes(const Mesh& mesh) {
+  const auto for_facets = [&](const auto& use) {
+    for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+      for (int f = 0; f < n_facets(mesh.element_type[e]); ++f) use(lowest_node(mesh, e, f), e, f);
+  };
+  FacetsOfNodes facets;
+  facets.begin.assign(mesh.X.size() + 2, 0);
+  for_facets([&](std::int32_t i, std::int32_t, int) { ++facets.begin[i + 2]; });
+  std::partial_sum(facets.begin.begin(), facets.begin.end(), facets.begin.begin());
+  facets.facet.resize(facets.begin.back());
+  for_facets([&](std::int32_t i, std::int32_t e, int f) {
+    facets.facet[facets.begin[i + 1]++] =
+        8 * static_cast<std::uint32_t>(e) + static_cast<std::uint32_t>(f);
+  });
+  return facets;
+}
+
 void for_each_facet(const Mesh& mesh,
                     const std::function<void(std::span<const FacetSide>)>& visit) {
-  const NodeElements around = node_elements(mesh);
-  std::vector<FacetSide> side;  // of the facets whose lowest node is i
+  const FacetsOfNodes facets = facets_of_nodes(mesh);
+  std::vector<FacetSide> side;
   for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) {
     side.clear();
-    for (const std::int32_t e : around.of(i))
-      for (int f = 0; f < n_facets(mesh.element_type[e]); ++f)
-        if (lowest_node(mesh, e, f) == i) side.push_back(facet_side(mesh, e, f));
+    for (const std::uint32_t k : facets.of(i))
+      side.push_back(facet_side(mesh, static_cast<std::int32_t>(k / 8), static_cast<int>(k % 8)));
     std::sort(side.begin(), side.end());
     for (auto begin = side.begin(), end = begin; begin != side.end(); begin = end) {
       end = std::find_if(begin, side.end(),
