@@ -108,8 +108,7 @@ static void subdivide_instead(const Mesh& mesh, const Kind& kind,
   const Subdivision exact = subdivide(tets.mesh, strokes);
   result.split_elements = double(exact.mesh.n_elements()) / mesh.n_elements();
   result.split_ratio = least_step(exact.mesh) / least_step(mesh);
-  std::vector<std::int32_t> piece;
-  result.n_exact = kind.is_through ? int(exact.piece_volume.size()) : mesh_pieces(mesh, piece);
+  result.n_exact = kind.is_through ? int(exact.piece_volume.size()) : n_pieces(mesh);
   if (!kind.is_through) return;
   for (const double volume : exact.piece_volume) result.n_thin += volume < h * h * h ? 1 : 0;
 }

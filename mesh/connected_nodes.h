@@ -16,7 +16,7 @@ std::vector<std::int32_t> connected_nodes(const Mesh& mesh, std::span<const std:
 std::vector<std::int32_t> connected_nodes(const Mesh& mesh);
 
 // Pieces that hang together through nodes. Where no two pieces touch in a node or an edge alone, as
-// after every cut, these are the pieces of mesh_pieces (quality.h).
+// after every cut, these are the pieces that hang together through facets.
 std::int32_t count_pieces(const Mesh& mesh);
 
 // Nodes that lie where a node of another piece does, but for rounding to multiples of `tolerance`

@@ -127,32 +127,4 @@ MeshStatistics mesh_statistics(const Mesh& mesh) {
   return statistics;
 }
 
-std::int32_t mesh_pieces(const Mesh& mesh, std::vector<std::int32_t>& element_piece) {
-  const FacetNeighbours across = facet_neighbours(mesh);
-  element_piece.assign(mesh.element_type.size(), -1);
-  std::int32_t n_pieces = 0;
-  std::vector<std::int32_t> open;
-  for (std::int32_t first = 0; first < mesh.n_elements(); ++first) {
-    if (element_piece[first] >= 0) continue;
-    element_piece[first] = n_pieces;
-    open.push_back(first);
-    while (!open.empty()) {
-      const std::int32_t e = open.back();
-      open.pop_back();
-      const auto reach = [&](std::int32_t next) {
-        if (next < 0 || element_piece[next] >= 0) return;
-        element_piece[next] = n_pieces;
-        open.push_back(next);
-      };
-      for (int f = 0; f < n_facets(mesh.element_type[e]); ++f) reach(across.of(e, f));
-      for (auto at = std::lower_bound(across.second.begin(), across.second.end(),
-                                      std::array<std::int32_t, 2>{e, -1});
-           at != across.second.end() && (*at)[0] == e; ++at)
-        reach((*at)[1]);
-    }
-    ++n_pieces;
-  }
-  return n_pieces;
-}
-
 }  // namespace trocar

@@ -45,7 +45,4 @@ Box bounding_box(std::span<const Vec3> points);
 // elements or with both on one side, no duplicate element. At most `most` sentences.
 std::vector<std::string> validate(const Mesh& mesh, int most = 20);
 
-// Number of pieces connected through facets, and the piece of each element.
-std::int32_t mesh_pieces(const Mesh& mesh, std::vector<std::int32_t>& element_piece);
-
 }  // namespace trocar

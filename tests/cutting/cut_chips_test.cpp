@@ -13,8 +13,8 @@ namespace {
 using namespace cutting_test;
 
 std::vector<double> piece_volumes(const Mesh& mesh) {
-  std::vector<std::int32_t> piece;
-  std::vector<double> volume(std::size_t(mesh_pieces(mesh, piece)), 0.0);
+  const std::vector<std::int32_t> piece = element_pieces(mesh);
+  std::vector<double> volume(std::size_t(n_pieces(mesh)), 0.0);
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
     volume[std::size_t(piece[std::size_t(e)])] += element_volume(mesh, e, mesh.X);
   return volume;

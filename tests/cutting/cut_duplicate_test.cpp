@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "cutting_count.h"
 #include "mesh/generate.h"
 #include "mesh/quality.h"
+#include "mesh_pieces.h"
 
 namespace trocar {
 namespace {

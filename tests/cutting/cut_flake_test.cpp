@@ -130,8 +130,8 @@ TEST(Flakes, stay_with_the_other_side_but_not_what_the_blade_parted) {
 // Both ends and the middle lie above a blade that passes in one advance: no neck is parted before.
 TEST(Flakes, keep_their_necks_where_a_blade_passes_at_once) {
   const Mesh mesh = cut_sunk_block(0.1, 1);
-  std::vector<std::int32_t> piece;
-  ASSERT_EQ(mesh_pieces(mesh, piece), 2);
+  ASSERT_EQ(n_pieces(mesh), 2);
+  const std::vector<std::int32_t> piece = element_pieces(mesh);
   std::array<double, 2> V{};
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
     V[std::size_t(piece[e])] += element_volume(mesh, e, mesh.X);

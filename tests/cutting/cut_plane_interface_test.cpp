@@ -2,6 +2,7 @@
 // of random ones per mesh.
 #include <cstdio>
 
+#include "cutting_count.h"
 #include "cutting_plane.h"
 
 namespace trocar {

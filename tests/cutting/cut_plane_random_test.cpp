@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "cutting_count.h"
 #include "cutting_plane.h"
 
 namespace trocar {

@@ -1,6 +1,7 @@
 // Random cuts, five meshes by turns. TROCAR_CUTS sets their number per test.
 #include <gtest/gtest.h>
 
+#include "cutting_count.h"
 #include "cutting_tet.h"
 #include "larger_or_nan.h"
 

@@ -110,14 +110,3 @@ TEST(MeshStatistics, are_found_of_elements_that_share_a_facet_by_threes) {
   EXPECT_EQ(mesh_statistics(mesh).n_pieces, 1);
   EXPECT_FALSE(validate(mesh).empty());
 }
-
-TEST(MeshPieces, are_connected_through_facets_only) {
-  Mesh mesh;  // two pairs of tetrahedra; the pairs share the edge 1 2 alone
-  mesh.X = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {2, 2, 0}, {1, 2, 1}};
-  add_element(mesh, ElementType::tet4, std::array{0, 1, 2, 3});
-  add_element(mesh, ElementType::tet4, std::array{1, 2, 5, 6});
-  add_element(mesh, ElementType::tet4, std::array{1, 2, 3, 4});
-  std::vector<std::int32_t> piece;
-  EXPECT_EQ(mesh_pieces(mesh, piece), 2);
-  EXPECT_EQ(piece, (std::vector<std::int32_t>{0, 1, 0}));
-}

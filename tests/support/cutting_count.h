@@ -1,16 +1,14 @@
-// Pieces of a body, and how many random cuts to try.
+// How many random cuts to try.
 #pragma once
 
-#include <cstdint>
-
-#include "mesh/mesh.h"
+#include <cstdlib>
 
 namespace trocar {
 
-// Connected through facets.
-std::int32_t n_pieces(const Mesh& mesh);
-
 // What TROCAR_CUTS says, or else `otherwise`.
-int n_cuts_or(int otherwise);
+inline int n_cuts_or(int otherwise) {
+  const char* wish = std::getenv("TROCAR_CUTS");
+  return wish != nullptr ? std::atoi(wish) : otherwise;
+}
 
 }  // namespace trocar

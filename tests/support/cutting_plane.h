@@ -11,10 +11,10 @@
 
 #include "cutting/cut_plane.h"
 #include "cutting/cut_plane_paper.h"
-#include "cutting_count.h"
 #include "mesh/facets.h"
 #include "mesh/generate.h"
 #include "mesh/quality.h"
+#include "mesh_pieces.h"
 
 namespace trocar {
 

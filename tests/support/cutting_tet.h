@@ -15,11 +15,11 @@
 #include "cutting/cut_index.h"
 #include "cutting/cut_patch.h"
 #include "cutting/cut_tet.h"
-#include "cutting_count.h"
 #include "mesh/edit.h"
 #include "mesh/facets.h"
 #include "mesh/generate.h"
 #include "mesh/quality.h"
+#include "mesh_pieces.h"
 
 namespace trocar::cutting_test {
 

@@ -91,8 +91,8 @@ static CutBody cut_through(CutBody body, const Vec3& normal) {
 
 // Piece `wanted` as a mesh of its own, with the numbers that its nodes had.
 static Mesh piece_of(const Mesh& mesh, std::int32_t wanted, std::vector<std::int32_t>& node) {
-  std::vector<std::int32_t> piece, number(mesh.X.size(), -1);
-  mesh_pieces(mesh, piece);
+  const std::vector<std::int32_t> piece = element_pieces(mesh);
+  std::vector<std::int32_t> number(mesh.X.size(), -1);
   Mesh part;
   part.region_name = mesh.region_name;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
