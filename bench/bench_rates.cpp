@@ -16,7 +16,7 @@
 #include "engine/build.h"
 #include "engine/equilibrium.h"
 #include "engine/frame.h"
-#include "mesh/mesh_file.h"
+#include "mesh_write.h"
 #include "solver_multirate.h"
 
 using namespace trocar;

@@ -1,4 +1,4 @@
-// Reading and writing meshes. Formats by content and ending: gmsh .msh 1.0, 2.2, 4.1 (ASCII and
+// Reading meshes. Formats by content and ending: gmsh .msh 1.0, 2.2, 4.1 (ASCII and
 // binary), legacy VTK, VTU for volumes; STL (ASCII and binary) and OBJ for surfaces.
 #pragma once
 
@@ -27,9 +27,5 @@ bool is_surface_file(const std::string& file);
 // Surface of an instrument, from STL, OBJ or the surface elements of a file of the other formats
 // that holds no volume elements; vertices merged where positions are equal. Throws InputError.
 TriangleMesh read_triangle_mesh(const std::string& file, double scale);
-
-// .msh 4.1 ASCII with node sets as physical groups of points; read_mesh gives the same mesh again
-// if every node is used, but for fibres. Throws MachineError if the file can't be written.
-void write_mesh(const Mesh& mesh, const std::string& file);
 
 }  // namespace trocar

@@ -15,8 +15,8 @@
 #include "engine_split.h"
 #include "engine_started.h"
 #include "larger_or_nan.h"
-#include "mesh/mesh_file.h"
 #include "mesh_fixtures.h"
+#include "mesh_write.h"
 #include "scene_parts.h"
 #include "solver/frequency.h"
 

@@ -13,8 +13,8 @@
 #include "engine_motion.h"
 #include "engine_started.h"
 #include "mesh/generate.h"
-#include "mesh/mesh_file.h"
 #include "mesh_joined.h"
+#include "mesh_write.h"
 
 namespace trocar {
 namespace {

@@ -5,8 +5,8 @@
 #include <iomanip>
 #include <set>
 
-#include "mesh/mesh_file.h"
 #include "mesh_fixtures.h"
+#include "mesh_write.h"
 #include "program.h"
 #include "small_scenes.h"
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "mesh/generate.h"
-#include "mesh/mesh_file.h"
+#include "mesh_write.h"
 #include "program.h"
 
 namespace trocar {

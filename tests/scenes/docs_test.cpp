@@ -3,8 +3,8 @@
 
 #include <set>
 
-#include "mesh/mesh_file.h"
 #include "mesh_fixtures.h"
+#include "mesh_write.h"
 #include "program.h"
 
 namespace trocar {

@@ -10,8 +10,8 @@
 
 #include "mesh/element_boxes.h"
 #include "mesh/generate.h"
-#include "mesh/mesh_file.h"
 #include "mesh_joined.h"
+#include "mesh_write.h"
 #include "program.h"
 
 namespace trocar {

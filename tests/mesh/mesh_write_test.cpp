@@ -1,11 +1,11 @@
 // What write_mesh writes, read_mesh reads.
+#include "mesh_write.h"
+
 #include <gtest/gtest.h>
 
-#include "base/error.h"
 #include "mesh/generate.h"
 #include "mesh/mesh_file.h"
 #include "mesh_equal.h"
-#include "mesh_sample_files.h"
 #include "mesh_temporary_folder.h"
 
 namespace trocar::test {
@@ -51,46 +51,6 @@ TEST(WriteMesh, node_sets_that_overlap_or_are_empty_read_back_identical) {
   Mesh mesh = box(BoxElements::hex8);
   mesh.node_sets = {{"b", {0, 1, 2, 7}}, {"nothing", {}}, {"a", {1, 7, 8}}, {"b2", {0, 1, 2, 7}}};
   expect_round_trip(mesh);
-}
-
-TEST(WriteMesh, density_factors_and_cut_facets_read_back_identical) {
-  Mesh mesh = box(BoxElements::tet4_kuhn);
-  mesh.density_factor[3] = 1. / 3;
-  mesh.density_factor[8] = 1.0000000000000002;
-  mesh.cut_facets[5] = 9;
-  mesh.cut_facets[6] = 15;
-  expect_round_trip(mesh);
-}
-
-TEST(WriteMesh, a_folder_that_is_not_there_is_named) {
-  const TemporaryFolder folder;
-  const std::string file = folder.file("none/a.msh");
-  try {
-    write_mesh(sample_mesh(), file);
-    FAIL() << "nothing was thrown";
-  } catch (const MachineError& error) {
-    EXPECT_EQ(error.what(), file + ": can't be written: No such file or directory");
-  }
-}
-
-TEST(WriteMesh, a_failed_write_leaves_neither_half_a_file_nor_a_temporary_one) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directory(folder.file("a.msh"));  // so that renaming fails
-  EXPECT_THROW(write_mesh(sample_mesh(), folder.file("a.msh")), MachineError);
-  EXPECT_TRUE(std::filesystem::is_directory(folder.file("a.msh")));
-  EXPECT_FALSE(std::filesystem::exists(folder.file("a.msh.part")));
-}
-
-TEST(WriteMesh, a_full_disk_is_reported) {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this machine has no /dev/full";
-  const TemporaryFolder folder;
-  std::filesystem::create_symlink("/dev/full", folder.file("a.msh.part"));
-  try {
-    write_mesh(sample_mesh(), folder.file("a.msh"));
-    FAIL() << "nothing was thrown";
-  } catch (const MachineError& error) {
-    EXPECT_EQ(error.what(), folder.file("a.msh") + ": can't be written: No space left on device");
-  }
 }
 
 }  // namespace

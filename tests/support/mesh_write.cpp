@@ -1,12 +1,8 @@
-// Writing gmsh .msh 4.1 ASCII, such that reading gives the same mesh: regions are physical groups
-// of volumes (surfaces in 2D), node sets are physical groups of points, and what gmsh has no place
-// for is element data.
-#include <cmath>
+#include "mesh_write.h"
+
+#include <algorithm>
 #include <map>
 
-#include "base/check.h"
-#include "base/log.h"
-#include "mesh/mesh_file.h"
 #include "mesh/text_append.h"
 #include "mesh/whole_file.h"
 
@@ -38,7 +34,6 @@ void append_numbers(std::string& text, Numbers... numbers) {
 }
 
 void append_name(std::string& text, int dimension, std::size_t tag, const std::string& name) {
-  CHECK(name.find_first_of("\n\r") == std::string::npos);
   append_numbers(text, dimension, tag);
   text.back() = ' ';
   text.append("\"").append(name).append("\"\n");
@@ -144,43 +139,15 @@ void append_elements(std::string& text, const Mesh& mesh, const PointEntities& p
   text += "$EndElements\n";
 }
 
-// Only the elements that differ from `usual` are listed, nothing if none does.
-template <class Value>
-void append_values(std::string& text, const char* name, const std::vector<Value>& values,
-                   Value usual) {
-  std::string list;
-  std::size_t n = 0;
-  for (std::size_t e = 0; e < values.size(); ++e) {
-    if (values[e] == usual) continue;
-    append_numbers(list, e + 1, static_cast<double>(values[e]));
-    ++n;
-  }
-  if (n == 0) return;
-  text.append("$ElementData\n1\n\"trocar ").append(name).append("\"\n1\n0\n3\n0\n1\n");
-  append_numbers(text, n);
-  text.append(list).append("$EndElementData\n");
-}
-
-void warn_of_left_out(const Mesh& mesh, const std::string& file) {
-  for (const NodeSet& set : mesh.node_sets)
-    if (!set.left_out.empty())
-      log_warning(file + ": has the nodes of surface \"" + set.name +
-                  "\": " + std::to_string(set.left_out.size()) +
-                  " facets between them that don't belong to it do when the file is read");
-}
-
 }  // namespace
 
 void write_mesh(const Mesh& mesh, const std::string& file) {
-  warn_of_left_out(mesh, file);
   const PointEntities points = make_point_entities(mesh);
   std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
   append_names(text, mesh);
   append_entities(text, mesh, points);
   append_nodes(text, mesh);
   append_elements(text, mesh, points);
-  append_values<double>(text, "density_factor", mesh.density_factor, 1);
-  append_values<std::uint8_t>(text, "cut_facets", mesh.cut_facets, 0);
   write_whole_file(file, text);
 }
 
