@@ -143,53 +143,12 @@ void read_physical_names(GmshReader& g) {
   end_section(g, "$EndPhysicalNames");
 }
 
-std::string data_name(GmshReader& g) {
-  const std::size_t n = g.in.check_count(g.in.integer("the number of strings"), 1, "strings");
-  g.in.line();
-  std::string name;
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::string_view line = g.in.line();
-    if (k == 0) name = line;
-  }
-  return name;
-}
-
-// Values that Trocar itself keeps with a mesh; element data of other names is passed over.
-void read_values(GmshReader& g, CellValues& values) {
-  const std::size_t n_reals = g.in.check_count(g.in.integer("the number of reals"), 1, "reals");
-  for (std::size_t k = 0; k < n_reals; ++k) g.in.real("a real");
-  if (g.in.integer("the number of integers") != 3) g.in.fail("element data needs 3 integers here");
-  g.in.integer("a time step");
-  if (g.in.integer("the number of components") != 1) g.in.fail("one component is expected here");
-  const std::int64_t count = g.in.integer("the number of values");
-  begin_data(g);
-  const std::size_t n = g.in.check_count(count, g.in.is_binary ? 12 : 4, "values");
-  const TagIndex cell_of(g.mesh.cell_tag);
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::int64_t element = gmsh_int(g, "an element");
-    const std::int32_t cell = cell_of.find(element);
-    if (cell < 0) g.in.fail("there is no element " + std::to_string(element));
-    values.emplace_back(cell, gmsh_real(g, "a value"));
-  }
-  end_section(g, "$EndElementData");
-}
-
 void skip_section(GmshReader& g, const std::string& name) {
   const std::string end = "$End" + name.substr(1);
   const std::size_t at = g.in.rest().find(end);
   if (at == std::string_view::npos)
     g.in.fail("section " + in_quotes(name) + " has no " + in_quotes(end) + ": the file is cut off");
   g.in.take(at + end.size(), "a section");
-}
-
-void read_element_data(GmshReader& g) {
-  const std::string name = data_name(g);
-  if (name == "\"trocar density_factor\"")
-    read_values(g, g.mesh.density_factor);
-  else if (name == "\"trocar cut_facets\"")
-    read_values(g, g.mesh.cut_facets);
-  else
-    skip_section(g, "$ElementData");
 }
 
 void read_nodes(GmshReader& g, std::string_view section) {
@@ -229,7 +188,6 @@ void read_section(GmshReader& g) {
   if (section == "$Nodes" || section == "$NOD") return read_nodes(g, section);
   if (section == "$Elements" || section == "$ELM") return read_elements(g, section);
   if (section == "$Entities" && g.version == 4) return read_entities_4(g);
-  if (section == "$ElementData" && g.has_elements) return read_element_data(g);
   if (section == "$PartitionedEntities")
     g.in.fail("a partitioned mesh is not read: save it in one piece");
   skip_section(g, section);

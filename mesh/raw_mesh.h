@@ -28,8 +28,7 @@ struct NamedGroup {
   std::string name;
 };
 
-// A number that a file gives to some cells (a density factor).
-using CellValues = std::vector<std::pair<std::int32_t, double>>;
+// That a file gives to some cells.
 using CellDirections = std::vector<std::pair<std::int32_t, Vec3>>;
 
 struct RawMesh {
@@ -44,7 +43,6 @@ struct RawMesh {
   std::vector<std::int32_t> group_offset{0, 0};  // (n_group_lists + 1)
   std::vector<std::int32_t> group_tag;           // physical tags, one list after the other
   std::vector<NamedGroup> named_groups;
-  CellValues density_factor, cut_facets;
   CellDirections fibre;
 
   std::int32_t n_cells() const { return static_cast<std::int32_t>(cell_kind.size()); }

@@ -214,43 +214,22 @@ void orient_elements(const RawMesh& raw, Mesh& mesh) {
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) mirror(mesh, e);
 }
 
-// Element of each cell that a value is given for; cells below the elements' dimension have none.
-template <class Values, class F>
-void for_values(const RawMesh& raw, int dimension, const Values& values, const F& f) {
-  if (values.empty()) return;
+// Cells below the elements' dimension have none.
+void take_fibres(const RawMesh& raw, int dimension, Mesh& mesh) {
+  if (raw.fibre.empty()) return;
   std::vector<std::int32_t> element(raw.cell_kind.size(), -1);
   std::int32_t next = 0;
   for_cells(raw, dimension,
             [&](std::int32_t c, std::span<const std::int32_t>) { element[c] = next++; });
-  for (const auto& [cell, value] : values)
-    if (element[cell] >= 0) f(element[cell], value);
-}
-
-void take_fibres(const RawMesh& raw, int dimension, Mesh& mesh) {
-  if (raw.fibre.empty()) return;
   mesh.fibre.assign(mesh.element_type.size(), Vec3::Zero());
-  for_values(raw, dimension, raw.fibre, [&](std::int32_t e, const Vec3& direction) {
+  for (const auto& [cell, direction] : raw.fibre) {
+    const std::int32_t e = element[cell];
+    if (e < 0) continue;
     const double length = std::sqrt(direction.dot(direction));
     if (!(length > 0) || !std::isfinite(length))
       fail_element(raw, mesh, e, "has a fibre direction of length " + number_text(length));
     mesh.fibre[e] = direction / length;
-  });
-}
-
-void take_values(const RawMesh& raw, int dimension, Mesh& mesh) {
-  for_values(raw, dimension, raw.density_factor, [&](std::int32_t e, double factor) {
-    if (!(factor > 0)) fail_element(raw, mesh, e, "has density factor " + number_text(factor));
-    mesh.density_factor[e] = factor;
-  });
-  for_values(raw, dimension, raw.cut_facets, [&](std::int32_t e, double mask) {
-    constexpr std::array<int, n_element_types> n_facets = {3, 4, 6};
-    const int limit = 1 << n_facets[static_cast<std::size_t>(mesh.element_type[e])];
-    if (!(mask >= 0 && mask < limit) || mask != std::floor(mask))
-      fail_element(raw, mesh, e,
-                   "has cut facets " + number_text(mask) +
-                       ", which should be a whole number below " + std::to_string(limit));
-    mesh.cut_facets[e] = static_cast<std::uint8_t>(mask);
-  });
+  }
 }
 
 }  // namespace
@@ -268,7 +247,6 @@ Mesh make_mesh(RawMesh raw, double scale) {
     leave_out_facets(raw, dimension, new_node, mesh);
   }
   orient_elements(raw, mesh);
-  take_values(raw, dimension, mesh);
   take_fibres(raw, dimension, mesh);
   return mesh;
 }

@@ -117,16 +117,11 @@ TEST(MakeMesh, a_surface_in_space_is_refused) {
             "gmsh -3, or use it as an instrument");
 }
 
-TEST(MakeMesh, bad_values_of_cells_are_refused) {
+TEST(MakeMesh, a_fibre_without_direction_is_refused) {
   RawMesh raw = tetrahedra({false});
-  raw.density_factor = {{0, -1.0}};
+  raw.fibre = {{0, Vec3::Zero()}};
   EXPECT_EQ(error_of([&] { make_mesh(raw, 1); }),
-            "f: element 0 (gmsh tag 800) has density factor -1");
-  raw.density_factor.clear();
-  raw.cut_facets = {{0, 16.0}};
-  EXPECT_EQ(
-      error_of([&] { make_mesh(raw, 1); }),
-      "f: element 0 (gmsh tag 800) has cut facets 16, which should be a whole number below 16");
+            "f: element 0 (gmsh tag 800) has a fibre direction of length 0");
 }
 
 TEST(MakeSurface, a_quadrangle_is_two_triangles) {
