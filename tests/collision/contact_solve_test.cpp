@@ -6,6 +6,7 @@
 #include "collision_contacts.h"
 #include "collision_random.h"
 #include "larger_or_nan.h"
+#include "largest.h"
 #include "mesh/facets.h"
 #include "mesh/generate.h"
 
@@ -271,9 +272,7 @@ TEST(SolveContacts, gives_every_rank_that_holds_nodes_the_same_forces) {
     EXPECT_EQ(n_counted, 1);
     EXPECT_EQ(n_owned, force.size());
   }
-  double largest = 0;
-  for (const Vec3& f : force) largest = larger_or_nan(largest, f.norm());
-  EXPECT_GT(largest, 0);
+  EXPECT_GT(largest(force), 0);
 }
 
 TEST(SolveContacts, leaves_ranks_without_contact_nodes_alone) {

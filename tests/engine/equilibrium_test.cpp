@@ -10,7 +10,6 @@
 #include "engine_motion.h"
 #include "engine_scene.h"
 #include "engine_started.h"
-#include "larger_or_nan.h"
 
 namespace trocar {
 namespace {
@@ -44,12 +43,6 @@ std::unique_ptr<Started> started_at_rest(const std::string& text,
   return result;
 }
 
-double largest_of(const std::vector<double>& values) {
-  double most = 0;
-  for (const double value : values) most = larger_or_nan(most, std::abs(value));
-  return most;
-}
-
 TEST(Equilibrium, of_a_linear_column_under_its_own_weight_is_the_closed_form) {
   // nu = 0: E u'' = rho g with u(0) = 0 and u'(H) = 0 gives u = -rho g / E (H z - z^2/2), which
   // lumped masses and linear elements meet at their nodes.
@@ -67,7 +60,7 @@ TEST(Equilibrium, of_a_linear_column_under_its_own_weight_is_the_closed_form) {
   }
   EXPECT_EQ(s.state.time, 0);
   EXPECT_EQ(s.state.step, 0);
-  EXPECT_EQ(largest_of(s.state.v), 0);
+  EXPECT_EQ(largest(s.state.v), 0);
   EXPECT_GT(s.log.equilibrium.iterations, 0);
   EXPECT_LE(s.log.equilibrium.residual, 1e-10);
 }
@@ -95,8 +88,8 @@ TEST(Equilibrium, is_where_long_damped_motion_ends) {
     settle(*moved->s, 3);
     const std::vector<double>& u = found->s->state.u;
     // Residuals of 3e-5 act on the slowest mode some ten times as much.
-    EXPECT_LT(largest_difference(moved->s->state.u, u), 1e-3 * largest_of(u)) << body.override;
-    EXPECT_GT(largest_of(u), 1e-3);
+    EXPECT_LT(largest_difference(moved->s->state.u, u), 1e-3 * largest(u)) << body.override;
+    EXPECT_GT(largest(u), 1e-3);
   }
 }
 
@@ -113,7 +106,7 @@ TEST(Equilibrium, keeps_the_first_frames_at_rest) {
     // Kinetic energy goes with the square of what is out of balance: 1e-14, and mode by mode more.
     EXPECT_LT(calm.energy.kinetic, 1e-10 * calm.energy.strain);
     EXPECT_GT(wild.energy.kinetic + wild.energy.strain, 0.1 * calm.energy.strain);
-    EXPECT_LT(largest_difference(rest->s->state.u, u), 1e-5 * largest_of(u));
+    EXPECT_LT(largest_difference(rest->s->state.u, u), 1e-5 * largest(u));
     EXPECT_LT(std::abs(calm.energy_error), 1e-6 * calm.energy.strain);
   }
 }
@@ -161,7 +154,7 @@ TEST(Equilibrium, takes_less_work_than_waiting_until_the_body_has_settled) {
     const auto moved = built(text, settings);
     const std::int64_t n_steps = steps_to_settle(*moved->s, u, error);
     std::printf("%s: %lld steps until %.1e of the largest displacement, relaxing %lld iterations\n",
-                damping, static_cast<long long>(n_steps), error / largest_of(u),
+                damping, static_cast<long long>(n_steps), error / largest(u),
                 static_cast<long long>(found->s->log.equilibrium.iterations));
     EXPECT_LT(found->s->log.equilibrium.iterations, n_steps) << damping;
   }
@@ -195,7 +188,7 @@ TEST(Equilibrium, that_is_not_found_is_named_and_leaves_the_body_undeformed) {
   const std::string sentence =
       error_of<SimulationError>([&] { start_in_equilibrium(few->loaded, *few->s); });
   EXPECT_TRUE(contains(sentence, "after 50 iterations (start.max_iterations)")) << sentence;
-  EXPECT_EQ(largest_of(few->s->state.u), 0);
+  EXPECT_EQ(largest(few->s->state.u), 0);
 }
 
 TEST(Equilibrium, is_not_sought_on_after_a_signal) {
@@ -203,7 +196,7 @@ TEST(Equilibrium, is_not_sought_on_after_a_signal) {
   const std::atomic<bool> stop = true;
   EXPECT_FALSE(start_in_equilibrium(column->loaded, *column->s, &stop));
   EXPECT_EQ(column->s->log.equilibrium.iterations, 0);
-  EXPECT_EQ(largest_of(column->s->state.u), 0);
+  EXPECT_EQ(largest(column->s->state.u), 0);
 }
 
 TEST(Equilibrium, is_refused_with_an_instrument_inside_the_body) {

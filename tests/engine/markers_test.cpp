@@ -10,6 +10,7 @@
 #include "engine_scene.h"
 #include "engine_split.h"
 #include "engine_started.h"
+#include "largest.h"
 #include "mesh/connected_nodes.h"
 
 namespace trocar {
@@ -71,8 +72,7 @@ TEST(Markers, stay_where_they_are_beside_a_cut_that_moves_nodes_and_follow_their
     apply_cut(s, cut_across(s, global, figures), global, record);
     EXPECT_GT(figures.n_moved, 0);
     const std::vector<Vec3> after = positions();
-    for (std::size_t k = 0; k < before.size(); ++k)
-      EXPECT_LT((after[k] - before[k]).norm(), 1e-9) << elements << " " << k;
+    EXPECT_LT(largest_difference(after, before), 1e-9) << elements;
     // The lower part is moved away: those below the blade go with it, the others stay.
     const Vec3 away(0, 0, -0.1);
     std::vector<std::int32_t> all(s.mesh.element_type.size());
@@ -124,7 +124,7 @@ TEST(Markers, stay_on_a_curved_surface_whose_nodes_a_cut_moves) {
   EXPECT_TRUE(std::ranges::any_of(locate_markers(s.scene.markers, s.mesh), is_outside));
   const std::vector<Vec3> x =
       marker_positions(s.markers, s.mesh, s.part, s.state.u, *s.communicator);
-  for (std::size_t k = 0; k < x.size(); ++k) EXPECT_LT((x[k] - X[k]).norm(), 1e-6) << k;
+  EXPECT_LT(largest_difference(x, X), 1e-6);
 }
 
 // Of a plate that bends, on either side of the blade.
@@ -148,8 +148,8 @@ TEST(Markers, stay_where_they_are_in_elements_that_are_split_and_follow_their_si
   ASSERT_EQ(s.n_pieces, 2);
   EXPECT_GT(done.n_inserted, 300);
   const std::vector<Vec3> after = positions();
-  for (std::size_t k = 0; k < before.size(); ++k)  // elements bend: nodes that move smooth that
-    EXPECT_LT((after[k] - before[k]).norm(), 1e-5) << k;
+  // Elements bend: nodes that move smooth that.
+  EXPECT_LT(largest_difference(after, before), 1e-5);
   const std::vector<std::int32_t> piece = connected_nodes(s.mesh);
   const auto side_of = [&](std::size_t k) {
     return piece[static_cast<std::size_t>(s.mesh.corners(s.markers[k].element)[0])];

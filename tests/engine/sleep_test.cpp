@@ -70,8 +70,7 @@ TEST(Sleep, changes_displacements_by_less_than_the_bound_while_much_is_asleep) {
     run_frame(*awake->s, awake->outputs);
     run_frame(*sleepy->s, sleepy->outputs);
     most = larger_or_nan(most, largest_difference(awake->s->state.u, sleepy->s->state.u));
-    for (std::size_t k = 0; k < start.size(); ++k)
-      moved = larger_or_nan(moved, std::abs(awake->s->state.u[k] - start[k]));
+    moved = larger_or_nan(moved, largest_difference(awake->s->state.u, start));
     if (awake->s->frame > 54 && awake->s->frame <= 69)  // a second and more after the first touch
       share_while_pressed = larger_or_nan(share_while_pressed, sleepy->s->sleep->share);
   }

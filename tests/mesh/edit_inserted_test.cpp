@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/sort_unique.h"
+#include "largest.h"
 #include "mesh/edit.h"
 #include "mesh/element_boxes.h"
 #include "mesh/generate.h"
@@ -108,8 +109,7 @@ TEST(EditOfEdgeNodes, keeps_affine_fields) {
   std::vector<double> field = field_of(box.mesh);
   apply_edit(box.edit, box.mesh, 3, field);
   const std::vector<double> expected = field_of(after);
-  ASSERT_EQ(field.size(), expected.size());
-  for (std::size_t k = 0; k < field.size(); ++k) EXPECT_NEAR(field[k], expected[k], 1e-14 * 10);
+  EXPECT_LE(largest_difference(field, expected), 1e-14 * 10);
 }
 
 TEST(EditOfEdgeNodes, numbers_elements_by_what_they_are_parts_of) {

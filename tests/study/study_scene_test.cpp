@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "larger_or_nan.h"
+#include "largest.h"
 #include "mesh/generate.h"
 #include "mesh_temporary_folder.h"
 #include "mesh_write.h"
@@ -82,14 +82,9 @@ TEST(StudyScene, tetrahedra_and_hexahedra_of_one_scene_come_to_the_same_place) {
   const Outcome hexes = problem.solve({.method = method_named("hex8"), .n = 8});
   const Outcome tets = problem.solve({.method = method_named("tet4"), .n = 8});
   EXPECT_EQ(tets.n_elements, 6 * hexes.n_elements);
-  ASSERT_EQ(hexes.samples.size(), tets.samples.size());
-  double greatest = 0, difference = 0;
-  for (std::size_t k = 0; k < hexes.samples.size(); ++k) {
-    greatest = larger_or_nan(greatest, hexes.samples[k].norm());
-    difference = larger_or_nan(difference, (hexes.samples[k] - tets.samples[k]).norm());
-  }
+  const double difference = largest_difference(hexes.samples, tets.samples);
   EXPECT_GT(difference, 0);
-  EXPECT_LT(difference, .15 * greatest);  // plain tetrahedra are too stiff
+  EXPECT_LT(difference, .15 * largest(hexes.samples));  // plain tetrahedra are too stiff
 }
 
 TEST(StudyScene, starts_where_the_scene_starts) {

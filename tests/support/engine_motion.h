@@ -1,9 +1,8 @@
 // How bodies move: gravity, momentum, differences of displacements.
 #pragma once
 
-#include <vector>
-
 #include "engine/simulation.h"
+#include "largest.h"
 
 namespace trocar {
 
@@ -11,8 +10,5 @@ inline constexpr double g = 9.81;  // [m/s^2]
 
 // Of the masses without what scaling adds. [kg m/s]
 Vec3 momentum(const Simulation& s);
-
-// Infinite between fields of different sizes.
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace trocar

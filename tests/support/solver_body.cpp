@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "larger_or_nan.h"
-
 namespace trocar {
 
 // Test bodies are too small for threads; invariance_test.cpp asks for more where it wants them.
@@ -75,12 +73,6 @@ const std::vector<double>& force(Body& body) {
 
 double sum(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
-double largest(const std::vector<double>& values) {
-  double most = 0;
-  for (const double value : values) most = larger_or_nan(most, std::abs(value));
-  return most;
 }
 
 double stored_energy(Body& body) {

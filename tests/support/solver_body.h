@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/threads.h"
+#include "largest.h"
 #include "mesh/generate.h"
 #include "mesh/mesh.h"
 #include "mesh/partition.h"
@@ -89,8 +90,6 @@ const std::vector<double>& force(Body& body);
 void expect_second_call_changes_nothing(Body body);
 
 double sum(const std::vector<double>& values);
-// NaN if any value is.
-double largest(const std::vector<double>& values);
 
 // Strain plus hourglass energy of the present displacement.
 double stored_energy(Body& body);

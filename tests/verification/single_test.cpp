@@ -22,9 +22,7 @@ static double force_error(const Variant& variant, double nu, double strain) {
   shake(exact.state.u, strain * .01, 5);
   rounded.state.u = exact.state.u;
   const std::vector<double>&f = force(exact), &g = force(rounded);
-  double most = 0;
-  for (std::size_t k = 0; k < f.size(); ++k) most = larger_or_nan(most, std::abs(f[k] - g[k]));
-  return most / largest(f);
+  return largest_difference(f, g) / largest(f);
 }
 
 TEST(SinglePrecision, rounding_of_forces_does_not_grow_when_strains_are_small) {
@@ -58,8 +56,7 @@ static double trajectory_error(const Variant& variant, double factor, int n_step
     step(rounded, dt);
     most = larger_or_nan(most, largest(exact.state.u));
     if (k % 100 != 99) continue;
-    for (std::size_t i = 0; i < exact.state.u.size(); ++i)
-      error = larger_or_nan(error, std::abs(exact.state.u[i] - rounded.state.u[i]));
+    error = larger_or_nan(error, largest_difference(exact.state.u, rounded.state.u));
   }
   return error / most;
 }
