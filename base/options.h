@@ -37,7 +37,6 @@ struct Range {
 inline constexpr Range any{};
 inline constexpr Range positive{.low = 0, .is_low_open = true};
 inline constexpr Range not_negative{.low = 0};
-inline constexpr Range at_least_one{.low = 1};
 
 enum class Need { optional, required };
 

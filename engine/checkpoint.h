@@ -86,7 +86,6 @@ Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start);
 // Packed, with checksums that find every flipped byte (checkpoint_bytes.cpp); the first hands on
 // piece by piece, and leaves the checkpoint as it is.
 void put_checkpoint(Checkpoint& checkpoint, const ByteSink& sink);
-std::vector<std::byte> checkpoint_to_bytes(Checkpoint checkpoint);
 // Throws InputError "<name>: …" for damaged bytes or another format.
 Checkpoint checkpoint_from_bytes(std::span<const std::byte> bytes, const std::string& name);
 

@@ -155,14 +155,6 @@ void put_checkpoint(Checkpoint& checkpoint, const ByteSink& sink) {
   sink(std::as_bytes(std::span(&crc, 1)));
 }
 
-std::vector<std::byte> checkpoint_to_bytes(Checkpoint checkpoint) {
-  std::vector<std::byte> bytes;
-  put_checkpoint(checkpoint, [&](std::span<const std::byte> more) {
-    bytes.insert(bytes.end(), more.begin(), more.end());
-  });
-  return bytes;
-}
-
 static std::vector<std::byte> get_section(ByteReader& reader, std::size_t item_size,
                                           const std::string& name) {
   std::vector<std::byte> bytes;

@@ -7,7 +7,6 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "mesh/mesh_file_formats.h"
-#include "mesh/vtu_file.h"
 #include "mesh/whole_file.h"
 
 namespace trocar {
@@ -97,15 +96,6 @@ bool is_surface_file(const std::string& file) {
 
 Mesh read_mesh(const std::string& file, double scale) {
   return make_mesh(read_raw_mesh(file), scale);
-}
-
-Mesh read_vtu(const std::string& file) {
-  const auto read = [&] {
-    const std::string bytes = read_whole_file(file);
-    ByteReader in(file, bytes);
-    return read_vtu_cells(in);
-  };
-  return make_mesh(read(), 1);
 }
 
 TriangleMesh read_triangle_mesh(const std::string& file, double scale) {

@@ -30,8 +30,4 @@ struct PvdEntry {
 };
 void write_pvd(std::span<const PvdEntry> entries, const std::string& file);
 
-// Reads what write_vtu and ParaView write (ASCII, inline base64 and appended raw or base64, zlib or
-// plain), in one piece. Used by read_mesh. Throws InputError.
-Mesh read_vtu(const std::string& file);
-
 }  // namespace trocar

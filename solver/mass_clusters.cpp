@@ -58,13 +58,6 @@ void add_cluster_force(const Model& model, std::span<const GivenAcceleration> gi
             clusters.added[k] * (sides.force[3 * c + j] / sides.mass[3 * c + j]);
 }
 
-void multiply_by_mass(const Model& model, std::span<const double> x, std::vector<double>& Mx) {
-  const std::vector<double>& inertia = inertia_of(model);
-  Mx.resize(3 * model.mass.size());
-  for (std::size_t k = 0; k < Mx.size(); ++k) Mx[k] = inertia[k / 3] * x[k];
-  subtract_cluster_means(model, x, Mx);
-}
-
 void subtract_cluster_means(const Model& model, std::span<const double> x, std::span<double> Mx) {
   const MassClusters& clusters = model.clusters;
   for (std::size_t c = 0; c < clusters.total.size(); ++c) {

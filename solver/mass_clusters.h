@@ -16,9 +16,7 @@ namespace trocar {
 void add_cluster_force(const Model& model, std::span<const GivenAcceleration> given,
                        std::span<double> force, std::vector<double>& sums);
 
-// Mx = M x, both (n_owned * 3); x may be longer.
-void multiply_by_mass(const Model& model, std::span<const double> x, std::vector<double>& Mx);
-// The part of it that is not diagonal, from M = diag(m + d).
+// From Mx = diag(m + d) x to M x, (n_owned * 3); x may be longer.
 void subtract_cluster_means(const Model& model, std::span<const double> x, std::span<double> Mx);
 
 // To kinetic energies m |v|^2 / 2 of owned nodes: d |v - mean v|^2 / 2.

@@ -86,10 +86,4 @@ void step_others(const Model& model, Neighbours& neighbours, const WaitingNodes&
   find_force(model, neighbours, state, scratch, nullptr, &motion);
 }
 
-void step_freely(const Model& model, Neighbours& neighbours, double dt, State& state,
-                 Scratch& scratch) {
-  step_others(model, neighbours, {}, dt, state, scratch);
-  step_waiting(model, {}, {}, dt, state, scratch);
-}
-
 }  // namespace trocar

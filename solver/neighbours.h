@@ -42,8 +42,5 @@ void find_force(const Model& model, Neighbours& neighbours, State& state, Scratc
 // is scaled. The step ends with step_waiting; until then the others are ahead.
 void step_others(const Model& model, Neighbours& neighbours, const WaitingNodes& waiting, double dt,
                  State& state, Scratch& scratch);
-// Both, where none waits.
-void step_freely(const Model& model, Neighbours& neighbours, double dt, State& state,
-                 Scratch& scratch);
 
 }  // namespace trocar

@@ -3,6 +3,7 @@
 #include "base/digest.h"
 #include "engine/bytes.h"
 #include "engine/checkpoint.h"
+#include "engine_checkpoint.h"
 #include "engine_files.h"
 #include "engine_recording.h"
 

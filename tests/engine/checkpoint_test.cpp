@@ -14,6 +14,7 @@
 #include "engine/checkpoint_output.h"
 #include "engine/frame.h"
 #include "engine/output.h"
+#include "engine_checkpoint.h"
 #include "engine_files.h"
 #include "engine_resume.h"
 #include "engine_split.h"

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/checkpoint.h"
 #include "engine/equilibrium.h"
+#include "engine_checkpoint.h"
 #include "engine_motion.h"
 #include "engine_scene.h"
 #include "engine_split.h"

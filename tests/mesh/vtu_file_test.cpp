@@ -1,4 +1,4 @@
-// What write_vtu writes, read_vtu and a plain look into the text find again.
+// What write_vtu writes, read_mesh and a plain look into the text find again.
 #include "mesh/vtu_file.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(VtuFile, reads_back_positions_elements_and_regions) {
     for (std::int32_t e = 0; e < mesh.n_elements(); ++e) mesh.element_region[e] = e % 2;
     for (std::int32_t e = 0; e < mesh.n_elements(); ++e) mesh.fibre.push_back(Vec3::Unit(e % 3));
     write_vtu(mesh, mesh.X, {}, {}, folder.file("a.vtu"));
-    expect_equal(read_vtu(folder.file("a.vtu")), mesh);
+    expect_equal(read_mesh(folder.file("a.vtu"), 1), mesh);
   }
 }
 
@@ -40,7 +40,7 @@ TEST(VtuFile, points_stand_where_they_are_displaced_to) {
   std::vector<Vec3> x = mesh.X;
   for (Vec3& x_i : x) x_i += Vec3(0.5, 0, 1. / 3);
   write_vtu(mesh, x, {}, {}, folder.file("a.vtu"));
-  EXPECT_EQ(read_vtu(folder.file("a.vtu")).X, x);
+  EXPECT_EQ(read_mesh(folder.file("a.vtu"), 1).X, x);
 }
 
 TEST(VtuFile, arrays_of_more_than_one_zlib_block_read_back) {
@@ -115,7 +115,7 @@ TEST(VtuFile, what_would_unfold_beyond_measure_is_refused) {
       "<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkZLibDataCompressor\"><Piece "
       "NumberOfPoints=\"90000000\" NumberOfCells=\"1\"><Points><DataArray type=\"Float64\" "
       "format=\"binary\">AQAAAA==</DataArray></Points></Piece></VTKFile>");
-  EXPECT_EQ(error_of([&] { read_vtu(file); }),
+  EXPECT_EQ(error_of([&] { read_mesh(file, 1); }),
             file + ":1: this array would unfold to 2160000000 bytes, more than 64 times the file");
 }
 
@@ -123,7 +123,7 @@ TEST(VtuFile, other_packers_pieces_and_data_sets_are_named) {
   const TemporaryFolder folder;
   const auto refusal = [&](const std::string& content) {
     const std::string file = folder.file("a.vtu", content);
-    return error_of([&] { read_vtu(file); }).substr(file.size());
+    return error_of([&] { read_mesh(file, 1); }).substr(file.size());
   };
   EXPECT_EQ(refusal("<VTKFile type=\"PolyData\">"),
             ":1: the VTK file holds \"PolyData\"; only UnstructuredGrid (.vtu) is read");

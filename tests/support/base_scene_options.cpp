@@ -30,7 +30,7 @@ Options<Scene> scene_options() {
   tissue.text("mesh", &Tissue::mesh, "Mesh file.", Need::required);
   tissue.table("material", &Tissue::material, material_options(), "Its material.");
   Options<Camera> camera("A view.");
-  camera.integers("size", &Camera::size, at_least_one, "Pixels across and down.");
+  camera.integers("size", &Camera::size, {.low = 1}, "Pixels across and down.");
   camera.number("view_angle", &Camera::view_angle, dim::angle, positive, "Of view | vertical.");
   Options<Scene> scene("A scene.");
   scene.text("name", &Scene::name, "What it is called.");

@@ -88,6 +88,12 @@ void step(Body& body, double dt) {
   integrate(body.model, body.scratch, {}, dt, body.state);
 }
 
+void step_freely(const Model& model, Neighbours& neighbours, double dt, State& state,
+                 Scratch& scratch) {
+  step_others(model, neighbours, {}, dt, state, scratch);
+  step_waiting(model, {}, {}, dt, state, scratch);
+}
+
 void step_freely(Body& body, double dt) {
   Neighbours none;
   step_freely(body.model, none, dt, body.state, body.scratch);

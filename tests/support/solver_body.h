@@ -95,6 +95,9 @@ double sum(const std::vector<double>& values);
 double stored_energy(Body& body);
 
 void step(Body& body, double dt);
+// A step in which nothing waits or adds forces, in one pass over the nodes.
+void step_freely(const Model& model, Neighbours& neighbours, double dt, State& state,
+                 Scratch& scratch);
 void step_freely(Body& body, double dt);
 // A step; the energy at its beginning, with the kinetic part 1/2 m v- · v+ that central differences
 // conserve (numerics 1.1; that of one velocity alone swings with the step).
