@@ -190,8 +190,8 @@ bool is_near(const Simulation& s, const Box& blade) {
   return blade.overlaps(box_of(s.view));
 }
 
-}  // namespace
-
+// reach: how far tissue may be from the blade that comes to it in the frame, and a mean edge more.
+// [m]
 CutFront find_front(const Simulation& s, const FrameSpan& span, const CutStage& stage,
                     BodyPositions& positions, double reach) {
   Motion motion = motion_of(s, span, stage);
@@ -204,6 +204,8 @@ CutFront find_front(const Simulation& s, const FrameSpan& span, const CutStage& 
     add_pieces(motion, positions, look.edge, look.share, front.piece);
   return front;
 }
+
+}  // namespace
 
 void prepare_drag(Simulation& s, const FrameSpan& span) {
   s.drag.node.clear();

@@ -27,11 +27,6 @@ void visit(Archive& a, CutFront& front) {
   a(front.piece, front.tissue_velocity, front.is_near);
 }
 
-// reach: how far tissue may be from the blade that comes to it in the frame, and a mean edge more.
-// [m]
-CutFront find_front(const Simulation& s, const FrameSpan& span, const CutStage& stage,
-                    BodyPositions& positions, double reach);
-
 // Takes down which nodes blades drag along in the frame. Collective.
 void prepare_drag(Simulation& s, const FrameSpan& span);
 

@@ -214,7 +214,9 @@ static double search_patch(const Simulation& s, Patch& patch) {
   return is_all_fine ? step : std::min(step, search_step(patch, amplitude, alone, enough));
 }
 
-Watch watch_patch(const Simulation& s, Patch& patch) {
+// Least bounds of its elements and, if the scene's step is a frequency's and they are below that of
+// s.watch, the step of its highest frequency; elements by their numbers in the mesh.
+static Watch watch_patch(const Simulation& s, Patch& patch) {
   Watch w = watch(patch.model, patch.part, patch.state);
   const bool by_frequency = s.scene.solver.stable_step == StableStep::frequency;
   if (by_frequency && w.least_J > 0 && w.stable_step < s.watch.stable_step)

@@ -62,10 +62,6 @@ double patch_energy(const Simulation& s, std::span<const std::int32_t> nodes,
 std::unique_ptr<Patch> make_patch_of(const Simulation& s, std::span<const std::int32_t> elements,
                                      const PatchState& state);
 
-// Least bounds of its elements and, if the scene's step is a frequency's and they are below that of
-// s.watch, the step of its highest frequency; elements by their numbers in the mesh.
-Watch watch_patch(const Simulation& s, Patch& patch);
-
 // The body's watch, where it is of before the edit, as it is after it: the smaller of both steps is
 // stable (by the margin of the search), and from here on what the elements stiffen counts. Local
 // steps, if there are any, are as they were beyond the edited elements.

@@ -13,6 +13,20 @@ namespace trocar {
 
 namespace {
 
+struct GroupKey {
+  int dimension = 0;
+  std::int32_t tag = 0;
+  auto operator<=>(const GroupKey&) const = default;
+};
+
+// The groups of some dimensions, numbered: those with a name in the order of the file, then the
+// others by dimension and tag, called "surface-7". Groups of the same name are one.
+struct GroupNumbers {
+  std::vector<GroupKey> key;         // (n_keys) ascending
+  std::vector<std::int32_t> number;  // (n_keys)
+  std::vector<std::string> name;     // (n_numbers)
+};
+
 constexpr int n_dimensions = 4;
 constexpr std::size_t most_groups = 100000;
 
@@ -64,8 +78,6 @@ void check_memberships(const RawMesh& raw, int dimension) {
                      std::to_string(n) + " entries");
 }
 
-}  // namespace
-
 GroupNumbers number_groups(const RawMesh& raw, int low_dimension, int high_dimension) {
   GroupNumbers groups;
   std::map<GroupKey, std::int32_t> number_of_key;
@@ -92,6 +104,8 @@ GroupNumbers number_groups(const RawMesh& raw, int low_dimension, int high_dimen
   }
   return groups;
 }
+
+}  // namespace
 
 // A file whose only region has no name says nothing about regions: its name is "".
 static void name_only_region(const RawMesh& raw, int dimension, GroupNumbers& groups) {

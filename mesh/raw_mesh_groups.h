@@ -2,30 +2,13 @@
 // node sets.
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "mesh/raw_mesh.h"
 
 namespace trocar {
-
-struct GroupKey {
-  int dimension = 0;
-  std::int32_t tag = 0;
-  auto operator<=>(const GroupKey&) const = default;
-};
-
-// The groups of some dimensions, numbered: those with a name in the order of the file, then the
-// others by dimension and tag, called "surface-7". Groups of the same name are one.
-struct GroupNumbers {
-  std::vector<GroupKey> key;         // (n_keys) ascending
-  std::vector<std::int32_t> number;  // (n_keys)
-  std::vector<std::string> name;     // (n_numbers)
-};
-GroupNumbers number_groups(const RawMesh& raw, int low_dimension, int high_dimension);
 
 // Appends region_name; the region of each group list, -1 where no cell of this dimension has it.
 // Throws InputError where a cell has two regions.

@@ -12,8 +12,26 @@ std::string number(double value) {
   return text;
 }
 
+// Characters that XML keeps for itself.
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '&')
+      safe += "&amp;";
+    else if (c == '<')
+      safe += "&lt;";
+    else if (c == '>')
+      safe += "&gt;";
+    else if (c == '"')
+      safe += "&quot;";
+    else
+      safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return safe;
+}
+
 std::string attribute(const char* name, const std::string& value) {
-  return std::string(" ") + name + "=\"" + svg_escaped(value) + "\"";
+  return std::string(" ") + name + "=\"" + escaped(value) + "\"";
 }
 
 std::string stroke_attributes(const SvgStroke& stroke) {
@@ -36,23 +54,6 @@ std::vector<SvgPoint> marker_corners(int shape) {
 }
 
 }  // namespace
-
-std::string svg_escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (c == '"')
-      safe += "&quot;";
-    else
-      safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return safe;
-}
 
 std::string svg_line(SvgPoint a, SvgPoint b, const SvgStroke& stroke) {
   return "<line" + attribute("x1", number(a.x)) + attribute("y1", number(a.y)) +
@@ -79,7 +80,7 @@ std::string svg_text(SvgPoint at, const SvgText& text) {
          attribute("text-anchor", anchors[static_cast<int>(text.anchor)]) +
          (text.is_bold ? " font-weight=\"bold\"" : "") +
          (text.is_upright ? attribute("transform", "rotate(-90 " + place + ")") : "") + ">" +
-         svg_escaped(text.text) + "</text>\n";
+         escaped(text.text) + "</text>\n";
 }
 
 std::string svg_marker(SvgPoint at, int shape, const std::string& colour, bool is_filled,
@@ -87,7 +88,7 @@ std::string svg_marker(SvgPoint at, int shape, const std::string& colour, bool i
   const std::string look = (title.empty() ? "" : attribute("class", "point")) +
                            attribute("fill", is_filled ? colour : "#ffffff") +
                            attribute("stroke", colour) + " stroke-width=\"1.6\"";
-  const std::string tail = ">" + (title.empty() ? "" : "<title>" + svg_escaped(title) + "</title>");
+  const std::string tail = ">" + (title.empty() ? "" : "<title>" + escaped(title) + "</title>");
   if (shape % 4 == 0)
     return "<circle" + attribute("cx", number(at.x)) + attribute("cy", number(at.y)) +
            " r=\"4.5\"" + look + tail + "</circle>\n";
@@ -101,7 +102,7 @@ std::string svg_document(double width, double height, const std::string& title,
   return "<svg xmlns=\"http://www.w3.org/2000/svg\"" + attribute("width", number(width)) +
          attribute("height", number(height)) +
          attribute("viewBox", "0 0 " + number(width) + " " + number(height)) +
-         " font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\">\n<title>" + svg_escaped(title) +
+         " font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\">\n<title>" + escaped(title) +
          "</title>\n" + svg_rectangle({0, 0}, {width, height}, "#ffffff") + content + "</svg>\n";
 }
 

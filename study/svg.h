@@ -28,8 +28,6 @@ struct SvgText {
   bool is_bold = false;
 };
 
-// Characters that XML keeps for itself, escaped.
-std::string svg_escaped(const std::string& text);
 std::string svg_line(SvgPoint a, SvgPoint b, const SvgStroke& stroke);
 std::string svg_polyline(const std::vector<SvgPoint>& points, const SvgStroke& stroke);
 std::string svg_rectangle(SvgPoint low, SvgPoint high, const std::string& fill);
