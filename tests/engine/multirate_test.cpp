@@ -218,8 +218,6 @@ TEST(MultiRate, leaves_a_body_that_sleeps_where_it_is) {
   while (run->s->sleep->share < 1 && run->s->frame < 60) run_frame(*run->s, run->outputs);
   ASSERT_TRUE(run->s->multirate);
   EXPECT_EQ(run->s->sleep->share, 1);
-  std::printf("asleep at frame %d, quiet time %.2f s\n", int(run->s->frame),
-              run->s->sleep->quiet_time);
   const std::vector<double> u = run->s->state.u;
   run_to_frame(*run, run->s->frame + 3);
   EXPECT_EQ(run->s->state.u, u);
