@@ -12,6 +12,8 @@
 #include <fstream>
 
 #include "base_scene_options.h"
+#include "error_of.h"
+#include "test_files.h"
 
 namespace trocar {
 namespace {
@@ -25,30 +27,14 @@ constexpr bool has_bounds = true;
 
 class HostileFile : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (std::filesystem::temp_directory_path() / "trocar_XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    directory_ = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
+  std::string write(const std::string& text) const { return folder_.file("s.toml", text); }
 
-  std::string path(const std::string& name) const { return (directory_ / name).string(); }
-  std::string write(const std::string& text) const {
-    std::ofstream(path("s.toml"), std::ios::binary) << text;
-    return path("s.toml");
-  }
-
-  std::filesystem::path directory_;
+  TestFolder folder_;
 };
 
 std::string refusal_of(const std::string& file) {
   const std::clock_t start = std::clock();
-  std::string message;
-  try {
-    read_options(scene_options(), file);
-  } catch (const InputError& error) {
-    message = error.what();
-  }
+  const std::string message = error_of([&] { read_options(scene_options(), file); });
   // At most 2 s; in time of the processor, which does not depend on what else the machine does.
   EXPECT_TRUE(!has_bounds || std::clock() - start < 2 * CLOCKS_PER_SEC) << message;
   EXPECT_LT(message.size(), 100'000u);
@@ -69,7 +55,7 @@ TEST_F(HostileFile, that_is_good_is_read) {
 }
 
 TEST_F(HostileFile, that_does_not_exist_is_named) {
-  expect_part(refusal_of(path("none.toml")),
+  expect_part(refusal_of(folder_.file("none.toml")),
               "none.toml: can't be opened: No such file or directory");
 }
 
@@ -78,12 +64,12 @@ TEST_F(HostileFile, that_is_empty_is_refused) {
 }
 
 TEST_F(HostileFile, that_is_a_directory_is_refused) {
-  expect_part(refusal_of(directory_.string()), "is a directory, not a file");
+  expect_part(refusal_of(folder_.path()), "is a directory, not a file");
 }
 
 TEST_F(HostileFile, that_is_a_fifo_is_refused_without_waiting) {
-  ASSERT_EQ(mkfifo(path("fifo").c_str(), 0600), 0);
-  expect_part(refusal_of(path("fifo")), "is not a regular file");
+  ASSERT_EQ(mkfifo(folder_.file("fifo").c_str(), 0600), 0);
+  expect_part(refusal_of(folder_.file("fifo")), "is not a regular file");
 }
 
 TEST_F(HostileFile, that_is_a_device_is_refused) {

@@ -5,19 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "base_scene_options.h"
+#include "error_of.h"
 
 namespace trocar {
 namespace {
-
-template <class Action>
-std::string error_of(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 const std::string minimal = "[tissue]\nmesh = 'a.msh'\n";
 
@@ -231,15 +222,10 @@ TEST(SourceMap, finds_keys_tables_and_elements) {
 
 TEST(SourceMap, fails_with_place_key_and_line) {
   const SourceMap where = read_scene(minimal).where;
-  try {
-    where.fail("tissue.mesh", "no such file");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "s.toml:2:8: tissue.mesh: no such file\n"
-                 "    mesh = 'a.msh'\n"
-                 "           ^");
-  }
+  EXPECT_EQ(error_of([&] { where.fail("tissue.mesh", "no such file"); }),
+            "s.toml:2:8: tissue.mesh: no such file\n"
+            "    mesh = 'a.msh'\n"
+            "           ^");
 }
 
 TEST(SourceMap, shows_the_nearest_table_of_a_key_that_is_not_in_the_file) {

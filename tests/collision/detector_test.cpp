@@ -6,10 +6,10 @@
 #include <limits>
 #include <optional>
 
-#include "base/error.h"
 #include "collision/narrow_phase.h"
 #include "collision_random.h"
 #include "collision_tool.h"
+#include "error_of.h"
 #include "mesh/generate.h"
 
 namespace trocar {
@@ -270,13 +270,8 @@ TEST(ContactDetector, finds_nothing_on_an_empty_surface_or_far_away) {
 }
 
 TEST(ContactDetector, refuses_impossible_pieces_with_a_sentence) {
-  const auto error = [](const ConvexPiece& piece) -> std::string {
-    try {
-      ContactDetector detector({{.pieces = {{.points = {Vec3::Zero()}}, piece}}});
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "";
+  const auto error = [](const ConvexPiece& piece) {
+    return error_of([&] { ContactDetector({{.pieces = {{.points = {Vec3::Zero()}}, piece}}}); });
   };
   EXPECT_NE(error({}).find("piece 1 of instrument 0 has no points"), std::string::npos);
   EXPECT_NE(error({.points = {Vec3::Zero()}, .radius = -1}).find("radius"), std::string::npos);

@@ -6,7 +6,7 @@
 
 #include "base/digest.h"
 #include "base/error.h"
-#include "engine_files.h"
+#include "error_of.h"
 
 namespace trocar {
 namespace {
@@ -71,13 +71,12 @@ TEST(Blob, with_another_size_or_checksum_is_refused_by_name) {
   for (int bit = 0; bit < 64; ++bit) {
     Blob blob = sound;
     blob.plain_size ^= std::uint64_t{1} << bit;
-    EXPECT_TRUE(
-        contains(input_error_of([&] { unpack_blob(blob, 8, "frame 17"); }), "frame 17: damaged"));
+    EXPECT_TRUE(contains(error_of([&] { unpack_blob(blob, 8, "frame 17"); }), "frame 17: damaged"));
   }
   for (int bit = 0; bit < 32; ++bit) {
     Blob blob = sound;
     blob.crc ^= std::uint32_t{1} << bit;
-    EXPECT_TRUE(contains(input_error_of([&] { unpack_blob(blob, 8, "frame 17"); }), "checksum"));
+    EXPECT_TRUE(contains(error_of([&] { unpack_blob(blob, 8, "frame 17"); }), "checksum"));
   }
 }
 
@@ -100,7 +99,7 @@ TEST(Blob, that_announces_more_than_it_can_hold_is_refused_before_memory_is_aske
   for (int k = 0; k < 8; ++k) blob.packed.push_back(static_cast<std::byte>(size >> (8 * k)));
   for (const unsigned value : {0x09u, 0x00u, 0x00u, 0x42u})
     blob.packed.push_back(static_cast<std::byte>(value));
-  EXPECT_TRUE(contains(input_error_of([&] { unpack_blob(blob, 1, "b"); }), "size does not match"));
+  EXPECT_TRUE(contains(error_of([&] { unpack_blob(blob, 1, "b"); }), "size does not match"));
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include <new>
 
 #include "base/error.h"
-#include "engine_files.h"
 #include "engine_recording.h"
+#include "error_of.h"
 #include "mesh_fixtures.h"
 
 namespace trocar {
@@ -156,8 +156,7 @@ TEST(Bytes, with_any_byte_changed_give_a_mesh_or_are_refused) {
 TEST(Bytes, of_an_unknown_element_type_are_refused) {
   Mesh mesh = make_rectangle(0.07, 0.04, 3, 2);
   mesh.element_type[1] = static_cast<ElementType>(n_element_types);
-  EXPECT_TRUE(
-      contains(input_error_of([&] { mesh_from_bytes(mesh_to_bytes(mesh)); }), "unknown type 3"));
+  EXPECT_TRUE(contains(error_of([&] { mesh_from_bytes(mesh_to_bytes(mesh)); }), "unknown type 3"));
   mesh = make_rectangle(0.07, 0.04, 3, 2);
   mesh.corner_offset.back() += 3;
   EXPECT_THROW(mesh_from_bytes(mesh_to_bytes(mesh)), InputError);

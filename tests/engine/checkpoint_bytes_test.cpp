@@ -4,8 +4,8 @@
 #include "engine/bytes.h"
 #include "engine/checkpoint.h"
 #include "engine_checkpoint.h"
-#include "engine_files.h"
 #include "engine_recording.h"
+#include "error_of.h"
 
 namespace trocar {
 namespace {
@@ -114,7 +114,7 @@ TEST(CheckpointBytes, cut_off_anywhere_are_refused) {
 TEST(CheckpointBytes, that_are_damaged_say_so_and_how_to_go_on) {
   std::vector<std::byte> bytes = checkpoint_to_bytes(example_checkpoint());
   bytes[40] ^= std::byte{1};
-  EXPECT_EQ(input_error_of([&] { checkpoint_from_bytes(bytes, "out/checkpoint.bin"); }),
+  EXPECT_EQ(error_of([&] { checkpoint_from_bytes(bytes, "out/checkpoint.bin"); }),
             "out/checkpoint.bin: damaged (its checksum does not match); start without --resume");
 }
 
@@ -123,7 +123,7 @@ TEST(CheckpointBytes, of_another_format_are_named_as_such) {
   bytes[8] = std::byte{99};  // behind the mark of eight bytes
   const std::uint32_t crc = crc32c(std::span(bytes).first(bytes.size() - 4));
   std::memcpy(bytes.data() + bytes.size() - 4, &crc, 4);
-  EXPECT_TRUE(contains(input_error_of([&] { checkpoint_from_bytes(bytes, "c"); }), "format 99"));
+  EXPECT_TRUE(contains(error_of([&] { checkpoint_from_bytes(bytes, "c"); }), "format 99"));
 }
 
 }  // namespace

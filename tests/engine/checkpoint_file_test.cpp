@@ -6,7 +6,8 @@
 #include <sys/wait.h>
 #include <time.h>
 
-#include "engine_files.h"
+#include "error_of.h"
+#include "test_files.h"
 
 namespace trocar {
 namespace {

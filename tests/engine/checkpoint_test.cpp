@@ -15,7 +15,6 @@
 #include "engine/frame.h"
 #include "engine/output.h"
 #include "engine_checkpoint.h"
-#include "engine_files.h"
 #include "engine_resume.h"
 #include "engine_split.h"
 #include "engine_started.h"
@@ -270,8 +269,7 @@ TEST(Checkpoint, of_another_body_is_refused) {
   const auto s = build(loaded_text(resume_plane_text), alone);
   Checkpoint c = take_checkpoint(*s);
   c.body_crc ^= 1;
-  EXPECT_TRUE(
-      contains(input_error_of([&] { restore_checkpoint(c, *s); }), "mesh file has changed"));
+  EXPECT_TRUE(contains(error_of([&] { restore_checkpoint(c, *s); }), "mesh file has changed"));
 }
 
 TEST(Checkpoint, that_gives_another_state_than_it_was_made_of_is_refused) {
@@ -279,7 +277,7 @@ TEST(Checkpoint, that_gives_another_state_than_it_was_made_of_is_refused) {
   const auto s = build(loaded_text(resume_plane_text), alone);
   Checkpoint c = take_checkpoint(*s);
   c.v[3] += 1e-300;
-  EXPECT_TRUE(contains(input_error_of([&] { restore_checkpoint(c, *s); }), "its digest is"));
+  EXPECT_TRUE(contains(error_of([&] { restore_checkpoint(c, *s); }), "its digest is"));
 }
 
 }  // namespace

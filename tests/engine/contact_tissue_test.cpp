@@ -204,11 +204,11 @@ TEST(ContactOfTissue, is_refused_for_plane_bodies_and_for_bodies_that_sleep) {
   const std::string plane =
       "[time]\nduration = 1\n[tissue.shape]\nkind = \"rectangle\"\nhigh = [0.07, 0.04, 0]\n"
       "cells = [7, 4, 1]\n[tissue.material]\nyoung_modulus = 6000\n";
-  EXPECT_TRUE(contains(input_error_of([&] { built(plane + with_tissue(0)); }), "contact.tissue"));
+  EXPECT_TRUE(contains(error_of([&] { built(plane + with_tissue(0)); }), "contact.tissue"));
   const std::string block =
       "[time]\nduration = 1\n[tissue.shape]\nkind = \"box\"\n[tissue.material]\nyoung_modulus = "
       "6000\n[solver]\nsleep = 0.001\n";
-  EXPECT_TRUE(contains(input_error_of([&] { built(block + with_tissue(0)); }), "contact.tissue"));
+  EXPECT_TRUE(contains(error_of([&] { built(block + with_tissue(0)); }), "contact.tissue"));
 }
 
 }  // namespace

@@ -5,7 +5,8 @@
 
 #include <limits>
 
-#include "engine_files.h"
+#include "error_of.h"
+#include "test_files.h"
 
 namespace trocar {
 namespace {
@@ -80,7 +81,7 @@ TEST(Database, places_that_can_not_be_written_are_machine_errors) {
 TEST(Database, what_is_no_file_is_refused_without_waiting) {
   const TestFolder folder;
   const auto trouble = [](const std::string& file) {
-    return input_error_of([&] { Database(file, Mode::read); });
+    return error_of([&] { Database(file, Mode::read); });
   };
   EXPECT_EQ(trouble(folder.file("absent")), folder.file("absent") + ": no such recording");
   EXPECT_EQ(trouble(folder.path()), folder.path() + ": is not a file");
@@ -92,7 +93,7 @@ TEST(Database, what_is_no_file_is_refused_without_waiting) {
 TEST(Database, a_file_of_another_kind_is_an_input_error) {
   const TestFolder folder;
   const std::string file = write_text(folder.file("text"), std::string(5000, 'x'));
-  const std::string sentence = input_error_of([&] {
+  const std::string sentence = error_of([&] {
     Database database(file, Mode::read);
     Statement(database, "SELECT * FROM frame").step();
   });

@@ -162,7 +162,7 @@ TEST(Equilibrium, takes_less_work_than_waiting_until_the_body_has_settled) {
 
 TEST(Equilibrium, does_not_exist_for_a_body_that_nothing_holds_against_gravity) {
   const auto sentence = [](const std::string& text, const std::string& override) {
-    return input_error_of([&] { built(text, {override}); });
+    return error_of([&] { built(text, {override}); });
   };
   const std::string text = column_text("hex8", soft_tissue, downwards);
   EXPECT_TRUE(contains(sentence(text, "support=[]"), "along z")) << sentence(text, "support=[]");
@@ -174,7 +174,7 @@ TEST(Equilibrium, does_not_exist_for_a_body_that_nothing_holds_against_gravity) 
 
 TEST(Equilibrium, does_not_exist_for_a_body_that_nothing_holds_against_loads) {
   const auto sentence = [](const std::string& loads) {
-    return input_error_of([&] { built(column_text("hex8", soft_tissue) + loads, {"support=[]"}); });
+    return error_of([&] { built(column_text("hex8", soft_tissue) + loads, {"support=[]"}); });
   };
   const std::string up = "[[load]]\nregion = \"z+\"\nforce = [0, 0, 0.01]\n",
                     down = "[[load]]\nregion = \"z-\"\nforce = [0, 0, -0.01]\n";
@@ -201,7 +201,7 @@ TEST(Equilibrium, is_not_sought_on_after_a_signal) {
 
 TEST(Equilibrium, is_refused_with_an_instrument_inside_the_body) {
   const auto sentence = [](const std::string& height) {
-    return input_error_of([&] {
+    return error_of([&] {
       started_at_rest(
           column_text("hex8", soft_tissue, downwards) +
           instrument_text("probe", "{ time = 0, position = [0.01, 0.01, " + height + "] }"));

@@ -7,13 +7,14 @@
 
 #include <optional>
 
-#include "engine_files.h"
+#include "error_of.h"
+#include "test_files.h"
 
 namespace trocar {
 namespace {
 
 std::string lock_refusal(const TestFolder& folder) {
-  return input_error_of([&] { const FolderLock lock(folder.path()); });
+  return error_of([&] { const FolderLock lock(folder.path()); });
 }
 
 TEST(FolderLock, refuses_a_second_run_and_names_the_first) {
@@ -40,7 +41,7 @@ TEST(FolderLock, of_a_killed_run_locks_nothing) {
 
 TEST(FolderLock, goes_on_without_a_folder) {
   const TestFolder folder;
-  EXPECT_EQ(input_error_of([&] { FolderLock(folder.file("missing")).give_up_room(); }), "");
+  EXPECT_EQ(error_of([&] { FolderLock(folder.file("missing")).give_up_room(); }), "");
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 

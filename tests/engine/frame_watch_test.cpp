@@ -11,7 +11,6 @@
 #include "base/timers.h"
 #include "engine/frame.h"
 #include "engine/part_search.h"
-#include "engine_files.h"
 #include "engine_started.h"
 #include "solver/frequency.h"
 #include "solver/step.h"

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
 #include "engine_started.h"
 
 namespace trocar {
@@ -20,7 +19,7 @@ std::string block_under(const std::string& kind, double height) {
 }
 
 std::string start_refusal(const std::string& kind, double height) {
-  return input_error_of([&] { built(block_under(kind, height)); });
+  return error_of([&] { built(block_under(kind, height)); });
 }
 
 TEST(InstrumentCheck, refuses_a_tip_at_any_depth_and_says_which) {

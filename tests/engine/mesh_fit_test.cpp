@@ -10,7 +10,7 @@ namespace {
 
 // The error that building a body of 1 cell refuses it with, 100 mm wide.
 std::string error_with(const std::string& lines, const std::string& kind = "box") {
-  return input_error_of([&] {
+  return error_of([&] {
     built("[time]\nduration = 1\n[tissue.shape]\nkind = \"" + kind + "\"\ncells = [2, 2, 2]\n" +
           lines);
   });

@@ -4,7 +4,8 @@
 
 #include <sstream>
 
-#include "engine_files.h"
+#include "error_of.h"
+#include "test_files.h"
 
 namespace trocar {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "engine/database.h"
 #include "engine/recording.h"
-#include "engine_files.h"
 #include "engine_recording.h"
 #include "engine_split.h"
 #include "engine_started.h"
@@ -87,16 +86,14 @@ TEST(RecordingReader, names_a_frame_that_is_not_recorded) {
   const TestFolder folder;
   write_run(example_run(3), folder.file("r"));
   RecordingReader reader(folder.file("r"));
-  EXPECT_EQ(input_error_of([&] { reader.read(3); }),
-            folder.file("r") + ": frame 3: is not recorded");
-  EXPECT_EQ(input_error_of([&] { reader.mesh_at(3); }),
-            folder.file("r") + ": frame 3: is not recorded");
+  EXPECT_EQ(error_of([&] { reader.read(3); }), folder.file("r") + ": frame 3: is not recorded");
+  EXPECT_EQ(error_of([&] { reader.mesh_at(3); }), folder.file("r") + ": frame 3: is not recorded");
 }
 
 TEST(RecordingReader, says_what_a_file_is_that_is_no_recording) {
   const TestFolder folder;
   const auto trouble = [](const std::string& file) {
-    return input_error_of([&] { RecordingReader r(file); });
+    return error_of([&] { RecordingReader r(file); });
   };
   EXPECT_EQ(trouble(folder.file("absent")), folder.file("absent") + ": no such recording");
   EXPECT_EQ(trouble(folder.path()), folder.path() + ": is not a file");
@@ -116,8 +113,8 @@ TEST(RecordingReader, refuses_another_format_by_its_number) {
   const TestFolder folder;
   write_run(example_run(1), folder.file("r"));
   change(folder.file("r"), "UPDATE head SET format = 99");
-  EXPECT_TRUE(contains(input_error_of([&] { RecordingReader r(folder.file("r")); }),
-                       "has recording format 99"));
+  EXPECT_TRUE(
+      contains(error_of([&] { RecordingReader r(folder.file("r")); }), "has recording format 99"));
 }
 
 TEST(RecordingReader, finds_every_changed_column_of_a_frame_and_keeps_the_others) {
@@ -169,7 +166,7 @@ TEST(RecordingReader, finds_lost_exchanged_and_changed_edits) {
     write_run(run, folder.file("r"));
     change(folder.file("r"), sql);
     RecordingReader reader(folder.file("r"));
-    EXPECT_TRUE(contains(input_error_of([&] { reader.mesh_at(12); }), ": edit ")) << sql;
+    EXPECT_TRUE(contains(error_of([&] { reader.mesh_at(12); }), ": edit ")) << sql;
     EXPECT_TRUE(is_equal(reader.read(12), run.frames[6])) << sql;
     EXPECT_TRUE(is_equal(reader.mesh_at(0), run.meshes[0])) << sql;
   }
@@ -211,8 +208,7 @@ TEST(RecordingReader, refuses_edits_that_do_not_fit_the_mesh) {
     wrongs[k](run.edits[2][0].edit);
     write_run(run, folder.file("r"));
     RecordingReader reader(folder.file("r"));
-    EXPECT_TRUE(
-        contains(input_error_of([&] { reader.mesh_at(4); }), "edit 0: does not fit the mesh"))
+    EXPECT_TRUE(contains(error_of([&] { reader.mesh_at(4); }), "edit 0: does not fit the mesh"))
         << k;
     EXPECT_TRUE(is_equal(reader.mesh_at(2), run.meshes[1])) << k;
   }
@@ -223,7 +219,7 @@ TEST(RecordingReader, refuses_a_mesh_with_broken_invariants) {
   ExampleRun run = example_run(1);
   run.head.mesh.corner_node[4] = 1 << 20;
   write_run(run, folder.file("r"));
-  EXPECT_TRUE(contains(input_error_of([&] { RecordingReader r(folder.file("r")); }), "1048576"));
+  EXPECT_TRUE(contains(error_of([&] { RecordingReader r(folder.file("r")); }), "1048576"));
 }
 
 TEST(RecordingReader, leaves_the_file_and_its_folder_as_they_were) {

@@ -7,8 +7,9 @@
 #include <random>
 
 #include "engine/recording.h"
-#include "engine_files.h"
 #include "engine_recording.h"
+#include "error_of.h"
+#include "test_files.h"
 
 namespace trocar {
 namespace {
@@ -98,7 +99,7 @@ TEST(RecordingWriter, does_not_go_on_after_a_frame_that_is_not_there) {
 TEST(RecordingWriter, does_not_go_on_with_a_file_that_is_not_there) {
   const TestFolder folder;
   EXPECT_TRUE(
-      contains(input_error_of([&] { RecordingWriter(folder.file("r"), 1); }), "no such recording"));
+      contains(error_of([&] { RecordingWriter(folder.file("r"), 1); }), "no such recording"));
 }
 
 // Writes frames until it is killed, and says after each one that it is safe.

@@ -5,7 +5,6 @@
 #include "base/digest.h"
 #include "base/log.h"
 #include "engine/database.h"
-#include "engine_files.h"
 #include "engine_recording.h"
 #include "engine_scene.h"
 #include "mesh/mesh_file.h"
@@ -72,8 +71,8 @@ TEST(Replay, shows_the_frames_of_the_chosen_time_alone) {
 TEST(Replay, says_that_no_frame_lies_in_the_chosen_time) {
   RunToReplay c;
   c.options.from = 100;
-  EXPECT_TRUE(contains(input_error_of([&] { replay(c.options); }),
-                       "no recorded frame lies in the chosen time"));
+  EXPECT_TRUE(
+      contains(error_of([&] { replay(c.options); }), "no recorded frame lies in the chosen time"));
 }
 
 TEST(Replay, lists_frames_with_times_and_digests_and_writes_nothing) {
@@ -96,7 +95,7 @@ TEST(Replay, lists_the_whole_frames_behind_a_damaged_one) {
   Database(c.options.recording, Database::Mode::read)
       .run("UPDATE frame SET u = zeroblob(length(u)) WHERE frame = " + std::to_string(damaged));
   testing::internal::CaptureStdout();
-  const std::string error = input_error_of([&] { replay(c.options); });
+  const std::string error = error_of([&] { replay(c.options); });
   const std::string text = testing::internal::GetCapturedStdout();
   EXPECT_TRUE(contains(error, "frame " + std::to_string(damaged) + ": damaged")) << error;
   EXPECT_TRUE(contains(error, "1 of 6 frames are damaged")) << error;
@@ -107,14 +106,14 @@ TEST(Replay, lists_the_whole_frames_behind_a_damaged_one) {
 TEST(Replay, says_that_it_has_nothing_to_do) {
   RunToReplay c;
   c.options.vtu = false;
-  EXPECT_TRUE(contains(input_error_of([&] { replay(c.options); }), "--vtu"));
+  EXPECT_TRUE(contains(error_of([&] { replay(c.options); }), "--vtu"));
 }
 
 TEST(Replay, names_a_camera_that_the_scene_lacks) {
   RunToReplay c;
   c.options.frames = true;
   c.options.camera = "other";
-  EXPECT_TRUE(contains(input_error_of([&] { replay(c.options); }), "no camera \"other\""));
+  EXPECT_TRUE(contains(error_of([&] { replay(c.options); }), "no camera \"other\""));
 }
 
 TEST(Replay, does_not_write_a_film_over_its_recording) {
@@ -122,7 +121,7 @@ TEST(Replay, does_not_write_a_film_over_its_recording) {
   c.options.folder = c.folder.path();
   c.options.video = "./r";
   const std::string before = read_text(c.options.recording);
-  EXPECT_TRUE(contains(input_error_of([&] { replay(c.options); }), "would replace its recording"));
+  EXPECT_TRUE(contains(error_of([&] { replay(c.options); }), "would replace its recording"));
   EXPECT_EQ(read_text(c.options.recording), before);
 }
 
@@ -145,7 +144,7 @@ TEST(Replay, refuses_a_frame_whose_displacements_are_not_those_of_the_mesh) {
   RunToReplay c;
   c.run.frames[3].u.resize(3);
   write_run(c.run, c.options.recording);
-  EXPECT_TRUE(contains(input_error_of([&] { replay(c.options); }), "1 displacements for"));
+  EXPECT_TRUE(contains(error_of([&] { replay(c.options); }), "1 displacements for"));
 }
 
 }  // namespace

@@ -5,11 +5,12 @@
 #include "engine/checkpoint_file.h"
 #include "engine/recording.h"
 #include "engine/run.h"
-#include "engine_files.h"
 #include "engine_resume.h"
 #include "engine_split.h"
+#include "error_of.h"
 #include "mesh/generate.h"
 #include "replaced.h"
+#include "test_files.h"
 
 namespace trocar {
 namespace {
@@ -22,7 +23,7 @@ LoadedScene block_with(const std::vector<std::string>& settings) {
 
 std::string resume_refusal(const std::vector<std::string>& settings) {
   const Scene before = block_with({}).scene;
-  return input_error_of(
+  return error_of(
       [&] { require_same_scene(echo_options(scene_options(), &before), block_with(settings)); });
 }
 
@@ -50,7 +51,7 @@ TEST(Resume, names_a_key_within_lists_by_their_numbers) {
   const LoadedScene now = load_scene(write_text(folder.file("s.toml"), text), {});
   const Scene before = block_with({}).scene;
   const std::string sentence =
-      input_error_of([&] { require_same_scene(echo_options(scene_options(), &before), now); });
+      error_of([&] { require_same_scene(echo_options(scene_options(), &before), now); });
   EXPECT_TRUE(contains(sentence, "instrument[1].path[1].time")) << sentence;
 }
 
@@ -69,7 +70,7 @@ TEST(Resume, without_a_checkpoint_says_how_to_start) {
   const TestFolder folder;
   Communicator alone;
   const std::string sentence =
-      input_error_of([&] { load_checkpoint(folder.path(), block_with({}), alone); });
+      error_of([&] { load_checkpoint(folder.path(), block_with({}), alone); });
   EXPECT_EQ(sentence, "\"" + folder.path() +
                           "\" holds no checkpoint (checkpoint.bin) to resume from; start the run "
                           "without --resume");
@@ -87,7 +88,7 @@ bool run_block(const TestFolder& folder, const std::vector<std::string>& setting
 }
 
 std::string resume_error(const TestFolder& folder, const std::vector<std::string>& settings) {
-  return input_error_of([&] { run_block(folder, settings, true); });
+  return error_of([&] { run_block(folder, settings, true); });
 }
 
 TEST(Resume, refuses_a_scene_that_ends_before_the_checkpoint) {

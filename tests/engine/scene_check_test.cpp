@@ -208,9 +208,9 @@ TEST(SceneCheck, looks_at_overridden_values) {
   const std::string file =
       write_text(folder.file("s.toml"), scene_text(output_text("metrics", "m.csv")));
   EXPECT_EQ(load_scene(file, {"time.duration=2 s"}).scene.time.duration, 2);
-  EXPECT_TRUE(contains(input_error_of([&] { load_scene(file, {"time.duration=1 ms"}); }),
+  EXPECT_TRUE(contains(error_of([&] { load_scene(file, {"time.duration=1 ms"}); }),
                        "shorter than one frame"));
-  EXPECT_TRUE(contains(input_error_of([&] { load_scene(file, {"output[0].file='../m.csv'"}); }),
+  EXPECT_TRUE(contains(error_of([&] { load_scene(file, {"output[0].file='../m.csv'"}); }),
                        "inside the output folder"));
 }
 
@@ -218,7 +218,7 @@ TEST(SceneCheck, says_which_line_is_wrong) {
   const TestFolder folder;
   const std::string file =
       write_text(folder.file("s.toml"), scene_text("[[support]]\nregion = \"z-\"\nfix = \"q\"\n"));
-  EXPECT_TRUE(contains(input_error_of([&] { load_scene(file, {}); }), file + ":7:"));
+  EXPECT_TRUE(contains(error_of([&] { load_scene(file, {}); }), file + ":7:"));
 }
 
 TEST(SceneCheck, needs_a_region_with_low_below_high) {

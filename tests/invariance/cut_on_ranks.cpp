@@ -13,9 +13,10 @@
 #include "engine/frame.h"
 #include "engine/frame_report.h"
 #include "engine_checkpoint.h"
-#include "engine_files.h"
+#include "error_of.h"
 #include "scene_parts.h"
 #include "solver/step.h"
+#include "test_files.h"
 
 namespace trocar {
 namespace {
@@ -164,7 +165,7 @@ TEST(CutGroup, throws_the_errors_of_its_ranks_on_all) {
   const auto throws = [&](const auto& error) {
     return found_by<std::vector<int>>(group, [&]() -> std::vector<int> { throw error; });
   };
-  EXPECT_EQ(error_of<InputError>([&] { throws(InputError("no blade")); }), "no blade");
+  EXPECT_EQ(error_of([&] { throws(InputError("no blade")); }), "no blade");
   EXPECT_EQ(error_of<SimulationError>([&] { throws(SimulationError("torn")); }), "torn");
   EXPECT_EQ(found_by<std::vector<int>>(group, [] { return std::vector{7}; }), std::vector{7});
 }

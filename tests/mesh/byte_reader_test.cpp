@@ -6,8 +6,8 @@
 #include <bit>
 
 #include "base/error.h"
+#include "error_of.h"
 #include "mesh/xml_tag.h"
-#include "mesh_equal.h"
 
 namespace trocar::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <ctime>
 #include <map>
 
-#include "base/error.h"
+#include "error_of.h"
 #include "mesh/facet_sort.h"
 #include "mesh_fixtures.h"
 
@@ -115,13 +115,8 @@ TEST(FacetNeighbours, a_facet_of_three_elements_is_an_error_that_names_them) {
   mesh.X.insert(mesh.X.end(), {{0, 0, 2}, {0, 0, 3}});
   add_element(mesh, ElementType::tet4, std::array{0, 1, 2, 4});
   add_element(mesh, ElementType::tet4, std::array{0, 1, 2, 5});
-  try {
-    facet_neighbours(mesh);
-    FAIL() << "no error";
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "the facet of nodes 0 1 2 is shared by more than two elements: 0, 1, 2");
-  }
+  EXPECT_EQ(error_of([&] { facet_neighbours(mesh); }),
+            "the facet of nodes 0 1 2 is shared by more than two elements: 0, 1, 2");
 }
 
 TEST(NodeElements, are_the_elements_with_that_corner_ascending) {

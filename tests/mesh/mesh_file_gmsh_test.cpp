@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cstring>
 
-#include "base/error.h"
 #include "mesh/mesh_file.h"
 #include "mesh_equal.h"
 #include "mesh_refusal.h"
 #include "mesh_sample_files.h"
-#include "mesh_temporary_folder.h"
 #include "replaced.h"
+#include "test_files.h"
 
 namespace trocar::test {
 namespace {
@@ -28,7 +27,7 @@ std::string gmsh_refusal(const std::string& content) {
 }
 
 Mesh gmsh_mesh(const std::string& content) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   return read_mesh(folder.file("a.msh", content), 1);
 }
 

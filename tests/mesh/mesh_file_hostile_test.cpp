@@ -8,18 +8,19 @@
 #include <random>
 
 #include "base/error.h"
+#include "error_of.h"
 #include "mesh/mesh_file.h"
 #include "mesh/quality.h"
 #include "mesh/vtu_file.h"
 #include "mesh_equal.h"
 #include "mesh_sample_files.h"
-#include "mesh_temporary_folder.h"
+#include "test_files.h"
 
 namespace trocar::test {
 namespace {
 
 // What write_vtu makes of the sample, so that zlib blocks are among the formats.
-std::vector<SampleFile> all_volume_files(const TemporaryFolder& folder) {
+std::vector<SampleFile> all_volume_files(const TestFolder& folder) {
   std::vector<SampleFile> samples = sample_files();
   const Mesh mesh = sample_mesh();
   write_vtu(mesh, mesh.X, {}, {}, folder.file("zlib.vtu"));
@@ -39,7 +40,7 @@ std::vector<Mesh> read_or_refuse(const std::string& file) {
 }
 
 TEST(HostileMeshFile, cut_off_anywhere_it_is_refused_or_reads_the_same) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   for (const SampleFile& sample : all_volume_files(folder)) {
     SCOPED_TRACE(sample.name);
     const Mesh whole = read_mesh(folder.file("whole", sample.content), 1);
@@ -51,7 +52,7 @@ TEST(HostileMeshFile, cut_off_anywhere_it_is_refused_or_reads_the_same) {
 }
 
 TEST(HostileMeshFile, cut_off_before_the_last_element_it_is_refused) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   for (const SampleFile& sample : all_volume_files(folder)) {
     SCOPED_TRACE(sample.name);
     EXPECT_TRUE(
@@ -61,7 +62,7 @@ TEST(HostileMeshFile, cut_off_before_the_last_element_it_is_refused) {
 }
 
 TEST(HostileMeshFile, a_surface_cut_off_anywhere_is_refused_or_smaller) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   for (const std::string& content : {stl_ascii(), stl_binary(), obj()})
     for (std::size_t n = 0; n < content.size(); ++n) {
       const std::string file =
@@ -107,7 +108,7 @@ std::string damaged(const std::string& content, std::mt19937& random) {
 }
 
 TEST(HostileMeshFile, damaged_bytes_never_crash) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   std::mt19937 random(1);
   for (const SampleFile& sample : all_volume_files(folder))
     for (int k = 0; k < 1500; ++k)
@@ -116,7 +117,7 @@ TEST(HostileMeshFile, damaged_bytes_never_crash) {
 }
 
 TEST(HostileMeshFile, damaged_surfaces_never_crash) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   std::mt19937 random(2);
   for (const std::string& content : {stl_ascii(), stl_binary(), obj()})
     for (int k = 0; k < 1500; ++k) {
@@ -140,7 +141,7 @@ long peak_memory() {
 }
 
 TEST(HostileMeshFile, huge_counts_are_refused_before_memory_is_taken) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string counts[] = {
       "0", "-1", "2147483647", "2147483648", "2305843009213693952", "99999999999999999999"};
   const long before = peak_memory();
@@ -171,7 +172,7 @@ TEST(HostileMeshFile, huge_counts_are_refused_before_memory_is_taken) {
 }
 
 TEST(HostileMeshFile, a_pipe_is_refused_instead_of_waited_for) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file = folder.file("pipe.msh");
   ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
   EXPECT_NE(error_of([&] { read_mesh(file, 1); }).find("is not a regular file"), std::string::npos);

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
+#include "error_of.h"
 #include "mesh_equal.h"
 #include "mesh_sample_files.h"
-#include "mesh_temporary_folder.h"
+#include "test_files.h"
 
 namespace trocar::test {
 namespace {
@@ -23,7 +23,7 @@ Mesh expected_mesh(const SampleFile& sample) {
 }
 
 TEST(MeshFile, every_format_gives_the_same_mesh) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   for (const SampleFile& sample : sample_files()) {
     SCOPED_TRACE(sample.name);
     expect_equal(read_mesh(folder.file(sample.name, sample.content), 1), expected_mesh(sample));
@@ -31,7 +31,7 @@ TEST(MeshFile, every_format_gives_the_same_mesh) {
 }
 
 TEST(MeshFile, content_decides_before_the_ending) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   for (const SampleFile& sample : sample_files()) {
     SCOPED_TRACE(sample.name);
     expect_equal(read_mesh(folder.file("mesh.dat", sample.content), 1), expected_mesh(sample));
@@ -39,7 +39,7 @@ TEST(MeshFile, content_decides_before_the_ending) {
 }
 
 TEST(MeshFile, carriage_returns_before_line_ends_change_nothing) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   for (const std::string& content :
        {gmsh_1(), gmsh_2_ascii(), gmsh_4_ascii(), vtk_4_ascii(), vtk_5_ascii(), vtu_ascii()}) {
     std::string with_returns;
@@ -50,7 +50,7 @@ TEST(MeshFile, carriage_returns_before_line_ends_change_nothing) {
 }
 
 TEST(MeshFile, scale_multiplies_positions) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Mesh mesh = read_mesh(folder.file("a.msh", gmsh_4_ascii()), 0.001);
   Mesh expected = sample_mesh();
   for (Vec3& X : expected.X) X *= 0.001;
@@ -58,7 +58,7 @@ TEST(MeshFile, scale_multiplies_positions) {
 }
 
 TEST(MeshFile, an_unknown_format_is_refused_by_name) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file = folder.file("a.dat", "0 0 0\n");
   EXPECT_EQ(
       error_of([&] { read_mesh(file, 1); }),
@@ -66,7 +66,7 @@ TEST(MeshFile, an_unknown_format_is_refused_by_name) {
 }
 
 TEST(MeshFile, a_missing_file_an_empty_file_and_a_directory_are_refused) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   EXPECT_EQ(error_of([&] { read_mesh(folder.file("none.msh"), 1); }),
             folder.file("none.msh") + ": there is no file of this name");
   EXPECT_EQ(error_of([&] { read_mesh(folder.file("empty.msh", ""), 1); }),
@@ -83,7 +83,7 @@ TEST(MeshFile, a_surface_file_is_known_by_its_ending_in_small_or_capital_letters
 }
 
 TEST(MeshFile, a_surface_file_is_no_volume_mesh_but_an_instrument) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file = folder.file("a.stl", stl_binary());
   EXPECT_EQ(error_of([&] { read_mesh(file, 1); }),
             file +
@@ -93,7 +93,7 @@ TEST(MeshFile, a_surface_file_is_no_volume_mesh_but_an_instrument) {
 }
 
 TEST(MeshFile, the_surface_elements_of_a_volume_format_make_an_instrument) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file = folder.file(
       "a.vtk",
       vtk_head("3.0", "ASCII") +
@@ -108,7 +108,7 @@ TEST(MeshFile, the_surface_elements_of_a_volume_format_make_an_instrument) {
 }
 
 TEST(MeshFile, a_volume_mesh_is_no_instrument) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file = folder.file("a.msh", gmsh_2_ascii());
   EXPECT_EQ(error_of([&] { read_triangle_mesh(file, 1); }),
             file +

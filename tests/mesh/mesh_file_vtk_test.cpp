@@ -1,12 +1,11 @@
 // Cells and arrays of legacy VTK files.
 #include <gtest/gtest.h>
 
-#include "base/error.h"
+#include "error_of.h"
 #include "mesh/mesh_file.h"
-#include "mesh_equal.h"
 #include "mesh_refusal.h"
 #include "mesh_sample_files.h"
-#include "mesh_temporary_folder.h"
+#include "test_files.h"
 
 namespace trocar::test {
 namespace {
@@ -18,7 +17,7 @@ std::string vtk_refusal(const std::string& content) {
 }
 
 Mesh vtk_mesh(const std::string& content) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   return read_mesh(folder.file("a.vtk", content), 1);
 }
 
@@ -99,7 +98,7 @@ TEST(LegacyVtk, a_file_cut_off_within_the_data_of_cells_or_points_is_refused) {
     EXPECT_EQ(vtk_mesh(whole).n_elements(), 1);
     int n_accepted = 0;
     for (std::size_t n = whole.find("SCALARS") + 1; n < whole.size(); ++n) {
-      const TemporaryFolder folder;
+      const TestFolder folder;
       const std::string file = folder.file("a.vtk", whole.substr(0, n));
       n_accepted += error_of([&] { read_mesh(file, 1); }).empty() ? 1 : 0;
     }

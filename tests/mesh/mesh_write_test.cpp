@@ -6,13 +6,13 @@
 #include "mesh/generate.h"
 #include "mesh/mesh_file.h"
 #include "mesh_equal.h"
-#include "mesh_temporary_folder.h"
+#include "test_files.h"
 
 namespace trocar::test {
 namespace {
 
 void expect_round_trip(const Mesh& mesh) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   write_mesh(mesh, folder.file("a.msh"));
   expect_equal(read_mesh(folder.file("a.msh"), 1), mesh);
 }

@@ -1,9 +1,8 @@
 // Which cells become elements, and which meshes are refused.
 #include <gtest/gtest.h>
 
-#include "base/error.h"
+#include "error_of.h"
 #include "mesh/raw_mesh.h"
-#include "mesh_equal.h"
 
 namespace trocar::test {
 namespace {

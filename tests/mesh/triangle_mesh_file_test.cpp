@@ -1,18 +1,17 @@
 // Surfaces from STL and OBJ.
 #include <gtest/gtest.h>
 
-#include "base/error.h"
 #include "mesh/mesh_file.h"
 #include "mesh_equal.h"
 #include "mesh_refusal.h"
 #include "mesh_sample_files.h"
-#include "mesh_temporary_folder.h"
+#include "test_files.h"
 
 namespace trocar::test {
 namespace {
 
 TriangleMesh accepted(const std::string& name, const std::string& content) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   return read_triangle_mesh(folder.file(name, content), 1);
 }
 

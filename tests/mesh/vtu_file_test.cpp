@@ -3,26 +3,19 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
-#include "base/error.h"
+#include "error_of.h"
 #include "mesh/generate.h"
 #include "mesh/mesh_file.h"
 #include "mesh/vtu_data.h"
 #include "mesh_equal.h"
 #include "mesh_sample_files.h"
-#include "mesh_temporary_folder.h"
+#include "test_files.h"
 
 namespace trocar::test {
 namespace {
 
-std::string content_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 TEST(VtuFile, reads_back_positions_elements_and_regions) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   for (const BoxElements elements : {BoxElements::tet4_kuhn, BoxElements::hex8}) {
     Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {4, 3, 2}, elements);
     mesh.node_sets.clear();  // VTU has no place for them
@@ -35,7 +28,7 @@ TEST(VtuFile, reads_back_positions_elements_and_regions) {
 }
 
 TEST(VtuFile, points_stand_where_they_are_displaced_to) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {1, 1, 1}, BoxElements::hex8);
   std::vector<Vec3> x = mesh.X;
   for (Vec3& x_i : x) x_i += Vec3(0.5, 0, 1. / 3);
@@ -44,7 +37,7 @@ TEST(VtuFile, points_stand_where_they_are_displaced_to) {
 }
 
 TEST(VtuFile, arrays_of_more_than_one_zlib_block_read_back) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {30, 30, 20}, BoxElements::tet4_kuhn);
   jitter(mesh, 0.1, 1);
   write_vtu(mesh, mesh.X, {}, {}, folder.file("a.vtu"));
@@ -68,13 +61,13 @@ std::vector<double> field_in(const std::string& content, const std::string& name
 }
 
 TEST(VtuFile, fields_stand_under_their_names) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Mesh mesh = sample_mesh();
   std::vector<double> velocity, quality = {0.25, 1e-300};
   for (int k = 0; k < 15; ++k) velocity.push_back(k / 7.0);
   const VtuField nodal[] = {{"velocity", 3, velocity}}, elemental[] = {{"a<b & \"c\"", 1, quality}};
   write_vtu(mesh, mesh.X, nodal, elemental, folder.file("a.vtu"));
-  const std::string content = content_of(folder.file("a.vtu"));
+  const std::string content = read_text(folder.file("a.vtu"));
   EXPECT_EQ(field_in(content, "velocity", 15), velocity);
   EXPECT_EQ(field_in(content, "a&lt;b &amp; &quot;c&quot;", 2), quality);
   EXPECT_LT(content.find("<PointData>"), content.find("velocity"));
@@ -109,7 +102,7 @@ TEST(VtuFile, a_wrong_size_is_named) {
 }
 
 TEST(VtuFile, what_would_unfold_beyond_measure_is_refused) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file = folder.file(
       "a.vtu",
       "<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkZLibDataCompressor\"><Piece "
@@ -120,7 +113,7 @@ TEST(VtuFile, what_would_unfold_beyond_measure_is_refused) {
 }
 
 TEST(VtuFile, other_packers_pieces_and_data_sets_are_named) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto refusal = [&](const std::string& content) {
     const std::string file = folder.file("a.vtu", content);
     return error_of([&] { read_mesh(file, 1); }).substr(file.size());
@@ -137,10 +130,10 @@ TEST(VtuFile, other_packers_pieces_and_data_sets_are_named) {
 }
 
 TEST(PvdFile, lists_times_and_files) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const PvdEntry entries[] = {{0, "a.vtu"}, {0.1, "b&c.vtu"}};
   write_pvd(entries, folder.file("a.pvd"));
-  const std::string content = content_of(folder.file("a.pvd"));
+  const std::string content = read_text(folder.file("a.pvd"));
   EXPECT_NE(content.find("<DataSet timestep=\"0\" part=\"0\" file=\"a.vtu\"/>"), std::string::npos);
   EXPECT_NE(content.find("<DataSet timestep=\"0.1\" part=\"0\" file=\"b&amp;c.vtu\"/>"),
             std::string::npos);

@@ -2,29 +2,24 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
-#include "mesh_temporary_folder.h"
+#include "error_of.h"
+#include "test_files.h"
 
 namespace trocar::test {
 namespace {
 
 std::string refusal_to_write(const std::string& file) {
-  try {
-    write_whole_file(file, "content");
-  } catch (const MachineError& error) {
-    return error.what();
-  }
-  return "";
+  return error_of<MachineError>([&] { write_whole_file(file, "content"); });
 }
 
 TEST(WriteWholeFile, a_folder_that_is_not_there_is_named) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file = folder.file("none/a.msh");
   EXPECT_EQ(refusal_to_write(file), file + ": can't be written: No such file or directory");
 }
 
 TEST(WriteWholeFile, a_failed_write_leaves_neither_half_a_file_nor_a_temporary_one) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   std::filesystem::create_directory(folder.file("a.msh"));  // so that renaming fails
   EXPECT_NE(refusal_to_write(folder.file("a.msh")), "");
   EXPECT_TRUE(std::filesystem::is_directory(folder.file("a.msh")));
@@ -33,7 +28,7 @@ TEST(WriteWholeFile, a_failed_write_leaves_neither_half_a_file_nor_a_temporary_o
 
 TEST(WriteWholeFile, a_full_disk_is_reported) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this machine has no /dev/full";
-  const TemporaryFolder folder;
+  const TestFolder folder;
   std::filesystem::create_symlink("/dev/full", folder.file("a.msh.part"));
   EXPECT_EQ(refusal_to_write(folder.file("a.msh")),
             folder.file("a.msh") + ": can't be written: No space left on device");

@@ -4,21 +4,13 @@
 #include <signal.h>
 
 #include "base/error.h"
+#include "error_of.h"
 #include "render_scene.h"
 
 using namespace trocar;
 using namespace trocar::testing;
 
 namespace {
-
-std::string error_of(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const MachineError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 const std::vector<std::uint8_t> much(1 << 20, 'x');  // more than a pipe holds
 
@@ -28,41 +20,42 @@ TEST(EncoderProcess, program_gets_every_byte) {
   const std::string expected = std::to_string(much.size());
   EncoderProcess process({"/bin/sh", "-c", "test $(wc -c) = " + expected});
   process.write(much);
-  EXPECT_EQ(error_of([&] { process.finish(); }), "");
+  EXPECT_EQ(error_of<MachineError>([&] { process.finish(); }), "");
   EncoderProcess too_few({"/bin/sh", "-c", "test $(wc -c) = " + expected});
-  EXPECT_NE(error_of([&] { too_few.finish(); }), "");
+  EXPECT_NE(error_of<MachineError>([&] { too_few.finish(); }), "");
 }
 
 TEST(EncoderProcess, program_that_does_not_exist_is_an_error) {
-  EXPECT_NE(error_of([] { EncoderProcess({"/no/such/program"}); }).find("/no/such/program"),
-            std::string::npos);
+  EXPECT_NE(
+      error_of<MachineError>([] { EncoderProcess({"/no/such/program"}); }).find("/no/such/program"),
+      std::string::npos);
 }
 
 TEST(EncoderProcess, killed_program_is_an_error_not_a_signal) {
   EncoderProcess process({"/bin/sleep", "60"});
   kill(process.pid(), SIGKILL);
-  const std::string what = error_of([&] { process.write(much); });
+  const std::string what = error_of<MachineError>([&] { process.write(much); });
   EXPECT_NE(what.find("signal 9"), std::string::npos) << what;
 }
 
 TEST(EncoderProcess, stopped_program_is_ended_when_patience_is_over) {
   EncoderProcess process({"/bin/sleep", "60"}, 0.3);
   kill(process.pid(), SIGSTOP);
-  const std::string what = error_of([&] { process.write(much); });
+  const std::string what = error_of<MachineError>([&] { process.write(much); });
   EXPECT_NE(what.find("took no data"), std::string::npos) << what;
 }
 
 TEST(EncoderProcess, last_words_of_a_failed_program_are_in_the_error) {
   EncoderProcess process({"/bin/ls", "/no-such-thing"});
-  const std::string what = error_of([&] { process.finish(); });
+  const std::string what = error_of<MachineError>([&] { process.finish(); });
   EXPECT_NE(what.find("no-such-thing"), std::string::npos) << what;
   EXPECT_NE(what.find("code 2"), std::string::npos) << what;
 }
 
 TEST(EncoderProcess, arguments_meet_no_shell) {
-  const OwnFolder folder;
+  const TestFolder folder;
   const std::string canary = folder.file("canary");
   EncoderProcess process({"/bin/ls", "$(touch " + canary + ");touch " + canary});
-  EXPECT_NE(error_of([&] { process.finish(); }), "");
+  EXPECT_NE(error_of<MachineError>([&] { process.finish(); }), "");
   EXPECT_FALSE(std::filesystem::exists(canary));
 }

@@ -6,20 +6,16 @@
 #include <cstdlib>
 
 #include "base/error.h"
+#include "error_of.h"
 #include "render/gl_program.h"
 
 using namespace trocar;
 
 TEST(GlContext, missing_library_is_an_error_that_names_the_package) {
   const std::array<const char*, 2> names = {"libno-such-mesa.so.1", "libno-such-mesa.so"};
-  try {
-    load_osmesa(names);
-    FAIL();
-  } catch (const MachineError& error) {
-    const std::string what = error.what();
-    EXPECT_NE(what.find("libosmesa6"), std::string::npos) << what;
-    EXPECT_NE(what.find("libno-such-mesa"), std::string::npos) << what;
-  }
+  const std::string what = error_of<MachineError>([&] { load_osmesa(names); });
+  EXPECT_TRUE(contains(what, "libosmesa6")) << what;
+  EXPECT_TRUE(contains(what, "libno-such-mesa")) << what;
 }
 
 TEST(GlContext, thread_count_that_the_user_set_stays) {
@@ -38,12 +34,9 @@ TEST(GlProgram, broken_shader_is_an_error_with_the_compilers_words) {
   const GlContext context;
   const GlCurrent current(context);
   const std::string good = "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n";
-  try {
+  const std::string what = error_of<MachineError>([&] {
     make_program(context, "broken one", good, "#version 330 core\nvoid main() { nonsense; }\n");
-    FAIL();
-  } catch (const MachineError& error) {
-    const std::string what = error.what();
-    EXPECT_NE(what.find("broken one"), std::string::npos) << what;
-    EXPECT_NE(what.find("nonsense"), std::string::npos) << what;
-  }
+  });
+  EXPECT_TRUE(contains(what, "broken one")) << what;
+  EXPECT_TRUE(contains(what, "nonsense")) << what;
 }

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "error_of.h"
 #include "render/image_file.h"
 #include "render_scene.h"
 
@@ -35,7 +36,7 @@ Image read_png(const std::string& file) {
 }  // namespace
 
 TEST(ImageFile, png_reads_back_as_the_same_pixels) {
-  const OwnFolder folder;
+  const TestFolder folder;
   for (const auto& [w, h] : {std::pair{1, 1}, std::pair{33, 7}, std::pair{640, 360}}) {
     const Image image = numbered_image(w, h);
     write_png(image, folder.file("a.png"));
@@ -47,21 +48,17 @@ TEST(ImageFile, png_reads_back_as_the_same_pixels) {
 }
 
 TEST(ImageFile, png_that_can_not_be_written_is_an_error_with_path_and_reason) {
-  const OwnFolder folder;
-  for (const std::string& file : {folder.file("no/such/folder.png"), folder.path.string()}) {
-    try {
-      write_png(numbered_image(4, 4), file);
-      ADD_FAILURE() << file;
-    } catch (const MachineError& error) {
-      EXPECT_NE(std::string(error.what()).find(file + ": "), std::string::npos) << error.what();
-    }
+  const TestFolder folder;
+  for (const std::string& file : {folder.file("no/such/folder.png"), folder.path()}) {
+    const auto write = [&] { write_png(numbered_image(4, 4), file); };
+    EXPECT_TRUE(contains(error_of<MachineError>(write), file + ": ")) << file;
     EXPECT_FALSE(std::filesystem::exists(file + ".part"));
   }
 }
 
 TEST(ImageFile, full_disk_leaves_the_old_picture) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this machine";
-  const OwnFolder folder;
+  const TestFolder folder;
   const std::string file = folder.file("a.png");
   const Image first = numbered_image(8, 8);
   write_png(first, file);
@@ -71,7 +68,7 @@ TEST(ImageFile, full_disk_leaves_the_old_picture) {
 }
 
 TEST(PngQueue, all_pictures_are_there_after_finish) {
-  const OwnFolder folder;
+  const TestFolder folder;
   PngQueue queue;
   for (int k = 0; k < 20; ++k)
     queue.add(numbered_image(16 + k, 9), folder.file(std::to_string(k) + ".png"));

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "error_of.h"
 #include "render/image_file.h"
 #include "render_scene.h"
 
@@ -45,7 +46,7 @@ std::string probe(const std::string& file) {
 }  // namespace
 
 TEST(VideoWriter, film_holds_every_frame) {
-  const OwnFolder folder;
+  const TestFolder folder;
   write_film(folder.file("a.mp4"), 64, 48, 23);
   EXPECT_EQ(probe(folder.file("a.mp4")), "64,48,23");
   write_film(folder.file("a.mkv"), 64, 48, 23);
@@ -53,19 +54,19 @@ TEST(VideoWriter, film_holds_every_frame) {
 }
 
 TEST(VideoWriter, odd_sizes_are_padded_to_even_ones) {
-  const OwnFolder folder;
+  const TestFolder folder;
   write_film(folder.file("odd.mp4"), 65, 47, 3);
   EXPECT_EQ(probe(folder.file("odd.mp4")), "66,48,3");
 }
 
 TEST(VideoWriter, hostile_names_are_names) {
-  const OwnFolder folder;
+  const TestFolder folder;
   const std::filesystem::path before = std::filesystem::current_path();
-  std::filesystem::current_path(folder.path);
+  std::filesystem::current_path(folder.path());
   for (const std::string name :
        {"-i.mp4", "concat:a.mp4", "a;touch canary.mp4", "$(touch canary).mp4", "%d.mp4"}) {
     write_film(name, 16, 16, 2);
-    EXPECT_TRUE(std::filesystem::exists(folder.path / name)) << name;
+    EXPECT_TRUE(std::filesystem::exists(folder.file(name))) << name;
     EXPECT_EQ(probe(name).substr(0, 5), "16,16") << name;
   }
   EXPECT_FALSE(std::filesystem::exists("canary"));
@@ -73,28 +74,24 @@ TEST(VideoWriter, hostile_names_are_names) {
 }
 
 TEST(VideoWriter, missing_ffmpeg_is_an_error_that_names_the_package) {
-  const OwnFolder folder;
-  const WithVariable path("PATH", folder.path.string());
+  const TestFolder folder;
+  const WithVariable path("PATH", folder.path());
   EXPECT_EQ(find_ffmpeg(), "");
-  try {
-    VideoWriter film(folder.file("a.mp4"), 16, 16, 30);
-    FAIL();
-  } catch (const MachineError& error) {
-    EXPECT_NE(std::string(error.what()).find("install the package ffmpeg"), std::string::npos);
-  }
+  const auto film = [&] { VideoWriter(folder.file("a.mp4"), 16, 16, 30); };
+  EXPECT_TRUE(contains(error_of<MachineError>(film), "install the package ffmpeg"));
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.mp4")));
 }
 
 TEST(VideoWriter, path_that_can_not_be_written_is_an_error_before_the_first_frame) {
-  const OwnFolder folder;
+  const TestFolder folder;
   EXPECT_THROW(VideoWriter("/no/such/folder/a.mp4", 16, 16, 30), MachineError);
-  EXPECT_THROW(VideoWriter(folder.path.string(), 16, 16, 30), MachineError);
+  EXPECT_THROW(VideoWriter(folder.path(), 16, 16, 30), MachineError);
 }
 
 TEST(VideoWriter, encoder_that_dies_is_an_error_at_a_later_frame) {
-  const OwnFolder folder;
+  const TestFolder folder;
   std::filesystem::create_symlink("/bin/false", folder.file("ffmpeg"));
-  const WithVariable path("PATH", folder.path.string());
+  const WithVariable path("PATH", folder.path());
   VideoWriter film(folder.file("a.mp4"), 320, 240, 30);
   const auto add_many = [&] {
     for (int k = 0; k < 50; ++k) film.add(grey_image(320, 240, 0));
@@ -104,14 +101,14 @@ TEST(VideoWriter, encoder_that_dies_is_an_error_at_a_later_frame) {
 }
 
 TEST(VideoWriter, impossible_sizes_and_rates_are_refused) {
-  const OwnFolder folder;
+  const TestFolder folder;
   EXPECT_THROW(VideoWriter(folder.file("a.mp4"), 0, 16, 30), InputError);
   EXPECT_THROW(VideoWriter(folder.file("a.mp4"), 16, 16, 0), InputError);
   EXPECT_THROW(VideoWriter("", 16, 16, 30), InputError);
 }
 
 TEST(VideoWriter, film_that_is_dropped_without_finish_is_readable) {
-  const OwnFolder folder;
+  const TestFolder folder;
   {
     VideoWriter film(folder.file("a.mp4"), 32, 32, 30);
     for (int k = 0; k < 5; ++k) film.add(grey_image(32, 32, k));

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "error_of.h"
 #include "larger_or_nan.h"
 #include "largest.h"
 #include "render/renderer.h"
@@ -33,7 +34,7 @@ struct FullScene {
 };
 
 std::string digest_with_threads(const std::string& n_threads) {
-  const OwnFolder folder;
+  const TestFolder folder;
   const std::string file = folder.file("digest");
   const pid_t child = fork();
   if (child == 0) {
@@ -315,12 +316,8 @@ TEST(Renderer, smallest_and_odd_pictures_are_drawn) {
 TEST(Renderer, impossible_sizes_and_cameras_are_refused_with_a_sentence) {
   for (const auto& [w, h] :
        {std::pair{0, 0}, std::pair{-1, 100}, std::pair{100, 8193}, std::pair{16384, 16384}}) {
-    try {
-      Renderer renderer(w, h);
-      ADD_FAILURE() << w << " x " << h;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("1 to 8192"), std::string::npos);
-    }
+    const auto renderer = [w = w, h = h] { Renderer(w, h); };
+    EXPECT_TRUE(contains(error_of(renderer), "1 to 8192")) << w << " x " << h;
   }
   Renderer renderer(32, 32);
   Image image;

@@ -5,16 +5,14 @@
 #include "base/error.h"
 #include "largest.h"
 #include "mesh/generate.h"
-#include "mesh_temporary_folder.h"
 #include "mesh_write.h"
 #include "replaced.h"
 #include "study/study_sweep.h"
 #include "study/study_text.h"
+#include "test_files.h"
 
 namespace trocar {
 namespace {
-
-using test::TemporaryFolder;
 
 const char* const hanging_box =
     "name = \"hanging box\"\n"
@@ -29,7 +27,7 @@ const char* const shape =
     "low = [0, 0, 0]\nhigh = [\"50 mm\", \"50 mm\", \"100 mm\"]\n";
 
 TEST(StudyScene, errors_fall_with_the_cells_and_are_small_beside_the_motion) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Communicator alone;
   const Problem problem = problem_of_scene(
       {.scene_file = folder.file("scene.toml", std::string(hanging_box) + shape)}, alone);
@@ -46,7 +44,7 @@ TEST(StudyScene, errors_fall_with_the_cells_and_are_small_beside_the_motion) {
 }
 
 TEST(StudyScene, measures_the_error_that_sleep_brings_on_one_mesh) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Communicator alone;
   const Problem problem =
       problem_of_scene({.scene_file = folder.file("scene.toml", std::string(hanging_box) + shape),
@@ -73,7 +71,7 @@ TEST(StudyScene, measures_the_error_that_sleep_brings_on_one_mesh) {
 }
 
 TEST(StudyScene, tetrahedra_and_hexahedra_of_one_scene_come_to_the_same_place) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Communicator alone;
   const Problem problem = problem_of_scene(
       {.scene_file = folder.file("scene.toml", std::string(hanging_box) + shape), .sizes = {8}},
@@ -88,7 +86,7 @@ TEST(StudyScene, tetrahedra_and_hexahedra_of_one_scene_come_to_the_same_place) {
 }
 
 TEST(StudyScene, starts_where_the_scene_starts) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Communicator alone;
   const auto most_moved = [&](const char* start) {
     const Problem problem =
@@ -108,7 +106,7 @@ TEST(StudyScene, starts_where_the_scene_starts) {
 }
 
 TEST(StudyScene, in_a_plane_computes_the_scene_s_own_stress_or_strain) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Communicator alone;
   const std::string plane =
       "[tissue.shape]\nkind = \"rectangle\"\ncells = [8, 16, 1]\nhigh = [\"50 mm\", \"100 mm\", "
@@ -126,7 +124,7 @@ TEST(StudyScene, in_a_plane_computes_the_scene_s_own_stress_or_strain) {
 }
 
 TEST(StudyScene, mesh_files_take_the_place_of_cells) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Communicator alone;
   std::vector<std::string> meshes;
   for (const int n : {1, 2}) {
@@ -146,7 +144,7 @@ TEST(StudyScene, mesh_files_take_the_place_of_cells) {
 }
 
 TEST(StudyScene, sizes_for_a_mesh_file_and_meshes_for_a_generated_body_are_refused) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Communicator alone;
   const std::string scene = folder.file("scene.toml", std::string(hanging_box) + shape);
   EXPECT_THROW(problem_of_scene({.scene_file = scene, .meshes = {"a.msh"}}, alone), InputError);

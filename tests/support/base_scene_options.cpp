@@ -1,5 +1,7 @@
 #include "base_scene_options.h"
 
+#include "error_of.h"
+
 namespace trocar {
 
 Options<Material> material_options() {
@@ -50,12 +52,7 @@ Located<Scene> read_scene(const std::string& text, const std::vector<std::string
 }
 
 std::string scene_error(const std::string& text, const std::vector<std::string>& overrides) {
-  try {
-    read_scene(text, overrides);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return error_of([&] { read_scene(text, overrides); });
 }
 
 void expect_part(const std::string& text, const std::string& part) {

@@ -16,7 +16,7 @@ Scene load_scene_text(const std::string& text, const std::vector<std::string>& o
 }
 
 std::string scene_error(const std::string& text) {
-  return input_error_of([&] { load_scene_text(text); });
+  return error_of([&] { load_scene_text(text); });
 }
 
 }  // namespace trocar

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "engine/scene.h"
-#include "engine_files.h"
+#include "error_of.h"
+#include "test_files.h"
 
 namespace trocar {
 

@@ -8,7 +8,8 @@
 #include "engine/apply_cut.h"
 #include "engine/build.h"
 #include "engine/frame.h"
-#include "engine_files.h"
+#include "error_of.h"
+#include "test_files.h"
 
 namespace trocar {
 

@@ -36,13 +36,6 @@ std::string test_folder(const std::string& name) {
   return folder;
 }
 
-std::string read_text(const std::string& file) {
-  std::ifstream stream(file);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 Finished run_words(std::vector<std::string> words, const std::string& folder, int seconds) {
   std::vector<std::string> all = {"timeout", "-k", "5", std::to_string(seconds)};
   all.insert(all.end(), words.begin(), words.end());

@@ -1,12 +1,11 @@
 // Starts the program as a user would and keeps what it says.
 #pragma once
 
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include "test_files.h"
 
 extern char** environ;
 
@@ -14,8 +13,6 @@ namespace trocar {
 
 // A folder of its own for a test, empty at the beginning and gone with the process.
 std::string test_folder(const std::string& name);
-
-std::string read_text(const std::string& file);
 
 struct Finished {
   int exit_code = -1;  // -1: killed by a signal

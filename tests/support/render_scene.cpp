@@ -1,20 +1,8 @@
 #include "render_scene.h"
 
-#include <unistd.h>
-
 #include <cstdlib>
 
 namespace trocar::testing {
-
-OwnFolder::OwnFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "trocar-render-XXXXXX").string();
-  if (mkdtemp(name.data())) path = name;
-}
-
-OwnFolder::~OwnFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path, ignored);
-}
 
 WithVariable::WithVariable(const std::string& n, const std::string& value) : name(n) {
   if (const char* old = std::getenv(n.c_str())) before = old;

@@ -1,11 +1,11 @@
 // Small surfaces and scenes that several tests of render/ share.
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "mesh/triangle_mesh.h"
 #include "render/renderer.h"
+#include "test_files.h"
 
 namespace trocar::testing {
 
@@ -27,14 +27,6 @@ Image draw_once(const SceneView& scene, int width = 160, int height = 120);
 
 // Mean of a colour (0 red, 1 green, 2 blue) over the square of (2 r + 1)^2 pixels around one.
 double mean_level(const Image& image, int x, int y, int r, int colour);
-
-// A folder of its own for a test's files, removed at the end.
-struct OwnFolder {
-  std::filesystem::path path;
-  OwnFolder();
-  ~OwnFolder();
-  std::string file(const std::string& name) const { return (path / name).string(); }
-};
 
 // An environment variable with another value for a while.
 struct WithVariable {
