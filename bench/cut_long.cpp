@@ -34,7 +34,7 @@ static void cut_once(const Family& family, const Kind& kind, unsigned seed, Coun
   cut.body.deform(random_bend(random));
   Mesh present = cut.body.mesh;  // the blade moves in space
   present.X = cut.body.x;
-  const double mass = cutting_test::mass(cut.body.mesh);
+  const double mass = total_mass(cut.body.mesh);
   TetCutter cutter{CutTetOptions{}};
   Result result;
   for (const Stroke& stroke : kind.strokes(present, random)) {
@@ -44,8 +44,7 @@ static void cut_once(const Family& family, const Kind& kind, unsigned seed, Coun
   ++count.cuts;
   count.edits += cut.ledger.n_edits;
   count.unsound += cutting_test::fault(cut.body).empty() ? 0 : 1;
-  count.mass_error =
-      std::max(count.mass_error, std::abs(cutting_test::mass(cut.body.mesh) / mass - 1));
+  count.mass_error = std::max(count.mass_error, std::abs(total_mass(cut.body.mesh) / mass - 1));
 }
 
 static void print_count(const Count& count, unsigned seed, std::FILE* file) {

@@ -72,8 +72,8 @@ static void measure_elements(const Mesh& before, const CutBody& cut, Result& res
   if (step_before < 1e300) result.cut_ratio = step_after / step_before;
   result.body_ratio = least_step(after) / least_step(before);
   result.n_added = after.n_elements() - before.n_elements();
-  result.volume_error = std::abs(cutting_test::volume(after) / cutting_test::volume(before) - 1);
-  result.mass_error = std::abs(cutting_test::mass(after) / cutting_test::mass(before) - 1);
+  result.volume_error = std::abs(total_volume(after) / total_volume(before) - 1);
+  result.mass_error = std::abs(total_mass(after) / total_mass(before) - 1);
 }
 
 static void measure_regions(const Mesh& before, const Mesh& after, Result& result) {

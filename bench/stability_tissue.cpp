@@ -57,7 +57,7 @@ std::vector<StabilityRow> inversion_and_recovery(double scale) {
   std::vector<StabilityRow> rows;
   for (const double J : {.1, -.2, -1.}) {
     const Mesh mesh =
-        one_element(ElementType::tet4, {{0, 0, 0}, {edge, 0, 0}, {0, edge, 0}, {0, 0, edge}});
+        single_element(ElementType::tet4, {{0, 0, 0}, {edge, 0, 0}, {0, edge, 0}, {0, 0, edge}});
     std::vector<FixedMask> fixed = {7, 7, 7, 3};
     Body body = make_body(mesh, {.materials = {{MaterialModel::neo_hookean, 3000, .45, 1000}},
                                  .solver = {.mass_damping = 30},

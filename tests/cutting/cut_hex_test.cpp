@@ -73,7 +73,7 @@ TEST(CutHex, a_cut_beside_a_layer_of_facets_displaces_nodes_and_converts_nothing
   EXPECT_EQ(n_of(body.mesh, ElementType::hex8), 216);
   EXPECT_EQ(body.mesh.n_elements(), 216);
   EXPECT_EQ(n_pieces(body.mesh), 2);
-  EXPECT_EQ(boundary_euler(body.mesh), 4);  // two spheres
+  EXPECT_EQ(euler_characteristic(body.mesh), 4);  // two spheres
   EXPECT_EQ(fault(body), "");
   EXPECT_EQ(ledger.total.n_duplicated, 49);  // 7 x 7 nodes of that layer
   for (std::int32_t i = 343; i < body.mesh.n_nodes(); ++i)
@@ -95,7 +95,7 @@ TEST(CutHex, a_cut_across_the_grid_converts_what_it_passes_through_and_no_more) 
     EXPECT_LT(std::abs(off_grid.dot(centre - Vec3(0.02, 0.05, 0))), 2 * std::sqrt(3.0) / 6);
   }
   EXPECT_EQ(n_pieces(body.mesh), 2);
-  EXPECT_EQ(boundary_euler(body.mesh), 4);
+  EXPECT_EQ(euler_characteristic(body.mesh), 4);
   EXPECT_EQ(fault(body), "");
 }
 
@@ -104,7 +104,7 @@ TEST(CutHex, random_cuts_keep_the_body_sound_its_mass_and_the_floor_under_the_st
   std::uniform_real_distribution<double> u(-1, 1);
   for (int k = 0; k < 30; ++k) {
     Body body(hex_block(k % 2 == 0 ? 0 : 0.1));
-    const double mass_before = mass(body.mesh), step = least_bound(body.mesh);
+    const double mass_before = total_mass(body.mesh), step = least_bound(body.mesh);
     Vec3 normal;
     do normal = {u(random), u(random), u(random)};
     while (normal.norm() > 1 || normal.norm() < 0.1);
@@ -113,7 +113,7 @@ TEST(CutHex, random_cuts_keep_the_body_sound_its_mass_and_the_floor_under_the_st
     cut(body, plane_blade(centre, normal, 1), normal, 25);
     EXPECT_EQ(n_pieces(body.mesh), 2) << k;
     EXPECT_EQ(fault(body), "") << k;
-    EXPECT_NEAR(mass(body.mesh), mass_before, 1e-13) << k;  // 1300 terms of rounding
+    EXPECT_NEAR(total_mass(body.mesh), mass_before, 1e-13) << k;  // 1300 terms of rounding
     // Tetrahedra keep 0.495 of theirs; that of a jittered cell is not exactly sqrt(2) of it.
     EXPECT_GE(least_bound(body.mesh), 0.3 * step) << k;
   }

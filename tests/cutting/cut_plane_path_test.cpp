@@ -30,7 +30,7 @@ TEST(CutPlanePath, end_on_the_boundary_opens_it) {
 TEST(CutPlanePath, through_cut_keeps_the_outline) {
   const Mesh mesh = paper_mesh(1);
   const Mesh after = applied(cut(mesh, {{33 * mm, -1 * mm, 0}, {40 * mm, 41 * mm, 0}}).edit, mesh);
-  EXPECT_NEAR(total_area(after) / total_area(mesh), 1, 1e-14);
+  EXPECT_NEAR(total_volume(after) / total_volume(mesh), 1, 1e-14);
   EXPECT_EQ(n_pieces(after), 2);
 }
 

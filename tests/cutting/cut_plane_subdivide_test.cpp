@@ -42,7 +42,7 @@ TEST(Subdivision, keeps_area_and_orientation) {
   for (int c = 1; c <= 6; ++c) {
     const Mesh mesh = paper_mesh(c);
     const Mesh after = subdivide_along(mesh, paper_cut(c)[0], paper_cut(c)[1]);
-    EXPECT_NEAR(total_area(after) / total_area(mesh), 1, 1e-13) << c;  // sums of some hundred
+    EXPECT_NEAR(total_volume(after) / total_volume(mesh), 1, 1e-13) << c;  // sums of some hundred
     for (std::int32_t e = 0; e < after.n_elements(); ++e)
       EXPECT_GT(element_volume(after, e, after.X), 0) << c;
   }

@@ -15,7 +15,7 @@ struct Statistics {
 
 Statistics statistics(const Mesh& mesh) {
   Statistics s;
-  const double mean = total_area(mesh) / mesh.n_elements();
+  const double mean = total_volume(mesh) / mesh.n_elements();
   double sum = 0;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
     const double A = element_volume(mesh, e, mesh.X);

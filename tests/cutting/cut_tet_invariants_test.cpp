@@ -46,7 +46,7 @@ TEST(CutInvariants, a_through_cut_leaves_two_spheres) {
   Body body(centred_block(0.2));
   cut(body, plane_blade({0.02, 0.05, 0}, tilted, 1), tilted, 25);
   EXPECT_EQ(n_pieces(body.mesh), 2);
-  EXPECT_EQ(boundary_euler(body.mesh), 4);  // 2 each
+  EXPECT_EQ(euler_characteristic(body.mesh), 4);  // 2 each
   EXPECT_EQ(fault(body), "");
 }
 
@@ -56,7 +56,7 @@ TEST(CutInvariants, a_cut_inside_the_body_is_a_closed_surface_of_its_own) {
   const Vec3 u = tilted.unitOrthogonal(), way = tilted.cross(u);
   cut(body, straight_blade(-r * u - r * way, r * u - r * way, 2 * r * way), tilted, 12);
   EXPECT_EQ(n_pieces(body.mesh), 1);
-  EXPECT_EQ(boundary_euler(body.mesh), 4);  // the outer surface and the wound
+  EXPECT_EQ(euler_characteristic(body.mesh), 4);  // the outer surface and the wound
   EXPECT_EQ(fault(body), "");
 }
 
@@ -128,12 +128,12 @@ TEST(CutInvariants, whatever_stage_moves_the_nodes_the_body_stays_sound) {
   for (const CutStages stages :
        {CutStages::springs, CutStages::springs_then_barrier, CutStages::barrier}) {
     Body body(centred_block(0.2));
-    const double before = least_step_of(body.mesh), mass_before = mass(body.mesh);
+    const double before = least_step_of(body.mesh), mass_before = total_mass(body.mesh);
     TetCutter cutter{CutTetOptions{.stages = stages}};
     const Ledger ledger = cut(body, plane_blade({0.02, 0.05, 0}, tilted, 1), tilted, 25, cutter);
     EXPECT_EQ(fault(body), "");
     EXPECT_EQ(n_pieces(body.mesh), 2);
-    EXPECT_NEAR(mass(body.mesh) / mass_before, 1, 1e-12);
+    EXPECT_NEAR(total_mass(body.mesh) / mass_before, 1, 1e-12);
     if (stages == CutStages::springs) {
       EXPECT_GT(ledger.total.n_pulled_back, 0);  // nothing in springs and particles sees volumes
     } else {

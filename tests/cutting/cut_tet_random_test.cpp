@@ -73,10 +73,10 @@ Figures run(const std::string& name, int n_pieces_expected, const Stroke& stroke
   for (int k = 0; k < n_random_bodies; ++k) {
     Body body(mesh_of(k));
     const double h = mean_edge_of(body.mesh), step = least_step_of(body.mesh);
-    const double mass_before = mass(body.mesh);
+    const double mass_before = total_mass(body.mesh);
     const Ledger ledger = stroke(body, random_plane(random), h);
     EXPECT_EQ(fault(body), "") << name << " " << k;
-    EXPECT_NEAR(mass(body.mesh) / mass_before, 1, 1e-12) << name << " " << k;
+    EXPECT_NEAR(total_mass(body.mesh) / mass_before, 1, 1e-12) << name << " " << k;
     const bool is_right = n_pieces(body.mesh) == n_pieces_expected;
     EXPECT_TRUE(is_right || ledger.total.n_refused > 0) << name << " " << k << " is silent";
     figures.add(least_step_of(body.mesh) / step, ledger, h, is_right);

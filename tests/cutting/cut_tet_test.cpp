@@ -53,7 +53,7 @@ TEST(TetCutter, leaves_an_incised_body_in_one_piece_with_a_boundary_like_a_spher
   const Ledger ledger = cut(body, incision(), across, 25);
   EXPECT_EQ(n_pieces(body.mesh), 1);
   EXPECT_EQ(fault(body), "");
-  EXPECT_EQ(boundary_euler(body.mesh), 2);
+  EXPECT_EQ(euler_characteristic(body.mesh), 2);
   EXPECT_GE(ledger.total.n_duplicated, 6);  // lips of 40 mm have six nodes and more of 5 mm edges
 }
 
@@ -81,13 +81,13 @@ TEST(TetCutter, makes_lips_that_lie_on_the_swept_surface) {
 
 TEST(TetCutter, conserves_mass_and_elements_and_adds_only_duplicates) {
   Body body(make_ball({0, 0, 0}, 1, 6, BoxElements::tet4_kuhn));
-  const double mass_before = mass(body.mesh);
+  const double mass_before = total_mass(body.mesh);
   const std::int32_t n_elements = body.mesh.n_elements(), n_nodes = body.mesh.n_nodes();
   const Vec3 normal = Vec3(0.3, 1, 0.4).normalized();
   const Ledger ledger = cut(body, plane_blade({0.1, 0.1, 0}, normal, 2), normal, 25);
   EXPECT_EQ(body.mesh.n_elements(), n_elements);
   EXPECT_EQ(body.mesh.n_nodes(), n_nodes + ledger.total.n_duplicated);
-  EXPECT_NEAR(mass(body.mesh) / mass_before, 1, 1e-12);
+  EXPECT_NEAR(total_mass(body.mesh) / mass_before, 1, 1e-12);
   EXPECT_EQ(n_pieces(body.mesh), 2);
 }
 
@@ -95,7 +95,7 @@ TEST(TetCutter, keeps_the_volume_of_a_body_with_flat_faces) {
   Body body(block());
   const Vec3 normal = Vec3(0.3, 1, 0.4).normalized();
   cut(body, plane_blade({0.5, 0.5, 0.5}, normal, 2), normal, 30);
-  EXPECT_NEAR(volume(body.mesh), 1, 1e-12);  // rounding
+  EXPECT_NEAR(total_volume(body.mesh), 1, 1e-12);  // rounding
 }
 
 TEST(TetCutter, leaves_elements_beyond_three_rings_as_they_were) {

@@ -57,8 +57,8 @@ TEST(ThinSlices, part_a_plate_in_its_plane_in_two) {
   EXPECT_EQ(fault(cut.body), "");
   EXPECT_EQ(n_pieces(cut.body.mesh), 2);
   EXPECT_GT(cut.n_inserted, 0);
-  EXPECT_NEAR(mass(cut.body.mesh), mass(whole), 1e-12 * mass(whole));
-  EXPECT_NEAR(volume(cut.body.mesh), volume(whole), 1e-12 * volume(whole));
+  EXPECT_NEAR(total_mass(cut.body.mesh), total_mass(whole), 1e-12 * total_mass(whole));
+  EXPECT_NEAR(total_volume(cut.body.mesh), total_volume(whole), 1e-12 * total_volume(whole));
   EXPECT_GE(least_step_of(cut.body.mesh), split_ratio * least_step_of(whole));
 }
 
@@ -68,7 +68,7 @@ TEST(ThinSlices, part_a_plate_askew_in_two) {
   EXPECT_EQ(fault(cut.body), "");
   EXPECT_EQ(n_pieces(cut.body.mesh), 2);
   EXPECT_GT(cut.n_inserted, 0);
-  EXPECT_NEAR(mass(cut.body.mesh), mass(whole), 1e-12 * mass(whole));
+  EXPECT_NEAR(total_mass(cut.body.mesh), total_mass(whole), 1e-12 * total_mass(whole));
   EXPECT_GE(least_step_of(cut.body.mesh), split_ratio * least_step_of(whole));
 }
 
@@ -77,7 +77,7 @@ TEST(ThinSlices, leave_a_bent_plate_sound) {
   for (Vec3& X : mesh.X) X.z() += 0.1 * X.x() * X.x();
   const Cut cut = cut_along(mesh, Vec3(0, 0, 0.15), Vec3::UnitZ(), split_ratio);
   EXPECT_EQ(fault(cut.body), "");
-  EXPECT_NEAR(mass(cut.body.mesh), mass(mesh), 1e-12 * mass(mesh));
+  EXPECT_NEAR(total_mass(cut.body.mesh), total_mass(mesh), 1e-12 * total_mass(mesh));
 }
 
 TEST(ThinSlices, stay_as_they_are_where_the_floor_allows_no_part) {

@@ -192,7 +192,7 @@ TEST(BuildModel, the_elements_of_a_mixed_body_add_up_to_the_forces_of_each_alone
   for (std::int32_t e = 0; e < body.mesh.n_elements(); ++e) {
     std::vector<Vec3> X;
     for (const std::int32_t i : body.mesh.corners(e)) X.push_back(body.mesh.X[i]);
-    Body single = make_body(one_element(ElementType::tet4, X),
+    Body single = make_body(single_element(ElementType::tet4, X),
                             {.materials = {body.materials[body.mesh.element_region[e]]}});
     for (std::size_t k = 0; k < 12; ++k)
       single.state.u[k] = body.state.u[3 * body.mesh.corners(e)[k / 3] + k % 3];

@@ -17,7 +17,7 @@ constexpr double largest_exponent = MaterialHolzapfelGasserOgden::largest_expone
 
 // A right-angled triangle with F = diag(a, b) in its plane.
 static Body triangle(const Material& material, double a, double b) {
-  Body body = make_body(one_element(ElementType::tri3, {{0, 0, 0}, {edge, 0, 0}, {0, edge, 0}}),
+  Body body = make_body(single_element(ElementType::tri3, {{0, 0, 0}, {edge, 0, 0}, {0, edge, 0}}),
                         {.materials = {material}, .solver = with(Formulation::tri3_plane_stress)});
   displace(body, [&](const Vec3& X) { return Vec3((a - 1) * X.x(), (b - 1) * X.y(), 0); });
   return body;
@@ -214,7 +214,7 @@ TEST(PlaneStress, a_relaxing_sheet_follows_the_solid_law_without_stress_across_i
     material.prony = {{.3, .05}, {.4, .5}};
     Body sheet = triangle(material, 1, 1);
     Body solid = make_body(
-        one_element(ElementType::tet4, {{0, 0, 0}, {edge, 0, 0}, {0, edge, 0}, {0, 0, edge}}),
+        single_element(ElementType::tet4, {{0, 0, 0}, {edge, 0, 0}, {0, edge, 0}, {0, 0, edge}}),
         {.materials = {material}});
     for (int k = 0; k <= 20; ++k) {
       sheet.state.time = solid.state.time = .02 * k;

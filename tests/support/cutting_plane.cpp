@@ -18,19 +18,6 @@ Mesh applied(const MeshEdit& edit, Mesh mesh) {
   return mesh;
 }
 
-double total_area(const Mesh& mesh) {
-  double sum = 0;
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) sum += element_volume(mesh, e, mesh.X);
-  return sum;
-}
-
-double total_mass(const Mesh& mesh) {
-  double sum = 0;
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-    sum += mesh.density_factor[e] * element_volume(mesh, e, mesh.X);
-  return sum;
-}
-
 double least_altitude(const Mesh& mesh) {
   double least = 1e300;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)

@@ -14,6 +14,7 @@
 #include "mesh/facets.h"
 #include "mesh/generate.h"
 #include "mesh/quality.h"
+#include "mesh_fixtures.h"
 #include "mesh_pieces.h"
 
 namespace trocar {
@@ -26,10 +27,6 @@ PlaneCut cut(const Mesh& mesh, const std::vector<Vec3>& path, std::int32_t tip =
              bool is_robust = true);
 
 Mesh applied(const MeshEdit& edit, Mesh mesh);
-
-double total_area(const Mesh& mesh);
-
-double total_mass(const Mesh& mesh);
 
 double least_altitude(const Mesh& mesh);
 

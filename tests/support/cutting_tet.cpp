@@ -116,13 +116,6 @@ Ledger cut_with_index(const Vec3& across, Body& body, CutIndex& index,
   return ledger;
 }
 
-double mass(const Mesh& mesh) {
-  double sum = 0;
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-    sum += mesh.density_factor[e] * element_volume(mesh, e, mesh.X);
-  return sum;
-}
-
 void add_region(Mesh& mesh, const std::function<bool(const Vec3&)>& is_there) {
   const auto region = static_cast<std::int32_t>(mesh.region_name.size());
   mesh.region_name.push_back("region " + std::to_string(region));
@@ -138,12 +131,6 @@ std::vector<double> region_volumes(const Mesh& mesh) {
   for (std::int32_t e = 0; e < tets.mesh.n_elements(); ++e)
     V[tets.mesh.element_region[e]] += element_volume(tets.mesh, e, tets.mesh.X);
   return V;
-}
-
-double volume(const Mesh& mesh) {
-  double sum = 0;
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) sum += element_volume(mesh, e, mesh.X);
-  return sum;
 }
 
 double least_step_of(const Mesh& mesh) {
@@ -171,17 +158,6 @@ std::array<Vec3, 2> crossing_normals(double angle, double tilt) {
   const Vec3 across = std::cos(tilt) * Vec3(-std::sin(angle), std::cos(angle), 0),
              up = std::sin(tilt) * Vec3::UnitZ();
   return {across + up, across - up};
-}
-
-int boundary_euler(const Mesh& mesh) {
-  const Surface surface = boundary_surface(mesh);
-  std::vector<std::array<std::int32_t, 2>> edge;
-  for (const auto& t : surface.triangle)
-    for (std::size_t k = 0; k < 3; ++k)
-      edge.push_back({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
-  std::sort(edge.begin(), edge.end());
-  edge.erase(std::unique(edge.begin(), edge.end()), edge.end());
-  return int(surface.node.size()) - int(edge.size()) + int(surface.triangle.size());
 }
 
 std::string boundary_fault(const Mesh& mesh) {

@@ -19,6 +19,7 @@
 #include "mesh/facets.h"
 #include "mesh/generate.h"
 #include "mesh/quality.h"
+#include "mesh_fixtures.h"
 #include "mesh_pieces.h"
 
 namespace trocar::cutting_test {
@@ -83,15 +84,11 @@ Ledger cut_with_index(
     const std::function<void(int k)>& before_advance = [](int) {},
     const std::function<void()>& after_advance = [] {});
 
-double mass(const Mesh& mesh);
-
 // The elements that have a corner there become a region of their own.
 void add_region(Mesh& mesh, const std::function<bool(const Vec3&)>& is_there);
 
 // Of each region, hexahedra as their tetrahedra.
 std::vector<double> region_volumes(const Mesh& mesh);
-
-double volume(const Mesh& mesh);
 
 // In proportion to the least element bound of the stable step.
 double least_step_of(const Mesh& mesh);
@@ -104,9 +101,6 @@ Mesh irregular(Mesh mesh, double amount, unsigned seed);
 // Of two planes that cross along a line in the xy plane, `angle` from the x axis; the normals lie
 // `tilt` above and below that plane [rad].
 std::array<Vec3, 2> crossing_normals(double angle, double tilt);
-
-// Vertices - edges + faces of the boundary.
-int boundary_euler(const Mesh& mesh);
 
 // What keeps the boundary from being a closed 2-manifold; empty if nothing does.
 std::string boundary_fault(const Mesh& mesh);

@@ -1,12 +1,14 @@
 #include "mesh_fixtures.h"
 
+#include <numeric>
+
 namespace trocar {
 
 Mesh single_element(ElementType type, const std::vector<Vec3>& X) {
   Mesh mesh;
   mesh.X = X;
-  std::vector<std::int32_t> corners;
-  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) corners.push_back(i);
+  std::vector<std::int32_t> corners(X.size());
+  std::iota(corners.begin(), corners.end(), 0);
   add_element(mesh, type, corners);
   return mesh;
 }
@@ -74,6 +76,13 @@ double total_volume(const Mesh& mesh) {
   return sum;
 }
 
+double total_mass(const Mesh& mesh) {
+  double sum = 0;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    sum += mesh.density_factor[e] * element_volume(mesh, e, mesh.X);
+  return sum;
+}
+
 bool is_closed(const Triangles& triangles) {
   std::map<std::pair<std::int32_t, std::int32_t>, int> count;
   for (const auto& t : triangles)
@@ -94,6 +103,10 @@ int euler_characteristic(const Triangles& triangles) {
     }
   return static_cast<int>(vertices.size()) - static_cast<int>(edges.size()) +
          static_cast<int>(triangles.size());
+}
+
+int euler_characteristic(const Mesh& mesh) {
+  return euler_characteristic(boundary_surface(mesh).triangle);
 }
 
 double enclosed_volume(const Triangles& triangles, const std::vector<Vec3>& X) {

@@ -40,6 +40,9 @@ std::vector<NamedMesh> all_meshes();
 
 double total_volume(const Mesh& mesh);
 
+// With density 1 but for the elements' factors.
+double total_mass(const Mesh& mesh);
+
 using Triangles = std::vector<std::array<std::int32_t, 3>>;
 
 // Each edge is run through once in each direction: closed, and consistently oriented.
@@ -47,6 +50,8 @@ bool is_closed(const Triangles& triangles);
 
 // Vertices - edges + faces; 2 for a sphere.
 int euler_characteristic(const Triangles& triangles);
+// Of the surface.
+int euler_characteristic(const Mesh& mesh);
 
 // By the divergence theorem, seen from a vertex to keep cancellation small; positive if the
 // triangles look outward.

@@ -117,27 +117,18 @@ double least_element_step(const Body& body) {
   return *std::min_element(body.model.element_step.begin(), body.model.element_step.end());
 }
 
-Mesh one_element(ElementType type, const std::vector<Vec3>& X) {
-  Mesh mesh;
-  mesh.X = X;
-  std::vector<std::int32_t> corner(X.size());
-  std::iota(corner.begin(), corner.end(), 0);
-  add_element(mesh, type, corner);
-  return mesh;
-}
-
 std::vector<Mesh> irregular_elements() {
-  return {one_element(ElementType::tri3, {{0, 0, 0}, {.011, .002, 0}, {.003, .009, 0}}),
-          one_element(ElementType::tet4,
-                      {{0, 0, 0}, {.010, .001, 0}, {.002, .012, .001}, {.001, .002, .009}}),
-          one_element(ElementType::hex8, {{0, 0, 0},
-                                          {.011, .001, -.001},
-                                          {.012, .010, .001},
-                                          {-.001, .009, 0},
-                                          {.001, -.001, .010},
-                                          {.010, 0, .011},
-                                          {.0115, .0105, .0095},
-                                          {0, .011, .0105}})};
+  return {single_element(ElementType::tri3, {{0, 0, 0}, {.011, .002, 0}, {.003, .009, 0}}),
+          single_element(ElementType::tet4,
+                         {{0, 0, 0}, {.010, .001, 0}, {.002, .012, .001}, {.001, .002, .009}}),
+          single_element(ElementType::hex8, {{0, 0, 0},
+                                             {.011, .001, -.001},
+                                             {.012, .010, .001},
+                                             {-.001, .009, 0},
+                                             {.001, -.001, .010},
+                                             {.010, 0, .011},
+                                             {.0115, .0105, .0095},
+                                             {0, .011, .0105}})};
 }
 
 Mesh irregular_patch(Formulation formulation) {

@@ -13,6 +13,7 @@
 #include "mesh/generate.h"
 #include "mesh/mesh.h"
 #include "mesh/partition.h"
+#include "mesh_fixtures.h"
 #include "solver/element_setup.h"
 #include "solver/model.h"
 #include "solver/neighbours.h"
@@ -105,8 +106,6 @@ double step_and_measure(Body& body, const std::function<void()>& step);
 double step_and_measure(Body& body, double dt);
 
 double least_element_step(const Body& body);
-
-Mesh one_element(ElementType type, const std::vector<Vec3>& X);
 
 // One irregular element of each type, about 1 cm wide.
 std::vector<Mesh> irregular_elements();
