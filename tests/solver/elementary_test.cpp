@@ -66,14 +66,8 @@ TEST(Elementary, keeps_a_NaN_and_stays_finite_at_the_ends) {
 TEST(SymmetricEigen, gives_back_its_tensor_from_orthonormal_vectors) {
   Noise noise(1);
   for (int k = 0; k < 2000; ++k) {
-    Mat3 R;
-    for (int i = 0; i < 9; ++i) R.data()[i] = noise();
-    const Mat3 Q = orthogonal_factor(R);
-    Vec3 d(noise(), noise(), noise());
-    if (k % 4 == 1) d[1] = d[0];
-    if (k % 4 == 2) d[1] = d[0] + 1e-9 * noise();
-    if (k % 16 == 3) d = Vec3::Constant(d[0]);
-    if (k % 16 == 7) d = Vec3(1, 1e-8, -1e-14);
+    const Mat3 Q = random_orthogonal(noise);
+    const Vec3 d = k % 16 == 7 ? Vec3(1, 1e-8, -1e-14) : random_eigenvalues(k, noise);
     const Mat3 A = k % 16 == 11 ? Mat3(d.asDiagonal()) : Mat3(Q * d.asDiagonal() * Q.transpose());
     SymmetricEigen<double> eigen;
     find_eigen(SymmetricTensor<double>{{A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(1, 2), A(2, 0)}},

@@ -61,14 +61,9 @@ TEST(Isochoric, vanishes_without_volume_change) {
 TEST(SymmetricEigenvalues, are_those_that_the_tensor_was_made_of_the_largest_first) {
   Noise noise(1);
   for (int k = 0; k < 2000; ++k) {
-    Mat3 R;
-    for (int i = 0; i < 9; ++i) R.data()[i] = noise();
-    const Mat3 Q = orthogonal_factor(R);
+    const Mat3 Q = random_orthogonal(noise);
     // Also double and triple eigenvalues, where the cubic's derivative vanishes.
-    Vec3 d(noise(), noise(), noise());
-    if (k % 4 == 1) d[1] = d[0];
-    if (k % 4 == 2) d[1] = d[0] + 1e-9 * noise();
-    if (k % 16 == 3) d = Vec3::Constant(d[0]);
+    Vec3 d = random_eigenvalues(k, noise);
     const Mat3 A = Q * d.asDiagonal() * Q.transpose();
     const SymmetricTensor<double> S = {{A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(1, 2), A(2, 0)}};
     // Double roots are known to sqrt(eps) only.

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "base/vec.h"
+#include "solver_body.h"
 
 namespace trocar {
 
@@ -13,7 +13,8 @@ Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& A);
 Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M);
 // Of A x = b.
 Eigen::VectorXd solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
-// Q of A = Q R, orthogonal.
-Mat3 orthogonal_factor(const Mat3& A);
+Mat3 random_orthogonal(Noise& noise);
+// By turns of k two or three are equal or nearly so.
+Vec3 random_eigenvalues(int k, Noise& noise);
 
 }  // namespace trocar
