@@ -38,7 +38,8 @@ double seconds_of(const Body& body) {
 
 void run_steps(Simulation& s, std::int64_t n, double dt) {
   for (std::int64_t k = 0; k < n; ++k) {
-    step_freely(s.model, s.neighbours, dt, s.state, s.scratch);
+    step_others(s.model, s.neighbours, {}, dt, s.state, s.scratch);
+    step_waiting(s.model, {}, {}, dt, s.state, s.scratch);
     start_exchange(s.neighbours, s.state);
   }
   finish_exchange(s.neighbours, s.state);

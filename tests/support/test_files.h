@@ -1,7 +1,6 @@
 // Files that tests write and read, in folders of their own.
 #pragma once
 
-#include <gtest/gtest.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -10,6 +9,8 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+
+#include "base/check.h"
 
 namespace trocar {
 
@@ -33,7 +34,7 @@ class TestFolder {
     const bool has_memory = access(memory.c_str(), W_OK) == 0;
     const auto place = has_memory ? memory : std::filesystem::temp_directory_path();
     path_ = (place / "trocar_XXXXXX").string();
-    EXPECT_NE(mkdtemp(path_.data()), nullptr);
+    CHECK(mkdtemp(path_.data()) != nullptr);
   }
   ~TestFolder() {
     std::error_code trouble;
