@@ -282,6 +282,7 @@ void rebuild_topology(Simulation& s) {
   s.least_altitude = LeastOfMany(s.altitude);
   s.least_element_step = LeastOfMany(s.model.element_step);
   s.view = make_surface_view(s.surface, s.node_owner, s.part);
+  if (s.contact) s.view.x = s.mesh.X;  // until they are gathered
   s.boxes = {};
   follow_model(s);
 }

@@ -14,7 +14,7 @@
 namespace trocar {
 
 struct SurfaceView {
-  std::vector<Vec3> x;  // (n_nodes), valid at surface nodes; empty until they are gathered [m]
+  std::vector<Vec3> x;  // (n_nodes), valid at surface nodes; empty until somebody looks [m]
   std::vector<Vec3> v;  // the same, where tissue touches tissue; else empty [m/s]
   std::vector<std::int32_t>
       node;  // surface nodes by (owner, number): the order in which they arrive

@@ -15,6 +15,7 @@ struct Bar {
   Simulation& s = *started->s;
 
   Bar() {
+    s.view.x = s.mesh.X;
     for (std::size_t i = 0; i < s.part.node_global.size(); ++i) {
       const auto node = static_cast<std::size_t>(s.part.node_global[i]);
       s.state.u[3 * i + 2] = s.mesh.X[node].x() < 0 ? 1e-3 : 2e-3;
