@@ -66,7 +66,8 @@ void follow_opening(const Mesh& mesh, const MeshEdit& edit, std::span<const CutH
   std::erase_if(stroke.hit, is_gone);
   std::erase_if(stroke.left.hit, is_gone);
   sort_unique(stroke.in_slit);
-  for (auto* nodes : {&stroke.surface_node, &stroke.parted_node, &stroke.left.node})
+  for (auto* nodes :
+       {&stroke.surface_node, &stroke.parted_node, &stroke.left.node, &stroke.left.parted_node})
     add_copies(mesh, edit, *nodes);
 }
 

@@ -3,11 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "base/box.h"
 #include "base/sort_unique.h"
+#include "cutting/cut_rim.h"
 
 namespace trocar {
+
+static Vec3 middle_of(const Mesh& mesh, std::int32_t e) {
+  Vec3 sum = Vec3::Zero();
+  for (const std::int32_t i : mesh.corners(e)) sum += mesh.X[i];
+  return sum / static_cast<double>(mesh.corners(e).size());
+}
 
 // Over h: how far from its own crossings a stroke looks for those of others, and how far beside its
 // surface they may lie.
@@ -24,13 +33,52 @@ static void sort_points(std::vector<SurfacePoint>& points) {
   points.erase(same.begin(), same.end());
 }
 
+static void sort_places(std::vector<Vec3>& points) {
+  const auto key = [](const Vec3& p) { return std::array{p.x(), p.y(), p.z()}; };
+  std::ranges::sort(points, {}, key);
+  const auto same = std::ranges::unique(points, {}, key);
+  points.erase(same.begin(), same.end());
+}
+
+static void add_nodes(const std::vector<std::int32_t>& more, std::vector<std::int32_t>& nodes) {
+  nodes.insert(nodes.end(), more.begin(), more.end());
+  sort_unique(nodes);
+}
+
+// Of the elements of `opened`.
+static void add_masks(const std::vector<OfElement<std::uint8_t>>& more,
+                      std::vector<OfElement<std::uint8_t>>& opened) {
+  for (auto& [e, mask] : opened)
+    if (const std::uint8_t* other = find_element(more, e))
+      mask = static_cast<std::uint8_t>(mask | *other);
+}
+
+// What is remembered of elements that `more` knows, too.
+static void forget_known(const CutLeft& more, CutLeft& left) {
+  const auto is_known = [&](std::int32_t e) {
+    return std::ranges::binary_search(more.hit, e, {}, &CutHit::element);
+  };
+  std::erase_if(left.hit, [&](const CutHit& hit) { return is_known(hit.element); });
+  std::erase_if(left.side, [&](const auto& entry) { return is_known(entry.element); });
+}
+
 void add_left(const CutLeft& more, CutLeft& left) {
+  forget_known(more, left);
   left.hit.insert(left.hit.end(), more.hit.begin(), more.hit.end());
   sort_hits(left.hit);
-  left.node.insert(left.node.end(), more.node.begin(), more.node.end());
-  sort_unique(left.node);
-  left.parted.insert(left.parted.end(), more.parted.begin(), more.parted.end());
-  sort_points(left.parted);
+  merge_elements(left.side, more.side);
+  std::vector<OfElement<std::uint8_t>> opened = more.opened;
+  add_masks(left.opened, opened);
+  merge_elements(left.opened, opened);
+  add_nodes(more.node, left.node);
+  add_nodes(more.parted_node, left.parted_node);
+  for (const auto& [from, to] :
+       {std::pair{&more.parted, &left.parted}, std::pair{&more.at_end, &left.at_end}}) {
+    to->insert(to->end(), from->begin(), from->end());
+    sort_points(*to);
+  }
+  left.rim.insert(left.rim.end(), more.rim.begin(), more.rim.end());
+  sort_places(left.rim);
 }
 
 static std::vector<SurfacePoint> parted_points(const CutStroke& stroke) {
@@ -40,18 +88,18 @@ static std::vector<SurfacePoint> parted_points(const CutStroke& stroke) {
   return points;
 }
 
-static std::vector<CutHit> unparted_hits(const CutStroke& stroke) {
-  std::vector<CutHit> hits = stroke.hit;
-  std::erase_if(
-      hits, [&](const CutHit& hit) { return find_element(stroke.side, hit.element) != nullptr; });
-  return hits;
-}
-
 CutLeft left_by(const CutStroke& stroke) {
   CutLeft left = stroke.left;
-  add_left(
-      {.hit = unparted_hits(stroke), .node = stroke.surface_node, .parted = parted_points(stroke)},
-      left);
+  add_left({.hit = stroke.hit,
+            .side = stroke.side,
+            .opened = stroke.opened,
+            .node = stroke.surface_node,
+            .parted_node = stroke.parted_node,
+            .parted = parted_points(stroke),
+            .at_end = {},
+            .rim = stroke.rim},
+           left);
+  if (stroke.mean_edge > 0) keep_ends(stroke.mean_edge, left);
   return left;
 }
 
@@ -72,33 +120,136 @@ static int agreement(const CutHit& left, std::span<const CutHit> found, double h
   return cosine > 0 ? 1 : -1;
 }
 
-void take_up_left(const Mesh& mesh, std::span<const CutHit> found, CutStroke& stroke) {
-  if (stroke.left.hit.empty()) return;
+// Of an element whose crossings these are.
+static int agreement(std::span<const CutHit> left, std::span<const CutHit> found, double h) {
+  for (const CutHit& hit : left)
+    if (const int agrees = agreement(hit, found, h); agrees != 0) return agrees;
+  return 0;
+}
+
+namespace {
+
+// A crossing as the stroke has it, and its sides: -1 where the one that left it had them the other
+// way round.
+struct TakenHit {
+  CutHit hit;
+  int agrees;
+};
+
+// What is taken up; of elements, ascending.
+struct TakenUp {
+  std::vector<TakenHit> hit;
+  std::vector<OfElement<std::int8_t>> side;
+  std::vector<OfElement<std::uint8_t>> opened;
+};
+
+}  // namespace
+
+// What is known of an element but for its crossings.
+static void take_up_element(const Mesh& mesh, std::int32_t e, int agrees, CutStroke& stroke,
+                            TakenUp& taken) {
+  const CutLeft& left = stroke.left;
+  stroke.fresh.push_back(e);
+  const std::int8_t* side = find_element(left.side, e);
+  if (side != nullptr && find_element(stroke.side, e) == nullptr)
+    taken.side.push_back({e, static_cast<std::int8_t>(agrees * *side)});
+  if (const std::uint8_t* mask = find_element(left.opened, e)) taken.opened.push_back({e, *mask});
+  for (const std::int32_t i : mesh.corners(e)) {
+    if (std::ranges::binary_search(left.node, i)) stroke.surface_node.push_back(i);
+    if (std::ranges::binary_search(left.parted_node, i)) stroke.parted_node.push_back(i);
+  }
+}
+
+static void add_to_stroke(TakenUp& taken, CutStroke& stroke) {
+  merge_elements(stroke.side, taken.side);
+  add_masks(stroke.opened, taken.opened);
+  merge_elements(stroke.opened, taken.opened);
+  taken.side.clear();
+  taken.opened.clear();
+}
+
+// Elements near crossings of `found`, with theirs.
+static TakenUp take_up_crossed(const Mesh& mesh, std::span<const CutHit> found, CutStroke& stroke) {
   Box around;
   for (const CutHit& hit : found) around.add(hit.X);
-  std::vector<CutHit> taken, left;
-  std::vector<std::int32_t> node;
-  for (const CutHit& hit : stroke.left.hit) {
-    const bool is_near = around.holds(hit.X, reach_along * stroke.mean_edge);
-    const int agrees = is_near ? agreement(hit, found, stroke.mean_edge) : 0;
-    (agrees == 0 ? left : taken).push_back(hit);
-    if (agrees == 0) continue;
-    if (agrees < 0) {
-      taken.back().is_first_plus = !hit.is_first_plus;
-      taken.back().N = -hit.N;
+  const auto is_near = [&](const CutHit& hit) {
+    return around.holds(hit.X, reach_along * stroke.mean_edge);
+  };
+  TakenUp taken;
+  std::vector<CutHit> left;
+  const std::vector<CutHit>& all = stroke.left.hit;
+  for (auto begin = all.begin(), end = begin; begin != all.end(); begin = end) {
+    while (end != all.end() && end->element == begin->element) ++end;
+    const std::span<const CutHit> hits(begin, end);
+    const int agrees =
+        std::ranges::any_of(hits, is_near) ? agreement(hits, found, stroke.mean_edge) : 0;
+    if (agrees == 0) {
+      left.insert(left.end(), begin, end);
+      continue;
     }
-    stroke.fresh.push_back(hit.element);
-    for (const std::int32_t i : mesh.corners(hit.element)) node.push_back(i);
+    for (CutHit hit : hits) {
+      hit.is_first_plus = hit.is_first_plus == (agrees > 0);
+      hit.N *= agrees;
+      taken.hit.push_back({hit, agrees});
+      stroke.hit.push_back(hit);
+    }
+    take_up_element(mesh, begin->element, agrees, stroke, taken);
   }
-  if (taken.empty()) return;
   stroke.left.hit = std::move(left);
+  add_to_stroke(taken, stroke);
+  return taken;
+}
+
+// The nearest within `reach` [m] of X, nullptr if there is none.
+static const TakenHit* nearest_to(const Vec3& X, const std::vector<TakenHit>& taken, double reach) {
+  const auto distance = [&](const TakenHit& t) { return (t.hit.X - X).squaredNorm(); };
+  const auto nearest = std::ranges::min_element(taken, {}, distance);
+  return nearest != taken.end() && distance(*nearest) < reach * reach ? &*nearest : nullptr;
+}
+
+// Elements that have a side, but no crossing, beside those that are taken up.
+static void take_up_uncrossed(const Mesh& mesh, CutStroke& stroke, TakenUp& taken) {
+  Box around;
+  for (const TakenHit& t : taken.hit) around.add(t.hit.X);
+  const double reach = reach_along * stroke.mean_edge;
+  for (const auto& [e, side] : stroke.left.side) {
+    const Vec3 X = middle_of(mesh, e);
+    if (!around.holds(X, reach) || find_element(stroke.side, e) != nullptr ||
+        std::ranges::binary_search(stroke.left.hit, e, {}, &CutHit::element))
+      continue;
+    if (const TakenHit* beside = nearest_to(X, taken.hit, reach))
+      take_up_element(mesh, e, beside->agrees, stroke, taken);
+  }
+  add_to_stroke(taken, stroke);
+}
+
+// Where the earlier strokes ended there: beyond, nothing is parted.
+static void take_up_rim(const std::vector<TakenHit>& taken, CutStroke& stroke) {
+  const double h = stroke.mean_edge;
+  const auto is_taken = [&](const Vec3& R) {
+    const TakenHit* nearest = nearest_to(R, taken, reach_along * h);
+    return nearest != nullptr &&
+           std::abs(nearest->hit.N.dot(R - nearest->hit.X)) <= reach_beside * h;
+  };
+  const auto kept = std::ranges::stable_partition(stroke.left.rim, std::not_fn(is_taken));
+  stroke.rim.insert(stroke.rim.end(), kept.begin(), kept.end());
+  stroke.left.rim.erase(kept.begin(), kept.end());
+}
+
+void take_up_left(const Mesh& mesh, std::span<const CutHit> found, CutStroke& stroke) {
+  if (stroke.left.hit.empty()) return;
+  TakenUp taken = take_up_crossed(mesh, found, stroke);
+  if (taken.hit.empty()) return;
+  take_up_uncrossed(mesh, stroke, taken);
+  take_up_rim(taken.hit, stroke);
   sort_unique(stroke.fresh);
-  stroke.hit.insert(stroke.hit.end(), taken.begin(), taken.end());  // its own come first
-  sort_hits(stroke.hit);
-  std::erase_if(node,
-                [&](std::int32_t i) { return !std::ranges::binary_search(stroke.left.node, i); });
-  stroke.surface_node.insert(stroke.surface_node.end(), node.begin(), node.end());
+  std::erase_if(stroke.left.side, [&](const auto& entry) {
+    return std::ranges::binary_search(stroke.fresh, entry.element) &&
+           find_element(stroke.side, entry.element) != nullptr;
+  });
+  sort_hits(stroke.hit);  // its own come first
   sort_unique(stroke.surface_node);
+  sort_unique(stroke.parted_node);
 }
 
 }  // namespace trocar

@@ -1,5 +1,6 @@
 // Where a stroke meets what another one has begun: around the end of a slit elements are crossed in
-// part, and nobody parts them. A blade that comes there again, or from the other side, does.
+// part, or have sides and stay joined. A blade that comes there again, or from the other side, goes
+// on as if both were one stroke; a slit of its own beside the other would end between the two.
 #pragma once
 
 #include <span>
@@ -14,7 +15,8 @@ CutLeft left_by(const CutStroke& stroke);
 
 void add_left(const CutLeft& more, CutLeft& left);
 
-// Adds to the stroke's crossings those that are left beside those of `found`, along them.
+// Adds to the stroke what is left of elements crossed beside the crossings `found`, along them:
+// their crossings, sides and opened facets, and where the rim was.
 void take_up_left(const Mesh& mesh, std::span<const CutHit> found, CutStroke& stroke);
 
 }  // namespace trocar

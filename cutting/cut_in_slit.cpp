@@ -103,20 +103,28 @@ OlderSlits::OlderSlits(const Mesh& mesh, std::span<const std::int32_t> elements,
     lips_.push_back({{mesh.X[node[0]], mesh.X[node[1]], mesh.X[node[2]]},
                      normal,
                      std::ranges::any_of(node, is_front)});
-  if (!lips_.empty()) parted_ = points_near(mesh, elements, h, stroke.left.parted);
+  if (lips_.empty()) return;
+  parted_ = points_near(mesh, elements, h, stroke.left.parted);
+  at_end_ = points_near(mesh, elements, h, stroke.left.at_end);
 }
 
-bool OlderSlits::is_parted(const Vec3& X, const Vec3& N) const {
+// The nearest of them; nullptr if it lies farther than h, or X not along the surface there.
+static const SurfacePoint* point_along(const std::vector<SurfacePoint>& points, const Vec3& X,
+                                       const Vec3& N, double h) {
   const auto distance = [&](const SurfacePoint& p) { return (p.X - X).squaredNorm(); };
-  const auto nearest = std::ranges::min_element(parted_, {}, distance);
-  return nearest != parted_.end() && distance(*nearest) < h_ * h_ &&
-         std::abs(nearest->N.dot(N)) >= strict.cosine &&
-         std::abs(nearest->N.dot(X - nearest->X)) <= strict.beside * h_;
+  const auto nearest = std::ranges::min_element(points, {}, distance);
+  const bool is_along = nearest != points.end() && distance(*nearest) < h * h &&
+                        std::abs(nearest->N.dot(N)) >= strict.cosine &&
+                        std::abs(nearest->N.dot(X - nearest->X)) <= strict.beside * h;
+  return is_along ? &*nearest : nullptr;
 }
 
 OlderSlits::Place OlderSlits::place_of(const Vec3& X, const Vec3& N) const {
   if (lips_.empty()) return Place::outside;
-  const Reach& reach = is_parted(X, N) ? where_parted : strict;
+  const SurfacePoint* const parted = point_along(parted_, X, N, h_);
+  if (parted != nullptr && std::ranges::find(at_end_, parted->X, &SurfacePoint::X) != at_end_.end())
+    return Place::outside;
+  const Reach& reach = parted != nullptr ? where_parted : strict;
   const auto holds = [&](const Lip& lip) {
     return std::abs(lip.normal.dot(X - lip.X[0])) <= reach.beside * h_ &&
            std::abs(lip.normal.dot(N)) >= reach.cosine && least_share(lip.X, X) >= -reach.slack;

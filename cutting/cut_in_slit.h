@@ -12,7 +12,8 @@ namespace trocar {
 
 // Facets that other strokes have opened, but for those at the front of a slit. What a blade crosses
 // at most 0.15 mean edges beside them, along them, has been parted already; so has what it crosses
-// a mean edge beside them where one of these strokes has crossed the same.
+// a mean edge beside them where one of these strokes has crossed the same. Not around the ends of
+// such a stroke: there the blade goes on with it (cut_go_on.h).
 class OlderSlits {
  public:
   // Of these elements of the mesh; h: mean edge [m].
@@ -29,10 +30,8 @@ class OlderSlits {
     bool is_near_front;  // shares a node with a facet at the front
   };
   std::vector<Lip> lips_;
-  std::vector<SurfacePoint> parted_;  // CutLeft::parted around the elements
-  double h_;                          // [m]
-
-  bool is_parted(const Vec3& X, const Vec3& N) const;
+  std::vector<SurfacePoint> parted_, at_end_;  // as in CutLeft, around the elements
+  double h_;                                   // [m]
 };
 
 }  // namespace trocar

@@ -41,13 +41,16 @@ struct OfElement {
   T value{};
 };
 
-// What strokes leave to others. What they have crossed and not parted, around the ends of their
-// slits: one that comes there goes on with it (cut_go_on.h). And where they have parted: one that
-// comes again crosses nothing there (cut_in_slit.h).
+// What strokes leave to others. What they remember of elements around the ends of their slits: one
+// that comes there goes on with it (cut_go_on.h). And where they have parted (cut_in_slit.h).
 struct CutLeft {
-  std::vector<CutHit> hit;           // ascending (element, edge)
-  std::vector<std::int32_t> node;    // surface_node of these strokes, ascending
+  std::vector<CutHit> hit;                   // ascending (element, edge)
+  std::vector<OfElement<std::int8_t>> side;  // as in CutStroke
+  std::vector<OfElement<std::uint8_t>> opened;
+  std::vector<std::int32_t> node, parted_node;  // surface_node and parted_node of these strokes
   std::vector<SurfacePoint> parted;  // crossings of elements that they have opened, ascending
+  std::vector<SurfacePoint> at_end;  // those of them around the ends of the slits, ascending
+  std::vector<Vec3> rim;             // as in CutStroke, ascending
 };
 
 // A point of the blade's edge at the end of a frame, and where in the tissue its band has ended.

@@ -17,6 +17,7 @@
 #include "cutting/cut_index.h"
 #include "cutting/cut_mend.h"
 #include "cutting/cut_missed.h"
+#include "cutting/cut_rim.h"
 #include "cutting/cut_split.h"
 #include "cutting/cut_thin.h"
 
@@ -64,7 +65,7 @@ CutLeft TetCutter::left() const {
   return left_by(front_->stroke);
 }
 void TetCutter::take_over(const CutLeft& left) {
-  add_left(left, front_->stroke.left);
+  add_left(unparted_of(left), front_->stroke.left);
 }
 
 const CutStroke& TetCutter::stroke() const {
@@ -147,6 +148,7 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
   add_hits(mesh, index, positions, sweep, stroke);
   if (!is_last && stroke.swept < options.advance * stroke.mean_edge) return {};
 
+  if (is_last) drop_covered_rim(stroke);
   TetCut cut;
   cut.around = survey(mesh, tets.mesh.X.empty() ? nullptr : &tets, index, positions, constraints,
                       stroke, is_last);
@@ -265,8 +267,9 @@ CutterEdit TetCutter::advance(const Mesh& mesh, PresentPositions& positions,
   prepare(mesh);
   Front& f = *front_;
   const bool has_tets = !f.tets.mesh.X.empty();
-  MeshEdit edit =
-      f.advance(has_tets ? f.tets.mesh : mesh, positions, constraints, sweep, is_last, figures);
+  const Mesh& tets = has_tets ? f.tets.mesh : mesh;
+  MeshEdit edit = f.advance(tets, positions, constraints, sweep, is_last, figures);
+  if (is_last && edit.inserted.empty()) forget_uncrossed(tets, f.stroke);
   figures.goes_through = is_last && has_gone_through(f.stroke);
   std::vector<CutHit> along = crossings_in(edit.cut_facets, f.stroke);
   if (!has_tets || edit.is_empty()) return {std::move(edit), {}, std::move(along)};

@@ -37,7 +37,7 @@ void visit(Archive& a, SurfacePoint& p) {
 }
 template <class Archive>
 void visit(Archive& a, CutLeft& l) {
-  a(l.hit, l.node, l.parted);
+  a(l.hit, l.side, l.opened, l.node, l.parted_node, l.parted, l.at_end, l.rim);
 }
 template <class Archive>
 void visit(Archive& a, CutStroke& s) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "cutting_tet.h"
@@ -58,6 +59,72 @@ TEST(CutGoOn, strokes_from_two_sides_part_the_body_where_they_overlap) {
 TEST(CutGoOn, blade_takes_up_what_another_one_left) {
   for (const BoxElements elements : {BoxElements::tet4_kuhn, BoxElements::tet4_five})
     EXPECT_GE(n_parted(elements, 0.5, true), 3 * n_places / 4) << static_cast<int>(elements);
+}
+
+// A blade that is lifted and put back, at height z0 and then z1 of its tip: from y0 to y1 and from
+// y2 to y3.
+struct TwoReaches {
+  double z0, y0, y1, z1, y2, y3;
+};
+
+// Comes in and goes out at a slant, so that it sweeps tissue on its way.
+Blade reach_at(double x, double z, double y0, double y1) {
+  return [=](double t) {
+    constexpr double top = 1.1, slant = 0.2;
+    const double in = std::max(1 - 4 * t, 0.0), out = std::max(4 * t - 3, 0.0);
+    const double way = std::clamp(2 * t - 0.5, 0.0, 1.0);
+    const double up = (top - z) * (in + out), y = y0 + way * (y1 - y0) + slant * up * (out - in);
+    std::vector<Vec3> points;
+    for (int k = 0; k <= 14; ++k) points.emplace_back(x, y, z + up + 0.1 * k);
+    return points;
+  };
+}
+
+int pieces_after(const TwoReaches& r, BoxElements elements, double x, int& n_refused) {
+  Body body(make_box({0, 0, 0}, {1, 1, 1}, {9, 9, 9}, elements));
+  const double step = least_step_of(body.mesh);
+  TetCutter cutter({});
+  cut(body, reach_at(x, r.z0, r.y0, r.y1), Vec3::UnitX(), 60, cutter);
+  EXPECT_EQ(n_pieces(body.mesh), 1);
+  n_refused = cut(body, reach_at(x, r.z1, r.y2, r.y3), Vec3::UnitX(), 60, cutter).total.n_refused;
+  EXPECT_EQ(fault(body), "");
+  EXPECT_GE(least_step_of(body.mesh), 0.75 * step * (1 - 1e-9));
+  return n_pieces(body.mesh);
+}
+
+struct Count {
+  int n = 0, n_parted = 0, n_told = 0;  // told: of those that stay joined
+};
+
+Count count_after(const TwoReaches& r) {
+  Count count;
+  for (const BoxElements elements : {BoxElements::tet4_kuhn, BoxElements::tet4_five})
+    for (int k = 0; k < n_places; ++k) {
+      int n_refused = 0;
+      const bool is_parted = pieces_after(r, elements, 0.36 + 0.023 * k, n_refused) == 2;
+      ++count.n;
+      count.n_parted += is_parted ? 1 : 0;
+      count.n_told += !is_parted && n_refused > 0 ? 1 : 0;
+    }
+  return count;
+}
+
+TEST(CutGoOn, blade_that_is_put_back_into_its_slit_parts_the_body) {
+  for (const double behind : {0.1, 0.2, 0.3}) {
+    const Count count = count_after({-0.2, -0.1, 0.5, -0.2, 0.5 - behind, 1.1});
+    std::printf("put back %.1f behind its end: %d of %d parted, of others %d told\n", behind,
+                count.n_parted, count.n, count.n_told);
+    EXPECT_EQ(count.n_parted, count.n) << behind;
+  }
+}
+
+TEST(CutGoOn, blade_that_deepens_its_slit_from_within_parts_the_body) {
+  for (const double height : {0.35, 0.5, 0.65}) {
+    const Count count = count_after({height, -0.1, 1.1, -0.2, -0.1, 1.1});
+    std::printf("deepened from %.2f: %d of %d parted, of others %d told\n", height, count.n_parted,
+                count.n, count.n_told);
+    EXPECT_EQ(count.n_parted, count.n) << height;
+  }
 }
 
 }  // namespace
