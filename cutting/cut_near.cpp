@@ -11,7 +11,7 @@ static constexpr unsigned all_sides = 63, is_searched = 64, is_queued = 128;
 
 namespace {
 
-struct Search {
+struct NearSearch {
   const Mesh& mesh;
   CutIndex& index;
   std::span<const Vec3> x;
@@ -42,7 +42,7 @@ static unsigned outside(const BandBox& box, const Vec3& p) {
   return code;
 }
 
-static std::uint8_t& mark_of(Search& search, std::int32_t i) {
+static std::uint8_t& mark_of(NearSearch& search, std::int32_t i) {
   std::uint8_t& mark = search.index.ring[i];
   if (mark != no_ring) return mark;
   mark = static_cast<std::uint8_t>(outside(search.box, search.x[i]));
@@ -50,7 +50,7 @@ static std::uint8_t& mark_of(Search& search, std::int32_t i) {
   return mark;
 }
 
-static void put_in_queue(Search& search, std::int32_t i) {
+static void put_in_queue(NearSearch& search, std::int32_t i) {
   std::uint8_t& mark = mark_of(search, i);
   if ((mark & is_queued) != 0) return;
   mark |= is_queued;
@@ -58,7 +58,7 @@ static void put_in_queue(Search& search, std::int32_t i) {
 }
 
 // Takes up the elements around node i that no searched node has.
-static void search_star(Search& search, std::int32_t i) {
+static void search_star(NearSearch& search, std::int32_t i) {
   for (const std::int32_t e : search.index.star(i)) {
     const std::span<const std::int32_t> corner = search.mesh.corners(e);
     unsigned common = all_sides, any = 0;
@@ -74,21 +74,21 @@ static void search_star(Search& search, std::int32_t i) {
   mark_of(search, i) |= is_searched;
 }
 
-static std::vector<std::int32_t> run(Search& search) {
+static std::vector<std::int32_t> run(NearSearch& search) {
   for (std::size_t k = 0; k < search.queue.size(); ++k) search_star(search, search.queue[k]);
   for (const std::int32_t i : search.seen) search.index.ring[i] = no_ring;
   std::sort(search.element.begin(), search.element.end());
   return std::move(search.element);
 }
 
-static Search search_for(const Mesh& mesh, CutIndex& index, const PresentPositions& positions,
-                         const BandBox& box) {
+static NearSearch search_for(const Mesh& mesh, CutIndex& index, const PresentPositions& positions,
+                             const BandBox& box) {
   return {mesh, index, positions.x(), box, box_around(box), {}, {}, {}};
 }
 
 std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index,
                                         PresentPositions& positions, const BandBox& box) {
-  Search search = search_for(mesh, index, positions, box);
+  NearSearch search = search_for(mesh, index, positions, box);
   for (const std::int32_t i : positions.nodes_near(search.around)) put_in_queue(search, i);
   return run(search);
 }
@@ -96,7 +96,7 @@ std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index,
 std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index,
                                         PresentPositions& positions, const BandBox& box,
                                         std::span<const std::int32_t> begin) {
-  Search search = search_for(mesh, index, positions, box);
+  NearSearch search = search_for(mesh, index, positions, box);
   for (const std::int32_t i : positions.nodes_near(search.around))
     if (index.is_surface[i] != 0) put_in_queue(search, i);
   for (const std::int32_t e : begin)
