@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/sort_unique.h"
+#include "cutting/cut_go_on.h"
 #include "cutting/cut_patch.h"
 
 namespace trocar {
@@ -43,9 +44,10 @@ static void add_copies(const Mesh& mesh, const MeshEdit& edit, std::vector<std::
       nodes.push_back(mesh.n_nodes() + static_cast<std::int32_t>(k));
 }
 
-void follow_opening(const Mesh& mesh, const MeshEdit& edit, std::span<const CutHit> along,
+void follow_opening(const Mesh& mesh, const MeshEdit& edit, const CutLeft& along,
                     CutStroke& stroke) {
   if (edit.is_empty()) return;
+  go_on_beside(mesh, along, stroke);
   std::vector<std::int32_t> parted = edit.duplicate_parent;
   sort_unique(parted);
   const auto is_parted = [&](std::int32_t node) {
@@ -59,16 +61,21 @@ void follow_opening(const Mesh& mesh, const MeshEdit& edit, std::span<const CutH
     const std::array<int, 2>& end = tet_edges[hit.edge];
     const auto corner = mesh.corners(hit.element);
     return (is_parted(corner[end[0]]) || is_parted(corner[end[1]]) || is_opened(hit.element)) &&
-           is_along(along, hit);
+           is_along(along.hit, hit);
+  };
+  const auto is_gone_of_own = [&](const CutHit& hit) {
+    return is_gone(hit) && find_element(stroke.side, hit.element) == nullptr;
   };
   for (const CutHit& hit : stroke.hit)
-    if (is_gone(hit)) stroke.in_slit.push_back(hit.element);
-  std::erase_if(stroke.hit, is_gone);
+    if (is_gone_of_own(hit)) stroke.in_slit.push_back(hit.element);
+  std::erase_if(stroke.hit, is_gone_of_own);
   std::erase_if(stroke.left.hit, is_gone);
   sort_unique(stroke.in_slit);
-  for (auto* nodes :
-       {&stroke.surface_node, &stroke.parted_node, &stroke.left.node, &stroke.left.parted_node})
+  for (auto* nodes : {&stroke.surface_node, &stroke.parted_node, &stroke.left.node,
+                      &stroke.left.parted_node, &stroke.beside.node, &stroke.beside.parted_node}) {
     add_copies(mesh, edit, *nodes);
+    sort_unique(*nodes);
+  }
 }
 
 }  // namespace trocar

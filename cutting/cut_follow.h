@@ -17,11 +17,12 @@ void keep_steps(const Mesh& mesh, std::span<const std::int32_t> element, CutStro
 void keep_steps_around(const Mesh& mesh, const CutIndex& index, const MeshEdit& edit,
                        CutStroke& stroke);
 
-// Crossings of edges whose ends the edit has parted, and all those in elements at facets that it
-// opened, along its surface: made again, they would be a second slit beside the first. Elements of
-// those of this stroke go to in_slit. Copies of nodes join their parents. `mesh` is that before the
-// edit, `along` the other blade's crossings of the elements that it opens.
-void follow_opening(const Mesh& mesh, const MeshEdit& edit, std::span<const CutHit> along,
+// Where the stroke goes the other blade's way, it goes on as if both were one (go_on_beside).
+// Elsewhere it forgets crossings of edges whose ends the edit has parted, and all those in elements
+// at facets that it opened, along its surface: made again, they would be a second slit beside the
+// first. Elements of those of this stroke go to in_slit. Copies of nodes join their parents. `mesh`
+// is that before the edit, `along` what the other blade knows of the elements around it.
+void follow_opening(const Mesh& mesh, const MeshEdit& edit, const CutLeft& along,
                     CutStroke& stroke);
 
 }  // namespace trocar

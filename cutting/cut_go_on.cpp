@@ -21,7 +21,9 @@ static Vec3 middle_of(const Mesh& mesh, std::int32_t e) {
 // Over h: how far from its own crossings a stroke looks for those of others, and how far beside its
 // surface they may lie.
 static constexpr double reach_along = 1, reach_beside = 0.35;
-static constexpr double along_it = 0.87;  // of the angle between the surfaces
+// Cosine of the angle between the surfaces. Blades that cross at once must not take each other's
+// sides for theirs where they do.
+static constexpr double along_left = 0.87, along_beside = 0.966;
 
 // Each once, by its coordinates.
 static void sort_points(std::vector<SurfacePoint>& points) {
@@ -40,9 +42,9 @@ static void sort_places(std::vector<Vec3>& points) {
   points.erase(same.begin(), same.end());
 }
 
-static void add_nodes(const std::vector<std::int32_t>& more, std::vector<std::int32_t>& nodes) {
-  nodes.insert(nodes.end(), more.begin(), more.end());
-  sort_unique(nodes);
+static void add_numbers(const std::vector<std::int32_t>& more, std::vector<std::int32_t>& numbers) {
+  numbers.insert(numbers.end(), more.begin(), more.end());
+  sort_unique(numbers);
 }
 
 // Of the elements of `opened`.
@@ -64,14 +66,15 @@ static void forget_known(const CutLeft& more, CutLeft& left) {
 
 void add_left(const CutLeft& more, CutLeft& left) {
   forget_known(more, left);
+  const auto n_kept = static_cast<std::ptrdiff_t>(left.hit.size());
   left.hit.insert(left.hit.end(), more.hit.begin(), more.hit.end());
-  sort_hits(left.hit);
+  std::ranges::inplace_merge(left.hit, left.hit.begin() + n_kept, {}, &CutHit::key);
   merge_elements(left.side, more.side);
   std::vector<OfElement<std::uint8_t>> opened = more.opened;
   add_masks(left.opened, opened);
   merge_elements(left.opened, opened);
-  add_nodes(more.node, left.node);
-  add_nodes(more.parted_node, left.parted_node);
+  add_numbers(more.node, left.node);
+  add_numbers(more.parted_node, left.parted_node);
   for (const auto& [from, to] :
        {std::pair{&more.parted, &left.parted}, std::pair{&more.at_end, &left.at_end}}) {
     to->insert(to->end(), from->begin(), from->end());
@@ -104,7 +107,8 @@ CutLeft left_by(const CutStroke& stroke) {
 }
 
 // Of the stroke's sides: +1 as the earlier one had them, -1 the other way round, 0 not along it.
-static int agreement(const CutHit& left, std::span<const CutHit> found, double h) {
+static int agreement(const CutHit& left, std::span<const CutHit> found, double h,
+                     double least_cosine) {
   const CutHit* nearest = nullptr;
   double least = reach_along * h;
   for (const CutHit& hit : found)
@@ -115,15 +119,16 @@ static int agreement(const CutHit& left, std::span<const CutHit> found, double h
   if (nearest == nullptr) return 0;
   const double cosine = nearest->N.dot(left.N);
   if (std::abs(nearest->N.dot(left.X - nearest->X)) > reach_beside * h ||
-      std::abs(cosine) < along_it)
+      std::abs(cosine) < least_cosine)
     return 0;
   return cosine > 0 ? 1 : -1;
 }
 
 // Of an element whose crossings these are.
-static int agreement(std::span<const CutHit> left, std::span<const CutHit> found, double h) {
+static int agreement(std::span<const CutHit> left, std::span<const CutHit> found, double h,
+                     double least_cosine) {
   for (const CutHit& hit : left)
-    if (const int agrees = agreement(hit, found, h); agrees != 0) return agrees;
+    if (const int agrees = agreement(hit, found, h, least_cosine); agrees != 0) return agrees;
   return 0;
 }
 
@@ -138,6 +143,7 @@ struct TakenHit {
 
 // What is taken up; of elements, ascending.
 struct TakenUp {
+  std::vector<std::int32_t> element;
   std::vector<TakenHit> hit;
   std::vector<OfElement<std::int8_t>> side;
   std::vector<OfElement<std::uint8_t>> opened;
@@ -146,10 +152,9 @@ struct TakenUp {
 }  // namespace
 
 // What is known of an element but for its crossings.
-static void take_up_element(const Mesh& mesh, std::int32_t e, int agrees, CutStroke& stroke,
-                            TakenUp& taken) {
-  const CutLeft& left = stroke.left;
-  stroke.fresh.push_back(e);
+static void take_up_element(const Mesh& mesh, const CutLeft& left, std::int32_t e, int agrees,
+                            CutStroke& stroke, TakenUp& taken) {
+  taken.element.push_back(e);
   const std::int8_t* side = find_element(left.side, e);
   if (side != nullptr && find_element(stroke.side, e) == nullptr)
     taken.side.push_back({e, static_cast<std::int8_t>(agrees * *side)});
@@ -169,7 +174,8 @@ static void add_to_stroke(TakenUp& taken, CutStroke& stroke) {
 }
 
 // Elements near crossings of `found`, with theirs.
-static TakenUp take_up_crossed(const Mesh& mesh, std::span<const CutHit> found, CutStroke& stroke) {
+static TakenUp take_up_crossed(const Mesh& mesh, std::span<const CutHit> found, double least_cosine,
+                               CutLeft& from, CutStroke& stroke) {
   Box around;
   for (const CutHit& hit : found) around.add(hit.X);
   const auto is_near = [&](const CutHit& hit) {
@@ -177,12 +183,13 @@ static TakenUp take_up_crossed(const Mesh& mesh, std::span<const CutHit> found, 
   };
   TakenUp taken;
   std::vector<CutHit> left;
-  const std::vector<CutHit>& all = stroke.left.hit;
+  const std::vector<CutHit>& all = from.hit;
   for (auto begin = all.begin(), end = begin; begin != all.end(); begin = end) {
     while (end != all.end() && end->element == begin->element) ++end;
     const std::span<const CutHit> hits(begin, end);
-    const int agrees =
-        std::ranges::any_of(hits, is_near) ? agreement(hits, found, stroke.mean_edge) : 0;
+    const int agrees = std::ranges::any_of(hits, is_near)
+                           ? agreement(hits, found, stroke.mean_edge, least_cosine)
+                           : 0;
     if (agrees == 0) {
       left.insert(left.end(), begin, end);
       continue;
@@ -193,9 +200,9 @@ static TakenUp take_up_crossed(const Mesh& mesh, std::span<const CutHit> found, 
       taken.hit.push_back({hit, agrees});
       stroke.hit.push_back(hit);
     }
-    take_up_element(mesh, begin->element, agrees, stroke, taken);
+    take_up_element(mesh, from, begin->element, agrees, stroke, taken);
   }
-  stroke.left.hit = std::move(left);
+  from.hit = std::move(left);
   add_to_stroke(taken, stroke);
   return taken;
 }
@@ -208,48 +215,70 @@ static const TakenHit* nearest_to(const Vec3& X, const std::vector<TakenHit>& ta
 }
 
 // Elements that have a side, but no crossing, beside those that are taken up.
-static void take_up_uncrossed(const Mesh& mesh, CutStroke& stroke, TakenUp& taken) {
+static void take_up_uncrossed(const Mesh& mesh, const CutLeft& from, CutStroke& stroke,
+                              TakenUp& taken) {
   Box around;
   for (const TakenHit& t : taken.hit) around.add(t.hit.X);
   const double reach = reach_along * stroke.mean_edge;
-  for (const auto& [e, side] : stroke.left.side) {
+  for (const auto& [e, side] : from.side) {
     const Vec3 X = middle_of(mesh, e);
     if (!around.holds(X, reach) || find_element(stroke.side, e) != nullptr ||
-        std::ranges::binary_search(stroke.left.hit, e, {}, &CutHit::element))
+        std::ranges::binary_search(from.hit, e, {}, &CutHit::element))
       continue;
     if (const TakenHit* beside = nearest_to(X, taken.hit, reach))
-      take_up_element(mesh, e, beside->agrees, stroke, taken);
+      take_up_element(mesh, from, e, beside->agrees, stroke, taken);
   }
   add_to_stroke(taken, stroke);
 }
 
 // Where the earlier strokes ended there: beyond, nothing is parted.
-static void take_up_rim(const std::vector<TakenHit>& taken, CutStroke& stroke) {
+static void take_up_rim(const std::vector<TakenHit>& taken, CutLeft& from, CutStroke& stroke) {
   const double h = stroke.mean_edge;
   const auto is_taken = [&](const Vec3& R) {
     const TakenHit* nearest = nearest_to(R, taken, reach_along * h);
     return nearest != nullptr &&
            std::abs(nearest->hit.N.dot(R - nearest->hit.X)) <= reach_beside * h;
   };
-  const auto kept = std::ranges::stable_partition(stroke.left.rim, std::not_fn(is_taken));
+  const auto kept = std::ranges::stable_partition(from.rim, std::not_fn(is_taken));
   stroke.rim.insert(stroke.rim.end(), kept.begin(), kept.end());
-  stroke.left.rim.erase(kept.begin(), kept.end());
+  from.rim.erase(kept.begin(), kept.end());
 }
 
-void take_up_left(const Mesh& mesh, std::span<const CutHit> found, CutStroke& stroke) {
-  if (stroke.left.hit.empty()) return;
-  TakenUp taken = take_up_crossed(mesh, found, stroke);
-  if (taken.hit.empty()) return;
-  take_up_uncrossed(mesh, stroke, taken);
-  take_up_rim(taken.hit, stroke);
-  sort_unique(stroke.fresh);
-  std::erase_if(stroke.left.side, [&](const auto& entry) {
-    return std::ranges::binary_search(stroke.fresh, entry.element) &&
+// The elements, ascending.
+static std::vector<std::int32_t> take_up(const Mesh& mesh, std::span<const CutHit> found,
+                                         double least_cosine, CutLeft& from, CutStroke& stroke) {
+  if (from.hit.empty() || found.empty()) return {};
+  TakenUp taken = take_up_crossed(mesh, found, least_cosine, from, stroke);
+  if (taken.hit.empty()) return {};
+  take_up_uncrossed(mesh, from, stroke, taken);
+  take_up_rim(taken.hit, from, stroke);
+  sort_unique(taken.element);
+  add_numbers(taken.element, stroke.fresh);
+  std::erase_if(from.side, [&](const auto& entry) {
+    return std::ranges::binary_search(taken.element, entry.element) &&
            find_element(stroke.side, entry.element) != nullptr;
   });
   sort_hits(stroke.hit);  // its own come first
   sort_unique(stroke.surface_node);
   sort_unique(stroke.parted_node);
+  return std::move(taken.element);
+}
+
+void take_up_left(const Mesh& mesh, std::span<const CutHit> found, CutStroke& stroke) {
+  take_up(mesh, found, along_left, stroke.left, stroke);
+  add_numbers(take_up(mesh, found, along_beside, stroke.beside, stroke), stroke.taken);
+}
+
+void go_on_beside(const Mesh& mesh, const CutLeft& other, CutStroke& stroke) {
+  add_left(other, stroke.beside);
+  Box around;
+  for (const CutHit& hit : other.hit) around.add(hit.X);
+  std::vector<CutHit> found;
+  for (const CutHit& hit : stroke.hit)
+    if (around.holds(hit.X, reach_along * stroke.mean_edge) &&
+        !std::ranges::binary_search(stroke.taken, hit.element))
+      found.push_back(hit);
+  add_numbers(take_up(mesh, found, along_beside, stroke.beside, stroke), stroke.taken);
 }
 
 }  // namespace trocar

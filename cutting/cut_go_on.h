@@ -19,4 +19,8 @@ void add_left(const CutLeft& more, CutLeft& left);
 // their crossings, sides and opened facets, and where the rim was.
 void take_up_left(const Mesh& mesh, std::span<const CutHit> found, CutStroke& stroke);
 
+// The same of another blade that is in a stroke, with what it knows of elements around what it has
+// parted just now, which is remembered for crossings to come.
+void go_on_beside(const Mesh& mesh, const CutLeft& other, CutStroke& stroke);
+
 }  // namespace trocar

@@ -54,6 +54,11 @@ static std::array<std::int32_t, 3> nodes_of(const std::array<std::int32_t, 4>& c
   return {corner[k[0]], corner[k[1]], corner[k[2]]};
 }
 
+// Of a blade that is still in its stroke, and looks there itself at its end.
+static bool is_of_another(const CutStroke& stroke, std::int32_t e) {
+  return std::ranges::binary_search(stroke.taken, e);
+}
+
 // Whether both ends of a crossed edge of element e are too far from the surface to lie beside it.
 static bool is_crossed_clearly(const CutSurroundings& around, std::int32_t e,
                                std::span<const CutHit> hits) {
@@ -72,7 +77,8 @@ static void add_unparted(const TetCut& cut, const CutStroke& stroke,
   const std::vector<std::span<const CutHit>> hits = hits_of(stroke, patch.element);
   const std::vector<const std::int8_t*> side = find_elements(stroke.side, patch.element);
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
-    if (side[e] == nullptr && is_crossed_clearly(cut.around, e, hits[e]))
+    if (side[e] == nullptr && !is_of_another(stroke, patch.element[e]) &&
+        is_crossed_clearly(cut.around, e, hits[e]))
       places.push_back({centre_of(patch, {&e, 1}), CutRefusal::missed});
 }
 
@@ -81,6 +87,7 @@ static void add_joined_facets(const After& after, const CutStroke& stroke,
   std::vector<SidedFacet> facet;
   facet.reserve(4 * stroke.side.size());
   for (const auto& [e, side] : stroke.side) {
+    if (is_of_another(stroke, e)) continue;
     const std::array<std::int32_t, 4> corner = after.corners(e);
     for (int f = 0; f < 4; ++f) {
       facet.push_back({nodes_of(corner, f), side});
@@ -101,6 +108,7 @@ static void add_joined_facets(const After& after, const CutStroke& stroke,
 static void add_rims(const After& after, const CutStroke& stroke, std::vector<CutRefusal>& places) {
   std::vector<LipEdge> edge;
   for (const auto& [e, mask] : stroke.opened) {
+    if (is_of_another(stroke, e)) continue;
     const std::array<std::int32_t, 4> corner = after.corners(e);
     for (int f = 0; f < 4; ++f) {
       if ((mask >> f & 1) == 0) continue;

@@ -102,17 +102,6 @@ void keep_ends(double h, CutLeft& left) {
                        [&](const SurfacePoint& p) { return ends.are_near(p.X); });
 }
 
-CutLeft unparted_of(CutLeft left) {
-  std::erase_if(left.hit,
-                [&](const CutHit& hit) { return find_element(left.side, hit.element) != nullptr; });
-  left.side.clear();
-  left.opened.clear();
-  left.parted_node.clear();
-  left.at_end.clear();
-  left.rim.clear();
-  return left;
-}
-
 void forget_uncrossed(const Mesh& mesh, CutStroke& stroke) {
   const SlitEnds ends(stroke.rim, stroke.mean_edge);
   std::erase_if(stroke.side, [&](const auto& entry) {

@@ -14,10 +14,6 @@ void drop_covered_rim(CutStroke& stroke);
 // they have crossed and not parted. Or each frame would bear all that was ever cut.
 void keep_ends(double h, CutLeft& left);
 
-// What another blade goes on with: crossings of elements without a side. Slits of blades side by
-// side would grow together by the sides.
-CutLeft unparted_of(CutLeft left);
-
 // What keep_ends forgets of the sides of elements that the stroke, which has ended, has not
 // crossed.
 void forget_uncrossed(const Mesh& mesh, CutStroke& stroke);

@@ -65,9 +65,11 @@ struct BladePoint {
 };
 
 struct CutStroke {
-  std::vector<CutHit> hit;                      // ascending (element, edge)
-  std::vector<CutHit> earlier_hit;              // of earlier strokes that parted nothing there
-  CutLeft left;                                 // of strokes that have ended
+  std::vector<CutHit> hit;          // ascending (element, edge)
+  std::vector<CutHit> earlier_hit;  // of earlier strokes that parted nothing there
+  CutLeft left;                     // of strokes that have ended
+  CutLeft beside;  // of other blades that are in a stroke, around what they have parted in it
+  std::vector<std::int32_t> taken;              // elements of those that it goes on with, ascending
   std::vector<OfElement<std::int8_t>> side;     // +1 or -1: sides given at earlier advances
   std::vector<OfElement<std::uint8_t>> opened;  // bit f: facet f was opened by this stroke
   std::vector<OfElement<double>>

@@ -40,7 +40,7 @@ struct CutTetOptions {
 // Of the mesh, and of the tetrahedra that the cutter sees in its place, none without hexahedra.
 struct CutterEdit : MeshEdit {
   MeshEdit tets;
-  std::vector<CutHit> along;  // the stroke's crossings of the elements that it opens
+  CutLeft along;  // what the stroke knows of the elements around what it opens
 };
 
 // One blade's cut from its entry into tissue to its exit.
@@ -80,7 +80,7 @@ class TetCutter {
   // A new stroke: forgets the front (faces that are open stay open).
   void start_stroke();
 
-  // What the stroke leaves crossed and not parted when it ends; what other cutters' strokes have
+  // What the stroke leaves to others when it ends (cut_stroke.h); what another cutter's stroke has
   // left: one of this cutter that comes there goes on with it.
   CutLeft left() const;
   void take_over(const CutLeft& left);

@@ -41,9 +41,9 @@ void visit(Archive& a, CutLeft& l) {
 }
 template <class Archive>
 void visit(Archive& a, CutStroke& s) {
-  a(s.hit, s.earlier_hit, s.left, s.side, s.opened, s.step, s.whole_edge, s.surface_node,
-    s.parted_node, s.made_node, s.fresh, s.in_slit, s.unfinished, s.edge, s.at_edge, s.rim,
-    s.is_amid, s.mean_edge, s.swept);
+  a(s.hit, s.earlier_hit, s.left, s.beside, s.taken, s.side, s.opened, s.step, s.whole_edge,
+    s.surface_node, s.parted_node, s.made_node, s.fresh, s.in_slit, s.unfinished, s.edge, s.at_edge,
+    s.rim, s.is_amid, s.mean_edge, s.swept);
 }
 template <class Archive>
 void visit(Archive& a, CutRefusal& r) {

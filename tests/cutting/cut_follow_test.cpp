@@ -58,22 +58,28 @@ Vec3 random_direction(std::mt19937_64& random) {
   return Vec3(gauss(random), gauss(random), gauss(random)).normalized();
 }
 
-// Two cutters' blades, whose edges are across the line in which their planes cross, along that line
-// in 30 frames.
+struct MovingBlade {
+  Blade edge;
+  Vec3 normal;
+};
+
+// Two cutters' blades, in 30 frames.
 class TwoBlades {
  public:
-  TwoBlades(Body body, const std::array<Plane, 2>& planes) : body_(std::move(body)) {
-    const Vec3 line = planes[0].normal.cross(planes[1].normal).normalized();
-    for (const Plane& plane : planes) {
-      const Vec3 along = line.cross(plane.normal), from = plane.centre - 1.2 * line;
-      blades_.push_back(
-          {straight_blade(from - 1.2 * along, from + 1.2 * along, 2.4 * line, 12), plane.normal});
-      cutters_.emplace_back(CutTetOptions{}).prepare(body_.mesh);
-    }
+  TwoBlades(Body body, const std::array<MovingBlade, 2>& blades)
+      : body_(std::move(body)), blades_(blades) {
+    for (int k = 0; k < 2; ++k) cutters_.emplace_back(CutTetOptions{}).prepare(body_.mesh);
   }
-  void advance_both() {
-    for (int k = 0; k < n_frames; ++k)
-      for (std::size_t which = 0; which < 2; ++which) advance_one(which, k);
+  // Their edges are across the line in which the planes cross, and go along that line.
+  TwoBlades(Body body, const std::array<Plane, 2>& planes)
+      : TwoBlades(std::move(body), across(planes)) {}
+
+  // The second one begins `lag` frames later.
+  void advance_both(int lag = 0) {
+    for (int k = 0; k < n_frames + lag; ++k) {
+      if (k < n_frames) advance_one(0, k);
+      if (k >= lag) advance_one(1, k - lag);
+    }
   }
   void cut_in_turn(bool by_one_cutter) {
     for (std::size_t which = 0; which < 2; ++which) {
@@ -86,15 +92,20 @@ class TwoBlades {
 
  private:
   static constexpr int n_frames = 30;
-  struct MovingBlade {
-    Blade edge;
-    Vec3 normal;
-  };
   Body body_;
-  std::vector<MovingBlade> blades_;
+  std::array<MovingBlade, 2> blades_;
   std::vector<TetCutter> cutters_;
   Ledger ledger_;
 
+  static std::array<MovingBlade, 2> across(const std::array<Plane, 2>& planes) {
+    const Vec3 line = planes[0].normal.cross(planes[1].normal).normalized();
+    std::array<MovingBlade, 2> blades;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Vec3 &N = planes[k].normal, along = line.cross(N), from = planes[k].centre - 1.2 * line;
+      blades[k] = {straight_blade(from - 1.2 * along, from + 1.2 * along, 2.4 * line, 12), N};
+    }
+    return blades;
+  }
   void advance_one(std::size_t which, int k) { advance_one(which, k, which); }
   void advance_one(std::size_t which, int k, std::size_t by) {
     const auto& [edge, normal_of_blade] = blades_[which];
@@ -131,6 +142,44 @@ TEST(CutFollow, two_blades_at_once_whose_planes_cross_part_the_body_in_four) {
   }
   std::printf("%d of %d in four pieces\n", n_right, n);
   EXPECT_GE(n_right, n - 2);
+}
+
+// From two sides, the second one `aside` of the first one's plane, until they overlap by so many
+// mean edges.
+std::array<MovingBlade, 2> meeting_blades(double x, double overlap, double aside, double h) {
+  const Vec3 way = (0.6 + overlap * h / 2) * Vec3::UnitY(), up = 1.4 * Vec3::UnitZ();
+  const Vec3 first(x, -0.1, -0.2), second(x + aside * h, 1.1, -0.2);
+  return {{{straight_blade(first, first + up, way, 14), normal},
+           {straight_blade(second, second + up, -way, 14), -normal}}};
+}
+
+int n_parted_by_meeting(BoxElements elements, double overlap, int lag, double aside) {
+  int n = 0;
+  for (const double x : {0.37, 0.44, 0.52, 0.6}) {
+    Body body(make_box({0, 0, 0}, {1, 1, 1}, {9, 9, 9}, elements));
+    const double h = mean_edge_of(body.mesh), step = least_step_of(body.mesh);
+    TwoBlades blades(std::move(body), meeting_blades(x, overlap, aside, h));
+    blades.advance_both(lag);
+    EXPECT_EQ(fault(blades.body()), "");
+    if (elements != BoxElements::hex8) {
+      EXPECT_GE(least_step_of(blades.body().mesh), 0.7499 * step);
+    }
+    n += n_pieces(blades.body().mesh) == 2 ? 1 : 0;
+  }
+  return n;
+}
+
+TEST(CutFollow, two_blades_that_meet_part_the_body) {
+  for (const double overlap : {1.0, 2.0, 4.0})
+    for (const int lag : {0, 5, 12})
+      for (const double aside : {0.0, 0.2}) {
+        int n = 0;
+        for (const BoxElements elements :
+             {BoxElements::hex8, BoxElements::tet4_kuhn, BoxElements::tet4_five})
+          n += n_parted_by_meeting(elements, overlap, lag, aside);
+        std::printf("overlap %.0f, lag %d, aside %.1f: %d of 12 parted\n", overlap, lag, aside, n);
+        EXPECT_GE(n, overlap < 2 ? 9 : 11) << overlap << ' ' << lag << ' ' << aside;
+      }
 }
 
 // By one cutter, or by one for each stroke: bounds are over those from before any cut.
