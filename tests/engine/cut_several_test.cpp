@@ -41,5 +41,33 @@ TEST(CutSeveral, four_strokes_of_a_scalpel_free_the_piece_between_them) {
   EXPECT_EQ(s.n_pieces, 2);
 }
 
+// Along y, from its side of the block on, to 3 mm beyond the middle and out upwards.
+std::string scalpel_from(bool is_low, double start, double x) {
+  const double from = is_low ? -6 : 36, to = is_low ? 18 : 12;
+  return "[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.02\nradius = 0.0005\nname = \"" +
+         std::string(is_low ? "low" : "high") + "\"\npath = [\n" +
+         facing(
+             key(start, x, from, -3) + key(start + 0.45, x, to, -3) + key(start + 0.75, x, to, 37),
+             is_low ? "[0, 1, 0]" : "[0, -1, 0]") +
+         "]\n";
+}
+
+TEST(CutSeveral, two_scalpels_that_meet_part_the_block) {
+  for (const std::string elements : {"tet4-kuhn", "hex8"})
+    for (const double later : {0.0, 0.15})
+      for (const double aside : {0.0, 0.5}) {
+        const auto started = built(
+            "[time]\nduration = 2\nframe_rate = 60\n[tissue.shape]\nkind = \"box\"\nelements = \"" +
+            elements +
+            "\"\nhigh = [0.06, 0.03, 0.012]\ncells = [20, 10, 4]\n[tissue.material]\n"
+            "young_modulus = 6000\npoisson_ratio = 0.4\n[solver]\nmass_damping = 20\n"
+            "[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"x+\"\n" +
+            scalpel_from(true, 0.05, 31.1) + scalpel_from(false, 0.05 + later, 31.1 + aside));
+        Simulation& s = *started->s;
+        while (s.frame < 57) run_frame(s, started->outputs);
+        EXPECT_EQ(s.n_pieces, 2) << elements << ' ' << later << ' ' << aside;
+      }
+}
+
 }  // namespace
 }  // namespace trocar
