@@ -128,6 +128,25 @@ static void add_rims(const After& after, const CutStroke& stroke, std::vector<Cu
   }
 }
 
+static double distance_to_segment(const Vec3& X, const Vec3& A, const Vec3& B) {
+  const Vec3 d = B - A;
+  const double s = d.squaredNorm() > 0 ? std::clamp(d.dot(X - A) / d.squaredNorm(), 0.0, 1.0) : 0;
+  return (A + s * d - X).norm();
+}
+
+// Whether X lies where the stroke ends in the tissue, or where the blade has stopped and not parted
+// yet what it crossed.
+static bool is_at_end(const CutStroke& stroke, const Vec3& X) {
+  if (has_come_out(stroke)) return !is_clear_of_rim(stroke, X);
+  constexpr double front = 2, wider_rim = 1.5;  // mean edges
+  const double reach = front * stroke.mean_edge;
+  const auto is_near = [&](const BladePoint& a, const BladePoint& b) {
+    return (a.is_inside || b.is_inside) && distance_to_segment(X, a.X, b.X) < reach;
+  };
+  return !is_clear_of_rim(stroke, X, wider_rim) ||
+         std::ranges::adjacent_find(stroke.edge, is_near) != stroke.edge.end();
+}
+
 std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut,
                                       const CutStroke& stroke) {
   const After after{mesh, cut};
@@ -137,7 +156,7 @@ std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut,
   add_rims(after, stroke, places);
   const std::vector<CutRefusal> slices = missed_slices(mesh, cut.around, stroke);
   places.insert(places.end(), slices.begin(), slices.end());
-  std::erase_if(places, [&](const CutRefusal& place) { return !is_clear_of_rim(stroke, place.X); });
+  std::erase_if(places, [&](const CutRefusal& place) { return is_at_end(stroke, place.X); });
   return places;
 }
 

@@ -7,22 +7,26 @@
 
 namespace trocar {
 
-// Over the mean edge: elements nearer to the rim than this may hold it, and stay joined.
-static constexpr double rim_width = 1.0;
+static bool is_outside(const CutStroke& stroke) {
+  return std::ranges::none_of(stroke.edge, &BladePoint::is_inside);
+}
 
 bool has_come_out(const CutStroke& stroke) {
-  const auto is_outside = [](const BladePoint& p) { return !p.is_inside; };
-  return !stroke.is_amid && std::ranges::all_of(stroke.edge, is_outside);
+  return !stroke.is_amid && is_outside(stroke);
+}
+
+bool has_drawn_back(const CutStroke& stroke) {
+  return stroke.is_amid && is_outside(stroke);
 }
 
 bool has_gone_through(const CutStroke& stroke) {
   return stroke.rim.empty() && has_come_out(stroke);
 }
 
-bool is_clear_of_rim(const CutStroke& stroke, const Vec3& X) {
-  const double width = rim_width * stroke.mean_edge;
+bool is_clear_of_rim(const CutStroke& stroke, const Vec3& X, double width) {
+  const double reach = width * stroke.mean_edge;
   return std::ranges::none_of(stroke.rim,
-                              [&](const Vec3& R) { return (R - X).squaredNorm() < width * width; });
+                              [&](const Vec3& R) { return (R - X).squaredNorm() < reach * reach; });
 }
 
 bool goes_on(const CutStroke& stroke) {

@@ -100,9 +100,13 @@ bool has_come_out(const CutStroke& stroke);
 // Whether it has left, and cut what it swept from surface to surface.
 bool has_gone_through(const CutStroke& stroke);
 
+// Whether it has left the tissue by the way it came.
+bool has_drawn_back(const CutStroke& stroke);
+
 // Whether a place of the tissue (reference position) is too far from where the swept surface ends
-// in there to be joined for that.
-bool is_clear_of_rim(const CutStroke& stroke, const Vec3& X);
+// in there to be joined for that: by more than `width` mean edges, within which elements may hold
+// the rim.
+bool is_clear_of_rim(const CutStroke& stroke, const Vec3& X, double width = 1);
 
 // Whether the edge, or some of it, is not on its way back.
 bool goes_on(const CutStroke& stroke);

@@ -157,8 +157,9 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
   cut.around = survey(mesh, tets.mesh.X.empty() ? nullptr : &tets, index, positions, constraints,
                       stroke, is_last);
   const bool is_out = is_last && has_come_out(stroke);
+  const bool is_looked_over = is_last && !has_drawn_back(stroke);
   if (cut.around.patch.n_elements() == 0) {
-    if (is_out) add_refusals(missed_places(mesh, cut, stroke), figures);
+    if (is_looked_over) add_refusals(missed_places(mesh, cut, stroke), figures);
     return {};
   }
   const bool is_through = is_last && has_gone_through(stroke);
@@ -188,7 +189,7 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
 
   figures = make_figures(cut, is_last);
   remember(cut, mesh, stroke);
-  if (is_out) add_refusals(missed_places(mesh, cut, stroke), figures);
+  if (is_looked_over) add_refusals(missed_places(mesh, cut, stroke), figures);
   MeshEdit edit = make_edit(mesh, cut);
   edit_index(mesh, edit, index);
   return edit;

@@ -102,5 +102,23 @@ TEST(MissedPlaces, that_stay_joined_are_reported_where_they_are) {
   }
 }
 
+TEST(MissedPlaces, are_none_where_a_blade_stops_in_the_tissue) {
+  for (const double end : {0.62, 0.5, 0.4, 0.33, 0.2, 0.1}) {
+    const Outcome outcome = cut_along_legs({{1.2, end}});
+    EXPECT_EQ(outcome.n_pieces, 1);
+    EXPECT_TRUE(outcome.refusals.empty()) << end << ": " << outcome.refusals.size();
+  }
+}
+
+TEST(MissedPlaces, are_reported_of_a_blade_that_stops_in_the_tissue_beyond_them) {
+  const double low = 0.67, high = 0.67 + 1.5 * cell;
+  const Outcome outcome = cut_along_legs({{1.2, high}, {low, 0.1}});
+  EXPECT_FALSE(outcome.refusals.empty());
+  for (const CutRefusal& refusal : outcome.refusals) {
+    EXPECT_GT(refusal.X.z(), low - std::sqrt(3) * cell);
+    EXPECT_LT(refusal.X.z(), high + std::sqrt(3) * cell);
+  }
+}
+
 }  // namespace
 }  // namespace trocar

@@ -148,5 +148,32 @@ TEST(Scissors, push_what_stands_in_the_crotch_of_their_open_blades) {
   EXPECT_LT(top, crossing + 0.1e-3);
 }
 
+// A line of closings through a block that bears against them. The second one leaves a bridge a
+// long way behind the jaws' tips.
+TEST(Scissors, tell_of_bridges_that_they_leave_behind) {
+  const auto at = [](double time, double y, const std::string& action) {
+    return "{ time = " + std::to_string(time) + ", position = [" +
+           std::to_string(0.0325 - 0.137e-3 * y) + ", " + std::to_string(1e-3 * y) +
+           ", 0.003], direction = [-0.137, 1, 0], forward = [0, 0, 1]" + action + " },\n";
+  };
+  std::string path = at(0.02, -12, "");
+  for (int k = 0; k < 4; ++k)
+    path += at(0.12 + 0.42 * k, 10 + 9 * k, "") +
+            at(0.32 + 0.42 * k, 10 + 9 * k, ", action = \"close\"") +
+            at(0.44 + 0.42 * k, 10 + 9 * k, ", action = \"open\"");
+  const auto started = run_to(
+      1.75,
+      "[time]\nduration = 2\nframe_rate = 60\n[tissue.shape]\nkind = \"box\"\nelements = "
+      "\"tet4-kuhn\"\nhigh = [0.06, 0.03, 0.006]\ncells = [24, 12, 2]\n[tissue.material]\n"
+      "young_modulus = 20e3\npoisson_ratio = 0.4\n[solver]\nmass_damping = 20\n[cutting]\n"
+      "resistance = 10\n[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"x+\"\n"
+      "[[instrument]]\nkind = \"scissors\"\nradius = 0.001\nblade_length = 0.05\npath = [\n" +
+          path + "]\n",
+      60);
+  std::int32_t n_refused = 0;
+  for (const CutRecord& stroke : started->s->cuts.at(0).strokes) n_refused += stroke.n_refused;
+  EXPECT_TRUE(started->s->n_pieces == 2 || n_refused > 0);
+}
+
 }  // namespace
 }  // namespace trocar
