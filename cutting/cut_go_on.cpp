@@ -25,21 +25,20 @@ static constexpr double reach_along = 1, reach_beside = 0.35;
 // sides for theirs where they do.
 static constexpr double along_left = 0.87, along_beside = 0.966;
 
-// Each once, by its coordinates.
-static void sort_points(std::vector<SurfacePoint>& points) {
-  const auto key = [](const SurfacePoint& p) {
-    return std::array{p.X.x(), p.X.y(), p.X.z(), p.N.x(), p.N.y(), p.N.z()};
-  };
-  std::ranges::sort(points, {}, key);
-  const auto same = std::ranges::unique(points, {}, key);
-  points.erase(same.begin(), same.end());
+template <class T, class Key>
+static void add_each_once(const std::vector<T>& more, const Key& key, std::vector<T>& places) {
+  places.insert(places.end(), more.begin(), more.end());
+  std::ranges::sort(places, {}, key);
+  const auto same = std::ranges::unique(places, {}, key);
+  places.erase(same.begin(), same.end());
 }
 
-static void sort_places(std::vector<Vec3>& points) {
-  const auto key = [](const Vec3& p) { return std::array{p.x(), p.y(), p.z()}; };
-  std::ranges::sort(points, {}, key);
-  const auto same = std::ranges::unique(points, {}, key);
-  points.erase(same.begin(), same.end());
+static std::array<double, 3> by_place(const Vec3& X) {
+  return {X.x(), X.y(), X.z()};
+}
+
+static std::array<double, 6> by_point(const SurfacePoint& p) {
+  return {p.X.x(), p.X.y(), p.X.z(), p.N.x(), p.N.y(), p.N.z()};
 }
 
 static void add_numbers(const std::vector<std::int32_t>& more, std::vector<std::int32_t>& numbers) {
@@ -75,13 +74,9 @@ void add_left(const CutLeft& more, CutLeft& left) {
   merge_elements(left.opened, opened);
   add_numbers(more.node, left.node);
   add_numbers(more.parted_node, left.parted_node);
-  for (const auto& [from, to] :
-       {std::pair{&more.parted, &left.parted}, std::pair{&more.at_end, &left.at_end}}) {
-    to->insert(to->end(), from->begin(), from->end());
-    sort_points(*to);
-  }
-  left.rim.insert(left.rim.end(), more.rim.begin(), more.rim.end());
-  sort_places(left.rim);
+  add_each_once(more.parted, by_point, left.parted);
+  add_each_once(more.at_end, by_point, left.at_end);
+  add_each_once(more.rim, by_place, left.rim);
 }
 
 static std::vector<SurfacePoint> parted_points(const CutStroke& stroke) {

@@ -42,7 +42,8 @@ struct OfElement {
 };
 
 // What strokes leave to others. What they remember of elements around the ends of their slits: one
-// that comes there goes on with it (cut_go_on.h). And where they have parted (cut_in_slit.h).
+// that comes there goes on with it (cut_go_on.h). And where they have parted (cut_in_slit.h). Of
+// strokes under way: of elements around nodes that they have parted, without points and rim.
 struct CutLeft {
   std::vector<CutHit> hit;                   // ascending (element, edge)
   std::vector<OfElement<std::int8_t>> side;  // as in CutStroke

@@ -232,21 +232,34 @@ Checkpoint shared(const Checkpoint& mine) {
   return checkpoint_from_bytes(bytes, "shared");
 }
 
+void expect_to_go_on_from(int at, const std::string& scene) {
+  const auto first = built_on(*world, scene), second = built_on(*world, scene);
+  run_frames(*first, at);
+  restore_checkpoint(shared(take_checkpoint(*first->s)), *second->s);
+  run_frames(*first, n_frames - at);
+  run_frames(*second, n_frames - at);
+  expect_digest_of_one_rank(scene, *first);
+  expect_digest_of_one_rank(scene, *second);
+}
+
 TEST(CutOnRanks, goes_on_from_checkpoints_within_the_stroke) {
   const std::string scene = bar("tet4-five", along);
   int n_without_root = 0;
   for (const int at : {4, 8, 12, 16}) {
-    const auto first = built_on(*world, scene), second = built_on(*world, scene);
-    run_frames(*first, at);
-    const std::vector<int>& keepers = first->s->cuts[0].keepers;
+    const auto running = built_on(*world, scene);
+    run_frames(*running, at);
+    const std::vector<int>& keepers = running->s->cuts[0].keepers;
     n_without_root += !keepers.empty() && keepers.front() > 0 ? 1 : 0;
-    restore_checkpoint(shared(take_checkpoint(*first->s)), *second->s);
-    run_frames(*first, n_frames - at);
-    run_frames(*second, n_frames - at);
-    expect_digest_of_one_rank(scene, *first);
-    expect_digest_of_one_rank(scene, *second);
+    expect_to_go_on_from(at, scene);
   }
   EXPECT_GT(n_without_root, 0);
+}
+
+// They meet at x = 60 mm, after 13 frames, and pass each other.
+TEST(CutOnRanks, goes_on_from_checkpoints_where_two_blades_meet) {
+  for (const std::string elements : {"tet4-five", "hex8"})
+    for (const int at : {11, 15})
+      expect_to_go_on_from(at, bar(elements, blade(-4, 90) + blade(124, 30, "other scalpel")));
 }
 
 }  // namespace
