@@ -154,8 +154,10 @@ std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut,
   add_unparted(cut, stroke, places);
   add_joined_facets(after, stroke, places);
   add_rims(after, stroke, places);
-  const std::vector<CutRefusal> slices = missed_slices(mesh, cut.around, stroke);
-  places.insert(places.end(), slices.begin(), slices.end());
+  if (has_come_out(stroke)) {
+    const std::vector<CutRefusal> slices = missed_slices(mesh, cut.around, stroke);
+    places.insert(places.end(), slices.begin(), slices.end());
+  }
   std::erase_if(places, [&](const CutRefusal& place) { return is_at_end(stroke, place.X); });
   return places;
 }
