@@ -18,13 +18,9 @@ void keep_steps(const Mesh& mesh, std::span<const std::int32_t> element, CutStro
 
 void keep_steps_around(const Mesh& mesh, const CutIndex& index, const MeshEdit& edit,
                        CutStroke& stroke) {
-  std::vector<std::int32_t> around;
-  for (const NodeMove& move : edit.moves) {
-    const std::span<const std::int32_t> star = index.star(move.node);
-    around.insert(around.end(), star.begin(), star.end());
-  }
-  sort_unique(around);
-  keep_steps(mesh, around, stroke);
+  std::vector<std::int32_t> moved;
+  for (const NodeMove& move : edit.moves) moved.push_back(move.node);
+  keep_steps(mesh, elements_around(index, moved), stroke);
 }
 
 // Whether the other blade passed along the crossing's surface there.
@@ -44,7 +40,7 @@ static void add_copies(const Mesh& mesh, const MeshEdit& edit, std::vector<std::
       nodes.push_back(mesh.n_nodes() + static_cast<std::int32_t>(k));
 }
 
-void follow_opening(const Mesh& mesh, const MeshEdit& edit, const CutLeft& along,
+void follow_opening(const Mesh& mesh, const MeshEdit& edit, const CutKnown& along,
                     CutStroke& stroke) {
   if (edit.is_empty()) return;
   go_on_beside(mesh, along, stroke);
@@ -71,11 +67,11 @@ void follow_opening(const Mesh& mesh, const MeshEdit& edit, const CutLeft& along
   std::erase_if(stroke.hit, is_gone_of_own);
   std::erase_if(stroke.left.hit, is_gone);
   sort_unique(stroke.in_slit);
-  for (auto* nodes : {&stroke.surface_node, &stroke.parted_node, &stroke.left.node,
-                      &stroke.left.parted_node, &stroke.beside.node, &stroke.beside.parted_node}) {
-    add_copies(mesh, edit, *nodes);
-    sort_unique(*nodes);
-  }
+  for (CutKnown* known : all_known(stroke))
+    for (auto* nodes : {&known->surface_node, &known->parted_node}) {
+      add_copies(mesh, edit, *nodes);
+      sort_unique(*nodes);
+    }
 }
 
 }  // namespace trocar

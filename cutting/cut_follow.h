@@ -22,7 +22,7 @@ void keep_steps_around(const Mesh& mesh, const CutIndex& index, const MeshEdit& 
 // at facets that it opened, along its surface: made again, they would be a second slit beside the
 // first. Elements of those of this stroke go to in_slit. Copies of nodes join their parents. `mesh`
 // is that before the edit, `along` what the other blade knows of the elements around it.
-void follow_opening(const Mesh& mesh, const MeshEdit& edit, const CutLeft& along,
+void follow_opening(const Mesh& mesh, const MeshEdit& edit, const CutKnown& along,
                     CutStroke& stroke);
 
 }  // namespace trocar

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include "base/box.h"
@@ -54,29 +55,40 @@ static void add_masks(const std::vector<OfElement<std::uint8_t>>& more,
       mask = static_cast<std::uint8_t>(mask | *other);
 }
 
-// What is remembered of elements that `more` knows, too.
-static void forget_known(const CutLeft& more, CutLeft& left) {
-  const auto is_known = [&](std::int32_t e) {
-    return std::ranges::binary_search(more.hit, e, {}, &CutHit::element);
+static auto knows(const CutKnown& known) {
+  return [&known](std::int32_t e) {
+    return std::ranges::binary_search(known.hit, e, {}, &CutHit::element);
   };
-  std::erase_if(left.hit, [&](const CutHit& hit) { return is_known(hit.element); });
-  std::erase_if(left.side, [&](const auto& entry) { return is_known(entry.element); });
 }
 
-void add_left(const CutLeft& more, CutLeft& left) {
-  forget_known(more, left);
-  const auto n_kept = static_cast<std::ptrdiff_t>(left.hit.size());
-  left.hit.insert(left.hit.end(), more.hit.begin(), more.hit.end());
-  std::ranges::inplace_merge(left.hit, left.hit.begin() + n_kept, {}, &CutHit::key);
-  merge_elements(left.side, more.side);
+static void add_known(const CutKnown& more, CutKnown& known) {
+  const auto is_known = knows(more);
+  std::erase_if(known.hit, [&](const CutHit& hit) { return is_known(hit.element); });
+  std::erase_if(known.side, [&](const auto& entry) { return is_known(entry.element); });
+  const auto n_kept = static_cast<std::ptrdiff_t>(known.hit.size());
+  known.hit.insert(known.hit.end(), more.hit.begin(), more.hit.end());
+  std::ranges::inplace_merge(known.hit, known.hit.begin() + n_kept, {}, &CutHit::key);
+  merge_elements(known.side, more.side);
   std::vector<OfElement<std::uint8_t>> opened = more.opened;
-  add_masks(left.opened, opened);
-  merge_elements(left.opened, opened);
-  add_numbers(more.node, left.node);
-  add_numbers(more.parted_node, left.parted_node);
-  add_each_once(more.parted, by_point, left.parted);
-  add_each_once(more.at_end, by_point, left.at_end);
-  add_each_once(more.rim, by_place, left.rim);
+  add_masks(known.opened, opened);
+  merge_elements(known.opened, opened);
+  add_numbers(more.surface_node, known.surface_node);
+  add_numbers(more.parted_node, known.parted_node);
+}
+
+static void add_surface(const std::vector<SurfacePoint>& parted,
+                        const std::vector<SurfacePoint>& at_end, const std::vector<Vec3>& rim,
+                        CutLeft& left) {
+  add_each_once(parted, by_point, left.parted);
+  add_each_once(at_end, by_point, left.at_end);
+  add_each_once(rim, by_place, left.rim);
+}
+
+void add_left(const CutLeft& other, CutStroke& stroke) {
+  add_known(other, stroke.left);
+  add_surface(other.parted, other.at_end, other.rim, stroke.left);
+  stroke.beside = {};  // also of a third blade: of 288 pairs that meet, it parts two
+  stroke.taken.clear();
 }
 
 static std::vector<SurfacePoint> parted_points(const CutStroke& stroke) {
@@ -88,15 +100,8 @@ static std::vector<SurfacePoint> parted_points(const CutStroke& stroke) {
 
 CutLeft left_by(const CutStroke& stroke) {
   CutLeft left = stroke.left;
-  add_left({.hit = stroke.hit,
-            .side = stroke.side,
-            .opened = stroke.opened,
-            .node = stroke.surface_node,
-            .parted_node = stroke.parted_node,
-            .parted = parted_points(stroke),
-            .at_end = {},
-            .rim = stroke.rim},
-           left);
+  add_known(stroke, left);
+  add_surface(parted_points(stroke), {}, stroke.rim, left);
   if (stroke.mean_edge > 0) keep_ends(stroke.mean_edge, left);
   return left;
 }
@@ -147,16 +152,16 @@ struct TakenUp {
 }  // namespace
 
 // What is known of an element but for its crossings.
-static void take_up_element(const Mesh& mesh, const CutLeft& left, std::int32_t e, int agrees,
+static void take_up_element(const Mesh& mesh, const CutKnown& from, std::int32_t e, int agrees,
                             CutStroke& stroke, TakenUp& taken) {
   taken.element.push_back(e);
-  const std::int8_t* side = find_element(left.side, e);
+  const std::int8_t* side = find_element(from.side, e);
   if (side != nullptr && find_element(stroke.side, e) == nullptr)
     taken.side.push_back({e, static_cast<std::int8_t>(agrees * *side)});
-  if (const std::uint8_t* mask = find_element(left.opened, e)) taken.opened.push_back({e, *mask});
+  if (const std::uint8_t* mask = find_element(from.opened, e)) taken.opened.push_back({e, *mask});
   for (const std::int32_t i : mesh.corners(e)) {
-    if (std::ranges::binary_search(left.node, i)) stroke.surface_node.push_back(i);
-    if (std::ranges::binary_search(left.parted_node, i)) stroke.parted_node.push_back(i);
+    if (std::ranges::binary_search(from.surface_node, i)) stroke.surface_node.push_back(i);
+    if (std::ranges::binary_search(from.parted_node, i)) stroke.parted_node.push_back(i);
   }
 }
 
@@ -170,7 +175,7 @@ static void add_to_stroke(TakenUp& taken, CutStroke& stroke) {
 
 // Elements near crossings of `found`, with theirs.
 static TakenUp take_up_crossed(const Mesh& mesh, std::span<const CutHit> found, double least_cosine,
-                               CutLeft& from, CutStroke& stroke) {
+                               CutKnown& from, CutStroke& stroke) {
   Box around;
   for (const CutHit& hit : found) around.add(hit.X);
   const auto is_near = [&](const CutHit& hit) {
@@ -210,15 +215,14 @@ static const TakenHit* nearest_to(const Vec3& X, const std::vector<TakenHit>& ta
 }
 
 // Elements that have a side, but no crossing, beside those that are taken up.
-static void take_up_uncrossed(const Mesh& mesh, const CutLeft& from, CutStroke& stroke,
+static void take_up_uncrossed(const Mesh& mesh, const CutKnown& from, CutStroke& stroke,
                               TakenUp& taken) {
   Box around;
   for (const TakenHit& t : taken.hit) around.add(t.hit.X);
   const double reach = reach_along * stroke.mean_edge;
   for (const auto& [e, side] : from.side) {
     const Vec3 X = middle_of(mesh, e);
-    if (!around.holds(X, reach) || find_element(stroke.side, e) != nullptr ||
-        std::ranges::binary_search(from.hit, e, {}, &CutHit::element))
+    if (!around.holds(X, reach) || find_element(stroke.side, e) != nullptr || knows(from)(e))
       continue;
     if (const TakenHit* beside = nearest_to(X, taken.hit, reach))
       take_up_element(mesh, from, e, beside->agrees, stroke, taken);
@@ -227,26 +231,25 @@ static void take_up_uncrossed(const Mesh& mesh, const CutLeft& from, CutStroke& 
 }
 
 // Where the earlier strokes ended there: beyond, nothing is parted.
-static void take_up_rim(const std::vector<TakenHit>& taken, CutLeft& from, CutStroke& stroke) {
+static void take_up_rim(const std::vector<TakenHit>& taken, CutStroke& stroke) {
   const double h = stroke.mean_edge;
   const auto is_taken = [&](const Vec3& R) {
     const TakenHit* nearest = nearest_to(R, taken, reach_along * h);
     return nearest != nullptr &&
            std::abs(nearest->hit.N.dot(R - nearest->hit.X)) <= reach_beside * h;
   };
-  const auto kept = std::ranges::stable_partition(from.rim, std::not_fn(is_taken));
+  std::vector<Vec3>& left = stroke.left.rim;
+  const auto kept = std::ranges::stable_partition(left, std::not_fn(is_taken));
   stroke.rim.insert(stroke.rim.end(), kept.begin(), kept.end());
-  from.rim.erase(kept.begin(), kept.end());
+  left.erase(kept.begin(), kept.end());
 }
 
-// The elements, ascending.
-static std::vector<std::int32_t> take_up(const Mesh& mesh, std::span<const CutHit> found,
-                                         double least_cosine, CutLeft& from, CutStroke& stroke) {
+static TakenUp take_up(const Mesh& mesh, std::span<const CutHit> found, double least_cosine,
+                       CutKnown& from, CutStroke& stroke) {
   if (from.hit.empty() || found.empty()) return {};
   TakenUp taken = take_up_crossed(mesh, found, least_cosine, from, stroke);
   if (taken.hit.empty()) return {};
   take_up_uncrossed(mesh, from, stroke, taken);
-  take_up_rim(taken.hit, from, stroke);
   sort_unique(taken.element);
   add_numbers(taken.element, stroke.fresh);
   std::erase_if(from.side, [&](const auto& entry) {
@@ -256,16 +259,40 @@ static std::vector<std::int32_t> take_up(const Mesh& mesh, std::span<const CutHi
   sort_hits(stroke.hit);  // its own come first
   sort_unique(stroke.surface_node);
   sort_unique(stroke.parted_node);
-  return std::move(taken.element);
+  return taken;
+}
+
+static void take_up_beside(const Mesh& mesh, std::span<const CutHit> found, CutStroke& stroke) {
+  add_numbers(take_up(mesh, found, along_beside, stroke.beside, stroke).element, stroke.taken);
 }
 
 void take_up_left(const Mesh& mesh, std::span<const CutHit> found, CutStroke& stroke) {
-  take_up(mesh, found, along_left, stroke.left, stroke);
-  add_numbers(take_up(mesh, found, along_beside, stroke.beside, stroke), stroke.taken);
+  take_up_rim(take_up(mesh, found, along_left, stroke.left, stroke).hit, stroke);
+  take_up_beside(mesh, found, stroke);
 }
 
-void go_on_beside(const Mesh& mesh, const CutLeft& other, CutStroke& stroke) {
-  add_left(other, stroke.beside);
+CutKnown known_around(const MeshEdit& edit, std::int32_t n_nodes, const CutIndex& index,
+                      const CutStroke& stroke) {
+  CutKnown known;
+  known.parted_node = edit.duplicate_parent;
+  for (std::int32_t k = 0; k < std::ssize(edit.duplicate_parent); ++k)
+    known.parted_node.push_back(n_nodes + k);
+  sort_unique(known.parted_node);
+  std::ranges::set_intersection(stroke.surface_node, known.parted_node,
+                                std::back_inserter(known.surface_node));
+  const std::vector<std::int32_t> around = elements_around(index, known.parted_node);
+  for (const std::span<const CutHit> hits : hits_of(stroke, around))
+    known.hit.insert(known.hit.end(), hits.begin(), hits.end());
+  for (const std::int32_t e : around) {
+    if (const std::int8_t* side = find_element(stroke.side, e)) known.side.push_back({e, *side});
+    if (const std::uint8_t* mask = find_element(stroke.opened, e))
+      known.opened.push_back({e, *mask});
+  }
+  return known;
+}
+
+void go_on_beside(const Mesh& mesh, const CutKnown& other, CutStroke& stroke) {
+  add_known(other, stroke.beside);
   Box around;
   for (const CutHit& hit : other.hit) around.add(hit.X);
   std::vector<CutHit> found;
@@ -273,7 +300,7 @@ void go_on_beside(const Mesh& mesh, const CutLeft& other, CutStroke& stroke) {
     if (around.holds(hit.X, reach_along * stroke.mean_edge) &&
         !std::ranges::binary_search(stroke.taken, hit.element))
       found.push_back(hit);
-  add_numbers(take_up(mesh, found, along_beside, stroke.beside, stroke), stroke.taken);
+  take_up_beside(mesh, found, stroke);
 }
 
 }  // namespace trocar

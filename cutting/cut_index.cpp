@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/sort_unique.h"
 #include "cutting/cut_patch.h"
 #include "mesh/facets.h"
 
@@ -199,6 +200,17 @@ std::span<const double> find_steps(const Mesh& mesh, CutIndex& index) {
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
     if (index.step[e] == 0) index.step[e] = tet_step_bound(mesh, e);
   return index.step;
+}
+
+std::vector<std::int32_t> elements_around(const CutIndex& index,
+                                          std::span<const std::int32_t> node) {
+  std::vector<std::int32_t> around;
+  for (const std::int32_t i : node) {
+    const std::span<const std::int32_t> star = index.star(i);
+    around.insert(around.end(), star.begin(), star.end());
+  }
+  sort_unique(around);
+  return around;
 }
 
 void edit_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {

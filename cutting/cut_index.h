@@ -51,6 +51,9 @@ bool is_index_of(const CutIndex& index, const Mesh& mesh);
 void update_index(const Mesh& mesh, CutIndex& index);
 // step_bound of all elements. Of tetrahedra alone. [m]
 std::span<const double> find_steps(const Mesh& mesh, CutIndex& index);
+// Elements of the nodes' stars, ascending.
+std::vector<std::int32_t> elements_around(const CutIndex& index,
+                                          std::span<const std::int32_t> node);
 // What the index will be once `edit`, one that splits elements or one that moves and parts them, is
 // applied to `mesh`.
 void edit_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& index);

@@ -258,14 +258,14 @@ void follow_splits(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
   keep_steps(mesh, whole, stroke);
   keep_edges(mesh, edit, stroke);
   const Inserted after{mesh, edit, SplitNumbers(edit.splits)};
-  for (auto* hits : {&stroke.hit, &stroke.earlier_hit, &stroke.left.hit, &stroke.beside.hit})
-    follow_hits(after, *hits);
-  for (auto* sides : {&stroke.side, &stroke.left.side, &stroke.beside.side})
-    follow_values(after, *sides);
+  for (CutKnown* known : all_known(stroke)) {
+    follow_hits(after, known->hit);
+    follow_values(after, known->side);
+    follow_opened(after, known->opened);
+  }
+  follow_hits(after, stroke.earlier_hit);
   follow_values(after, stroke.step);
   follow_values(after, stroke.whole_edge);
-  for (auto* opened : {&stroke.opened, &stroke.left.opened, &stroke.beside.opened})
-    follow_opened(after, *opened);
   for (auto* elements :
        {&stroke.fresh, &stroke.in_slit, &stroke.unfinished, &stroke.at_edge, &stroke.taken})
     *elements = after.numbers.all_after(*elements);

@@ -7,6 +7,10 @@
 
 namespace trocar {
 
+std::array<CutKnown*, 3> all_known(CutStroke& stroke) {
+  return {&stroke, &stroke.left, &stroke.beside};
+}
+
 static bool is_outside(const CutStroke& stroke) {
   return std::ranges::none_of(stroke.edge, &BladePoint::is_inside);
 }

@@ -41,14 +41,20 @@ struct OfElement {
   T value{};
 };
 
-// What strokes leave to others. What they remember of elements around the ends of their slits: one
-// that comes there goes on with it (cut_go_on.h). And where they have parted (cut_in_slit.h). Of
-// strokes under way: of elements around nodes that they have parted, without points and rim.
-struct CutLeft {
-  std::vector<CutHit> hit;                   // ascending (element, edge)
-  std::vector<OfElement<std::int8_t>> side;  // as in CutStroke
-  std::vector<OfElement<std::uint8_t>> opened;
-  std::vector<std::int32_t> node, parted_node;  // surface_node and parted_node of these strokes
+// What a stroke knows of the elements that its blade has met.
+struct CutKnown {
+  std::vector<CutHit> hit;                      // ascending (element, edge)
+  std::vector<OfElement<std::int8_t>> side;     // +1 or -1: sides given at earlier advances
+  std::vector<OfElement<std::uint8_t>> opened;  // bit f: facet f was opened by this stroke
+  std::vector<std::int32_t>
+      surface_node;  // nodes of opened facets that lie on the swept surface, ascending
+  std::vector<std::int32_t>
+      parted_node;  // nodes that this stroke gave a copy, and the copies, ascending
+};
+
+// What strokes leave to others. What they know of elements around the ends of their slits: one
+// that comes there goes on with it (cut_go_on.h). And where they have parted (cut_in_slit.h).
+struct CutLeft : CutKnown {
   std::vector<SurfacePoint> parted;  // crossings of elements that they have opened, ascending
   std::vector<SurfacePoint> at_end;  // those of them around the ends of the slits, ascending
   std::vector<Vec3> rim;             // as in CutStroke, ascending
@@ -65,22 +71,15 @@ struct BladePoint {
   Vec3 ahead = Vec3::Zero();     // unit: where its way on leads
 };
 
-struct CutStroke {
-  std::vector<CutHit> hit;          // ascending (element, edge)
+struct CutStroke : CutKnown {
   std::vector<CutHit> earlier_hit;  // of earlier strokes that parted nothing there
   CutLeft left;                     // of strokes that have ended
-  CutLeft beside;  // of other blades that are in a stroke, around what they have parted in it
-  std::vector<std::int32_t> taken;              // elements of those that it goes on with, ascending
-  std::vector<OfElement<std::int8_t>> side;     // +1 or -1: sides given at earlier advances
-  std::vector<OfElement<std::uint8_t>> opened;  // bit f: facet f was opened by this stroke
+  CutKnown beside;  // of other blades that are in a stroke, around what they have parted in it
+  std::vector<std::int32_t> taken;  // elements of those that it goes on with, ascending
   std::vector<OfElement<double>>
       step;  // its bound (step_bound) before the blade touched it first [m]
   std::vector<OfElement<double>>
       whole_edge;  // of parts of elements that cuts split: the mean edge of the whole one [m]
-  std::vector<std::int32_t>
-      surface_node;  // nodes of opened facets that lie on the swept surface, ascending
-  std::vector<std::int32_t>
-      parted_node;  // nodes that this stroke gave a copy, and the copies, ascending
   std::vector<std::int32_t> made_node;   // that this stroke put on crossed edges, ascending
   std::vector<std::int32_t> fresh;       // elements crossed since the last edit, ascending
   std::vector<std::int32_t> in_slit;     // elements that it crossed in an older slit, ascending
@@ -93,6 +92,9 @@ struct CutStroke {
   double mean_edge = 0;  // around the last hits [m]; 0: not known yet
   double swept = 0;  // as the tissue sees it, since the last edit; in the air before it, too [m]
 };
+
+// Its own, what is left of others, and what is known of those beside it.
+std::array<CutKnown*, 3> all_known(CutStroke& stroke);
 
 // Whether the blade has left the tissue all along its edge, and not by the way it came: but for
 // what lies at the rim, all that it crossed is parted then.

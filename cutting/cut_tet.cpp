@@ -66,10 +66,7 @@ CutLeft TetCutter::left() const {
   return left_by(front_->stroke);
 }
 void TetCutter::take_over(const CutLeft& left) {
-  CutStroke& stroke = front_->stroke;
-  add_left(left, stroke.left);
-  stroke.beside = {};  // what a third blade has parted, too, but for what it parts from now on
-  stroke.taken.clear();
+  add_left(left, front_->stroke);
 }
 
 const CutStroke& TetCutter::stroke() const {
@@ -254,34 +251,6 @@ void TetCutter::follow(const Mesh& mesh, const CutterEdit& edit) {
   edit_hex_tets(edit.splits, edit.tets, f.tets);
 }
 
-// Around the nodes that the edit parts.
-static CutLeft known_around(const MeshEdit& edit, std::int32_t n_nodes, const CutIndex& index,
-                            const CutStroke& stroke) {
-  CutLeft known;
-  std::vector<std::int32_t> around;
-  const auto add = [&](std::int32_t i) {
-    const std::span<const std::int32_t> star = index.star(i);
-    around.insert(around.end(), star.begin(), star.end());
-    if (std::ranges::binary_search(stroke.surface_node, i)) known.node.push_back(i);
-    known.parted_node.push_back(i);
-  };
-  for (std::size_t k = 0; k < edit.duplicate_parent.size(); ++k) {
-    add(edit.duplicate_parent[k]);
-    add(n_nodes + static_cast<std::int32_t>(k));
-  }
-  sort_unique(around);
-  sort_unique(known.node);
-  sort_unique(known.parted_node);
-  for (const std::span<const CutHit> hits : hits_of(stroke, around))
-    known.hit.insert(known.hit.end(), hits.begin(), hits.end());
-  for (const std::int32_t e : around) {
-    if (const std::int8_t* side = find_element(stroke.side, e)) known.side.push_back({e, *side});
-    if (const std::uint8_t* mask = find_element(stroke.opened, e))
-      known.opened.push_back({e, *mask});
-  }
-  return known;
-}
-
 CutterEdit TetCutter::advance(const Mesh& mesh, PresentPositions& positions,
                               const CutConstraints& constraints, const BladeSweep& sweep,
                               bool is_last, CutFigures& figures) {
@@ -294,7 +263,7 @@ CutterEdit TetCutter::advance(const Mesh& mesh, PresentPositions& positions,
   MeshEdit edit = f.advance(tets, positions, constraints, sweep, is_last, figures);
   if (is_last && edit.inserted.empty()) forget_uncrossed(tets, f.stroke);
   figures.goes_through = is_last && has_gone_through(f.stroke);
-  CutLeft along;
+  CutKnown along;
   if (!edit.is_empty() && edit.inserted.empty())
     along = known_around(edit, tets.n_nodes(), f.index, f.stroke);
   if (!has_tets || edit.is_empty()) return {std::move(edit), {}, std::move(along)};

@@ -40,7 +40,7 @@ struct CutTetOptions {
 // Of the mesh, and of the tetrahedra that the cutter sees in its place, none without hexahedra.
 struct CutterEdit : MeshEdit {
   MeshEdit tets;
-  CutLeft along;  // what the stroke knows of the elements around what it opens
+  CutKnown along;  // what the stroke knows of the elements around what it opens
 };
 
 // One blade's cut from its entry into tissue to its exit.

@@ -36,14 +36,19 @@ void visit(Archive& a, SurfacePoint& p) {
   a(p.X, p.N);
 }
 template <class Archive>
+void visit(Archive& a, CutKnown& k) {
+  a(k.hit, k.side, k.opened, k.surface_node, k.parted_node);
+}
+template <class Archive>
 void visit(Archive& a, CutLeft& l) {
-  a(l.hit, l.side, l.opened, l.node, l.parted_node, l.parted, l.at_end, l.rim);
+  visit(a, static_cast<CutKnown&>(l));
+  a(l.parted, l.at_end, l.rim);
 }
 template <class Archive>
 void visit(Archive& a, CutStroke& s) {
-  a(s.hit, s.earlier_hit, s.left, s.beside, s.taken, s.side, s.opened, s.step, s.whole_edge,
-    s.surface_node, s.parted_node, s.made_node, s.fresh, s.in_slit, s.unfinished, s.edge, s.at_edge,
-    s.rim, s.is_amid, s.mean_edge, s.swept);
+  visit(a, static_cast<CutKnown&>(s));
+  a(s.earlier_hit, s.left, s.beside, s.taken, s.step, s.whole_edge, s.made_node, s.fresh, s.in_slit,
+    s.unfinished, s.edge, s.at_edge, s.rim, s.is_amid, s.mean_edge, s.swept);
 }
 template <class Archive>
 void visit(Archive& a, CutRefusal& r) {

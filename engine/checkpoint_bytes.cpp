@@ -11,7 +11,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 25;
+constexpr std::uint32_t checkpoint_format = 26;
 
 static void visit(Saver& a, std::shared_ptr<const Mesh>& mesh) {
   a.writer().put(std::uint64_t{n_bytes_of(*mesh)});
