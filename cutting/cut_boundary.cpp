@@ -104,16 +104,15 @@ static std::vector<std::int32_t> sharp_ends(const CutPatch& patch,
   return end;
 }
 
-static NodeBoundary edge_boundary(const CutPatch& patch, std::int32_t i, std::int32_t j,
-                                  std::int32_t k) {
+// Unless it is a corner.
+static void set_edge(const CutPatch& patch, std::int32_t i, std::int32_t j, std::int32_t k,
+                     NodeBoundary& boundary) {
   const Vec3 &X = patch.X[i], forward = patch.X[j] - X, back = X - patch.X[k];
-  NodeBoundary boundary;
   boundary.freedom = NodeFreedom::fixed;
-  if (forward.dot(back) < cos_sharp * forward.norm() * back.norm()) return boundary;
+  if (forward.dot(back) < cos_sharp * forward.norm() * back.norm()) return;
   boundary.freedom = NodeFreedom::edge;
   boundary.direction = (patch.X[j] - patch.X[k]).normalized();
   boundary.piece = {{X, patch.X[j], patch.X[j]}, {X, patch.X[k], patch.X[k]}};
-  return boundary;
 }
 
 NodeBoundary node_boundary(const CutPatch& patch, const CutStroke& stroke,
@@ -124,11 +123,16 @@ NodeBoundary node_boundary(const CutPatch& patch, const CutStroke& stroke,
     return boundary;
   }
   std::vector<BoundFacet> bound = outer_facets(patch, stroke, cut_facets, i);
+  const std::size_t n_outer = bound.size();
   if (!patch.region.empty()) add_interfaces(patch, i, bound);
   if (bound.empty()) return boundary;
+  boundary.is_interface = bound.size() > n_outer;
   bool has_rim = false;
   const std::vector<std::int32_t> end = sharp_ends(patch, bound, i, has_rim);
-  if (end.size() == 2 && !has_rim) return edge_boundary(patch, i, end[0], end[1]);
+  if (end.size() == 2 && !has_rim) {
+    set_edge(patch, i, end[0], end[1], boundary);
+    return boundary;
+  }
   Vec3 normal = Vec3::Zero();
   for (const BoundFacet& facet : bound) {
     normal += facet.normal;

@@ -22,6 +22,7 @@ struct NodeBoundary {
   NodeFreedom freedom = NodeFreedom::free;
   Vec3 direction = Vec3::Zero();  // unit; surface: mean normal; edge: tangent
   std::vector<std::array<Vec3, 3>> piece;
+  bool is_interface = false;  // lies between regions, perhaps on an edge or the outer surface, too
 };
 
 // Facets that this stroke opened are no outer surface: the node lies on them, between two halves

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cutting/cut_patch.h"
+#include "mesh/barycentric.h"
 #include "mesh/element_boxes.h"
 #include "mesh/facets.h"
 
@@ -17,15 +18,6 @@ static constexpr double tolerance = 1e-9;
 // A point outside goes with the element beside it up to this far (barycentric, heights):
 // tissue that runs from the blade and comes back must not pass it uncut.
 static constexpr double reach = 3.0;
-
-static std::array<double, 4> barycentric(const Mesh& mesh, std::int32_t e, std::span<const Vec3> X,
-                                         const Vec3& point) {
-  const std::span<const std::int32_t> c = mesh.corners(e);
-  Mat3 D;
-  for (int k = 0; k < 3; ++k) D.col(k) = X[c[k + 1]] - X[c[0]];
-  const Vec3 b = D.inverse() * (point - X[c[0]]);
-  return {1 - b.x() - b.y() - b.z(), b.x(), b.y(), b.z()};
-}
 
 static Vec3 at(const Mesh& mesh, std::int32_t e, std::span<const Vec3> X,
                const std::array<double, 4>& b) {
@@ -54,9 +46,9 @@ struct Place {
 }  // namespace
 
 static void try_element(const Mesh& mesh, std::span<const Vec3> x, std::int32_t e, Place& place) {
-  const std::array<double, 4> b = barycentric(mesh, e, x, place.point.x);
+  const std::array<double, 4> b = barycentric(mesh.corners(e), x, place.point.x);
   const double least = *std::min_element(b.begin(), b.end());
-  if (least <= place.most) return;
+  if (!(least > place.most)) return;  // NaN of a flat one
   const std::array<double, 4> next = inside_of(b);
   place.most = least;
   place.point.element = e;
@@ -110,7 +102,7 @@ static bool holds_some(const Mesh& mesh, std::span<const Vec3> x, std::int32_t e
                        const std::vector<Vec3>& points) {
   const Box box = element_box(mesh, e, x);
   return std::ranges::any_of(points, [&](const Vec3& point) {
-    return box.holds(point, 0) && std::ranges::min(barycentric(mesh, e, x, point)) >= 0;
+    return box.holds(point, 0) && std::ranges::min(barycentric(mesh.corners(e), x, point)) >= 0;
   });
 }
 
@@ -223,7 +215,8 @@ BladeSweep carry_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSwee
   for (std::size_t k = 0; k < way.size(); ++k) {
     const BladePoint& p = stroke.edge[k];
     if (p.element < 0) continue;
-    way[k] = at(mesh, p.element, x, barycentric(mesh, p.element, mesh.X, p.X)) + p.beyond - p.x;
+    way[k] =
+        at(mesh, p.element, x, barycentric(mesh.corners(p.element), mesh.X, p.X)) + p.beyond - p.x;
     inside.push_back(k);
   }
   for (std::size_t k = 0; k < way.size(); ++k) {

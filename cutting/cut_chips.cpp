@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/sort_unique.h"
+#include "cutting/cut_constraints.h"
 #include "cutting/cut_flake.h"
 #include "cutting/cut_survey.h"
 
@@ -65,9 +66,13 @@ static bool add_beyond(const Tissue& t, std::int32_t element, int f, SmallPiece&
   return local < 0 || std::ranges::find(piece.element, local) != piece.element.end();
 }
 
+static bool is_held_fast(const Tissue& t, std::int32_t i) {
+  return t.is_held[i] != 0 && t.is_held[i] != may_slide;
+}
+
 // Whether the node is held, or an element of another shape has it.
 static bool is_fast(const Tissue& t, std::int32_t i) {
-  return t.is_held[i] != 0 || std::ranges::any_of(t.index.star(i), [&](std::int32_t e) {
+  return is_held_fast(t, i) || std::ranges::any_of(t.index.star(i), [&](std::int32_t e) {
            return t.mesh.element_type[e] != ElementType::tet4;
          });
 }
@@ -99,7 +104,9 @@ static bool follow_beyond(const Tissue& t, SmallPiece& piece) {
 static bool is_small(const Tissue& t, SmallPiece& piece) {
   const CutPatch& patch = t.cut.around.patch;
   for (const std::int32_t e : piece.element) {
-    const auto is_held = [&](std::int32_t i) { return patch.is_locked[i] != 0; };
+    const auto is_held = [&](std::int32_t i) {
+      return patch.is_joined[i] != 0 || patch.is_bent[i] != 0 || is_held_fast(t, patch.node[i]);
+    };
     if (!add_volume(t, patch.X, patch.corner[e], piece) ||
         std::ranges::any_of(patch.corner[e], is_held))
       return false;

@@ -21,8 +21,8 @@ struct CutChip {
 // gets the other side and is added to cut.chips; a flake, while the blade is on its way, stays
 // joined for now, and a large one gets the elements of its neck in the end, which are added to
 // cut.neck, if the stroke has not parted them yet. False if there is none. The facets are to be
-// opened again then: what it joins may be one, too. is_held (n_nodes): what such a node belongs to
-// is none.
+// opened again then: what it joins may be one, too. is_held (n_nodes): what a node belongs to that
+// is held, and does not slide, is none.
 bool join_chip(const Mesh& mesh, const CutIndex& index, std::span<const std::uint8_t> is_held,
                const CutStroke& stroke, bool is_last, TetCut& cut);
 

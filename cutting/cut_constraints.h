@@ -12,9 +12,12 @@ namespace trocar {
 
 using BorderEdge = std::array<std::int32_t, 2>;
 
+// Of nodes that must not be displaced: supports leave them some components.
+inline constexpr std::uint8_t may_slide = 2;
+
 struct CutConstraints {
-  std::span<const std::uint8_t> is_held;  // (n_nodes) nodes that must not be displaced (supports,
-                                          // grasped)
+  std::span<const std::uint8_t> is_held;  // (n_nodes) nodes that must not be displaced: 1, grasped
+                                          // or supported, or `may_slide`
   // Edges of the outer surface that bound an area of it, lower node first, ascending: nodes on them
   // move along them only. Of a plane body the nodes that bound a part of its outline, each twice.
   std::span<const BorderEdge> border = {};

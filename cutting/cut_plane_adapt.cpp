@@ -9,10 +9,12 @@ namespace trocar {
 
 namespace {
 
-constexpr double band = 2.0;  // longest displacement considered, in h
+constexpr double band = 2.0;       // longest displacement considered, in h
+constexpr double on_facet = 1e-9;  // rounding, in h
 
-// The node of the facet that comes to the end of the path. A sharp corner stays where it is; if
-// there is no other way the path bends into it.
+// The node of the facet that comes to the end of the path, which lies on the facet then: short of
+// it, the node would dent the outline. A sharp corner stays where it is; if there is no other way
+// the path bends into it.
 int boundary_node(const PlanePatch& patch, PatchFacet facet, double at_corner, Vec2& end) {
   int near = patch.corner[facet.element][(facet.facet + 1) % 3];
   int far = patch.corner[facet.element][(facet.facet + 2) % 3];
@@ -23,8 +25,13 @@ int boundary_node(const PlanePatch& patch, PatchFacet facet, double at_corner, V
     end = patch.X[near];
     return near;
   }
+  const Vec2 along = patch.X[far] - patch.X[near];
+  const Vec2 foot = patch.X[near] + share_to(patch.X[near], along, end) * along;
   for (const int i : {near, far})
-    if (patch.is_held[i] == 0 && patch.is_sharp[i] == 0) return i;
+    if (patch.is_held[i] == 0 && patch.is_sharp[i] == 0) {
+      if ((foot - end).norm() > on_facet * patch.h) end = foot;
+      return i;
+    }
   for (const int i : {near, far})
     if (patch.is_held[i] == 0) {
       end = patch.X[i];

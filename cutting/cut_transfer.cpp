@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/sort_unique.h"
+#include "mesh/barycentric.h"
 
 namespace trocar {
 
@@ -15,15 +16,6 @@ static constexpr double clearly_inside = 1e-6;
 // Present volume over reference volume after the move, against the least around before it.
 static constexpr double least_volume_ratio = 0.2;
 
-static std::array<double, 4> barycentric(const CutPatch& patch, std::int32_t e, const Vec3& X) {
-  const std::array<std::int32_t, 4>& c = patch.corner[e];
-  Mat3 D;
-  for (int k = 0; k < 3; ++k)
-    D.col(k) = patch.X[c[static_cast<std::size_t>(k) + 1]] - patch.X[c[0]];
-  const Vec3 b = D.inverse() * (X - patch.X[c[0]]);
-  return {1 - b.x() - b.y() - b.z(), b.x(), b.y(), b.z()};
-}
-
 static double least(const std::array<double, 4>& b) {
   return *std::min_element(b.begin(), b.end());
 }
@@ -32,7 +24,7 @@ static double least(const std::array<double, 4>& b) {
 static NodeTransfer find_host(const CutPatch& patch, std::int32_t i, const Vec3& X) {
   NodeTransfer best{i, -1, {}};
   for (const std::int32_t e : patch.star(i)) {
-    const std::array<double, 4> b = barycentric(patch, e, X);
+    const std::array<double, 4> b = barycentric(patch.corner[e], patch.X, X);
     if (best.host < 0 || least(b) > least(best.weight)) best = {i, e, b};
     if (least(best.weight) > clearly_inside) return best;
   }
@@ -40,13 +32,14 @@ static NodeTransfer find_host(const CutPatch& patch, std::int32_t i, const Vec3&
     const auto f = std::min_element(best.weight.begin(), best.weight.end()) - best.weight.begin();
     const std::int32_t u = patch.across[best.host][static_cast<std::size_t>(f)];
     if (u < 0) break;
-    const std::array<double, 4> b = barycentric(patch, u, X);
+    const std::array<double, 4> b = barycentric(patch.corner[u], patch.X, X);
     if (least(b) <= least(best.weight)) break;
     best = {i, u, b};
   }
   // Past parts of split elements a walk may lead nowhere.
   for (std::int32_t e = 0; e < patch.n_elements() && least(best.weight) < -farthest_outside; ++e)
-    if (const std::array<double, 4> b = barycentric(patch, e, X); least(b) > least(best.weight))
+    if (const std::array<double, 4> b = barycentric(patch.corner[e], patch.X, X);
+        least(b) > least(best.weight))
       best = {i, e, b};
   return best;
 }

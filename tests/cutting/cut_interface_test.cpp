@@ -41,6 +41,19 @@ TEST(CutInterface, stays_where_it_is_when_a_plane_passes_beside_it) {
                            Vec3::UnitZ());
 }
 
+// It is opened: the next nodes that may move are so far that they come less near to the blade.
+TEST(CutInterface, is_opened_where_nothing_comes_nearer_to_the_blade) {
+  for (const BoxElements elements : {BoxElements::tet4_kuhn, BoxElements::hex8})
+    for (const double distance : {-0.3, -0.2, -0.12, 0.05, 0.15, 0.25, 0.3}) {
+      Body body(layered_block(elements));
+      const Vec3 centre{0.5, 0.5, interface_height + distance * cell_edge};
+      const Ledger ledger = cut(body, plane_blade(centre, Vec3::UnitZ(), 1), Vec3::UnitZ(), 20);
+      EXPECT_EQ(n_pieces(body.mesh), 2);
+      EXPECT_LE(ledger.total.largest_deviation, (std::abs(distance) + 1e-9) * cell_edge)
+          << distance;
+    }
+}
+
 TEST(CutInterface, stays_where_it_is_when_planes_cross_it) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> u(-1, 1);

@@ -63,6 +63,24 @@ TEST(CutPlane, keeps_the_bounds_of_the_papers_table) {
   }
 }
 
+// Ends within 0.1 h of an outline, or of the lips of an earlier cut, lie on it: nodes that come to
+// them slide along it.
+TEST(CutPlane, that_ends_short_of_an_outline_leaves_it_straight) {
+  const Mesh mesh = paper_mesh(1);  // 70 mm x 40 mm
+  for (const bool is_robust : {true, false})
+    for (const double y : {39.2, 39.3, 39.6, 39.9, 39.99, 40.0, 40.05, 40.3}) {
+      const std::vector<Vec3> path = {{35 * mm, 20 * mm, 0}, {37 * mm, y * mm, 0}};
+      const PlaneCut result = cut(mesh, path, -1, is_robust);
+      EXPECT_FALSE(result.edit.is_empty());
+      EXPECT_NEAR(total_volume(applied(result.edit, mesh)) / total_volume(mesh), 1, 1e-12) << y;
+    }
+  const Mesh slit = applied(cut(mesh, {{-5 * mm, 20 * mm, 0}, {75 * mm, 20 * mm, 0}}).edit, mesh);
+  for (const double y : {19.2, 19.4, 19.5, 19.9, 20.0}) {
+    const Mesh after = applied(cut(slit, {{35 * mm, 3 * mm, 0}, {37 * mm, y * mm, 0}}).edit, slit);
+    EXPECT_NEAR(total_volume(after) / total_volume(mesh), 1, 1e-12) << y;
+  }
+}
+
 TEST(CutPlane, published_mode_adds_as_many_nodes_and_inverts_nothing) {
   for (const Row& row : table) {
     const Mesh mesh = paper_mesh(row.configuration);
