@@ -291,8 +291,8 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   CarriedHistory history;
   if (is_viscous(s.materials)) history = carry_history(s, with_history, edit);
   nodes = united(nodes, nodes_of(s.mesh, edited.after));
-  is_step_local &= is_local ? update_topology(s, {edit.splits, edited.after, nodes, global.x})
-                            : rebuild_all(nodes, s);
+  is_step_local &=
+      is_local ? update_topology(s, {edit.splits, edited.after, nodes}) : rebuild_all(nodes, s);
   const double surplus =
       restore_strain_energy(adjustable, strain, tolerated * strain, s.mesh,
                             *make_strained_patch(s, edit, edited.after, nodes, global), global);
@@ -302,8 +302,12 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   if (strain > 0)
     record.strain_energy_change =
         std::max(record.strain_energy_change, std::abs(around.surplus) / strain);
+  const std::vector<std::int32_t> changed = united(nodes, around.nodes);
+  if (!s.boxes.is_empty())
+    update_element_boxes(s.mesh, global.x,
+                         {edit.splits, changed, elements_around(s.corners, changed)}, s.boxes);
   if (is_local)
-    scatter_edited(s, n_kept, united(nodes, around.nodes), global);
+    scatter_edited(s, n_kept, changed, global);
   else
     scatter_state(s, global);
   find_scales(s.mesh, edited, history.origins);
@@ -319,7 +323,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
     s.energy->memory.works.cut +=
         is_energy_local ? gained + around.energy : energy_around(s, false, nodes, global) - energy;
   add_to_record(s, before, edited.after, nodes, record);
-  s.log.new_edits.push_back({.frame = s.frame, .edit = edit});
+  s.log.new_edits.push_back(edit);
 }
 
 }  // namespace trocar

@@ -92,8 +92,6 @@ bool update_topology(Simulation& s, const TopologyEdit& edit) {
   SplitNumbers(edit.splits).renumber(s.surface.element);
   update_surface(s.mesh, {edit.nodes, touching, around}, s.surface);
   update_pieces(around, s);
-  if (!s.boxes.is_empty())
-    update_element_boxes(s.mesh, edit.x, {edit.splits, edit.nodes, touching}, s.boxes);
   const std::vector<std::int32_t> place_before =
       split_elements(s.mesh, s.node_owner, edit.splits, s.part);
   if (holds_one(s.part, edit.elements) || changes_averages(s, edit))

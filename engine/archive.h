@@ -59,6 +59,7 @@ class Loader {
   void operator()(Values&... values) {
     (get(values), ...);
   }
+  bool is_at_end() const { return reader_.is_at_end(); }
 
  private:
   void get(std::string& text) { text = reader_.get_text(); }

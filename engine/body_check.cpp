@@ -83,6 +83,17 @@ void tell_late_keys(const Scene& scene, const std::string& list, const Items& it
   }
 }
 
+// Jaws open and close at the beginning of a frame.
+void tell_late_acts(const Scene& scene) {
+  const double last = static_cast<double>(scene.time.n_frames() - 1) / scene.time.frame_rate;
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+    for (const InstrumentKey& key : scene.instruments[k].path)
+      if (key.action != GraspAction::none && key.time > last && key.time <= scene.time.duration)
+        log_info(item_path("instrument", k) + ".path: what it does at " + short_text(key.time) +
+                 " s comes after the beginning of the last frame, at " + short_text(last) +
+                 " s, and so never");
+}
+
 void check_markers(const Scene& scene) {
   if (!scene.markers.empty() && !has_metrics(scene))
     log_warning(
@@ -130,6 +141,7 @@ void check_body(const Simulation& s, OptionErrors& errors) {
   tell_late_keys(s.scene, "support", s.scene.supports);
   tell_late_keys(s.scene, "load", s.scene.loads);
   tell_late_keys(s.scene, "instrument", s.scene.instruments);
+  tell_late_acts(s.scene);
   check_markers(s.scene);
   check_converted(s, errors);
   check_materials_harden(s.scene);

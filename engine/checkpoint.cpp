@@ -77,8 +77,10 @@ void restore_searches(const Checkpoint& c, Simulation& s) {
   if (!c.has_local_steps) s.multirate.reset();  // it was given up
   if (s.energy && c.has_energies)
     s.energy->memory = c.energy;
-  else if (s.energy)
+  else if (s.energy) {
+    update_volume_change(s.model, s.neighbours, s.state, s.scratch);
     open_energy_ledger(s);
+  }
 }
 
 }  // namespace
@@ -106,7 +108,8 @@ Checkpoint take_checkpoint(Simulation& s) {
                .watch = s.watch,
                .holds = s.holds.holds,
                .is_open = s.holds.is_open,
-               .log = s.log,
+               .tally = s.log,
+               .rows = {std::shared_ptr<void>(), &s.log.rows},
                .history = s.communicator->gather(copy_history(s.model, s.part, s.state)),
                .history_time = s.state.history_time,
                .has_energies = s.energy != nullptr};
@@ -151,7 +154,8 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   s.step_scale = c.step_scale;
   s.held_step = c.held_step;
   s.watch = c.watch;
-  s.log = c.log;
+  static_cast<RunTally&>(s.log) = c.tally;
+  s.log.rows = *c.rows;
   s.frame = s.first_frame = c.frame;
   restore_searches(c, s);
   if (s.contact) refresh_surface(s);
@@ -189,9 +193,9 @@ Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start) {
   c.step_scale = start.step_scale;
   c.holds = start.holds;
   c.is_open = start.is_open;
-  c.log.events.resize(start.n_events);
-  c.log.n_roll_backs = start.n_roll_backs;
-  c.log.searches = start.searches;
+  c.tally.events.resize(start.n_events);
+  c.tally.n_roll_backs = start.n_roll_backs;
+  c.tally.searches = start.searches;
   return c;
 }
 

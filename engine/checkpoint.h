@@ -20,9 +20,9 @@ struct CutMemory : CutProgress {
 
 // How far a recording has come.
 struct RecordingMark {
-  std::string file;                // as the scene names it
-  std::int64_t last_frame = 0;     // recorded, 0: none
-  std::vector<FrameEdit> pending;  // edits since then
+  std::string file;               // as the scene names it
+  std::int64_t last_frame = 0;    // recorded, 0: none
+  std::vector<MeshEdit> pending;  // edits since then
 };
 
 struct Checkpoint {
@@ -44,15 +44,16 @@ struct Checkpoint {
   std::vector<Hold> holds;
   std::vector<std::uint8_t> is_open;  // (n_tools)
   std::vector<CutMemory> cuts;        // one an instrument that cuts
-  FrameLog log;                       // without new_edits, which outputs have taken
-  std::vector<double> history;        // of viscoelastic elements, see solver/history.h
+  RunTally tally;
+  std::shared_ptr<const std::vector<FrameRow>> rows;  // as the mesh
+  std::vector<double> history;  // of viscoelastic elements, see solver/history.h
   double history_time = 0;
   SearchMemory searches;
   std::vector<double> looked_at;  // ElementLook::u (n_nodes * 3), or empty
   bool has_stiffening = false, has_local_steps = false;
   std::vector<double> sleep;  // gather_sleep, empty: nothing ever sleeps
   QuietRange quiet_range;
-  bool has_energies = false;  // in the rows of the log
+  bool has_energies = false;
   EnergyMemory energy;
   std::vector<RecordingMark> recordings;
 };
@@ -84,8 +85,9 @@ FrameStart start_of_frame(const Simulation& s);
 Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start);
 
 // Packed, with checksums that find every flipped byte (checkpoint_bytes.cpp); the first hands on
-// piece by piece, and leaves the checkpoint as it is.
-void put_checkpoint(Checkpoint& checkpoint, const ByteSink& sink);
+// piece by piece, and leaves the checkpoint as it is. packed: by earlier checkpoints of the run, so
+// that one costs the same however long that is.
+void put_checkpoint(Checkpoint& checkpoint, PackedRows& packed, const ByteSink& sink);
 // Throws InputError "<name>: …" for damaged bytes or another format.
 Checkpoint checkpoint_from_bytes(std::span<const std::byte> bytes, const std::string& name);
 

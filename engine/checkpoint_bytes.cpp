@@ -1,6 +1,6 @@
-// A checkpoint's layout: mark, format, two sections (displacements and velocities, whose bytes are
-// shuffled, and all the rest), checksum of everything before it. A section is a row of packed
-// blobs, an empty one at its end, so that a large body is written piece by piece.
+// A checkpoint's layout: mark, format, three sections (displacements and velocities, whose bytes
+// are shuffled, the frames' rows, and all the rest), checksum of everything before it. A section is
+// a row of packed blobs, an empty one at its end, so that a large body is written piece by piece.
 #include "base/digest.h"
 #include "base/error.h"
 #include "engine/archive_cut.h"
@@ -59,7 +59,7 @@ static void visit(Archive& a, EnergyWorks& w) {
 }
 template <class Archive>
 static void visit(Archive& a, EnergyMemory& m) {
-  a(m.works, m.initial, m.largest_stored, m.largest_hourglass_share);
+  a(m.first_frame, m.works, m.initial, m.largest_stored, m.largest_hourglass_share);
 }
 template <class Archive>
 static void visit(Archive& a, FrameRow& r) {
@@ -76,13 +76,9 @@ static void visit(Archive& a, Equilibrium& e) {
   a(e.iterations, e.residual, e.seconds);
 }
 template <class Archive>
-static void visit(Archive& a, FrameLog& l) {
-  a(l.rows, l.equilibrium, l.n_roll_backs, l.n_deadlines_missed, l.searches, l.least_J,
-    l.least_J_element, l.least_stable_step, l.largest_stable_step, l.events);
-}
-template <class Archive>
-static void visit(Archive& a, FrameEdit& e) {
-  a(e.frame, e.edit);
+static void visit(Archive& a, RunTally& t) {
+  a(t.equilibrium, t.n_roll_backs, t.n_deadlines_missed, t.searches, t.least_J, t.least_J_element,
+    t.least_stable_step, t.largest_stable_step, t.events);
 }
 template <class Archive>
 static void visit(Archive& a, GrownElement& e) {
@@ -100,13 +96,14 @@ template <class Archive>
 static void visit(Archive& a, RecordingMark& m) {
   a(m.file, m.last_frame, m.pending);
 }
-// All but u and v.
+// All but u, v and rows.
 template <class Archive>
 static void visit(Archive& a, Checkpoint& c) {
   a(c.version, c.simd, c.scene, c.body_crc, c.frame, c.digest, c.mesh, c.fixed, c.duplicate_parent,
     c.duplicate_node, c.time, c.last_dt, c.step, c.step_scale, c.held_step, c.watch, c.holds,
-    c.is_open, c.cuts, c.log, c.history, c.history_time, c.searches, c.looked_at, c.has_stiffening,
-    c.has_local_steps, c.sleep, c.quiet_range, c.has_energies, c.energy, c.recordings);
+    c.is_open, c.cuts, c.tally, c.history, c.history_time, c.searches, c.looked_at,
+    c.has_stiffening, c.has_local_steps, c.sleep, c.quiet_range, c.has_energies, c.energy,
+    c.recordings);
 }
 
 static void put_blob(ByteWriter& writer, const Blob& blob) {
@@ -132,7 +129,29 @@ static ByteSink packed_to(const ByteSink& sink, std::size_t item_size) {
   };
 }
 
-void put_checkpoint(Checkpoint& checkpoint, const ByteSink& sink) {
+static constexpr std::ptrdiff_t rows_in_blob = 256;
+
+static void pack_rows(std::span<const FrameRow> rows, ByteWriter& blobs) {
+  if (rows.empty()) return;  // an empty blob would end the section
+  Saver saver;
+  for (FrameRow row : rows) saver(row);
+  put_blob(blobs, pack_blob(saver.take(), 1));
+}
+
+// Of the last frame's row, its latency is still to come.
+static void put_rows(std::span<const FrameRow> rows, PackedRows& packed, const ByteSink& sink) {
+  ByteWriter more;
+  for (; packed.n + rows_in_blob < std::ssize(rows); packed.n += rows_in_blob)
+    pack_rows(rows.subspan(static_cast<std::size_t>(packed.n), rows_in_blob), more);
+  const std::vector<std::byte> blobs = more.take();
+  packed.blobs.insert(packed.blobs.end(), blobs.begin(), blobs.end());
+  sink(packed.blobs);
+  ByteWriter rest;
+  pack_rows(rows.subspan(static_cast<std::size_t>(packed.n)), rest);
+  sink(rest.take());
+}
+
+void put_checkpoint(Checkpoint& checkpoint, PackedRows& packed, const ByteSink& sink) {
   std::uint32_t crc = 0;
   const ByteSink checked = [&](std::span<const std::byte> bytes) {
     crc = crc32c(bytes, crc);
@@ -148,6 +167,8 @@ void put_checkpoint(Checkpoint& checkpoint, const ByteSink& sink) {
   motion.put_vector(checkpoint.v);
   motion.flush();
   shuffled({});
+  put_rows(*checkpoint.rows, packed, checked);
+  plain({});
   Saver rest(plain);
   rest(checkpoint);
   rest.writer().flush();
@@ -183,9 +204,16 @@ static std::span<const std::byte> checked_body(std::span<const std::byte> bytes,
   return covered.subspan(head);
 }
 
+static std::vector<FrameRow> rows_from_bytes(std::span<const std::byte> bytes) {
+  std::vector<FrameRow> rows;
+  for (Loader load(bytes); !load.is_at_end();) load(rows.emplace_back());
+  return rows;
+}
+
 Checkpoint checkpoint_from_bytes(std::span<const std::byte> bytes, const std::string& name) {
   ByteReader reader(checked_body(bytes, name));
   const std::vector<std::byte> motion = get_section(reader, sizeof(double), name);
+  const std::vector<std::byte> rows = get_section(reader, 1, name);
   const std::vector<std::byte> rest = get_section(reader, 1, name);
   Checkpoint c;
   Loader load(rest);
@@ -193,6 +221,7 @@ Checkpoint checkpoint_from_bytes(std::span<const std::byte> bytes, const std::st
   ByteReader fields(motion);
   c.u = fields.get_vector<double>();
   c.v = fields.get_vector<double>();
+  c.rows = std::make_shared<const std::vector<FrameRow>>(rows_from_bytes(rows));
   const std::vector<std::string> faults = validate(*c.mesh, 1);
   if (!faults.empty()) throw InputError(name + ": mesh: " + faults.front());
   return c;

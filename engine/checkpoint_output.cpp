@@ -23,8 +23,9 @@ std::vector<RecordingMark> recording_marks(const Simulation& s, const Outputs& o
 void save(Checkpoint checkpoint, Outputs& outputs) {
   for (const auto& recording : outputs.recordings)
     if (recording) recording->sync();
-  replace_file(outputs.folder + "/" + checkpoint_name,
-               [&](const ByteSink& sink) { put_checkpoint(checkpoint, sink); });
+  replace_file(outputs.folder + "/" + checkpoint_name, [&](const ByteSink& sink) {
+    put_checkpoint(checkpoint, outputs.rows_in_checkpoints, sink);
+  });
 }
 
 }  // namespace
@@ -32,7 +33,7 @@ void save(Checkpoint checkpoint, Outputs& outputs) {
 bool is_checkpoint_due(const Simulation& s) {
   const double every = s.scene.checkpoint.every;
   if (every == 0) return false;
-  return s.frame % std::max<std::int64_t>(1, std::llround(every * s.scene.time.frame_rate)) == 0;
+  return s.frame % std::max<std::int64_t>(1, s.scene.time.frames_in(every)) == 0;
 }
 
 void write_checkpoint(Simulation& s, Outputs& outputs, const FrameStart* failed) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int idle_frames_to_leave =
     3;  // a blade that touches nothing for so long has left the tissue
-constexpr double tip_spacing = 0.25;  // of a plane blade's way, mean edge lengths
+constexpr double tip_spacing = 0.25;  // of places on the way of an end, mean edge lengths
 
 // Of points within a frame's reach of a blade.
 std::vector<Location> locate_beside(const Simulation& s, BodyPositions& positions,
@@ -34,17 +34,29 @@ bool has_passed(const Simulation& s, BodyPositions& positions, const BladeSweep&
   return is_one_inside(s, positions, way_of_tip(sweep, tip_spacing * s.edge_length));
 }
 
-// Whether the tissue goes on beyond an end of the edge.
-bool goes_on_beside(const Simulation& s, BodyPositions& positions, const std::vector<Vec3>& edge) {
-  return is_one_inside(s, positions, std::array<Vec3, 2>{edge.front(), edge.back()});
+// Where the edge's ends come by in the frame, but for its begin.
+std::vector<Vec3> ways_of_ends(const BladeSweep& sweep, double spacing) {
+  constexpr double most = 100;
+  const std::array<Vec3, 2> from{sweep.before.front(), sweep.before.back()},
+      to{sweep.after.front(), sweep.after.back()};
+  const double way = std::max((to[0] - from[0]).norm(), (to[1] - from[1]).norm());
+  const int n = static_cast<int>(std::ceil(std::clamp(way / spacing, 1.0, most)));
+  std::vector<Vec3> points;
+  for (int k = 1; k <= n; ++k)
+    for (std::size_t end = 0; end < 2; ++end)
+      points.push_back(from[end] + (to[end] - from[end]) * (1.0 * k / n));
+  return points;
 }
 
-// Whether tissue begins to lie beside the open jaws of scissors: once a closing, as a rule.
+// Whether tissue begins to lie beside the open jaws of scissors, where it goes on beyond an end of
+// the edge: once a closing, as a rule.
 bool begins_beside(const Simulation& s, const CutStage& stage, const BladeSweep& sweep,
                    BodyPositions& positions) {
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
-  return tool.kind == InstrumentKind::scissors && goes_on_beside(s, positions, sweep.after) &&
-         !(stage.is_in_stroke && goes_on_beside(s, positions, sweep.before));
+  if (tool.kind != InstrumentKind::scissors) return false;
+  const std::array<Vec3, 2> begin{sweep.before.front(), sweep.before.back()};
+  if (is_one_inside(s, positions, begin)) return !stage.is_in_stroke;
+  return is_one_inside(s, positions, ways_of_ends(sweep, tip_spacing * s.edge_length));
 }
 
 double length_of(std::span<const SegmentPiece> pieces) {

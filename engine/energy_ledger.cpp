@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/options.h"
 #include "engine/frame_report.h"
@@ -52,13 +53,6 @@ void add_nodal_energies(const RankBody& body, std::vector<double>& kinetic,
   add_cluster_kinetic(body.model, body.state.v, kinetic);
 }
 
-void open_energy_ledger(Simulation& s) {
-  s.energy = std::make_unique<EnergyLedger>();
-  keep_works(s.model, s.scratch);
-  localise_supports(s.scene.supports, s.mesh, s.part, s.energy->support_forces);
-  s.energy->memory.initial = mechanical_energy(s).sum();
-}
-
 // What viscous forces do in the half step from where works stand to the end of the last one.
 static double last_viscous_work(const Simulation& s) {
   std::vector<double> work(s.scratch.viscous_force.size() / 3);
@@ -67,6 +61,15 @@ static double last_viscous_work(const Simulation& s) {
               velocity_of(s.state, static_cast<std::int32_t>(i))
                   .dot(Eigen::Map<const Vec3>(s.scratch.viscous_force.data() + 3 * i));
   return sum_over_ranks(work, *s.communicator);
+}
+
+void open_energy_ledger(Simulation& s) {
+  s.energy = std::make_unique<EnergyLedger>();
+  keep_works(s.model, s.scratch);
+  localise_supports(s.scene.supports, s.mesh, s.part, s.energy->support_forces);
+  s.energy->memory.first_frame = s.frame;
+  s.energy->memory.initial = mechanical_energy(s).sum();
+  s.energy->memory.works.viscous = -last_viscous_work(s);
 }
 
 // Forces as the substeps of small elements have them; loads count there, and do work.
@@ -118,6 +121,9 @@ void begin_contact_work(Simulation& s) {
 void note_velocities(Simulation& s, double dt) {
   EnergyLedger& ledger = *s.energy;
   ledger.dt_mid = (s.state.last_dt + dt) / 2;
+  ledger.start_velocity.reset();
+  if (s.state.last_dt == 0)
+    ledger.start_velocity.emplace(s.state.v.begin(), s.state.v.begin() + 3 * s.model.n_owned);
   ledger.contact_velocity.clear();
   if (s.contact)
     for (const std::int32_t node : s.contact->set.local)
@@ -133,8 +139,23 @@ void note_velocities(Simulation& s, double dt) {
     ledger.load_velocity.push_back(velocity_of(s.state, node));
 }
 
+// What is held moves as it is told to, whatever the forces.
+static std::vector<double> kinetic_of_start(const Simulation& s) {
+  std::vector<double> v = *s.energy->start_velocity;
+  for (std::size_t k = 0; k < v.size(); ++k) v[k] = s.state.v[k] - v[k];
+  for (const PrescribedNode& node : s.holds.prescribed)
+    std::fill_n(v.begin() + 3 * std::ptrdiff_t{node.node}, 3, 0.0);
+  std::vector<double> kinetic;
+  for (std::size_t i = 0; 3 * i < v.size(); ++i)
+    kinetic.push_back(0.5 * s.model.mass[i] * Eigen::Map<const Vec3>(&v[3 * i]).squaredNorm());
+  add_cluster_kinetic(s.model, v, kinetic);
+  return kinetic;
+}
+
 void add_work(Simulation& s) {
   EnergyLedger& ledger = *s.energy;
+  if (ledger.start_velocity)
+    ledger.start_kinetic = sum_over_ranks(kinetic_of_start(s), *s.communicator);
   const double half_dt = ledger.dt_mid / 2;
   add_support_forces(s.scratch.force, ledger.support_forces);
   for (std::size_t k = 0; k < ledger.contact_work.size(); ++k) {
@@ -161,6 +182,7 @@ void add_work(Simulation& s) {
 
 void close_frame_work(Simulation& s) {
   EnergyLedger& ledger = *s.energy;
+  ledger.memory.initial -= std::exchange(ledger.start_kinetic, 0);
   std::vector<double>& contact_work = ledger.contact_work;
   contact_work.insert(contact_work.end(), ledger.earlier_contact_work.begin(),
                       ledger.earlier_contact_work.end());
@@ -225,13 +247,15 @@ void note_balance(Simulation& s) {
   const double wave = s.edge_length / s.rest_step;
   const double negligible = 1e-18 * std::reduce(s.mass.begin(), s.mass.end()) * wave * wave;
   if (error.share <= balance_alarm || error.largest <= negligible) return;
-  note_event(s, s.state.time,
-             "the energies do not add up: " + short_text(100 * error.share) +
-                 " % of what was turned over is missing or too much, most of it since " +
-                 short_text(error.time) +
-                 " s. An instrument that goes through the surface does this (a slower path, a "
-                 "larger tip or a finer mesh helps), and so do steps near the limit "
-                 "(solver.step_factor)");
+  note_event(
+      s, s.state.time,
+      "the energies do not add up: " + short_text(100 * error.share) +
+          " % of what was turned over is missing or too much, most of it since " +
+          short_text(error.time) + " s. " +
+          (s.tools.empty() ? ""
+                           : "An instrument that goes through the surface does this (a "
+                             "slower path, a larger tip or a finer mesh helps), and so do ") +
+          "steps near the limit" + (s.tools.empty() ? " do this" : "") + " (solver.step_factor)");
 }
 
 }  // namespace trocar

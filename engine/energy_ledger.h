@@ -6,9 +6,13 @@
 // so that F·v dt summed over the steps is the work of a force F to rounding. Kinetic energy and
 // works then belong to the middle of the last step; sum dt/2 v-·f carries the kinetic energy to its
 // end, where strain and gravity are evaluated. The same carries the work of viscous
-// forces there; strain energy is that of the laws without relaxation.
+// forces there; strain energy is that of the laws without relaxation. At the start the velocity is
+// of the beginning of the step, which is half a step long: the one half a step before, of which the
+// same would be true, differs from it by what that step adds, and the body's energy by the kinetic
+// energy of that.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +28,7 @@ struct Simulation;
 
 // What a ledger keeps from frame to frame.
 struct EnergyMemory {
+  std::int64_t first_frame = 0;        // how many had gone by when it was started
   EnergyWorks works;                   // since the start
   double initial = 0;                  // mechanical energy at the start [J]
   double largest_stored = 0;           // strain and hourglass energy of any frame [J]
@@ -39,6 +44,9 @@ struct EnergyLedger {
   std::vector<double> contact_work, hold_work, blade_work, load_work;
   std::vector<double> earlier_contact_work;  // with the frame's earlier contact sets [J]
   double dt_mid = 0;                         // between the two velocities of the step [s]
+  std::optional<std::vector<double>>
+      start_velocity;        // (n_owned * 3) of the step that starts it all
+  double start_kinetic = 0;  // of what that step adds to it, until the frame's end [J]
   SupportForces support_forces;
 };
 

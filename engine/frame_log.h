@@ -1,6 +1,7 @@
 // What each frame told: the rows of the metrics and the numbers of the summary.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -57,12 +58,6 @@ struct FrameRow {
   double latency = 0;                // and with its outputs and checkpoint, without waiting
 };
 
-// An edit as the recording needs it: in front of which frame it happened.
-struct FrameEdit {
-  std::int64_t frame = 0;
-  MeshEdit edit;
-};
-
 // For the highest frequency, after what a frame has shown.
 struct Searches {
   std::int64_t n_of_body = 0, n_of_parts = 0;
@@ -75,9 +70,8 @@ struct Equilibrium {
   double seconds = 0;
 };
 
-struct FrameLog {
-  std::vector<FrameRow> rows;
-  std::vector<FrameEdit> new_edits;  // of this frame
+// Of all frames together.
+struct RunTally {
   Equilibrium equilibrium;
   std::int64_t n_roll_backs = 0;
   std::int64_t n_deadlines_missed = 0;
@@ -86,6 +80,17 @@ struct FrameLog {
   std::int32_t least_J_element = -1;
   double least_stable_step = 0, largest_stable_step = 0;
   std::vector<std::string> events;  // "1.20 s: grasper closes on 31 nodes"
+};
+
+struct FrameLog : RunTally {
+  std::vector<FrameRow> rows;
+  std::vector<MeshEdit> new_edits;  // of this frame
+};
+
+// Those that have gone by as checkpoints write them (checkpoint_bytes.cpp).
+struct PackedRows {
+  std::ptrdiff_t n = 0;
+  std::vector<std::byte> blobs;
 };
 
 }  // namespace trocar

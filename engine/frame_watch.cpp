@@ -312,13 +312,13 @@ namespace {
 // What both ways back to the frame's beginning have in common; the sentence's beginning.
 std::string go_back(Simulation& s, const FrameSpan& span, const Watch& failed,
                     const std::string& trouble, int tries) {
-  ++s.log.n_roll_backs;
   if (tries >= most_roll_backs) {
     const Suspect suspect = find_suspect(s, failed, span);
     throw SimulationError("in the frame after " + number_text(span.t0) + " s: " + trouble +
                           suspect.place + "; " + std::to_string(tries) +
                           " roll-backs with smaller steps did not help: " + suspect.cure + " may");
   }
+  ++s.log.n_roll_backs;
   forget_hold_reactions(s.holds);
   s.look.is_done = false;  // it was of a state that is gone
   s.look.displacements.reset();

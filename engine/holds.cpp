@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace trocar {
 
@@ -10,6 +11,20 @@ namespace {
 
 bool acts_within(const InstrumentKey& key, double t0, double t1) {
   return key.action != GraspAction::none && key.time > t0 && key.time <= t1;
+}
+
+// In the order of their times; of those at one time what opens comes first, so that tissue can be
+// handed over.
+std::vector<std::pair<InstrumentKey, std::int32_t>> acts_in_turn(std::span<const Tool> tools,
+                                                                 double t0, double t1) {
+  std::vector<std::pair<InstrumentKey, std::int32_t>> acts;  // with the tool
+  for (std::size_t k = 0; k < tools.size(); ++k)
+    for (const InstrumentKey& key : tools[k].keys)
+      if (acts_within(key, t0, t1)) acts.emplace_back(key, static_cast<std::int32_t>(k));
+  std::ranges::stable_sort(acts, {}, [](const auto& act) {
+    return std::pair(act.first.time, act.first.action == GraspAction::close);
+  });
+  return acts;
 }
 
 GraspAct grasp(Holds& holds, const Tool& tool, std::int32_t number, const Pose& pose,
@@ -43,7 +58,8 @@ FixedMask holding_components(std::span<const FixedMask> fixed) {
 std::vector<std::uint8_t> held_nodes(const Holds& holds, std::span<const std::uint8_t> fixed) {
   std::vector<std::uint8_t> is_held(fixed.size());
   const FixedMask holding = holding_components(fixed);
-  for (std::size_t i = 0; i < fixed.size(); ++i) is_held[i] = (fixed[i] & holding) != 0;
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    if ((fixed[i] & holding) != 0) is_held[i] = fixed[i] == all_components ? 1 : may_slide;
   for (const Hold& hold : holds.holds) is_held[static_cast<std::size_t>(hold.node)] = 1;
   return is_held;
 }
@@ -82,17 +98,15 @@ double largest_travel(const Holds& holds, std::span<const Tool> tools, double t0
 std::vector<GraspAct> act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,
                                    std::span<const Vec3> x, std::span<const std::uint8_t> fixed) {
   std::vector<GraspAct> acts;
-  for (std::size_t k = 0; k < tools.size(); ++k)
-    for (const InstrumentKey& key : tools[k].keys) {
-      if (!acts_within(key, t0, t1)) continue;
-      const auto number = static_cast<std::int32_t>(k);
-      holds.is_open[k] = key.action == GraspAction::open;
-      if (tools[k].kind != InstrumentKind::grasper) continue;
-      release(holds, number);
-      acts.push_back(key.action == GraspAction::close
-                         ? grasp(holds, tools[k], number, tools[k].path.at(t1), x, fixed)
-                         : GraspAct{.tool = number});
-    }
+  for (const auto& [key, number] : acts_in_turn(tools, t0, t1)) {
+    const Tool& tool = tools[static_cast<std::size_t>(number)];
+    holds.is_open[static_cast<std::size_t>(number)] = key.action == GraspAction::open;
+    if (tool.kind != InstrumentKind::grasper) continue;
+    release(holds, number);
+    acts.push_back(key.action == GraspAction::close
+                       ? grasp(holds, tool, number, tool.path.at(t1), x, fixed)
+                       : GraspAct{.tool = number});
+  }
   return acts;
 }
 

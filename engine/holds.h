@@ -33,8 +33,8 @@ struct Holds {
   std::vector<std::uint8_t> is_open;       // (n_tools) last action done was not `close`
 };
 
-// 1 for each node (n_nodes) that is held by anything or supported in a component in which not all
-// nodes are.
+// For each node (n_nodes) that is held by anything, or supported in a component in which not all
+// nodes are, 1 or, if supports leave it some, `may_slide`.
 std::vector<std::uint8_t> held_nodes(const Holds& holds, std::span<const std::uint8_t> fixed);
 // 1 for each node that is held or supported in all components: jaws can't take it, and nothing that
 // an edit restores moves it. What a mirror plane supports goes along in the others.

@@ -29,11 +29,6 @@ Outputs::Outputs(Outputs&&) noexcept = default;
 
 namespace {
 
-std::int64_t interval_of(const SceneOutput& output, double frame_rate) {
-  return std::max<std::int64_t>(1,
-                                static_cast<std::int64_t>(std::llround(output.every * frame_rate)));
-}
-
 SceneCamera camera_of(const Scene& scene, const std::string& name) {
   for (const SceneCamera& camera : scene.cameras)
     if (name.empty() || camera.name == name) return camera;
@@ -42,7 +37,7 @@ SceneCamera camera_of(const Scene& scene, const std::string& name) {
 
 std::vector<FilmOrder> film_orders(const Scene& scene, const Outputs& outputs,
                                    std::int64_t first_frame) {
-  const auto n_frames = std::llround(scene.time.duration * scene.time.frame_rate);
+  const std::int64_t n_frames = scene.time.n_frames();
   std::vector<FilmOrder> orders;
   for (std::size_t k = 0; k < scene.outputs.size(); ++k) {
     const SceneOutput& output = scene.outputs[k];
@@ -88,18 +83,30 @@ std::unique_ptr<RecordingWriter> old_recording(const std::string& file, std::int
   return std::make_unique<RecordingWriter>(file, last_frame);
 }
 
+// One that the checkpoint knows nothing of would be lost: the run went on without it.
+void set_aside(const std::string& file, std::int64_t frame) {
+  if (!std::filesystem::exists(file)) return;
+  std::filesystem::path aside(file);
+  aside.replace_filename(aside.stem().string() + ".before-frame-" + std::to_string(frame) +
+                         aside.extension().string());
+  std::filesystem::rename(file, aside);
+  log_warning(file + ": the run went on without it, a new one begins after frame " +
+              std::to_string(frame) + "; the old one is " + aside.string() + " now");
+}
+
 // Rows of the frames before a resumed run are written again: the checkpoint has them.
 std::unique_ptr<MetricsFile> open_metrics(const Simulation& s, const OutputSlot& slot,
                                           const Checkpoint* resumed) {
+  if (resumed && !resumed->has_energies) set_aside(slot.file, s.first_frame);
   auto metrics = std::make_unique<MetricsFile>(slot.file, s.tools, support_names(s.scene.supports),
                                                s.scene.markers);
   if (!resumed) return metrics;
-  if (!resumed->has_energies) {
-    log_warning(slot.file + ": begins where the run is resumed, it was not asked for before");
-    return metrics;
-  }
-  for (const FrameRow& row : resumed->log.rows)
-    if (slot.is_due(row.frame)) metrics->add(row);
+  const std::int64_t begin = s.energy->memory.first_frame;
+  if (begin > 0)
+    log_warning(slot.file + ": begins after frame " + std::to_string(begin) +
+                ", it was not asked for before");
+  for (const FrameRow& row : *resumed->rows)
+    if (row.frame > begin && slot.is_due(row.frame)) metrics->add(row);
   return metrics;
 }
 
@@ -142,12 +149,12 @@ void open_writers(const Simulation& s, const std::string& echo, const Checkpoint
                                                                : nullptr);
     outputs.recordings.push_back(nullptr);
     if (slot.kind != OutputKind::recording) continue;
+    if (resumed && !slot.is_continued) set_aside(slot.file, s.first_frame);
     outputs.recordings.back() =
         slot.is_continued ? old_recording(slot.file, slot.last_frame) : new_recording(s, slot.file);
   }
   const std::vector<FilmOrder> orders = film_orders(s.scene, outputs, s.first_frame);
-  const bool is_over =
-      s.first_frame >= std::llround(s.scene.time.duration * s.scene.time.frame_rate);
+  const bool is_over = s.first_frame >= s.scene.time.n_frames();
   if (orders.empty() || is_over) return;
   warn_of_empty_pictures(s, orders);
   outputs.studio =
@@ -224,9 +231,10 @@ Outputs open_outputs(Simulation& s, const std::string& folder, const std::string
   Outputs outputs;
   outputs.folder = folder;
   for (const SceneOutput& output : s.scene.outputs)
-    outputs.slots.push_back({.kind = output.kind,
-                             .file = folder + "/" + output.file,
-                             .interval = interval_of(output, s.scene.time.frame_rate)});
+    outputs.slots.push_back(
+        {.kind = output.kind,
+         .file = folder + "/" + output.file,
+         .interval = std::max<std::int64_t>(1, s.scene.time.frames_in(output.every))});
   if (resumed) take_over_marks(s.scene, *resumed, outputs);
   on_root(*s.communicator, [&] { open_writers(s, echo, resumed, outputs); });
   return outputs;

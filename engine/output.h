@@ -18,11 +18,11 @@ class MetricsFile;
 
 struct OutputSlot {
   OutputKind kind = OutputKind::metrics;
-  std::string file;                // full path
-  std::int64_t interval = 1;       // [frames]
-  std::int64_t last_frame = 0;     // of a recording: the last one in it, 0 none
-  std::vector<FrameEdit> pending;  // of a recording: edits since then
-  bool is_continued = false;       // a recording that a stopped run began
+  std::string file;               // full path
+  std::int64_t interval = 1;      // [frames]
+  std::int64_t last_frame = 0;    // of a recording: the last one in it, 0 none
+  std::vector<MeshEdit> pending;  // of a recording: edits since then
+  bool is_continued = false;      // a recording that a stopped run began
   bool is_due(std::int64_t frame) const { return frame % interval == 0; }
 };
 
@@ -30,6 +30,7 @@ struct OutputSlot {
 struct Outputs {
   std::string folder;
   std::int64_t last_checkpoint = -1;  // its frame
+  PackedRows rows_in_checkpoints;
   std::vector<OutputSlot> slots;
   std::unique_ptr<FilmStudio> studio;
   std::vector<std::unique_ptr<MetricsFile>> metrics;  // one a slot, null for other kinds

@@ -48,7 +48,7 @@ class RecordingWriter {
   RecordingWriter(RecordingWriter&&) noexcept;
   // The edits since the last frame, then the frame: one transaction. After it returns the frame
   // survives a kill.
-  void add(std::span<const FrameEdit> edits, const RecordedFrame& frame);
+  void add(std::span<const MeshEdit> edits, const RecordedFrame& frame);
   // Returns when all that was added is on the disk, safe from a loss of power too.
   void sync();
   // The end of the run: says in the file that this is all, and leaves a single file. Call once,

@@ -41,7 +41,7 @@ struct RecordingWriter::Database {
   void go_back_to(std::int64_t last_frame);
   void write_head(const RecordingHead& head);
   void write_tool(std::int64_t number, const TriangleMesh& surface);
-  void write_edit(const FrameEdit& edit, std::int64_t frame);
+  void write_edit(const MeshEdit& edit, std::int64_t frame);
   void write_frame(const RecordedFrame& frame);
 };
 
@@ -83,8 +83,8 @@ void RecordingWriter::Database::write_tool(std::int64_t number, const TriangleMe
   add_tool.step();
 }
 
-void RecordingWriter::Database::write_edit(const FrameEdit& edit, std::int64_t frame) {
-  const Blob change = pack_blob(edit_to_bytes(edit.edit), 1);
+void RecordingWriter::Database::write_edit(const MeshEdit& edit, std::int64_t frame) {
+  const Blob change = pack_blob(edit_to_bytes(edit), 1);
   const std::int64_t number = next.n_edits++;
   add_edit.bind(0, number).bind(1, frame).bind(
       2, std::int64_t{row_crc("edit", number, frame, change.crc)});
@@ -118,10 +118,10 @@ RecordingWriter::RecordingWriter(const std::string& file, std::int64_t last_fram
 RecordingWriter::~RecordingWriter() = default;
 RecordingWriter::RecordingWriter(RecordingWriter&&) noexcept = default;
 
-void RecordingWriter::add(std::span<const FrameEdit> edits, const RecordedFrame& frame) {
+void RecordingWriter::add(std::span<const MeshEdit> edits, const RecordedFrame& frame) {
   Database& d = *database_;
   d.file.run("BEGIN");
-  for (const FrameEdit& edit : edits) d.write_edit(edit, frame.frame);
+  for (const MeshEdit& edit : edits) d.write_edit(edit, frame.frame);
   d.write_frame(frame);
   d.file.run("COMMIT");
 }

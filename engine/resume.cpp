@@ -75,7 +75,7 @@ std::string time_text(const Checkpoint& checkpoint, const LoadedScene& loaded) {
 
 void check_end(const Checkpoint& checkpoint, const LoadedScene& loaded) {
   const SceneTime& time = loaded.scene.time;
-  if (checkpoint.frame > std::llround(time.duration * time.frame_rate))
+  if (checkpoint.frame > time.n_frames())
     loaded.where.fail("time.duration", "the checkpoint is at " + time_text(checkpoint, loaded) +
                                            ", behind the end of this scene");
 }

@@ -108,7 +108,7 @@ Ending run_frame_or_end(Simulation& s, Outputs& outputs) {
 
 // All frames, until the end, a signal or trouble, and the checkpoint there.
 Ending run_frames(Simulation& s, Outputs& outputs) {
-  const auto n_frames = std::llround(s.scene.time.duration * s.scene.time.frame_rate);
+  const std::int64_t n_frames = s.scene.time.n_frames();
   ProgressBar bar(s.scene.name);
   const double start = monotonic_seconds();
   s.start_seconds = start - static_cast<double>(s.frame) / s.scene.time.frame_rate;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -34,6 +36,12 @@ struct SceneTime {
   double duration = 1;     // [s]
   double frame_rate = 30;  // [1/s]
   Pace pace = Pace::fast;
+
+  // Frames in so many seconds, to the nearest.
+  std::int64_t frames_in(double seconds) const {
+    return std::llround(std::min(seconds * frame_rate, 1e15));
+  }
+  std::int64_t n_frames() const { return frames_in(duration); }
 };
 
 // Elements of this region of the mesh are made of something else.

@@ -106,7 +106,7 @@ bool take_tissue(const std::string& path, SceneMaterial& m, OptionErrors& errors
   for (const Parameter& p : parameters())
     if (std::isnan(m.*p.member)) m.*p.member = base.*p.member;
   if (m.ogden.empty()) m.ogden = base.ogden;
-  if (m.prony.empty()) m.prony = base.prony;
+  if (m.prony.empty() && !errors.where().places.contains(path + ".prony")) m.prony = base.prony;
   return true;
 }
 

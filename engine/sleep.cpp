@@ -250,7 +250,9 @@ void fall_asleep(Simulation& s, std::span<const ToolRow> tools) {
   disquiet_touched(s);
   std::vector<std::uint8_t> sleepers = find_sleepers(s);
   if (sleep.quiet_time == 0 && has_any(s, sleepers)) {
+    show_awake(s);  // some may sleep already
     sleep.quiet_time = std::max(least_quiet_time, settling_time(s));
+    show_asleep(s);
     if (sleep.quiet_time == longest_settling)
       note_event(s, static_cast<double>(s.frame + 1) / s.scene.time.frame_rate,
                  "nothing falls asleep (solver.sleep): the body's slowest motion was not found");

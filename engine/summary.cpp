@@ -123,7 +123,7 @@ double mean_share_asleep(const std::vector<FrameRow>& rows) {
 }
 
 Json tools_json(const Simulation& s) {
-  Json tools;
+  Json tools = Json::object();
   for (std::size_t k = 0; k < s.tools.size(); ++k) {
     double largest = 0;
     for (const FrameRow& row : s.log.rows) largest = std::max(largest, row.tools[k].force.norm());
@@ -134,7 +134,7 @@ Json tools_json(const Simulation& s) {
 
 // Rows from before a resumed run was asked for metrics know of none.
 Json supports_json(const Simulation& s) {
-  Json supports;
+  Json supports = Json::object();
   const std::vector<std::string> names = support_names(s.scene.supports);
   for (std::size_t k = 0; k < names.size(); ++k) {
     double largest = 0;

@@ -45,6 +45,7 @@ Vec3 interpolate(const std::vector<double>& time, const std::vector<Vec3>& value
                  const std::vector<Vec3>& slope, double t) {
   const auto [k, s] = find_interval(time, t);
   if (time.size() == 1) return value[0];
+  if (value[k] == value[k + 1]) return value[k];  // at rest, without rounding
   const double h = time[k + 1] - time[k];
   const double s2 = s * s, s3 = s2 * s;
   return (2 * s3 - 3 * s2 + 1) * value[k] + (s3 - 2 * s2 + s) * h * slope[k] +

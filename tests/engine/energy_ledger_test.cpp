@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/checkpoint.h"
 #include "engine_started.h"
 #include "larger_or_nan.h"
 #include "scene_parts.h"
@@ -105,9 +106,11 @@ double error_of_fall(const FallingBody& kind, double step_factor) {
   return error / most;
 }
 
-// Up to the scheme's own error, which falls with the square of the step; in single precision not
+// Up to the scheme's own error, which falls with the square of the step, and is rounding for linear
+// tissue; in single precision not
 // below its rounding.
 TEST(EnergyLedger, closes_with_viscosity) {
+  constexpr double rounding = 1e-14;
   for (const FallingBody& kind :
        {FallingBody{box + "\"hex8\"\n", "", ""},
         FallingBody{box + "\"hex8\"\n", "", "hexahedron = \"full\"\n"},
@@ -116,8 +119,8 @@ TEST(EnergyLedger, closes_with_viscosity) {
         FallingBody{sheet, "", ""}, FallingBody{sheet, "", "triangle = \"plane-stress\"\n"}}) {
     const double error = error_of_fall(kind, 0.8), smaller = error_of_fall(kind, 0.2);
     std::printf("%.2g of the energy, with a quarter of the step %.2g\n", error, smaller);
-    EXPECT_LT(error, 0.01) << kind.shape << kind.solver;
-    EXPECT_LT(smaller, error / 8) << kind.shape << kind.solver;
+    EXPECT_LT(error, 5e-4) << kind.shape << kind.solver;
+    EXPECT_LT(smaller, std::max(error / 8, rounding)) << kind.shape << kind.solver;
   }
   EXPECT_LT(error_of_fall({box + "\"hex8\"\n", "", "precision = \"single\"\n"}, 0.2), 1e-3);
 }
@@ -153,6 +156,51 @@ TEST(EnergyLedger, closes_with_relaxing_hourglass_forces) {
                 error, smaller);
     EXPECT_LT(error, 1e-3);
     EXPECT_LT(smaller, error / 8);
+  }
+}
+
+// The first step is a half one: free fall's energy would be short by m (g dt)^2 / 8 from then on.
+TEST(EnergyLedger, closes_from_the_first_step_on) {
+  for (const std::string support : {"", "[[support]]\nregion = \"y+\"\n"})
+    for (const std::string scaled : {"", "mass_scaling_step = \"0.6 ms\"\n"}) {
+      const auto started =
+          built("[time]\nduration = 1\nframe_rate = 1000\n" + box + "\"hex8\"\n" +
+                "[tissue.material]\nyoung_modulus = 4000\npoisson_ratio = 0.4\n[solver]\n" +
+                "gravity = [0, -9.81, 0]\n" + scaled + support + metrics_table);
+      double error = 0, most = 0;
+      for (int frame = 0; frame < 5; ++frame) {
+        run_frame(*started->s, started->outputs);
+        const FrameRow& row = started->s->log.rows.back();
+        error = larger_or_nan(error, std::abs(row.energy_error));
+        most = std::max(most, row.energy.kinetic);
+      }
+      std::printf("%.2g of the energy\n", error / most);
+      EXPECT_LT(error, 1e-4 * most) << support << scaled;
+    }
+}
+
+// Metrics that are asked for when a run goes on from a checkpoint.
+TEST(EnergyLedger, closes_where_it_is_opened_in_motion) {
+  for (const std::string more :
+       {"[solver]\n", "[solver]\ntetrahedron = \"nodal-pressure\"\n",
+        "prony = [ { share = 0.3, time = 0.02 }, { share = 0.2, time = 0.2 } ]\n[solver]\n"}) {
+    const std::string text =
+        "[time]\nduration = 1\nframe_rate = 100\n" + box + "\"tet4-kuhn\"\n" +
+        "[tissue.material]\nyoung_modulus = 4000\npoisson_ratio = 0.4\n" + more +
+        "step_factor = 0.2\ngravity = [0, -9.81, 0]\n[[support]]\nregion = \"y+\"\n";
+    const auto first = built(text), next = built(text + metrics_table);
+    while (first->s->frame < 6) run_frame(*first->s, first->outputs);
+    restore_checkpoint(take_checkpoint(*first->s), *next->s);
+    double error = 0, most = 0;
+    while (next->s->frame < 30) {
+      run_frame(*next->s, next->outputs);
+      const FrameRow& row = next->s->log.rows.back();
+      error = larger_or_nan(error, std::abs(row.energy_error));
+      most = std::max({most, row.energy.kinetic, row.energy.strain});
+    }
+    std::printf("%.2g of the energy\n", error / most);
+    EXPECT_LT(error, 3e-5 * most) << more;
+    EXPECT_EQ(next->s->energy->memory.first_frame, 6);
   }
 }
 

@@ -291,6 +291,7 @@ TEST(RollBack, gives_up_after_its_last_try_with_time_cause_and_place) {
   EXPECT_TRUE(contains(sentence, "in the frame after 0.5 s: element 0 is inverted at (0.0"))
       << sentence;
   EXPECT_TRUE(contains(sentence, " m; 4 roll-backs")) << sentence;  // nothing moves
+  EXPECT_EQ(s.log.n_roll_backs, most_roll_backs);
 }
 
 TEST(RepeatFrame, keeps_the_new_stable_step_and_the_scale_and_says_why) {

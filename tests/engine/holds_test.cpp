@@ -110,6 +110,31 @@ TEST(Grasp, closing_and_opening_within_one_frame_holds_nothing) {
   EXPECT_TRUE(c.holds.is_open[1]);
 }
 
+// Whoever stands first in the scene.
+TEST(Grasp, hands_tissue_over_within_one_frame) {
+  for (const double closes_at : {1.29, 1.275})  // later, and at the same time
+    for (const std::size_t giver : {0U, 1U}) {
+      GraspedPlate c;
+      const SceneInstrument grasper{
+          .kind = InstrumentKind::grasper, .grip_radius = grip, .path = {{}}};
+      const Vec3 tip(0.03, 0.02, 0);
+      for (std::size_t k = 0; k < 2; ++k) {
+        SceneInstrument one = grasper;
+        if (k == giver)
+          one.path = {{.time = 0.5, .position = tip, .action = GraspAction::close},
+                      {.time = 1.275, .position = tip, .action = GraspAction::open}};
+        else
+          one.path = {{.time = closes_at, .position = tip, .action = GraspAction::close}};
+        c.tools[k] = make_tool(one, {}, 1e-3);
+      }
+      const int n = c.act(0.4, 0.5);
+      EXPECT_GT(n, 10);
+      EXPECT_EQ(c.act(1.26, 1.3), n) << giver;
+      ASSERT_EQ(c.holds.holds.size(), static_cast<std::size_t>(n));
+      EXPECT_EQ(c.holds.holds[0].tool, 1 - static_cast<int>(giver));
+    }
+}
+
 TEST(Grasp, of_nothing_is_reported_as_none_taken) {
   GraspedPlate c;
   for (Vec3& X : c.mesh.X) X += Vec3(1, 0, 0);
@@ -146,8 +171,12 @@ TEST(HeldNodes, are_those_supported_in_any_component_and_the_held) {
   c.fixed[2] = 2;
   c.fixed[3] = 4;
   c.fixed[4] = 7;
-  c.holds.holds = {{.node = 5, .tool = 1}};
-  expect_held(c, {1, 2, 3, 4, 5});
+  c.fixed[6] = 4;
+  c.holds.holds = {{.node = 5, .tool = 1}, {.node = 6, .tool = 1}};
+  expect_held(c, {1, 2, 3, 4, 5, 6});
+  const std::vector<std::uint8_t> is_held = held_nodes(c.holds, c.fixed);
+  EXPECT_EQ(std::vector(is_held.begin(), is_held.begin() + 7),
+            (std::vector<std::uint8_t>{0, may_slide, may_slide, may_slide, 1, 1, 1}));
 }
 
 TEST(HeldNodes, of_a_plane_body_are_not_those_that_only_its_plane_holds) {

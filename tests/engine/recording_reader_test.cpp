@@ -205,7 +205,7 @@ TEST(RecordingReader, refuses_edits_that_do_not_fit_the_mesh) {
   for (std::size_t k = 0; k < wrongs.size(); ++k) {
     const TestFolder folder;
     ExampleRun run = example_run(3);
-    wrongs[k](run.edits[2][0].edit);
+    wrongs[k](run.edits[2][0]);
     write_run(run, folder.file("r"));
     RecordingReader reader(folder.file("r"));
     EXPECT_TRUE(contains(error_of([&] { reader.mesh_at(4); }), "edit 0: does not fit the mesh"))

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
+
 #include "engine/checkpoint_file.h"
 #include "engine/recording.h"
 #include "engine/run.h"
@@ -135,6 +138,38 @@ TEST(Resume, begins_a_recording_that_was_not_asked_for_before_with_the_present_m
   EXPECT_EQ(reader.frames().front().first, 19);
   EXPECT_EQ(reader.frames().back().first, 24);
   EXPECT_EQ(reader.read(24).u.size(), 3 * reader.mesh_at(24).X.size());
+}
+
+TEST(Resume, sets_a_recording_aside_that_the_run_went_on_without) {
+  const std::string output = "output=[{kind='recording',file='r.trocar'}]";
+  const TestFolder folder;
+  run_block(folder, {"time.duration=0.1", output});
+  run_block(folder, {"time.duration=0.2"}, true);
+  run_block(folder, {"time.duration=0.3", output}, true);
+  EXPECT_EQ(RecordingReader(folder.file("out/r.before-frame-6.trocar")).frames().size(), 3U);
+  EXPECT_EQ(RecordingReader(folder.file("out/r.trocar")).frames().front().first, 7);
+}
+
+TEST(Resume, gives_metrics_the_rows_from_where_they_were_asked_for) {
+  const std::string output = "output=[{kind='metrics',file='m.csv'}]";
+  const TestFolder folder;
+  run_block(folder, {"time.duration=0.1"});
+  for (const char* duration : {"0.2", "0.3"})
+    run_block(folder, {std::string("time.duration=") + duration, output}, true);
+  std::istringstream lines(read_text(folder.file("out/m.csv")));
+  std::vector<std::ptrdiff_t> n_fields;
+  for (std::string line; std::getline(lines, line);)
+    n_fields.push_back(std::ranges::count(line, ','));
+  EXPECT_EQ(n_fields, std::vector<std::ptrdiff_t>(1 + 6, n_fields.at(0)));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("out/m.before-frame-6.csv")));
+}
+
+TEST(Resume, of_intervals_longer_than_any_run_writes_nothing) {
+  const TestFolder folder;
+  run_block(folder, {"time.duration=0.1", "checkpoint.every=1e24",
+                     "output=[{kind='metrics',file='m.csv',every=1e24}]"});
+  const std::string metrics = read_text(folder.file("out/m.csv"));
+  EXPECT_EQ(std::ranges::count(metrics, '\n'), 1);
 }
 
 // Stops at .5 s, while the grasper holds and the blade cuts, goes on to .8 s and is what it is

@@ -59,6 +59,15 @@ TEST(SceneMaterial, a_parameter_of_another_model_or_a_missing_one_is_refused_wit
   EXPECT_TRUE(contains(error("tissue = \"liver\"\nmodel = \"ogden\"\n"), "yeoh"));
 }
 
+TEST(SceneMaterial, a_tissue_can_be_had_without_its_relaxation) {
+  const std::string liver = "tissue = \"liver\"\n", elastic = liver + "prony = []\n";
+  ASSERT_FALSE(material_of_scene(liver).prony.empty());
+  EXPECT_TRUE(material_of_scene(elastic).prony.empty());
+  const Scene scene = load_scene_text(with_material(elastic));
+  const Scene again = load_scene_text(echo_options(scene_options(), &scene));
+  EXPECT_TRUE(again.tissue.material.prony.empty());
+}
+
 TEST(SceneMaterial, every_tissue_can_be_named_changed_and_echoed) {
   for (const Tissue& tissue : tissue_table()) {
     const std::string line = "tissue = \"" + std::string(tissue.name) + "\"\n";

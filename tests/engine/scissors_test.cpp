@@ -9,6 +9,7 @@
 #include "engine_started.h"
 #include "larger_or_nan.h"
 #include "mesh/connected_nodes.h"
+#include "replaced.h"
 
 namespace trocar {
 namespace {
@@ -106,19 +107,33 @@ TEST(Scissors, cut_a_slit_into_a_plate_that_is_wider_than_they_open) {
     EXPECT_LT(std::abs(s.mesh.X[i].x()), 0.0053 + 1.25e-3);
 }
 
+bool is_of_tissue_beside(const std::string& event) {
+  return contains(event, "beside its open jaws");
+}
+
 // The plate is told of once a closing, also where it is so soft that it swings on the blades; the
 // strip that lies between these not at all.
 TEST(Scissors, tell_of_tissue_that_lies_beside_their_jaws) {
-  const auto is_told = [](const std::string& event) {
-    return contains(event, "beside its open jaws");
-  };
   for (const double width : {0.03, 0.005})
     for (const std::string resistance : {"0", "20"}) {
       const auto started =
           run_to(0.45, snip_text(width, "close") + "[cutting]\nresistance = " + resistance + "\n");
-      EXPECT_EQ(std::ranges::count_if(started->s->log.events, is_told), width > 0.02 ? 1 : 0)
+      EXPECT_EQ(std::ranges::count_if(started->s->log.events, is_of_tissue_beside),
+                width > 0.02 ? 1 : 0)
           << resistance;
     }
+}
+
+// A strip hardly wider than they open is beside them for a moment, within a frame if that is long.
+TEST(Scissors, tell_of_tissue_beside_their_jaws_at_any_frame_rate) {
+  for (const int frame_rate : {30, 60, 120}) {
+    const auto started = run_to(0.45,
+                                replaced(snip_text(0.008, "close"), "frame_rate = 100",
+                                         "frame_rate = " + std::to_string(frame_rate)),
+                                frame_rate);
+    EXPECT_EQ(started->s->n_pieces, 1);
+    EXPECT_EQ(std::ranges::count_if(started->s->log.events, is_of_tissue_beside), 1) << frame_rate;
+  }
 }
 
 TEST(Scissors, that_only_open_cut_nothing) {

@@ -138,6 +138,25 @@ TEST(Sleep, does_not_stay_bent_at_a_frame_a_second) {
       0.5e-3);
 }
 
+// The time to wait is found anew then, of the body as it is without sleepers.
+TEST(Sleep, waits_as_long_after_a_grasper_has_closed_on_nothing) {
+  const auto run = built(
+      replaced(bent_bar.substr(0, bent_bar.find("[[instrument]]")), "\"30 kPa\"", "\"0.3 kPa\"") +
+          "[[instrument]]\nkind = \"grasper\"\npath = [\n"
+          "{ time = 0, position = [0.02, 0, 0.3] },\n"
+          "{ time = 4, position = [0.02, 0, 0.3], action = \"close\" } ]\n",
+      {"solver.sleep='1 mm'", "solver.mass_damping='4 1/s'"});
+  Simulation& s = *run->s;
+  while (s.frame < 199) run_frame(s, run->outputs);
+  EXPECT_EQ(s.sleep->share, 1);
+  const double before = s.sleep->quiet_time;
+  EXPECT_GT(before, 1);
+  while (s.frame < 203) run_frame(s, run->outputs);
+  EXPECT_EQ(s.log.events.size(), 1U);
+  EXPECT_EQ(s.sleep->quiet_time, before);
+  EXPECT_EQ(s.sleep->share, 1);
+}
+
 // omega = 3.516 h / L^2 sqrt(E / 12 rho): supports bear 60 times the weight as bending couples.
 TEST(SettlingTime, of_a_slender_bar_along_any_axis_is_half_a_swing_or_somewhat_more) {
   for (const std::string size :

@@ -228,6 +228,18 @@ TEST(ToolPath, travel_counts_the_turn_of_the_shaft) {
   EXPECT_EQ(path.travel(0, 1, tip), 0);
 }
 
+TEST(DisplacementPath, rests_to_the_bit_between_equal_keys) {
+  for (const double value : {0.7, 0.3, 5.0, -1e-3}) {
+    const Vec3 held(value, 0.1, 2);
+    const DisplacementPath path({{.time = 0, .displacement = Vec3::Zero()},
+                                 {.time = 0.1, .displacement = held},
+                                 {.time = 3, .displacement = held},
+                                 {.time = 3.3, .displacement = Vec3::Zero()}});
+    for (int k = 3; k < 90; ++k) EXPECT_EQ(path.travel(k / 30., (k + 1) / 30.), 0) << value;
+    EXPECT_GT(path.travel(3, 3.1), 0);
+  }
+}
+
 TEST(DisplacementPath, follows_the_same_rule_as_a_tool) {
   std::mt19937 random(9);
   const std::vector<InstrumentKey> keys = random_keys(random, 6);

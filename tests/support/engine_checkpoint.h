@@ -11,7 +11,8 @@ namespace trocar {
 
 inline std::vector<std::byte> checkpoint_to_bytes(Checkpoint checkpoint) {
   std::vector<std::byte> bytes;
-  put_checkpoint(checkpoint, [&](std::span<const std::byte> more) {
+  PackedRows packed;
+  put_checkpoint(checkpoint, packed, [&](std::span<const std::byte> more) {
     bytes.insert(bytes.end(), more.begin(), more.end());
   });
   return bytes;

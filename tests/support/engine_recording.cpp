@@ -67,11 +67,11 @@ ExampleRun example_run(int n_frames) {
   run.head.tool_meshes[1] = make_box_surface(Vec3(0, 0, 0), Vec3(1e-3, 2e-3, 3e-3));
   Mesh mesh = run.head.mesh;
   for (int k = 0; k < n_frames; ++k) {
-    std::vector<FrameEdit> edits;
+    std::vector<MeshEdit> edits;
     const int n_edits = k == 5 ? 2 : (k % 3 == 2 ? 1 : 0);
     for (int n = 0; n < n_edits; ++n) {
-      edits.push_back({.frame = 2 * k, .edit = example_edit(mesh, (k + n) % 12)});
-      apply_edit(edits.back().edit, mesh);
+      edits.push_back(example_edit(mesh, (k + n) % 12));
+      apply_edit(edits.back(), mesh);
     }
     run.frames.push_back(example_frame(2 * k, mesh.X.size(), 2));
     run.edits.push_back(std::move(edits));

@@ -24,8 +24,8 @@ MeshEdit example_edit(const Mesh& mesh, std::int32_t node);
 struct ExampleRun {
   RecordingHead head;
   std::vector<RecordedFrame> frames;
-  std::vector<std::vector<FrameEdit>> edits;  // (frames.size())
-  std::vector<Mesh> meshes;                   // (frames.size())
+  std::vector<std::vector<MeshEdit>> edits;  // (frames.size())
+  std::vector<Mesh> meshes;                  // (frames.size())
 };
 
 // Numbers without pattern, so that a swapped or shifted one shows.
