@@ -194,7 +194,7 @@ void classify_nodes(const Extraction& extraction, const CutConstraints& constrai
     patch.is_held[i] = is_rim || constraints.is_held[patch.node[i]] != 0 ? 1 : 0;
     if (patch.is_boundary[i] == 0) continue;
     const double cosine = turn[i].in.dot(turn[i].out);
-    patch.is_sharp[i] = cosine < cos_sharp ? 1 : 0;
+    patch.is_sharp[i] = cosine < (patch.is_anchored[i] != 0 ? cos_straight : cos_sharp) ? 1 : 0;
     if (cosine > cos_straight) patch.side[i] = turn[i].out;
   }
 }

@@ -34,7 +34,8 @@ struct PlanePatch {
   std::vector<int> star;                  // (n_nodes) an element around each node
   std::vector<Vec2> side;                 // (n_nodes) direction of a straight boundary, else zero
   std::vector<std::uint8_t> is_boundary;  // (n_nodes)
-  std::vector<std::uint8_t> is_sharp;     // (n_nodes) boundary turns by more than 30 degrees
+  std::vector<std::uint8_t> is_sharp;     // (n_nodes) boundary turns by more than 30 degrees, lips
+                                          // of older cuts by anything
   std::vector<std::uint8_t> is_held;      // (n_nodes) must not be displaced
   std::vector<std::uint8_t> is_anchored;  // (n_nodes) stays unless it becomes a cut node: on older
                                           // cuts and between regions

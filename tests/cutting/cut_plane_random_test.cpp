@@ -1,5 +1,6 @@
 // Random cuts with a fixed seed; TROCAR_CUTS sets another number per mesh.
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 #include "cutting_count.h"
@@ -91,8 +92,10 @@ void cut_and_check(const Mesh& mesh, const std::vector<Vec3>& path, int n_closed
     EXPECT_EQ(after.n_nodes() - mesh.n_nodes(), result.figures.n_opened_facets + 1 - n_closed);
   }
   bool are_on_boundary = false;
-  EXPECT_EQ(n_marked_sides(after, are_on_boundary), 2 * result.figures.n_opened_facets);
+  const int n_before = n_marked_sides(mesh, are_on_boundary);
+  EXPECT_EQ(n_marked_sides(after, are_on_boundary), n_before + 2 * result.figures.n_opened_facets);
   EXPECT_NEAR(total_mass(after) / total_mass(mesh), 1, 1e-12);
+  EXPECT_NEAR(total_volume(after) / total_volume(mesh), 1, 1e-12);
   sample.altitude.push_back(least_altitude(after) / least_altitude(mesh));
   sample.step.push_back(bound_from_altitudes(after) / bound_from_altitudes(mesh));
   EXPECT_GE(sample.step.back(), sample.floor * (1 - 1e-12));
@@ -161,6 +164,28 @@ TEST(CutPlaneRandom, cuts_anywhere_are_valid_or_refused) {
     }
     sample.print("cuts anywhere", c);
     EXPECT_LE(sample.n_refused, n_random_cuts / 8);
+  }
+}
+
+// Lips of earlier cuts bend a little at each node.
+TEST(CutPlaneRandom, cuts_across_earlier_ones_leave_their_lips_where_they_are) {
+  for (const int c : {1, 2, 5, 6}) {
+    Random random(17);
+    Sample sample;
+    for (int k = 0; k < n_random_cuts / 3; ++k) {
+      Mesh mesh = paper_mesh(c);
+      const double top = height(mesh);
+      for (int n = 0; n < 3; ++n) {
+        const Vec3 middle(random(15 * mm, 40 * mm), random(0.25 * top, 0.75 * top), 0);
+        const double angle = random(0, 3.14159);
+        const Vec3 way = 100 * mm * Vec3(std::cos(angle), std::sin(angle), 0);
+        const std::vector<Vec3> path = {middle - way, n == 1 ? middle : Vec3(middle + way)};
+        cut_and_check(mesh, path, -1, sample);
+        mesh = applied(cut(mesh, path).edit, mesh);
+      }
+    }
+    sample.print("cuts across earlier ones", c);
+    EXPECT_LE(sample.n_refused, n_random_cuts / 20);
   }
 }
 
