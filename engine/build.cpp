@@ -77,26 +77,16 @@ TriangleMesh load_tool_mesh(const LoadedScene& loaded, std::size_t k, Communicat
   if (instrument.mesh.empty()) return {};
   // Every rank reads the small file's content from rank 0.
   const auto bytes = read_on_root(communicator, [&] {
-    Mesh carrier;
+    TriangleMesh surface;
     try {
-      const TriangleMesh surface =
-          read_triangle_mesh(scene_path(loaded, instrument.mesh), instrument.scale);
-      carrier.X = surface.X;
-      warn_of_size(instrument.mesh, item_path("instrument", k) + ".scale", carrier.X);
-      for (const auto& triangle : surface.triangle)
-        add_element(carrier, ElementType::tri3, triangle);
+      surface = read_triangle_mesh(scene_path(loaded, instrument.mesh), instrument.scale);
+      warn_of_size(instrument.mesh, item_path("instrument", k) + ".scale", surface.X);
     } catch (const InputError& trouble) {
       loaded.where.fail(item_path("instrument", k) + ".mesh", trouble.what());
     }
-    return mesh_to_bytes(carrier);
+    return surface_to_bytes(surface);
   });
-  const Mesh carrier = mesh_from_bytes(bytes);
-  TriangleMesh surface{.X = carrier.X, .triangle = {}};
-  for (std::int32_t e = 0; e < carrier.n_elements(); ++e) {
-    const auto c = carrier.corners(e);
-    surface.triangle.push_back({c[0], c[1], c[2]});
-  }
-  return surface;
+  return surface_from_bytes(bytes, instrument.mesh);
 }
 
 // Without the ranks of nodes, which follow from the rest: older checkpoints have none.

@@ -165,6 +165,26 @@ Mesh mesh_from_bytes(std::span<const std::byte> bytes) {
   return mesh;
 }
 
+std::vector<std::byte> surface_to_bytes(const TriangleMesh& surface) {
+  Mesh carrier{.X = surface.X};
+  for (const auto& triangle : surface.triangle) add_element(carrier, ElementType::tri3, triangle);
+  return mesh_to_bytes(carrier);
+}
+
+TriangleMesh surface_from_bytes(std::span<const std::byte> bytes, const std::string& name) {
+  const Mesh carrier = mesh_from_bytes(bytes);
+  TriangleMesh surface{.X = carrier.X};
+  if (carrier.corner_node.size() % 3 != 0) throw InputError(name + ": is not made of triangles");
+  for (std::size_t k = 0; k < carrier.corner_node.size(); k += 3) {
+    surface.triangle.push_back(
+        {carrier.corner_node[k], carrier.corner_node[k + 1], carrier.corner_node[k + 2]});
+    for (const std::int32_t node : surface.triangle.back())
+      if (node < 0 || node >= carrier.n_nodes())
+        throw InputError(name + ": a triangle has no such vertex");
+  }
+  return surface;
+}
+
 std::vector<std::byte> edit_to_bytes(const MeshEdit& edit) {
   ByteWriter writer;
   writer.put(static_cast<std::uint64_t>(edit.inserted.size()));

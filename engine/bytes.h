@@ -13,6 +13,7 @@
 
 #include "mesh/edit.h"
 #include "mesh/mesh.h"
+#include "mesh/triangle_mesh.h"
 
 namespace trocar {
 
@@ -74,6 +75,10 @@ void put_mesh(ByteWriter& writer, const Mesh& mesh);
 std::size_t n_bytes_of(const Mesh& mesh);
 std::vector<std::byte> mesh_to_bytes(const Mesh& mesh);
 Mesh mesh_from_bytes(std::span<const std::byte> bytes);
+// Of an instrument's surface, as a mesh of triangles. The second throws InputError "<name>: …"
+// where it is none.
+std::vector<std::byte> surface_to_bytes(const TriangleMesh& surface);
+TriangleMesh surface_from_bytes(std::span<const std::byte> bytes, const std::string& name);
 std::vector<std::byte> edit_to_bytes(const MeshEdit& edit);
 MeshEdit edit_from_bytes(std::span<const std::byte> bytes);
 

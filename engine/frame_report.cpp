@@ -125,6 +125,12 @@ void note_event(Simulation& s, double time, const std::string& event) {
   log_info(add_event(s, time, event));
 }
 
+bool is_told(const Simulation& s, std::string_view part) {
+  return std::ranges::any_of(s.log.events, [&](const std::string& event) {
+    return event.find(part) != std::string::npos;
+  });
+}
+
 void warn_event(Simulation& s, double time, const std::string& event) {
   log_warning(add_event(s, time, event));
 }

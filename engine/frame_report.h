@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/simulation.h"
@@ -16,6 +17,8 @@ FrameRow report_forces(Simulation& s, const FrameSpan& span);
 void report_state(Simulation& s, FrameRow& row);
 // To the log of the summary and, on rank 0, to the terminal.
 void note_event(Simulation& s, double time, const std::string& event);
+// Whether an event has this in it. The log remembers, over a resumption too.
+bool is_told(const Simulation& s, std::string_view part);
 // The same as a warning.
 void warn_event(Simulation& s, double time, const std::string& event);
 void note_grasp(Simulation& s, double time, const GraspAct& act);

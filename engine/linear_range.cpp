@@ -87,20 +87,13 @@ Strained most_strained(const Simulation& s) {
   return most;
 }
 
-// The log remembers, over a resumption too.
-bool is_told(const Simulation& s) {
-  return std::any_of(s.log.events.begin(), s.log.events.end(), [](const std::string& event) {
-    return event.find(beyond) != std::string::npos;
-  });
-}
-
 }  // namespace
 
 void watch_linear_range(Simulation& s, double time) {
   const bool has_linear =
       std::any_of(s.materials.begin(), s.materials.end(),
                   [](const Material& m) { return m.model == MaterialModel::linear; });
-  if (!has_linear || s.frame % frames_between != 0 || is_told(s)) return;
+  if (!has_linear || s.frame % frames_between != 0 || is_told(s, beyond)) return;
   const Strained mine = most_strained(s);
   const double norm = s.communicator->all_max(mine.norm);
   if (norm <= linear_range) return;

@@ -100,13 +100,6 @@ double largest_difference(const SurfaceView& view) {
 
 constexpr const char* sunk_in = "tissue has sunk into other tissue";
 
-// The log remembers, over a resumption too.
-bool is_told(const Simulation& s) {
-  return std::ranges::any_of(s.log.events, [](const std::string& event) {
-    return event.find(sunk_in) != std::string::npos;
-  });
-}
-
 struct SunkNode {
   double depth = 0;  // [m]
   std::int32_t node = -1;
@@ -186,7 +179,7 @@ void look_for_pairs(Simulation& s, const FrameSpan& span, std::int64_t k) {
 
 void watch_sunk_tissue(Simulation& s, double time) {
   // Of a frame with an edit, the pairs are of the surface before it.
-  if (is_told(s) || !s.log.new_edits.empty()) return;
+  if (is_told(s, sunk_in) || !s.log.new_edits.empty()) return;
   const std::vector<SunkNode> sunk = find_sunk(s);
   if (sunk.empty()) return;
   s.contact->detector.refit(s.view.x);

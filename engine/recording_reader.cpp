@@ -30,20 +30,6 @@ bool is_within(std::int64_t number, std::int64_t n) {
   return number >= 0 && number < n;
 }
 
-TriangleMesh surface_from_bytes(const std::vector<std::byte>& bytes, const std::string& name) {
-  const Mesh carrier = mesh_from_bytes(bytes);
-  TriangleMesh surface{.X = carrier.X};
-  if (carrier.corner_node.size() % 3 != 0) throw InputError(name + ": is not made of triangles");
-  for (std::size_t k = 0; k < carrier.corner_node.size(); k += 3) {
-    surface.triangle.push_back(
-        {carrier.corner_node[k], carrier.corner_node[k + 1], carrier.corner_node[k + 2]});
-    for (const std::int32_t node : surface.triangle.back())
-      if (!is_within(node, carrier.n_nodes()))
-        throw InputError(name + ": a triangle has no such vertex");
-  }
-  return surface;
-}
-
 bool has_parts(const ElementSplit& split, const Mesh& mesh) {
   if (!is_within(split.element, mesh.n_elements())) return false;
   const ElementType type = mesh.element_type[static_cast<std::size_t>(split.element)];

@@ -11,12 +11,6 @@ namespace {
 constexpr const char* insert_edit = "INSERT INTO edit VALUES (?, ?, ?, ?, ?, ?)";
 constexpr const char* insert_frame = "INSERT INTO frame VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
 
-std::vector<std::byte> surface_bytes(const TriangleMesh& surface) {
-  Mesh carrier{.X = surface.X};
-  for (const auto& triangle : surface.triangle) add_element(carrier, ElementType::tri3, triangle);
-  return mesh_to_bytes(carrier);
-}
-
 void bind_blob(Statement& statement, int k, const Blob& blob) {
   statement.bind(k, std::span<const std::byte>(blob.packed));
   statement.bind(k + 1, static_cast<std::int64_t>(blob.plain_size));
@@ -76,7 +70,7 @@ void RecordingWriter::Database::go_back_to(std::int64_t last_frame) {
 }
 
 void RecordingWriter::Database::write_tool(std::int64_t number, const TriangleMesh& surface) {
-  const Blob packed = pack_blob(surface_bytes(surface), 1);
+  const Blob packed = pack_blob(surface_to_bytes(surface), 1);
   Statement add_tool(file, "INSERT INTO tool VALUES (?, ?, ?, ?, ?)");
   add_tool.bind(0, number).bind(1, std::int64_t{row_crc("tool", number, packed.crc)});
   bind_blob(add_tool, 2, packed);
