@@ -87,7 +87,9 @@ static void add_surface(const std::vector<SurfacePoint>& parted,
 void add_left(const CutLeft& other, CutStroke& stroke) {
   add_known(other, stroke.left);
   add_surface(other.parted, other.at_end, other.rim, stroke.left);
-  stroke.beside = {};  // also of a third blade: of 288 pairs that meet, it parts two
+  // With what a third blade has parted, but for what it parts from now on: of 288 pairs of blades
+  // that met, keeping that parted two more.
+  stroke.beside = {};
   stroke.taken.clear();
 }
 

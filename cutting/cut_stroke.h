@@ -41,7 +41,7 @@ struct OfElement {
   T value{};
 };
 
-// What a stroke knows of the elements that its blade has met.
+// What a stroke knows of the elements that its blade has met, or several strokes together.
 struct CutKnown {
   std::vector<CutHit> hit;                      // ascending (element, edge)
   std::vector<OfElement<std::int8_t>> side;     // +1 or -1: sides given at earlier advances

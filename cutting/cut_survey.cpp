@@ -9,7 +9,7 @@ namespace trocar {
 
 // Squared distance over h, in place of it, of a node that would have to move and can't.
 static constexpr double immovable_cost = 30;
-// Of one between two regions at most this part of its squared distance: the cut opens the interface
+// Of one between two regions, if less, this times its squared distance: the cut opens the interface
 // where that lies nearer to the blade (0.27 h) than others can come.
 static constexpr double interface_cost = 5;
 // A node that can't move may lie this far from the surface (over h) without counting as off it.
@@ -39,7 +39,9 @@ static void add_distance(CutSurroundings& around, std::int32_t i) {
   around.distance[i] = plane.distance(around.patch.X[i]);
   const double distance = around.distance[i] / around.h, d2 = distance * distance;
   const double slope2 = allowed_part(around.boundary[i], plane.N).squaredNorm();
-  const double most = around.boundary[i].is_interface ? interface_cost * d2 : immovable_cost;
+  const double most = around.boundary[i].is_interface
+                          ? std::min(interface_cost * d2, immovable_cost)
+                          : immovable_cost;
   around.surface_cost[i] = d2 <= tolerated_distance * tolerated_distance
                                ? d2
                                : std::min(d2 / std::max(slope2, 1e-6), most);

@@ -83,12 +83,13 @@ void tell_late_keys(const Scene& scene, const std::string& list, const Items& it
   }
 }
 
-// Jaws open and close at the beginning of a frame.
+// Graspers take hold and let go at the beginning of a frame.
 void tell_late_acts(const Scene& scene) {
   const double last = static_cast<double>(scene.time.n_frames() - 1) / scene.time.frame_rate;
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
     for (const InstrumentKey& key : scene.instruments[k].path)
-      if (key.action != GraspAction::none && key.time > last && key.time <= scene.time.duration)
+      if (scene.instruments[k].kind == InstrumentKind::grasper && key.action != GraspAction::none &&
+          key.time > last && key.time <= scene.time.duration)
         log_info(item_path("instrument", k) + ".path: what it does at " + short_text(key.time) +
                  " s comes after the beginning of the last frame, at " + short_text(last) +
                  " s, and so never");

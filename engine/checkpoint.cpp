@@ -77,10 +77,8 @@ void restore_searches(const Checkpoint& c, Simulation& s) {
   if (!c.has_local_steps) s.multirate.reset();  // it was given up
   if (s.energy && c.has_energies)
     s.energy->memory = c.energy;
-  else if (s.energy) {
-    update_volume_change(s.model, s.neighbours, s.state, s.scratch);
+  else if (s.energy)
     open_energy_ledger(s);
-  }
 }
 
 }  // namespace

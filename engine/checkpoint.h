@@ -18,8 +18,9 @@ struct CutMemory : CutProgress {
   CutStroke stroke;
 };
 
-// How far a recording has come.
-struct RecordingMark {
+// Of a recording, how far it has come, or of metrics, that there were some.
+struct OutputMark {
+  OutputKind kind = OutputKind::recording;
   std::string file;               // as the scene names it
   std::int64_t last_frame = 0;    // recorded, 0: none
   std::vector<MeshEdit> pending;  // edits since then
@@ -55,10 +56,10 @@ struct Checkpoint {
   QuietRange quiet_range;
   bool has_energies = false;
   EnergyMemory energy;
-  std::vector<RecordingMark> recordings;
+  std::vector<OutputMark> outputs;
 };
 
-// Of everything but the recordings; fields of nodes, history and strokes on the root alone.
+// Of everything but the outputs; fields of nodes, history and strokes on the root alone.
 // Collective.
 Checkpoint take_checkpoint(Simulation& s);
 // Puts a simulation that was built from the same scene where the checkpoint was taken. Collective;
@@ -86,7 +87,7 @@ Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start);
 
 // Packed, with checksums that find every flipped byte (checkpoint_bytes.cpp); the first hands on
 // piece by piece, and leaves the checkpoint as it is. packed: by earlier checkpoints of the run, so
-// that one costs the same however long that is.
+// that each row is packed once.
 void put_checkpoint(Checkpoint& checkpoint, PackedRows& packed, const ByteSink& sink);
 // Throws InputError "<name>: …" for damaged bytes or another format.
 Checkpoint checkpoint_from_bytes(std::span<const std::byte> bytes, const std::string& name);

@@ -93,8 +93,8 @@ static void visit(Archive& a, QuietRange& r) {
   a(r.recent, r.low, r.high);
 }
 template <class Archive>
-static void visit(Archive& a, RecordingMark& m) {
-  a(m.file, m.last_frame, m.pending);
+static void visit(Archive& a, OutputMark& m) {
+  a(m.kind, m.file, m.last_frame, m.pending);
 }
 // All but u, v and rows.
 template <class Archive>
@@ -103,7 +103,7 @@ static void visit(Archive& a, Checkpoint& c) {
     c.duplicate_node, c.time, c.last_dt, c.step, c.step_scale, c.held_step, c.watch, c.holds,
     c.is_open, c.cuts, c.tally, c.history, c.history_time, c.searches, c.looked_at,
     c.has_stiffening, c.has_local_steps, c.sleep, c.quiet_range, c.has_energies, c.energy,
-    c.recordings);
+    c.outputs);
 }
 
 static void put_blob(ByteWriter& writer, const Blob& blob) {
@@ -140,12 +140,12 @@ static void pack_rows(std::span<const FrameRow> rows, ByteWriter& blobs) {
 
 // Of the last frame's row, its latency is still to come.
 static void put_rows(std::span<const FrameRow> rows, PackedRows& packed, const ByteSink& sink) {
-  ByteWriter more;
-  for (; packed.n + rows_in_blob < std::ssize(rows); packed.n += rows_in_blob)
-    pack_rows(rows.subspan(static_cast<std::size_t>(packed.n), rows_in_blob), more);
-  const std::vector<std::byte> blobs = more.take();
-  packed.blobs.insert(packed.blobs.end(), blobs.begin(), blobs.end());
-  sink(packed.blobs);
+  for (; packed.n + rows_in_blob < std::ssize(rows); packed.n += rows_in_blob) {
+    ByteWriter blob;
+    pack_rows(rows.subspan(static_cast<std::size_t>(packed.n), rows_in_blob), blob);
+    packed.blobs.push_back(blob.take());
+  }
+  for (const std::vector<std::byte>& blob : packed.blobs) sink(blob);
   ByteWriter rest;
   pack_rows(rows.subspan(static_cast<std::size_t>(packed.n)), rest);
   sink(rest.take());

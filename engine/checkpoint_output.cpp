@@ -10,11 +10,12 @@ namespace trocar {
 
 namespace {
 
-std::vector<RecordingMark> recording_marks(const Simulation& s, const Outputs& outputs) {
-  std::vector<RecordingMark> marks;
+std::vector<OutputMark> output_marks(const Simulation& s, const Outputs& outputs) {
+  std::vector<OutputMark> marks;
   for (std::size_t k = 0; k < outputs.slots.size(); ++k)
-    if (outputs.slots[k].kind == OutputKind::recording)
-      marks.push_back({.file = s.scene.outputs[k].file,
+    if (!is_picture(outputs.slots[k].kind))
+      marks.push_back({.kind = outputs.slots[k].kind,
+                       .file = s.scene.outputs[k].file,
                        .last_frame = outputs.slots[k].last_frame,
                        .pending = outputs.slots[k].pending});
   return marks;
@@ -41,7 +42,7 @@ void write_checkpoint(Simulation& s, Outputs& outputs, const FrameStart* failed)
   if (failed && s.state.step != failed->step) return;
   const double start = monotonic_seconds();
   Checkpoint checkpoint = failed ? take_checkpoint_of_start(s, *failed) : take_checkpoint(s);
-  checkpoint.recordings = recording_marks(s, outputs);
+  checkpoint.outputs = output_marks(s, outputs);
   on_root(*s.communicator, [&] { save(std::move(checkpoint), outputs); });
   outputs.last_checkpoint = s.frame;
   s.timers.add(phase_checkpoint, monotonic_seconds() - start);

@@ -67,6 +67,7 @@ void open_energy_ledger(Simulation& s) {
   s.energy = std::make_unique<EnergyLedger>();
   keep_works(s.model, s.scratch);
   localise_supports(s.scene.supports, s.mesh, s.part, s.energy->support_forces);
+  update_volume_change(s.model, s.neighbours, s.state, s.scratch);
   s.energy->memory.first_frame = s.frame;
   s.energy->memory.initial = mechanical_energy(s).sum();
   s.energy->memory.works.viscous = -last_viscous_work(s);
@@ -247,15 +248,15 @@ void note_balance(Simulation& s) {
   const double wave = s.edge_length / s.rest_step;
   const double negligible = 1e-18 * std::reduce(s.mass.begin(), s.mass.end()) * wave * wave;
   if (error.share <= balance_alarm || error.largest <= negligible) return;
-  note_event(
-      s, s.state.time,
-      "the energies do not add up: " + short_text(100 * error.share) +
-          " % of what was turned over is missing or too much, most of it since " +
-          short_text(error.time) + " s. " +
-          (s.tools.empty() ? ""
-                           : "An instrument that goes through the surface does this (a "
-                             "slower path, a larger tip or a finer mesh helps), and so do ") +
-          "steps near the limit" + (s.tools.empty() ? " do this" : "") + " (solver.step_factor)");
+  note_event(s, s.state.time,
+             "the energies do not add up: " + short_text(100 * error.share) +
+                 " % of what was turned over is missing or too much, most of it since " +
+                 short_text(error.time) + " s. " +
+                 (s.tools.empty()
+                      ? "Steps near the limit do this (solver.step_factor)"
+                      : "An instrument that goes through the surface does this (a slower path, a "
+                        "larger tip or a finer mesh helps), and so do steps near the limit "
+                        "(solver.step_factor)"));
 }
 
 }  // namespace trocar

@@ -6,10 +6,9 @@
 // so that F·v dt summed over the steps is the work of a force F to rounding. Kinetic energy and
 // works then belong to the middle of the last step; sum dt/2 v-·f carries the kinetic energy to its
 // end, where strain and gravity are evaluated. The same carries the work of viscous
-// forces there; strain energy is that of the laws without relaxation. At the start the velocity is
-// of the beginning of the step, which is half a step long: the one half a step before, of which the
-// same would be true, differs from it by what that step adds, and the body's energy by the kinetic
-// energy of that.
+// forces there; strain energy is that of the laws without relaxation. The first step takes v0 to
+// v+ = v0 + dv; with v- = v0 - dv the sum would be 1/2 m v-·v+, that is, 1/2 m dv·dv less than
+// 1/2 m v0·v0: so much less was there at the start.
 #pragma once
 
 #include <optional>
@@ -30,7 +29,7 @@ struct Simulation;
 struct EnergyMemory {
   std::int64_t first_frame = 0;        // how many had gone by when it was started
   EnergyWorks works;                   // since the start
-  double initial = 0;                  // mechanical energy at the start [J]
+  double initial = 0;                  // mechanical energy at the start, as above [J]
   double largest_stored = 0;           // strain and hourglass energy of any frame [J]
   double largest_hourglass_share = 0;  // of frames that store 1 % of that or more
 };
@@ -64,7 +63,8 @@ void add_nodal_energies(const RankBody& body, std::vector<double>& kinetic,
 void begin_frame_work(Simulation& s);
 // Where the contact set is another from here on in the frame.
 void begin_contact_work(Simulation& s);
-// Before and after integration and exchange: both velocities of the step.
+// Before and after integration and exchange: both velocities of the step. Collective in the first
+// step.
 void note_velocities(Simulation& s, double dt);
 void add_work(Simulation& s);
 // Adds the frame's work of all ranks to the ledger. Collective.

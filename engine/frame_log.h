@@ -90,7 +90,7 @@ struct FrameLog : RunTally {
 // Those that have gone by as checkpoints write them (checkpoint_bytes.cpp).
 struct PackedRows {
   std::ptrdiff_t n = 0;
-  std::vector<std::byte> blobs;
+  std::vector<std::vector<std::byte>> blobs;
 };
 
 }  // namespace trocar

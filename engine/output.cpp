@@ -83,39 +83,47 @@ std::unique_ptr<RecordingWriter> old_recording(const std::string& file, std::int
   return std::make_unique<RecordingWriter>(file, last_frame);
 }
 
-// One that the checkpoint knows nothing of would be lost: the run went on without it.
-void set_aside(const std::string& file, std::int64_t frame) {
-  if (!std::filesystem::exists(file)) return;
-  std::filesystem::path aside(file);
-  aside.replace_filename(aside.stem().string() + ".before-frame-" + std::to_string(frame) +
-                         aside.extension().string());
-  std::filesystem::rename(file, aside);
+// "m.csv" to "m.TAG-frame-75.csv".
+std::string tagged(const std::string& file, const std::string& tag, std::int64_t frame) {
+  std::filesystem::path path(file);
+  path.replace_filename(path.stem().string() + "." + tag + "-frame-" + std::to_string(frame) +
+                        path.extension().string());
+  return path.string();
+}
+
+// The run went on without it: it would be lost. What stands aside already is that of an earlier try
+// to go on from there. Whether there was one.
+bool set_aside(const std::string& file, std::int64_t frame) {
+  const std::string aside = tagged(file, "before", frame);
+  if (!std::filesystem::exists(file) || std::filesystem::exists(aside)) return false;
+  for (const char* tail : {"-wal", "-journal", ""})  // a recording's, of a run that was killed
+    if (std::filesystem::exists(file + tail)) std::filesystem::rename(file + tail, aside + tail);
   log_warning(file + ": the run went on without it, a new one begins after frame " +
-              std::to_string(frame) + "; the old one is " + aside.string() + " now");
+              std::to_string(frame) + "; the old one is " + aside + " now");
+  return true;
 }
 
 // Rows of the frames before a resumed run are written again: the checkpoint has them.
 std::unique_ptr<MetricsFile> open_metrics(const Simulation& s, const OutputSlot& slot,
                                           const Checkpoint* resumed) {
-  if (resumed && !resumed->has_energies) set_aside(slot.file, s.first_frame);
+  const std::int64_t begin = resumed ? s.energy->memory.first_frame : 0;
+  if (resumed && !slot.is_continued && !set_aside(slot.file, s.first_frame) && begin > 0)
+    log_warning(slot.file + ": begins after frame " + std::to_string(begin) +
+                ", it was not asked for before");
   auto metrics = std::make_unique<MetricsFile>(slot.file, s.tools, support_names(s.scene.supports),
                                                s.scene.markers);
   if (!resumed) return metrics;
-  const std::int64_t begin = s.energy->memory.first_frame;
-  if (begin > 0)
-    log_warning(slot.file + ": begins after frame " + std::to_string(begin) +
-                ", it was not asked for before");
   for (const FrameRow& row : *resumed->rows)
     if (row.frame > begin && slot.is_due(row.frame)) metrics->add(row);
   return metrics;
 }
 
-// On every rank: a recording that the checkpoint knows goes on after its last frame.
+// On every rank: what the checkpoint knows goes on.
 void take_over_marks(const Scene& scene, const Checkpoint& resumed, Outputs& outputs) {
   for (std::size_t k = 0; k < outputs.slots.size(); ++k)
-    for (const RecordingMark& mark : resumed.recordings)
-      if (mark.file == scene.outputs[k].file) {
-        outputs.slots[k].is_continued = outputs.slots[k].kind == OutputKind::recording;
+    for (const OutputMark& mark : resumed.outputs)
+      if (mark.file == scene.outputs[k].file && mark.kind == outputs.slots[k].kind) {
+        outputs.slots[k].is_continued = true;
         outputs.slots[k].last_frame = mark.last_frame;
         outputs.slots[k].pending = mark.pending;
       }
@@ -127,11 +135,9 @@ void rename_films(const Simulation& s, Outputs& outputs) {
   if (s.first_frame == 0) return;
   for (OutputSlot& slot : outputs.slots) {
     if (slot.kind != OutputKind::video && slot.kind != OutputKind::contact_sheet) continue;
-    std::filesystem::path path(slot.file);
-    path.replace_filename(path.stem().string() + ".from-frame-" + std::to_string(s.first_frame) +
-                          path.extension().string());
-    log_info(slot.file + " can't be continued: what follows goes into " + path.string());
-    slot.file = path.string();
+    const std::string next = tagged(slot.file, "from", s.first_frame);
+    log_info(slot.file + " can't be continued: what follows goes into " + next);
+    slot.file = next;
   }
 }
 

@@ -22,7 +22,7 @@ struct OutputSlot {
   std::int64_t interval = 1;      // [frames]
   std::int64_t last_frame = 0;    // of a recording: the last one in it, 0 none
   std::vector<MeshEdit> pending;  // of a recording: edits since then
-  bool is_continued = false;      // a recording that a stopped run began
+  bool is_continued = false;      // a recording or metrics that a stopped run began
   bool is_due(std::int64_t frame) const { return frame % interval == 0; }
 };
 

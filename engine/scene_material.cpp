@@ -183,7 +183,8 @@ Options<SceneMaterial> material_options() {
            "Normal of the plane of two families.");
   m.list("ogden", &SceneMaterial::ogden, term,
          "ogden: up to three terms 2 mu/alpha^2 (sum of stretches^alpha - 3).");
-  m.list("prony", &SceneMaterial::prony, branch, "Viscoelasticity of any model.");
+  m.list("prony", &SceneMaterial::prony, branch,
+         "Viscoelasticity of any model. [] leaves out that of a tissue.");
   return m;
 }
 

@@ -137,8 +137,8 @@ std::vector<GrownElement> find_grown(const Model& model, const Part& part, const
       enough[lane] = blocks.stiffening_at_rest * growth * earlier_at[lane];
     kernels.law.watch(task, {enough.data()}, J.data(), stiffening.data());
     for (std::size_t lane = 0; lane < element.size(); ++lane) {
-      const double s = std::max(stiffening[lane] / blocks.stiffening_at_rest, 1.0);
-      if (s <= growth * earlier_at[lane]) continue;
+      const double s = std::max(1.0, stiffening[lane] / blocks.stiffening_at_rest);
+      if (!(s > growth * earlier_at[lane])) continue;
       const std::scoped_lock lock(mutex);
       grown.push_back({part.element_global[element[lane]], s});
       are_too_many = grown.size() > most;

@@ -10,7 +10,6 @@
 namespace trocar {
 namespace {
 
-// Every kind of member once, with numbers that can't be mistaken for each other.
 std::shared_ptr<std::vector<FrameRow>> rows_of(int n) {
   auto rows = std::make_shared<std::vector<FrameRow>>(static_cast<std::size_t>(n));
   for (int k = 0; k < n; ++k)
@@ -18,6 +17,7 @@ std::shared_ptr<std::vector<FrameRow>> rows_of(int n) {
   return rows;
 }
 
+// Every kind of member once, with numbers that can't be mistaken for each other.
 Checkpoint example_checkpoint() {
   Checkpoint c{.version = "trocar test", .scene = "name = \"x\"\n", .frame = 17, .digest = 99};
   c.mesh = std::make_shared<const Mesh>(make_rectangle(0.02, 0.01, 3, 2));
@@ -35,8 +35,8 @@ Checkpoint example_checkpoint() {
   c.cuts[0].strokes = {{.tool = "scalpel", .n_edits = 4}};
   c.rows = rows_of(2);
   c.tally.events = {"0.1 s: something"};
-  c.recordings = {{.file = "r.trocar", .last_frame = 16}};
-  c.recordings[0].pending = {example_edit(*c.mesh, 1)};
+  c.outputs = {{.file = "r.trocar", .last_frame = 16}};
+  c.outputs[0].pending = {example_edit(*c.mesh, 1)};
   return c;
 }
 
@@ -60,9 +60,8 @@ TEST(CheckpointBytes, read_back_give_the_same_checkpoint) {
   EXPECT_EQ(back.cuts[0].strokes[0].n_edits, 4);
   EXPECT_EQ(back.rows->at(1).tools.at(0).position, Vec3(7, 8, 1));
   EXPECT_EQ(back.tally.events, c.tally.events);
-  EXPECT_EQ(back.recordings.at(0).last_frame, 16);
-  EXPECT_EQ(edit_to_bytes(back.recordings[0].pending.at(0)),
-            edit_to_bytes(c.recordings[0].pending[0]));
+  EXPECT_EQ(back.outputs.at(0).last_frame, 16);
+  EXPECT_EQ(edit_to_bytes(back.outputs[0].pending.at(0)), edit_to_bytes(c.outputs[0].pending[0]));
 }
 
 // Of a mesh and of fields that don't fit into a piece.

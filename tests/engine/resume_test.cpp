@@ -140,14 +140,38 @@ TEST(Resume, begins_a_recording_that_was_not_asked_for_before_with_the_present_m
   EXPECT_EQ(reader.read(24).u.size(), 3 * reader.mesh_at(24).X.size());
 }
 
-TEST(Resume, sets_a_recording_aside_that_the_run_went_on_without) {
-  const std::string output = "output=[{kind='recording',file='r.trocar'}]";
+// Also where the first try to go on came to nothing, and of a run that was killed.
+TEST(Resume, sets_aside_what_the_run_went_on_without) {
+  const std::string outputs =
+      "output=[{kind='recording',file='r.trocar'},{kind='metrics',file='m.csv'}]";
   const TestFolder folder;
-  run_block(folder, {"time.duration=0.1", output});
+  run_block(folder, {"time.duration=0.1", outputs});
+  write_text(folder.file("out/r.trocar-journal"), "");
+  const std::string first = read_text(folder.file("out/m.csv"));
   run_block(folder, {"time.duration=0.2"}, true);
-  run_block(folder, {"time.duration=0.3", output}, true);
-  EXPECT_EQ(RecordingReader(folder.file("out/r.before-frame-6.trocar")).frames().size(), 3U);
-  EXPECT_EQ(RecordingReader(folder.file("out/r.trocar")).frames().front().first, 7);
+  std::filesystem::copy_file(folder.file("out/checkpoint.bin"), folder.file("c.bin"));
+  for (int k = 0; k < 2; ++k) {
+    std::filesystem::copy_file(folder.file("c.bin"), folder.file("out/checkpoint.bin"),
+                               std::filesystem::copy_options::overwrite_existing);
+    run_block(folder, {"time.duration=0.3", outputs}, true);
+    EXPECT_EQ(RecordingReader(folder.file("out/r.before-frame-6.trocar")).frames().size(), 3U);
+    EXPECT_EQ(RecordingReader(folder.file("out/r.trocar")).frames().front().first, 7);
+    EXPECT_EQ(read_text(folder.file("out/m.before-frame-6.csv")), first);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.file("out/r.trocar-journal")));
+}
+
+TEST(Resume, keeps_metrics_of_another_name) {
+  const auto output = [](const std::string& file) {
+    return "output=[{kind='metrics',file='" + file + "'}]";
+  };
+  const TestFolder folder;
+  run_block(folder, {"time.duration=0.1", output("m.csv")});
+  const std::string first = read_text(folder.file("out/m.csv"));
+  run_block(folder, {"time.duration=0.2", output("n.csv")}, true);
+  run_block(folder, {"time.duration=0.3", output("m.csv")}, true);
+  EXPECT_EQ(read_text(folder.file("out/m.before-frame-6.csv")), first);
+  EXPECT_TRUE(read_text(folder.file("out/m.csv")).starts_with(first));
 }
 
 TEST(Resume, gives_metrics_the_rows_from_where_they_were_asked_for) {
@@ -158,16 +182,19 @@ TEST(Resume, gives_metrics_the_rows_from_where_they_were_asked_for) {
     run_block(folder, {std::string("time.duration=") + duration, output}, true);
   std::istringstream lines(read_text(folder.file("out/m.csv")));
   std::vector<std::ptrdiff_t> n_fields;
-  for (std::string line; std::getline(lines, line);)
+  std::vector<double> time;
+  for (std::string line; std::getline(lines, line);) {
     n_fields.push_back(std::ranges::count(line, ','));
+    time.push_back(std::atof(line.c_str()));
+  }
   EXPECT_EQ(n_fields, std::vector<std::ptrdiff_t>(1 + 6, n_fields.at(0)));
-  EXPECT_FALSE(std::filesystem::exists(folder.file("out/m.before-frame-6.csv")));
+  EXPECT_NEAR(time.at(1), 4 / 30., 1e-9);
+  EXPECT_NEAR(time.at(6), 9 / 30., 1e-9);
 }
 
-TEST(Resume, of_intervals_longer_than_any_run_writes_nothing) {
+TEST(Resume, of_metrics_rarer_than_any_run_is_long_writes_no_row) {
   const TestFolder folder;
-  run_block(folder, {"time.duration=0.1", "checkpoint.every=1e24",
-                     "output=[{kind='metrics',file='m.csv',every=1e24}]"});
+  run_block(folder, {"time.duration=0.1", "output=[{kind='metrics',file='m.csv',every=1e24}]"});
   const std::string metrics = read_text(folder.file("out/m.csv"));
   EXPECT_EQ(std::ranges::count(metrics, '\n'), 1);
 }
