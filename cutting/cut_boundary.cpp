@@ -144,8 +144,9 @@ NodeBoundary node_boundary(const CutPatch& patch, const CutStroke& stroke,
   return boundary;
 }
 
-static Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& X) {
+Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& X) {
   const Vec3 d = b - a;
+  if (!(d.squaredNorm() > 0)) return a;
   const double s = d.dot(X - a) / d.squaredNorm();
   return a + std::clamp(s, 0.0, 1.0) * d;
 }

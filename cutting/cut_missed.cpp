@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cutting/cut_boundary.h"
 #include "cutting/cut_missed_slice.h"
 #include "cutting/cut_slice.h"
 
@@ -128,12 +129,6 @@ static void add_rims(const After& after, const CutStroke& stroke, std::vector<Cu
   }
 }
 
-static double distance_to_segment(const Vec3& X, const Vec3& A, const Vec3& B) {
-  const Vec3 d = B - A;
-  const double s = d.squaredNorm() > 0 ? std::clamp(d.dot(X - A) / d.squaredNorm(), 0.0, 1.0) : 0;
-  return (A + s * d - X).norm();
-}
-
 // Whether X lies where the stroke ends in the tissue, or where the blade has stopped and not parted
 // yet what it crossed.
 static bool is_at_end(const CutStroke& stroke, const Vec3& X) {
@@ -141,7 +136,7 @@ static bool is_at_end(const CutStroke& stroke, const Vec3& X) {
   constexpr double front = 2, wider_rim = 1.5;  // mean edges
   const double reach = front * stroke.mean_edge;
   const auto is_near = [&](const BladePoint& a, const BladePoint& b) {
-    return (a.is_inside || b.is_inside) && distance_to_segment(X, a.X, b.X) < reach;
+    return (a.is_inside || b.is_inside) && (nearest_on_segment(a.X, b.X, X) - X).norm() < reach;
   };
   return !is_clear_of_rim(stroke, X, wider_rim) ||
          std::ranges::adjacent_find(stroke.edge, is_near) != stroke.edge.end();
