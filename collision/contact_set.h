@@ -10,6 +10,7 @@
 
 #include "collision/contact_constraint.h"
 #include "collision/detector.h"
+#include "collision/hull_manifold.h"
 #include "collision/tissue_pairs.h"
 #include "mesh/partition.h"
 
@@ -36,6 +37,7 @@ struct ContactSet {
     // Of a hull's last look: the corners in the tool's frame, and how far it saw [m].
     std::array<Vec3, 3> seen{};
     double sight = -1;
+    Manifold manifold;
     Vec3 reaction_sum = Vec3::Zero();  // on the tool, over the steps so far [N]
   };
   struct TissueItem {
@@ -88,7 +90,7 @@ struct ContactSet {
   Halo halo;                         // among the ranks that hold nodes, in places
   bool is_counted_here = false;      // this rank reports the reactions on tools
   // Of the step that is being solved; steps allocate nothing.
-  // With room for one an item and two a node.
+  // With room for two a node, and of an item for its nearest point and its manifold.
   std::vector<ContactConstraint> constraints;
   std::vector<DeepestPiece> deepest;   // (node.size())
   std::vector<TissueImpulse> impulse;  // (node.size())

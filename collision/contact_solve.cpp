@@ -81,23 +81,39 @@ double leeway_of(const ContactDetector& detector, const ContactSet::Item& item, 
   return least;
 }
 
-void add_triangle(const ContactDetector& detector, const ContactStep& step, double release,
-                  std::int32_t k, ContactSet& set) {
+struct Release {
+  const ContactDetector& detector;
+  double most = 0;  // in a step [m]
+};
+
+// Unless the corners do all that it asks for.
+void add_point(const ManifoldPoint& touch, const ContactStep& step, const Release& release,
+               std::int32_t k, ContactSet& set) {
   const ContactSet::Item& item = set.items[to_size(k)];
   const ToolMotion& tool = tool_of(step, item);
   const auto& [i, j, l] = item.place;
-  const auto& w = item.contact.weight;
+  const auto& w = touch.weight;
   ContactConstraint c{.item = k,
                       .place = {i, j, l, l},
                       .weight = {w[0], w[1], w[2], 0},
-                      .normal = tool.pose.rotation * item.contact.normal};
-  const Vec3 arm = tool.pose.rotation * item.contact.point;
+                      .normal = tool.pose.rotation * touch.normal};
+  const Vec3 arm = tool.pose.rotation * touch.point;
   Vec3 x = Vec3::Zero();
   for (std::size_t a = 0; a < 3; ++a) x += c.weight[a] * set.x_end[to_size(c.place[a])];
   const double gap = c.normal.dot(x - (arm + tool.pose.translation));
-  if (gap >= 0 || is_at_front(set, item) || is_kept_by_corners(set, c, -gap)) return;
-  add_constraint(gap, release * leeway_of(detector, item, c.normal, set),
+  if (gap >= 0 || is_kept_by_corners(set, c, -gap)) return;
+  add_constraint(gap, release.most * leeway_of(release.detector, item, c.normal, set),
                  motion_of(tool, arm, step), c, set);
+}
+
+void add_triangle(const ContactStep& step, const Release& release, std::int32_t k,
+                  ContactSet& set) {
+  const ContactSet::Item& item = set.items[to_size(k)];
+  if (!item.is_near || is_at_front(set, item)) return;
+  const Contact& nearest = item.contact;
+  add_point({.weight = nearest.weight, .point = nearest.point, .normal = nearest.normal}, step,
+            release, k, set);
+  for (const ManifoldPoint& touch : item.manifold) add_point(touch, step, release, k, set);
 }
 
 // At the end of the step, along the normal where the node would be that moved with the tool.
@@ -250,6 +266,9 @@ void look_again(const ContactDetector& detector, const ContactStep& step, Contac
     const ContactDetector::Corners corners = corners_of(set, item);
     if (detector.is_hull(item.contact) && !has_to_look(corners.local, way, item)) continue;
     item.is_near = detector.update(corners, tool_of(step, item).pose, way, item.contact);
+    if (detector.is_hull(item.contact)) {
+      item.manifold = item.is_near ? detector.manifold(corners, way, item.contact) : Manifold{};
+    }
   }
 }
 
@@ -260,8 +279,7 @@ void solve_contacts(const ContactDetector& detector, const ContactStep& step,
   const double release = options.release_speed * step.dt;
   add_nodes(detector, step, release, set);
   for (std::size_t k = 0; k < set.items.size(); ++k)
-    if (set.items[k].is_near)
-      add_triangle(detector, step, release, static_cast<std::int32_t>(k), set);
+    add_triangle(step, {.detector = detector, .most = release}, static_cast<std::int32_t>(k), set);
   add_tissue({.number = step.number, .dt = step.dt}, release, set);
   double deepest = 0;
   for (const ContactConstraint& c : constraints) deepest = std::max(deepest, c.lack);

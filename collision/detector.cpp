@@ -312,6 +312,12 @@ bool ContactDetector::update(const Corners& corners, const Pose& pose, double ma
   return is_flat_enough(core, contact.normal, contact.gap);
 }
 
+Manifold ContactDetector::manifold(const Corners& corners, double margin,
+                                   const Contact& contact) const {
+  if (is_blade(contact) || !state_->plane.node.empty()) return {};
+  return find_manifold(state_->core_of(contact), corners.local, contact.gap, margin);
+}
+
 std::optional<NodeTouch> ContactDetector::touch_node(const Contact& contact,
                                                      const SurfaceNode& node, const Pose& pose,
                                                      double margin) const {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "collision/hull_manifold.h"
 #include "collision/tissue_pairs.h"
 #include "collision/tool_shape.h"
 #include "mesh/facets.h"
@@ -80,6 +81,8 @@ class ContactDetector {
     std::array<Vec3, 3> x, local;  // in the world and in the tool's frame [m]
   };
   bool update(const Corners& corners, const Pose& pose, double margin, Contact& contact) const;
+  // Of a contact as updated: where else it touches. Nothing of blades, and on plane meshes.
+  Manifold manifold(const Corners& corners, double margin, const Contact& contact) const;
   // Where a node lies in the contact's piece, nothing where its gap is `margin` or more. Of a hull:
   // the nearest of its faces, of a blade the flank that the tissue faces: nodes of both lips of a
   // fresh wound lie in the middle of it. On plane meshes of what z = 0 cuts out of the

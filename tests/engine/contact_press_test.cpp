@@ -94,10 +94,12 @@ TEST(ContactOfAPress, answers_at_the_usual_step_as_at_a_quarter_of_it) {
         by.instrument, by.is_mesh ? " of a mesh" : "", by.end, by.friction, usual.force, fine.force,
         usual.energy_error, usual.contact_work);
     EXPECT_GT(fine.force, 1) << by.instrument;
-    // The rod's corners reach through the middle of triangles.
-    const double most = by.is_mesh ? 0.05 : 0.01;
-    EXPECT_NEAR(usual.force, fine.force, most * fine.force) << by.instrument;
-    EXPECT_LT(std::abs(usual.energy_error), most * usual.contact_work) << by.instrument;
+    EXPECT_NEAR(usual.force, fine.force, 0.01 * fine.force) << by.instrument;
+    EXPECT_LT(std::abs(usual.energy_error), 0.01 * usual.contact_work) << by.instrument;
+    // While triangles touched it with one point each, its corners came through: 1.3 N.
+    if (by.is_mesh) {
+      EXPECT_GT(fine.force, 2);
+    }
   }
 }
 
