@@ -118,6 +118,10 @@ void print_mesh(const std::string& file, const Mesh& mesh) {
   else if (m.quality_min < sliver_quality)
     std::printf("  SLIVERS           below a quality of %g: a few elements make every step small\n",
                 sliver_quality);
+  for (std::size_t k = 0; k < mesh.region_name.size(); ++k)
+    if (!mesh.region_name[k].empty())
+      std::printf("  region            \"%s\", %td elements\n", mesh.region_name[k].c_str(),
+                  std::ranges::count(mesh.element_region, static_cast<std::int32_t>(k)));
   for (const NodeSet& set : mesh.node_sets)
     std::printf("  region            \"%s\", %zu nodes\n", set.name.c_str(), set.node.size());
   std::printf(

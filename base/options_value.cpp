@@ -1,4 +1,5 @@
 // Readers of single values: each says what it needs, what it found and what is allowed.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -84,9 +85,31 @@ std::vector<std::string> split_vector(std::string_view text, std::size_t n) {
   return pieces;
 }
 
+// "0 2 3mm": what is glued to the last number is the unit of all.
+void share_last_unit(const OptionNode& node, std::vector<std::string>& pieces) {
+  const auto unit_of = [](const std::string& number) {
+    const std::size_t end = number.find_first_not_of("0123456789+-.eE");
+    return end == std::string::npos ? std::string() : number.substr(end);
+  };
+  std::string& common = pieces.back();
+  const std::size_t n = pieces.size() - 1;
+  const auto n_with_unit = static_cast<std::size_t>(
+      std::count_if(pieces.begin(), pieces.end() - 1,
+                    [&](const std::string& piece) { return !unit_of(piece).empty(); }));
+  if (!common.empty() || n_with_unit == 0 || n_with_unit == n) return;
+  const std::string unit = unit_of(pieces[n - 1]);
+  if (n_with_unit > 1 || unit.empty())
+    refuse(node, in_quotes(node.text) +
+                     " has units for some of its numbers only: one after the "
+                     "last, or one for each");
+  pieces[n - 1].resize(pieces[n - 1].size() - unit.size());
+  common = unit;
+}
+
 std::vector<double> read_vector_text(const OptionNode& node, const Dimension& dimension,
                                      std::size_t n, const Range& range) {
-  const std::vector<std::string> pieces = split_vector(node.text, n);
+  std::vector<std::string> pieces = split_vector(node.text, n);
+  share_last_unit(node, pieces);
   std::vector<double> values;
   for (std::size_t i = 0; i < n; ++i) {
     if (pieces[i].find_first_of("0123456789+-.") != 0)

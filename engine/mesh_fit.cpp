@@ -10,31 +10,54 @@ namespace trocar {
 
 namespace {
 
-// `what` the items of a list name: one of the known. No hint beyond the errors that are shown.
+// Files name regions, too, that have nothing of the body.
+std::vector<std::string> element_regions(const Mesh& mesh) {
+  std::vector<bool> has_elements(mesh.region_name.size(), false);
+  for (const std::int32_t region : mesh.element_region)
+    has_elements[static_cast<std::size_t>(region)] = true;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < has_elements.size(); ++k)
+    if (has_elements[k]) names.push_back(mesh.region_name[k]);
+  return names;
+}
+
+struct RegionNames {
+  std::vector<std::string> of_body, of_file;  // which may name some that have nothing of the body
+};
+
+// `what` the items of a list name: one of the body's. No hint beyond the errors that are shown.
 template <class Items>
 void check_regions(const std::string& list, const Items& items, const std::string& what,
-                   const std::vector<std::string>& known, OptionErrors& errors) {
-  std::vector<std::string> names = known;
-  std::erase(names, "");
+                   const RegionNames& names, const Scene& scene, OptionErrors& errors) {
+  std::vector<std::string> known = names.of_body;
+  std::erase(known, "");
   for (std::size_t k = 0; k < items.size(); ++k) {
     const std::string& region = items[k].region;
-    if (std::ranges::find(known, region) != known.end()) continue;
-    const std::string hint = errors.is_full() ? "" : names_hint(region, names);
+    const bool is_of_scene = std::ranges::count(scene.regions, region, &SceneRegion::name) > 0;
+    if (is_of_scene || std::ranges::count(names.of_body, region) > 0) continue;
+    std::string hint = errors.is_full() ? "" : names_hint(region, known);
+    if (std::ranges::count(names.of_file, region) > 0)
+      hint = ": its file names it, and puts nothing of the body there" + hint;
     errors.add(item_path(list, k) + ".region",
                "the body has no " + what + " \"" + region + "\"" + hint);
   }
 }
 
 // Supports and loads have regions of nodes and of elements, materials those of elements alone.
+// ([[region]] itself tells of an empty box.)
 void check_all_regions(const Scene& scene, const Mesh& mesh, OptionErrors& errors) {
-  std::vector<std::string> all;
-  for (const NodeSet& set : mesh.node_sets) all.push_back(set.name);
-  for (const std::string& name : mesh.region_name)
-    if (!name.empty() && !find_node_set(mesh, name)) all.push_back(name);
+  const RegionNames of_elements{.of_body = element_regions(mesh), .of_file = mesh.region_name};
+  RegionNames all{.of_body = {}, .of_file = mesh.region_name};
+  for (const NodeSet& set : mesh.node_sets) {
+    if (!set.node.empty()) all.of_body.push_back(set.name);
+    all.of_file.push_back(set.name);
+  }
+  for (const std::string& name : of_elements.of_body)
+    if (!name.empty() && !find_node_set(mesh, name)) all.of_body.push_back(name);
   check_regions("tissue.region_material", scene.tissue.region_materials, "region of elements",
-                mesh.region_name, errors);
-  check_regions("support", scene.supports, "region", all, errors);
-  check_regions("load", scene.loads, "region", all, errors);
+                of_elements, scene, errors);
+  check_regions("support", scene.supports, "region", all, scene, errors);
+  check_regions("load", scene.loads, "region", all, scene, errors);
 }
 
 void check_plane(const Scene& scene, OptionErrors& errors) {

@@ -77,6 +77,10 @@ TriangleMesh read_binary_stl(ByteReader& in) {
     in.take(2, "an attribute");
     close_triangle(mesh);
   }
+  // Some programs add a few bytes.
+  if (in.n_left() >= stl_triangle_bytes)
+    in.fail("holds " + std::to_string(in.n_left()) + " bytes after the " + std::to_string(count) +
+            " triangles that it announces: its number of triangles is " + "wrong");
   return mesh;
 }
 
@@ -109,7 +113,8 @@ void check_simple(const ByteReader& in, std::vector<std::int32_t> corner) {
 // A polygon as the fan of triangles around its first corner.
 void read_obj_face(ByteReader& in, std::vector<std::int32_t>& corner, TriangleMesh& mesh) {
   corner.clear();
-  while (!in.is_at_line_end()) corner.push_back(obj_corner(in, mesh.X.size()));
+  while (!in.is_at_line_end() && !in.peek_word().starts_with('#'))
+    corner.push_back(obj_corner(in, mesh.X.size()));
   if (corner.size() < 3)
     in.fail("a face has " + std::to_string(corner.size()) + " corners; 3 are the least");
   check_simple(in, corner);

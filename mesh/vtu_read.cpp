@@ -221,16 +221,15 @@ std::vector<Vec3> read_points(const VtuReader& r) {
   return read_vectors(r, r.points, r.n_points, "point");
 }
 
-// From 1, since group 0 is none.
+// From 1, since group 0 is none. Some programs write all arrays as floats.
 std::vector<std::int32_t> read_regions(const VtuReader& r, std::size_t n) {
-  if (!r.region.is_present || r.region.number.is_float) return {};
-  std::vector<std::int32_t> region = read_integers(r, r.region, n, "region");
-  for (std::int32_t& k : region) {
-    if (k < 0 || k == INT32_MAX)
-      reader_at(r, r.region)
-          .fail("region " + std::to_string(k) + " is not between 0 and 2147483646");
-    ++k;
-  }
+  std::vector<std::int32_t> region;
+  if (!r.region.is_present) return region;
+  read_numbers<double>(r, r.region, n, [&](const ByteReader& at, double k) {
+    if (!(k >= 0 && k < INT32_MAX && k == std::floor(k)))
+      at.fail("region " + std::to_string(k) + " is no whole number between 0 and 2147483646");
+    region.push_back(static_cast<std::int32_t>(k) + 1);
+  });
   return region;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <sstream>
 
 #include "base/check.h"
@@ -41,6 +42,16 @@ std::string literal_path(const std::string& file) {
   return "file:" + file;
 }
 
+// Players choose by the ending: a film within another would not show.
+void check_name(const std::string& file) {
+  if (file.empty()) throw InputError("a film needs a file name");
+  const std::string ending = std::filesystem::path(file).extension();
+  for (const char* known : {"", ".mp4", ".m4v", ".mov", ".mkv"})
+    if (ending == known) return;
+  throw InputError("the film " + file + " can't be a " + ending +
+                   ": films are written as .mp4, .m4v, .mov or .mkv");
+}
+
 // The error comes before the first frame. Leaves an empty file, as the encoder would.
 void check_writable(const std::string& file) {
   const int f = open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
@@ -57,7 +68,7 @@ std::string number(double value) {
 std::vector<std::string> encoder_arguments(const std::string& file, int width, int height,
                                            double frame_rate) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
-  const bool is_matroska = file.size() > 4 && file.compare(file.size() - 4, 4, ".mkv") == 0;
+  const bool is_matroska = std::filesystem::path(file).extension() == ".mkv";
   // A key frame a second: a fragment is written with each.
   const std::string key_frames = std::to_string(std::max(1L, std::lround(frame_rate)));
   // Players take high-definition colours for BT.709 whatever a film says; 4:2:0 needs even sizes.
@@ -149,7 +160,7 @@ VideoWriter::VideoWriter(const std::string& file, int width, int height, double 
   if (!(frame_rate > 0 && frame_rate <= 1e6))
     throw InputError("a film's frame rate must be above 0 and at most 1e6 Hz, not " +
                      number(frame_rate));
-  if (file.empty()) throw InputError("a film needs a file name");
+  check_name(file);
   needed_ffmpeg();
   check_writable(file);
   pipe_ = std::make_unique<Pipe>(file, width, height, frame_rate);

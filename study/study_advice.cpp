@@ -1,6 +1,7 @@
 #include "study/study_advice.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "base/error.h"
@@ -72,16 +73,12 @@ const Run* nearest_run(const Study& study) {
 }  // namespace
 
 Target read_target(const std::string& text) {
-  const std::size_t percent = text.find('%');
+  const bool is_length = text.find('%') == std::string::npos;
   try {
-    if (percent == std::string::npos)
-      return {.error = parse_quantity(text, dim::length), .is_length = true};
-    if (percent + 1 != text.size()) throw std::invalid_argument("nothing may follow the %");
-    std::size_t end = 0;
-    const double share = std::stod(text, &end) / 100;
-    if (text.find_first_not_of(' ', end) != percent) throw std::invalid_argument("no number");
-    return {.error = share};
-  } catch (const std::logic_error& trouble) {
+    const double error = parse_quantity(text, is_length ? dim::length : dim::none);
+    if (!(error > 0) || !std::isfinite(error)) throw std::invalid_argument("it must be above 0");
+    return {.error = error, .is_length = is_length};
+  } catch (const std::invalid_argument& trouble) {
     throw InputError("--target: " + in_quotes(text) +
                      " is neither a length such as \"1 mm\" nor a " + "share such as \"1 %\" (" +
                      trouble.what() + ")");

@@ -1,9 +1,12 @@
 #include "study/study_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <utility>
 
 #include "base/error.h"
 #include "engine/build.h"
@@ -36,14 +39,37 @@ struct SceneStudy {
   }
 };
 
+// What the kind of shape takes of `cells`: for each the least that makes a mesh, 0: it is not used.
+// (Nodes of rectangles.)
+std::array<int, 3> least_cells(ShapeKind kind) {
+  switch (kind) {
+    case ShapeKind::box:
+      return {1, 1, 1};
+    case ShapeKind::ball:
+      return {2, 0, 0};
+    case ShapeKind::cylinder:
+      return {2, 0, 1};
+    case ShapeKind::rectangle:
+    case ShapeKind::triangular_rectangle:
+      return {2, 2, 0};
+  }
+  return {1, 1, 1};
+}
+
 int most_cells(const SceneShape& shape) {
-  return *std::max_element(shape.cells.begin(), shape.cells.end());
+  const std::array<int, 3> least = least_cells(shape.kind);
+  int most = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (least[k] > 0) most = std::max(most, shape.cells[k]);
+  return most;
 }
 
 // n cells where the scene has most, the others in proportion.
 void scale_cells(int n, SceneShape& shape) {
   const double ratio = static_cast<double>(n) / most_cells(shape);
-  for (int& cells : shape.cells) cells = std::max(1, static_cast<int>(std::lround(ratio * cells)));
+  const std::array<int, 3> least = least_cells(shape.kind);
+  for (std::size_t k = 0; k < 3; ++k)
+    shape.cells[k] = std::max({1, least[k], static_cast<int>(std::lround(ratio * shape.cells[k]))});
 }
 
 LoadedScene scene_of(const SceneStudy& study, const Case& c) {
@@ -137,8 +163,10 @@ std::vector<double> sleeps_of(const SceneStudyOptions& options, const SceneStudy
 std::vector<int> sizes_of(const SceneStudy& study, const std::vector<int>& wanted) {
   std::vector<int> sizes;
   if (study.has_shape()) {
-    const int n = most_cells(*study.loaded.scene.tissue.shape);
-    sizes = wanted.empty() ? std::vector<int>{std::max(1, n / 4), std::max(1, n / 2), n} : wanted;
+    const SceneShape& shape = *study.loaded.scene.tissue.shape;
+    const int n = most_cells(shape), least = std::ranges::max(least_cells(shape.kind));
+    sizes = wanted.empty() ? std::vector<int>{std::max(least, n / 4), std::max(least, n / 2), n}
+                           : wanted;
     std::sort(sizes.begin(), sizes.end());
     sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
   } else {
@@ -149,10 +177,14 @@ std::vector<int> sizes_of(const SceneStudy& study, const std::vector<int>& wante
 }
 
 // Whether the scene's body can have elements of this formulation. In a plane strain and stress are
-// two bodies and not two ways to compute one.
+// two bodies and not two ways to compute one. A scene with local steps (multirate) refuses nodal
+// pressures.
 bool can_have(const SceneStudy& study, const Mesh& mesh, Formulation formulation) {
   const ElementType shape = shape_of(formulation);
   const bool is_plane = mesh.dimension() == 2;
+  const bool is_refused =
+      study.loaded.scene.solver.is_multirate && formulation == Formulation::tet4_nodal_pressure;
+  if (is_refused) return false;
   if (is_plane && formulation != study.loaded.scene.solver.triangle) return false;
   if (study.has_shape()) return is_plane == (shape == ElementType::tri3);
   return std::find(mesh.element_type.begin(), mesh.element_type.end(), shape) !=
@@ -192,10 +224,22 @@ SceneStudy load_study(const SceneStudyOptions& options, Communicator& communicat
   return study;
 }
 
+// The finest mesh is what all runs are compared with.
+void sort_meshes(SceneStudy& study, Communicator& communicator) {
+  std::vector<std::pair<double, std::string>> by_edge;
+  for (int n = 1; n <= static_cast<int>(study.meshes.size()); ++n) {
+    const Mesh mesh = load_tissue(scene_of(study, {.n = n}), communicator);
+    by_edge.emplace_back(mean_edge_length(mesh), study.meshes[static_cast<std::size_t>(n - 1)]);
+  }
+  std::ranges::stable_sort(by_edge, std::ranges::greater(), &std::pair<double, std::string>::first);
+  for (std::size_t k = 0; k < by_edge.size(); ++k) study.meshes[k] = by_edge[k].second;
+}
+
 }  // namespace
 
 Problem problem_of_scene(const SceneStudyOptions& options, Communicator& communicator) {
   const auto study = std::make_shared<SceneStudy>(load_study(options, communicator));
+  sort_meshes(*study, communicator);
   Problem problem;
   problem.name = std::filesystem::path(options.scene_file).stem().string();
   describe(*study, problem);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <new>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -64,16 +65,38 @@ Outcome solve_repeatedly(const Problem& problem, const Case& c, int repeats) {
   return outcome;
 }
 
-Run run_case(const Problem& problem, const CurveCases& curve, int n, int repeats) {
-  Run run{.method = curve.method.name,
+Run run_of(const Problem& problem, const CurveCases& curve, int n) {
+  return {.method = curve.method.name,
           .precision = precision_name(curve.precision),
           .size = problem.size_label ? problem.size_label(n) : "n = " + std::to_string(n),
           .step_factor = problem.is_static() ? 0 : curve.step_factor,
           .sleep = curve.sleep,
           .n = n};
+}
+
+Run run_case(const Problem& problem, const CurveCases& curve, int n, int repeats) {
+  Run run = run_of(problem, curve, n);
   run.outcome = solve_repeatedly(
       problem, {curve.method, curve.precision, curve.step_factor, n, curve.sleep}, repeats);
   return run;
+}
+
+// A size that can't be built, too many nodes or too much memory, is no reason to lose what has been
+// computed; the first one is.
+Run run_or_note(const Study& study, const CurveCases& curve, int n, int repeats) {
+  const auto note = [&](const std::string& trouble) {
+    if (std::ranges::none_of(study.runs, is_sound)) throw;
+    Run run = run_of(study.problem, curve, n);
+    run.outcome.trouble = trouble;
+    return run;
+  };
+  try {
+    return run_case(study.problem, curve, n, repeats);
+  } catch (const InputError& trouble) {
+    return note(trouble.what());
+  } catch (const std::bad_alloc&) {
+    return note("not enough memory");
+  }
 }
 
 // What the curve's last run says about the next size; 0 if there is none.
@@ -192,7 +215,7 @@ Study sweep(const Problem& problem, const SweepOptions& options) {
         log_info(study.notes.back());
         continue;
       }
-      study.runs.push_back(run_case(problem, curves[k], n, options.repeats));
+      study.runs.push_back(run_or_note(study, curves[k], n, options.repeats));
       tell(study.runs.back());
       last[k] = study.runs.back();
       left -= processor_seconds() - start;
@@ -213,8 +236,9 @@ std::string method_text(const Run& run) {
 }
 
 double cost_of(const Study& study, const Run& run) {
-  const double seconds = run.outcome.stepping_seconds;
-  return study.problem.is_static() ? seconds : seconds / study.problem.simulated_seconds;
+  const Outcome& outcome = run.outcome;
+  if (study.problem.is_static()) return outcome.stepping_seconds;
+  return outcome.stepping_seconds / (outcome.dt * static_cast<double>(outcome.n_steps));
 }
 
 double element_steps(const Run& run) {

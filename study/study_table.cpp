@@ -33,7 +33,7 @@ Json row_of(const Study& study, const Run& run) {
   row["stepping_cpu_s"] = o.stepping_seconds;
   row["least_stepping_cpu_s"] =
       o.least_stepping_seconds > 0 ? Json(o.least_stepping_seconds) : Json();
-  row["cpu_s_per_simulated_s"] = is_static ? Json() : Json(cost_of(study, run));
+  row["cpu_s_per_simulated_s"] = is_static ? Json() : if_good(cost_of(study, run));
   row["ns_per_element_step"] = if_good(1e9 * o.stepping_seconds / element_steps(run));
   row["value"] = has_value ? Json(o.value) : Json();
   row["relative_error"] = if_good(run.error);

@@ -55,7 +55,8 @@ TEST(ReadOptions, leaves_an_absent_optional_table_empty) {
 }
 
 TEST(ReadOptions, takes_a_vector_as_one_text_with_one_unit) {
-  for (const char* text : {"'1 -2 3 mm/s^2'", "'[1, -2, 3] mm/s^2'", "'(1,-2,3) mm/s^2'"}) {
+  for (const char* text : {"'1 -2 3 mm/s^2'", "'[1, -2, 3] mm/s^2'", "'(1,-2,3) mm/s^2'",
+                           "'1 -2 3mm/s^2'", "'1mm/s^2 -2mm/s^2 3mm/s^2'"}) {
     const Scene scene = read_scene(std::string("gravity = ") + text + "\n" + minimal).value;
     EXPECT_EQ(scene.gravity, Vec3(1e-3, -2e-3, 3e-3)) << text;
   }

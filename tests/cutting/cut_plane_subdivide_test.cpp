@@ -1,6 +1,8 @@
 // The subdivision that the paper compares itself with.
 #include "cutting/cut_plane_subdivide.h"
 
+#include <bit>
+
 #include "base/error.h"
 #include "cutting_plane.h"
 
@@ -56,6 +58,24 @@ TEST(Subdivision, through_cut_gives_two_valid_pieces) {
   EXPECT_TRUE(has_closed_boundary(after));
   bool are_on_boundary = false;
   EXPECT_GT(n_marked_sides(after, are_on_boundary), 0);
+  EXPECT_TRUE(are_on_boundary);
+}
+
+TEST(Subdivision, keeps_the_lips_of_earlier_cuts) {
+  const Mesh mesh = paper_mesh(2);
+  const auto lips = [](const Mesh& cut) {
+    int n = 0;
+    for (const std::uint8_t facets : cut.cut_facets) n += std::popcount(facets);
+    return n;
+  };
+  const Mesh along = subdivide_along(mesh, {-1 * mm, 20.3 * mm, 0}, {71 * mm, 22 * mm, 0});
+  const Mesh across = subdivide_along(mesh, {30 * mm, -1 * mm, 0}, {38 * mm, 41 * mm, 0});
+  const Mesh both = subdivide_along(along, {30 * mm, -1 * mm, 0}, {38 * mm, 41 * mm, 0});
+  // Where they cross lips are split, and triangles of the first cut are halves.
+  EXPECT_GE(lips(both), lips(along) + lips(across));
+  EXPECT_LE(lips(both), lips(along) + lips(across) + 12);
+  bool are_on_boundary = false;
+  EXPECT_GT(n_marked_sides(both, are_on_boundary), 0);
   EXPECT_TRUE(are_on_boundary);
 }
 

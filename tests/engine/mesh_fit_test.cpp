@@ -57,6 +57,25 @@ position = [0, 0, 2]
   EXPECT_FALSE(contains(text, "support[1]")) << text;
 }
 
+// Gmsh lists names of which nothing is left in the file.
+TEST(MeshFit, tells_regions_of_the_file_that_hold_nothing) {
+  const TestFolder folder;
+  folder.file("m.msh",
+              "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n3 1 \"liver\"\n"
+              "3 9 \"tumour\"\n2 10 \"nothing\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n"
+              "2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n$Elements\n1\n1 4 2 1 1 1 2 3 4\n"
+              "$EndElements\n");
+  const std::string text = error_of([&] {
+    built("[time]\nduration = 1\n[tissue]\nmesh = \"" + folder.file("m.msh") +
+          "\"\n[[support]]\nregion = \"nothing\"\n[[load]]\nregion = \"liver\"\n"
+          "force = [1, 0, 0]\n[[tissue.region_material]]\nregion = \"tumour\"\nmaterial = {}\n");
+  });
+  const std::string why = ": its file names it, and puts nothing of the body there; there ";
+  expect_parts(text, {"the body has no region \"nothing\"" + why,
+                      "the body has no region of elements \"tumour\"" + why});
+  EXPECT_FALSE(contains(text, "load[0]")) << text;
+}
+
 TEST(MeshFit, tells_all_that_a_plane_body_can_not_do) {
   const std::string text = error_with(
       "[tissue]\ntranslate = [0, 0, 1]\n[contact]\ntissue = true\n" + instrument_text("scissors"),

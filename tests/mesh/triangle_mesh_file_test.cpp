@@ -61,7 +61,7 @@ TEST(SurfaceFile, several_solids_make_one_surface) {
 
 TEST(SurfaceFile, a_polygon_is_a_fan_of_triangles) {
   const TriangleMesh mesh =
-      accepted("a.obj", "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 3 4 5 \n");
+      accepted("a.obj", "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 3 4 5 # five\n");
   const std::vector<std::array<std::int32_t, 3>> expected = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}};
   EXPECT_EQ(mesh.triangle, expected);
 }
@@ -107,6 +107,15 @@ TEST(SurfaceFile, an_stl_that_is_cut_off_is_refused) {
       refusal("a.stl", binary.substr(0, binary.size() - 1)),
       " byte 80: 4 triangles of a binary STL are announced, but the file goes on for only 199 "
       "bytes");
+}
+
+TEST(SurfaceFile, a_binary_stl_that_announces_too_few_triangles_is_refused) {
+  std::string binary = stl_binary();
+  binary[80] = 3;
+  EXPECT_EQ(refusal("a.stl", binary),
+            " byte 232: holds 50 bytes after the 3 triangles that it announces: its number of "
+            "triangles is wrong");
+  accepted("a.stl", stl_binary() + "tail");
 }
 
 TEST(SurfaceFile, a_binary_stl_whose_header_is_blank_and_which_is_cut_off_is_read_from_its_start) {

@@ -27,6 +27,26 @@ TEST(VtuFile, reads_back_positions_elements_and_regions) {
   }
 }
 
+// Calculators of other programs write floats.
+TEST(VtuFile, regions_may_be_floats_that_are_whole) {
+  const auto file = [](const std::string& region) {
+    return "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid>"
+           "<Piece NumberOfPoints=\"5\" NumberOfCells=\"2\"><Points>"
+           "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">"
+           "0 0 0 1 0 0 0 1 0 0 0 1 0 0 -1</DataArray></Points><Cells>"
+           "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2 3 0 2 1 4"
+           "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">4 8</DataArray>"
+           "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">10 10</DataArray></Cells>"
+           "<CellData><DataArray type=\"Float64\" Name=\"region\" format=\"ascii\">" +
+           region + "</DataArray></CellData></Piece></UnstructuredGrid></VTKFile>";
+  };
+  const TestFolder folder;
+  const Mesh mesh = read_mesh(folder.file("a.vtu", file("7 0")), 1);
+  EXPECT_EQ(mesh.region_name[static_cast<std::size_t>(mesh.element_region[0])], "region-7");
+  const std::string refused = error_of([&] { read_mesh(folder.file("b.vtu", file("7 0.5")), 1); });
+  EXPECT_NE(refused.find("region 0.500000 is no whole number"), std::string::npos) << refused;
+}
+
 TEST(VtuFile, points_stand_where_they_are_displaced_to) {
   const TestFolder folder;
   const Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {1, 1, 1}, BoxElements::hex8);

@@ -107,6 +107,12 @@ TEST(VideoWriter, impossible_sizes_and_rates_are_refused) {
   EXPECT_THROW(VideoWriter("", 16, 16, 30), InputError);
 }
 
+TEST(VideoWriter, endings_of_other_films_are_refused) {
+  const TestFolder folder;
+  for (const char* name : {"a.avi", "a.gif", "a.webm", "a.mp4.png"})
+    EXPECT_THROW(VideoWriter(folder.file(name), 16, 16, 30), InputError) << name;
+}
+
 TEST(VideoWriter, film_that_is_dropped_without_finish_is_readable) {
   const TestFolder folder;
   {

@@ -114,7 +114,8 @@ TEST(StudyAdvice, a_target_is_a_length_or_a_share) {
   EXPECT_TRUE(read_target("2 mm").is_length);
   EXPECT_DOUBLE_EQ(read_target("1.5 %").error, .015);
   EXPECT_FALSE(read_target("1%").is_length);
-  for (const char* wrong : {"", "much", "3 kPa", "% 3", "1 % or so", "%"})
+  for (const char* wrong : {"", "much", "3 kPa", "% 3", "1 % or so", "%", "nan %", "inf %", "0 %",
+                            "-1 %", "0x10 %", "-1 mm", "0 mm"})
     EXPECT_THROW(read_target(wrong), InputError) << wrong;
 }
 

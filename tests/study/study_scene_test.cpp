@@ -127,7 +127,7 @@ TEST(StudyScene, mesh_files_take_the_place_of_cells) {
   const TestFolder folder;
   Communicator alone;
   std::vector<std::string> meshes;
-  for (const int n : {1, 2}) {
+  for (const int n : {2, 1}) {  // sorted before they are run
     meshes.push_back(folder.file("box" + std::to_string(n) + ".msh"));
     write_mesh(make_box(Vec3::Zero(), Vec3(.05, .05, .1), {n, n, 2 * n}, BoxElements::tet4_kuhn),
                meshes.back());
@@ -141,6 +141,34 @@ TEST(StudyScene, mesh_files_take_the_place_of_cells) {
   EXPECT_TRUE(study.runs[1].is_reference);
   EXPECT_EQ(study.runs[1].outcome.n_elements, 6 * 16);
   EXPECT_THROW(sweep(problem, {.elements = {"hex8"}}), InputError);
+}
+
+TEST(StudyScene, every_shape_has_sizes_of_its_own) {
+  const TestFolder folder;
+  Communicator alone;
+  const auto sizes = [&](const std::string& of_shape) {
+    const std::string text = std::string(hanging_box) + "[tissue.shape]\n" + of_shape;
+    return problem_of_scene(
+               {.scene_file = folder.file(
+                    "scene.toml", replaced(text, "region = \"z+\"", "region = \"surface\""))},
+               alone)
+        .sizes;
+  };
+  const std::string ball = "kind = \"ball\"\nradius = 0.05\n";
+  EXPECT_EQ(sizes(ball + "cells = [6, 6, 6]\n"), (std::vector<int>{2, 3, 6}));
+  EXPECT_EQ(sizes(ball + "cells = [4, 10, 10]\n"), (std::vector<int>{2, 4}));
+}
+
+// As it is refused where the scene itself asks for both.
+TEST(StudyScene, with_local_steps_leaves_out_what_they_exclude) {
+  const TestFolder folder;
+  Communicator alone;
+  const std::string text =
+      replaced(std::string(hanging_box), "[solver]\n", "[solver]\nmultirate = true\n") + shape;
+  const Problem problem = problem_of_scene({.scene_file = folder.file("scene.toml", text)}, alone);
+  EXPECT_FALSE(problem.methods.empty());
+  for (const Method& method : problem.methods)
+    EXPECT_NE(method.formulation, Formulation::tet4_nodal_pressure);
 }
 
 TEST(StudyScene, sizes_for_a_mesh_file_and_meshes_for_a_generated_body_are_refused) {

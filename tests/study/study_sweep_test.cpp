@@ -57,6 +57,30 @@ TEST(StudySweep, of_repeated_runs_the_median_and_the_least_time_are_kept) {
   EXPECT_EQ(study.runs[0].outcome.least_stepping_seconds, 2e-3);
 }
 
+TEST(StudySweep, a_size_that_can_not_be_built_leaves_the_others) {
+  Problem problem = made_up_problem(0);
+  problem.solve = [](const Case& c) {
+    if (c.n == 8) throw InputError("too many nodes");
+    return solve_made_up(c);
+  };
+  const SweepOptions one = {.elements = {"hex8"}, .precisions = {"double"}};
+  const Study study = sweep(problem, one);
+  ASSERT_EQ(study.runs.size(), 3U);
+  EXPECT_EQ(study.runs[2].outcome.trouble, "too many nodes");
+  EXPECT_TRUE(is_sound(study.runs[1]));
+  SweepOptions only = one;
+  only.sizes = {8};
+  EXPECT_THROW(sweep(problem, only), InputError);
+}
+
+// Not of the duration that was asked for: whole frames are run, and the tenth period may end early.
+TEST(StudySweep, costs_are_those_of_the_time_that_was_simulated) {
+  Study study{.problem = made_up_problem(0)};
+  study.problem.simulated_seconds = 1;
+  study.runs.emplace_back().outcome = {.dt = 1e-3, .n_steps = 800, .stepping_seconds = 4};
+  EXPECT_DOUBLE_EQ(cost_of(study, study.runs[0]), 5);
+}
+
 TEST(StudySweep, no_error_is_said_to_be_below_the_references_own) {
   const Study study = sweep(made_up_problem(.05), {});
   for (const auto& run : study.runs) {
