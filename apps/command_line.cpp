@@ -170,6 +170,16 @@ void add_cut2d_figures(CLI::App& cut2d, Cut2dCommand& c) {
                    "With --sweep: folder for cutting-parameters.md and images/");
 }
 
+// What would have no effect is refused.
+void pair_cut2d_options(CLI::App& cut2d) {
+  for (const char* own : {"--mode", "--least-step-ratio"})
+    for (const char* table : {"--table1", "--sweep"})
+      cut2d.get_option(own)->excludes(cut2d.get_option(table));
+  for (const char* figure : {"--svg", "--json", "--repeat"})
+    cut2d.get_option(figure)->excludes(cut2d.get_option("--sweep"));
+  cut2d.get_option("--cuts")->needs(cut2d.get_option("--sweep"));
+}
+
 void add_cut2d(CLI::App& app, CommandLine& line) {
   CLI::App* cut2d = app.add_subcommand(
       "cut2d",
@@ -195,8 +205,13 @@ void add_cut2d(CLI::App& app, CommandLine& line) {
       ->check(CLI::IsMember({"robust", "paper", "or"}))
       ->capture_default_str();
   add_cut2d_figures(*cut2d, c);
+  pair_cut2d_options(*cut2d);
   cut2d->footer(examples_cut2d);
-  cut2d->callback([&] { line.command = Command::cut2d; });
+  cut2d->callback([&, cut2d] {
+    if (cut2d->count("--least-step-ratio") > 0 && c.mode != "robust")
+      throw CLI::ValidationError("--least-step-ratio", "belongs to --mode robust");
+    line.command = Command::cut2d;
+  });
 }
 
 void add_replay(CLI::App& app, CommandLine& line) {

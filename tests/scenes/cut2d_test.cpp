@@ -77,6 +77,10 @@ TEST(Cut2d, wrong_command_lines_are_explained_in_one_sentence) {
       {"--mesh", folder + "/missing.msh", "--path", "1,2 3,4"},
       {"--mesh", config("meshes/liver.msh"), "--scale", "0", "--path", "1,2 3,4"},
       {"--table1", "--config", "1"},
+      {"--table1", "--mode", "or"},
+      {"--config", "1", "--mode", "paper", "--least-step-ratio", "0.9"},
+      {"--config", "1", "--cuts", "5"},
+      {"--sweep", "--json"},
       {"--config", "1", "--docs", folder}};
   for (std::vector<std::string> words : wrong) {
     words.insert(words.begin(), "cut2d");
