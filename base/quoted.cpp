@@ -46,14 +46,21 @@ static std::size_t distance_to(std::string_view name, const std::string& allowed
   return name.size() >= 3 && allowed.starts_with(name) ? 1 : edit_distance(name, allowed);
 }
 
+static std::string in_small_letters(std::string_view name) {
+  std::string small(name);
+  for (char& c : small) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return small;
+}
+
 std::string nearest_name(std::string_view name, std::span<const std::string> allowed) {
   if (allowed.empty() || name.size() > 64) return "";
-  const std::string& nearest = *std::min_element(
-      allowed.begin(), allowed.end(), [&](const std::string& a, const std::string& b) {
-        return distance_to(name, a) < distance_to(name, b);
-      });
+  const std::string small = in_small_letters(name);
+  const auto distance = [&](const std::string& to) {
+    return distance_to(small, in_small_letters(to));
+  };
+  const std::string& nearest = *std::ranges::min_element(allowed, {}, distance);
   const std::size_t most = (std::max(name.size(), nearest.size()) + 2) / 3;
-  return distance_to(name, nearest) <= most ? nearest : "";
+  return distance(nearest) <= most ? nearest : "";
 }
 
 std::string names_hint(std::string_view name, std::span<const std::string> names) {

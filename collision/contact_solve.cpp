@@ -298,7 +298,9 @@ void solve_contacts(const ContactDetector& detector, const ContactStep& step,
     const Vec3 force = (c.push * c.normal + c.drag) / step.response;
     Vec3 sum = Vec3::Zero();
     for (std::size_t a = 0; a < 4; ++a) {
-      if (set.inverse_mass[to_size(c.place[a])].maxCoeff() == 0) continue;
+      // Instruments pass through what is held; tissue bears on it.
+      const bool is_held = set.inverse_mass[to_size(c.place[a])].maxCoeff() == 0;
+      if (is_held && c.item >= 0) continue;
       set.force[to_size(c.place[a])] += c.weight[a] * force;
       sum += c.weight[a] * force;
     }

@@ -23,6 +23,13 @@ bool is_flat_enough(const PieceCore& core, const Vec3& local_normal, double gap)
   return std::abs(local_normal.y()) >= core.least_flatness && gap >= -core.deepest;
 }
 
+// Whether the blade's plane passes through a facet, which is being cut then and no flank presses:
+// pushed aside, a face at a flat angle to the blade took the cut with it.
+bool is_pierced(const PieceCore& core, const Triangle& local) {
+  const auto [low, high] = std::minmax({local[0].y(), local[1].y(), local[2].y()});
+  return low < -core.thickness / 2 && high > core.thickness / 2;
+}
+
 // Of a point inside a blade, from the flank that `facing` looks against, in the tool's frame. None
 // is zero: at the front of a wound tissue faces neither.
 SignedDistance distance_from_flank(const PieceCore& core, const Vec3& x, const Vec3& facing) {
@@ -300,6 +307,7 @@ bool ContactDetector::update(const Corners& corners, const Pose& pose, double ma
                              Contact& contact) const {
   const PieceCore& core = state_->core_of(contact);
   if (state_->plane.node.empty()) {
+    if (is_blade(contact) && is_pierced(core, corners.local)) return false;
     const std::optional<Touch> found = touch(core, corners.local, margin);
     if (!found) return false;
     take(*found, contact);

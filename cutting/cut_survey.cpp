@@ -16,7 +16,8 @@ static constexpr double interface_cost = 5;
 static constexpr double tolerated_distance = 0.1;
 
 // To put a node on the surface for the look only, elements may sink to this part of the median step
-// bound around, and none below the least one: a grid keeps 0.75 of its step, an organ's mesh all.
+// bound around, or to that of the floor if it is lower, and none below the least one: a grid keeps
+// 0.75 of its step, an organ's mesh all.
 static constexpr double part_of_typical = 0.75;
 
 static std::vector<std::int32_t> seed_elements(const CutStroke& stroke, bool is_last) {
@@ -117,7 +118,8 @@ MoveLimits move_limits(const CutSurroundings& around, const CutStroke& stroke, d
   const double least = *std::min_element(bound.begin(), bound.end());
   const auto middle = bound.begin() + std::ssize(bound) / 2;
   std::nth_element(bound.begin(), middle, bound.end());
-  return {part * least, std::max(part * least, std::min(least, part_of_typical * *middle))};
+  const double typical = std::min(part, part_of_typical) * *middle;
+  return {part * least, std::max(part * least, std::min(least, typical))};
 }
 
 }  // namespace trocar

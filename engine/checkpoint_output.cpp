@@ -34,7 +34,7 @@ void save(Checkpoint checkpoint, Outputs& outputs) {
 bool is_checkpoint_due(const Simulation& s) {
   const double every = s.scene.checkpoint.every;
   if (every == 0) return false;
-  return s.frame % std::max<std::int64_t>(1, s.scene.time.frames_in(every)) == 0;
+  return s.frame % s.scene.time.interval(every) == 0;
 }
 
 void write_checkpoint(Simulation& s, Outputs& outputs, const FrameStart* failed) {

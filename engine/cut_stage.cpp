@@ -262,7 +262,7 @@ void cut_along_blades(Simulation& s, const FrameSpan& span) {
   for (const CutStage& stage : s.cuts) blades.push_back(way_of_blade(s, span, tissue, stage, way));
   for (std::size_t k = 0; k < s.cuts.size(); ++k) cut_along_blade(s, blades[k], s.cuts[k], way);
   if (const std::string trouble = find_trouble(s); !trouble.empty())
-    throw SimulationError("after the cut at " + number_text(span.t1) + " s: " + trouble);
+    throw SimulationError("after the cut at " + short_text(span.t1) + " s: " + trouble);
 }
 
 void prepare_cutters(Simulation& s) {

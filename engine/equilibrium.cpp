@@ -44,7 +44,7 @@ void check_found(const Relaxation& found, Simulation& s) {
   if (!found.is_finite) give_up(s, "the relaxation diverged after " + n + " iterations");
   if (!found.is_converged)
     give_up(s, "after " + n + " iterations (start.max_iterations) the residual is " +
-                   number_text(found.residual) + ", above start.tolerance");
+                   short_text(found.residual) + ", above start.tolerance");
   watch_state(s);
   const std::string trouble = find_trouble(s);
   if (!trouble.empty()) give_up(s, trouble);
@@ -122,7 +122,7 @@ bool start_in_equilibrium(const LoadedScene& loaded, Simulation& s, const std::a
   if (s.energy) open_energy_ledger(s);
   note_event(s, 0,
              "in equilibrium after " + std::to_string(found.iterations) + " iterations, residual " +
-                 number_text(found.residual));
+                 short_text(found.residual));
   return true;
 }
 

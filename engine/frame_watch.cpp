@@ -302,8 +302,8 @@ std::string find_trouble(const Simulation& s) {
            " is inverted (det F = " + std::to_string(s.watch.least_J) + ")";
   if (s.watch.stable_step < crushed_step * s.rest_step)
     return "element " + std::to_string(s.watch.stable_element) +
-           " is crushed or overstretched: its stable step is " + number_text(s.watch.stable_step) +
-           " s, the body's at rest " + number_text(s.rest_step) + " s";
+           " is crushed or overstretched: its stable step is " + short_text(s.watch.stable_step) +
+           " s, the body's at rest " + short_text(s.rest_step) + " s";
   return {};
 }
 
@@ -314,7 +314,7 @@ std::string go_back(Simulation& s, const FrameSpan& span, const Watch& failed,
                     const std::string& trouble, int tries) {
   if (tries >= most_roll_backs) {
     const Suspect suspect = find_suspect(s, failed, span);
-    throw SimulationError("in the frame after " + number_text(span.t0) + " s: " + trouble +
+    throw SimulationError("in the frame after " + short_text(span.t0) + " s: " + trouble +
                           suspect.place + "; " + std::to_string(tries) +
                           " roll-backs with smaller steps did not help: " + suspect.cure + " may");
   }
@@ -341,7 +341,7 @@ void roll_back(Simulation& s, const FrameSpan& span, const Watch& failed,
   s.step_scale *= 0.5;
   note_event(s, span.t0,
              sentence + find_suspect(s, failed, span).place + "; step scale now " +
-                 number_text(s.step_scale));
+                 short_text(s.step_scale));
 }
 
 double left_of_frame(const Simulation& s, double now) {

@@ -237,10 +237,9 @@ Outputs open_outputs(Simulation& s, const std::string& folder, const std::string
   Outputs outputs;
   outputs.folder = folder;
   for (const SceneOutput& output : s.scene.outputs)
-    outputs.slots.push_back(
-        {.kind = output.kind,
-         .file = folder + "/" + output.file,
-         .interval = std::max<std::int64_t>(1, s.scene.time.frames_in(output.every))});
+    outputs.slots.push_back({.kind = output.kind,
+                             .file = folder + "/" + output.file,
+                             .interval = s.scene.time.interval(output.every)});
   if (resumed) take_over_marks(s.scene, *resumed, outputs);
   on_root(*s.communicator, [&] { open_writers(s, echo, resumed, outputs); });
   return outputs;

@@ -41,6 +41,10 @@ struct SceneTime {
   std::int64_t frames_in(double seconds) const {
     return std::llround(std::min(seconds * frame_rate, 1e15));
   }
+  // Between two of what is done every so many seconds.
+  std::int64_t interval(double seconds) const {
+    return std::max<std::int64_t>(1, frames_in(seconds));
+  }
   std::int64_t n_frames() const { return frames_in(duration); }
 };
 

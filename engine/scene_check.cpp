@@ -7,6 +7,7 @@
 
 #include "engine/scene.h"
 #include "engine/scene_outputs.h"
+#include "engine/support_forces.h"
 #include "engine/tissue.h"
 #include "mesh/whole_file.h"
 
@@ -174,6 +175,13 @@ void check_instruments(const LoadedScene& loaded, OptionErrors& errors) {
   }
 }
 
+bool is_column_of_other(const Scene& scene, const std::string& name) {
+  const auto is_support = [&](const std::string& of) { return name == "support_" + of; };
+  const auto is_marker = [&](const SceneMarker& of) { return name == "marker_" + of.name; };
+  return std::ranges::any_of(support_names(scene.supports), is_support) ||
+         std::ranges::any_of(scene.markers, is_marker);
+}
+
 void name_instruments(Scene& scene, OptionErrors& errors) {
   const char* kinds[] = {"probe", "grasper", "scalpel", "scissors"};
   std::set<std::string> names;
@@ -183,6 +191,11 @@ void name_instruments(Scene& scene, OptionErrors& errors) {
     if (!names.insert(instrument.name).second)
       errors.add(item_path("instrument", k) + ".name",
                  "two instruments are called \"" + instrument.name + "\": give each its own name");
+    if (is_column_of_other(scene, instrument.name))
+      errors.add(item_path("instrument", k) + ".name",
+                 "\"" + instrument.name +
+                     "\" is what the metrics call a marker or a support: give the instrument "
+                     "another name");
   }
 }
 

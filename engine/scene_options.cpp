@@ -117,11 +117,12 @@ Options<SceneSolver> solver_options() {
   s.number("step_factor", &SceneSolver::step_factor, dim::none,
            {.low = 0, .high = 1, .is_low_open = true},
            "Time step / computed stable step; from 0.866 on the scheme has a resonance.");
-  s.choice("stable_step", &SceneSolver::stable_step,
-           {{"element-bound", StableStep::element_bound}, {"frequency", StableStep::frequency}},
-           "From the body's highest frequency, less 2 %, as it grows with the deformation, or from "
-           "bounds of "
-           "each element, which need no search and are 1.4 to 3 times smaller.");
+  s.choice(
+      "stable_step", &SceneSolver::stable_step,
+      {{"element-bound", StableStep::element_bound}, {"frequency", StableStep::frequency}},
+      "From the body's highest frequency, less 2 %, as it grows with the deformation, or from "
+      "bounds of "
+      "each element, which need no search and are 1.4 to 3.3 times smaller, more with slivers.");
   s.number("mass_scaling_step", &SceneSolver::mass_scaling_step, dim::time, not_negative,
            "Selective mass scaling: undeformed elements whose own bound on the step is below this "
            "get inertia against deformation and rotation, not against translation, until they "
@@ -214,7 +215,8 @@ Options<SceneSupport> support_options() {
   key.number("time", &SupportKey::time, dim::time, not_negative, "When.", Need::required);
   key.vector("displacement", &SupportKey::displacement, dim::length, any,
              "From the first position.", Need::required);
-  Options<SceneSupport> s("Holds or moves a region.");
+  Options<SceneSupport> s(
+      "Holds or moves a region. Instruments pass through what is held in all components.");
   s.text("region", &SceneSupport::region,
          "Region of the mesh, of its surface or of its volumes, or of [[region]].", Need::required);
   s.text("fix", &SceneSupport::fix, "Which components: some of \"xyz\".");

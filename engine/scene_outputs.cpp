@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/quoted.h"
+#include "render/image_file.h"
 
 namespace trocar {
 
@@ -102,6 +103,8 @@ void check_output_files(const Scene& scene, OptionErrors& errors) {
     if (plain == "summary.json" || plain == "scene.toml" || plain == ".trocar-lock" ||
         plain.starts_with("checkpoint.bin"))
       errors.add(key, "\"" + plain + "\" is written by every run: choose another name");
+    const std::string fault = output.kind == OutputKind::video ? film_name_fault(plain) : "";
+    if (!fault.empty()) errors.add(key, fault);
     if (output.kind == OutputKind::contact_sheet && !ending.empty() && ending != ".png")
       errors.add(key, "a contact sheet is a PNG picture, and \"" + output.file +
                           "\" has another ending: end it in .png");

@@ -44,11 +44,15 @@ void sum_support_forces(const SupportForces& forces, std::int64_t n_substeps,
 
 std::vector<std::string> support_names(std::span<const SceneSupport> supports) {
   std::vector<std::string> names;
+  const auto is_taken = [&](const std::string& name, std::size_t own) {
+    const auto is_region = [&](const SceneSupport& other) { return other.region == name; };
+    return std::ranges::count(names, name) > 0 ||
+           (name != supports[own].region && std::ranges::any_of(supports, is_region));
+  };
   for (std::size_t k = 0; k < supports.size(); ++k) {
-    const auto before = std::count_if(
-        supports.begin(), supports.begin() + static_cast<std::ptrdiff_t>(k),
-        [&](const SceneSupport& other) { return other.region == supports[k].region; });
-    names.push_back(supports[k].region + (before > 0 ? "_" + std::to_string(before + 1) : ""));
+    std::string name = supports[k].region;
+    for (int n = 2; is_taken(name, k); ++n) name = supports[k].region + "_" + std::to_string(n);
+    names.push_back(name);
   }
   return names;
 }

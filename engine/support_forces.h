@@ -36,7 +36,8 @@ void add_support_forces(std::span<const double> force, SupportForces& forces);
 void sum_support_forces(const SupportForces& forces, std::int64_t n_substeps,
                         std::span<ExactSum3> force);
 
-// Of each support in metrics and summary: its region, with a number from the second of a region on.
+// Of each support in metrics and summary: its region, with a number from the second of a region on
+// that makes it no other's.
 std::vector<std::string> support_names(std::span<const SceneSupport> supports);
 
 }  // namespace trocar

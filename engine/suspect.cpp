@@ -93,8 +93,10 @@ std::string material_cure(std::span<const Material> materials) {
 
 // `mover` comes near in the frame; "" where none does.
 std::string cure(const Simulation& s, const std::string& mover) {
+  const bool has_loads = !s.scene.loads.empty() || s.scene.solver.gravity != Vec3::Zero();
+  const std::string less = has_loads || s.tools.empty() ? "smaller loads" : "to press less deep";
   return material_cure(s.materials) +
-         (mover.empty() ? "smaller loads" : "a slower or shorter path of " + mover) +
+         (mover.empty() ? less : "a slower or shorter path of " + mover) +
          ", a finer mesh or a lower poisson_ratio";
 }
 

@@ -13,6 +13,9 @@ namespace trocar {
 // Throws MachineError with path and reason.
 void write_png(const Image& image, const std::string& file);
 
+// What is wrong with the name of a film's file, whose ending players choose by; "" if nothing.
+std::string film_name_fault(const std::string& file);
+
 // Encodes frames as they come: raw RGB through a pipe to `ffmpeg` (posix_spawn with argv, no
 // shell), in a thread of its own with a short queue. mp4 with fragments, so that the film of a
 // killed run is readable. Throws MachineError if ffmpeg is missing (says which package) or fails

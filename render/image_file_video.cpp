@@ -42,16 +42,6 @@ std::string literal_path(const std::string& file) {
   return "file:" + file;
 }
 
-// Players choose by the ending: a film within another would not show.
-void check_name(const std::string& file) {
-  if (file.empty()) throw InputError("a film needs a file name");
-  const std::string ending = std::filesystem::path(file).extension();
-  for (const char* known : {"", ".mp4", ".m4v", ".mov", ".mkv"})
-    if (ending == known) return;
-  throw InputError("the film " + file + " can't be a " + ending +
-                   ": films are written as .mp4, .m4v, .mov or .mkv");
-}
-
 // The error comes before the first frame. Leaves an empty file, as the encoder would.
 void check_writable(const std::string& file) {
   const int f = open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
@@ -129,6 +119,15 @@ std::string find_ffmpeg() {
   return "";
 }
 
+std::string film_name_fault(const std::string& file) {
+  if (file.empty()) return "a film needs a file name";
+  const std::string ending = std::filesystem::path(file).extension();
+  for (const char* known : {"", ".mp4", ".m4v", ".mov", ".mkv"})
+    if (ending == known) return "";
+  return "\"" + file + "\" can't be a " + ending +
+         ": films are written as .mp4, .m4v, .mov or .mkv";
+}
+
 struct VideoWriter::Pipe {
   std::string file;
   int width, height;
@@ -160,7 +159,7 @@ VideoWriter::VideoWriter(const std::string& file, int width, int height, double 
   if (!(frame_rate > 0 && frame_rate <= 1e6))
     throw InputError("a film's frame rate must be above 0 and at most 1e6 Hz, not " +
                      number(frame_rate));
-  check_name(file);
+  if (const std::string fault = film_name_fault(file); !fault.empty()) throw InputError(fault);
   needed_ffmpeg();
   check_writable(file);
   pipe_ = std::make_unique<Pipe>(file, width, height, frame_rate);

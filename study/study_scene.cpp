@@ -34,9 +34,7 @@ struct SceneStudy {
   std::vector<Vec3> points;
 
   bool has_shape() const { return loaded.scene.tissue.shape.has_value(); }
-  std::int64_t n_frames() const {
-    return std::llround(loaded.scene.time.duration * loaded.scene.time.frame_rate);
-  }
+  std::int64_t n_frames() const { return loaded.scene.time.n_frames(); }
 };
 
 // What the kind of shape takes of `cells`: for each the least that makes a mesh, 0: it is not used.

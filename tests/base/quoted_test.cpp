@@ -41,6 +41,8 @@ TEST(NearestName, is_the_first_of_the_nearest) {
   const std::string names[] = {"length", "density", "dentist"};
   EXPECT_EQ(nearest_name("densty", names), "density");
   EXPECT_EQ(nearest_name("den", names), "density");
+  const std::string sides[] = {"x-", "z-"};
+  EXPECT_EQ(nearest_name("Z-", sides), "z-");
   EXPECT_EQ(nearest_name("x", {}), "");
   EXPECT_EQ(nearest_name(std::string(1 << 20, 'x'), names), "");
 }

@@ -7,6 +7,7 @@
 
 #include "engine/equilibrium.h"
 #include "engine_started.h"
+#include "mesh/connected_nodes.h"
 #include "scene_plate.h"
 
 namespace trocar {
@@ -54,6 +55,39 @@ TEST(ContactOfABlade, does_not_push_the_front_of_its_wound_aside) {
   std::printf("with friction: aside %.2g N in the mean, along %.2g N\n", rough.aside, rough.along);
   EXPECT_LT(std::abs(rough.aside), 1e-3);
   EXPECT_GE(rough.along, 0);
+}
+
+// Its faces lie within 26 degrees of the flanks: these pressed on what the blade was about to cut,
+// with 1.5 N, and the pieces had 70 and 30 % of the plate.
+TEST(ContactOfABlade, does_not_push_a_plate_aside_that_it_cuts_at_a_flat_angle) {
+  const auto plate = built(
+      "[time]\nduration = 10\nframe_rate = 100\n[tissue.shape]\nkind = \"box\"\nelements = "
+      "\"tet4-kuhn\"\ncells = [12, 12, 3]\nhigh = [0.06, 0.06, 0.009]\n[tissue.material]\n"
+      "young_modulus = 50000\n[solver]\nmass_damping = 50\n[contact]\nfriction = 0\n"
+      "[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"x+\"\n[[instrument]]\n"
+      "kind = \"scalpel\"\nblade_length = 0.072\nlength = 0.16\npath = [{ time = 0, position = "
+      "[-0.0033, 0.066, 0.01752], direction = [0, 1, 0], forward = [0.93969, 0, -0.34202] }, "
+      "{ time = 0.536, position = [0.06385, 0.066, -0.00692], direction = [0, 1, 0], forward = "
+      "[0.93969, 0, -0.34202] }]\n");
+  Simulation& s = *plate->s;
+  double most = 0;
+  while (s.frame < 56) {
+    run_frame(s, plate->outputs);
+    most = std::max(most, s.log.rows.back().tools[0].force.norm());
+  }
+  EXPECT_LT(most, 0.1);
+  ASSERT_EQ(s.n_pieces, 2);
+  const std::vector<std::int32_t> piece = connected_nodes(s.mesh);
+  double all = 0, first = 0;
+  for (std::int32_t e = 0; e < s.mesh.n_elements(); ++e) {
+    const double volume = element_volume(s.mesh, e, s.mesh.X);
+    all += volume;
+    if (piece[static_cast<std::size_t>(s.mesh.corners(e)[0])] == piece[0]) first += volume;
+  }
+  // The plane at -20 degrees goes through (-3.3, 17.52) mm; x = 0 is at 16.3 mm and meets the lower
+  // face at 44.8 mm, the upper at 20.1 mm.
+  std::printf("at most %.3f N, %.4f of the plate at x-\n", most, first / all);
+  EXPECT_NEAR(first / all, 0.5 * (44.84 + 20.11) / 60, 0.015);
 }
 
 // The back of the blade rests in the slit of a plate in pieces, where its lips are held: they lie

@@ -200,6 +200,32 @@ TEST(ContactOfTissue, keeps_the_arms_of_a_folded_strip_apart) {
   EXPECT_GT(n_deep_in_folded_strip(false), 20);
 }
 
+// A body that a support moves as a whole presses as a platen: its force was lost, since contact
+// moves none of its nodes.
+TEST(ContactOfTissue, bears_on_what_supports_hold) {
+  constexpr double width = 0.03, height = 0.01, gap = 1e-4;
+  const auto blocks = two_bodies(
+      make_box({0, 0, 0}, {width, width, height}, {5, 5, 3}, BoxElements::hex8),
+      make_box({0, 0, height + gap}, {width, width, 2 * height}, {4, 4, 2}, BoxElements::hex8),
+      "[[region]]\nname = \"floor\"\nlow = [-1, -1, -0.001]\nhigh = [1, 1, 0.001]\n"
+      "[[support]]\nregion = \"floor\"\n[[region]]\nname = \"upper\"\nlow = [-1, -1, "
+      "0.01005]\nhigh = [1, 1, 1]\n[[support]]\nregion = \"upper\"\n"
+      "path = [{ time = 0, displacement = [0, 0, 0] }, { time = 0.3, displacement = "
+      "[0, 0, -0.0015] }]\n[tissue.material]\nyoung_modulus = 6000\n[solver]\n"
+      "mass_damping = 40\n" +
+          with_tissue(0));
+  Simulation& s = *blocks->s;
+  open_energy_ledger(s);
+  run_frames(*blocks, 40);
+  const FrameRow& row = s.log.rows.back();
+  const double floor = row.support_forces[0].z(), platen = row.support_forces[1].z();
+  std::printf("floor %.4f N, platen %.4f N\n", floor, platen);
+  EXPECT_GT(platen, 0.3);
+  EXPECT_NEAR(floor, -platen, 1e-3 * platen);
+  EXPECT_LT(row.energy_error, 1e-3 * row.energy.strain);
+  EXPECT_NEAR(row.works.holds, row.energy.strain, 0.3 * row.energy.strain);  // damping takes some
+}
+
 TEST(ContactOfTissue, is_refused_for_plane_bodies_and_for_bodies_that_sleep) {
   const std::string plane =
       "[time]\nduration = 1\n[tissue.shape]\nkind = \"rectangle\"\nhigh = [0.07, 0.04, 0]\n"

@@ -24,7 +24,7 @@ std::string start_refusal(const std::string& kind, double height) {
 
 TEST(InstrumentCheck, refuses_a_tip_at_any_depth_and_says_which) {
   for (const double depth : {0.005, 0.01, 0.015, 0.018})
-    for (const std::string kind : {"probe", "grasper"}) {
+    for (const std::string kind : {"probe", "grasper", "scissors"}) {
       const std::string sentence = start_refusal(kind, 0.04 - depth);
       EXPECT_NE(sentence.find("instrument[0].path[0].position"), std::string::npos)
           << kind << depth << sentence;
@@ -43,6 +43,7 @@ TEST(InstrumentCheck, refuses_a_shaft_that_goes_through) {
 TEST(InstrumentCheck, lets_instruments_begin_outside_and_blades_anywhere) {
   EXPECT_EQ(start_refusal("probe", 0.05), "");
   EXPECT_EQ(start_refusal("grasper", 0.05), "");
+  EXPECT_EQ(start_refusal("scissors", 0.05), "");
   EXPECT_EQ(start_refusal("scalpel", 0.05), "");
   EXPECT_EQ(start_refusal("scalpel", 0.035), "");
 }

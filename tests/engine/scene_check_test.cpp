@@ -126,6 +126,9 @@ TEST(SceneCheck, gives_instruments_the_name_of_their_kind_and_refuses_two_of_one
   EXPECT_EQ(scene.instruments[2].name, "scalpel");
   expect_error(instrument_text("probe") + instrument_text("probe"),
                "two instruments are called \"probe\"");
+  expect_error(instrument_text("probe") + "name = \"marker_a\"\n[[marker]]\nname = \"a\"\n" +
+                   "position = [0, 0, 0]\n",
+               "\"marker_a\" is what the metrics call a marker or a support");
 }
 
 TEST(SceneCheck, lets_only_graspers_and_scissors_act) {

@@ -106,6 +106,9 @@ TEST(SupportForces, of_a_component_that_several_fix_go_to_the_first) {
   for (const SupportedComponent& at : forces.of_rank) ++n[static_cast<std::size_t>(at.support)];
   EXPECT_EQ(n, (std::vector<int>{9, 3 * 18 - 3, 2 * 9 - 2 * 3}));
   EXPECT_EQ(support_names(bar->s->scene.supports), (std::vector<std::string>{"z-", "x-", "z-_2"}));
+  const std::vector<SceneSupport> alike = {
+      {.region = "a"}, {.region = "a"}, {.region = "a_2"}, {.region = "a"}};
+  EXPECT_EQ(support_names(alike), (std::vector<std::string>{"a", "a_3", "a_2", "a_4"}));
 }
 
 TEST(SupportForces, have_the_nodes_that_a_cut_makes) {

@@ -302,6 +302,12 @@ inline std::vector<SmallScene> small_scenes() {
        plane("mass_scaling_step = \"0.61 ms\"\nsleep = \"0.5 mm\"\n", "1 s",
              "[[support]]\nregion = \"x+\"\n") +
            late_plane_cut},
+      // All in one cluster, so that other ranks have none.
+      {"tet4 with scaled masses, falls asleep",
+       block({.elements = "tet4-kuhn",
+              .cells = "[8, 6, 3]",
+              .duration = "1.2 s",
+              .solver = sleep + "mass_scaling_step = \"2 ms\"\n"})},
       {"hex8 with local steps, pressed and pulled",
        layered(layer_files[0], "", "0.3 s") + layer_probe + layer_grasper},
       {"hex8 with local steps asleep, pressed",
