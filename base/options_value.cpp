@@ -109,11 +109,12 @@ void share_last_unit(const OptionNode& node, std::vector<std::string>& pieces) {
 std::vector<double> read_vector_text(const OptionNode& node, const Dimension& dimension,
                                      std::size_t n, const Range& range) {
   std::vector<std::string> pieces = split_vector(node.text, n);
+  for (std::size_t i = 0; i < n; ++i)
+    if (pieces[i].find_first_of("0123456789+-.") != 0)
+      refuse_kind(node, std::to_string(n) + " numbers and a unit");
   share_last_unit(node, pieces);
   std::vector<double> values;
   for (std::size_t i = 0; i < n; ++i) {
-    if (pieces[i].find_first_of("0123456789+-.") != 0)
-      refuse_kind(node, std::to_string(n) + " numbers and a unit");
     const double value = parsed(node, pieces[i] + " " + pieces[n], dimension);
     values.push_back(checked(node, value, dimension, range));
   }

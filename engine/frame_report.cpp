@@ -189,9 +189,9 @@ static std::string why_nothing(const Simulation& s, const CutStage& stage) {
   if (s.mesh.dimension() == 2)
     return "it went " + short_text(1e3 * way) +
            " mm through the tissue, but where it was parted already, or along its boundary";
-  return "it went " + short_text(1e3 * way) +
-         " mm through the tissue, but along its edge, as one that stabs, or so near to a surface, "
-         "a support or an older cut that the slice is thinner than the mesh can show";
+  return "it went " + short_text(1e3 * way) + " mm through the tissue" + elements +
+         "along its edge, as one that stabs, across too few of them, or so near to a surface, a "
+         "support or an older cut that the slice is thinner than the mesh can show";
 }
 
 static void note_idle_blades(Simulation& s) {

@@ -94,8 +94,8 @@ void check_instruments_outside(const LoadedScene& loaded, double allowed, const 
   }
   for (std::size_t k = 0; k < s.tools.size(); ++k) {
     const Tool& tool = s.tools[k];
-    // A scalpel may begin in the tissue: it cuts from there on.
-    if (s.mesh.dimension() == 3 && tool.kind != InstrumentKind::scalpel)
+    // Blades may begin in the tissue, scissors around it.
+    if (s.mesh.dimension() == 3 && tool.edge.empty())
       depth[k] = std::max(depth[k], depth_of_axes(s, tool));
     if (depth[k] <= allowed) continue;
     char text[40];

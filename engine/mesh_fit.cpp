@@ -43,16 +43,16 @@ void check_regions(const std::string& list, const Items& items, const std::strin
   }
 }
 
-// Supports and loads have regions of nodes and of elements, materials those of elements alone.
-// ([[region]] itself tells of an empty box.)
+// Supports and loads have regions of nodes and of elements, materials those of elements alone, also
+// where there are none (unused_keys). [[region]] itself tells of an empty box.
 void check_all_regions(const Scene& scene, const Mesh& mesh, OptionErrors& errors) {
-  const RegionNames of_elements{.of_body = element_regions(mesh), .of_file = mesh.region_name};
+  const RegionNames of_elements{.of_body = mesh.region_name, .of_file = {}};
   RegionNames all{.of_body = {}, .of_file = mesh.region_name};
   for (const NodeSet& set : mesh.node_sets) {
     if (!set.node.empty()) all.of_body.push_back(set.name);
     all.of_file.push_back(set.name);
   }
-  for (const std::string& name : of_elements.of_body)
+  for (const std::string& name : element_regions(mesh))
     if (!name.empty() && !find_node_set(mesh, name)) all.of_body.push_back(name);
   check_regions("tissue.region_material", scene.tissue.region_materials, "region of elements",
                 of_elements, scene, errors);

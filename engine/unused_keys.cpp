@@ -19,6 +19,11 @@ bool has_type(const Mesh& mesh, ElementType type) {
   return std::ranges::find(mesh.element_type, type) != mesh.element_type.end();
 }
 
+bool has_elements(const Mesh& mesh, const std::string& region) {
+  const auto k = std::ranges::find(mesh.region_name, region) - mesh.region_name.begin();
+  return std::ranges::find(mesh.element_region, k) != mesh.element_region.end();
+}
+
 Uses of_solver(const Scene& scene, const Mesh& mesh) {
   const SceneSolver& s = scene.solver;
   const SceneSolver d;
@@ -146,9 +151,13 @@ std::vector<std::string> unused_keys(const Scene& scene, const Mesh& mesh) {
   tell(of_tissue(scene, mesh));
   tell(of_shape(scene));
   tell(of_material(scene.tissue.material, "tissue.material"));
-  for (std::size_t k = 0; k < scene.tissue.region_materials.size(); ++k)
-    tell(of_material(scene.tissue.region_materials[k].material,
-                     item_path("tissue.region_material", k) + ".material"));
+  for (std::size_t k = 0; k < scene.tissue.region_materials.size(); ++k) {
+    const SceneRegionMaterial& of_region = scene.tissue.region_materials[k];
+    const std::string path = item_path("tissue.region_material", k);
+    tell({{path, true, has_elements(mesh, of_region.region),
+           "the mesh file names its region and has no elements there"}});
+    tell(of_material(of_region.material, path + ".material"));
+  }
   tell(of_solver(scene, mesh));
   tell(of_contact(scene));
   tell(of_cutting(scene, mesh));

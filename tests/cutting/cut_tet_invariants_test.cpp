@@ -124,6 +124,24 @@ TEST(CutInvariants, the_stable_step_keeps_its_floor_whatever_it_is) {
   }
 }
 
+// Of a slice 0.45 cells under a face, which a floor of 0.75 keeps off the blade. Where it was 0.75
+// whatever the floor, lower ones changed nothing.
+TEST(CutInvariants, lower_floors_let_grids_come_onto_the_blade) {
+  const auto deviation = [](double floor) {
+    Body body(centred_block(0));
+    TetCutter cutter{CutTetOptions{.least_step_ratio = floor}};
+    const double z = 0.5 - 0.45 / 8;
+    const Ledger ledger =
+        cut(body, plane_blade({0, 0, z}, Vec3::UnitZ(), 1), Vec3::UnitZ(), 25, cutter);
+    EXPECT_EQ(n_pieces(body.mesh), 2) << floor;
+    return 8 * ledger.deviation_sum / ledger.total.n_duplicated;
+  };
+  const double usual = deviation(0.75), lower = deviation(0.5);
+  std::printf("%.3f and %.3f cells off the blade\n", usual, lower);
+  EXPECT_GT(usual, 0.1);
+  EXPECT_LT(lower, 0.01);
+}
+
 TEST(CutInvariants, whatever_stage_moves_the_nodes_the_body_stays_sound) {
   for (const CutStages stages :
        {CutStages::springs, CutStages::springs_then_barrier, CutStages::barrier}) {
