@@ -117,7 +117,7 @@ void add_study(CLI::App& app, CommandLine& line) {
   study->add_option("--sizes", s.sweep.sizes, "Cells along an edge: 4,8,16")
       ->delimiter(',')
       ->check(CLI::Range(1, 2000));
-  study->add_option("--meshes", s.meshes, "Mesh files of a scene, coarse to fine")->delimiter(',');
+  study->add_option("--meshes", s.meshes, "Mesh files of a scene, in any order")->delimiter(',');
   study->add_option("--elements", s.sweep.elements, "Elements; all that fit if absent")
       ->delimiter(',');
   study->add_option("--precision", s.sweep.precisions, "double,single; both if absent")

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
 
 #include "base/options_node.h"
@@ -93,10 +94,13 @@ void share_last_unit(const OptionNode& node, std::vector<std::string>& pieces) {
   };
   std::string& common = pieces.back();
   const std::size_t n = pieces.size() - 1;
-  const auto n_with_unit = static_cast<std::size_t>(
-      std::count_if(pieces.begin(), pieces.end() - 1,
-                    [&](const std::string& piece) { return !unit_of(piece).empty(); }));
-  if (!common.empty() || n_with_unit == 0 || n_with_unit == n) return;
+  const auto needs_unit = [&](const std::string& piece) {
+    return unit_of(piece).empty() && piece.find_first_of("123456789") != std::string::npos;
+  };
+  const std::span<const std::string> numbers(pieces.data(), n);
+  const auto n_with_unit = std::ranges::count_if(
+      numbers, [&](const std::string& piece) { return !unit_of(piece).empty(); });
+  if (!common.empty() || n_with_unit == 0 || std::ranges::none_of(numbers, needs_unit)) return;
   const std::string unit = unit_of(pieces[n - 1]);
   if (n_with_unit > 1 || unit.empty())
     refuse(node, in_quotes(node.text) +

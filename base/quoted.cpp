@@ -46,8 +46,8 @@ static std::size_t distance_to(std::string_view name, const std::string& allowed
   return name.size() >= 3 && allowed.starts_with(name) ? 1 : edit_distance(name, allowed);
 }
 
-static std::string in_small_letters(std::string_view name) {
-  std::string small(name);
+std::string in_small_letters(std::string_view text) {
+  std::string small(text);
   for (char& c : small) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   return small;
 }

@@ -10,6 +10,9 @@ namespace trocar {
 // In double quotes, at most 60 bytes (cut with … between characters), control characters as "?".
 std::string in_quotes(std::string_view text);
 
+// Letters of ASCII only.
+std::string in_small_letters(std::string_view text);
+
 // Number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`
 // (optimal string alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b);

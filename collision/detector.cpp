@@ -23,13 +23,6 @@ bool is_flat_enough(const PieceCore& core, const Vec3& local_normal, double gap)
   return std::abs(local_normal.y()) >= core.least_flatness && gap >= -core.deepest;
 }
 
-// Whether the blade's plane passes through a facet, which is being cut then and no flank presses:
-// pushed aside, a face at a flat angle to the blade took the cut with it.
-bool is_pierced(const PieceCore& core, const Triangle& local) {
-  const auto [low, high] = std::minmax({local[0].y(), local[1].y(), local[2].y()});
-  return low < -core.thickness / 2 && high > core.thickness / 2;
-}
-
 // Of a point inside a blade, from the flank that `facing` looks against, in the tool's frame. None
 // is zero: at the front of a wound tissue faces neither.
 SignedDistance distance_from_flank(const PieceCore& core, const Vec3& x, const Vec3& facing) {
@@ -56,6 +49,30 @@ bool is_in_outline(const PieceCore& core, const Vec3& x) {
     const Vec3& n = core.faces.normal[k];
     const bool is_flank = std::abs(n.y()) >= core.least_flatness;
     if (!is_flank && n.dot(x) - core.faces.offset[k] >= core.radius) return false;
+  }
+  return true;
+}
+
+// Whether the blade passes through a facet, or is about to where it has an edge: that is cut, and
+// no flank presses on it. Pushed aside, a face at a flat angle to the blade took the cut with it.
+bool is_pierced(const PieceCore& core, const Triangle& local) {
+  const auto [low, high] = std::minmax({local[0].y(), local[1].y(), local[2].y()});
+  if (low >= -core.thickness / 2 || high <= core.thickness / 2) return false;
+  Segment in_plane = {local[0], local[0]};
+  std::size_t n = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const Vec3 &from = local[a], &to = local[(a + 1) % 3];
+    if ((from.y() > 0) != (to.y() > 0) && n < 2)
+      in_plane[n++] = point_at({from, to}, from.y() / (from.y() - to.y()));
+  }
+  SegmentPart part;
+  for (std::size_t k = 0; k < core.faces.normal.size(); ++k) {
+    const Vec3& normal = core.faces.normal[k];
+    const bool is_flank = std::abs(normal.y()) >= core.least_flatness;
+    const bool is_edge = core.has_edge && normal.x() > 0.5;
+    if (!is_flank && !is_edge &&
+        !clip_segment(in_plane, core.faces.offset[k] * normal, -normal, part))
+      return false;
   }
   return true;
 }

@@ -156,7 +156,8 @@ PieceCore make_core(const ConvexPiece& piece) {
   PieceCore core{.points = reduce_hull(piece.points),
                  .radius = piece.radius,
                  .least_flatness = piece.least_flatness,
-                 .deepest = piece.deepest};
+                 .deepest = piece.deepest,
+                 .has_edge = piece.has_edge};
   core.low = core.high = core.points[0];
   for (const Vec3& p : core.points) {
     core.low = core.low.cwiseMin(p);

@@ -21,6 +21,7 @@ struct PieceCore {
   double thickness = 0;       // shortest side of a hull's box, zero for points and segments [m]
   double least_flatness = 0;  // see ConvexPiece
   double deepest = std::numeric_limits<double>::infinity();
+  bool has_edge = false;
 };
 PieceCore make_core(const ConvexPiece& piece);
 

@@ -18,6 +18,8 @@ struct ConvexPiece {
   // normal, and the depth from which on tissue is not cut yet and passes through. [-], [m]
   double least_flatness = 0;
   double deepest = std::numeric_limits<double>::infinity();
+  // Its edge looks along +x and cuts what lies before it. (Scissors cut only as they close.)
+  bool has_edge = false;
 };
 
 struct ToolShape {

@@ -28,13 +28,12 @@ struct RegionNames {
 // `what` the items of a list name: one of the body's. No hint beyond the errors that are shown.
 template <class Items>
 void check_regions(const std::string& list, const Items& items, const std::string& what,
-                   const RegionNames& names, const Scene& scene, OptionErrors& errors) {
+                   const RegionNames& names, OptionErrors& errors) {
   std::vector<std::string> known = names.of_body;
   std::erase(known, "");
   for (std::size_t k = 0; k < items.size(); ++k) {
     const std::string& region = items[k].region;
-    const bool is_of_scene = std::ranges::count(scene.regions, region, &SceneRegion::name) > 0;
-    if (is_of_scene || std::ranges::count(names.of_body, region) > 0) continue;
+    if (std::ranges::count(names.of_body, region) > 0) continue;
     std::string hint = errors.is_full() ? "" : names_hint(region, known);
     if (std::ranges::count(names.of_file, region) > 0)
       hint = ": its file names it, and puts nothing of the body there" + hint;
@@ -49,15 +48,16 @@ void check_all_regions(const Scene& scene, const Mesh& mesh, OptionErrors& error
   const RegionNames of_elements{.of_body = mesh.region_name, .of_file = {}};
   RegionNames all{.of_body = {}, .of_file = mesh.region_name};
   for (const NodeSet& set : mesh.node_sets) {
-    if (!set.node.empty()) all.of_body.push_back(set.name);
+    const bool is_of_scene = std::ranges::count(scene.regions, set.name, &SceneRegion::name) > 0;
+    if (!set.node.empty() || is_of_scene) all.of_body.push_back(set.name);
     all.of_file.push_back(set.name);
   }
   for (const std::string& name : element_regions(mesh))
     if (!name.empty() && !find_node_set(mesh, name)) all.of_body.push_back(name);
   check_regions("tissue.region_material", scene.tissue.region_materials, "region of elements",
-                of_elements, scene, errors);
-  check_regions("support", scene.supports, "region", all, scene, errors);
-  check_regions("load", scene.loads, "region", all, scene, errors);
+                of_elements, errors);
+  check_regions("support", scene.supports, "region", all, errors);
+  check_regions("load", scene.loads, "region", all, errors);
 }
 
 void check_plane(const Scene& scene, OptionErrors& errors) {

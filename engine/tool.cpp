@@ -58,7 +58,7 @@ void make_scalpel(Tool& tool, const SceneInstrument& s, double edge_spacing) {
   const std::vector<Vec3> outline = {Vec3(0, 0, 0), Vec3(0, 0, length),
                                      Vec3(-width, 0, 1.15 * length),
                                      Vec3(-width, 0, 0.35 * length)};
-  ConvexPiece blade{.least_flatness = 0.9, .deepest = 0.3e-3};
+  ConvexPiece blade{.least_flatness = 0.9, .deepest = 0.3e-3, .has_edge = true};
   for (const Vec3& corner : outline)
     for (const double y : {-half, half}) blade.points.push_back(corner + Vec3(0, y, 0));
   tool.shape.pieces = {shaft_piece(1.3 * length, s.length, s.radius), blade};

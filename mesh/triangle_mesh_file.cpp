@@ -80,7 +80,7 @@ TriangleMesh read_binary_stl(ByteReader& in) {
   // Some programs add a few bytes.
   if (in.n_left() >= stl_triangle_bytes)
     in.fail("holds " + std::to_string(in.n_left()) + " bytes after the " + std::to_string(count) +
-            " triangles that it announces: its number of triangles is " + "wrong");
+            " triangles that it announces: its number of triangles is wrong");
   return mesh;
 }
 

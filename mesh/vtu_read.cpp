@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "base/quoted.h"
 #include "mesh/mesh_file_formats.h"
 #include "mesh/vtk_cells.h"
@@ -221,15 +222,30 @@ std::vector<Vec3> read_points(const VtuReader& r) {
   return read_vectors(r, r.points, r.n_points, "point");
 }
 
-// From 1, since group 0 is none. Some programs write all arrays as floats.
-std::vector<std::int32_t> read_regions(const VtuReader& r, std::size_t n) {
+// Some programs write all arrays as floats. Those that are not whole are something else.
+std::vector<std::int32_t> read_float_regions(const VtuReader& r, std::size_t n) {
   std::vector<std::int32_t> region;
-  if (!r.region.is_present) return region;
-  read_numbers<double>(r, r.region, n, [&](const ByteReader& at, double k) {
-    if (!(k >= 0 && k < INT32_MAX && k == std::floor(k)))
-      at.fail("region " + std::to_string(k) + " is no whole number between 0 and 2147483646");
-    region.push_back(static_cast<std::int32_t>(k) + 1);
+  bool is_whole = true;
+  read_numbers<double>(r, r.region, n, [&](const ByteReader&, double k) {
+    is_whole = is_whole && k >= 0 && k < INT32_MAX && k == std::floor(k);
+    region.push_back(is_whole ? static_cast<std::int32_t>(k) : 0);
   });
+  if (is_whole) return region;
+  log_warning(r.in.file() + ": its cell array \"region\" is left out: regions are whole numbers");
+  return {};
+}
+
+// From 1, since group 0 is none.
+std::vector<std::int32_t> read_regions(const VtuReader& r, std::size_t n) {
+  if (!r.region.is_present) return {};
+  std::vector<std::int32_t> region =
+      r.region.number.is_float ? read_float_regions(r, n) : read_integers(r, r.region, n, "region");
+  for (std::int32_t& k : region) {
+    if (k < 0 || k == INT32_MAX)
+      reader_at(r, r.region)
+          .fail("region " + std::to_string(k) + " is not between 0 and 2147483646");
+    ++k;
+  }
   return region;
 }
 

@@ -14,6 +14,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/quoted.h"
 #include "render/encoder_process.h"
 #include "render/image_file.h"
 #include "render/work_queue.h"
@@ -42,6 +43,10 @@ std::string literal_path(const std::string& file) {
   return "file:" + file;
 }
 
+std::string ending_of(const std::string& file) {
+  return in_small_letters(std::filesystem::path(file).extension().string());
+}
+
 // The error comes before the first frame. Leaves an empty file, as the encoder would.
 void check_writable(const std::string& file) {
   const int f = open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
@@ -58,7 +63,7 @@ std::string number(double value) {
 std::vector<std::string> encoder_arguments(const std::string& file, int width, int height,
                                            double frame_rate) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
-  const bool is_matroska = std::filesystem::path(file).extension() == ".mkv";
+  const bool is_matroska = ending_of(file) == ".mkv";
   // A key frame a second: a fragment is written with each.
   const std::string key_frames = std::to_string(std::max(1L, std::lround(frame_rate)));
   // Players take high-definition colours for BT.709 whatever a film says; 4:2:0 needs even sizes.
@@ -121,7 +126,7 @@ std::string find_ffmpeg() {
 
 std::string film_name_fault(const std::string& file) {
   if (file.empty()) return "a film needs a file name";
-  const std::string ending = std::filesystem::path(file).extension();
+  const std::string ending = ending_of(file);
   for (const char* known : {"", ".mp4", ".m4v", ".mov", ".mkv"})
     if (ending == known) return "";
   return "\"" + file + "\" can't be a " + ending +

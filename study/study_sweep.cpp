@@ -87,7 +87,7 @@ Run run_or_note(const Study& study, const CurveCases& curve, int n, int repeats)
   const auto note = [&](const std::string& trouble) {
     if (std::ranges::none_of(study.runs, is_sound)) throw;
     Run run = run_of(study.problem, curve, n);
-    run.outcome.trouble = trouble;
+    run.outcome.trouble = trouble.substr(0, trouble.find('\n'));
     return run;
   };
   try {
@@ -217,7 +217,7 @@ Study sweep(const Problem& problem, const SweepOptions& options) {
       }
       study.runs.push_back(run_or_note(study, curves[k], n, options.repeats));
       tell(study.runs.back());
-      last[k] = study.runs.back();
+      if (seconds_of(study.runs.back().outcome) > 0) last[k] = study.runs.back();
       left -= processor_seconds() - start;
     }
   rate(study);

@@ -90,6 +90,21 @@ TEST(ContactOfABlade, does_not_push_a_plate_aside_that_it_cuts_at_a_flat_angle) 
   EXPECT_NEAR(first / all, 0.5 * (44.84 + 20.11) / 60, 0.015);
 }
 
+// They cut as they close. Large faces cross the plane of their blades beyond the tip: taken for
+// faces that are being cut, these left 1.8 N.
+TEST(ContactOfABlade, of_open_scissors_presses_the_faces_that_it_lies_on) {
+  const std::string pose = "], direction = [0, 0.98481, -0.17365], forward = [1, 0, 0] }";
+  const auto block = built(
+      "[time]\nduration = 10\nframe_rate = 60\n[tissue.shape]\nkind = \"box\"\nelements = "
+      "\"tet4-kuhn\"\nlow = [-0.04, -0.04, 0]\nhigh = [0.04, 0.04, 0.04]\ncells = [6, 6, 3]\n"
+      "[tissue.material]\nyoung_modulus = 8000\n[solver]\nmass_damping = 30\n[[support]]\nregion "
+      "= \"z-\"\n[[instrument]]\nkind = \"scissors\"\nblade_length = 0.02\nlength = 0.15\n"
+      "path = [{ time = 0, position = [0, 0.003, 0.044" +
+      pose + ", { time = 0.5, position = [0, 0.003, 0.036" + pose + "]\n");
+  while (block->s->frame < 36) run_frame(*block->s, block->outputs);
+  EXPECT_GT(block->s->log.rows.back().tools[0].force.z(), 2.3);
+}
+
 // The back of the blade rests in the slit of a plate in pieces, where its lips are held: they lie
 // in the blade for good. It threw them out again and again: 8e-5 to 2e-4 W, more at smaller steps.
 TEST(ContactOfABlade, at_rest_between_held_lips_does_no_work) {

@@ -125,7 +125,7 @@ TEST(ContactOfAPress, of_a_cube_at_rest_leaves_the_tissue_at_rest) {
   const double watts = (row.works.contact - before) / (70. / 60);
   std::printf("at rest: %.2g W, %.2g J of motion, %.2g J of strain\n", watts, row.energy.kinetic,
               row.energy.strain);
-  EXPECT_LT(watts, 3e-4);
+  EXPECT_LT(std::abs(watts), 4e-4);
   EXPECT_LT(row.energy.kinetic, 0.02 * row.energy.strain);
 }
 

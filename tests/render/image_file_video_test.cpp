@@ -111,6 +111,7 @@ TEST(VideoWriter, endings_of_other_films_are_refused) {
   const TestFolder folder;
   for (const char* name : {"a.avi", "a.gif", "a.webm", "a.mp4.png"})
     EXPECT_THROW(VideoWriter(folder.file(name), 16, 16, 30), InputError) << name;
+  EXPECT_EQ(film_name_fault("a.MP4"), "");
 }
 
 TEST(VideoWriter, film_that_is_dropped_without_finish_is_readable) {
