@@ -50,8 +50,21 @@ struct Total {
   std::mutex mutex;
 };
 
-void add_products(std::span<const double> a, std::span<const double> b, double coarse, double fine,
+// To where an ExactSum holds all bits of sums of products up to `most`, which it would cut off
+// where they are small: they depend on who has summed what. In whole limbs, which changes no bits.
+int exponent_to_hold(double most) {
+  constexpr int limb = 32;
+  return limb * static_cast<int>(std::lround(-std::ilogb(most) / double{limb}));
+}
+
+struct Quanta {
+  double coarse = 0, fine = 0;
+  int exponent = 0;  // of 2, by which sums are scaled
+};
+
+void add_products(std::span<const double> a, std::span<const double> b, const Quanta& quanta,
                   Total& total) {
+  const double coarse = quanta.coarse, fine = quanta.fine;
   Lanes sum{}, rest_sum{};
   for_products(a, b, [&](const Pair& product, std::size_t i) {
     const Pair rounded = (product + coarse) - coarse;
@@ -60,8 +73,8 @@ void add_products(std::span<const double> a, std::span<const double> b, double c
   });
   const std::scoped_lock lock(total.mutex);
   for (std::size_t i = 0; i < n_lanes; ++i) {
-    total.sum.add(sum[i / 2][i % 2]);
-    total.sum.add(rest_sum[i / 2][i % 2]);
+    total.sum.add(std::ldexp(sum[i / 2][i % 2], quanta.exponent));
+    total.sum.add(std::ldexp(rest_sum[i / 2][i % 2], quanta.exponent));
   }
 }
 
@@ -92,15 +105,16 @@ double reproducible_dot(std::span<const double> a, std::span<const double> b, st
   if (!std::isfinite(most)) return std::numeric_limits<double>::quiet_NaN();
   if (most == 0) return 0;
   const double coarse = rounder(n, most);
-  const double fine = rounder(n, coarse * 0x1p-52);
+  const Quanta quanta{
+      .coarse = coarse, .fine = rounder(n, coarse * 0x1p-52), .exponent = exponent_to_hold(most)};
   Total total;
   parallel_for(std::ssize(a), [&](std::int64_t begin, std::int64_t end) {
     const auto first = static_cast<std::size_t>(begin),
                n_here = static_cast<std::size_t>(end) - first;
-    add_products(a.subspan(first, n_here), b.subspan(first, n_here), coarse, fine, total);
+    add_products(a.subspan(first, n_here), b.subspan(first, n_here), quanta, total);
   });
   total.sum.all_sum(communicator);
-  return total.sum.value();
+  return std::ldexp(total.sum.value(), -quanta.exponent);
 }
 
 }  // namespace trocar

@@ -68,6 +68,19 @@ TEST(ReproducibleDot, has_the_same_bits_in_any_order) {
   EXPECT_GT(plain.size(), 1U) << "these numbers prove nothing";
 }
 
+// Of tiny products an ExactSum cuts sums off, one sooner than the other by who has summed what.
+TEST(ReproducibleDot, of_tiny_numbers_has_the_same_bits_on_any_threads_and_as_of_large_ones) {
+  std::vector<double> a = random_vector(5003, 8), b = random_vector(5003, 9);
+  const double large = dot(a, b);
+  for (double& value : a) value = std::ldexp(value, -96);
+  for (double& value : b) value = std::ldexp(value, -32);
+  for (const int n_threads : {1, 2, 3, 7}) {
+    set_thread_count(n_threads);
+    EXPECT_EQ(dot(a, b), std::ldexp(large, -128)) << n_threads;
+  }
+  set_thread_count(1);
+}
+
 TEST(ReproducibleDot, has_the_same_bits_on_any_threads) {
   const std::vector<double> a = random_vector(5003, 6), b = random_vector(5003, 7);
   const double alone_on_it = dot(a, b);

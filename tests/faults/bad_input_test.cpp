@@ -270,6 +270,28 @@ TEST(BadInput, what_elements_can_not_be_is_refused_with_its_place) {
                  {"--set", "tissue.shape.elements=hex8"});
 }
 
+// Its last corner is pushed in: the element has a volume, but not at each of its eight points. Only
+// one of the ranks has it; the others waited for ever.
+TEST(BadInput, an_element_that_is_bent_too_far_is_refused_on_every_rank) {
+  const std::string folder = test_folder("bent"), scene = folder + "/scene.toml";
+  std::ofstream mesh(folder + "/bar.msh");
+  mesh << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n20\n";
+  for (int i = 0; i < 19; ++i)
+    mesh << i + 1 << ' ' << 5 * (i / 4) << ' ' << 5 * (i / 2 % 2) << ' ' << 5 * (i % 2) << '\n';
+  mesh << "20 16.5 1.5 1.5\n$EndNodes\n$Elements\n4\n";
+  for (int e = 0; e < 4; ++e) {
+    mesh << e + 1 << " 5 2 1 1";
+    for (const int corner : {1, 5, 7, 3, 2, 6, 8, 4}) mesh << ' ' << 4 * e + corner;
+    mesh << '\n';
+  }
+  mesh << "$EndElements\n" << std::flush;
+  std::ofstream(scene) << "[time]\nduration = 0.1\n[tissue]\nmesh = \"bar.msh\"\nscale = \"1 mm\"\n"
+                          "[solver]\nhexahedron = \"full\"\n[[region]]\nname = \"foot\"\n"
+                          "low = [-1, -1, -1]\nhigh = [\"1 mm\", 1, 1]\n[[support]]\nregion = "
+                          "\"foot\"\n";
+  expect_refusal(scene, folder, input_wrong, "element 3 has no positive volume");
+}
+
 TEST(BadInput, a_region_without_elements_may_have_any_material) {
   const std::string folder = test_folder("empty_region"), scene = folder + "/scene.toml";
   std::ofstream(folder + "/cube.msh")

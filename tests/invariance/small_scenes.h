@@ -249,6 +249,22 @@ region = "side"
   { time = 0.2, position = ["-6 mm", "0.5 mm", "-12 mm"], direction = [-1, 0, 0], forward = [0, 0, 1] },
 )");
 
+// Sums of products of 1e-40 J and less while the equilibrium is sought.
+inline const std::string tiny_forces = time_table("0.05 s") + R"([tissue.shape]
+kind = "box"
+cells = [10, 10, 10]
+high = ["5 mm", "5 mm", "5 mm"]
+[tissue.material]
+young_modulus = "1 kPa"
+[[support]]
+region = "x-"
+[[load]]
+region = "x+"
+force = ["1e-11 N", 0, 0]
+[start]
+state = "equilibrium"
+)";
+
 inline std::vector<SmallScene> small_scenes() {
   const std::string viscous = "prony = [ { share = 0.4, time = \"0.1 s\" } ]\n";
   const std::string held_sides = "[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"x+\"\n";
@@ -318,6 +334,7 @@ inline std::vector<SmallScene> small_scenes() {
        "0.2 s"},
       {"hex8 viscoelastic, under pressure from equilibrium", block(viscous_hex) + at_rest + loads},
       {"tet4, pulled and cut, resumed", block({}) + grasper + partial_cut, "0.2 s"},
+      {"hex8 of a few mm, in equilibrium under next to nothing", tiny_forces},
       {"hex8 ball, cut at its pole, resumed", ball_cut_at_its_pole, "0.2 s"},
       {"hex8 from equilibrium, cut, resumed", block(hexahedra()) + at_rest + curved_cut, "0.26 s"},
   };
