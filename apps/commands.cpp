@@ -12,6 +12,7 @@
 #include "base/log.h"
 #include "base/threads.h"
 #include "engine/build.h"
+#include "engine/mesh_measures.h"
 #include "engine/predict.h"
 #include "engine/tissue_table.h"
 #include "engine/version.h"
@@ -118,10 +119,11 @@ void print_mesh(const std::string& file, const Mesh& mesh) {
   else if (m.quality_min < sliver_quality)
     std::printf("  SLIVERS           below a quality of %g: a few elements make every step small\n",
                 sliver_quality);
+  const std::vector<std::int64_t> n_elements = elements_by_region(mesh);
   for (std::size_t k = 0; k < mesh.region_name.size(); ++k)
     if (!mesh.region_name[k].empty())
-      std::printf("  region            \"%s\", %td elements\n", mesh.region_name[k].c_str(),
-                  std::ranges::count(mesh.element_region, static_cast<std::int32_t>(k)));
+      std::printf("  region            \"%s\", %jd elements\n", mesh.region_name[k].c_str(),
+                  static_cast<std::intmax_t>(n_elements[k]));
   for (const NodeSet& set : mesh.node_sets)
     std::printf("  region            \"%s\", %zu nodes\n", set.name.c_str(), set.node.size());
   std::printf(

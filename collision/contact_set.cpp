@@ -114,7 +114,7 @@ ContactSet prepare_contacts(const FoundContacts& contacts, std::span<const std::
   set.x_start.resize(set.node.size());
   set.x_end.resize(set.node.size());
   set.force.assign(set.node.size(), Vec3::Zero());
-  set.constraints.reserve((1 + Manifold{}.of.size()) * set.items.size() + 2 * set.node.size());
+  set.constraints.reserve((1 + Manifold::most_points) * set.items.size() + 2 * set.node.size());
   set.deepest.resize(set.node.size());
   set.impulse.resize(set.node.size());
   set.found_by.assign(set.node.size(), -1);

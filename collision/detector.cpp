@@ -18,9 +18,13 @@ namespace {
 
 constexpr double squarely = 0.3;  // cosine at which tissue faces a blade's flank
 
+bool is_of_flank(const PieceCore& core, const Vec3& local_normal) {
+  return std::abs(local_normal.y()) >= core.least_flatness;
+}
+
 // Whether a piece may touch with this normal: a blade with its flat sides, not with its edge.
 bool is_flat_enough(const PieceCore& core, const Vec3& local_normal, double gap) {
-  return std::abs(local_normal.y()) >= core.least_flatness && gap >= -core.deepest;
+  return is_of_flank(core, local_normal) && gap >= -core.deepest;
 }
 
 // Of a point inside a blade, from the flank that `facing` looks against, in the tool's frame. None
@@ -28,7 +32,7 @@ bool is_flat_enough(const PieceCore& core, const Vec3& local_normal, double gap)
 SignedDistance distance_from_flank(const PieceCore& core, const Vec3& x, const Vec3& facing) {
   for (std::size_t k = 0; k < core.faces.normal.size(); ++k) {
     const Vec3& n = core.faces.normal[k];
-    if (std::abs(n.y()) >= core.least_flatness && n.dot(facing) < -squarely * facing.norm())
+    if (is_of_flank(core, n) && n.dot(facing) < -squarely * facing.norm())
       return SignedDistance{.normal = n, .gap = n.dot(x) - core.faces.offset[k] - core.radius};
   }
   return {};
@@ -47,8 +51,7 @@ std::optional<NodeTouch> touch_in_plane(const PieceCore& core, const Vec3& x, co
 bool is_in_outline(const PieceCore& core, const Vec3& x) {
   for (std::size_t k = 0; k < core.faces.normal.size(); ++k) {
     const Vec3& n = core.faces.normal[k];
-    const bool is_flank = std::abs(n.y()) >= core.least_flatness;
-    if (!is_flank && n.dot(x) - core.faces.offset[k] >= core.radius) return false;
+    if (!is_of_flank(core, n) && n.dot(x) - core.faces.offset[k] >= core.radius) return false;
   }
   return true;
 }
@@ -68,9 +71,8 @@ bool is_pierced(const PieceCore& core, const Triangle& local) {
   SegmentPart part;
   for (std::size_t k = 0; k < core.faces.normal.size(); ++k) {
     const Vec3& normal = core.faces.normal[k];
-    const bool is_flank = std::abs(normal.y()) >= core.least_flatness;
     const bool is_edge = core.has_edge && normal.x() > 0.5;
-    if (!is_flank && !is_edge &&
+    if (!is_of_flank(core, normal) && !is_edge &&
         !clip_segment(in_plane, core.faces.offset[k] * normal, -normal, part))
       return false;
   }

@@ -7,7 +7,6 @@ namespace trocar {
 
 namespace {
 
-constexpr std::size_t most_corners = 4;
 constexpr double as_deep = 2;     // as the nearest points
 constexpr double slack = 1e-3;    // of the triangle's size
 constexpr std::size_t solid = 4;  // faces
@@ -51,10 +50,10 @@ struct Limits {
 
 void add_corners(const PieceCore& core, const Triangle& x, const Vec3& n, const Limits& limits,
                  Manifold& manifold) {
-  std::array<double, most_corners> gaps{};
+  std::array<double, Manifold::most_corners> gaps{};
   for (const Vec3& p : core.points) {
     const double gap = n.dot(p - x[0]) - core.radius;
-    const bool is_full = manifold.n_points == most_corners;
+    const bool is_full = manifold.n_points == Manifold::most_corners;
     if (!limits.allow(gap) || (is_full && gap >= gaps.back())) continue;
     const auto weight = weights_along(p, x, n);
     if (!weight) continue;

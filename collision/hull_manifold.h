@@ -16,8 +16,9 @@ struct ManifoldPoint {
 };
 
 struct Manifold {
-  // Of the hull's corners over the triangle the four that reach deepest, and two of each edge.
-  std::array<ManifoldPoint, 10> of;
+  // Of the hull's corners over the triangle those that reach deepest, and two of each edge.
+  static constexpr std::size_t most_corners = 4, most_points = most_corners + 2 * 3;
+  std::array<ManifoldPoint, most_points> of;
   std::size_t n_points = 0;
 
   const ManifoldPoint* begin() const { return of.data(); }

@@ -251,27 +251,15 @@ std::vector<double> region_densities(std::span<const Material> materials) {
   return density;
 }
 
-// What is wrong with a rank's own elements is thrown on every rank: the others would wait for it.
-static Model build_model_alike(const Simulation& s) {
-  Model model;
-  std::string trouble;
-  try {
-    model = build_model(s.mesh, s.part, s.materials, s.fixed, s.mass, solver_options(s.scene));
-  } catch (const InputError& error) {
-    trouble = error.what();
-  }
-  trouble = s.communicator->first_text(trouble);
-  if (!trouble.empty()) throw InputError(trouble);
-  return model;
-}
-
 void rebuild_topology(Simulation& s) {
   const int rank = s.communicator->rank();
   plan_mass_scaling(s);
   s.mass = lumped_mass(s.mesh, region_densities(s.materials), s.scene.tissue.thickness);
   s.part = make_part(s.mesh, s.node_owner, rank);
   s.halo = make_halo(s.mesh, s.node_owner, s.part, rank);
-  s.model = build_model_alike(s);
+  on_every_rank(*s.communicator, [&] {
+    s.model = build_model(s.mesh, s.part, s.materials, s.fixed, s.mass, solver_options(s.scene));
+  });
   if (s.mass_scaling) scale_mass(*s.mass_scaling, s.part, s.model);
   if (s.whole_mass == 0) s.whole_mass = std::accumulate(s.mass.begin(), s.mass.end(), 0.0);
   report_mass_scaling(s);

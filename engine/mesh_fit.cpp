@@ -10,17 +10,6 @@ namespace trocar {
 
 namespace {
 
-// Files name regions, too, that have nothing of the body.
-std::vector<std::string> element_regions(const Mesh& mesh) {
-  std::vector<bool> has_elements(mesh.region_name.size(), false);
-  for (const std::int32_t region : mesh.element_region)
-    has_elements[static_cast<std::size_t>(region)] = true;
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < has_elements.size(); ++k)
-    if (has_elements[k]) names.push_back(mesh.region_name[k]);
-  return names;
-}
-
 struct RegionNames {
   std::vector<std::string> of_body, of_file;  // which may name some that have nothing of the body
 };
@@ -52,8 +41,11 @@ void check_all_regions(const Scene& scene, const Mesh& mesh, OptionErrors& error
     if (!set.node.empty() || is_of_scene) all.of_body.push_back(set.name);
     all.of_file.push_back(set.name);
   }
-  for (const std::string& name : element_regions(mesh))
-    if (!name.empty() && !find_node_set(mesh, name)) all.of_body.push_back(name);
+  const std::vector<std::int64_t> n_elements = elements_by_region(mesh);
+  for (std::size_t k = 0; k < n_elements.size(); ++k)
+    if (const std::string& name = mesh.region_name[k];
+        n_elements[k] > 0 && !name.empty() && !find_node_set(mesh, name))
+      all.of_body.push_back(name);
   check_regions("tissue.region_material", scene.tissue.region_materials, "region of elements",
                 of_elements, errors);
   check_regions("support", scene.supports, "region", all, errors);

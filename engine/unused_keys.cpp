@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/mesh_measures.h"
+
 namespace trocar {
 
 namespace {
@@ -17,11 +19,6 @@ using Uses = std::vector<Use>;
 
 bool has_type(const Mesh& mesh, ElementType type) {
   return std::ranges::find(mesh.element_type, type) != mesh.element_type.end();
-}
-
-bool has_elements(const Mesh& mesh, const std::string& region) {
-  const auto k = std::ranges::find(mesh.region_name, region) - mesh.region_name.begin();
-  return std::ranges::find(mesh.element_region, k) != mesh.element_region.end();
 }
 
 Uses of_solver(const Scene& scene, const Mesh& mesh) {
@@ -151,10 +148,13 @@ std::vector<std::string> unused_keys(const Scene& scene, const Mesh& mesh) {
   tell(of_tissue(scene, mesh));
   tell(of_shape(scene));
   tell(of_material(scene.tissue.material, "tissue.material"));
+  const std::vector<std::int64_t> n_elements = elements_by_region(mesh);
   for (std::size_t k = 0; k < scene.tissue.region_materials.size(); ++k) {
     const SceneRegionMaterial& of_region = scene.tissue.region_materials[k];
     const std::string path = item_path("tissue.region_material", k);
-    tell({{path, true, has_elements(mesh, of_region.region),
+    const auto region = static_cast<std::size_t>(
+        std::ranges::find(mesh.region_name, of_region.region) - mesh.region_name.begin());
+    tell({{path, true, region < n_elements.size() && n_elements[region] > 0,
            "the mesh file names its region and has no elements there"}});
     tell(of_material(of_region.material, path + ".material"));
   }

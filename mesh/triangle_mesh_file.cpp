@@ -133,8 +133,7 @@ bool is_binary_stl(std::string_view bytes) {
 TriangleMesh read_stl(ByteReader& in) {
   // A binary file may begin with "solid" as well: its length tells.
   if (is_binary_stl(in.rest())) return read_binary_stl(in);
-  std::string text(in.rest());  // some programs write its keywords in capitals
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 'a' - 'A') : c;
+  const std::string text = in_small_letters(in.rest());  // some programs write capitals
   ByteReader of_text(in.file(), text);
   if (of_text.peek_word() == "solid") return read_ascii_stl(of_text);
   return read_binary_stl(in);
