@@ -16,7 +16,11 @@ constexpr std::uint64_t low_half = 0xffffffffu;
 void ExactSum::add(double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
   const auto exponent = static_cast<int>(bits >> 52 & 0x7ff);
-  if (exponent == 0 || exponent == 0x7ff) return;  // too small to count; not finite
+  if (exponent == 0) return;  // too small to count
+  if (exponent == 0x7ff) {
+    ++limbs_[n_limbs];
+    return;
+  }
   std::uint64_t mantissa = (bits & 0xfffffffffffff) | 0x10000000000000;
   int bit = exponent - 1075 - lowest_bit;  // |value| = mantissa * 2^(exponent - 1075)
   if (bit < 0) {

@@ -1,6 +1,6 @@
 // A sum of doubles that does not depend on their order or on how they are spread over ranks:
-// fixed-point accumulation in 320 bits, exact for magnitudes from 2^-159 to 2^126 (smaller parts
-// are cut off, each at the same place; with a larger one the sum is infinite).
+// fixed-point accumulation in 320 bits. Bits below 2^-160 are cut off, so that doubles from 2^-108
+// on are exact; with one of 2^148 or more, or an infinite one, the sum is infinite.
 #pragma once
 
 #include <array>

@@ -114,11 +114,12 @@ static void subdivide_instead(const Mesh& mesh, const Kind& kind,
 }
 
 static void apply(const MeshEdit& edit, const CutFigures& figures, CutBody& cut) {
-  const std::vector<std::int32_t> parent = element_parents(cut.body.mesh, edit);
+  const SplitNumbers numbers(edit.splits, cut.body.mesh.n_elements());
   cutting_test::apply(edit, figures, cut.body, cut.ledger);
   if (edit.is_empty()) return;
   std::vector<std::int32_t> origin;
-  for (const std::int32_t e : parent) origin.push_back(cut.origin[std::size_t(e)]);
+  for (std::int32_t e = 0; e < cut.body.mesh.n_elements(); ++e)
+    origin.push_back(cut.origin[std::size_t(numbers.whole(e))]);
   cut.origin = std::move(origin);
   cut.boxes = make_element_boxes(cut.body.mesh, cut.body.x);
 }

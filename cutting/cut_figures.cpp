@@ -9,7 +9,9 @@ const char* reason_of(const CutRefusal& refusal) {
       "the outer surface would no longer be a closed surface",
       "a piece too small for the mesh, or left joined by the blade, stays with the other side",
       "tissue on the blade's way from surface to surface stays joined",
-      "a hexahedron there is bent too much to become tetrahedra",
+      "a hexahedron there can't become tetrahedra: it is bent too much, or tetrahedra beside it "
+      "have "
+      "the other diagonal",
       "the stable step of elements there would fall below the floor",
       "nodes there are held",
       "too few nodes are there for valid elements",

@@ -14,7 +14,7 @@ struct CutRefusal {
     pinched,                    // a facet: the outer surface would be no 2-manifold
     chip,        // elements below a quarter of a mean edge cubed stay with the other side
     missed,      // an element, facet or edge on the blade's path that holds both sides together
-    bent,        // a facet at a hexahedron that is bent too much to become tetrahedra
+    bent,        // a hexahedron, or a facet at one, that can't become tetrahedra
     slow,        // plane cuts: elements there would have a stable step below the floor …
     held,        // … would need nodes that must not be displaced …
     no_room,     // … or too few nodes are there for valid ones

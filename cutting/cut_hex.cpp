@@ -22,6 +22,10 @@ bool has_hexahedra(const Mesh& mesh) {
          mesh.element_type.end();
 }
 
+bool was_hexahedral(const Mesh& mesh) {
+  return !mesh.split_hexahedra.empty() || has_hexahedra(mesh);
+}
+
 static std::array<std::int32_t, 4> tet_nodes(const Mesh& mesh, std::int32_t e,
                                              const std::array<int, 4>& tet) {
   std::array<std::int32_t, 4> node{};
@@ -84,7 +88,7 @@ std::vector<std::int32_t> whole_hexahedra(const Mesh& mesh) {
 }
 
 static bool is_bent(const HexTets& tets, std::span<const Vec3> x, std::int32_t hex) {
-  for (std::int32_t s = tets.first[hex]; s < tets.first[hex + 1]; ++s) {
+  for (std::int32_t s = tets.first[hex]; s < tets.end(hex); ++s) {
     const std::span<const std::int32_t> c = tets.mesh.corners(s);
     const std::array<std::int32_t, 4> node{c[0], c[1], c[2], c[3]};
     if (!(six_volumes(x, node) > least_volume_ratio * six_volumes(tets.mesh.X, node))) return true;
@@ -97,7 +101,7 @@ static std::vector<std::int32_t> nodes_of(const HexTets& tets,
                                           std::span<const std::int32_t> elements) {
   std::vector<std::int32_t> nodes;
   for (const std::int32_t e : elements)
-    for (std::int32_t s = tets.first[e]; s < tets.first[e + 1]; ++s)
+    for (std::int32_t s = tets.first[e]; s < tets.end(e); ++s)
       nodes.insert(nodes.end(), tets.mesh.corners(s).begin(), tets.mesh.corners(s).end());
   sort_unique(nodes);
   return nodes;
@@ -107,8 +111,7 @@ std::vector<std::int32_t> bent_nodes(const HexTets& tets, PresentPositions& posi
                                      std::span<const std::int32_t> element) {
   std::vector<std::int32_t> hex;
   for (const std::int32_t s : element)
-    if (const std::int32_t e = tets.source[s]; tets.first[e + 1] - tets.first[e] == n_hex_tets)
-      hex.push_back(e);
+    if (const std::int32_t e = tets.source[s]; tets.is_hexahedron(e)) hex.push_back(e);
   sort_unique(hex);
   positions.find(nodes_of(tets, hex));
   std::erase_if(hex, [&](std::int32_t e) { return !is_bent(tets, positions.x(), e); });
@@ -116,6 +119,7 @@ std::vector<std::int32_t> bent_nodes(const HexTets& tets, PresentPositions& posi
 }
 
 static void add_as_tets(const Mesh& body, std::int32_t e, HexTets& tets) {
+  tets.first[e] = tets.mesh.n_elements();
   for (const std::array<int, 4>& tet : hex_tets(body, e)) {
     const std::array<std::int32_t, 4> node = tet_nodes(body, e, tet);
     add_element(tets.mesh, ElementType::tet4, node, body.element_region[e]);
@@ -129,29 +133,46 @@ static void add_as_tets(const Mesh& body, std::int32_t e, HexTets& tets) {
   }
 }
 
+static void add_as_it_is(const Mesh& body, std::int32_t e, HexTets& tets) {
+  tets.first[e] = tets.mesh.n_elements();
+  add_element(tets.mesh, body.element_type[e], body.corners(e), body.element_region[e]);
+  tets.mesh.cut_facets.back() = body.cut_facets[e];
+  tets.source.push_back(e);
+}
+
+// (n_elements) Of split hexahedra, and -1; of the other tetrahedra of these, -2.
+static std::vector<std::int32_t> first_parts(const Mesh& body) {
+  std::vector<std::int32_t> first(body.element_type.size(), -1);
+  for (const SplitHexahedron& split : body.split_hexahedra) {
+    first[split.element] = split.first_part;
+    std::fill_n(first.begin() + split.first_part, n_hex_tets - 1, -2);
+  }
+  return first;
+}
+
 static HexTets make_hex_tets(const Mesh& body) {
   HexTets tets;
   tets.mesh.X = body.X;
   tets.mesh.copied_node = body.copied_node;
   tets.mesh.region_name = body.region_name;
-  const std::vector<std::int32_t> whole = whole_hexahedra(body);
+  tets.first.resize(body.element_type.size());
+  const std::vector<std::int32_t> whole = whole_hexahedra(body), parts = first_parts(body);
   for (std::int32_t e = 0; e < body.n_elements(); ++e) {
-    tets.first.push_back(tets.mesh.n_elements());
+    if (parts[e] < -1) continue;
     if (body.element_type[e] == ElementType::hex8 &&
         !std::binary_search(whole.begin(), whole.end(), e)) {
       add_as_tets(body, e, tets);
       continue;
     }
-    add_element(tets.mesh, body.element_type[e], body.corners(e), body.element_region[e]);
-    tets.mesh.cut_facets.back() = body.cut_facets[e];
-    tets.source.push_back(e);
+    add_as_it_is(body, e, tets);
+    for (std::int32_t k = 0; k < n_hex_tets - 1 && parts[e] >= 0; ++k)
+      add_as_it_is(body, parts[e] + k, tets);
   }
-  tets.first.push_back(tets.mesh.n_elements());
   return tets;
 }
 
 bool are_tets_of(const HexTets& tets, const Mesh& body) {
-  return tets.mesh.X.size() == body.X.size() && tets.first.size() == body.element_type.size() + 1;
+  return tets.mesh.X.size() == body.X.size() && tets.first.size() == body.element_type.size();
 }
 
 void update_hex_tets(const Mesh& body, HexTets& tets) {

@@ -16,15 +16,25 @@
 
 namespace trocar {
 
-// The body with its hexahedra as tetrahedra. Nodes are those of the body; elements are in the
-// order of the body's, six for a hexahedron, so that numbers stay when one is converted.
+// The body with its hexahedra as tetrahedra. Nodes are those of the body; elements are in the order
+// of the uncut body's, six for a hexahedron, so that numbers stay when one is converted.
 struct HexTets {
   Mesh mesh;
-  std::vector<std::int32_t> first;   // (n_elements of the body + 1) of its elements in `mesh`
+  std::vector<std::int32_t> first;   // (n_elements of the body) of its elements in `mesh`
   std::vector<std::int32_t> source;  // (n_elements) element of the body
+
+  // Whether element e of the body is a hexahedron that has its tetrahedra in `mesh`.
+  bool is_hexahedron(std::int32_t e) const {
+    const std::size_t next = static_cast<std::size_t>(first[e]) + 1;
+    return next < source.size() && source[next] == e;
+  }
+  // Behind the last of its elements in `mesh`.
+  std::int32_t end(std::int32_t e) const { return first[e] + (is_hexahedron(e) ? n_hex_tets : 1); }
 };
 
 bool has_hexahedra(const Mesh& mesh);
+// Or had some that are tetrahedra now.
+bool was_hexahedral(const Mesh& mesh);
 
 // Mesh::hex_split_rank of an uncut mesh, empty where all is zero. Whole stay hexahedra of which a
 // tetrahedron would allow less than 0.15 of their step.

@@ -31,10 +31,7 @@ struct Translation {
   // Of element s of tets.mesh in the body after the edit.
   std::int32_t number_after(std::int32_t s) const {
     const std::int32_t e = tets.source[s];
-    return numbers.after(e) + (is_split(e) ? s - tets.first[e] : 0);
-  }
-  bool is_hexahedron(std::int32_t e) const {  // that has tetrahedra
-    return tets.first[e + 1] - tets.first[e] == n_hex_tets;
+    return is_split(e) ? numbers.part(e, s - tets.first[e]) : e;
   }
 };
 
@@ -81,7 +78,7 @@ static std::array<Vec3, 2> position_after(const Translation& t, std::int32_t i) 
 static bool join_corners(const Translation& t, std::int32_t e, KeptHex& hex) {
   const std::span<const std::int32_t> corner = t.body.corners(e);
   hex.node.fill(-1);
-  for (std::int32_t s = t.tets.first[e]; s < t.tets.first[e + 1]; ++s)
+  for (std::int32_t s = t.tets.first[e]; s < t.tets.end(e); ++s)
     for (std::int32_t c = 0; c < 4; ++c) {
       const std::int32_t old = t.tets.mesh.corners(s)[static_cast<std::size_t>(c)];
       const auto a = std::find(corner.begin(), corner.end(), old) - corner.begin();
@@ -96,7 +93,7 @@ static bool join_corners(const Translation& t, std::int32_t e, KeptHex& hex) {
 // Its opened facets; false if one of them is open in one of its two triangles only.
 static bool join_facets(const Translation& t, std::int32_t e, KeptHex& hex) {
   std::array<int, 6> n_open{};
-  for (std::int32_t s = t.tets.first[e]; s < t.tets.first[e + 1]; ++s) {
+  for (std::int32_t s = t.tets.first[e]; s < t.tets.end(e); ++s) {
     const auto c = t.tets.mesh.corners(s);
     const std::uint8_t mask = cut_facets_after(t, s);
     for (int f = 0; f < 4 && mask != 0; ++f) {
@@ -123,7 +120,7 @@ static bool is_sound(const Translation& t, std::int32_t e, const KeptHex& hex) {
   if (least_gauss_ratio(X) < least_reference_ratio || least_gauss_ratio(x) < least_present_ratio)
     return false;
   double least = std::numeric_limits<double>::infinity();
-  for (std::int32_t s = t.tets.first[e]; s < t.tets.first[e + 1]; ++s) {
+  for (std::int32_t s = t.tets.first[e]; s < t.tets.end(e); ++s) {
     std::array<Vec3, 4> corner;
     for (std::size_t a = 0; a < 4; ++a) corner[a] = position_after(t, t.tets.mesh.corners(s)[a])[0];
     least = std::min(least, step_bound(corner, {0, 1, 2, 3}));
@@ -151,7 +148,7 @@ static std::vector<std::int32_t> touched_hexahedra(const Translation& t, const C
   for (const CutFacets& change : t.edit.cut_facets)
     element.push_back(t.tets.source[change.element]);
   sort_unique(element);
-  std::erase_if(element, [&](std::int32_t e) { return !t.is_hexahedron(e); });
+  std::erase_if(element, [&](std::int32_t e) { return !t.tets.is_hexahedron(e); });
   return element;
 }
 
@@ -178,17 +175,16 @@ static NodeMove move_in_body(const Translation& t, const NodeMove& move) {
 
 static void keep_hexahedron(const Translation& t, std::int32_t e, const KeptHex& hex,
                             MeshEdit& edit) {
-  const std::int32_t number = t.number_after(t.tets.first[e]);
   for (std::int32_t a = 0; a < 8; ++a)
     if (const std::int32_t node = hex.node[static_cast<std::size_t>(a)];
         node != t.body.corners(e)[static_cast<std::size_t>(a)])
-      edit.corners.push_back({number, a, node});
-  if (hex.cut_facets != t.body.cut_facets[e]) edit.cut_facets.push_back({number, hex.cut_facets});
+      edit.corners.push_back({e, a, node});
+  if (hex.cut_facets != t.body.cut_facets[e]) edit.cut_facets.push_back({e, hex.cut_facets});
 }
 
 static void take_over_tetrahedra(const Translation& t, MeshEdit& edit) {
   const auto is_tet = [&](std::int32_t s) {
-    return !t.is_hexahedron(t.tets.source[s]) || t.is_split(t.tets.source[s]);
+    return !t.tets.is_hexahedron(t.tets.source[s]) || t.is_split(t.tets.source[s]);
   };
   for (const CornerChange& change : t.edit.corners)
     if (is_tet(change.element))
@@ -215,7 +211,7 @@ static Mesh pieces_after(const Translation& t, std::int32_t e, const KeptHex* ke
     add_element(pieces, type, std::span(corner).first(node.size()));
   };
   if (kept != nullptr) add(ElementType::hex8, kept->node);
-  for (std::int32_t s = t.tets.first[e]; s < t.tets.first[e + 1] && kept == nullptr; ++s) {
+  for (std::int32_t s = t.tets.first[e]; s < t.tets.end(e) && kept == nullptr; ++s) {
     std::array<std::int32_t, 4> node{};
     for (std::int32_t c = 0; c < 4; ++c) node[static_cast<std::size_t>(c)] = node_after(t, s, c);
     add(ElementType::tet4, node);
@@ -239,13 +235,13 @@ static std::vector<DensityChange> density_changes(const Translation& t, const Cu
   for (const ElementSplit& split : t.splits) changed.push_back(split.element);
   sort_unique(changed);
   std::vector<double> mass_before(t.body.region_name.size(), 0), mass_after = mass_before;
-  std::vector<std::pair<std::int32_t, std::int32_t>> child;  // number after the edit, e
+  std::vector<std::pair<std::int32_t, std::int32_t>> child;  // e or its part, e
   for (const std::int32_t e : changed) {
     const std::int32_t region = t.body.element_region[e];
     mass_before[region] += t.body.density_factor[e] * element_volume(t.body, e, t.body.X);
     const Mesh pieces = pieces_after(t, e, find_kept(kept, e));
     for (std::int32_t k = 0; k < pieces.n_elements(); ++k) {
-      child.emplace_back(t.number_after(t.tets.first[e]) + k, e);
+      child.emplace_back(t.numbers.part(e, k), e);
       mass_after[region] += t.body.density_factor[e] * element_volume(pieces, k, pieces.X);
     }
   }
@@ -256,34 +252,22 @@ static std::vector<DensityChange> density_changes(const Translation& t, const Cu
       change.push_back(
           {number, t.body.density_factor[e] * (mass_before[region] / mass_after[region])});
   }
+  std::ranges::sort(change, {}, &DensityChange::element);
   return change;
 }
 
-// Of the tetrahedra, in the body after the edit.
-static void set_sources(std::span<const ElementSplit> splits, HexTets& tets) {
-  if (splits.empty()) return;
-  const SplitNumbers numbers(splits);
-  const auto count_up = [](auto begin, std::int32_t first) {
-    std::iota(begin, begin + n_hex_tets, first);
-  };
-  numbers.renumber(tets.source);
-  for (const ElementSplit& split : splits)
-    count_up(tets.source.begin() + tets.first[split.element], numbers.after(split.element));
-  spread_over_splits(splits, tets.first);
-  for (const ElementSplit& split : splits) {
-    const auto first = tets.first.begin() + numbers.after(split.element);
-    count_up(first, *first);
-  }
-}
-
 void edit_hex_tets(std::span<const ElementSplit> splits, const MeshEdit& edit, HexTets& tets) {
-  set_sources(splits, tets);
+  for (const ElementSplit& split : splits)
+    for (std::int32_t k = 1, s = tets.first[split.element] + 1; k < split.n_tets; ++k, ++s) {
+      tets.source[s] = static_cast<std::int32_t>(tets.first.size());
+      tets.first.push_back(s);
+    }
   apply_edit(edit, tets.mesh);
 }
 
 MeshEdit edit_of_body(const Mesh& body, PresentPositions& positions, const CutIndex& index,
                       const MeshEdit& edit, HexTets& tets, CutFigures& figures) {
-  Translation t{body, positions.x(), edit, tets, {}, SplitNumbers({})};
+  Translation t{body, positions.x(), edit, tets, {}, SplitNumbers({}, 0)};
   KeptHexahedra kept;
   const std::vector<std::int32_t> touched = touched_hexahedra(t, index);
   positions.find(nodes_of(body, touched));
@@ -294,7 +278,7 @@ MeshEdit edit_of_body(const Mesh& body, PresentPositions& positions, const CutIn
     else
       t.splits.push_back(split_of(t, e));
   }
-  t.numbers = SplitNumbers(t.splits);
+  t.numbers = SplitNumbers(t.splits, body.n_elements());
   MeshEdit result;
   result.splits = t.splits;
   for (const NodeMove& move : edit.moves) result.moves.push_back(move_in_body(t, move));

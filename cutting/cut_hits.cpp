@@ -287,6 +287,22 @@ static void cross_edges(const Mesh& mesh, std::span<const Vec3> x, const Band& b
   take_up_left(mesh, found, stroke);
 }
 
+// Whether the band goes through the hexahedron, not just beside one of its faces.
+static bool goes_through(const Mesh& mesh, std::span<const Vec3> x, const Band& band,
+                         std::int32_t e) {
+  constexpr double beside = 0.1;  // of an edge
+  const std::span<const std::int32_t> c = mesh.corners(e);
+  for (std::size_t a = 0; a < 4; ++a)
+    for (const auto& [p, q] :
+         {std::pair{a, (a + 1) % 4}, std::pair{a + 4, (a + 1) % 4 + 4}, std::pair{a, a + 4}}) {
+      Crossing crossing;
+      if (find_crossing(band, x[c[p]], x[c[q]], crossing) &&
+          std::abs(crossing.s - 0.5) < 0.5 - beside)
+        return true;
+    }
+  return false;
+}
+
 void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
               const BladeSweep& sweep, CutStroke& stroke) {
   std::vector<std::int32_t> begin = elements_at_edge(stroke);
@@ -313,6 +329,11 @@ void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
   const std::vector<std::int32_t> element = near_elements(mesh, index, positions, box, begin);
   remember_edge(mesh, index, x, seen, element, stroke);
   if (!band.triangle.empty()) cross_edges(mesh, x, band, element, stroke);
+  if (index.has_hexahedra) {
+    for (const std::int32_t e : near_hexahedra(mesh, index, positions, box, begin))
+      if (goes_through(mesh, positions.x(), band, e)) stroke.whole.push_back(e);
+    sort_unique(stroke.whole);
+  }
   if (goes_on(stroke)) stroke.is_amid = is_edge_amid(mesh, stroke);
 }
 

@@ -65,6 +65,7 @@ void update_index(const Mesh& mesh, CutIndex& index) {
     index.star_size[i] = around.offset[i + 1] - around.offset[i];
   index.star_element = std::move(around.element);
   find_surface_nodes(mesh, index);
+  index.has_hexahedra = std::ranges::count(mesh.element_type, ElementType::hex8) > 0;
   index.ring.assign(mesh.X.size(), no_ring);
   index.local.assign(mesh.X.size(), -1);
   index.across.assign(mesh.element_type.size(), {not_known, not_known, not_known, not_known});
@@ -72,9 +73,11 @@ void update_index(const Mesh& mesh, CutIndex& index) {
   index.step.clear();
   index.corner_node = mesh.corner_node.data();
   index.n_elements = mesh.element_type.size();
-  for (auto* values : {&index.star_begin, &index.star_size, &index.local, &index.star_element})
+  for (auto* values : {&index.star_begin, &index.star_size, &index.local, &index.star_element,
+                       &index.local_element})
     leave_room(*values);
   for (auto* values : {&index.ring, &index.is_surface}) leave_room(*values);
+  leave_room(index.across);
 }
 
 // What lies across the facets of element e will be looked for again.
@@ -134,14 +137,15 @@ struct NodePart {
 // Ascending by node, then by element.
 static std::vector<NodePart> parts_at_nodes(const MeshEdit& edit, const SplitNumbers& numbers) {
   std::vector<NodePart> parts;
-  for (const ElementSplit& split : edit.splits) {
-    std::int32_t e = numbers.after(split.element);
-    for (const std::array<std::int32_t, 4>& corner : split.tets()) {
-      for (const std::int32_t i : corner) parts.push_back({i, e, &corner});
-      ++e;
+  for (const ElementSplit& split : edit.splits)
+    for (std::int32_t k = 0; k < split.n_tets; ++k) {
+      const std::array<std::int32_t, 4>& corner = split.corner[static_cast<std::size_t>(k)];
+      for (const std::int32_t i : corner)
+        parts.push_back({i, numbers.part(split.element, k), &corner});
     }
-  }
-  std::ranges::stable_sort(parts, {}, &NodePart::node);
+  std::ranges::sort(parts, [](const NodePart& a, const NodePart& b) {
+    return std::pair(a.node, a.element) < std::pair(b.node, b.element);
+  });
   return parts;
 }
 
@@ -168,15 +172,15 @@ static void add_to_star(std::span<const NodePart> around, CutIndex& index) {
   index.star_size[node] = static_cast<std::int32_t>(pool.size()) - begin;
 }
 
-// Elements get other numbers, so all of the body's are gone through, but not sorted anew.
 static void split_in_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {
   if (edit.splits.empty()) return;
-  for (const ElementSplit& split : edit.splits)
+  for (const ElementSplit& split : edit.splits) {
+    forget_across(index, split.element);
     for (const std::int32_t i : mesh.corners(split.element))
       remove_from_star(index, i, split.element);
-  const SplitNumbers numbers(edit.splits);
-  numbers.renumber(index.star_element);
-  const std::vector<NodePart> parts = parts_at_nodes(edit, numbers);
+  }
+  const std::vector<NodePart> parts =
+      parts_at_nodes(edit, SplitNumbers(edit.splits, mesh.n_elements()));
   for (auto part = parts.begin(); part != parts.end();) {
     const auto end = std::ranges::find_if(part, parts.end(),
                                           [&](const NodePart& p) { return p.node != part->node; });
@@ -186,12 +190,12 @@ static void split_in_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& ind
     part = end;
   }
   index.n_elements += static_cast<std::size_t>(n_added(edit.splits));
-  index.across.assign(index.n_elements, {not_known, not_known, not_known, not_known});
+  index.across.resize(index.n_elements, {not_known, not_known, not_known, not_known});
   index.local_element.resize(index.n_elements, -1);
-  spread_over_splits(edit.splits, index.step);
-  for (const ElementSplit& split : edit.splits)
-    if (!index.step.empty())
-      std::fill_n(index.step.begin() + numbers.after(split.element), split.n_tets, 0.0);
+  if (!index.step.empty()) {
+    index.step.resize(index.n_elements, 0);
+    for (const ElementSplit& split : edit.splits) index.step[split.element] = 0;
+  }
   index.corner_node = nullptr;
 }
 

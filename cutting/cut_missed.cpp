@@ -146,6 +146,11 @@ std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut,
                                       const CutStroke& stroke) {
   const After after{mesh, cut};
   std::vector<CutRefusal> places;
+  for (const std::int32_t e : stroke.whole) {
+    Vec3 middle = Vec3::Zero();
+    for (const std::int32_t i : mesh.corners(e)) middle += mesh.X[i] / max_corners;
+    places.push_back({middle, CutRefusal::bent});
+  }
   add_unparted(cut, stroke, places);
   add_joined_facets(after, stroke, places);
   add_rims(after, stroke, places);

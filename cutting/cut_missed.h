@@ -10,9 +10,10 @@
 namespace trocar {
 
 // At the end of a stroke whose blade has not drawn back, which remembers `cut`, its last edit of
-// `mesh` (not applied yet), clear of its rim and of where the blade has stopped: elements that the
-// blade crossed and that got no side, facets between two sides that are not open, edges where both
-// lips of an opened facet hang together, and, if the blade has left, slices too thin to show.
+// `mesh` (not applied yet), clear of its rim and of where the blade has stopped: hexahedra that it
+// can't cut, elements that the blade crossed and that got no side, facets between two sides that
+// are not open, edges where both lips of an opened facet hang together, and, if the blade has left,
+// slices too thin to show.
 std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut, const CutStroke& stroke);
 
 }  // namespace trocar

@@ -16,6 +16,7 @@ struct NearSearch {
   CutIndex& index;
   std::span<const Vec3> x;
   const BandBox& box;
+  ElementType type;                   // wanted
   Box around;                         // of `box`
   std::vector<std::int32_t> seen;     // nodes with a mark in index.ring
   std::vector<std::int32_t> queue;    // nodes
@@ -68,7 +69,7 @@ static void search_star(NearSearch& search, std::int32_t i) {
     }
     if (common != 0 || (any & is_searched) != 0) continue;
     if (!element_box(search.mesh, e, search.x).overlaps(search.around)) continue;
-    if (search.mesh.element_type[e] == ElementType::tet4) search.element.push_back(e);
+    if (search.mesh.element_type[e] == search.type) search.element.push_back(e);
     for (const std::int32_t j : corner) put_in_queue(search, j);
   }
   mark_of(search, i) |= is_searched;
@@ -82,8 +83,17 @@ static std::vector<std::int32_t> run(NearSearch& search) {
 }
 
 static NearSearch search_for(const Mesh& mesh, CutIndex& index, const PresentPositions& positions,
-                             const BandBox& box) {
-  return {mesh, index, positions.x(), box, box_around(box), {}, {}, {}};
+                             const BandBox& box, ElementType type = ElementType::tet4) {
+  return {mesh, index, positions.x(), box, type, box_around(box), {}, {}, {}};
+}
+
+static std::vector<std::int32_t> run_from(std::span<const std::int32_t> begin,
+                                          PresentPositions& positions, NearSearch& search) {
+  for (const std::int32_t i : positions.nodes_near(search.around))
+    if (search.index.is_surface[i] != 0) put_in_queue(search, i);
+  for (const std::int32_t e : begin)
+    for (const std::int32_t i : search.mesh.corners(e)) put_in_queue(search, i);
+  return run(search);
 }
 
 std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index,
@@ -97,11 +107,14 @@ std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index,
                                         PresentPositions& positions, const BandBox& box,
                                         std::span<const std::int32_t> begin) {
   NearSearch search = search_for(mesh, index, positions, box);
-  for (const std::int32_t i : positions.nodes_near(search.around))
-    if (index.is_surface[i] != 0) put_in_queue(search, i);
-  for (const std::int32_t e : begin)
-    for (const std::int32_t i : mesh.corners(e)) put_in_queue(search, i);
-  return run(search);
+  return run_from(begin, positions, search);
+}
+
+std::vector<std::int32_t> near_hexahedra(const Mesh& mesh, CutIndex& index,
+                                         PresentPositions& positions, const BandBox& box,
+                                         std::span<const std::int32_t> begin) {
+  NearSearch search = search_for(mesh, index, positions, box, ElementType::hex8);
+  return run_from(begin, positions, search);
 }
 
 }  // namespace trocar

@@ -29,5 +29,9 @@ std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index,
 std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index,
                                         PresentPositions& positions, const BandBox& box,
                                         std::span<const std::int32_t> begin);
+// Hexahedra, likewise.
+std::vector<std::int32_t> near_hexahedra(const Mesh& mesh, CutIndex& index,
+                                         PresentPositions& positions, const BandBox& box,
+                                         std::span<const std::int32_t> begin);
 
 }  // namespace trocar

@@ -32,9 +32,9 @@ static PatchMesh make_patch_mesh(const CutPatch& patch) {
   p.mesh.cut_facets.assign(n, 0);
   p.mesh.corner_node.reserve(4 * n);
   p.across.neighbour.reserve(4 * n);
-  p.mesh.corner_offset.resize(n + 1);
-  for (std::size_t e = 0; e <= n; ++e) p.mesh.corner_offset[e] = static_cast<std::int32_t>(4 * e);
-  p.across.offset = p.mesh.corner_offset;
+  p.across.offset.resize(n + 1);
+  for (std::size_t e = 0; e <= n; ++e) p.across.offset[e] = static_cast<std::int32_t>(4 * e);
+  p.mesh.corner_offset.assign(p.across.offset.begin(), p.across.offset.end() - 1);
   for (const auto& corner : patch.corner)
     p.mesh.corner_node.insert(p.mesh.corner_node.end(), corner.begin(), corner.end());
   for (const auto& across : patch.across)

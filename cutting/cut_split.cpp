@@ -105,7 +105,7 @@ static void split_hit(const Inserted& after, const ElementSplit& split, const Cu
       if (s0 < 0 || s1 < 0 || s < std::min(s0, s1) - tolerance || s > std::max(s0, s1) + tolerance)
         continue;
       CutHit now = hit;
-      now.element = after.numbers.after(hit.element) + k;
+      now.element = after.numbers.part(hit.element, k);
       now.edge = e;
       now.is_first_plus = (s0 < s1) == hit.is_first_plus;
       hits.push_back(now);
@@ -116,38 +116,34 @@ static void follow_hits(const Inserted& after, std::vector<CutHit>& hits) {
   std::vector<CutHit> now;
   now.reserve(hits.size());
   for (const CutHit& hit : hits) {
-    if (const ElementSplit* const split = after.numbers.find(hit.element)) {
+    if (const ElementSplit* const split = after.numbers.find(hit.element))
       split_hit(after, *split, hit, now);
-      continue;
-    }
-    now.push_back(hit);
-    now.back().element = after.numbers.after(hit.element);
+    else
+      now.push_back(hit);
   }
   std::ranges::sort(now, {}, &CutHit::key);
   hits = std::move(now);
 }
 
-// Parts have what their element had.
+// Parts have what their element had. Those that come behind all elements do so in the elements'
+// order.
 template <class T>
 static void follow_values(const Inserted& after, std::vector<OfElement<T>>& values) {
-  std::vector<OfElement<T>> now;
-  now.reserve(values.size());
-  for (const OfElement<T>& entry : values) {
-    const ElementSplit* const split = after.numbers.find(entry.element);
-    const std::int32_t first = after.numbers.after(entry.element);
-    for (std::int32_t k = 0; k < (split != nullptr ? split->n_tets : 1); ++k)
-      now.push_back({first + k, entry.value});
+  for (std::size_t i = 0, n = values.size(); i < n; ++i) {
+    const OfElement<T> entry = values[i];
+    if (const ElementSplit* const split = after.numbers.find(entry.element))
+      for (std::int32_t k = 1; k < split->n_tets; ++k)
+        values.push_back({after.numbers.part(entry.element, k), entry.value});
   }
-  values = std::move(now);
 }
 
 static void follow_opened(const Inserted& after, std::vector<OfElement<std::uint8_t>>& opened) {
   follow_values(after, opened);
   for (OfElement<std::uint8_t>& entry : opened) {
-    const std::int32_t e = after.numbers.before(entry.element);
+    const std::int32_t e = after.numbers.whole(entry.element);
     const ElementSplit* const split = after.numbers.find(e);
     if (split == nullptr) continue;
-    const auto part = static_cast<std::size_t>(entry.element - after.numbers.after(e));
+    const auto part = static_cast<std::size_t>(after.numbers.place_in_whole(entry.element));
     entry.value = facets_of_part(after.mesh.corners(e), entry.value, after.edit.inserted,
                                  after.mesh.n_nodes(), split->corner[part]);
   }
@@ -171,7 +167,6 @@ static void follow_edge(const Inserted& after, std::vector<BladePoint>& edge) {
   for (BladePoint& point : edge) {
     if (point.element < 0) continue;
     const ElementSplit* const split = after.numbers.find(point.element);
-    point.element = after.numbers.after(point.element);
     if (split == nullptr) continue;
     double most = -std::numeric_limits<double>::infinity();
     std::int32_t best = 0;
@@ -181,7 +176,7 @@ static void follow_edge(const Inserted& after, std::vector<BladePoint>& edge) {
       most = depth;
       best = k;
     }
-    point.element += best;
+    point.element = after.numbers.part(point.element, best);
   }
 }
 
@@ -236,11 +231,11 @@ static void keep_edges(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke
 void split_stroke(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
   const std::vector<OfElement<std::int8_t>> sides = node_sides(mesh, stroke);
   follow_splits(mesh, edit, stroke);
-  const SplitNumbers numbers(edit.splits);
+  const SplitNumbers numbers(edit.splits, mesh.n_elements());
   std::vector<OfElement<std::int8_t>> part_side;  // of all parts, 0: not known
   for (const ElementSplit& split : edit.splits)
     for (std::int32_t k = 0; k < split.n_tets; ++k) {
-      const std::int32_t e = numbers.after(split.element) + k;
+      const std::int32_t e = numbers.part(split.element, k);
       part_side.push_back(
           {e, side_of(sides, mesh, stroke, split.corner[static_cast<std::size_t>(k)])});
       stroke.fresh.push_back(e);
@@ -257,7 +252,7 @@ void follow_splits(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
   for (const ElementSplit& split : edit.splits) whole.push_back(split.element);
   keep_steps(mesh, whole, stroke);
   keep_edges(mesh, edit, stroke);
-  const Inserted after{mesh, edit, SplitNumbers(edit.splits)};
+  const Inserted after{mesh, edit, SplitNumbers(edit.splits, mesh.n_elements())};
   for (CutKnown* known : all_known(stroke)) {
     follow_hits(after, known->hit);
     follow_values(after, known->side);

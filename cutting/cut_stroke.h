@@ -83,6 +83,7 @@ struct CutStroke : CutKnown {
   std::vector<std::int32_t> made_node;   // that this stroke put on crossed edges, ascending
   std::vector<std::int32_t> fresh;       // elements crossed since the last edit, ascending
   std::vector<std::int32_t> in_slit;     // elements that it crossed in an older slit, ascending
+  std::vector<std::int32_t> whole;       // hexahedra that it went through and can't cut, ascending
   std::vector<std::int32_t> unfinished;  // elements to look at again at the next edit, ascending
   std::vector<BladePoint> edge;          // where the blade's edge is in the tissue
   std::vector<std::int32_t> at_edge;     // elements that hold it, ascending

@@ -30,7 +30,7 @@ struct TetCutter::Front {
   CutTetOptions options;
   CutStroke stroke;
   CutIndex index;
-  HexTets tets;  // only of a body with hexahedra
+  HexTets tets;  // only of a body that has or had hexahedra
 
   MeshEdit advance(const Mesh& mesh, PresentPositions& positions, const CutConstraints& constraints,
                    const BladeSweep& sweep, bool is_last, CutFigures& figures);
@@ -194,7 +194,7 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
 
 void TetCutter::prepare(const Mesh& mesh) {
   Front& f = *front_;
-  if (is_index_of(f.index, mesh) || !has_hexahedra(mesh)) {  // none if it is the index of `mesh`
+  if (is_index_of(f.index, mesh) || !was_hexahedral(mesh)) {  // none if it is the index of `mesh`
     f.tets = {};
     return update_index(mesh, f.index);
   }
@@ -217,7 +217,7 @@ bool TetCutter::has_crossed_ahead(const Mesh& mesh, std::int32_t element, const 
   std::int32_t first = element, end = element + 1;
   if (!f.tets.mesh.X.empty() && are_tets_of(f.tets, mesh)) {
     first = f.tets.first[static_cast<std::size_t>(element)];
-    end = f.tets.first[static_cast<std::size_t>(element) + 1];
+    end = f.tets.end(element);
   }
   const auto is_one_ahead = [&](const std::vector<CutHit>& hits) {
     auto hit = std::ranges::lower_bound(hits, first, {}, &CutHit::element);

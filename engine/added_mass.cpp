@@ -57,9 +57,9 @@ void plan_mass_scaling(Simulation& s) {
   keep_clusters_whole(*s.mass_scaling, s.node_owner);
 }
 
-bool follow_mass_scaling(const ScalingEdit& edit, Simulation& s) {
+bool follow_mass_scaling(std::span<const std::int32_t> edited, Simulation& s) {
   if (!s.mass_scaling) return true;
-  edit_mass_scaling(s.mesh, s.materials, s.model.options, edit, *s.mass_scaling);
+  edit_mass_scaling(s.mesh, s.materials, s.model.options, edited, *s.mass_scaling);
   return are_clusters_whole(*s.mass_scaling, s.node_owner);
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "base/vec.h"
 #include "solver/mass_scaling.h"
@@ -21,8 +20,9 @@ struct AddedMass {
 // Finds the elements to be scaled, if the scene asks for it, and moves clusters that lie on several
 // ranks to one: before the part is made.
 void plan_mass_scaling(Simulation& s);
-// The same after an edit that the mesh has taken; false if a cluster would have to move.
-bool follow_mass_scaling(const ScalingEdit& edit, Simulation& s);
+// The same after an edit of these elements that the mesh has taken; false if a cluster would have
+// to move.
+bool follow_mass_scaling(std::span<const std::int32_t> edited, Simulation& s);
 // Measures it, if there is any, says it once, and notes an event when more than 5 % of the body's
 // mass is added and it was not before.
 void report_mass_scaling(Simulation& s);

@@ -12,7 +12,6 @@
 #include "engine/apply_cut_momentum.h"
 #include "engine/apply_cut_topology.h"
 #include "engine/frame_watch.h"
-#include "engine/mesh_measures.h"
 #include "engine/patch.h"
 #include "mesh/quality.h"
 
@@ -48,9 +47,10 @@ struct EditedElements {
   std::vector<double> volume;               // of `before`, before the edit [m^3]
 };
 
-EditedElements find_edited(const Mesh& mesh, const NodeCorners& corners, const MeshEdit& edit) {
-  EditedElements edited{.before = edited_elements(corners, edit), .after = {}, .volume = {}};
-  edited.after = SplitNumbers(edit.splits).all_after(edited.before);
+EditedElements find_edited(const Mesh& mesh, const NodeCorners& corners, const MeshEdit& edit,
+                           const SplitNumbers& numbers) {
+  EditedElements edited{.before = edited_elements(mesh, corners, edit), .after = {}, .volume = {}};
+  edited.after = numbers.all_after(edited.before);
   for (const std::int32_t e : edited.before)
     edited.volume.push_back(element_volume(mesh, e, mesh.X));
   return edited;
@@ -78,14 +78,13 @@ std::vector<std::int32_t> all_elements(std::int32_t n) {
 // Of these elements (ascending, before the edit), while part, model and state are those before it.
 // Collective.
 CarriedHistory carry_history(const Simulation& s, std::span<const std::int32_t> elements,
-                             const MeshEdit& edit) {
+                             const SplitNumbers& numbers) {
   CarriedHistory history{
       .copies = s.communicator->all_gather(copy_history(s.model, s.part, s.state, elements)),
       .origins = {}};
-  const SplitNumbers numbers(edit.splits);
   history.origins.element = numbers.all_after(elements);
   for (const std::int32_t e : history.origins.element)
-    history.origins.parent.push_back(numbers.before(e));
+    history.origins.parent.push_back(numbers.whole(e));
   history.origins.scale.assign(history.origins.element.size(), 1.0);
   return history;
 }
@@ -106,11 +105,9 @@ struct Known {
   std::int64_t at_step = 0;  // of the last search
 };
 
-void restore_known(const MeshEdit& edit, const Known& known, Simulation& s) {
+void restore_known(const Known& known, Simulation& s) {
   s.look.at_step = known.at_step;
   s.watch = known.watch;
-  for (std::int32_t* element : {&s.watch.stable_element, &s.watch.least_J_element})
-    if (*element >= 0) *element = SplitNumbers(edit.splits).after(*element);
 }
 
 // Whether the step is known from what is around the edit and what was known of the rest.
@@ -193,8 +190,7 @@ bool edit_whole(const MeshEdit& edit, const EditedElements& edited, GlobalState&
   apply_edit(edit, s.mesh);
   move_positions(edit, s.mesh, global);
   const bool has_new_owners = !edit.splits.empty() && rebalance(s);
-  return is_local && !has_new_owners &&
-         follow_mass_scaling({edit.splits, edited.before, edited.after}, s);
+  return is_local && !has_new_owners && follow_mass_scaling(edited.after, s);
 }
 
 // Of the edited elements and their nodes.
@@ -268,7 +264,8 @@ static void scatter_edited(Simulation& s, std::size_t n_kept, std::span<const st
 
 void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutRecord& record) {
   if (s.corners.first.empty()) s.corners = node_corners(s.mesh);
-  const EditedElements edited = find_edited(s.mesh, s.corners, edit);
+  const SplitNumbers numbers(edit.splits, s.mesh.n_elements());
+  const EditedElements edited = find_edited(s.mesh, s.corners, edit, numbers);
   std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited.before);
   find_nodes(s, united(nodes, nodes_of(s.mesh, hosts_of(edit))), *s.communicator, global);
   const Before before = measure_before(s, edited.before, nodes, global);
@@ -289,7 +286,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   if (!is_local) find_all_nodes(s, global);
   if (!is_local && is_viscous(s.materials)) with_history = all_elements(n_elements);
   CarriedHistory history;
-  if (is_viscous(s.materials)) history = carry_history(s, with_history, edit);
+  if (is_viscous(s.materials)) history = carry_history(s, with_history, numbers);
   nodes = united(nodes, nodes_of(s.mesh, edited.after));
   is_step_local &=
       is_local ? update_topology(s, {edit.splits, edited.after, nodes}) : rebuild_all(nodes, s);
@@ -313,7 +310,7 @@ void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutReco
   find_scales(s.mesh, edited, history.origins);
   restore_history(s.model, s.part, history.copies, history.origins, s.state);
   if (is_step_local) {
-    restore_known(edit, known, s);
+    restore_known(known, s);
     watch_edit(s, edited.after, {global, history.copies, &history.origins});
     if (s.energy) update_volume_change(s.model, s.neighbours, s.state, s.scratch);
   } else {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/on_root.h"
 #include "engine/build.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/quality.h"
@@ -77,7 +78,7 @@ bool changes_averages(const Simulation& s, const TopologyEdit& edit) {
 
 bool keeps_owners(const Simulation& s, const MeshEdit& edit) {
   const auto owner = [&](std::int32_t i) { return s.node_owner[static_cast<std::size_t>(i)]; };
-  const SplitNumbers numbers(edit.splits);
+  const SplitNumbers numbers(edit.splits, s.mesh.n_elements());
   return std::all_of(edit.corners.begin(), edit.corners.end(), [&](const CornerChange& change) {
     return owner(change.node) == owner(node_before(numbers, s.mesh, change));
   });
@@ -89,18 +90,19 @@ bool update_topology(Simulation& s, const TopologyEdit& edit) {
   const SubMesh around =
       make_sub_mesh(s.mesh, elements_around(s.corners, nodes_of(s.mesh, touching)));
   update_mass(around, edit.nodes, s);
-  SplitNumbers(edit.splits).renumber(s.surface.element);
   update_surface(s.mesh, {edit.nodes, touching, around}, s.surface);
   update_pieces(around, s);
   const std::vector<std::int32_t> place_before =
       split_elements(s.mesh, s.node_owner, edit.splits, s.part);
-  if (holds_one(s.part, edit.elements) || changes_averages(s, edit))
-    update_part_and_model(s, {edit.elements, edit.nodes, touching, place_before});
-  else
-    follow_elsewhere(s);
+  on_every_rank(*s.communicator, [&] {
+    if (holds_one(s.part, edit.elements) || changes_averages(s, edit))
+      update_part_and_model(s, {edit.elements, edit.nodes, touching, place_before});
+    else
+      follow_elsewhere(s);
+  });
   if (s.sleep) fit_sleep(s);
   report_mass_scaling(s);
-  const bool keeps_steps = follow_local_steps(edit.splits, edit.elements, edit.nodes, s);
+  const bool keeps_steps = follow_local_steps(edit.elements, edit.nodes, s);
   update_surface_view(s.surface, s.node_owner, s.part, s.view);
   follow_model(s);
   return keeps_steps;

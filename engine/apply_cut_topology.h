@@ -17,9 +17,8 @@ bool keeps_owners(const Simulation& s, const MeshEdit& edit);
 
 struct TopologyEdit {
   std::span<const ElementSplit> splits;
-  std::span<const std::int32_t>
-      elements;                         // edited ones, by their numbers after the edit, ascending
-  std::span<const std::int32_t> nodes;  // all their corners, before and after it, ascending
+  std::span<const std::int32_t> elements;  // edited ones and their parts, ascending
+  std::span<const std::int32_t> nodes;     // all their corners, before and after it, ascending
 };
 // Collective. The result is rebuild_topology's, but for the state and the boxes of elements that
 // this one forgets, and for local steps that were given up. Returns follow_local_steps'.

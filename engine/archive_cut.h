@@ -48,7 +48,7 @@ template <class Archive>
 void visit(Archive& a, CutStroke& s) {
   visit(a, static_cast<CutKnown&>(s));
   a(s.earlier_hit, s.left, s.beside, s.taken, s.step, s.whole_edge, s.made_node, s.fresh, s.in_slit,
-    s.unfinished, s.edge, s.at_edge, s.rim, s.is_amid, s.mean_edge, s.swept);
+    s.whole, s.unfinished, s.edge, s.at_edge, s.rim, s.is_amid, s.mean_edge, s.swept);
 }
 template <class Archive>
 void visit(Archive& a, CutRefusal& r) {

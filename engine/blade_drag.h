@@ -4,7 +4,6 @@
 // forward.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,7 +11,6 @@
 #include "base/exact_sum.h"
 #include "base/vec.h"
 #include "engine/locate.h"
-#include "engine/tool_path.h"
 #include "mesh/mesh.h"
 #include "mesh/partition.h"
 #include "solver/step.h"

@@ -8,6 +8,8 @@ namespace trocar {
 
 namespace {
 
+constexpr double rounding = 1e-6;  // edges: elements hold points that lie on their faces
+
 // Of this rank's nodes, as largest_way.
 double largest_own_way(const Simulation& s) {
   double most = 0;
@@ -35,14 +37,18 @@ double begin_positions(Simulation& s) {
   return 0;
 }
 
-std::vector<std::int32_t> BodyPositions::elements_around(const Box& box) {
-  std::vector<std::int32_t> elements = elements_near(box, way_, s_.boxes);
+std::vector<std::int32_t> BodyPositions::elements_near(const Box& box) {
+  const double margin = rounding * s_.edge_length;
+  std::vector<std::int32_t> elements = trocar::elements_near(box, way_ + margin, s_.boxes);
   find(nodes_of(s_.mesh, elements));
+  std::erase_if(elements, [&](std::int32_t e) {
+    return !element_box(s_.mesh, e, x()).overlaps(box, margin);
+  });
   return elements;
 }
 
 std::vector<std::int32_t> BodyPositions::nodes_near(const Box& box) {
-  return nodes_of(s_.mesh, elements_around(box));
+  return nodes_of(s_.mesh, elements_near(box));
 }
 
 }  // namespace trocar

@@ -21,8 +21,8 @@ class BodyPositions final : public PresentPositions {
   std::span<const Vec3> x() const override { return s_.cut_state.x; }
   void find(std::span<const std::int32_t> nodes) override { group_.find(nodes); }
   std::vector<std::int32_t> nodes_near(const Box& box) override;
-  // The elements whose nodes these are.
-  std::vector<std::int32_t> elements_around(const Box& box);
+  // Those whose boxes overlap this one, and so the same whatever the ranks and the age of s.boxes.
+  std::vector<std::int32_t> elements_near(const Box& box);
 
  private:
   Simulation& s_;

@@ -128,6 +128,22 @@ CutPlaneOptions plane_cut_options(const SceneCutting& cutting, const Mesh& mesh)
   return options;
 }
 
+// For what `n` values become by the nodes and elements that cuts add.
+template <class T>
+void leave_room(std::size_t n, std::vector<T>& values) {
+  values.reserve(n + n / 8);
+}
+
+void leave_room_in_mesh(Mesh& mesh) {
+  leave_room(mesh.X.size(), mesh.X);
+  for (auto* values : {&mesh.corner_offset, &mesh.corner_node, &mesh.element_region})
+    leave_room(values->size(), *values);
+  leave_room(mesh.element_type.size(), mesh.element_type);
+  leave_room(mesh.cut_facets.size(), mesh.cut_facets);
+  leave_room(mesh.density_factor.size(), mesh.density_factor);
+  leave_room(mesh.fibre.size(), mesh.fibre);
+}
+
 void build_cuts(Simulation& s) {
   const SceneCutting& cutting = s.scene.cutting;
   for (std::size_t k = 0; k < s.tools.size(); ++k) {
@@ -136,7 +152,9 @@ void build_cuts(Simulation& s) {
         CutStage{.tool = static_cast<std::int32_t>(k), .tet = TetCutter(tet_cut_options(cutting))});
     if (s.mesh.dimension() == 2) s.cuts.back().plane = plane_cut_options(cutting, s.mesh);
   }
-  if (!s.cuts.empty()) warn_of_whole_hexahedra(s);
+  if (s.cuts.empty()) return;
+  warn_of_whole_hexahedra(s);
+  leave_room_in_mesh(s.mesh);
   prepare_cutters(s);
 }
 
@@ -161,6 +179,7 @@ void build_instruments(const LoadedScene& loaded, Simulation& s) {
   s.contact->motion.resize(s.tools.size());
   s.contact_reach = 0.5 * edge;
   warn_of_hasty_jaws(s.scene);
+  tell_of_bulges(s.tools, edge);
   build_cuts(s);
 }
 
@@ -197,29 +216,17 @@ void prepare_first_cut(Simulation& s) {
   s.boxes = make_element_boxes(s.mesh, s.mesh.X);
 }
 
-// For what `n` values become by the nodes and elements that cuts add.
-template <class T>
-void leave_room(std::size_t n, std::vector<T>& values) {
-  values.reserve(n + n / 8);
-}
-
 // So that no edit moves all that is known of the nodes and elements.
 void leave_room_for_edits(Simulation& s) {
   const std::size_t n = s.mesh.X.size();
-  for (auto* values : {&s.mesh.X, &s.boxes.x, &s.view.x, &s.cut_state.x}) leave_room(n, *values);
+  for (auto* values : {&s.boxes.x, &s.view.x, &s.cut_state.x}) leave_room(n, *values);
   for (auto* values : {&s.cut_state.u, &s.cut_state.v, &s.state.u, &s.state.v, &s.scratch.force})
     leave_room(3 * n, *values);
   for (auto* values : {&s.node_owner, &s.corners.first, &s.part.node_local, &s.part.node_global})
     leave_room(n, *values);
   leave_room(n, s.mass);
-  if (!has_hexahedra(s.mesh)) return;
-  Mesh& mesh = s.mesh;
-  for (auto* values : {&mesh.corner_offset, &mesh.corner_node, &mesh.element_region,
-                       &s.corners.next, &s.corners.element, &s.boxes.order, &s.boxes.leaf})
+  for (auto* values : {&s.corners.next, &s.corners.element, &s.boxes.leaf})
     leave_room(values->size(), *values);
-  leave_room(mesh.element_type.size(), mesh.element_type);
-  leave_room(mesh.cut_facets.size(), mesh.cut_facets);
-  leave_room(mesh.density_factor.size(), mesh.density_factor);
 }
 
 // What is wrong now is so with the tissue as it was given.

@@ -68,18 +68,21 @@ std::vector<Vec3> get_points(ByteReader& reader) {
   return points;
 }
 
-// What validate() relies on: it walks along the corners of known element types.
+// What Mesh::corners relies on.
 void check_arrays(const Mesh& mesh) {
   for (const ElementType type : mesh.element_type)
     if (static_cast<int>(type) >= n_element_types)
       throw InputError("stored mesh has an element of unknown type " +
                        std::to_string(static_cast<int>(type)));
-  if (mesh.corner_offset.empty() ||
-      mesh.corner_offset.back() != static_cast<std::int64_t>(mesh.corner_node.size()))
-    throw InputError("stored mesh has corners that belong to no element");
+  bool is_sound = mesh.corner_offset.size() == mesh.element_type.size();
+  for (std::size_t e = 0; e < mesh.element_type.size() && is_sound; ++e)
+    is_sound =
+        mesh.corner_offset[e] >= 0 &&
+        mesh.corner_offset[e] + n_corners(mesh.element_type[e]) <= std::ssize(mesh.corner_node);
+  if (!is_sound) throw InputError("stored mesh has elements whose corners it has not");
 }
 
-void check_copies(const Mesh& mesh) {
+void check_history_of_cuts(const Mesh& mesh) {
   const auto n_uncut =
       static_cast<std::int64_t>(mesh.X.size()) - static_cast<std::int64_t>(mesh.copied_node.size());
   // A copy is of the uncut mesh or of a node on an edge, which names itself.
@@ -95,6 +98,10 @@ void check_copies(const Mesh& mesh) {
   const auto n_ranks = static_cast<std::int64_t>(mesh.hex_split_rank.size());
   if (n_ranks != 0 && n_ranks != n_uncut)
     throw InputError("stored mesh has ranks of nodes that it has not");
+  for (const SplitHexahedron& split : mesh.split_hexahedra)
+    if (split.element < 0 || split.element >= split.first_part ||
+        split.first_part > mesh.n_elements() - (n_hex_tets - 1))
+      throw InputError("stored mesh has tetrahedra of hexahedra that it has not");
 }
 
 }  // namespace
@@ -114,14 +121,11 @@ void put_mesh(ByteWriter& writer, const Mesh& mesh) {
   for (const NodeSet& set : mesh.node_sets) {
     writer.put_text(set.name);
     writer.put_vector(set.node);
+    writer.put_vector(set.left_out);
   }
   writer.put_vector(mesh.copied_node);
-  const bool leaves_out =
-      std::ranges::any_of(mesh.node_sets, [](const NodeSet& set) { return !set.left_out.empty(); });
-  // Else as it ever was.
-  if (leaves_out || !mesh.hex_split_rank.empty()) writer.put_vector(mesh.hex_split_rank);
-  if (leaves_out)
-    for (const NodeSet& set : mesh.node_sets) writer.put_vector(set.left_out);
+  writer.put_vector(mesh.hex_split_rank);
+  writer.put_vector(mesh.split_hexahedra);
 }
 
 std::size_t n_bytes_of(const Mesh& mesh) {
@@ -152,16 +156,16 @@ Mesh mesh_from_bytes(std::span<const std::byte> bytes) {
   check_arrays(mesh);
   mesh.region_name.resize(reader.get_count(8));
   for (std::string& name : mesh.region_name) name = reader.get_text();
-  mesh.node_sets.resize(reader.get_count(16));
+  mesh.node_sets.resize(reader.get_count(24));
   for (NodeSet& set : mesh.node_sets) {
     set.name = reader.get_text();
     set.node = reader.get_vector<std::int32_t>();
+    set.left_out = reader.get_vector<FacetNodes>();
   }
   mesh.copied_node = reader.get_vector<std::int32_t>();
-  if (!reader.is_at_end()) mesh.hex_split_rank = reader.get_vector<std::uint8_t>();
-  if (!reader.is_at_end())
-    for (NodeSet& set : mesh.node_sets) set.left_out = reader.get_vector<FacetNodes>();
-  check_copies(mesh);
+  mesh.hex_split_rank = reader.get_vector<std::uint8_t>();
+  mesh.split_hexahedra = reader.get_vector<SplitHexahedron>();
+  check_history_of_cuts(mesh);
   return mesh;
 }
 

@@ -7,10 +7,8 @@
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/log.h"
-#include "engine/apply_cut.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
-#include "engine/mesh_measures.h"
 #include "engine/version.h"
 #include "solver/history.h"
 #include "solver/step.h"
@@ -177,6 +175,7 @@ FrameStart start_of_frame(const Simulation& s) {
           .is_open = s.holds.is_open,
           .look = without_stiffening(s.look),
           .sleep = s.sleep,
+          .has_local_steps = s.multirate != nullptr,
           .n_events = s.log.events.size(),
           .n_roll_backs = s.log.n_roll_backs,
           .searches = s.log.searches};
@@ -191,6 +190,7 @@ Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start) {
   c.step_scale = start.step_scale;
   c.holds = start.holds;
   c.is_open = start.is_open;
+  c.has_local_steps = start.has_local_steps;
   c.tally.events.resize(start.n_events);
   c.tally.n_roll_backs = start.n_roll_backs;
   c.tally.searches = start.searches;

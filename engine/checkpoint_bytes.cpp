@@ -11,7 +11,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 26;
+constexpr std::uint32_t checkpoint_format = 27;
 
 static void visit(Saver& a, std::shared_ptr<const Mesh>& mesh) {
   a.writer().put(std::uint64_t{n_bytes_of(*mesh)});
@@ -35,7 +35,7 @@ static void visit(Archive& a, CutRecord& r) {
 template <class Archive>
 static void visit(Archive& a, CutMemory& m) {
   a(m.stroke, m.plane_path, m.plane_tip, m.is_in_stroke, m.n_idle_frames, m.has_told_beside,
-    m.strokes, m.engaged, m.tissue_velocity, m.knows_tissue);
+    m.strokes, m.is_engaged, m.tissue_velocity, m.knows_tissue);
 }
 template <class Archive>
 static void visit(Archive& a, Hold& h) {

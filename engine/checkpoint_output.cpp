@@ -1,8 +1,8 @@
 #include "engine/checkpoint_output.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "base/check.h"
 #include "base/on_root.h"
 #include "engine/checkpoint_file.h"
 
@@ -22,6 +22,7 @@ std::vector<OutputMark> output_marks(const Simulation& s, const Outputs& outputs
 }
 
 void save(Checkpoint checkpoint, Outputs& outputs) {
+  CHECK(!outputs.folder.empty());
   for (const auto& recording : outputs.recordings)
     if (recording) recording->sync();
   replace_file(outputs.folder + "/" + checkpoint_name, [&](const ByteSink& sink) {

@@ -2,7 +2,6 @@
 // beginning, and looked at anew in every substep.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <vector>

@@ -47,10 +47,6 @@ struct Motion {
   }
 };
 
-Vec3 middle_of(const std::vector<Vec3>& edge) {
-  return 0.5 * (edge.front() + edge.back());
-}
-
 Motion motion_of(const Simulation& s, const FrameSpan& span, const CutStage& stage) {
   Motion motion{s, span, stage, Vec3::Zero(), Vec3::Zero()};
   const Vec3 way = middle_of(motion.edge_at(span.t1)) - middle_of(motion.edge_at(span.t0));
@@ -149,9 +145,7 @@ void add_pieces(const Motion& motion, BodyPositions& positions, const std::vecto
   Box box = box_around(edge);
   box.low.array() -= s.edge_length;
   box.high.array() += s.edge_length;
-  std::vector<std::int32_t> near = positions.elements_around(box);
-  std::erase_if(
-      near, [&](std::int32_t e) { return !element_box(s.mesh, e, positions.x()).overlaps(box); });
+  const std::vector<std::int32_t> near = positions.elements_near(box);
   for (SegmentPiece& piece : locate_edge(s, positions, edge)) {
     const Place place = place_of(s.mesh, positions.x(), piece.middle, along, ahead);
     if (is_open(motion, near, place) || is_swept(motion, piece.middle.element, place)) continue;
@@ -195,7 +189,7 @@ bool is_near(const Simulation& s, const Box& blade) {
 CutFront find_front(const Simulation& s, const FrameSpan& span, const CutStage& stage,
                     BodyPositions& positions, double reach) {
   Motion motion = motion_of(s, span, stage);
-  positions.elements_around(box_of(motion, reach));  // asks for all nodes at once
+  positions.elements_near(box_of(motion, reach));  // asks for all nodes at once
   const std::optional<Vec3> tissue = tissue_velocity_of(motion, positions, reach);
   motion.tissue_velocity = tissue.value_or(Vec3::Zero());
   CutFront front{

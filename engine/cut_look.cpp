@@ -17,7 +17,7 @@ constexpr double tip_spacing = 0.25;  // of places on the way of an end, mean ed
 // Of points within a frame's reach of a blade.
 std::vector<Location> locate_beside(const Simulation& s, BodyPositions& positions,
                                     std::span<const Vec3> points) {
-  const std::vector<std::int32_t> near = positions.elements_around(box_around(points));
+  const std::vector<std::int32_t> near = positions.elements_near(box_around(points));
   return locate_points(s.mesh, positions.x(), points, near);
 }
 
@@ -109,7 +109,7 @@ std::vector<SegmentPiece> locate_edge(const Simulation& s, BodyPositions& positi
     return {{.middle = at, .length = s.scene.tissue.thickness}};
   }
   const std::array<Vec3, 2> ends = {edge.front(), edge.back()};
-  const std::vector<std::int32_t> near = positions.elements_around(box_around(ends));
+  const std::vector<std::int32_t> near = positions.elements_near(box_around(ends));
   return locate_segment(s.mesh, positions.x(), ends, near);
 }
 

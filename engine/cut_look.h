@@ -33,6 +33,10 @@ void visit(Archive& a, BladeLook& l) {
     l.figures, l.left);
 }
 
+inline Vec3 middle_of(const std::vector<Vec3>& edge) {
+  return 0.5 * (edge.front() + edge.back());
+}
+
 // The cutting edge, of a plane body's blade the tip alone.
 std::vector<Vec3> edge_in_body(const Simulation& s, const Tool& tool, double time);
 

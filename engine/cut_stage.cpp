@@ -54,22 +54,17 @@ void note_body(const Simulation& s, CutRecord& record) {
   record.scene_step_ratio = s.watch.stable_step / record.scene_step_before;
 }
 
-Vec3 middle(const std::vector<Vec3>& points) {
-  Vec3 sum = Vec3::Zero();
-  for (const Vec3& point : points) sum += point;
-  return sum / static_cast<double>(points.size());
-}
-
 Vec3 way_of_middle(const BladeSweep& sweep) {
-  return middle(sweep.after) - middle(sweep.before);
+  return middle_of(sweep.after) - middle_of(sweep.before);
 }
 
 // What sticks to the blade or springs back from it for a moment is not what it moves against: that
 // is how the tissue came, and what it does in the long run.
-void follow_tissue(const Simulation& s, double time, bool was_engaged, CutStage& stage) {
-  if (stage.engaged.empty()) return;
+void follow_tissue(const Simulation& s, double time, bool was_engaged, const BladeLook& look,
+                   CutStage& stage) {
+  if (look.engaged.empty()) return;
   const double share = was_engaged || stage.knows_tissue ? share_of_frame(time) : 1;
-  stage.tissue_velocity += share * (velocity_along(s, stage.engaged) - stage.tissue_velocity);
+  stage.tissue_velocity += share * (velocity_along(s, look.engaged) - stage.tissue_velocity);
 }
 
 // Whether a scalpel goes more than 60 degrees aside of where its edge faces, or backwards, and as
@@ -154,6 +149,17 @@ void note_energy_change(Simulation& s, const CutRecord& record) {
                    "slower pull helps");
 }
 
+// A floor under the stable step, supports and sharp edges keep nodes off the blade's way.
+void note_deviation(Simulation& s, const CutRecord& record) {
+  constexpr double far = 0.25;  // edges
+  if (record.mean_deviation > far * record.mean_edge)
+    note_event(
+        s, record.end,
+        record.tool + "'s cut lies " + short_text(1e3 * record.mean_deviation) +
+            " mm beside its way in the mean, of edges of " + short_text(1e3 * record.mean_edge) +
+            " mm (deviation_mean_m): a lower cutting.least_step_ratio or a finer mesh helps");
+}
+
 // What the group's cutters have made, on all ranks.
 void take_over(Simulation& s, const CutGroup& group, const BladeLook& look, CutStage& stage) {
   stage.keepers = group.is_everyone() ? std::vector<int>() : group.ranks();
@@ -190,14 +196,15 @@ void locate_edge_anew(Simulation& s, const BladeWay& blade, double& way, CutStag
   if (s.boxes.is_empty()) way = begin_positions(s);
   const CutGroup group(s, ranks_around(s, blade.box, way, stage));
   BodyPositions positions(s, group, way);
-  stage.engaged = found_by<std::vector<SegmentPiece>>(
-      group, [&] { return locate_edge(s, positions, blade.sweep.after); });
+  stage.is_engaged = !found_by<std::vector<SegmentPiece>>(group, [&] {
+                        return locate_edge(s, positions, blade.sweep.after);
+                      }).empty();
 }
 
 // Whether the blade is in a stroke then.
 bool take_up_stroke(Simulation& s, const BladeWay& blade, const BladeLook& look, CutStage& stage) {
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
-  stage.engaged = look.engaged;
+  stage.is_engaged = !look.engaged.empty();
   if (!stage.is_in_stroke) {
     if (!look.has_met) return false;
     start_stroke(stage, tool, blade.span.t1);
@@ -214,8 +221,8 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
   const FrameSpan& span = blade.span;
   stage.knows_tissue = stage.beside.has_value();
   if (stage.beside) stage.tissue_velocity = *stage.beside;
-  const bool was_engaged = stage.is_in_stroke && !stage.engaged.empty();
-  stage.engaged.clear();
+  const bool was_engaged = stage.is_in_stroke && stage.is_engaged;
+  stage.is_engaged = false;
   const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
   stage.has_told_beside = stage.has_told_beside && is_cutting(tool, span.t0, span.t1);
   if (!blade.is_near && !stage.is_in_stroke) return;
@@ -228,7 +235,7 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
   const auto look = found_by<BladeLook>(
       group, [&] { return look_and_cut(s, blade, was_engaged, stage, positions); });
   if (!take_up_stroke(s, blade, look, stage)) return;
-  follow_tissue(s, span.t1 - span.t0, was_engaged, stage);
+  follow_tissue(s, span.t1 - span.t0, was_engaged, look, stage);
   const std::int64_t n_edits = stage.strokes.back().n_edits;
   if (s.mesh.dimension() == 2)
     cut_along_tip(s, stage, blade.sweep, look.is_last);
@@ -248,6 +255,7 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
   if (!look.is_last) return;
   note_askew(s, record);
   note_refusals(s, record);
+  note_deviation(s, record);
   note_energy_change(s, record);
   end_stroke(stage);
 }

@@ -2,7 +2,6 @@
 // simulation.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,8 +24,7 @@ struct CutProgress {
   int n_idle_frames = 0;
   bool has_told_beside = false;  // of tissue beside open jaws, in this closing
   std::vector<CutRecord> strokes;
-  // Of the edge, what is inside the tissue at the frame's end.
-  std::vector<SegmentPiece> engaged;
+  bool is_engaged = false;              // some of the edge is in the tissue at the frame's end
   Vec3 tissue_velocity = Vec3::Zero();  // around the edge, in the stroke so far [m/s]
   bool knows_tissue = false;            // from before it met the blade
 };

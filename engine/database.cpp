@@ -102,25 +102,27 @@ Statement::~Statement() {
   sqlite3_finalize(handle_->statement);
 }
 
-Statement& Statement::bind(int k, std::int64_t value) {
-  sqlite3_bind_int64(handle_->statement, k + 1, value);
+Statement& Statement::bound(int result) {
+  if (result != SQLITE_OK) database_.fail(sqlite3_errmsg(database_.handle_->connection));
   return *this;
+}
+
+Statement& Statement::bind(int k, std::int64_t value) {
+  return bound(sqlite3_bind_int64(handle_->statement, k + 1, value));
 }
 
 Statement& Statement::bind(int k, double value) {
-  sqlite3_bind_double(handle_->statement, k + 1, value);
-  return *this;
+  return bound(sqlite3_bind_double(handle_->statement, k + 1, value));
 }
 
 Statement& Statement::bind(int k, const std::string& text) {
-  sqlite3_bind_text(handle_->statement, k + 1, text.c_str(), static_cast<int>(text.size()),
-                    SQLITE_TRANSIENT);
-  return *this;
+  return bound(sqlite3_bind_text(handle_->statement, k + 1, text.c_str(),
+                                 static_cast<int>(text.size()), SQLITE_TRANSIENT));
 }
 
 Statement& Statement::bind(int k, std::span<const std::byte> bytes) {
-  sqlite3_bind_blob64(handle_->statement, k + 1, bytes.data(), bytes.size(), SQLITE_STATIC);
-  return *this;
+  return bound(
+      sqlite3_bind_blob64(handle_->statement, k + 1, bytes.data(), bytes.size(), SQLITE_STATIC));
 }
 
 bool Statement::step() {

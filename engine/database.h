@@ -21,6 +21,7 @@ class Statement {
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
 
+  // Throws like step().
   Statement& bind(int k, std::int64_t value);
   Statement& bind(int k, double value);
   Statement& bind(int k, const std::string& text);
@@ -37,6 +38,8 @@ class Statement {
   struct Handle;
   Database& database_;
   std::unique_ptr<Handle> handle_;
+
+  Statement& bound(int result);
 };
 
 class Database {

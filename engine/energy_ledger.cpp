@@ -255,8 +255,8 @@ void note_balance(Simulation& s) {
                  (s.tools.empty()
                       ? "Steps near the limit do this (solver.step_factor)"
                       : "An instrument that goes through the surface does this (a slower path, a "
-                        "larger tip or a finer mesh helps), and so do steps near the limit "
-                        "(solver.step_factor)"));
+                        "larger tip or a finer mesh helps), stretched tissue that a grasper lets "
+                        "go, and steps near the limit (a smaller solver.step_factor)"));
 }
 
 }  // namespace trocar

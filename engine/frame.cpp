@@ -6,9 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/log.h"
 #include "base/options.h"
-#include "engine/apply_cut.h"
 #include "engine/checkpoint_output.h"
 #include "engine/contact_step.h"
 #include "engine/cut_front.h"

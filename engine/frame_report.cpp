@@ -162,13 +162,13 @@ void note_refusals(Simulation& s, const CutRecord& record) {
                  reason_of(first) + (is_one ? "" : " (all: `refusals` in the summary)"));
 }
 
-// Why a blade that was in the tissue has parted nothing.
-static std::string why_nothing(const Simulation& s, const CutStage& stage) {
+// Why strokes of a blade have parted nothing of the tissue that it was in.
+static std::string why_nothing(const Simulation& s, std::span<const CutRecord> strokes) {
   constexpr double enough = 2;        // elements in the depth of a cut
   constexpr double far_enough = 1.5;  // elements that a cut may be behind its blade
   double deepest = 0, way = 0;
   bool goes_through = false, is_told = false;  // by note_refusals
-  for (const CutRecord& stroke : stage.strokes) {
+  for (const CutRecord& stroke : strokes) {
     deepest = std::max(deepest, stroke.deepest);
     way = std::max(way, stroke.blade_travel);
     goes_through |= stroke.goes_through;
@@ -194,17 +194,30 @@ static std::string why_nothing(const Simulation& s, const CutStage& stage) {
          "support or an older cut that the slice is thinner than the mesh can show";
 }
 
+// Its strokes that parted nothing, of which the first is told of.
+static void note_idle_strokes(Simulation& s, const Tool& tool, std::span<const CutRecord> strokes) {
+  const auto is_idle = [](const CutRecord& stroke) { return stroke.n_opened_facets == 0; };
+  const auto n_idle = std::ranges::count_if(strokes, is_idle);
+  if (n_idle == 0) return;
+  if (n_idle == std::ssize(strokes))
+    return note_event(s, s.state.time, tool.name + " has cut nothing: " + why_nothing(s, strokes));
+  const CutRecord& first = *std::ranges::find_if(strokes, is_idle);
+  note_event(s, s.state.time,
+             tool.name + " has cut nothing in " + std::to_string(n_idle) + " of its " +
+                 std::to_string(strokes.size()) + " strokes, first in that of " +
+                 short_text(first.start) + " s: " + why_nothing(s, {&first, 1}));
+}
+
 static void note_idle_blades(Simulation& s) {
   for (const CutStage& stage : s.cuts) {
-    if (std::any_of(stage.strokes.begin(), stage.strokes.end(),
-                    [](const CutRecord& stroke) { return stroke.n_opened_facets > 0; }))
-      continue;
     const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
-    const std::string why = !stage.strokes.empty() ? why_nothing(s, stage)
-                            : tool.kind == InstrumentKind::scissors
-                                ? "its jaws never closed on the tissue"
-                                : "its blade never met the tissue";
-    note_event(s, s.state.time, tool.name + " has cut nothing: " + why);
+    if (stage.strokes.empty())
+      note_event(s, s.state.time,
+                 tool.name + " has cut nothing: " +
+                     (tool.kind == InstrumentKind::scissors ? "its jaws never closed on the tissue"
+                                                            : "its blade never met the tissue"));
+    else
+      note_idle_strokes(s, tool, stage.strokes);
   }
 }
 

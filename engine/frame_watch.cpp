@@ -5,7 +5,6 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/log.h"
 #include "base/options.h"
 #include "engine/frame_report.h"
 #include "engine/part_search.h"

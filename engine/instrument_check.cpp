@@ -82,6 +82,17 @@ void warn_of_hasty_jaws(const Scene& scene) {
   }
 }
 
+void tell_of_bulges(const std::vector<Tool>& tools, double edge) {
+  constexpr double wide = 0.25;  // edges
+  for (const Tool& tool : tools) {
+    const ToolPath::Bulge bulge = tool.path.largest_bulge();
+    if (bulge.width > wide * edge)
+      log_info("\"" + tool.name + "\" goes up to " + short_text(1e3 * bulge.width) +
+               " mm beside the straight line between its keys at " + short_text(bulge.begin) +
+               " s and " + short_text(bulge.end) + " s (`stop = true` at both: a straight line)");
+  }
+}
+
 // Contacts are sought at the surface: what is well inside meets none, so it is looked for.
 void check_instruments_outside(const LoadedScene& loaded, double allowed, const std::string& what,
                                Simulation& s) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/scene.h"
 #include "engine/simulation.h"
@@ -16,5 +17,9 @@ void check_instruments_outside(const LoadedScene& loaded, double allowed, const 
 
 // Warns of jaws that have to turn round before they have closed or opened.
 void warn_of_hasty_jaws(const Scene& scene);
+
+// Says where instruments go far beside the straight lines between their keys. edge: mean edge
+// length of the body [m].
+void tell_of_bulges(const std::vector<Tool>& tools, double edge);
 
 }  // namespace trocar

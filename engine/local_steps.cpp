@@ -42,12 +42,11 @@ void plan_local_steps(Simulation& s) {
   s.multirate = make_body(s);
 }
 
-bool follow_local_steps(std::span<const ElementSplit> splits,
-                        std::span<const std::int32_t> elements, std::span<const std::int32_t> nodes,
+bool follow_local_steps(std::span<const std::int32_t> elements, std::span<const std::int32_t> nodes,
                         Simulation& s) {
   if (!s.local_steps) return true;
   LocalStepPlan& local = *s.local_steps;
-  edit_resting_elements(s.mesh, s.materials, s.model.options, splits, elements, local.resting);
+  edit_resting_elements(s.mesh, s.materials, s.model.options, elements, local.resting);
   MultiRatePlan plan = plan_multirate(s.mesh, s.corners, local.resting);
   const bool stays = is_same_elsewhere(local.plan, plan, nodes);
   local.plan = std::move(plan);

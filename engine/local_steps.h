@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,8 +22,7 @@ void plan_local_steps(Simulation& s);
 // The same after an edit: elements after it, and all their corners before and after it, ascending.
 // Returns whether others than these nodes are as fine as they were; local steps that were given up
 // stay so then. Collective.
-bool follow_local_steps(std::span<const ElementSplit> splits,
-                        std::span<const std::int32_t> elements, std::span<const std::int32_t> nodes,
+bool follow_local_steps(std::span<const std::int32_t> elements, std::span<const std::int32_t> nodes,
                         Simulation& s);
 // The same answer after all was planned anew: `before` and whether local steps had been given up.
 bool keep_local_steps(const MultiRatePlan& before, bool is_given_up,

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
 
-#include "base/digest.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/on_root.h"
-#include "engine/apply_cut.h"
 #include "engine/checkpoint.h"
 #include "engine/checkpoint_file.h"
 #include "engine/film_studio.h"

@@ -1,7 +1,6 @@
 #include "engine/pair_look.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <tuple>
 #include <utility>

@@ -8,7 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/apply_cut.h"
+#include "engine/global_state.h"
+#include "engine/simulation.h"
 #include "mesh/sub_mesh.h"
 #include "solver/history.h"
 

@@ -72,19 +72,15 @@ bool splits_fit(const MeshEdit& edit, const Mesh& mesh) {
 
 bool fits(const MeshEdit& edit, const Mesh& mesh) {
   if (!inserted_fit(edit, mesh) || !splits_fit(edit, mesh)) return false;
-  const std::vector<std::int32_t> parent = element_parents(mesh, edit);
+  const SplitNumbers numbers(edit.splits, mesh.n_elements());
   const std::int64_t n_elements = mesh.n_elements(),
                      n_nodes = mesh.n_nodes() + std::ssize(edit.inserted);
-  const auto n_after = static_cast<std::int64_t>(parent.size());
+  const std::int64_t n_after = n_elements + n_added(edit.splits);
   std::int64_t n_all = n_nodes;
   const auto has_element = [&](const auto& change) { return is_within(change.element, n_after); };
   const auto has_corner = [&](const CornerChange& change) {
-    const std::int32_t e = parent[static_cast<std::size_t>(change.element)];
-    const bool is_split =
-        std::any_of(edit.splits.begin(), edit.splits.end(),
-                    [=](const ElementSplit& split) { return split.element == e; });
-    const std::int64_t n_corners = is_split ? 4 : static_cast<std::int64_t>(mesh.corners(e).size());
-    return is_within(change.corner, n_corners);
+    const std::int32_t e = numbers.whole(change.element);
+    return is_within(change.corner, numbers.is_split(e) ? 4 : std::ssize(mesh.corners(e)));
   };
   return std::all_of(edit.moves.begin(), edit.moves.end(),
                      [&](const NodeMove& move) {

@@ -12,7 +12,7 @@
 
 namespace trocar {
 
-inline constexpr int recording_format = 3;
+inline constexpr int recording_format = 4;
 
 // head: version, scene and first mesh; tool: the user's surfaces; edit: changes of topology before
 // a frame; frame: forces and displacements, its place (0, 1, … in the order of writing) and the

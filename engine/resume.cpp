@@ -1,7 +1,6 @@
 #include "engine/resume.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -12,7 +11,6 @@
 #include "base/on_root.h"
 #include "engine/checkpoint_file.h"
 #include "engine/frame_report.h"
-#include "engine/tissue.h"
 #include "mesh/whole_file.h"
 
 namespace trocar {

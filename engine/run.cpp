@@ -1,7 +1,6 @@
 #include "engine/run.h"
 
 #include <atomic>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -23,7 +22,6 @@
 #include "engine/output_check.h"
 #include "engine/resume.h"
 #include "engine/summary.h"
-#include "engine/tissue.h"
 
 namespace trocar {
 

@@ -147,6 +147,7 @@ struct SceneRegion {
 struct SupportKey {
   double time = 0;
   Vec3 displacement = Vec3::Zero();
+  bool stops = false;
 };
 
 struct SceneSupport {
@@ -172,6 +173,7 @@ struct InstrumentKey {
   Vec3 position = Vec3::Zero();
   Vec3 direction{0, 0, -1};
   Vec3 forward{1, 0, 0};
+  bool stops = false;
   GraspAction action = GraspAction::none;
 };
 

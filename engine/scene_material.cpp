@@ -184,7 +184,7 @@ Options<SceneMaterial> material_options() {
   m.list("ogden", &SceneMaterial::ogden, term,
          "ogden: up to three terms 2 mu/alpha^2 (sum of stretches^alpha - 3).");
   m.list("prony", &SceneMaterial::prony, branch,
-         "Viscoelasticity of any model. [] leaves out that of a tissue.");
+         "Viscoelasticity of any model, up to four branches. [] leaves out that of a tissue.");
   return m;
 }
 

@@ -156,7 +156,8 @@ Options<SceneContact> contact_options() {
 Options<SceneCutting> cutting_options() {
   Options<SceneCutting> c("How blades cut.");
   c.number("advance", &SceneCutting::advance, dim::none, {.low = 0.1, .high = 5},
-           "Edge lengths that the blade sweeps before the mesh is changed.");
+           "Edge lengths that the blade sweeps before the mesh is changed; plane cuts advance by "
+           "three, whatever this says.");
   c.number("least_step_ratio", &SceneCutting::least_step_ratio, dim::none, {.low = 0.05, .high = 1},
            "Floor on stable step after / before a cut: of the tetrahedra around it, 0.75 if "
            "absent; of a "
@@ -187,7 +188,8 @@ Options<SceneStart> start_options() {
            "viscoelastic material has relaxed (long-term moduli, no overstress).");
   s.number("tolerance", &SceneStart::tolerance, dim::none,
            {.low = 1e-12, .high = 0.01, .is_low_open = true},
-           "Forces out of balance / forces of supports that count as equilibrium.");
+           "Forces out of balance / forces of supports that count as equilibrium; 3e-5 or more in "
+           "single precision.");
   s.integer("max_iterations", &SceneStart::max_iterations, {.low = 1, .high = 100000000},
             "The run ends with trouble if these are not enough.");
   return s;
@@ -215,6 +217,7 @@ Options<SceneSupport> support_options() {
   key.number("time", &SupportKey::time, dim::time, not_negative, "When.", Need::required);
   key.vector("displacement", &SupportKey::displacement, dim::length, any,
              "From the first position.", Need::required);
+  key.boolean("stop", &SupportKey::stops, "As of an instrument's keys.");
   Options<SceneSupport> s(
       "Holds or moves a region. Instruments pass through what is held in all components.");
   s.text("region", &SceneSupport::region,
@@ -252,6 +255,9 @@ Options<SceneInstrument> instrument_options() {
              "Where the cutting edge faces; jaws open along it and against it. A scalpel cuts "
              "whichever way "
              "it moves; one that goes more than 60 degrees aside of it is told of.");
+  key.boolean("stop", &InstrumentKey::stops,
+              "Rest at this key, as at the first and the last: between two such keys the way is a "
+              "straight line.");
   key.choice(
       "action", &InstrumentKey::action,
       {{"none", GraspAction::none}, {"close", GraspAction::close}, {"open", GraspAction::open}},
@@ -284,7 +290,9 @@ Options<SceneInstrument> instrument_options() {
            "Length of one unit of that file.");
   i.list("path", &SceneInstrument::path, key,
          "Key positions. The way through them is smooth and goes forwards along each leg; where it "
-         "turns by 90 degrees or more it stops, and legs between such turns are straight.",
+         "turns by 90 degrees or more it stops, and legs between such turns are straight. At "
+         "smaller turns legs bulge, by up to 6 % of their length, to the side that the way does "
+         "not turn to: for a straight cut at a constant depth, stop at both of its keys.",
          Need::required);
   return i;
 }

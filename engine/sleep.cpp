@@ -194,7 +194,7 @@ bool is_touched(const Simulation& s) {
   if (do_loads_change(s.loads, frame / rate, (frame + 1) / rate)) return true;
   return !s.drag.node.empty() ||
          std::any_of(s.cuts.begin(), s.cuts.end(),
-                     [](const CutStage& stage) { return !stage.engaged.empty(); });
+                     [](const CutStage& stage) { return stage.is_engaged; });
 }
 
 }  // namespace

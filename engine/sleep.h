@@ -5,14 +5,14 @@
 // is decided by node, so it does not depend on ranks and threads, and which blocks are left out
 // does not matter to the nodes that are awake.
 // A frame in which a node beside sleeping ones goes further than a quarter of the bound from where
-// it was when it came to lie there, or in which a contact, a hold or a blade touches sleeping ones,
-// or a load changes, is done again with all awake: pressure waves cross an organ within a frame, so
-// there is no use in waking a neighbourhood. All wake, too, after a frame in which the forces on
-// instruments or the ways of supports have left the range that sleepers were quiet in: what is
-// awake around the place is held by those asleep, so its motion doesn't tell. What sleeps thus
-// misses the eighth in which it was found quiet and about as much as its surroundings moved, a
-// quarter. That is an estimate, not a proof: what no support holds may turn back more slowly, and
-// is stopped, too.
+// it was when it came to lie there, or in which a contact or a hold touches sleeping ones, a blade
+// is in the tissue or a load changes, is done again with all awake: pressure waves cross an organ
+// within a frame, so there is no use in waking a neighbourhood. All wake, too, after a frame in
+// which the forces on instruments or the ways of supports have left the range that sleepers were
+// quiet in: what is awake around the place is held by those asleep, so its motion doesn't tell.
+// What sleeps thus misses the eighth in which it was found quiet and about as much as its
+// surroundings moved, a quarter. That is an estimate, not a proof: what no support holds may turn
+// back more slowly, and is stopped, too.
 #pragma once
 
 #include <cstdint>

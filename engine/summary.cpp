@@ -270,7 +270,7 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   if (s.energy) j["energies_J"] = energies_json(s, last);
   j["events"] = s.log.events;
   j["state_digest"] = digest_text(state_digest(s));
-  return j.dump(2) + "\n";
+  return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace trocar

@@ -69,7 +69,8 @@ void look_at_holds(const Simulation& s, std::span<const Vec3> all, const Vec3& x
     if (hold.tool >= 0) {
       const Tool& tool = s.tools[static_cast<std::size_t>(hold.tool)];
       found.name = "\"" + tool.name + "\"";
-      found.way = tool.path.travel(span.t0, span.t1, {Vec3::Zero(), Vec3::Zero()});
+      const Vec3 grip = Vec3::Constant(tool.grip_radius);
+      found.way = tool.path.travel(span.t0, span.t1, {-grip, grip});
     } else {
       const auto support = static_cast<std::size_t>(hold.support);
       const DisplacementPath& path = s.holds.paths[support];

@@ -113,7 +113,7 @@ const std::vector<Tissue>& tissue_table() {
       {"skin", skin(),
        "Excised human back: Ni Annaidh et al. 2012, Ann Biomed Eng 40:1666, as commonly quoted "
        "(literature knowledge; to be checked). In the living it is under tension of its own. Its "
-       "stable step is about a hundredth of the liver's."}};
+       "stable step is about a twentieth of the liver's."}};
   return table;
 }
 

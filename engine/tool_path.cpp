@@ -21,10 +21,13 @@ Vec3 slope_between(const Vec3& v0, const Vec3& v1, double w0, double w1) {
   return cosine * (w0 + w1) / inverse.dot(inverse) * inverse;
 }
 
-// Zero at both ends, and where the way turns by 90 degrees or more.
-std::vector<Vec3> smooth_slopes(const std::vector<double>& time, const std::vector<Vec3>& value) {
+// Zero at both ends, at keys that stop, and where the way turns by 90 degrees or more.
+template <class Key>
+std::vector<Vec3> smooth_slopes(const std::vector<Key>& keys, const std::vector<double>& time,
+                                const std::vector<Vec3>& value) {
   std::vector<Vec3> slope(time.size(), Vec3::Zero());
   for (std::size_t k = 1; k + 1 < time.size(); ++k) {
+    if (keys[k].stops) continue;
     const double h0 = time[k] - time[k - 1], h1 = time[k + 1] - time[k];
     slope[k] = slope_between((value[k] - value[k - 1]) / h0, (value[k + 1] - value[k]) / h1,
                              2 * h1 + h0, h1 + 2 * h0);
@@ -73,7 +76,7 @@ ToolPath::ToolPath(const std::vector<InstrumentKey>& keys) {
     if (!rotation_.empty() && rotation_.back().dot(rotation) < 0) rotation.coeffs() *= -1.0;
     rotation_.push_back(rotation);
   }
-  slope_ = smooth_slopes(time_, position_);
+  slope_ = smooth_slopes(keys, time_, position_);
 }
 
 Pose ToolPath::at(double time) const {
@@ -106,12 +109,27 @@ double ToolPath::travel(double t0, double t1, const Box& box) const {
   return most;
 }
 
+ToolPath::Bulge ToolPath::largest_bulge() const {
+  constexpr int n_places = 32;  // of a leg
+  Bulge bulge;
+  for (std::size_t k = 0; k + 1 < time_.size(); ++k) {
+    const Vec3 leg = position_[k + 1] - position_[k];
+    const double length = std::sqrt(leg.dot(leg));
+    for (int i = 1; i < n_places && length > 0; ++i) {
+      const double t = time_[k] + (time_[k + 1] - time_[k]) * i / n_places;
+      const double width = (at(t).translation - position_[k]).cross(leg).norm() / length;
+      if (width > bulge.width) bulge = {width, time_[k], time_[k + 1]};
+    }
+  }
+  return bulge;
+}
+
 DisplacementPath::DisplacementPath(const std::vector<SupportKey>& keys) {
   for (const SupportKey& key : keys) {
     time_.push_back(key.time);
     position_.push_back(key.displacement);
   }
-  slope_ = smooth_slopes(time_, position_);
+  slope_ = smooth_slopes(keys, time_, position_);
 }
 
 Vec3 DisplacementPath::at(double time) const {

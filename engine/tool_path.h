@@ -20,6 +20,12 @@ class ToolPath {
   // Largest distance that a point of the box, in the instrument's frame, travels in [t0, t1], from
   // `samples` positions: that of a corner. [m]
   double travel(double t0, double t1, const Box& box) const;
+  // The leg that is farthest from the straight line between its keys.
+  struct Bulge {
+    double width = 0;           // [m]
+    double begin = 0, end = 0;  // [s]
+  };
+  Bulge largest_bulge() const;
 
  private:
   std::vector<double> time_;

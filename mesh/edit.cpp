@@ -2,21 +2,11 @@
 #include "mesh/edit.h"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
 
 #include "base/check.h"
 #include "mesh/hex_split.h"
 
 namespace trocar {
-
-// Of splits that lie before element e.
-static std::int32_t count_before(std::span<const ElementSplit> splits, std::int32_t e) {
-  const auto at =
-      std::lower_bound(splits.begin(), splits.end(), e,
-                       [](const ElementSplit& split, std::int32_t k) { return split.element < k; });
-  return static_cast<std::int32_t>(at - splits.begin());
-}
 
 Vec3 position_of(const Mesh& before, const EdgeNode& node) {
   const Vec3& X0 = before.X[node.end[0]];
@@ -29,68 +19,53 @@ std::int32_t n_added(std::span<const ElementSplit> splits) {
   return n;
 }
 
-SplitNumbers::SplitNumbers(std::span<const ElementSplit> splits) : splits_(splits), n_added_{0} {
-  for (const ElementSplit& split : splits) n_added_.push_back(n_added_.back() + split.n_tets - 1);
-}
-
-std::int32_t SplitNumbers::after(std::int32_t before) const {
-  return before + n_added_[static_cast<std::size_t>(count_before(splits_, before))];
-}
-
-std::int32_t SplitNumbers::before(std::int32_t after) const {
-  std::size_t low = 0, high = splits_.size();  // splits whose first tetrahedron is not behind it
-  while (low < high) {
-    const std::size_t k = low + (high - low) / 2;
-    if (splits_[k].element + n_added_[k] <= after)
-      low = k + 1;
-    else
-      high = k;
+SplitNumbers::SplitNumbers(std::span<const ElementSplit> splits, std::int32_t n_before)
+    : splits_(splits), n_before_(n_before) {
+  std::int32_t n = 0;
+  for (const ElementSplit& split : splits) {
+    n_added_.push_back(n);
+    n += split.n_tets - 1;
   }
-  const std::int32_t moved_up = after - n_added_[low];
-  return low > 0 ? std::max(moved_up, splits_[low - 1].element) : after;
 }
 
-const ElementSplit* SplitNumbers::find(std::int32_t before) const {
-  const auto k = static_cast<std::size_t>(count_before(splits_, before));
-  return k < splits_.size() && splits_[k].element == before ? &splits_[k] : nullptr;
+const ElementSplit* SplitNumbers::find(std::int32_t element) const {
+  const auto at = std::ranges::lower_bound(splits_, element, {}, &ElementSplit::element);
+  return at != splits_.end() && at->element == element ? &*at : nullptr;
 }
 
-std::vector<std::int32_t> SplitNumbers::all_after(std::span<const std::int32_t> before) const {
-  std::vector<std::int32_t> all;
-  for (const std::int32_t e : before) {
-    const ElementSplit* const split = find(e);
-    const std::int32_t first = after(e), n = split != nullptr ? split->n_tets : 1;
-    for (std::int32_t k = 0; k < n; ++k) all.push_back(first + k);
-  }
+std::int32_t SplitNumbers::part(std::int32_t element, std::int32_t k) const {
+  if (k == 0) return element;
+  return n_before_ + n_added_[static_cast<std::size_t>(find(element) - splits_.data())] + k - 1;
+}
+
+const ElementSplit& SplitNumbers::split_of_added(std::int32_t part) const {
+  const auto behind = std::ranges::upper_bound(n_added_, part - n_before_);
+  return splits_[static_cast<std::size_t>(behind - n_added_.begin() - 1)];
+}
+
+std::int32_t SplitNumbers::whole(std::int32_t part) const {
+  return part < n_before_ ? part : split_of_added(part).element;
+}
+
+std::int32_t SplitNumbers::place_in_whole(std::int32_t part) const {
+  return part < n_before_ ? 0 : part - this->part(whole(part), 1) + 1;
+}
+
+std::vector<std::int32_t> SplitNumbers::all_after(std::span<const std::int32_t> elements) const {
+  std::vector<std::int32_t> all(elements.begin(), elements.end());
+  for (const std::int32_t e : elements)
+    if (const ElementSplit* const split = find(e))
+      for (std::int32_t k = 1; k < split->n_tets; ++k) all.push_back(part(e, k));
   return all;
-}
-
-void SplitNumbers::renumber(std::span<std::int32_t> elements) const {
-  if (splits_.empty()) return;
-  const std::int32_t first = splits_.front().element, last = splits_.back().element;
-  std::vector<std::int32_t> way;  // of elements from the first split to behind the last
-  way.reserve(static_cast<std::size_t>(last - first + 2));
-  for (std::size_t k = 0; k < splits_.size(); ++k)
-    way.resize(static_cast<std::size_t>(splits_[k].element - first + 1), n_added_[k]);
-  way.push_back(n_added_.back());
-  for (std::int32_t& e : elements)
-    e += way[static_cast<std::size_t>(std::clamp(e, first, last + 1) - first)];
-}
-
-std::vector<std::int32_t> element_parents(const Mesh& mesh, const MeshEdit& edit) {
-  std::vector<std::int32_t> parent(mesh.element_type.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  spread_over_splits(edit.splits, parent);
-  return parent;
 }
 
 std::int32_t node_before(const SplitNumbers& numbers, const Mesh& before,
                          const CornerChange& change) {
-  const std::int32_t e = numbers.before(change.element);
+  const std::int32_t e = numbers.whole(change.element);
   const auto corner = static_cast<std::size_t>(change.corner);
   const ElementSplit* const split = numbers.find(e);
   if (split == nullptr) return before.corners(e)[corner];
-  return split->corner[static_cast<std::size_t>(change.element - numbers.after(e))][corner];
+  return split->corner[static_cast<std::size_t>(numbers.place_in_whole(change.element))][corner];
 }
 
 // Node `node` on an edge joins the sets of both ends; of a facet that was left out both halves are.
@@ -179,63 +154,45 @@ static std::uint8_t facets_of_hex(const Mesh& mesh, std::int32_t e,
   return static_cast<std::uint8_t>(mask);
 }
 
-static void split_corner_nodes(std::span<const ElementSplit> splits, Mesh& mesh) {
-  std::vector<std::int32_t>& node = mesh.corner_node;
-  auto end = std::ssize(node);
-  std::size_t n_more = 0;
-  for (const ElementSplit& split : splits)
-    n_more += 4 * split.tets().size() - mesh.corners(split.element).size();
-  node.resize(node.size() + n_more);
-  auto to = node.end();
-  for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
-    const std::int32_t first = mesh.corner_offset[split->element];
-    to = std::move_backward(node.begin() + mesh.corner_offset[split->element + 1],
-                            node.begin() + end, to);
-    end = first;
-    for (std::int32_t k = split->n_tets; k-- > 0;) {
-      const std::array<std::int32_t, 4>& tet = split->corner[static_cast<std::size_t>(k)];
-      to = std::copy_backward(tet.begin(), tet.end(), to);
-    }
+// A hexahedron leaves room for the corners of two tetrahedra.
+static void split_corners(const ElementSplit& split, Mesh& mesh) {
+  const std::int32_t own = mesh.corner_offset[split.element],
+                     room = mesh.element_type[split.element] == ElementType::hex8 ? 2 : 1;
+  for (std::int32_t k = 0; k < split.n_tets; ++k) {
+    const auto n_all = static_cast<std::int32_t>(mesh.corner_node.size());
+    const std::int32_t first = k < room ? own + 4 * k : n_all;
+    if (first == n_all) mesh.corner_node.resize(mesh.corner_node.size() + 4);
+    std::ranges::copy(split.corner[static_cast<std::size_t>(k)], &mesh.corner_node[first]);
+    if (k > 0) mesh.corner_offset.push_back(first);
   }
 }
 
-static void split_elements(const MeshEdit& edit, Mesh& mesh) {
-  const std::vector<ElementSplit>& splits = edit.splits;
-  if (splits.empty()) return;
-  const std::int32_t first_inserted =
-      mesh.n_nodes() - static_cast<std::int32_t>(edit.inserted.size());
+static void split_element(const MeshEdit& edit, const ElementSplit& split, Mesh& mesh) {
+  const std::int32_t e = split.element, n_before = mesh.n_elements(),
+                     first_inserted =
+                         mesh.n_nodes() - static_cast<std::int32_t>(edit.inserted.size());
+  const bool is_hex = mesh.element_type[e] == ElementType::hex8;
+  CHECK(is_hex || mesh.element_type[e] == ElementType::tet4);
   std::vector<std::uint8_t> cut_facets;
-  for (const ElementSplit& split : splits) {
-    const std::int32_t e = split.element;
-    const bool is_hex = mesh.element_type[e] == ElementType::hex8;
-    CHECK(is_hex || mesh.element_type[e] == ElementType::tet4);
-    for (const std::array<std::int32_t, 4>& tet : split.tets())
-      cut_facets.push_back(is_hex ? facets_of_hex(mesh, e, tet)
-                                  : facets_of_part(mesh.corners(e), mesh.cut_facets[e],
-                                                   edit.inserted, first_inserted, tet));
-  }
-  split_corner_nodes(splits, mesh);
-  spread_over_splits<ElementType>(splits, mesh.element_type);
-  spread_over_splits<std::int32_t>(splits, mesh.element_region);
-  spread_over_splits<double>(splits, mesh.density_factor);
-  spread_over_splits<Vec3>(splits, mesh.fibre);
-  spread_over_splits<std::uint8_t>(splits, mesh.cut_facets);
-  const SplitNumbers numbers(splits);
-  auto mask = cut_facets.begin();
-  for (const ElementSplit& split : splits) {
-    const std::int32_t first = numbers.after(split.element);
-    std::fill_n(mesh.element_type.begin() + first, split.n_tets, ElementType::tet4);
-    std::copy_n(mask, split.n_tets, mesh.cut_facets.begin() + first);
-    mask += split.n_tets;
-  }
-  mesh.corner_offset.resize(mesh.element_type.size() + 1);
-  for (std::int32_t e = splits.front().element; e < mesh.n_elements(); ++e)
-    mesh.corner_offset[e + 1] = mesh.corner_offset[e] + n_corners(mesh.element_type[e]);
+  for (const std::array<std::int32_t, 4>& tet : split.tets())
+    cut_facets.push_back(is_hex ? facets_of_hex(mesh, e, tet)
+                                : facets_of_part(mesh.corners(e), mesh.cut_facets[e], edit.inserted,
+                                                 first_inserted, tet));
+  if (is_hex) mesh.split_hexahedra.push_back({e, n_before});
+  split_corners(split, mesh);
+  const std::span<const ElementSplit> one(&split, 1);
+  mesh.element_type[e] = ElementType::tet4;
+  spread_over_splits(one, mesh.element_type);
+  spread_over_splits(one, mesh.element_region);
+  spread_over_splits(one, mesh.density_factor);
+  spread_over_splits(one, mesh.fibre);
+  mesh.cut_facets[e] = cut_facets.front();
+  mesh.cut_facets.insert(mesh.cut_facets.end(), cut_facets.begin() + 1, cut_facets.end());
 }
 
 void apply_edit(const MeshEdit& edit, Mesh& mesh) {
   insert_nodes(edit.inserted, mesh);
-  split_elements(edit, mesh);
+  for (const ElementSplit& split : edit.splits) split_element(edit, split, mesh);
   const std::int32_t first_duplicate = mesh.n_nodes();
   for (const NodeMove& move : edit.moves) mesh.X[move.node] = move.X;
   for (const std::int32_t parent : edit.duplicate_parent) {

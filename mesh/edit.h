@@ -49,10 +49,10 @@ inline constexpr std::int32_t n_hex_tets = 6;
 inline constexpr std::int32_t max_split_tets = n_hex_tets;
 
 // Element `element` becomes tetrahedra: a hexahedron six on its own nodes, a tetrahedron two to six
-// on its own nodes and new ones on its edges. They inherit all that it had and take its place:
-// elements behind it move up.
+// on its own nodes and new ones on its edges. They inherit all that it had; the first gets its
+// number, the others come behind all elements, so that no other element gets another number.
 struct ElementSplit {
-  std::int32_t element = 0;  // its number before the edit
+  std::int32_t element = 0;
   std::int32_t n_tets = n_hex_tets;
   std::array<std::array<std::int32_t, 4>, max_split_tets> corner{};  // nodes
 
@@ -63,8 +63,8 @@ struct ElementSplit {
 
 // Applied in the order of its members. The k-th inserted node becomes node n_nodes + k; all
 // elements around its edge are split, none of them a hexahedron. Duplicates follow: each copies its
-// parent (after moving). Corners, cut_facets and density name elements by their numbers after the
-// splits, hosts by those before.
+// parent (after moving). Corners, cut_facets and density are of elements after the splits, hosts of
+// those before.
 struct MeshEdit {
   std::vector<EdgeNode> inserted;              // (n_inserted)
   std::vector<ElementSplit> splits;            // ascending element
@@ -79,45 +79,40 @@ struct MeshEdit {
   std::size_t n_new_nodes() const { return inserted.size() + duplicate_parent.size(); }
 };
 
-// Numbers of elements before and after the splits of an edit.
+// Numbers of what the splits of an edit make.
 class SplitNumbers {
  public:
-  // splits: those of a MeshEdit, which must stay.
-  explicit SplitNumbers(std::span<const ElementSplit> splits);
-  // Of an element, or the first of those that it becomes.
-  std::int32_t after(std::int32_t before) const;
-  // Of the element that this is, or is a part of.
-  std::int32_t before(std::int32_t after) const;
+  // splits: those of a MeshEdit, which must stay; n_before: elements before the edit.
+  SplitNumbers(std::span<const ElementSplit> splits, std::int32_t n_before);
+  // Of the k-th part of an element; of itself if it stays, k being 0.
+  std::int32_t part(std::int32_t element, std::int32_t k) const;
+  // The element that this is, or is a part of; and which part.
+  std::int32_t whole(std::int32_t part) const;
+  std::int32_t place_in_whole(std::int32_t part) const;
   // nullptr if the element stays.
-  const ElementSplit* find(std::int32_t before) const;
-  bool is_split(std::int32_t before) const { return find(before) != nullptr; }
-  // All that these elements (ascending, before) become.
-  std::vector<std::int32_t> all_after(std::span<const std::int32_t> before) const;
-  // From those before to those after; takes a table of all elements between the splits.
-  void renumber(std::span<std::int32_t> elements) const;
+  const ElementSplit* find(std::int32_t element) const;
+  bool is_split(std::int32_t element) const { return find(element) != nullptr; }
+  // All that these elements become; both ascending.
+  std::vector<std::int32_t> all_after(std::span<const std::int32_t> elements) const;
 
  private:
   std::span<const ElementSplit> splits_;
-  std::vector<std::int32_t> n_added_;  // (n_splits + 1) elements more, by the splits before each
+  std::int32_t n_before_;
+  std::vector<std::int32_t> n_added_;  // (n_splits) elements more, by the splits before each
+
+  const ElementSplit& split_of_added(std::int32_t part) const;
 };
 
 // How many elements more there are after the splits.
 std::int32_t n_added(std::span<const ElementSplit> splits);
 
-// values (n_elements): those of split elements go to all that they become.
+// values (n_elements, or empty): those of split elements go to all that they become.
 template <class T>
 void spread_over_splits(std::span<const ElementSplit> splits, std::vector<T>& values) {
   if (values.empty()) return;
-  auto end = std::ssize(values);
-  values.resize(values.size() + static_cast<std::size_t>(n_added(splits)));
-  auto to = values.end();
-  for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
-    const auto behind = values.begin() + split->element + 1;
-    to = std::move_backward(behind, values.begin() + end, to);
-    end = split->element;
-    const T value = values[static_cast<std::size_t>(end)];
-    to -= split->n_tets;
-    std::fill_n(to, split->n_tets, value);
+  for (const ElementSplit& split : splits) {
+    const T value = values[static_cast<std::size_t>(split.element)];
+    values.insert(values.end(), static_cast<std::size_t>(split.n_tets - 1), value);
   }
 }
 
@@ -126,9 +121,6 @@ void spread_over_splits(std::span<const ElementSplit> splits, std::vector<T>& va
 std::uint8_t facets_of_part(std::span<const std::int32_t> whole, std::uint8_t mask,
                             std::span<const EdgeNode> inserted, std::int32_t first_inserted,
                             const std::array<std::int32_t, 4>& part);
-
-// (n_elements after the edit) The element that each is, or is a part of, before it.
-std::vector<std::int32_t> element_parents(const Mesh& mesh, const MeshEdit& edit);
 
 // The node that a corner has until it changes. before: the mesh before the edit, numbers: those of
 // its splits.

@@ -30,11 +30,21 @@ void split(std::span<const Vec3> middle, std::size_t begin, std::size_t end, Ele
   split(middle, half, end, boxes);
 }
 
+template <class Body>
+void for_elements_of_leaf(const ElementBoxes& boxes, std::size_t leaf, const Body& body) {
+  for (std::int32_t k = boxes.first[leaf]; k < boxes.first[leaf + 1]; ++k)
+    body(boxes.order[static_cast<std::size_t>(k)]);
+  const std::size_t n_ordered = boxes.order.size();
+  for (std::int32_t e = boxes.last_added[leaf]; e >= 0;
+       e = boxes.next_added[static_cast<std::size_t>(e) - n_ordered])
+    body(e);
+}
+
 void fit_leaf(const Mesh& mesh, std::size_t leaf, ElementBoxes& boxes) {
   Box& box = boxes.box[boxes.first.size() - 1 + leaf];
   box = {};
-  for (std::int32_t k = boxes.first[leaf]; k < boxes.first[leaf + 1]; ++k)
-    box.add(element_box(mesh, boxes.order[static_cast<std::size_t>(k)], boxes.x));
+  for_elements_of_leaf(boxes, leaf,
+                       [&](std::int32_t e) { box.add(element_box(mesh, e, boxes.x)); });
 }
 
 void fit_parent(std::size_t k, ElementBoxes& boxes) {
@@ -42,43 +52,17 @@ void fit_parent(std::size_t k, ElementBoxes& boxes) {
   boxes.box[k].add(boxes.box[2 * k + 1]);
 }
 
-// Where the tetrahedra of a split go, all but the first, which takes its place.
-struct SplitLeaf {
-  std::int32_t leaf, first, n_added;
-};
-
-// Behind the other elements of their leaf. `splits` ascends by leaf, then by element.
-void add_tetrahedra(std::span<const SplitLeaf> splits, std::int32_t n_all, ElementBoxes& boxes) {
-  auto end = std::ssize(boxes.order);
-  boxes.order.resize(boxes.order.size() + static_cast<std::size_t>(n_all));
-  auto to = boxes.order.end();
-  for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
-    const auto end_of_leaf = boxes.first[static_cast<std::size_t>(split->leaf) + 1];
-    to = std::move_backward(boxes.order.begin() + end_of_leaf, boxes.order.begin() + end, to);
-    end = end_of_leaf;
-    to -= split->n_added;
-    std::iota(to, to + split->n_added, split->first + 1);
-  }
-  std::int32_t n = 0;
-  auto split = splits.begin();
-  for (std::size_t leaf = 0; leaf + 1 < boxes.first.size(); ++leaf) {
-    for (; split != splits.end() && split->leaf == static_cast<std::int32_t>(leaf); ++split)
-      n += split->n_added;
-    boxes.first[leaf + 1] += n;
-  }
-}
-
+// The tetrahedra of a split, all but the first, which takes its place, join its leaf.
 void split_elements(std::span<const ElementSplit> splits, ElementBoxes& boxes) {
-  if (splits.empty()) return;
-  const SplitNumbers numbers(splits);
-  std::vector<SplitLeaf> leaves;
-  for (const ElementSplit& split : splits)
-    leaves.push_back({boxes.leaf[static_cast<std::size_t>(split.element)],
-                      numbers.after(split.element), split.n_tets - 1});
-  std::ranges::stable_sort(leaves, {}, &SplitLeaf::leaf);
-  numbers.renumber(boxes.order);
-  add_tetrahedra(leaves, n_added(splits), boxes);
-  spread_over_splits(splits, boxes.leaf);
+  for (const ElementSplit& split : splits) {
+    const std::int32_t leaf = boxes.leaf[static_cast<std::size_t>(split.element)];
+    for (std::int32_t k = 1; k < split.n_tets; ++k) {
+      boxes.leaf.push_back(leaf);
+      std::int32_t& last = boxes.last_added[static_cast<std::size_t>(leaf)];
+      boxes.next_added.push_back(last);
+      last = static_cast<std::int32_t>(boxes.leaf.size()) - 1;
+    }
+  }
 }
 
 double mean_size(const Mesh& mesh, std::span<const Vec3> x) {
@@ -104,6 +88,7 @@ ElementBoxes make_element_boxes(const Mesh& mesh, std::span<const Vec3> x) {
   ElementBoxes boxes{.order = std::vector<std::int32_t>(n),
                      .first = std::vector<std::int32_t>(n_leaves + 1),
                      .leaf = std::vector<std::int32_t>(n),
+                     .last_added = std::vector<std::int32_t>(n_leaves, -1),
                      .box = std::vector<Box>(2 * n_leaves),
                      .size = mean_size(mesh, x)};
   std::iota(boxes.order.begin(), boxes.order.end(), 0);
@@ -172,8 +157,7 @@ std::vector<std::int32_t> elements_near(const Box& box, double way, const Elemen
       stack.insert(stack.end(), {2 * k, 2 * k + 1});
       continue;
     }
-    near.insert(near.end(), boxes.order.begin() + boxes.first[k - n_leaves],
-                boxes.order.begin() + boxes.first[k - n_leaves + 1]);
+    for_elements_of_leaf(boxes, k - n_leaves, [&](std::int32_t e) { near.push_back(e); });
   }
   sort_unique(near);
   return near;

@@ -16,11 +16,14 @@ Box element_box(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x);
 
 struct ElementBoxes {
   std::vector<Vec3> x;              // (n_nodes) positions that the boxes are of [m]
-  std::vector<std::int32_t> order;  // elements, leaf by leaf
+  std::vector<std::int32_t> order;  // (n_elements when made) leaf by leaf
   std::vector<std::int32_t> first;  // (n_leaves + 1) into order
   std::vector<std::int32_t> leaf;   // (n_elements)
-  std::vector<Box> box;             // (2 n_leaves) root 1, children 2 k and 2 k + 1, leaves last
-  double size = 0;                  // mean longest side of an element's box, when made [m]
+  // Elements that splits added since: the last one of each leaf, -1: none, and of each added one
+  // that before it in its leaf.
+  std::vector<std::int32_t> last_added, next_added;
+  std::vector<Box> box;  // (2 n_leaves) root 1, children 2 k and 2 k + 1, leaves last
+  double size = 0;       // mean longest side of an element's box, when made [m]
 
   bool is_empty() const { return leaf.empty(); }
 };

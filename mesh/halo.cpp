@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "base/check.h"
@@ -52,24 +53,33 @@ std::vector<std::int32_t> split_elements(const Mesh& mesh, std::span<const std::
   const bool has_one = std::any_of(splits.begin(), splits.end(), [&](const ElementSplit& split) {
     return part.place_of(split.element) >= 0;
   });
-  const std::vector<std::int32_t> before = part.element_global;
-  SplitNumbers(splits).renumber(part.element_global);
   if (!has_one) return {};
-  const auto is_owned = [&](std::int32_t i) { return node_owner[i] == part.rank; };
-  std::vector<std::int32_t> place, element;
+  const auto is_here = [&](std::int32_t e) {
+    return std::ranges::any_of(mesh.corners(e),
+                               [&](std::int32_t i) { return node_owner[i] == part.rank; });
+  };
+  std::vector<std::int32_t> place(part.element_global.size());
+  std::iota(place.begin(), place.end(), 0);
+  std::size_t n_gone = 0;  // of the elements seen so far
   auto split = splits.begin();
-  for (std::int32_t k = 0; k < std::ssize(before); ++k) {
-    while (split != splits.end() && split->element < before[k]) ++split;
-    const bool is_split = split != splits.end() && split->element == before[k];
-    const std::int32_t first = part.element_global[k];
-    for (std::int32_t e = first; e < first + (is_split ? split->n_tets : 1); ++e) {
-      const std::span<const std::int32_t> node = mesh.corners(e);
-      if (is_split && std::none_of(node.begin(), node.end(), is_owned)) continue;
-      element.push_back(e);
-      place.push_back(is_split ? -1 : k);
+  for (std::size_t k = 0; k < part.element_global.size(); ++k) {
+    const std::int32_t e = part.element_global[k];
+    while (split != splits.end() && split->element < e) ++split;
+    const bool is_split = split != splits.end() && split->element == e;
+    if (is_split && !is_here(e)) {
+      ++n_gone;
+      continue;
     }
+    part.element_global[k - n_gone] = e;
+    place[k - n_gone] = is_split ? -1 : static_cast<std::int32_t>(k);
   }
-  part.element_global = std::move(element);
+  part.element_global.resize(part.element_global.size() - n_gone);
+  place.resize(part.element_global.size());
+  for (std::int32_t e = mesh.n_elements() - n_added(splits); e < mesh.n_elements(); ++e)
+    if (is_here(e)) {
+      part.element_global.push_back(e);
+      place.push_back(-1);
+    }
   return place;
 }
 

@@ -13,11 +13,6 @@ int Mesh::dimension() const {
   return std::all_of(element_type.begin(), element_type.end(), is_triangle) ? 2 : 3;
 }
 
-int n_corners(ElementType type) {
-  constexpr std::array<int, n_element_types> n = {3, 4, 8};
-  return n[static_cast<std::size_t>(type)];
-}
-
 const char* element_type_name(ElementType type) {
   constexpr std::array<const char*, n_element_types> name = {"tri3", "tet4", "hex8"};
   return name[static_cast<std::size_t>(type)];
@@ -27,8 +22,8 @@ void add_element(Mesh& mesh, ElementType type, std::span<const std::int32_t> cor
                  std::int32_t region) {
   CHECK_OP(static_cast<int>(corners.size()), ==, n_corners(type));
   mesh.element_type.push_back(type);
-  mesh.corner_node.insert(mesh.corner_node.end(), corners.begin(), corners.end());
   mesh.corner_offset.push_back(static_cast<std::int32_t>(mesh.corner_node.size()));
+  mesh.corner_node.insert(mesh.corner_node.end(), corners.begin(), corners.end());
   mesh.element_region.push_back(region);
   mesh.density_factor.push_back(1);
   mesh.cut_facets.push_back(0);

@@ -15,6 +15,9 @@ namespace trocar {
 enum class ElementType : std::uint8_t { tri3, tet4, hex8 };
 inline constexpr int n_element_types = 3;
 inline constexpr int max_corners = 8;
+constexpr int n_corners(ElementType type) {
+  return type == ElementType::tri3 ? 3 : type == ElementType::tet4 ? 4 : 8;
+}
 
 // Nodes of a facet, ascending, after as many -1 as are missing to four.
 using FacetNodes = std::array<std::int32_t, 4>;
@@ -28,14 +31,21 @@ struct NodeSet {
   std::vector<FacetNodes> left_out;
 };
 
+// A hexahedron that a cut has made tetrahedra of: the first has its number, the others have those
+// from first_part on.
+struct SplitHexahedron {
+  std::int32_t element = 0, first_part = 0;
+  bool operator==(const SplitHexahedron&) const = default;
+};
+
 // Global numbers are positions in these arrays. Element corners in the order of VTK and gmsh.
 struct Mesh {
-  std::vector<Vec3> X;                         // (n_nodes) reference positions [m]
-  std::vector<ElementType> element_type;       // (n_elements)
-  std::vector<std::int32_t> corner_offset{0};  // (n_elements + 1)
-  std::vector<std::int32_t> corner_node;       // (corner_offset.back())
-  std::vector<std::int32_t> element_region;    // (n_elements) index into region_name
-  std::vector<std::string> region_name;        // at least one, "" where the file names none
+  std::vector<Vec3> X;                       // (n_nodes) reference positions [m]
+  std::vector<ElementType> element_type;     // (n_elements)
+  std::vector<std::int32_t> corner_offset;   // (n_elements) of the first corner in corner_node
+  std::vector<std::int32_t> corner_node;     // (n_corners) each of one element
+  std::vector<std::int32_t> element_region;  // (n_elements) index into region_name
+  std::vector<std::string> region_name;      // at least one, "" where the file names none
   // (n_elements) keeps the mass when a cut moves nodes of a curved surface
   std::vector<double> density_factor;
   // (n_elements) bit f: facet f was opened by a cut (facets.h numbers them)
@@ -49,12 +59,13 @@ struct Mesh {
   // (n_nodes of the uncut mesh, or empty) How hexahedra become tetrahedra: bits 0 to 6, the node's
   // rank where facets choose their diagonals (hex_split.h); bit 7, at a hexahedron that never does.
   std::vector<std::uint8_t> hex_split_rank;
+  std::vector<SplitHexahedron> split_hexahedra;  // in the order of their splits
 
   std::int32_t n_nodes() const { return static_cast<std::int32_t>(X.size()); }
   std::int32_t n_elements() const { return static_cast<std::int32_t>(element_type.size()); }
   std::span<const std::int32_t> corners(std::int32_t e) const {
     return {corner_node.data() + corner_offset[e],
-            static_cast<std::size_t>(corner_offset[e + 1] - corner_offset[e])};
+            static_cast<std::size_t>(n_corners(element_type[e]))};
   }
   // 2 if all elements are triangles (plane problem, z = 0), else 3.
   int dimension() const;
@@ -65,7 +76,6 @@ struct Mesh {
   }
 };
 
-int n_corners(ElementType type);
 const char* element_type_name(ElementType type);
 
 // Appends an element of region 0 with density factor 1.

@@ -38,18 +38,15 @@ NodeCorners node_corners(const Mesh& mesh) {
   return corners;
 }
 
-static void split_elements(std::span<const ElementSplit> splits, const Mesh& before,
-                           NodeCorners& corners) {
-  if (splits.empty()) return;
+static void split_elements(const SplitNumbers& numbers, std::span<const ElementSplit> splits,
+                           const Mesh& before, NodeCorners& corners) {
   std::vector<std::int32_t> unused;
   for (const ElementSplit& split : splits)
     for (const std::int32_t node : before.corners(split.element))
       unused.push_back(unlink(corners, node, split.element));
-  const SplitNumbers numbers(splits);
-  numbers.renumber(corners.element);
   for (const ElementSplit& split : splits)
-    for (std::size_t tet = 0; tet < split.tets().size(); ++tet)
-      for (const std::int32_t node : split.corner[tet]) {
+    for (std::int32_t k = 0; k < split.n_tets; ++k)
+      for (const std::int32_t node : split.corner[static_cast<std::size_t>(k)]) {
         if (unused.empty()) {
           unused.push_back(static_cast<std::int32_t>(corners.next.size()));
           corners.next.push_back(-1);
@@ -57,15 +54,15 @@ static void split_elements(std::span<const ElementSplit> splits, const Mesh& bef
         }
         const std::int32_t corner = unused.back();
         unused.pop_back();
-        corners.element[corner] = numbers.after(split.element) + static_cast<std::int32_t>(tet);
+        corners.element[corner] = numbers.part(split.element, k);
         link(corners, node, corner);
       }
 }
 
 void apply_edit(const MeshEdit& edit, const Mesh& before, NodeCorners& corners) {
   corners.first.resize(before.X.size() + edit.n_new_nodes(), -1);
-  split_elements(edit.splits, before, corners);
-  const SplitNumbers numbers(edit.splits);
+  const SplitNumbers numbers(edit.splits, before.n_elements());
+  split_elements(numbers, edit.splits, before, corners);
   for (const CornerChange& change : edit.corners)
     link(corners, change.node,
          unlink(corners, node_before(numbers, before, change), change.element));
@@ -94,16 +91,16 @@ std::vector<std::int32_t> elements_around(const Mesh& mesh, std::span<const std:
   return elements;
 }
 
-std::vector<std::int32_t> edited_elements(const NodeCorners& before, const MeshEdit& edit) {
-  const SplitNumbers numbers(edit.splits);
+std::vector<std::int32_t> edited_elements(const Mesh& mesh, const NodeCorners& before,
+                                          const MeshEdit& edit) {
+  const SplitNumbers numbers(edit.splits, mesh.n_elements());
   std::vector<std::int32_t> moved;
   for (const NodeMove& move : edit.moves) moved.push_back(move.node);
   std::vector<std::int32_t> elements = elements_around(before, moved);
   for (const ElementSplit& split : edit.splits) elements.push_back(split.element);
-  for (const CornerChange& change : edit.corners)
-    elements.push_back(numbers.before(change.element));
+  for (const CornerChange& change : edit.corners) elements.push_back(numbers.whole(change.element));
   for (const DensityChange& change : edit.density)
-    elements.push_back(numbers.before(change.element));
+    elements.push_back(numbers.whole(change.element));
   sort_unique(elements);
   return elements;
 }

@@ -18,12 +18,13 @@ struct NodeCorners {
   std::vector<std::int32_t> element;  // (n_corners)
 };
 NodeCorners node_corners(const Mesh& mesh);
-// `before` is the mesh before the edit. Splits take a pass over the elements' numbers.
+// `before` is the mesh before the edit.
 void apply_edit(const MeshEdit& edit, const Mesh& before, NodeCorners& corners);
 
-// Elements that the edit touches in any way (split, moved corner, changed corner, density), by
-// their numbers before it, ascending.
-std::vector<std::int32_t> edited_elements(const NodeCorners& before, const MeshEdit& edit);
+// Elements that the edit touches in any way (split, moved corner, changed corner, density) as they
+// are before it, ascending.
+std::vector<std::int32_t> edited_elements(const Mesh& mesh, const NodeCorners& before,
+                                          const MeshEdit& edit);
 
 // All elements that touch one of the nodes, ascending.
 std::vector<std::int32_t> elements_around(const NodeCorners& corners,

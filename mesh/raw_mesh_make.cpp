@@ -120,7 +120,7 @@ void take_elements(const RawMesh& raw, int dimension, std::span<const std::int32
     n_corners_all += corners.size();
   });
   mesh.element_type.reserve(n);
-  mesh.corner_offset.reserve(n + 1);
+  mesh.corner_offset.reserve(n);
   mesh.corner_node.reserve(n_corners_all);
   mesh.element_region.reserve(n);
   mesh.density_factor.reserve(n);

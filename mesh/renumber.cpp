@@ -110,11 +110,11 @@ std::vector<T> permuted(const std::vector<T>& x, std::span<const std::int32_t> o
 void take_elements(const Mesh& mesh, std::span<const std::int32_t> order,
                    std::span<const std::int32_t> new_number, Mesh& result) {
   result.element_type = permuted(mesh.element_type, order);
-  result.corner_offset = {0};
+  result.corner_offset.clear();
   result.corner_node.clear();
   for (const std::int32_t e : order) {
-    for (const std::int32_t i : mesh.corners(e)) result.corner_node.push_back(new_number[i]);
     result.corner_offset.push_back(static_cast<std::int32_t>(result.corner_node.size()));
+    for (const std::int32_t i : mesh.corners(e)) result.corner_node.push_back(new_number[i]);
   }
   result.element_region = permuted(mesh.element_region, order);
   result.density_factor = permuted(mesh.density_factor, order);

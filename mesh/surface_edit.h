@@ -16,8 +16,8 @@ struct SurfaceEdit {
   std::span<const std::int32_t> elements;  // all that touch these nodes, ascending
   const SubMesh& around;                   // all that touch corners of these elements
 };
-// The surface, of before the edit but with the elements' numbers after it, becomes
-// boundary_surface's, in a time of the edit's, but for a copy of the surface.
+// The surface of before the edit becomes boundary_surface's, in a time of the edit's, but for a
+// copy of the surface.
 void update_surface(const Mesh& mesh, const SurfaceEdit& edit, Surface& surface);
 
 // Facets of one element only, as bits by element.

@@ -44,24 +44,38 @@ void check_count(Report& report, const char* name, std::size_t found, std::size_
                std::to_string(expected));
 }
 
+// Whether each corner belongs to one element.
+bool have_own_corners(Report& report, const Mesh& mesh) {
+  std::size_t n_all = 0;
+  for (const ElementType type : mesh.element_type)
+    n_all += static_cast<std::size_t>(n_corners(type));
+  check_count(report, "corner_node", mesh.corner_node.size(), n_all);
+  if (!report.sentences.empty()) return false;
+  std::vector<std::uint8_t> is_taken(n_all, 0);
+  for (std::size_t e = 0; e < mesh.element_type.size(); ++e) {
+    const std::int64_t first = mesh.corner_offset[e], n = n_corners(mesh.element_type[e]);
+    const bool is_within = first >= 0 && first + n <= std::ssize(is_taken);
+    if (!is_within || std::any_of(&is_taken[first], &is_taken[first] + n,
+                                  [](auto taken) { return taken != 0; })) {
+      report.add("corner_offset of element " + std::to_string(e) + " is " + std::to_string(first) +
+                 (is_within ? ", where another element has corners" : ", where there are none"));
+      return false;
+    }
+    std::fill_n(&is_taken[first], n, std::uint8_t{1});
+  }
+  return true;
+}
+
 // Without sound arrays nothing else can be looked at.
 bool check_arrays(Report& report, const Mesh& mesh) {
   const std::size_t n = mesh.element_type.size();
-  check_count(report, "corner_offset", mesh.corner_offset.size(), n + 1);
+  check_count(report, "corner_offset", mesh.corner_offset.size(), n);
   check_count(report, "element_region", mesh.element_region.size(), n);
   check_count(report, "density_factor", mesh.density_factor.size(), n);
   check_count(report, "cut_facets", mesh.cut_facets.size(), n);
   if (!mesh.fibre.empty()) check_count(report, "fibre", mesh.fibre.size(), n);
   if (!report.sentences.empty()) return false;
-  std::int64_t offset = 0;
-  for (std::size_t e = 0; e < n; offset += n_corners(mesh.element_type[e++]))
-    if (mesh.corner_offset[e] != offset) {
-      report.add("corner_offset of element " + std::to_string(e) + " is " +
-                 std::to_string(mesh.corner_offset[e]) + " instead of " + std::to_string(offset));
-      return false;
-    }
-  check_count(report, "corner_node", mesh.corner_node.size(), static_cast<std::size_t>(offset));
-  return report.sentences.empty();
+  return have_own_corners(report, mesh);
 }
 
 bool is_corner_list_sound(Report& report, const Mesh& mesh, std::int32_t e) {

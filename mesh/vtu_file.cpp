@@ -56,12 +56,19 @@ void append_fields(std::string& text, std::span<const VtuField> fields, std::siz
 void append_cells(std::string& text, const Mesh& mesh) {
   constexpr std::array<std::uint8_t, n_element_types> vtk_type = {5, 10, 12};
   std::vector<std::uint8_t> type;
+  std::vector<std::int32_t> connectivity, end;
   type.reserve(mesh.element_type.size());
-  for (const ElementType t : mesh.element_type)
-    type.push_back(vtk_type[static_cast<std::size_t>(t)]);
+  connectivity.reserve(mesh.corner_node.size());
+  end.reserve(mesh.element_type.size());
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    const std::span<const std::int32_t> node = mesh.corners(e);
+    type.push_back(vtk_type[static_cast<std::size_t>(mesh.element_type[e])]);
+    connectivity.insert(connectivity.end(), node.begin(), node.end());
+    end.push_back(static_cast<std::int32_t>(connectivity.size()));
+  }
   text += "<Cells>\n";
-  append_array<std::int32_t>(text, {"Int32", "connectivity"}, mesh.corner_node);
-  append_array<std::int32_t>(text, {"Int32", "offsets"}, std::span(mesh.corner_offset).subspan(1));
+  append_array<std::int32_t>(text, {"Int32", "connectivity"}, connectivity);
+  append_array<std::int32_t>(text, {"Int32", "offsets"}, end);
   append_array<std::uint8_t>(text, {"UInt8", "types"}, type);
   text += "</Cells>\n";
 }

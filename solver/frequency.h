@@ -1,7 +1,7 @@
 // The highest frequency of a body in its present deformation, whatever its elements and materials:
 // the largest eigenvalue of M^-1 K from differences of the forces, by the iteration of Lanczos
 // (1950). It comes from below; the bounds of single elements (element_setup.h) come from above and
-// lie 1.4 to 3 times higher.
+// lie 1.4 to 3.3 times higher, more with slivers.
 #pragma once
 
 #include <functional>

@@ -93,14 +93,12 @@ MassScaling find_mass_scaling(const Mesh& mesh, std::span<const Material> materi
 }
 
 void edit_mass_scaling(const Mesh& mesh, std::span<const Material> materials,
-                       const SolverOptions& options, const ScalingEdit& edit,
+                       const SolverOptions& options, std::span<const std::int32_t> edited,
                        MassScaling& scaling) {
   std::erase_if(scaling.element, [&](const RestingElement& element) {
-    return std::binary_search(edit.before.begin(), edit.before.end(), element.number);
+    return std::binary_search(edited.begin(), edited.end(), element.number);
   });
-  const SplitNumbers numbers(edit.splits);
-  for (RestingElement& element : scaling.element) element.number = numbers.after(element.number);
-  for (const std::int32_t e : edit.after)
+  for (const std::int32_t e : edited)
     if (const RestingElement element = resting_element(mesh, materials, options, e);
         is_scaled(element, scaling.wanted_step))
       scaling.element.push_back(element);

@@ -34,12 +34,10 @@ struct MassScaling {
 MassScaling find_mass_scaling(const Mesh& mesh, std::span<const Material> materials,
                               const SolverOptions& options, double wanted_step);
 // After an edit, to what find_mass_scaling says of the edited mesh, in time of what is scaled.
-struct ScalingEdit {
-  std::span<const ElementSplit> splits;
-  std::span<const std::int32_t> before, after;  // edited elements, ascending
-};
+// edited: elements, those that it added among them; ascending.
 void edit_mass_scaling(const Mesh& mesh, std::span<const Material> materials,
-                       const SolverOptions& options, const ScalingEdit& edit, MassScaling& scaling);
+                       const SolverOptions& options, std::span<const std::int32_t> edited,
+                       MassScaling& scaling);
 bool are_clusters_whole(const MassScaling& scaling, std::span<const std::int32_t> node_owner);
 // Gives each cluster to the owner of its lowest node, so that no rank needs another's forces.
 void keep_clusters_whole(const MassScaling& scaling, std::span<std::int32_t> node_owner);

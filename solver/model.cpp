@@ -106,12 +106,9 @@ std::vector<RestingElement> resting_elements(const Mesh& mesh, std::span<const M
 }
 
 void edit_resting_elements(const Mesh& mesh, std::span<const Material> materials,
-                           const SolverOptions& options, std::span<const ElementSplit> splits,
-                           std::span<const std::int32_t> elements,
+                           const SolverOptions& options, std::span<const std::int32_t> elements,
                            std::vector<RestingElement>& resting) {
-  spread_over_splits(splits, resting);
-  for (std::size_t k = 0; k < resting.size() && !splits.empty(); ++k)
-    resting[k].number = static_cast<std::int32_t>(k);
+  resting.resize(mesh.element_type.size());
   for (const std::int32_t e : elements) resting[e] = resting_element(mesh, materials, options, e);
 }
 

@@ -202,10 +202,10 @@ RestingElement resting_element(const Mesh& mesh, std::span<const Material> mater
 // All elements of the mesh, in parallel.
 std::vector<RestingElement> resting_elements(const Mesh& mesh, std::span<const Material> materials,
                                              const SolverOptions& options);
-// `resting` of all elements, to what it is after an edit: elements by their numbers after it.
+// `resting` of all elements, to what it is after an edit of `elements`, those that it added among
+// them.
 void edit_resting_elements(const Mesh& mesh, std::span<const Material> materials,
-                           const SolverOptions& options, std::span<const ElementSplit> splits,
-                           std::span<const std::int32_t> elements,
+                           const SolverOptions& options, std::span<const std::int32_t> elements,
                            std::vector<RestingElement>& resting);
 
 // A node whose acceleration is given: something holds it.

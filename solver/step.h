@@ -52,7 +52,7 @@ struct PrescribedNode {
 // Supported components stay; prescribed nodes go where they are told, with the reaction
 //   R = m (v+ - v) / dt_m + alpha m (v+ + v) / 2 - f
 // (none in a component that a support holds), which is added to scratch.force. Advances time and
-// step. Owned nodes only: the caller exchanges u and v afterwards.
+// step. Owned nodes only: the caller exchanges u afterwards.
 void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> prescribed,
                double dt, State& state);
 

@@ -211,6 +211,7 @@ SceneStudy load_study(const SceneStudyOptions& options, Communicator& communicat
                    .communicator = &communicator};
   study.loaded.scene.outputs.clear();
   study.loaded.scene.markers.clear();
+  study.loaded.scene.checkpoint.every = 0;
   study.loaded.scene.time.pace = Pace::fast;
   if (study.n_frames() < 1) throw InputError("the scene has no frame to compare");
   if (study.has_shape() && !options.meshes.empty())

@@ -167,12 +167,13 @@ void note_sleep(Study& study) {
       const bool is_twin = run.sleep > 0 && awake.sleep == 0 && awake.method == run.method &&
                            awake.precision == run.precision && awake.n == run.n &&
                            awake.step_factor == run.step_factor;
-      if (is_twin && is_sound(run) && is_sound(awake))
-        study.notes.push_back(
-            method_text(run) + ", " + run.size + ": at most " +
-            length_text(largest_difference(run.outcome.samples, awake.outcome.samples)) +
-            " from the same run without sleep, " + significant(cost_of(study, run), 3) +
-            " s a simulated second instead of " + significant(cost_of(study, awake), 3) + " s");
+      if (!is_twin || !is_sound(run) || !is_sound(awake)) continue;
+      study.notes.push_back(
+          method_text(run) + ", " + run.size + ": at most " +
+          length_text(largest_difference(run.outcome.samples, awake.outcome.samples)) +
+          " from the same run without sleep, " + significant(cost_of(study, run), 3) +
+          " s a simulated second instead of " + significant(cost_of(study, awake), 3) + " s");
+      log_info(study.notes.back());
     }
 }
 

@@ -49,6 +49,9 @@ TEST(ExactSum, agrees_with_long_double_summation_to_its_rounding) {
 TEST(ExactSum, with_an_addend_that_is_too_large_is_infinite) {
   EXPECT_TRUE(std::isinf(exact_sum({1.0, 0x1p200, -0x1p200})));
   EXPECT_EQ(exact_sum({1.0, 0x1p120, -0x1p120}), 1.0);
+  for (const double endless :
+       {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_TRUE(std::isinf(exact_sum({1.0, endless})));
 }
 
 }  // namespace

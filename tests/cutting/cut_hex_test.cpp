@@ -132,14 +132,14 @@ TEST(CutHex, positions_in_an_affine_field_stay_affine) {
     EXPECT_LT((body.x[i] - map(body.mesh.X[i])).norm(), 1e-13);
 }
 
-TEST(CutHex, another_cutter_with_the_stroke_goes_on_to_the_same_bits) {
-  Body body(hex_block(0.1));
-  const Blade blade = plane_blade({0.02, 0.05, 0}, off_grid, 1);
+// Returns the number of edits that split hexahedra.
+int edits_with_other_cutters(Body& body, const Vec3& normal) {
+  const Blade blade = plane_blade({0.02, 0.05, 0}, normal, 1);
   TetCutter cutter{CutTetOptions{}};
   Ledger ledger;
   int n_edits = 0;
   for (int k = 0; k < 25; ++k) {
-    const BladeSweep sweep{blade(k / 25.0), blade((k + 1) / 25.0), off_grid};
+    const BladeSweep sweep{blade(k / 25.0), blade((k + 1) / 25.0), normal};
     TetCutter other{CutTetOptions{}};
     other.set_stroke(cutter.stroke());
     CutFigures figures;
@@ -150,7 +150,22 @@ TEST(CutHex, another_cutter_with_the_stroke_goes_on_to_the_same_bits) {
     EXPECT_TRUE(has_same_bits(edit, again)) << k;
     n_edits += edit.splits.empty() ? 0 : 1;
   }
-  EXPECT_GT(n_edits, 3);
+  return n_edits;
+}
+
+TEST(CutHex, another_cutter_with_the_stroke_goes_on_to_the_same_bits) {
+  Body body(hex_block(0.1));
+  EXPECT_GT(edits_with_other_cutters(body, off_grid), 3);
+}
+
+// All of them have converted in three edits, and their tetrahedra are numbered as before.
+TEST(CutHex, another_cutter_goes_on_in_a_body_that_has_no_hexahedron_left) {
+  Body body(make_box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, {1, 2, 2}, BoxElements::hex8));
+  EXPECT_EQ(edits_with_other_cutters(body, off_grid), 1);
+  EXPECT_EQ(edits_with_other_cutters(body, off_grid.cwiseProduct(Vec3(-1, 1, 1))), 2);
+  EXPECT_EQ(body.mesh.n_elements(), 24);
+  EXPECT_TRUE(was_hexahedral(body.mesh));
+  EXPECT_FALSE(has_hexahedra(body.mesh));
 }
 
 // Of tetrahedra and of hexahedra. Every second edit is made by the other one.

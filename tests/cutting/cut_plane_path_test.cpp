@@ -39,7 +39,7 @@ TEST(CutPlanePath, path_that_leaves_and_enters_again_cuts_both_parts) {
   const Mesh mesh = paper_mesh(2);
   Mesh notched = mesh;
   notched.element_type.clear();
-  notched.corner_offset = {0};
+  notched.corner_offset.clear();
   notched.corner_node.clear();
   notched.element_region.clear();
   notched.density_factor.clear();

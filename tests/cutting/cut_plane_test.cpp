@@ -106,7 +106,7 @@ TEST(CutPlane, figures_describe_the_edit) {
   EXPECT_LT(result.figures.largest_deviation, 1e-15);  // one rounding of some 40 mm
   double least = 1;
   const Mesh after = applied(result.edit, mesh);
-  for (const std::int32_t e : edited_elements(node_corners(mesh), result.edit))
+  for (const std::int32_t e : edited_elements(mesh, node_corners(mesh), result.edit))
     least = std::min(least, element_quality(after, e, after.X));
   EXPECT_NEAR(result.figures.least_quality, least, 1e-12);  // same formula, other order of sums
   const Vec3 end = paper_cut(2).back();

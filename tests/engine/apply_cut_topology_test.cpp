@@ -18,6 +18,7 @@
 #include "engine_started.h"
 #include "engine_topology_equal.h"
 #include "mesh/surface_edit.h"
+#include "mesh_split.h"
 #include "solver/history.h"
 #include "solver/model_edit.h"
 #include "solver/step.h"
@@ -138,7 +139,7 @@ void apply_and_rebuild(Simulation& s, GlobalState& global, const MeshEdit& edit,
   s.node_owner = owner;
   const std::vector<double> copies = copy_history(s.model, s.part, s.state);
   const std::vector<double> volume = volumes(s.mesh);
-  const std::vector<std::int32_t> parent = element_parents(s.mesh, edit);
+  const std::vector<std::int32_t> parent = wholes_of(s.mesh, edit);
   CutRecord record;
   apply_cut(s, edit, global, record);
   const Part part = s.part;
@@ -300,9 +301,9 @@ TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
       std::swap(owner, s.node_owner);
       const bool is_local = keeps_owners(s, edit);
       std::swap(owner, s.node_owner);
-      std::vector<std::int32_t> edited = edited_elements(s.corners, edit);
+      std::vector<std::int32_t> edited = edited_elements(s.mesh, s.corners, edit);
       std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited);
-      edited = SplitNumbers(edit.splits).all_after(edited);
+      edited = SplitNumbers(edit.splits, s.mesh.n_elements()).all_after(edited);
       CutRecord record;
       apply_cut(s, edit, global, record);
       for (const std::int32_t i : nodes_of(s.mesh, edited)) nodes.push_back(i);

@@ -51,6 +51,7 @@ TEST(BladeDrag, is_the_resistance_times_the_length_inside_where_tissue_is_far_sl
 TEST(BladeDrag, takes_light_nodes_to_the_speed_of_the_blade_and_no_further) {
   Edge edge;
   edge.step();
+  ASSERT_FALSE(edge.drag.node.empty());
   for (const BladeDrag::Node& node : edge.drag.node) {
     const double mass = edge.body.model.mass[static_cast<std::size_t>(node.local)];
     const double speed = node.force / mass * Edge::dt;  // undamped, from rest

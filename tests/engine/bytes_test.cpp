@@ -56,11 +56,9 @@ TEST(Bytes, every_kind_of_mesh_comes_back_equal) {
     mesh.region_name = {"liver", ""};
     mesh.element_region[1] = 1;
     EXPECT_TRUE(is_equal(mesh_from_bytes(mesh_to_bytes(mesh)), mesh)) << named.name;
-    const std::size_t n_bytes = mesh_to_bytes(mesh).size();
     mesh.hex_split_rank.assign(mesh.X.size(), 3);
     const Mesh back = mesh_from_bytes(mesh_to_bytes(mesh));
     EXPECT_EQ(back.hex_split_rank, mesh.hex_split_rank) << named.name;
-    EXPECT_EQ(mesh_to_bytes(mesh).size(), n_bytes + 8 + mesh.X.size());
     mesh.hex_split_rank.pop_back();
     EXPECT_THROW(mesh_from_bytes(mesh_to_bytes(mesh)), InputError) << named.name;
   }

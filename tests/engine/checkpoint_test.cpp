@@ -80,7 +80,7 @@ TEST(Checkpoint, of_each_frame_of_a_cut_grasped_and_pressed_block_leads_to_the_n
   for (const auto& bytes : checkpoints) {
     const Checkpoint c = checkpoint_from_bytes(bytes, "c");
     is_in_stroke = is_in_stroke || (c.cuts[0].is_in_stroke && !c.cuts[0].stroke.opened.empty());
-    has_engaged = has_engaged || !c.cuts[0].engaged.empty();
+    has_engaged = has_engaged || c.cuts[0].is_engaged;
   }
   const Checkpoint last = checkpoint_from_bytes(checkpoints.back(), "c");
   std::int64_t most_contacts = 0, most_held = 0;
@@ -212,7 +212,8 @@ TEST(Checkpoint, needs_each_part_of_a_stroke_through_tetrahedra) {
 TEST(Checkpoint, needs_where_the_edge_was_without_resistance) {
   std::string text = resume_block_text;
   text.replace(text.find("resistance = "), 13, "resistance = 0 # ");
-  expect_each_is_needed(loaded_text(text), {{"engaged", [](CutMemory& m) { m.engaged.clear(); }}});
+  expect_each_is_needed(loaded_text(text),
+                        {{"engaged", [](CutMemory& m) { m.is_engaged = false; }}});
 }
 
 // A tip that is lost or another one is found again at the slit's end.

@@ -69,6 +69,7 @@ TEST(CutAlongTip, second_scalpel_follows_the_slit_of_the_first) {
       Simulation& s = *started->s;
       while (s.frame < 40) run_frame(s, started->outputs);
       EXPECT_EQ(s.n_pieces, 2) << later << ' ' << aside;
+      EXPECT_FALSE(s.cuts[1].strokes.empty()) << later << ' ' << aside;
       for (const CutRecord& stroke : s.cuts[1].strokes)
         EXPECT_EQ(stroke.n_refused + stroke.n_edits, 0) << later << ' ' << aside;
     }

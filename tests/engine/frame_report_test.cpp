@@ -51,5 +51,34 @@ TEST(IdleTools, that_were_deep_in_the_tissue_are_told_with_the_reason) {
   EXPECT_TRUE(contains(half_in, "a cut stays half an edge to one and a half behind")) << half_in;
 }
 
+// A way through the block, and one along its upper side that is too shallow.
+TEST(IdleTools, are_told_of_strokes_that_cut_nothing_beside_others_that_did) {
+  const auto key = [](double time, const std::string& position) {
+    return "{ time = " + std::to_string(time) + ", position = [" + position +
+           "], direction = [0, 0, -1], stop = true },\n";
+  };
+  const std::string through = key(0, "-0.01, 0.011, -0.002") + key(0.1, "0.03, 0.011, -0.002"),
+                    away = key(0.15, "0.03, 0.005, 0.03") + key(0.2, "-0.01, 0.005, 0.03"),
+                    shallow = key(0.25, "-0.01, 0.005, 0.019") + key(0.35, "0.03, 0.005, 0.019");
+  for (const bool is_both : {false, true}) {
+    const auto started = built(
+        "[time]\nduration = 0.4\nframe_rate = 50\n[tissue.shape]\nkind = \"box\"\nhigh = "
+        "[0.02, 0.02, 0.02]\ncells = [4, 4, 4]\n[[support]]\nregion = \"z-\"\n"
+        "[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.05\npath = [\n" +
+        through + (is_both ? away + shallow : "") + "]\n");
+    Simulation& s = *started->s;
+    while (s.frame < 20) run_frame(s, started->outputs);
+    note_idle_tools(s);
+    const auto told = std::ranges::find_if(s.log.events, [](const std::string& event) {
+      return contains(event,
+                      "scalpel has cut nothing in 1 of its 2 strokes, first in that of 0.3 s");
+    });
+    ASSERT_EQ(told != s.log.events.end(), is_both);
+    if (is_both) {
+      EXPECT_TRUE(contains(*told, "no more than 1.1 mm of its edge was in the tissue")) << *told;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace trocar

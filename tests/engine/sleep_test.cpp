@@ -233,7 +233,7 @@ path = [
   while (s.frame < 24) run_frame(s, run->outputs);
   EXPECT_EQ(s.sleep->share, 1);
   while (s.frame < 48) {
-    const bool cuts = !s.cuts[0].engaged.empty();
+    const bool cuts = s.cuts[0].is_engaged;
     run_frame(s, run->outputs);
     if (cuts) {
       EXPECT_EQ(s.sleep->share, 0) << s.frame;

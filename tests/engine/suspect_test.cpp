@@ -61,5 +61,33 @@ TEST(Suspect, is_nobody_where_none_comes_near) {
   EXPECT_TRUE(contains(suspect.cure, "smaller loads")) << suspect.cure;
 }
 
+TEST(Suspect, that_turns_moves_though_its_tip_rests) {
+  const auto started = built(R"([time]
+duration = "1 s"
+[tissue.shape]
+kind = "box"
+elements = "hex8"
+cells = [4, 4, 4]
+[[instrument]]
+kind = "grasper"
+path = [
+  { time = 0, position = [0.05, 0.05, 0.102] },
+  { time = 0.3, position = [0.05, 0.05, 0.102], action = "close" },
+  { time = 0.8, position = [0.05, 0.05, 0.102], forward = [0, 1, 0] },
+]
+)",
+                             {});
+  Simulation& s = *started->s;
+  while (s.frame < 33) run_frame(s, started->outputs);
+  ASSERT_FALSE(s.holds.holds.empty());
+  Watch failed{.least_J = -1, .least_J_element = s.mesh.n_elements() - 1};
+  for (std::int32_t e = 0; e < s.mesh.n_elements(); ++e)
+    if (std::ranges::count(s.mesh.corners(e), s.holds.holds[0].node) > 0)
+      failed.least_J_element = e;
+  const Suspect suspect = find_suspect(s, failed, {.t0 = 0.55, .t1 = 0.56});
+  EXPECT_TRUE(contains(suspect.place, "held by \"grasper\", which moves at ")) << suspect.place;
+  EXPECT_TRUE(contains(suspect.cure, "a slower or shorter path of \"grasper\"")) << suspect.cure;
+}
+
 }  // namespace
 }  // namespace trocar

@@ -116,6 +116,24 @@ TEST(ToolPath, is_straight_between_right_angles) {
   });
 }
 
+// A slide at a constant depth, then away obliquely: without stops it goes 4 mm deeper than its
+// keys.
+TEST(ToolPath, is_straight_between_keys_that_stop) {
+  std::vector<InstrumentKey> keys(3);
+  keys[0] = {.time = 0.1, .position = Vec3(-0.045, 0.0013, 0.0175)};
+  keys[1] = {.time = 1.0, .position = Vec3(0.045, 0.0013, 0.0175)};
+  keys[2] = {.time = 1.2, .position = Vec3(0.06, 0.0013, 0.06)};
+  const ToolPath::Bulge bulge = ToolPath(keys).largest_bulge();
+  EXPECT_EQ(bulge.begin, 0.1);
+  EXPECT_EQ(bulge.end, 1);
+  EXPECT_NEAR(bulge.width, 3.8e-3, 0.2e-3);
+  keys[1].stops = true;
+  EXPECT_LT(ToolPath(keys).largest_bulge().width, 1e-17);
+  visit_legs(keys, [](const Vec3& start, const Vec3& leg, const Vec3& x, const Vec3&) {
+    EXPECT_LT((x - start).cross(leg).norm(), 1e-17);
+  });
+}
+
 // A jump of the velocity at a key would show as a difference of the two one-sided slopes that does
 // not vanish with h.
 TEST(ToolPath, has_a_continuous_velocity) {
@@ -242,10 +260,11 @@ TEST(DisplacementPath, rests_to_the_bit_between_equal_keys) {
 
 TEST(DisplacementPath, follows_the_same_rule_as_a_tool) {
   std::mt19937 random(9);
-  const std::vector<InstrumentKey> keys = random_keys(random, 6);
+  std::vector<InstrumentKey> keys = random_keys(random, 6);
+  keys[3].stops = true;
   std::vector<SupportKey> support;
   for (const InstrumentKey& key : keys)
-    support.push_back({.time = key.time, .displacement = key.position});
+    support.push_back({.time = key.time, .displacement = key.position, .stops = key.stops});
   const ToolPath tool(keys);
   const DisplacementPath path(support);
   for (double time = 0; time < keys.back().time + 0.5; time += 0.017)

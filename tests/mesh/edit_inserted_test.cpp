@@ -78,7 +78,7 @@ TEST(EditOfEdgeNodes, leaves_a_sound_mesh_of_the_same_volume_and_mass) {
     ASSERT_GT(box.edit.inserted.size(), 5u);
     const Mesh after = box.after();
     EXPECT_TRUE(validate(after).empty()) << validate(after).front();
-    const std::vector<std::int32_t> parent = element_parents(box.mesh, box.edit);
+    const std::vector<std::int32_t> parent = wholes_of(box.mesh, box.edit);
     ASSERT_EQ(std::ssize(parent), after.n_elements());
     std::vector<double> volume(box.mesh.element_type.size(), 0.0);
     for (std::int32_t e = 0; e < after.n_elements(); ++e)
@@ -115,20 +115,17 @@ TEST(EditOfEdgeNodes, keeps_affine_fields) {
 TEST(EditOfEdgeNodes, numbers_elements_by_what_they_are_parts_of) {
   for (unsigned seed = 0; seed < n_bisected_boxes; ++seed) {
     const BisectedBox box(seed);
-    const SplitNumbers numbers(box.edit.splits);
-    const std::vector<std::int32_t> parent = element_parents(box.mesh, box.edit);
-    std::vector<std::int32_t> renumbered(box.mesh.element_type.size());
-    std::iota(renumbered.begin(), renumbered.end(), 0);
-    const std::vector<std::int32_t> all = renumbered;
-    numbers.renumber(renumbered);
-    for (std::int32_t e = 0; e < std::ssize(parent); ++e) EXPECT_EQ(numbers.before(e), parent[e]);
-    for (const std::int32_t e : all) {
-      const auto parts = std::ranges::equal_range(parent, e);
-      EXPECT_EQ(numbers.after(e), parts.begin() - parent.begin());
-      EXPECT_EQ(renumbered[e], numbers.after(e));
-      EXPECT_EQ(numbers.is_split(e), parts.size() > 1);
+    const SplitNumbers numbers(box.edit.splits, box.mesh.n_elements());
+    const std::vector<std::int32_t> whole = wholes_of(box.mesh, box.edit);
+    for (std::int32_t e = 0; e < std::ssize(whole); ++e) {
+      EXPECT_EQ(numbers.whole(e), whole[e]);
+      EXPECT_EQ(numbers.part(whole[e], numbers.place_in_whole(e)), e);
+      EXPECT_EQ(numbers.is_split(whole[e]), std::ranges::count(whole, whole[e]) > 1);
     }
-    EXPECT_EQ(numbers.all_after(all).size(), parent.size());
+    std::vector<std::int32_t> before(box.mesh.element_type.size()), after(whole.size());
+    std::iota(before.begin(), before.end(), 0);
+    std::iota(after.begin(), after.end(), 0);
+    EXPECT_EQ(numbers.all_after(before), after);
   }
 }
 
@@ -137,16 +134,15 @@ TEST(EditOfEdgeNodes, carries_corners_and_surface_and_boxes) {
     const BisectedBox box(seed);
     const Mesh after = box.after();
     NodeCorners corners = node_corners(box.mesh);
-    const std::vector<std::int32_t> before = edited_elements(corners, box.edit);
+    const std::vector<std::int32_t> before = edited_elements(box.mesh, corners, box.edit);
     apply_edit(box.edit, box.mesh, corners);
     const NodeCorners fresh = node_corners(after);
     for (std::int32_t i = 0; i < after.n_nodes(); ++i)
       EXPECT_EQ(elements_around(corners, {&i, 1}), elements_around(fresh, {&i, 1})) << i;
-    const SplitNumbers numbers(box.edit.splits);
+    const SplitNumbers numbers(box.edit.splits, box.mesh.n_elements());
     std::vector<std::int32_t> nodes = nodes_of(after, numbers.all_after(before));
     const std::vector<std::int32_t> touching = elements_around(corners, nodes);
     Surface surface = boundary_surface(box.mesh);
-    numbers.renumber(surface.element);
     update_surface(after,
                    {nodes, touching,
                     make_sub_mesh(after, elements_around(corners, nodes_of(after, touching)))},
@@ -167,7 +163,7 @@ TEST(EditOfEdgeNodes, carries_corners_and_surface_and_boxes) {
 TEST(EditOfEdgeNodes, gives_parts_the_opened_facets_of_their_element_that_they_lie_on) {
   const BisectedBox box(2);
   const Mesh after = box.after();
-  const std::vector<std::int32_t> parent = element_parents(box.mesh, box.edit);
+  const std::vector<std::int32_t> parent = wholes_of(box.mesh, box.edit);
   for (std::int32_t e = 0; e < after.n_elements(); ++e) {
     const std::int32_t whole = parent[e];
     if (box.mesh.element_type[whole] != ElementType::tet4) continue;
@@ -224,11 +220,11 @@ TEST(EditOfEdgeNodes, gives_each_rank_the_part_of_the_edited_mesh) {
     std::vector<std::int32_t> owner = owner_before;
     apply_edit_to_owners(box.edit, owner);
     NodeCorners corners = node_corners(box.mesh);
-    const std::vector<std::int32_t> before = edited_elements(corners, box.edit);
+    const std::vector<std::int32_t> before = edited_elements(box.mesh, corners, box.edit);
     apply_edit(box.edit, box.mesh, corners);
     std::vector<std::int32_t> nodes = nodes_of(box.mesh, before);
-    for (const std::int32_t i : nodes_of(after, SplitNumbers(box.edit.splits).all_after(before)))
-      nodes.push_back(i);
+    const SplitNumbers numbers(box.edit.splits, box.mesh.n_elements());
+    for (const std::int32_t i : nodes_of(after, numbers.all_after(before))) nodes.push_back(i);
     sort_unique(nodes);
     for (int rank = 0; rank < 3; ++rank) {
       Part part = make_part(box.mesh, owner_before, rank);

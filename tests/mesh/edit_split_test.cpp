@@ -8,6 +8,7 @@
 #include "mesh/element_boxes.h"
 #include "mesh/generate.h"
 #include "mesh/node_corners.h"
+#include "mesh/quality.h"
 #include "mesh_split.h"
 
 namespace trocar {
@@ -42,19 +43,20 @@ constexpr unsigned n_split_boxes = 12;
 TEST(EditOfSplits, numbers_elements_by_what_they_are_parts_of) {
   for (unsigned seed = 0; seed < n_split_boxes; ++seed) {
     const SplitBox box(seed);
-    const SplitNumbers numbers(box.edit.splits);
-    const std::vector<std::int32_t> parent = element_parents(box.mesh, box.edit);
-    for (std::int32_t e = 0; e < std::ssize(parent); ++e) EXPECT_EQ(numbers.before(e), parent[e]);
-    std::vector<std::int32_t> all(60);
-    std::iota(all.begin(), all.end(), 0);
-    std::shuffle(all.begin(), all.end(), std::mt19937(seed));
-    std::vector<std::int32_t> renumbered = all;
-    numbers.renumber(renumbered);
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      const auto children = std::ranges::equal_range(parent, all[k]);
-      EXPECT_EQ(numbers.after(all[k]), children.begin() - parent.begin());
-      EXPECT_EQ(renumbered[k], numbers.after(all[k]));
-      EXPECT_EQ(numbers.is_split(all[k]), children.size() == 6);
+    const SplitNumbers numbers(box.edit.splits, box.mesh.n_elements());
+    const std::vector<std::int32_t> whole = wholes_of(box.mesh, box.edit);
+    std::vector<std::int32_t> n_parts(box.mesh.element_type.size(), 0);
+    for (std::int32_t e = 0; e < std::ssize(whole); ++e) {
+      EXPECT_EQ(numbers.whole(e), whole[e]);
+      EXPECT_EQ(numbers.place_in_whole(e), n_parts[whole[e]]);
+      EXPECT_EQ(numbers.part(whole[e], n_parts[whole[e]]++), e);
+    }
+    for (std::int32_t e = 0; e < box.mesh.n_elements(); ++e) {
+      EXPECT_EQ(numbers.is_split(e), n_parts[e] == 6);
+      const std::vector<std::int32_t> all = numbers.all_after({&e, 1});
+      EXPECT_EQ(std::ssize(all), n_parts[e]);
+      EXPECT_TRUE(std::ranges::is_sorted(all));
+      for (const std::int32_t part : all) EXPECT_EQ(whole[part], e);
     }
   }
 }
@@ -62,18 +64,18 @@ TEST(EditOfSplits, numbers_elements_by_what_they_are_parts_of) {
 TEST(EditOfSplits, leaves_others_their_corners) {
   for (unsigned seed = 0; seed < n_split_boxes; ++seed) {
     const SplitBox box(seed);
-    const SplitNumbers numbers(box.edit.splits);
+    const SplitNumbers numbers(box.edit.splits, box.mesh.n_elements());
     Mesh after = box.mesh;
     apply_edit({.splits = box.edit.splits}, after);
-    ASSERT_EQ(after.corner_offset.back(), std::ssize(after.corner_node));
+    ASSERT_TRUE(validate(after).empty()) << validate(after).front();
     for (std::int32_t e = 0; e < box.mesh.n_elements(); ++e) {
       if (numbers.is_split(e)) continue;
-      EXPECT_TRUE(std::ranges::equal(after.corners(numbers.after(e)), box.mesh.corners(e)));
-      EXPECT_EQ(after.element_type[numbers.after(e)], ElementType::hex8);
+      EXPECT_TRUE(std::ranges::equal(after.corners(e), box.mesh.corners(e)));
+      EXPECT_EQ(after.element_type[e], ElementType::hex8);
     }
     for (const ElementSplit& split : box.edit.splits)
       for (std::size_t k = 0; k < split.corner.size(); ++k) {
-        const std::int32_t e = numbers.after(split.element) + static_cast<std::int32_t>(k);
+        const std::int32_t e = numbers.part(split.element, static_cast<std::int32_t>(k));
         EXPECT_TRUE(std::ranges::equal(after.corners(e), split.corner[k]));
         EXPECT_EQ(after.element_type[e], ElementType::tet4);
       }
@@ -108,15 +110,9 @@ TEST(EditOfSplits, keeps_tetrahedra_in_the_box_of_their_hexahedron) {
     std::iota(nodes.begin(), nodes.end(), 0);
     std::iota(elements.begin(), elements.end(), 0);
     update_element_boxes(after, after.X, {box.edit.splits, nodes, elements}, boxes);
-    const SplitNumbers numbers(box.edit.splits);
-    for (const std::int32_t e : elements) EXPECT_EQ(boxes.leaf[e], leaf[numbers.before(e)]);
-    std::vector<std::int32_t> order = boxes.order;
-    std::ranges::sort(order);
-    EXPECT_EQ(order, elements);
-    ASSERT_EQ(boxes.first.back(), after.n_elements());
-    for (std::size_t k = 0; k + 1 < boxes.first.size(); ++k)
-      for (std::int32_t at = boxes.first[k]; at < boxes.first[k + 1]; ++at)
-        EXPECT_EQ(boxes.leaf[boxes.order[at]], static_cast<std::int32_t>(k));
+    const std::vector<std::int32_t> whole = wholes_of(box.mesh, box.edit);
+    for (const std::int32_t e : elements) EXPECT_EQ(boxes.leaf[e], leaf[whole[e]]);
+    EXPECT_EQ(elements_near(boxes.box[1], 0, boxes), elements);
     for (const std::int32_t e : elements) {
       const Box own = element_box(after, e, after.X);
       EXPECT_TRUE(std::ranges::binary_search(elements_near(own, 0, boxes), e));

@@ -106,7 +106,8 @@ TEST(MeshEdit, sets_cut_facets_and_density_factors) {
 TEST(EditedElements, are_those_whose_volume_corners_or_density_changed) {
   MovedAndOpenedBox box;
   box.edit.density = {{.element = 7, .factor = 2}};
-  const std::vector<std::int32_t> edited = edited_elements(node_corners(box.mesh), box.edit);
+  const std::vector<std::int32_t> edited =
+      edited_elements(box.mesh, node_corners(box.mesh), box.edit);
   EXPECT_TRUE(std::is_sorted(edited.begin(), edited.end()));
   Mesh after = box.mesh;
   apply_edit(box.edit, after);

@@ -67,7 +67,8 @@ TEST(ElementBoxes, follow_an_edit_as_if_made_after_it) {
     ElementBoxes boxes = make_element_boxes(box.mesh, box.mesh.X);
     Mesh after = box.mesh;
     apply_edit(box.edit, after);
-    const std::vector<std::int32_t> edited = edited_elements(node_corners(box.mesh), box.edit);
+    const std::vector<std::int32_t> edited =
+        edited_elements(box.mesh, node_corners(box.mesh), box.edit);
     std::vector<std::int32_t> nodes = nodes_of(box.mesh, edited);
     for (std::int32_t i = box.mesh.n_nodes(); i < after.n_nodes(); ++i) nodes.push_back(i);
     std::vector<Vec3> x = after.X;

@@ -106,7 +106,7 @@ TEST(ElementSplit, a_tetrahedron_without_a_hexahedron_across_stays_at_the_surfac
   EXPECT_EQ(boundary_surface(mesh).triangle.size(), 20U);  // 2 x 10 quads
 }
 
-TEST(ElementSplit, children_take_the_place_and_the_values_of_their_hexahedron) {
+TEST(ElementSplit, gives_parts_the_values_of_their_hexahedron_and_others_keep_their_numbers) {
   Mesh mesh = hex_box({3, 1, 1});
   mesh.region_name = {"a", "b"};
   mesh.element_region = {0, 1, 0};
@@ -116,11 +116,18 @@ TEST(ElementSplit, children_take_the_place_and_the_values_of_their_hexahedron) {
   edit.splits = {split_of(mesh, 1)};
   const Mesh before = mesh;
   apply_edit(edit, mesh);
-  EXPECT_EQ(element_parents(before, edit), (std::vector<std::int32_t>{0, 1, 1, 1, 1, 1, 1, 2}));
-  EXPECT_EQ(edited_elements(node_corners(before), edit), (std::vector<std::int32_t>{1}));
-  EXPECT_EQ(mesh.element_region, (std::vector<std::int32_t>{0, 1, 1, 1, 1, 1, 1, 0}));
-  EXPECT_EQ(mesh.density_factor, (std::vector<double>{1, 2, 2, 2, 2, 2, 2, 3}));
-  EXPECT_EQ(mesh.element_type.back(), ElementType::hex8);
+  EXPECT_EQ(edited_elements(before, node_corners(before), edit), (std::vector<std::int32_t>{1}));
+  EXPECT_EQ(mesh.element_region, (std::vector<std::int32_t>{0, 1, 0, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(mesh.density_factor, (std::vector<double>{1, 2, 3, 2, 2, 2, 2, 2}));
+  EXPECT_EQ(mesh.split_hexahedra, (std::vector<SplitHexahedron>{{1, 3}}));
+  EXPECT_TRUE(validate(mesh).empty());
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    const bool stays = e == 0 || e == 2;
+    EXPECT_EQ(mesh.element_type[e], stays ? ElementType::hex8 : ElementType::tet4);
+    if (stays) {
+      EXPECT_TRUE(std::ranges::equal(mesh.corners(e), before.corners(e)));
+    }
+  }
   // Of all facets, those two on the right side carry the mark.
   int n_marked = 0;
   for (std::int32_t e = 1; e < 7; ++e)

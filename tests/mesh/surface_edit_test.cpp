@@ -10,7 +10,8 @@ using namespace trocar;
 
 // With the same nodes as the edit's own code finds them.
 static std::vector<std::int32_t> edited_nodes(const OpenedBox& box, const Mesh& after) {
-  const std::vector<std::int32_t> elements = edited_elements(node_corners(box.mesh), box.edit);
+  const std::vector<std::int32_t> elements =
+      edited_elements(box.mesh, node_corners(box.mesh), box.edit);
   std::vector<std::int32_t> nodes = nodes_of(box.mesh, elements);
   for (const std::int32_t i : nodes_of(after, elements)) nodes.push_back(i);
   std::sort(nodes.begin(), nodes.end());
@@ -24,7 +25,7 @@ TEST(SurfaceEdit, gives_the_surface_of_the_edited_mesh) {
     OpenedBox box(elements);
     // Each opened facet is marked on both sides, as the cutter does: here all facets of edited
     // ones.
-    for (const std::int32_t e : edited_elements(node_corners(box.mesh), box.edit))
+    for (const std::int32_t e : edited_elements(box.mesh, node_corners(box.mesh), box.edit))
       box.edit.cut_facets.push_back({.element = e, .mask = 15});
     Surface surface = boundary_surface(box.mesh);
     Mesh after = box.mesh;

@@ -42,6 +42,7 @@ bool is_closed(const SurfaceMesh& mesh) {
 
 TEST(SurfaceMesh, normals_of_a_ball_point_outward) {
   const SurfaceMesh mesh = surface_of(make_sphere_surface(Vec3(1, 2, 3), 0.5, 48));
+  EXPECT_GT(mesh.vertex.size(), 48U);
   for (const SurfaceVertex& v : mesh.vertex) {
     const Vec3 radial = (vec(v.x) - Vec3(1, 2, 3)).normalized();
     // Area weights err by the asymmetry of the triangles around a vertex, of the order of their

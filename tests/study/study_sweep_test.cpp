@@ -83,6 +83,7 @@ TEST(StudySweep, costs_are_those_of_the_time_that_was_simulated) {
 
 TEST(StudySweep, no_error_is_said_to_be_below_the_references_own) {
   const Study study = sweep(made_up_problem(.05), {});
+  EXPECT_FALSE(study.runs.empty());
   for (const auto& run : study.runs) {
     EXPECT_EQ(run.is_at_reference, run.n == 8);  // 1/64 < .05 < 1/16
     EXPECT_GE(run.error, .05);
@@ -145,7 +146,9 @@ TEST(StudySweep, the_reference_of_a_scene_is_not_the_method_that_is_still_moving
     outcome.samples = {Vec3(1 - (is_slow ? 3 : 1) * outcome.h, 0, 0)};
     return outcome;
   };
-  for (const auto& run : sweep(problem, {.precisions = {"double"}}).runs)
+  const Study study = sweep(problem, {.precisions = {"double"}});
+  EXPECT_FALSE(study.runs.empty());
+  for (const auto& run : study.runs)
     EXPECT_EQ(run.is_reference, run.method == "hex8" && run.n == 8);
 }
 
@@ -156,7 +159,9 @@ TEST(StudySweep, broken_runs_have_no_error) {
     if (c.n == 4) outcome.trouble = "inverted";
     return outcome;
   };
-  for (const auto& run : sweep(problem, {}).runs) EXPECT_EQ(std::isfinite(run.error), run.n != 4);
+  const Study study = sweep(problem, {});
+  EXPECT_FALSE(study.runs.empty());
+  for (const auto& run : study.runs) EXPECT_EQ(std::isfinite(run.error), run.n != 4);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ bool is_equal(const Mesh& a, const Mesh& b) {
   return a.X == b.X && a.element_type == b.element_type && a.corner_offset == b.corner_offset &&
          a.corner_node == b.corner_node && a.element_region == b.element_region &&
          a.region_name == b.region_name && a.density_factor == b.density_factor &&
-         a.cut_facets == b.cut_facets &&
+         a.cut_facets == b.cut_facets && a.split_hexahedra == b.split_hexahedra &&
          std::equal(a.node_sets.begin(), a.node_sets.end(), b.node_sets.begin(), b.node_sets.end(),
                     same_sets);
 }

@@ -1,5 +1,7 @@
-// Hexahedra to split into tetrahedra.
+// Hexahedra to split into tetrahedra, and what becomes of them.
 #pragma once
+
+#include <numeric>
 
 #include "mesh/edit.h"
 #include "mesh/hex_split.h"
@@ -20,6 +22,15 @@ inline std::vector<ElementSplit> splits_of(const Mesh& mesh,
   std::vector<ElementSplit> splits;
   for (const std::int32_t e : elements) splits.push_back(split_of(mesh, e));
   return splits;
+}
+
+// (n_elements after the edit) The element that each is, or is a part of.
+inline std::vector<std::int32_t> wholes_of(const Mesh& before, const MeshEdit& edit) {
+  std::vector<std::int32_t> whole(before.element_type.size());
+  std::iota(whole.begin(), whole.end(), 0);
+  for (const ElementSplit& split : edit.splits)
+    for (std::int32_t k = 1; k < split.n_tets; ++k) whole.push_back(split.element);
+  return whole;
 }
 
 }  // namespace trocar
