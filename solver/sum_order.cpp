@@ -284,7 +284,7 @@ bool edit_around(std::span<const std::int32_t> nodes, std::span<const BlockPlace
 
 std::vector<BlockPlace> blocks_with_halo(const Model& model, std::int32_t n_owned) {
   std::vector<BlockPlace> places;
-  for (std::size_t list = 0; list < model.blocks.size(); ++list) {
+  for (std::size_t list = 0; list < model.blocks.size() && model.n_local > n_owned; ++list) {
     const ElementBlocks& blocks = model.blocks[list];
     const std::int64_t n = corners_of_block(blocks);
     for (std::int32_t block = 0; block < blocks.n_blocks; ++block) {
@@ -302,7 +302,7 @@ void order_sums(Model& model) {
     blocks.target_block.clear();
   }
   model.sums = make_runs(model);
-  if (model.n_local > model.n_owned) model.sums.halo_block = blocks_with_halo(model, model.n_owned);
+  model.sums.halo_block = blocks_with_halo(model, model.n_owned);
   model.sums.n_strides_before_halo = strides_before_halo(model);
   const NodeUse use = use_of_nodes(model);
   order_own_nodes(use, model);
