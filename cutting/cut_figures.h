@@ -34,6 +34,7 @@ const char* reason_of(const CutRefusal& refusal);
 
 struct CutFigures {
   bool goes_through = false;  // at a stroke's end: the blade has swept from surface to surface
+  bool is_in_slit = false;    // at a stroke's end: it has met nothing but an older slit
   std::int32_t n_opened_facets = 0;
   std::int32_t n_moved = 0;
   std::int32_t n_duplicated = 0;

@@ -1,7 +1,6 @@
 // An edit of the tetrahedra as one of the body: which hexahedra stay, and the numbers of the rest.
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "base/sort_unique.h"
 #include "cutting/cut_hex.h"
@@ -18,7 +17,7 @@ static constexpr double least_reference_ratio = 0.2, least_present_ratio = 0.02;
 
 namespace {
 
-// What an edit of the tetrahedra means for the body, and the numbers after it.
+// What an edit of the tetrahedra means for the body, and the numbers of parts.
 struct Translation {
   const Mesh& body;
   std::span<const Vec3> x;

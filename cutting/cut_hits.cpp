@@ -328,10 +328,11 @@ void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
   box.high[1] += 2 * beyond_end * stroke.mean_edge;
   const std::vector<std::int32_t> element = near_elements(mesh, index, positions, box, begin);
   remember_edge(mesh, index, x, seen, element, stroke);
-  if (!band.triangle.empty()) cross_edges(mesh, x, band, element, stroke);
-  if (index.has_hexahedra) {
-    for (const std::int32_t e : near_hexahedra(mesh, index, positions, box, begin))
-      if (goes_through(mesh, positions.x(), band, e)) stroke.whole.push_back(e);
+  if (!band.triangle.empty()) {
+    cross_edges(mesh, x, band, element, stroke);
+    if (index.has_hexahedra)
+      for (const std::int32_t e : near_hexahedra(mesh, index, positions, box, begin))
+        if (goes_through(mesh, x, band, e)) stroke.whole.push_back(e);
     sort_unique(stroke.whole);
   }
   if (goes_on(stroke)) stroke.is_amid = is_edge_amid(mesh, stroke);

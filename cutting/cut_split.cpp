@@ -241,6 +241,7 @@ void split_stroke(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
       stroke.fresh.push_back(e);
     }
   sort_unique(stroke.fresh);
+  std::ranges::sort(part_side, {}, &OfElement<std::int8_t>::element);
   merge_elements(stroke.side, part_side);
   std::erase_if(stroke.side, [](const OfElement<std::int8_t>& entry) { return entry.value == 0; });
   for (std::int32_t k = 0; k < std::ssize(edit.inserted); ++k)

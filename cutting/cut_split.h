@@ -19,7 +19,7 @@ MeshEdit split_edges(const Mesh& mesh, std::span<const std::int32_t> element,
 // it, and all are looked at again. mesh: before it.
 void split_stroke(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke);
 
-// What a stroke remembers, by the numbers after an edit that inserts nodes. mesh: before it.
+// What a stroke remembers, after an edit that inserts nodes. mesh: before it.
 void follow_splits(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke);
 
 }  // namespace trocar

@@ -1,7 +1,7 @@
 // What a stroke remembers between advances: where the blade has crossed element edges, and what has
 // been opened so far. Element numbers survive edits, so everything is kept by element; node numbers
-// only where copies are followed. In a body with hexahedra, elements are those of HexTets::mesh
-// (cut_hex.h).
+// only where copies are followed. In a body that has or had hexahedra, elements are those of
+// HexTets::mesh (cut_hex.h).
 #pragma once
 
 #include <array>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/check.h"
 #include "cutting/cut_stroke.h"
 
 namespace trocar {
@@ -32,6 +33,7 @@ std::vector<const T*> find_elements(const std::vector<OfElement<T>>& values,
 
 template <class T>
 void merge_elements(std::vector<OfElement<T>>& values, const std::vector<OfElement<T>>& changes) {
+  DCHECK(std::ranges::is_sorted(changes, {}, &OfElement<T>::element));
   std::vector<OfElement<T>> merged;
   merged.reserve(values.size() + changes.size());
   auto old = values.begin();

@@ -263,6 +263,7 @@ CutterEdit TetCutter::advance(const Mesh& mesh, PresentPositions& positions,
   MeshEdit edit = f.advance(tets, positions, constraints, sweep, is_last, figures);
   if (is_last && edit.inserted.empty()) forget_uncrossed(tets, f.stroke);
   figures.goes_through = is_last && has_gone_through(f.stroke);
+  figures.is_in_slit = is_last && f.stroke.hit.empty() && !f.stroke.in_slit.empty();
   CutKnown along;
   if (!edit.is_empty() && edit.inserted.empty())
     along = known_around(edit, tets.n_nodes(), f.index, f.stroke);

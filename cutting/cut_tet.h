@@ -37,7 +37,7 @@ struct CutTetOptions {
   CutStages stages = CutStages::barrier;
 };
 
-// Of the mesh, and of the tetrahedra that the cutter sees in its place, none without hexahedra.
+// Of the mesh, and of the tetrahedra that the cutter sees in its place, if it has or had hexahedra.
 struct CutterEdit : MeshEdit {
   MeshEdit tets;
   CutKnown along;  // what the stroke knows of the elements around what it opens

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "base/vec.h"
 #include "solver/mass_scaling.h"

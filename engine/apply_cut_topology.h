@@ -1,7 +1,6 @@
 // What follows from mesh and owners (rebuild_topology), after an edit that left every corner its
-// owner: made anew around the edit, kept elsewhere, but for elements' numbers and the lists of
-// elements where hexahedra were split. A rank that holds none of the edited elements keeps its halo
-// and model.
+// owner: made anew around the edit, kept elsewhere, but for the lists of elements where some were
+// split. A rank that holds none of the edited elements keeps its halo and model.
 #pragma once
 
 #include <cstdint>

@@ -29,7 +29,7 @@ static void visit(Archive& a, CutRecord& r) {
     r.n_kept_hexahedra, r.stable_step_ratio, r.scene_step_ratio, r.scene_step_before,
     r.least_quality, r.mass_change, r.momentum_change, r.kinetic_energy_change,
     r.strain_energy_change, r.largest_deviation, r.mean_deviation, r.mean_edge, r.n_beside,
-    r.n_turned, r.n_chips, r.n_pulled_back, r.n_inserted, r.goes_through, r.refusals,
+    r.n_turned, r.n_chips, r.n_pulled_back, r.n_inserted, r.goes_through, r.is_in_slit, r.refusals,
     r.blade_travel, r.deepest, r.milliseconds, r.worst_milliseconds);
 }
 template <class Archive>

@@ -8,7 +8,6 @@
 #include "engine/cut_parted.h"
 #include "engine/frame_watch.h"
 #include "engine/tissue_way.h"
-#include "mesh/element_boxes.h"
 
 namespace trocar {
 

@@ -9,6 +9,7 @@ namespace trocar {
 
 static void add_figures(const CutFigures& figures, bool has_edit, CutRecord& record) {
   record.goes_through = figures.goes_through;
+  record.is_in_slit = figures.is_in_slit;
   record.n_refused += figures.n_refused;
   record.n_beside += figures.n_beside;
   record.refusals.insert(record.refusals.end(), figures.refusals.begin(), figures.refusals.end());

@@ -16,7 +16,7 @@ struct Simulation;
 struct CutRecord {
   std::string tool;
   double start = 0, end = 0;                              // [s]
-  bool goes_through = false;                              // see CutFigures
+  bool goes_through = false, is_in_slit = false;          // see CutFigures
   std::int64_t n_edits = 0, n_refused = 0, n_beside = 0;  // n_beside: see CutFigures
   std::vector<CutRefusal> refusals;
   std::int64_t n_moved = 0, n_duplicated = 0, n_opened_facets = 0;

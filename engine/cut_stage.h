@@ -10,7 +10,6 @@
 #include "cutting/cut_tet.h"
 #include "engine/contact_stage.h"
 #include "engine/cut_record.h"
-#include "engine/locate.h"
 
 namespace trocar {
 

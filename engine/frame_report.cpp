@@ -194,13 +194,20 @@ static std::string why_nothing(const Simulation& s, std::span<const CutRecord> s
          "support or an older cut that the slice is thinner than the mesh can show";
 }
 
-// Its strokes that parted nothing, of which the first is told of.
-static void note_idle_strokes(Simulation& s, const Tool& tool, std::span<const CutRecord> strokes) {
-  const auto is_idle = [](const CutRecord& stroke) { return stroke.n_opened_facets == 0; };
+// Its strokes that parted nothing, of which the first is told of. Beside strokes that did, one that
+// is still under way and one within an older slit are none.
+static void note_idle_strokes(Simulation& s, const CutStage& stage) {
+  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  std::span<const CutRecord> strokes = stage.strokes;
+  const auto has_cut = [](const CutRecord& stroke) { return stroke.n_opened_facets > 0; };
+  if (std::ranges::none_of(strokes, has_cut))
+    return note_event(s, s.state.time, tool.name + " has cut nothing: " + why_nothing(s, strokes));
+  if (stage.is_in_stroke) strokes = strokes.first(strokes.size() - 1);
+  const auto is_idle = [&](const CutRecord& stroke) {
+    return !has_cut(stroke) && !stroke.is_in_slit;
+  };
   const auto n_idle = std::ranges::count_if(strokes, is_idle);
   if (n_idle == 0) return;
-  if (n_idle == std::ssize(strokes))
-    return note_event(s, s.state.time, tool.name + " has cut nothing: " + why_nothing(s, strokes));
   const CutRecord& first = *std::ranges::find_if(strokes, is_idle);
   note_event(s, s.state.time,
              tool.name + " has cut nothing in " + std::to_string(n_idle) + " of its " +
@@ -217,7 +224,7 @@ static void note_idle_blades(Simulation& s) {
                      (tool.kind == InstrumentKind::scissors ? "its jaws never closed on the tissue"
                                                             : "its blade never met the tissue"));
     else
-      note_idle_strokes(s, tool, stage.strokes);
+      note_idle_strokes(s, stage);
   }
 }
 

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "mesh/edit.h"
 #include "solver/multirate.h"
 
 namespace trocar {

@@ -166,7 +166,7 @@ Options<SceneCutting> cutting_options() {
            "Tetrahedra where tissue is one element thick: edges may get new nodes that part it, as "
            "long as no element's step bound sinks below this part of the body's least one by that. "
            "Above 0.5 parts of many elements can't keep it, and more stays joined than with 0. "
-           "0: cuts add no nodes but copies.");
+           "0: cuts add no nodes but copies, as in bodies that have or had hexahedra.");
   c.number(
       "resistance", &SceneCutting::resistance, {.kilogram = 1, .second = -2}, not_negative,
       "Work of a cut over its area: the tissue's largest force against a blade per length of the "

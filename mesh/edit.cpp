@@ -167,6 +167,14 @@ static void split_corners(const ElementSplit& split, Mesh& mesh) {
   }
 }
 
+// values (n_elements, or empty): parts get that of their element.
+template <class T>
+static void append_parts(const ElementSplit& split, std::vector<T>& values) {
+  if (values.empty()) return;
+  const T value = values[static_cast<std::size_t>(split.element)];
+  values.insert(values.end(), static_cast<std::size_t>(split.n_tets - 1), value);
+}
+
 static void split_element(const MeshEdit& edit, const ElementSplit& split, Mesh& mesh) {
   const std::int32_t e = split.element, n_before = mesh.n_elements(),
                      first_inserted =
@@ -180,12 +188,11 @@ static void split_element(const MeshEdit& edit, const ElementSplit& split, Mesh&
                                                  first_inserted, tet));
   if (is_hex) mesh.split_hexahedra.push_back({e, n_before});
   split_corners(split, mesh);
-  const std::span<const ElementSplit> one(&split, 1);
   mesh.element_type[e] = ElementType::tet4;
-  spread_over_splits(one, mesh.element_type);
-  spread_over_splits(one, mesh.element_region);
-  spread_over_splits(one, mesh.density_factor);
-  spread_over_splits(one, mesh.fibre);
+  append_parts(split, mesh.element_type);
+  append_parts(split, mesh.element_region);
+  append_parts(split, mesh.density_factor);
+  append_parts(split, mesh.fibre);
   mesh.cut_facets[e] = cut_facets.front();
   mesh.cut_facets.insert(mesh.cut_facets.end(), cut_facets.begin() + 1, cut_facets.end());
 }

@@ -106,16 +106,6 @@ class SplitNumbers {
 // How many elements more there are after the splits.
 std::int32_t n_added(std::span<const ElementSplit> splits);
 
-// values (n_elements, or empty): those of split elements go to all that they become.
-template <class T>
-void spread_over_splits(std::span<const ElementSplit> splits, std::vector<T>& values) {
-  if (values.empty()) return;
-  for (const ElementSplit& split : splits) {
-    const T value = values[static_cast<std::size_t>(split.element)];
-    values.insert(values.end(), static_cast<std::size_t>(split.n_tets - 1), value);
-  }
-}
-
 // Bits of the facets of tetrahedron `part` (nodes), a part of tetrahedron `whole`, that lie on
 // facets of `mask` of it. inserted: those of the edit, the first of which is node first_inserted.
 std::uint8_t facets_of_part(std::span<const std::int32_t> whole, std::uint8_t mask,

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "mesh/edit.h"
 #include "mesh/facet_sort.h"
 #include "mesh/facets.h"
 #include "mesh/quality.h"
@@ -139,6 +140,24 @@ bool check_elements(Report& report, const Mesh& mesh) {
   return is_sound;
 }
 
+// Tetrahedra have the places that the splits gave them.
+void check_split_hexahedra(Report& report, const Mesh& mesh) {
+  std::int64_t end = 0;  // of the parts of the one before
+  const auto is_tet = [&](std::int64_t e) {
+    return mesh.element_type[static_cast<std::size_t>(e)] == ElementType::tet4;
+  };
+  for (const auto& [element, first] : mesh.split_hexahedra) {
+    const bool is_after = first >= end && element >= 0 && element < first;
+    end = std::int64_t{first} + n_hex_tets - 1;
+    bool is_sound = is_after && end <= mesh.n_elements() && is_tet(element);
+    for (std::int64_t e = first; is_sound && e < end; ++e) is_sound = is_tet(e);
+    if (is_sound) continue;
+    report.add("hexahedron " + std::to_string(element) +
+               " is said to be split, but its tetrahedra are not where they should be");
+    return;
+  }
+}
+
 void check_nodes(Report& report, const Mesh& mesh) {
   std::vector<std::uint8_t> is_used(mesh.X.size(), 0);
   for (const std::int32_t i : mesh.corner_node)
@@ -242,6 +261,7 @@ std::vector<std::string> validate(const Mesh& mesh, int most) {
   if (!check_arrays(report, mesh)) return report.sentences;
   if (mesh.n_elements() == 0) report.add("the mesh has no elements");
   const bool is_sound = check_elements(report, mesh);
+  check_split_hexahedra(report, mesh);
   check_nodes(report, mesh);
   check_node_sets(report, mesh);
   if (!is_sound || report.is_full()) return report.sentences;

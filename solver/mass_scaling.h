@@ -14,7 +14,6 @@
 #include <span>
 #include <vector>
 
-#include "mesh/edit.h"
 #include "mesh/partition.h"
 #include "solver/model.h"
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/aligned_vector.h"
-#include "mesh/edit.h"
 #include "mesh/partition.h"
 #include "solver/block_data.h"
 #include "solver/formulation.h"

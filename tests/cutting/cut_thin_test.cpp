@@ -21,6 +21,20 @@ struct Cut {
   int n_inserted = 0;
 };
 
+// Lists are searched by halves.
+void expect_ascending(const CutStroke& stroke) {
+  const auto ascends = [](const auto& values) {
+    return std::ranges::adjacent_find(values, [](const auto& a, const auto& b) {
+             return a.element >= b.element;
+           }) == values.end();
+  };
+  EXPECT_TRUE(ascends(stroke.side));
+  EXPECT_TRUE(ascends(stroke.opened));
+  EXPECT_TRUE(ascends(stroke.step));
+  EXPECT_TRUE(ascends(stroke.whole_edge));
+  EXPECT_TRUE(std::ranges::is_sorted(stroke.hit, {}, &CutHit::key));
+}
+
 // One frame, and the cut itself where nodes are put on edges first. The other cutter takes it up.
 void step(TetCutter& cutter, BladeSweep sweep, bool is_last, Cut& result, Ledger& ledger,
           TetCutter* other = nullptr) {
@@ -30,6 +44,7 @@ void step(TetCutter& cutter, BladeSweep sweep, bool is_last, Cut& result, Ledger
     if (other != nullptr && !edit.is_empty()) other->follow(before, edit);
     is_parted = edit.inserted.empty();
     result.n_inserted += static_cast<int>(edit.inserted.size());
+    expect_ascending(cutter.stroke());
   }
 }
 

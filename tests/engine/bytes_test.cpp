@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 #include <new>
 
 #include "base/error.h"
@@ -57,8 +58,10 @@ TEST(Bytes, every_kind_of_mesh_comes_back_equal) {
     mesh.element_region[1] = 1;
     EXPECT_TRUE(is_equal(mesh_from_bytes(mesh_to_bytes(mesh)), mesh)) << named.name;
     mesh.hex_split_rank.assign(mesh.X.size(), 3);
+    mesh.split_hexahedra = {{4, 7}, {1, 12}};
     const Mesh back = mesh_from_bytes(mesh_to_bytes(mesh));
     EXPECT_EQ(back.hex_split_rank, mesh.hex_split_rank) << named.name;
+    EXPECT_EQ(back.split_hexahedra, mesh.split_hexahedra) << named.name;
     mesh.hex_split_rank.pop_back();
     EXPECT_THROW(mesh_from_bytes(mesh_to_bytes(mesh)), InputError) << named.name;
   }
@@ -156,8 +159,10 @@ TEST(Bytes, of_an_unknown_element_type_are_refused) {
   mesh.element_type[1] = static_cast<ElementType>(n_element_types);
   EXPECT_TRUE(contains(error_of([&] { mesh_from_bytes(mesh_to_bytes(mesh)); }), "unknown type 3"));
   mesh = make_rectangle(0.07, 0.04, 3, 2);
-  mesh.corner_offset.back() += 3;
-  EXPECT_THROW(mesh_from_bytes(mesh_to_bytes(mesh)), InputError);
+  for (const std::int32_t offset : {-1, 34, std::numeric_limits<std::int32_t>::max()}) {
+    mesh.corner_offset.back() = offset;
+    EXPECT_THROW(mesh_from_bytes(mesh_to_bytes(mesh)), InputError) << offset;
+  }
 }
 
 }  // namespace

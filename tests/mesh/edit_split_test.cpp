@@ -120,5 +120,40 @@ TEST(EditOfSplits, keeps_tetrahedra_in_the_box_of_their_hexahedron) {
   }
 }
 
+// One of the parts is split again, as are two more hexahedra.
+TEST(EditOfSplits, finds_the_boxes_of_parts_of_several_edits) {
+  SplitBox box(3);
+  box.edit.duplicate_parent.clear();
+  box.edit.corners.clear();
+  ElementBoxes boxes = make_element_boxes(box.mesh, box.mesh.X);
+  Mesh mesh = box.mesh;
+  const auto apply = [&](const MeshEdit& edit) {
+    apply_edit(edit, mesh);
+    std::vector<std::int32_t> nodes(mesh.X.size()), elements(mesh.element_type.size());
+    std::iota(nodes.begin(), nodes.end(), 0);
+    std::iota(elements.begin(), elements.end(), 0);
+    update_element_boxes(mesh, mesh.X, {edit.splits, nodes, elements}, boxes);
+    EXPECT_EQ(elements_near(boxes.box[1], 0, boxes), elements);
+    for (const std::int32_t e : elements)
+      EXPECT_TRUE(
+          std::ranges::binary_search(elements_near(element_box(mesh, e, mesh.X), 0, boxes), e));
+  };
+  apply(box.edit);
+  std::vector<std::int32_t> whole;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    if (mesh.element_type[e] == ElementType::hex8 && whole.size() < 2) whole.push_back(e);
+  ASSERT_EQ(whole.size(), 2U);
+  apply({.splits = splits_of(mesh, whole)});
+  const std::int32_t last = mesh.n_elements() - 1, node = mesh.n_nodes();
+  const auto corner = mesh.corners(last);
+  ElementSplit split{.element = last, .n_tets = 2};
+  for (std::size_t k = 0; k < 2; ++k) {
+    std::ranges::copy(corner, split.corner[k].begin());
+    split.corner[k][k] = node;
+  }
+  const auto [a, b] = std::minmax(corner[0], corner[1]);
+  apply({.inserted = {{.end = {a, b}, .s = 0.5}}, .splits = {split}});
+}
+
 }  // namespace
 }  // namespace trocar

@@ -5,6 +5,7 @@
 
 #include "mesh/quality.h"
 #include "mesh_fixtures.h"
+#include "mesh_split.h"
 
 using namespace trocar;
 
@@ -132,6 +133,31 @@ TEST(Validate, names_arrays_of_the_wrong_length) {
   mesh = small_box();
   mesh.corner_node.pop_back();
   EXPECT_EQ(validate(mesh), Sentences{"corner_node has 19 entries instead of 20"});
+}
+
+TEST(Validate, names_corners_that_are_not_an_elements_own) {
+  Mesh mesh = small_box();
+  mesh.corner_offset[3] = 4;
+  EXPECT_EQ(validate(mesh), Sentences{"corner_offset of element 3 is 4, where another element has "
+                                      "corners"});
+  for (const std::int32_t offset : {-1, 17, std::numeric_limits<std::int32_t>::max()}) {
+    mesh.corner_offset[3] = offset;
+    EXPECT_EQ(validate(mesh), Sentences{"corner_offset of element 3 is " + std::to_string(offset) +
+                                        ", where there are none"});
+  }
+}
+
+TEST(Validate, names_split_hexahedra_whose_tetrahedra_are_elsewhere) {
+  const Mesh whole = make_box(Vec3::Zero(), Vec3::Ones(), {3, 1, 1}, BoxElements::hex8);
+  Mesh mesh = whole;
+  apply_edit({.splits = splits_of(whole, std::vector<std::int32_t>{0, 2})}, mesh);
+  EXPECT_EQ(mesh.split_hexahedra, (std::vector<SplitHexahedron>{{0, 3}, {2, 8}}));
+  EXPECT_TRUE(validate(mesh).empty());
+  for (const auto& wrong : std::vector<std::vector<SplitHexahedron>>{
+           {{0, 3}, {2, 9}}, {{1, 3}}, {{0, 3}, {2, 3}}, {{0, 1}}, {{-1, 3}}, {{9, 3}}}) {
+    mesh.split_hexahedra = wrong;
+    EXPECT_EQ(validate(mesh).size(), 1U);
+  }
 }
 
 TEST(Validate, gives_no_more_sentences_than_asked_for) {
