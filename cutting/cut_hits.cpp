@@ -290,7 +290,7 @@ static void cross_edges(const Mesh& mesh, std::span<const Vec3> x, const Band& b
 // Whether the band goes through the hexahedron, not just beside one of its faces.
 static bool goes_through(const Mesh& mesh, std::span<const Vec3> x, const Band& band,
                          std::int32_t e) {
-  constexpr double beside = 0.1;  // of an edge
+  constexpr double beside = 0.01;  // of an edge
   const std::span<const std::int32_t> c = mesh.corners(e);
   for (std::size_t a = 0; a < 4; ++a)
     for (const auto& [p, q] :

@@ -191,7 +191,8 @@ static std::string why_nothing(const Simulation& s, std::span<const CutRecord> s
            " mm through the tissue, but where it was parted already, or along its boundary";
   return "it went " + short_text(1e3 * way) + " mm through the tissue" + elements +
          "along its edge, as one that stabs, across too few of them, or so near to a surface, a "
-         "support or an older cut that the slice is thinner than the mesh can show";
+         "support, an older cut or hexahedra that can't become tetrahedra that the slice is "
+         "thinner than the mesh can show";
 }
 
 // Its strokes that parted nothing, of which the first is told of. Beside strokes that did, one that
