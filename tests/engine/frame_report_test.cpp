@@ -42,7 +42,8 @@ TEST(IdleTools, that_leave_a_slice_at_a_support_are_told_with_its_area) {
 
 TEST(IdleTools, that_were_deep_in_the_tissue_are_told_with_the_reason) {
   const std::string beside_support = told_of_blade("-0.01, -0.02, 0.0001", "0.03, -0.02, 0.0001");
-  EXPECT_TRUE(contains(beside_support, "so near to a surface, a support or an older cut"))
+  EXPECT_TRUE(
+      contains(beside_support, "so near to a surface, a support, an older cut or hexahedra"))
       << beside_support;
   const std::string stab = told_of_blade("0.01, 0.03, 0.008", "0.01, -0.01, 0.008");
   EXPECT_TRUE(contains(stab, "along its edge, as one that stabs")) << stab;
