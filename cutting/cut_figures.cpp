@@ -10,8 +10,7 @@ const char* reason_of(const CutRefusal& refusal) {
       "a piece too small for the mesh, or left joined by the blade, stays with the other side",
       "tissue on the blade's way from surface to surface stays joined",
       "a hexahedron there can't become tetrahedra: it is bent too much, or tetrahedra beside it "
-      "have "
-      "the other diagonal",
+      "have the other diagonal",
       "the stable step of elements there would fall below the floor",
       "nodes there are held",
       "too few nodes are there for valid elements",

@@ -140,8 +140,8 @@ static std::vector<NodePart> parts_at_nodes(const MeshEdit& edit, const SplitNum
   for (const ElementSplit& split : edit.splits)
     for (std::int32_t k = 0; k < split.n_tets; ++k) {
       const std::array<std::int32_t, 4>& corner = split.corner[static_cast<std::size_t>(k)];
-      for (const std::int32_t i : corner)
-        parts.push_back({i, numbers.part(split.element, k), &corner});
+      const std::int32_t part = numbers.part(split.element, k);
+      for (const std::int32_t i : corner) parts.push_back({i, part, &corner});
     }
   std::ranges::sort(parts, [](const NodePart& a, const NodePart& b) {
     return std::pair(a.node, a.element) < std::pair(b.node, b.element);

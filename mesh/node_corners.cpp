@@ -45,7 +45,8 @@ static void split_elements(const SplitNumbers& numbers, std::span<const ElementS
     for (const std::int32_t node : before.corners(split.element))
       unused.push_back(unlink(corners, node, split.element));
   for (const ElementSplit& split : splits)
-    for (std::int32_t k = 0; k < split.n_tets; ++k)
+    for (std::int32_t k = 0; k < split.n_tets; ++k) {
+      const std::int32_t part = numbers.part(split.element, k);
       for (const std::int32_t node : split.corner[static_cast<std::size_t>(k)]) {
         if (unused.empty()) {
           unused.push_back(static_cast<std::int32_t>(corners.next.size()));
@@ -54,9 +55,10 @@ static void split_elements(const SplitNumbers& numbers, std::span<const ElementS
         }
         const std::int32_t corner = unused.back();
         unused.pop_back();
-        corners.element[corner] = numbers.part(split.element, k);
+        corners.element[corner] = part;
         link(corners, node, corner);
       }
+    }
 }
 
 void apply_edit(const MeshEdit& edit, const Mesh& before, NodeCorners& corners) {
