@@ -317,22 +317,22 @@ void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
   const Band swept = make_band(seen, 0, stroke);
   // The first band of a stroke may begin anywhere.
   if (stroke.edge.size() != sweep.before.size())
-    begin = near_elements(mesh, index, positions, box_of(swept));
+    begin = near_elements(mesh, index, positions, box_of(swept)).tets;
   if (stroke.mean_edge == 0)
     stroke.mean_edge = mean_length(
-        mesh, edge_uses(mesh, near_elements(mesh, index, positions, box_of(swept), begin)), stroke);
+        mesh, edge_uses(mesh, near_elements(mesh, index, positions, box_of(swept), begin).tets),
+        stroke);
   const std::span<const Vec3> x = positions.x();
   const Band band = make_band(seen, overlap * stroke.mean_edge, stroke);
   BandBox box = box_of(band);  // and tissue beyond the edge's ends
   box.low[1] -= 2 * beyond_end * stroke.mean_edge;
   box.high[1] += 2 * beyond_end * stroke.mean_edge;
-  const std::vector<std::int32_t> element = near_elements(mesh, index, positions, box, begin);
-  remember_edge(mesh, index, x, seen, element, stroke);
+  const NearElements near = near_elements(mesh, index, positions, box, begin);
+  remember_edge(mesh, index, x, seen, near.tets, stroke);
   if (!band.triangle.empty()) {
-    cross_edges(mesh, x, band, element, stroke);
-    if (index.has_hexahedra)
-      for (const std::int32_t e : near_hexahedra(mesh, index, positions, box, begin))
-        if (goes_through(mesh, x, band, e)) stroke.whole.push_back(e);
+    cross_edges(mesh, x, band, near.tets, stroke);
+    for (const std::int32_t e : near.hexahedra)
+      if (goes_through(mesh, x, band, e)) stroke.whole.push_back(e);
     sort_unique(stroke.whole);
   }
   if (goes_on(stroke)) stroke.is_amid = is_edge_amid(mesh, stroke);

@@ -65,7 +65,6 @@ void update_index(const Mesh& mesh, CutIndex& index) {
     index.star_size[i] = around.offset[i + 1] - around.offset[i];
   index.star_element = std::move(around.element);
   find_surface_nodes(mesh, index);
-  index.has_hexahedra = std::ranges::count(mesh.element_type, ElementType::hex8) > 0;
   index.ring.assign(mesh.X.size(), no_ring);
   index.local.assign(mesh.X.size(), -1);
   index.across.assign(mesh.element_type.size(), {not_known, not_known, not_known, not_known});

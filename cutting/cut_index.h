@@ -31,7 +31,6 @@ struct CutIndex {
   // uses.
   std::vector<std::uint8_t> ring;
   std::vector<std::int32_t> local, local_element;
-  bool has_hexahedra = false;         // that are not seen as tetrahedra
   std::vector<WaitingFacet> waiting;  // scratch of patches, anything between two uses
   std::vector<double> step;  // step_bound, 0 where not known; empty unless asked for (n_elements)
   // Of the mesh that it belongs to; nullptr if that has yet to be edited as the index has been.

@@ -16,11 +16,10 @@ struct NearSearch {
   CutIndex& index;
   std::span<const Vec3> x;
   const BandBox& box;
-  ElementType type;                   // wanted
-  Box around;                         // of `box`
-  std::vector<std::int32_t> seen;     // nodes with a mark in index.ring
-  std::vector<std::int32_t> queue;    // nodes
-  std::vector<std::int32_t> element;  // found so far
+  Box around;                       // of `box`
+  std::vector<std::int32_t> seen;   // nodes with a mark in index.ring
+  std::vector<std::int32_t> queue;  // nodes
+  NearElements found;
 };
 
 }  // namespace
@@ -69,52 +68,41 @@ static void search_star(NearSearch& search, std::int32_t i) {
     }
     if (common != 0 || (any & is_searched) != 0) continue;
     if (!element_box(search.mesh, e, search.x).overlaps(search.around)) continue;
-    if (search.mesh.element_type[e] == search.type) search.element.push_back(e);
+    const bool is_tet = search.mesh.element_type[e] == ElementType::tet4;
+    (is_tet ? search.found.tets : search.found.hexahedra).push_back(e);
     for (const std::int32_t j : corner) put_in_queue(search, j);
   }
   mark_of(search, i) |= is_searched;
 }
 
-static std::vector<std::int32_t> run(NearSearch& search) {
+static NearElements run(NearSearch& search) {
   for (std::size_t k = 0; k < search.queue.size(); ++k) search_star(search, search.queue[k]);
   for (const std::int32_t i : search.seen) search.index.ring[i] = no_ring;
-  std::sort(search.element.begin(), search.element.end());
-  return std::move(search.element);
+  std::ranges::sort(search.found.tets);
+  std::ranges::sort(search.found.hexahedra);
+  return std::move(search.found);
 }
 
 static NearSearch search_for(const Mesh& mesh, CutIndex& index, const PresentPositions& positions,
-                             const BandBox& box, ElementType type = ElementType::tet4) {
-  return {mesh, index, positions.x(), box, type, box_around(box), {}, {}, {}};
+                             const BandBox& box) {
+  return {mesh, index, positions.x(), box, box_around(box), {}, {}, {}};
 }
 
-static std::vector<std::int32_t> run_from(std::span<const std::int32_t> begin,
-                                          PresentPositions& positions, NearSearch& search) {
-  for (const std::int32_t i : positions.nodes_near(search.around))
-    if (search.index.is_surface[i] != 0) put_in_queue(search, i);
-  for (const std::int32_t e : begin)
-    for (const std::int32_t i : search.mesh.corners(e)) put_in_queue(search, i);
-  return run(search);
-}
-
-std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index,
-                                        PresentPositions& positions, const BandBox& box) {
+NearElements near_elements(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
+                           const BandBox& box) {
   NearSearch search = search_for(mesh, index, positions, box);
   for (const std::int32_t i : positions.nodes_near(search.around)) put_in_queue(search, i);
   return run(search);
 }
 
-std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index,
-                                        PresentPositions& positions, const BandBox& box,
-                                        std::span<const std::int32_t> begin) {
+NearElements near_elements(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
+                           const BandBox& box, std::span<const std::int32_t> begin) {
   NearSearch search = search_for(mesh, index, positions, box);
-  return run_from(begin, positions, search);
-}
-
-std::vector<std::int32_t> near_hexahedra(const Mesh& mesh, CutIndex& index,
-                                         PresentPositions& positions, const BandBox& box,
-                                         std::span<const std::int32_t> begin) {
-  NearSearch search = search_for(mesh, index, positions, box, ElementType::hex8);
-  return run_from(begin, positions, search);
+  for (const std::int32_t i : positions.nodes_near(search.around))
+    if (index.is_surface[i] != 0) put_in_queue(search, i);
+  for (const std::int32_t e : begin)
+    for (const std::int32_t i : mesh.corners(e)) put_in_queue(search, i);
+  return run(search);
 }
 
 }  // namespace trocar

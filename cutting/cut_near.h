@@ -19,19 +19,17 @@ struct BandBox {
   Vec3 low, high;
 };
 
-// Tetrahedra that the box may meet in the present configuration, ascending: their corners are not
-// all beyond one side of it, and their boxes along the axes of space overlap its own. All in the
-// body ...
-std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index,
-                                        PresentPositions& positions, const BandBox& box);
+// Elements that the box may meet in the present configuration, ascending: their corners are not all
+// beyond one side of it, and their boxes along the axes of space overlap its own.
+struct NearElements {
+  std::vector<std::int32_t> tets, hexahedra;
+};
+// All in the body ...
+NearElements near_elements(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
+                           const BandBox& box);
 // ... and those that hang together, through such elements, with the body's surface or with
 // `begin`. What is cut in one piece with the surface or with one of these elements is among them.
-std::vector<std::int32_t> near_elements(const Mesh& mesh, CutIndex& index,
-                                        PresentPositions& positions, const BandBox& box,
-                                        std::span<const std::int32_t> begin);
-// Hexahedra, likewise.
-std::vector<std::int32_t> near_hexahedra(const Mesh& mesh, CutIndex& index,
-                                         PresentPositions& positions, const BandBox& box,
-                                         std::span<const std::int32_t> begin);
+NearElements near_elements(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
+                           const BandBox& box, std::span<const std::int32_t> begin);
 
 }  // namespace trocar

@@ -70,8 +70,8 @@ TEST(NearElements, are_found_from_the_surface_or_the_begin_wherever_a_band_lies)
   int n_met = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const BandBox box = random_box(random);
-    const auto all = near_elements(mesh, index, positions, box);
-    const auto found = near_elements(mesh, index, positions, box, begin_of(mesh, box));
+    const auto all = near_elements(mesh, index, positions, box).tets;
+    const auto found = near_elements(mesh, index, positions, box, begin_of(mesh, box)).tets;
     EXPECT_TRUE(std::ranges::includes(all, found));
     for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
       if (!is_met(mesh, e, box)) continue;
@@ -122,8 +122,8 @@ TEST(NearElements, of_a_cut_and_stretched_body_are_those_that_a_look_at_all_find
       const auto is_surface = [&](std::int32_t i) { return index.is_surface[i] != 0; };
       if (std::ranges::any_of(body.mesh.corners(e), is_surface)) at_surface.push_back(e);
     }
-    EXPECT_EQ(near_elements(body.mesh, index, positions, box), all) << trial;
-    const auto found = near_elements(body.mesh, index, positions, box, {});
+    EXPECT_EQ(near_elements(body.mesh, index, positions, box).tets, all) << trial;
+    const auto found = near_elements(body.mesh, index, positions, box, {}).tets;
     EXPECT_TRUE(std::ranges::includes(found, at_surface)) << trial;
     EXPECT_TRUE(std::ranges::includes(all, found)) << trial;
     n_found += found.size();
@@ -138,9 +138,9 @@ TEST(NearElements, deep_in_the_body_are_found_from_the_begin_only) {
   box.axes = Mat3::Identity();
   box.low = box.high = Vec3(0.51, 0.52, 0.53);  // eight cells deep
   KnownPositions positions(mesh, mesh.X);
-  EXPECT_TRUE(near_elements(mesh, index, positions, box, {}).empty());
-  const auto found = near_elements(mesh, index, positions, box, begin_of(mesh, box));
-  EXPECT_EQ(found, near_elements(mesh, index, positions, box));
+  EXPECT_TRUE(near_elements(mesh, index, positions, box, {}).tets.empty());
+  const auto found = near_elements(mesh, index, positions, box, begin_of(mesh, box)).tets;
+  EXPECT_EQ(found, near_elements(mesh, index, positions, box).tets);
   EXPECT_FALSE(found.empty());
 }
 
