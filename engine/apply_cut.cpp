@@ -63,53 +63,6 @@ std::vector<std::int32_t> hosts_of(const MeshEdit& edit) {
   return hosts;
 }
 
-// Copies of elements' history before an edit, none without viscosity, and where it goes.
-struct CarriedHistory {
-  std::vector<double> copies;
-  ElementOrigins origins;
-};
-
-std::vector<std::int32_t> all_elements(std::int32_t n) {
-  std::vector<std::int32_t> all(static_cast<std::size_t>(n));
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
-
-// Of these elements (ascending, before the edit), while part, model and state are those before it.
-// Collective.
-CarriedHistory carry_history(const Simulation& s, std::span<const std::int32_t> elements,
-                             const SplitNumbers& numbers) {
-  CarriedHistory history{
-      .copies = s.communicator->all_gather(copy_history(s.model, s.part, s.state, elements)),
-      .origins = {}};
-  history.origins.element = numbers.all_after(elements);
-  for (const std::int32_t e : history.origins.element)
-    history.origins.parent.push_back(numbers.whole(e));
-  history.origins.scale.assign(history.origins.element.size(), 1.0);
-  return history;
-}
-
-// after: the mesh behind the edit.
-void find_scales(const Mesh& after, const EditedElements& edited, ElementOrigins& origins) {
-  for (std::size_t k = 0; k < origins.element.size(); ++k) {
-    const auto at = std::lower_bound(edited.before.begin(), edited.before.end(), origins.parent[k]);
-    if (at != edited.before.end() && *at == origins.parent[k])
-      origins.scale[k] = element_volume(after, origins.element[k], after.X) /
-                         edited.volume[static_cast<std::size_t>(at - edited.before.begin())];
-  }
-}
-
-// What is known of the body before an edit and holds for most of it behind it.
-struct Known {
-  Watch watch;
-  std::int64_t at_step = 0;  // of the last search
-};
-
-void restore_known(const Known& known, Simulation& s) {
-  s.look.at_step = known.at_step;
-  s.watch = known.watch;
-}
-
 // Whether the step is known from what is around the edit and what was known of the rest.
 bool keeps_step(const Simulation& s) {
   return s.look.is_done && s.watch.is_finite && s.watch.least_J > 0;
@@ -176,9 +129,71 @@ void move_positions(const MeshEdit& edit, const Mesh& mesh, GlobalState& global)
   }
 }
 
+// All nodes that the edited elements have before the edit, and those that they will get of them.
+std::vector<std::int32_t> old_nodes(const Mesh& mesh, std::span<const std::int32_t> nodes,
+                                    const MeshEdit& edit) {
+  std::vector<std::int32_t> all(nodes.begin(), nodes.end());
+  for (const CornerChange& change : edit.corners)
+    if (change.node < mesh.n_nodes()) all.push_back(change.node);
+  sort_unique(all);
+  return all;
+}
+
+// Energy of the body, but for a constant that the edit leaves as it is; 0 without a ledger. [J]
+// Collective.
+double energy_around(Simulation& s, bool is_local, std::span<const std::int32_t> nodes,
+                     GlobalState& global) {
+  if (!s.energy) return 0;
+  return is_local ? patch_energy(s, nodes, {.global = global}) : mechanical_energy(s).sum();
+}
+
+// An edit, and what is around it before it is made.
+struct Before {
+  const MeshEdit& edit;
+  SplitNumbers numbers;
+  EditedElements edited;
+  std::vector<std::int32_t> nodes = {};         // corners of the edited elements
+  std::vector<std::int32_t> with_history = {};  // elements whose history must go over
+  std::vector<std::int32_t> adjustable = {};    // see adjustable_nodes
+  Motion motion = {};                           // of `nodes`
+  double mass = 0, least_step = 0;              // the same [kg]; of the edited elements [s]
+  double strain = 0, energy = 0;                // see make_strained_patch, energy_around [J]
+  bool is_energy_local = false;
+  // Of the body, and what holds for most of it behind the edit, too.
+  std::int32_t n_elements = 0;
+  std::size_t n_owned = 0;  // nodes of this rank
+  Watch watch = {};
+  std::int64_t last_search = 0;  // its step
+  bool is_step_known = false;    // from what is around the edit and the watch
+};
+
+// global: gets what is around the edit. Collective.
+Before measure_before(Simulation& s, const MeshEdit& edit, GlobalState& global) {
+  const SplitNumbers numbers(edit.splits, s.mesh.n_elements());
+  Before before{edit, numbers, find_edited(s.mesh, s.corners, edit, numbers)};
+  const std::vector<std::int32_t>& elements = before.edited.before;
+  before.nodes = nodes_of(s.mesh, elements);
+  find_nodes(s, united(before.nodes, nodes_of(s.mesh, hosts_of(edit))), *s.communicator, global);
+  before.motion = motion_about_centre(before.nodes, s.mass, global);
+  before.mass = mass_of(before.nodes, s.mass);
+  before.least_step = least_element_step(s, elements);
+  before.is_energy_local = keeps_energy(s);
+  const std::vector<std::int32_t> all_nodes = old_nodes(s.mesh, before.nodes, edit);
+  before.energy = energy_around(s, before.is_energy_local, all_nodes, global);
+  before.strain = strain_energy(*make_strained_patch(s, edit, elements, all_nodes, global));
+  if (is_viscous(s.materials)) before.with_history = elements_of_patch(s, all_nodes);
+  before.adjustable = adjustable_nodes(s, edit);
+  before.n_elements = s.mesh.n_elements();
+  before.n_owned = static_cast<std::size_t>(s.part.n_owned);
+  before.watch = s.watch;
+  before.last_search = s.look.at_step;
+  before.is_step_known = keeps_step(s);
+  return before;
+}
+
 // All that every rank holds of the whole body; returns whether update_topology will do.
-bool edit_whole(const MeshEdit& edit, const EditedElements& edited, GlobalState& global,
-                Simulation& s) {
+bool edit_whole(const Before& before, GlobalState& global, Simulation& s) {
+  const MeshEdit& edit = before.edit;
   const std::int32_t n_before = s.mesh.n_nodes();
   apply_edit(edit, s.mesh, 3, global.u);
   apply_edit(edit, s.mesh, 3, global.v);
@@ -190,43 +205,78 @@ bool edit_whole(const MeshEdit& edit, const EditedElements& edited, GlobalState&
   apply_edit(edit, s.mesh);
   move_positions(edit, s.mesh, global);
   const bool has_new_owners = !edit.splits.empty() && rebalance(s);
-  return is_local && !has_new_owners && follow_mass_scaling(edited.after, s);
+  return is_local && !has_new_owners && follow_mass_scaling(before.edited.after, s);
 }
 
-// Of the edited elements and their nodes.
-struct Before {
-  Motion motion;
-  double least_step = 0, mass = 0;
+// Copies of elements' history before an edit, none without viscosity, and where it goes.
+struct CarriedHistory {
+  std::vector<double> copies;
+  ElementOrigins origins;
 };
 
-// All nodes that the edited elements have before the edit, and those that they will get of them.
-std::vector<std::int32_t> old_nodes(const Mesh& mesh, std::span<const std::int32_t> nodes,
-                                    const MeshEdit& edit) {
-  std::vector<std::int32_t> all(nodes.begin(), nodes.end());
-  for (const CornerChange& change : edit.corners)
-    if (change.node < mesh.n_nodes()) all.push_back(change.node);
-  sort_unique(all);
+std::vector<std::int32_t> all_elements(std::int32_t n) {
+  std::vector<std::int32_t> all(static_cast<std::size_t>(n));
+  std::iota(all.begin(), all.end(), 0);
   return all;
 }
 
-Before measure_before(const Simulation& s, std::span<const std::int32_t> elements,
-                      std::span<const std::int32_t> nodes, const GlobalState& global) {
-  return {.motion = motion_about_centre(nodes, s.mass, global),
-          .least_step = least_element_step(s, elements),
-          .mass = mass_of(nodes, s.mass)};
+// How much larger edited elements have become.
+double scale_of(const Mesh& mesh, const EditedElements& edited, std::int32_t e,
+                std::int32_t parent) {
+  const auto at = std::ranges::lower_bound(edited.before, parent);
+  if (at == edited.before.end() || *at != parent) return 1;
+  return element_volume(mesh, e, mesh.X) /
+         edited.volume[static_cast<std::size_t>(at - edited.before.begin())];
 }
 
-// Energy of the body, but for a constant that the edit leaves as it is; 0 without a ledger. [J]
+// When the mesh is edited, while part, model and state are those before it. Collective.
+CarriedHistory carry_history(const Simulation& s, const Before& before, bool is_local) {
+  if (!is_viscous(s.materials)) return {};
+  const std::vector<std::int32_t> elements =
+      is_local ? before.with_history : all_elements(before.n_elements);
+  CarriedHistory history{
+      .copies = s.communicator->all_gather(copy_history(s.model, s.part, s.state, elements)),
+      .origins = {}};
+  ElementOrigins& origins = history.origins;
+  origins.element = before.numbers.all_after(elements);
+  for (const std::int32_t e : origins.element) {
+    origins.parent.push_back(before.numbers.whole(e));
+    origins.scale.push_back(scale_of(s.mesh, before.edited, e, origins.parent.back()));
+  }
+  return history;
+}
+
+// Strain energy and motion around the edit, as they were. nodes: those of `before` and of after it,
+// ascending. Returns what that took, with what the edit has changed of the energy if that is local.
 // Collective.
-double energy_around(Simulation& s, bool is_local, std::span<const std::int32_t> nodes,
-                     GlobalState& global) {
-  if (!s.energy) return 0;
-  return is_local ? patch_energy(s, nodes, {.global = global}) : mechanical_energy(s).sum();
+TakenUp restore_energies(Simulation& s, const Before& before, std::span<const std::int32_t> nodes,
+                         GlobalState& global, CutRecord& record) {
+  const double tolerance = tolerated * before.strain;
+  const double surplus = restore_strain_energy(
+      before.adjustable, before.strain, tolerance, s.mesh,
+      *make_strained_patch(s, before.edit, before.edited.after, nodes, global), global);
+  restore_motion(nodes, before.adjustable, s.mass, before.motion, global, record);
+  const double energy =
+      before.is_energy_local ? energy_around(s, true, nodes, global) - before.energy : 0;
+  TakenUp around = take_up_around(s, before.adjustable, surplus, tolerance, global, record);
+  around.energy += energy;
+  if (before.strain > 0)
+    record.strain_energy_change =
+        std::max(record.strain_energy_change, std::abs(around.surplus) / before.strain);
+  return around;
 }
 
-void add_to_record(const Simulation& s, const Before& before,
-                   std::span<const std::int32_t> elements, std::span<const std::int32_t> nodes,
+void watch_around(Simulation& s, const Before& before, const CarriedHistory& history,
+                  GlobalState& global) {
+  s.look.at_step = before.last_search;
+  s.watch = before.watch;
+  watch_edit(s, before.edited.after, {global, history.copies, &history.origins});
+  if (s.energy) update_volume_change(s.model, s.neighbours, s.state, s.scratch);
+}
+
+void add_to_record(const Simulation& s, const Before& before, std::span<const std::int32_t> nodes,
                    CutRecord& record) {
+  const std::vector<std::int32_t>& elements = before.edited.after;
   for (const std::int32_t e : elements)
     record.least_quality = std::min(record.least_quality, element_quality(s.mesh, e, s.mesh.X));
   record.stable_step_ratio =
@@ -264,62 +314,33 @@ static void scatter_edited(Simulation& s, std::size_t n_kept, std::span<const st
 
 void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutRecord& record) {
   if (s.corners.first.empty()) s.corners = node_corners(s.mesh);
-  const SplitNumbers numbers(edit.splits, s.mesh.n_elements());
-  const EditedElements edited = find_edited(s.mesh, s.corners, edit, numbers);
-  std::vector<std::int32_t> nodes = nodes_of(s.mesh, edited.before);
-  find_nodes(s, united(nodes, nodes_of(s.mesh, hosts_of(edit))), *s.communicator, global);
-  const Before before = measure_before(s, edited.before, nodes, global);
-  bool is_step_local = keeps_step(s);
-  const bool is_energy_local = keeps_energy(s);
-  const std::vector<std::int32_t> of_before = old_nodes(s.mesh, nodes, edit);
-  const double energy = energy_around(s, is_energy_local, of_before, global);
-  const double strain =
-      strain_energy(*make_strained_patch(s, edit, edited.before, of_before, global));
-  std::vector<std::int32_t> with_history;  // that must be carried
-  if (is_viscous(s.materials)) with_history = elements_of_patch(s, of_before);
-  const Known known{s.watch, s.look.at_step};
-
-  const auto n_kept = static_cast<std::size_t>(s.part.n_owned);
-  const std::vector<std::int32_t> adjustable = adjustable_nodes(s, edit);
-  const std::int32_t n_elements = s.mesh.n_elements();
-  const bool is_local = edit_whole(edit, edited, global, s);
+  const Before before = measure_before(s, edit, global);
+  const std::vector<std::int32_t>& elements = before.edited.after;
+  const bool is_local = edit_whole(before, global, s);
   if (!is_local) find_all_nodes(s, global);
-  if (!is_local && is_viscous(s.materials)) with_history = all_elements(n_elements);
-  CarriedHistory history;
-  if (is_viscous(s.materials)) history = carry_history(s, with_history, numbers);
-  nodes = united(nodes, nodes_of(s.mesh, edited.after));
-  is_step_local &=
-      is_local ? update_topology(s, {edit.splits, edited.after, nodes}) : rebuild_all(nodes, s);
-  const double surplus =
-      restore_strain_energy(adjustable, strain, tolerated * strain, s.mesh,
-                            *make_strained_patch(s, edit, edited.after, nodes, global), global);
-  restore_motion(nodes, adjustable, s.mass, before.motion, global, record);
-  const double gained = is_energy_local ? energy_around(s, true, nodes, global) - energy : 0;
-  const TakenUp around = take_up_around(s, adjustable, surplus, tolerated * strain, global, record);
-  if (strain > 0)
-    record.strain_energy_change =
-        std::max(record.strain_energy_change, std::abs(around.surplus) / strain);
+  const CarriedHistory history = carry_history(s, before, is_local);
+  const std::vector<std::int32_t> nodes = united(before.nodes, nodes_of(s.mesh, elements));
+  const bool keeps_local_steps =
+      is_local ? update_topology(s, {edit.splits, elements, nodes}) : rebuild_all(nodes, s);
+  const TakenUp around = restore_energies(s, before, nodes, global, record);
   const std::vector<std::int32_t> changed = united(nodes, around.nodes);
   if (!s.boxes.is_empty())
     update_element_boxes(s.mesh, global.x,
                          {edit.splits, changed, elements_around(s.corners, changed)}, s.boxes);
   if (is_local)
-    scatter_edited(s, n_kept, changed, global);
+    scatter_edited(s, before.n_owned, changed, global);
   else
     scatter_state(s, global);
-  find_scales(s.mesh, edited, history.origins);
   restore_history(s.model, s.part, history.copies, history.origins, s.state);
-  if (is_step_local) {
-    restore_known(known, s);
-    watch_edit(s, edited.after, {global, history.copies, &history.origins});
-    if (s.energy) update_volume_change(s.model, s.neighbours, s.state, s.scratch);
-  } else {
+  if (before.is_step_known && keeps_local_steps)
+    watch_around(s, before, history, global);
+  else
     watch_state(s);
-  }
   if (s.energy)
-    s.energy->memory.works.cut +=
-        is_energy_local ? gained + around.energy : energy_around(s, false, nodes, global) - energy;
-  add_to_record(s, before, edited.after, nodes, record);
+    s.energy->memory.works.cut += before.is_energy_local
+                                      ? around.energy
+                                      : energy_around(s, false, nodes, global) - before.energy;
+  add_to_record(s, before, nodes, record);
   s.log.new_edits.push_back(edit);
 }
 
