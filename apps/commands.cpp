@@ -14,6 +14,7 @@
 #include "engine/build.h"
 #include "engine/mesh_measures.h"
 #include "engine/predict.h"
+#include "engine/run_files.h"
 #include "engine/tissue_table.h"
 #include "engine/version.h"
 #include "mesh/mesh_file.h"
@@ -94,7 +95,7 @@ void print_mesh(const std::string& file, const Mesh& mesh) {
   const Vec3 size = m.high - m.low;
   std::printf("%s\n  nodes             %d\n", file.c_str(), m.n_nodes);
   for (int type = 0; type < n_element_types; ++type)
-    if (const auto n = m.n_elements_by_type[static_cast<std::size_t>(type)]; n > 0)
+    if (const auto n = m.n_elements_by_type[type]; n > 0)
       std::printf("  %-17s %d\n", element_type_name(static_cast<ElementType>(type)), n);
   std::printf("  pieces            %d\n  surface triangles %d\n", m.n_pieces,
               m.n_surface_triangles);
@@ -110,8 +111,7 @@ void print_mesh(const std::string& file, const Mesh& mesh) {
               m.edge_mean);
   std::printf("  quality           least %.3f (element %d), mean %.3f (mean ratio, 1 is ideal)\n",
               m.quality_min, m.worst_element, m.quality_mean);
-  const bool is_hexahedron =
-      mesh.element_type[static_cast<std::size_t>(m.worst_element)] == ElementType::hex8;
+  const bool is_hexahedron = mesh.element_type[m.worst_element] == ElementType::hex8;
   if (m.quality_min <= 0 && is_hexahedron)
     std::printf(
         "  CORNERS           of hexahedra lie beyond the plane of their neighbours (quality below "
@@ -142,7 +142,7 @@ void use_machine(const MachineOptions& machine, const Communicator& communicator
 
 ExitCode command_run(const RunOptions& options, Communicator& communicator) {
   const bool is_done = run_scene(options, communicator);
-  log_info(options.folder + "/summary.json");
+  log_info(options.folder + "/" + summary_name);
   return is_done ? ExitCode::done : ExitCode::stopped;
 }
 

@@ -31,7 +31,7 @@ class ExactSum {
 using ExactSum3 = std::array<ExactSum, 3>;
 
 inline void add(const Vec3& value, ExactSum3& sum) {
-  for (int i = 0; i < 3; ++i) sum[static_cast<std::size_t>(i)].add(value[i]);
+  for (int i = 0; i < 3; ++i) sum[i].add(value[i]);
 }
 // Collective.
 inline Vec3 sum_over_ranks(ExactSum3& sum, const Communicator& communicator) {

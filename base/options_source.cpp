@@ -76,7 +76,7 @@ std::string key_path(const OptionNode& node) {
 SourcePlace place_of(const OptionNode& node) {
   const OptionDocument& document = *node.document;
   if (node.source == 0) return {document.name, node.line, node.column};
-  return {"--set " + document.overrides[static_cast<std::size_t>(node.source - 1)], 0, 0};
+  return {"--set " + document.overrides[node.source - 1], 0, 0};
 }
 
 void refuse(const OptionNode& node, const std::string& sentence) {

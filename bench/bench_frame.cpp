@@ -10,10 +10,10 @@
 #include "base/log.h"
 #include "bench/machine.h"
 #include "bench/usage.h"
+#include "engine/body_search.h"
 #include "engine/build.h"
 #include "engine/equilibrium.h"
 #include "engine/frame.h"
-#include "engine/frame_watch.h"
 #include "solver/frequency.h"
 #include "solver/step.h"
 

@@ -37,8 +37,7 @@ Mesh with_tets(const Mesh& hexahedra, int n_split) {
     ElementSplit split{.element = e};
     const auto tets = hex_tets(hexahedra, e);
     for (std::size_t t = 0; t < tets.size(); ++t)
-      for (std::size_t a = 0; a < 4; ++a)
-        split.corner[t][a] = hexahedra.corners(e)[static_cast<std::size_t>(tets[t][a])];
+      for (std::size_t a = 0; a < 4; ++a) split.corner[t][a] = hexahedra.corners(e)[tets[t][a]];
     edit.splits.push_back(split);
   }
   Mesh mesh = hexahedra;

@@ -191,7 +191,7 @@ struct ContactDetector::State {
   void touch_plane(const PosedPiece& piece, std::span<const Vec3> x,
                    std::vector<Contact>& contacts) const;
   const PieceCore& core_of(const Contact& contact) const {
-    return tools[static_cast<std::size_t>(contact.tool)][static_cast<std::size_t>(contact.piece)];
+    return tools[contact.tool][contact.piece];
   }
 };
 
@@ -230,7 +230,7 @@ void ContactDetector::State::touch_plane(const PosedPiece& piece, std::span<cons
   if (section.points.empty()) return;
   for (std::size_t k = 0; k < plane.node.size(); ++k) {
     const auto [a, b] = plane.node[k];
-    const Segment edge = {x[static_cast<std::size_t>(a)], x[static_cast<std::size_t>(b)]};
+    const Segment edge = {x[a], x[b]};
     const std::optional<Touch> found = touch_edge(section, edge, piece.margin);
     if (!found) continue;
     if (found->depth > 0) {

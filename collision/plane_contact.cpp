@@ -162,8 +162,7 @@ PlaneEdges boundary_edges(const Surface& surface) {
   for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
   std::vector<std::size_t> next(first.begin(), first.end() - 1);
   for (const std::array<std::int32_t, 3>& triangle : surface.triangle)
-    for (std::size_t k = 0; k < 3; ++k)
-      end[next[static_cast<std::size_t>(triangle[k])]++] = triangle[(k + 1) % 3];
+    for (std::size_t k = 0; k < 3; ++k) end[next[triangle[k]]++] = triangle[(k + 1) % 3];
   const auto has_side = [&](std::int32_t a, std::int32_t b) {
     const auto at = [&](std::size_t i) { return end.begin() + static_cast<std::ptrdiff_t>(i); };
     const auto i = static_cast<std::size_t>(a);
@@ -238,8 +237,7 @@ Vec3 plane_way_out(const PlaneEdges& edges, std::span<const Vec3> x, const Vec3&
   double best2 = -1;
   Vec3 way_out = Vec3::Zero();
   for (const std::array<std::int32_t, 2>& node : edges.node) {
-    const Segment edge = {x[static_cast<std::size_t>(node[0])],
-                          x[static_cast<std::size_t>(node[1])]};
+    const Segment edge = {x[node[0]], x[node[1]]};
     // A ray towards +x leaves through edges that run upwards.
     const bool is_up = edge[0].y() <= p.y() && p.y() < edge[1].y();
     const bool is_down = edge[1].y() <= p.y() && p.y() < edge[0].y();

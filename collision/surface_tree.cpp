@@ -33,7 +33,7 @@ SurfaceTree::SurfaceTree(std::vector<std::array<std::int32_t, 3>> triangle, std:
   std::vector<Vec3> centroid(triangle_.size());
   for (std::size_t t = 0; t < triangle_.size(); ++t) {
     centroid[t].setZero();
-    for (const std::int32_t i : triangle_[t]) centroid[t] += x[index(i)];
+    for (const std::int32_t i : triangle_[t]) centroid[t] += x[i];
   }
   if (!triangle_.empty()) split(centroid, 0, static_cast<std::int32_t>(order_.size()));
   refit(x);
@@ -45,13 +45,13 @@ void SurfaceTree::split(std::span<const Vec3> centroid, std::int32_t first, std:
   if (count <= leaf_size) return;
   node_[self].count = 0;
   Box box;
-  for (std::int32_t k = first; k < first + count; ++k) box.add(centroid[index(order_[index(k)])]);
+  for (std::int32_t k = first; k < first + count; ++k) box.add(centroid[order_[k]]);
   Eigen::Index axis = 0;
   (box.high - box.low).maxCoeff(&axis);
   const std::int32_t half = count / 2;
   std::nth_element(order_.begin() + first, order_.begin() + first + half,
                    order_.begin() + first + count, [&](std::int32_t a, std::int32_t b) {
-                     const double xa = centroid[index(a)][axis], xb = centroid[index(b)][axis];
+                     const double xa = centroid[a][axis], xb = centroid[b][axis];
                      return xa != xb ? xa < xb : a < b;
                    });
   split(centroid, first, half);
@@ -63,17 +63,17 @@ void SurfaceTree::refit(std::span<const Vec3> x) {
   x_.assign(x.begin(), x.end());
   for (std::size_t t = 0; t < triangle_.size(); ++t) {
     box_[t] = Box();
-    for (const std::int32_t i : triangle_[t]) box_[t].add(x_[index(i)]);
+    for (const std::int32_t i : triangle_[t]) box_[t].add(x_[i]);
   }
   for (std::size_t k = node_.size(); k-- > 0;) {  // children stand behind their parents
     Node& node = node_[k];
     node.box = Box();
     if (node.count == 0) {
       node.box.add(node_[k + 1].box);
-      node.box.add(node_[index(node.right)].box);
+      node.box.add(node_[node.right].box);
     }
     for (std::int32_t j = node.first; j < node.first + node.count; ++j)
-      node.box.add(box_[index(order_[index(j)])]);
+      node.box.add(box_[order_[j]]);
   }
 }
 
@@ -87,12 +87,12 @@ void SurfaceTree::walk(Enters enters, Visit visit) const {
     const Node& node = node_[k];
     if (!enters(node.box)) continue;
     if (node.count == 0) {
-      stack[depth++] = index(node.right);
+      stack[depth++] = static_cast<std::size_t>(node.right);
       stack[depth++] = k + 1;
     }
     for (std::int32_t j = node.first; j < node.first + node.count; ++j) {
-      const std::int32_t t = order_[index(j)];
-      if (enters(box_[index(t)])) visit(t);
+      const std::int32_t t = order_[j];
+      if (enters(box_[t])) visit(t);
     }
   }
 }
@@ -138,7 +138,7 @@ std::int32_t SurfaceTree::nearest_exit(const Vec3& p, double reach) const {
 
 Triangle SurfaceTree::corners(std::int32_t t) const {
   const std::array<std::int32_t, 3>& node = nodes(t);
-  return {x_[index(node[0])], x_[index(node[1])], x_[index(node[2])]};
+  return {x_[node[0]], x_[node[1]], x_[node[2]]};
 }
 
 }  // namespace trocar

@@ -46,8 +46,8 @@ class SurfaceTree {
   std::vector<Facing> facing(std::span<const Vec3> ahead, double reach, double depth) const;
 
   Triangle corners(std::int32_t triangle) const;
-  const Vec3& position(std::int32_t node) const { return x_[index(node)]; }
-  const std::array<std::int32_t, 3>& nodes(std::int32_t t) const { return triangle_[index(t)]; }
+  const Vec3& position(std::int32_t node) const { return x_[node]; }
+  const std::array<std::int32_t, 3>& nodes(std::int32_t t) const { return triangle_[t]; }
 
  private:
   // The left child follows its parent. Leaves hold [first, first + count) of order_.
@@ -56,7 +56,6 @@ class SurfaceTree {
     std::int32_t right = 0;
     std::int32_t first = 0, count = 0;  // count 0: not a leaf
   };
-  static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
   void split(std::span<const Vec3> centroid, std::int32_t first, std::int32_t count);
   template <class Enters, class Visit>
   void walk(Enters enters, Visit visit) const;

@@ -37,13 +37,13 @@ class FacingSearch {
       normal_.push_back(
           unit_normal(tree.corners(static_cast<std::int32_t>(t))).value_or(Vec3::Zero()));
       Box& box = box_ahead_.emplace_back();
-      for (const std::int32_t node : tree.triangle_[t]) box.add(ahead[to_index(node)]);
+      for (const std::int32_t node : tree.triangle_[t]) box.add(ahead[node]);
       way_.emplace_back(tree.box_[t]).add(box);
     }
     for (std::size_t k = parts_.size(); k-- > 0;) {  // children stand behind their parents
       for_triangles(k, [&](std::int32_t t) {
-        parts_[k].normals.add(normal_[to_index(t)]);
-        parts_[k].way.add(way_[to_index(t)]);
+        parts_[k].normals.add(normal_[t]);
+        parts_[k].way.add(way_[t]);
       });
       if (is_leaf(k)) continue;
       for (const std::size_t child : {k + 1, right_of(k)}) {
@@ -67,14 +67,14 @@ class FacingSearch {
   }
 
  private:
-  static std::size_t to_index(std::int32_t i) { return static_cast<std::size_t>(i); }
   bool is_leaf(std::size_t k) const { return tree_.node_[k].count > 0; }
-  std::size_t right_of(std::size_t k) const { return to_index(tree_.node_[k].right); }
+  std::size_t right_of(std::size_t k) const {
+    return static_cast<std::size_t>(tree_.node_[k].right);
+  }
   template <class Visit>
   void for_triangles(std::size_t k, Visit visit) const {
     const SurfaceTree::Node& node = tree_.node_[k];
-    for (std::int32_t j = node.first; j < node.first + node.count; ++j)
-      visit(tree_.order_[to_index(j)]);
+    for (std::int32_t j = node.first; j < node.first + node.count; ++j) visit(tree_.order_[j]);
   }
 
   struct Opposite {
@@ -120,9 +120,8 @@ class FacingSearch {
   }
 
   void take(std::int32_t s, std::int32_t t) {
-    const double opposition = normal_[to_index(s)].dot(normal_[to_index(t)]);
-    if (opposition < least_opposite &&
-        way_[to_index(s)].overlaps(way_[to_index(t)], (1 + slack) * reach_))
+    const double opposition = normal_[s].dot(normal_[t]);
+    if (opposition < least_opposite && way_[s].overlaps(way_[t], (1 + slack) * reach_))
       pairs_.push_back({s, t, opposition});
   }
 
@@ -130,20 +129,20 @@ class FacingSearch {
   void sort_opposites() {
     first_.assign(tree_.triangle_.size() + 1, 0);
     for (const Pair& pair : pairs_) {
-      ++first_[to_index(pair.s)];
-      ++first_[to_index(pair.t)];
+      ++first_[pair.s];
+      ++first_[pair.t];
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     opposite_.resize(2 * pairs_.size());
     for (const Pair& pair : pairs_) {
-      opposite_[--first_[to_index(pair.s)]] = {pair.t, pair.opposition};
-      opposite_[--first_[to_index(pair.t)]] = {pair.s, pair.opposition};
+      opposite_[--first_[pair.s]] = {pair.t, pair.opposition};
+      opposite_[--first_[pair.t]] = {pair.s, pair.opposition};
     }
   }
 
   // Of a triangle that faces t.
   void take_node(std::int32_t node, std::int32_t t, const Opposite& s) {
-    Seen& seen = seen_[to_index(node)];
+    Seen& seen = seen_[node];
     if (seen.by != t) {
       seen = {.by = t};
       if (!may_meet(node, t)) return;
@@ -151,24 +150,24 @@ class FacingSearch {
       found_.push_back({node, t, s.opposition, s.triangle});
     }
     if (seen.found < 0) return;
-    SurfaceTree::Facing& f = found_[to_index(seen.found)];
+    SurfaceTree::Facing& f = found_[seen.found];
     if (std::pair(s.opposition, s.triangle) < std::pair(f.opposition, f.own))
       f = {node, t, s.opposition, s.triangle};
   }
 
   bool may_meet(std::int32_t node, std::int32_t t) const {
     const std::array<std::int32_t, 3>& own = tree_.nodes(t);
-    const Vec3& n = normal_[to_index(t)];
-    const Vec3 &x = tree_.position(node), &x_ahead = ahead_[to_index(node)];
+    const Vec3& n = normal_[t];
+    const Vec3 &x = tree_.position(node), &x_ahead = ahead_[node];
     const double now = n.dot(x - tree_.position(own[0]));
-    const double later = n.dot(x_ahead - ahead_[to_index(own[0])]);
+    const double later = n.dot(x_ahead - ahead_[own[0]]);
     return std::max(now, later) > -depth_ && std::min(now, later) < reach_ &&
            comes_near(x, x_ahead, t) && std::find(own.begin(), own.end(), node) == own.end();
   }
 
   // As seen from the triangle's box.
   bool comes_near(const Vec3& x, const Vec3& x_ahead, std::int32_t t) const {
-    const Box &now = tree_.box_[to_index(t)], &later = box_ahead_[to_index(t)];
+    const Box &now = tree_.box_[t], &later = box_ahead_[t];
     Box way;
     for (const Vec3& d : {Vec3(x - now.low), Vec3(x - now.high), Vec3(x_ahead - later.low),
                           Vec3(x_ahead - later.high)})

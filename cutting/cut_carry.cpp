@@ -149,7 +149,7 @@ static std::vector<std::array<Vec3, 3>> surface_triangles(const Mesh& mesh, cons
       bool is_outer = true;
       for (std::size_t k = 0; k < 3; ++k) {
         const int corner = facet_corners(ElementType::tet4, f)[k];
-        const std::int32_t i = mesh.corners(e)[static_cast<std::size_t>(corner)];
+        const std::int32_t i = mesh.corners(e)[corner];
         is_outer = is_outer && index.is_surface[i] != 0;
         X[k] = mesh.X[i];
       }

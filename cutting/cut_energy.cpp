@@ -49,7 +49,7 @@ namespace {
   for (std::size_t lane = 0; lane < 4; ++lane) {
     corner[lane] = nodes.corner[nodes.element[std::min(k + lane, last)]].data();
     const auto is_at = [&](int c) { return corner[lane][c] == nodes.node ? c : 0; };
-    facet[lane] = tet_facets[static_cast<std::size_t>(is_at(1) + is_at(2) + is_at(3))].data();
+    facet[lane] = tet_facets[is_at(1) + is_at(2) + is_at(3)].data();
   }
   const auto X = [&](std::size_t lane, int c) -> const Four& {
     return nodes.X[corner[lane][facet[lane][c]]].x;

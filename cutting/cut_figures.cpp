@@ -19,7 +19,7 @@ const char* reason_of(const CutRefusal& refusal) {
       "a slice thinner than some third of an element stays with nodes of the outer surface or of "
       "an older cut, which can't go to the blade: finer elements there, or another path",
       "tissue there is pressed together so far that an element would be inverted"};
-  return text[static_cast<std::size_t>(refusal.reason)];
+  return text[refusal.reason];
 }
 
 }  // namespace trocar

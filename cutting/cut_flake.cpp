@@ -47,8 +47,7 @@ static bool is_lip_before(const Lip& a, const Lip& b) {
 
 static Lip lip_of(const Mesh& mesh, std::int32_t e, int f) {
   Lip lip{{}, e};
-  for (std::size_t k = 0; k < 3; ++k)
-    lip.X[k] = mesh.X[mesh.corners(e)[tet_facets[static_cast<std::size_t>(f)][k]]];
+  for (std::size_t k = 0; k < 3; ++k) lip.X[k] = mesh.X[mesh.corners(e)[tet_facets[f][k]]];
   std::ranges::sort(lip.X, is_before);
   return lip;
 }
@@ -66,12 +65,11 @@ std::int32_t element_across(const Mesh& mesh, const CutIndex& index, std::int32_
   const std::span<const std::int32_t> c = mesh.corners(e);
   const auto has_facet = [&](std::int32_t u) {
     return u != e && mesh.element_type[u] == ElementType::tet4 &&
-           std::ranges::all_of(tet_facets[static_cast<std::size_t>(f)], [&](int k) {
+           std::ranges::all_of(tet_facets[f], [&](int k) {
              return std::ranges::find(mesh.corners(u), c[k]) != mesh.corners(u).end();
            });
   };
-  const std::span<const std::int32_t> star =
-      index.star(c[tet_facets[static_cast<std::size_t>(f)][0]]);
+  const std::span<const std::int32_t> star = index.star(c[tet_facets[f][0]]);
   const auto at = std::ranges::find_if(star, has_facet);
   return at == star.end() ? -1 : *at;
 }
@@ -123,7 +121,7 @@ static void go_on(Walk& walk, std::int32_t e, std::size_t c) {
 static void begin(Walk& walk, const std::vector<std::int32_t>& piece, int side) {
   for (const std::int32_t e : piece)
     for (const CutHit& hit : hits_in(walk, e)) {
-      const auto& [a, b] = tet_edges[static_cast<std::size_t>(hit.edge)];
+      const auto& [a, b] = tet_edges[hit.edge];
       visit(walk, e, static_cast<std::size_t>(hit.is_first_plus == (side > 0) ? a : b));
     }
 }
@@ -131,8 +129,8 @@ static void begin(Walk& walk, const std::vector<std::int32_t>& piece, int side) 
 static std::vector<std::int32_t> nodes_back(const Walk& walk) {
   std::vector<std::int32_t> nodes;
   for (std::ptrdiff_t k = walk.now; k >= 0;) {
-    const auto& [e, c, before] = walk.met[static_cast<std::size_t>(k)];
-    nodes.push_back(walk.mesh.corners(e)[static_cast<std::size_t>(c)]);
+    const auto& [e, c, before] = walk.met[k];
+    nodes.push_back(walk.mesh.corners(e)[c]);
     k = before;
   }
   return nodes;
@@ -144,7 +142,7 @@ Flake find_flake(const Mesh& mesh, const CutIndex& index, const CutStroke& strok
   Walk walk{mesh, index, stroke, lips(mesh, stroke), {}, {}};
   begin(walk, piece, side);
   for (walk.now = 0; walk.now < std::ssize(walk.met); ++walk.now) {
-    const auto [e, c, before] = walk.met[static_cast<std::size_t>(walk.now)];
+    const auto [e, c, before] = walk.met[walk.now];
     if (!std::ranges::binary_search(piece, e)) {
       const std::int8_t* known = find_element(given, e);
       if (known == nullptr) known = find_element(stroke.side, e);

@@ -29,7 +29,7 @@ bool was_hexahedral(const Mesh& mesh) {
 static std::array<std::int32_t, 4> tet_nodes(const Mesh& mesh, std::int32_t e,
                                              const std::array<int, 4>& tet) {
   std::array<std::int32_t, 4> node{};
-  for (std::size_t a = 0; a < 4; ++a) node[a] = mesh.corners(e)[static_cast<std::size_t>(tet[a])];
+  for (std::size_t a = 0; a < 4; ++a) node[a] = mesh.corners(e)[tet[a]];
   return node;
 }
 

@@ -49,7 +49,7 @@ static std::int32_t node_after(const Translation& t, std::int32_t s, std::int32_
         return std::pair{change.element, change.corner} < k;
       });
   const bool is_changed = at != t.edit.corners.end() && at->element == s && at->corner == c;
-  return is_changed ? at->node : t.tets.mesh.corners(s)[static_cast<std::size_t>(c)];
+  return is_changed ? at->node : t.tets.mesh.corners(s)[c];
 }
 
 static std::uint8_t cut_facets_after(const Translation& t, std::int32_t s) {
@@ -62,7 +62,7 @@ static std::uint8_t cut_facets_after(const Translation& t, std::int32_t s) {
 // Reference and present position of a node after the edit; a copy lies where its parent does.
 static std::array<Vec3, 2> position_after(const Translation& t, std::int32_t i) {
   const std::int32_t n = t.body.n_nodes();
-  while (i >= n) i = t.edit.duplicate_parent[static_cast<std::size_t>(i - n)];
+  while (i >= n) i = t.edit.duplicate_parent[i - n];
   const auto at =
       std::lower_bound(t.edit.moves.begin(), t.edit.moves.end(), i,
                        [](const NodeMove& move, std::int32_t node) { return move.node < node; });
@@ -79,9 +79,9 @@ static bool join_corners(const Translation& t, std::int32_t e, KeptHex& hex) {
   hex.node.fill(-1);
   for (std::int32_t s = t.tets.first[e]; s < t.tets.end(e); ++s)
     for (std::int32_t c = 0; c < 4; ++c) {
-      const std::int32_t old = t.tets.mesh.corners(s)[static_cast<std::size_t>(c)];
+      const std::int32_t old = t.tets.mesh.corners(s)[c];
       const auto a = std::find(corner.begin(), corner.end(), old) - corner.begin();
-      std::int32_t& node = hex.node[static_cast<std::size_t>(a)];
+      std::int32_t& node = hex.node[a];
       const std::int32_t next = node_after(t, s, c);
       if (node >= 0 && node != next) return false;
       node = next;
@@ -99,7 +99,7 @@ static bool join_facets(const Translation& t, std::int32_t e, KeptHex& hex) {
       if ((mask >> f & 1) == 0) continue;
       const int g = hex_facet_of(t.body, e, {c[0], c[1], c[2], c[3]}, f);
       if (g < 0) return false;
-      ++n_open[static_cast<std::size_t>(g)];
+      ++n_open[g];
     }
   }
   unsigned bits = 0;
@@ -167,7 +167,7 @@ static NodeMove move_in_body(const Translation& t, const NodeMove& move) {
                                       host = t.body.corners(result.host);
   for (std::size_t a = 0; a < tet.size(); ++a) {
     const auto at = std::find(host.begin(), host.end(), tet[a]) - host.begin();
-    result.weight[static_cast<std::size_t>(at)] = move.weight[a];
+    result.weight[at] = move.weight[a];
   }
   return result;
 }
@@ -175,8 +175,7 @@ static NodeMove move_in_body(const Translation& t, const NodeMove& move) {
 static void keep_hexahedron(const Translation& t, std::int32_t e, const KeptHex& hex,
                             MeshEdit& edit) {
   for (std::int32_t a = 0; a < 8; ++a)
-    if (const std::int32_t node = hex.node[static_cast<std::size_t>(a)];
-        node != t.body.corners(e)[static_cast<std::size_t>(a)])
+    if (const std::int32_t node = hex.node[a]; node != t.body.corners(e)[a])
       edit.corners.push_back({e, a, node});
   if (hex.cut_facets != t.body.cut_facets[e]) edit.cut_facets.push_back({e, hex.cut_facets});
 }
@@ -212,7 +211,7 @@ static Mesh pieces_after(const Translation& t, std::int32_t e, const KeptHex* ke
   if (kept != nullptr) add(ElementType::hex8, kept->node);
   for (std::int32_t s = t.tets.first[e]; s < t.tets.end(e) && kept == nullptr; ++s) {
     std::array<std::int32_t, 4> node{};
-    for (std::int32_t c = 0; c < 4; ++c) node[static_cast<std::size_t>(c)] = node_after(t, s, c);
+    for (std::int32_t c = 0; c < 4; ++c) node[c] = node_after(t, s, c);
     add(ElementType::tet4, node);
   }
   return pieces;

@@ -32,7 +32,7 @@ std::vector<OpenFacet> older_facets(const Mesh& mesh, std::span<const std::int32
                                     const CutStroke& stroke) {
   std::vector<OpenFacet> facets;
   for (const std::int32_t e : elements) {
-    unsigned mask = mesh.cut_facets[static_cast<std::size_t>(e)];
+    unsigned mask = mesh.cut_facets[e];
     if (mask == 0) continue;
     if (const std::uint8_t* own = find_element(stroke.opened, e)) mask &= ~unsigned{*own};
     for (int f = 0; mask >> f != 0; ++f) {

@@ -19,7 +19,7 @@ bool is_index_of(const CutIndex& index, const Mesh& mesh) {
 static std::uint64_t facet_key(std::span<const std::int32_t> corner, const std::array<int, 4>& f) {
   std::array<std::int32_t, 4> node{-1, -1, -1, -1};
   for (std::size_t k = 0; k < 4; ++k)
-    if (f[k] >= 0) node[k] = corner[static_cast<std::size_t>(f[k])];
+    if (f[k] >= 0) node[k] = corner[f[k]];
   std::sort(node.begin(), node.end());
   std::uint64_t key = 0;
   for (const std::int32_t i : node) {
@@ -40,7 +40,7 @@ static void find_surface_nodes(const Mesh& mesh, CutIndex& index) {
       const std::array<int, 4> facet = facet_corners(mesh.element_type[e], f);
       const std::uint64_t key = facet_key(corner, facet);
       for (const int c : facet)
-        if (c >= 0) sum[corner[static_cast<std::size_t>(c)]] ^= key;
+        if (c >= 0) sum[corner[c]] ^= key;
     }
   }
   index.is_surface.assign(mesh.X.size(), 0);
@@ -103,7 +103,7 @@ static std::int32_t edited_corner(const Mesh& mesh, const MeshEdit& edit, std::i
   const auto at = std::lower_bound(edit.corners.begin(), edit.corners.end(),
                                    std::array<std::int32_t, 2>{e, c}, before);
   const bool is_changed = at != edit.corners.end() && at->element == e && at->corner == c;
-  return is_changed ? at->node : mesh.corners(e)[static_cast<std::size_t>(c)];
+  return is_changed ? at->node : mesh.corners(e)[c];
 }
 
 static void add_opened_facets(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {
@@ -138,7 +138,7 @@ static std::vector<NodePart> parts_at_nodes(const MeshEdit& edit, const SplitNum
   std::vector<NodePart> parts;
   for (const ElementSplit& split : edit.splits)
     for (std::int32_t k = 0; k < split.n_tets; ++k) {
-      const std::array<std::int32_t, 4>& corner = split.corner[static_cast<std::size_t>(k)];
+      const std::array<std::int32_t, 4>& corner = split.corner[k];
       const std::int32_t part = numbers.part(split.element, k);
       for (const std::int32_t i : corner) parts.push_back({i, part, &corner});
     }
@@ -164,7 +164,7 @@ static void add_to_star(std::span<const NodePart> around, CutIndex& index) {
   const std::int32_t node = around.front().node;
   const auto begin = static_cast<std::int32_t>(pool.size());
   for (std::int32_t k = 0; k < index.star_size[node]; ++k)
-    pool.push_back(pool[static_cast<std::size_t>(index.star_begin[node] + k)]);
+    pool.push_back(pool[index.star_begin[node] + k]);
   for (const NodePart& part : around) pool.push_back(part.element);
   std::inplace_merge(pool.begin() + begin, pool.end() - std::ssize(around), pool.end());
   index.star_begin[node] = begin;
@@ -228,7 +228,7 @@ void edit_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {
       if (!index.step.empty()) index.step[e] = 0;
   add_opened_facets(mesh, edit, index);
   for (const CornerChange& c : change) {
-    const std::int32_t before = mesh.corners(c.element)[static_cast<std::size_t>(c.corner)];
+    const std::int32_t before = mesh.corners(c.element)[c.corner];
     forget_across(index, c.element);
     remove_from_star(index, before, c.element);
     if (index.star_size[c.node]++ == 0)

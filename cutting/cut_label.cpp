@@ -32,9 +32,9 @@ double facet_cost(const CutSurroundings& around, std::int32_t e, int f) {
 // 0 if that doesn't say.
 static int implied_side(const ElementSides& sides, int f) {
   int plus = 0, minus = 0;
-  for (const int c : tet_facets[static_cast<std::size_t>(f)]) {
-    plus += sides.corner[static_cast<std::size_t>(c)] > 0 ? 1 : 0;
-    minus += sides.corner[static_cast<std::size_t>(c)] < 0 ? 1 : 0;
+  for (const int c : tet_facets[f]) {
+    plus += sides.corner[c] > 0 ? 1 : 0;
+    minus += sides.corner[c] < 0 ? 1 : 0;
   }
   return (plus > 0 ? 1 : 0) - (minus > 0 ? 1 : 0);
 }

@@ -51,7 +51,7 @@ struct LipEdge {
 }  // namespace
 
 static std::array<std::int32_t, 3> nodes_of(const std::array<std::int32_t, 4>& corner, int f) {
-  const std::array<int, 3>& k = tet_facets[static_cast<std::size_t>(f)];
+  const std::array<int, 3>& k = tet_facets[f];
   return {corner[k[0]], corner[k[1]], corner[k[2]]};
 }
 
@@ -64,8 +64,8 @@ static bool is_of_another(const CutStroke& stroke, std::int32_t e) {
 static bool is_crossed_clearly(const CutSurroundings& around, std::int32_t e,
                                std::span<const CutHit> hits) {
   return std::ranges::any_of(hits, [&](const CutHit& hit) {
-    return std::ranges::all_of(tet_edges[static_cast<std::size_t>(hit.edge)], [&](int c) {
-      const std::int32_t i = around.patch.corner[e][static_cast<std::size_t>(c)];
+    return std::ranges::all_of(tet_edges[hit.edge], [&](int c) {
+      const std::int32_t i = around.patch.corner[e][c];
       return std::abs(around.distance[i]) > thinnest_slice * around.h;
     });
   });

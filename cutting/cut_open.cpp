@@ -46,10 +46,10 @@ static PatchMesh make_patch_mesh(const CutPatch& patch) {
 bool is_joined(const CutPatch& patch, const Corners& corner, std::int32_t e, int f) {
   const std::int32_t u = patch.across[e][f];
   if (u < 0) return false;
-  for (const int c : tet_facets[static_cast<std::size_t>(f)]) {
+  for (const int c : tet_facets[f]) {
     const auto& old = patch.corner[u];
     const auto at = std::find(old.begin(), old.end(), patch.corner[e][c]) - old.begin();
-    if (corner[u][static_cast<std::size_t>(at)] != corner[e][c]) return false;
+    if (corner[u][at] != corner[e][c]) return false;
   }
   return true;
 }
@@ -89,7 +89,7 @@ static void split_nodes(const CutPatch& patch, const PatchMesh& mesh,
   opening.duplication = duplicate_nodes(mesh.mesh, opening.facet, nodes, mesh.around, mesh.across);
   opening.corner = patch.corner;
   for (const CornerChange& change : opening.duplication.corners)
-    opening.corner[change.element][static_cast<std::size_t>(change.corner)] = change.node;
+    opening.corner[change.element][change.corner] = change.node;
 }
 
 // The boundary facets at node `copy`, as directed edges of its link.
@@ -101,7 +101,7 @@ static std::vector<Edge> link_boundary(const CutPatch& patch, const Corners& cor
     if (at == 4) continue;
     for (int f = 0; f < 4; ++f) {
       if (f == at || is_joined(patch, corner, e, f)) continue;
-      std::array<int, 3> c = tet_facets[static_cast<std::size_t>(f)];
+      std::array<int, 3> c = tet_facets[f];
       std::rotate(c.begin(), std::find(c.begin(), c.end(), static_cast<int>(at)), c.end());
       edge.push_back({corner[e][c[1]], corner[e][c[2]]});
     }
@@ -214,7 +214,7 @@ static bool close_facets(const CutSurroundings& around, const std::vector<std::i
   for (const std::int32_t i : broken) {
     const std::ptrdiff_t k = facet_to_close(around, facet, i, outer);
     if (k < 0) continue;
-    opening.refused.push_back(facet[static_cast<std::size_t>(k)]);
+    opening.refused.push_back(facet[k]);
     facet.erase(facet.begin() + k);
     is_changed = true;
   }

@@ -24,7 +24,7 @@ std::int32_t CutPatch::local_element(std::int32_t global) const {
 
 std::array<std::int32_t, 3> facet_nodes(const CutPatch& patch, std::int32_t e, int f) {
   const std::array<std::int32_t, 4>& corner = patch.corner[e];
-  const std::array<int, 3>& facet = tet_facets[static_cast<std::size_t>(f)];
+  const std::array<int, 3>& facet = tet_facets[f];
   return {corner[facet[0]], corner[facet[1]], corner[facet[2]]};
 }
 

@@ -45,7 +45,7 @@ std::vector<PaperRow> make_table() {
   constexpr std::array<double, n_paper_configurations> seconds = {3.09,  23.30, 2.75,
                                                                   35.96, 0.77,  3.05};
   for (PaperRow& r : table)
-    if (r.kind == new_remeshing) r.seconds = seconds[static_cast<std::size_t>(r.configuration - 1)];
+    if (r.kind == new_remeshing) r.seconds = seconds[r.configuration - 1];
   table[0].misprint = "E sigma 1.4 is of two edges an element";
   table[3].misprint = "E max is 4.548, rounded twice; E sigma as in 1";
   table[4].misprint = "E max is 4.548, rounded twice";

@@ -19,7 +19,7 @@ struct CrossedEdges {
 }  // namespace
 
 static int group_of(const std::array<int, 4>& parent, int a) {
-  while (parent[static_cast<std::size_t>(a)] != a) a = parent[static_cast<std::size_t>(a)];
+  while (parent[a] != a) a = parent[a];
   return a;
 }
 
@@ -30,29 +30,25 @@ static ElementSides sides_of(const CrossedEdges& crossed, const std::array<bool,
   std::array<std::int8_t, 4> group_side{};
   for (std::size_t k = 0; k < 6; ++k) {
     const auto [a, b] = tet_edges[k];
-    if (is_neutral[static_cast<std::size_t>(a)] || is_neutral[static_cast<std::size_t>(b)])
-      continue;
+    if (is_neutral[a] || is_neutral[b]) continue;
     if (crossed.first_side[k] == 0)
-      parent[static_cast<std::size_t>(group_of(parent, b))] = group_of(parent, a);
+      parent[group_of(parent, b)] = group_of(parent, a);
     else
       sides.kind = CutKind::separated;
   }
   if (sides.kind == CutKind::uncut) return sides;
   for (std::size_t k = 0; k < 6; ++k) {
     const auto [a, b] = tet_edges[k];
-    if (is_neutral[static_cast<std::size_t>(a)] || is_neutral[static_cast<std::size_t>(b)] ||
-        crossed.first_side[k] == 0)
-      continue;
+    if (is_neutral[a] || is_neutral[b] || crossed.first_side[k] == 0) continue;
     for (const auto& [c, side] : {std::pair<int, int>{a, crossed.first_side[k]},
                                   std::pair<int, int>{b, -crossed.first_side[k]}}) {
-      std::int8_t& known = group_side[static_cast<std::size_t>(group_of(parent, c))];
+      std::int8_t& known = group_side[group_of(parent, c)];
       if (known != 0 && known != side) sides.kind = CutKind::front;
       known = static_cast<std::int8_t>(side);
     }
   }
   for (std::size_t c = 0; c < 4; ++c)
-    if (!is_neutral[c])
-      sides.corner[c] = group_side[static_cast<std::size_t>(group_of(parent, static_cast<int>(c)))];
+    if (!is_neutral[c]) sides.corner[c] = group_side[group_of(parent, static_cast<int>(c))];
   return sides;
 }
 
@@ -90,8 +86,7 @@ std::vector<ElementSides> element_sides(const CutSurroundings& around, const Cut
   std::vector<CrossedEdges> crossed(patch.element.size());
   const std::vector<std::span<const CutHit>> hits = hits_of(stroke, patch.element);
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
-    for (const CutHit& hit : hits[e])
-      crossed[e].first_side[static_cast<std::size_t>(hit.edge)] = hit.is_first_plus ? 1 : -1;
+    for (const CutHit& hit : hits[e]) crossed[e].first_side[hit.edge] = hit.is_first_plus ? 1 : -1;
   const std::vector<bool> is_neutral = neutral_nodes(around, stroke, crossed);
   std::vector<ElementSides> sides;
   sides.reserve(patch.element.size());

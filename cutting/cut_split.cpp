@@ -18,7 +18,7 @@ using EdgeEnds = std::array<std::int32_t, 2>;
 static std::ptrdiff_t first_on_edge(std::span<const EdgeNode> inserted, const Tet& tet) {
   std::ptrdiff_t first = -1;
   for (const auto& [a, b] : tet_edges) {
-    const std::int32_t i = tet[static_cast<std::size_t>(a)], j = tet[static_cast<std::size_t>(b)];
+    const std::int32_t i = tet[a], j = tet[b];
     const EdgeEnds end{std::min(i, j), std::max(i, j)};
     const auto at = std::ranges::lower_bound(inserted, end, {}, &EdgeNode::end);
     if (at == inserted.end() || at->end != end) continue;
@@ -34,10 +34,10 @@ static void bisect(std::span<const EdgeNode> inserted, std::int32_t first_insert
   const std::ptrdiff_t k = first_on_edge(inserted, tet);
   if (k < 0) {
     CHECK_OP(split.n_tets, <, max_split_tets);
-    split.corner[static_cast<std::size_t>(split.n_tets++)] = tet;
+    split.corner[split.n_tets++] = tet;
     return;
   }
-  for (const std::int32_t end : inserted[static_cast<std::size_t>(k)].end) {
+  for (const std::int32_t end : inserted[k].end) {
     Tet half = tet;
     std::ranges::replace(half, end, first_inserted + static_cast<std::int32_t>(k));
     bisect(inserted, first_inserted, half, split);
@@ -71,15 +71,13 @@ struct Inserted {
   SplitNumbers numbers;
 
   Vec3 X(std::int32_t i) const {
-    return i < mesh.n_nodes()
-               ? mesh.X[i]
-               : position_of(mesh, edit.inserted[static_cast<std::size_t>(i - mesh.n_nodes())]);
+    return i < mesh.n_nodes() ? mesh.X[i] : position_of(mesh, edit.inserted[i - mesh.n_nodes()]);
   }
   // Where node i is on the way from node a to b: 0 … 1; -1 if it is not on this edge.
   double place_on(std::int32_t i, std::int32_t a, std::int32_t b) const {
     if (i == a || i == b) return i == a ? 0 : 1;
     if (i < mesh.n_nodes()) return -1;
-    const EdgeNode& node = edit.inserted[static_cast<std::size_t>(i - mesh.n_nodes())];
+    const EdgeNode& node = edit.inserted[i - mesh.n_nodes()];
     if (node.end != EdgeEnds{std::min(a, b), std::max(a, b)}) return -1;
     return node.end[0] == a ? node.s : 1 - node.s;
   }
@@ -92,16 +90,15 @@ static void split_hit(const Inserted& after, const ElementSplit& split, const Cu
                       std::vector<CutHit>& hits) {
   constexpr double tolerance = 1e-9;
   const Tet whole = corners_of(after.mesh, hit.element);
-  const auto [c, d] = tet_edges[static_cast<std::size_t>(hit.edge)];
-  const std::int32_t a = whole[static_cast<std::size_t>(c)], b = whole[static_cast<std::size_t>(d)];
+  const auto [c, d] = tet_edges[hit.edge];
+  const std::int32_t a = whole[c], b = whole[d];
   const Vec3 way = after.mesh.X[b] - after.mesh.X[a];
   const double s = way.dot(hit.X - after.mesh.X[a]) / way.squaredNorm();
   for (std::int32_t k = 0; k < split.n_tets; ++k)
     for (std::int32_t e = 0; e < 6; ++e) {
-      const Tet& part = split.corner[static_cast<std::size_t>(k)];
-      const auto [p, q] = tet_edges[static_cast<std::size_t>(e)];
-      const double s0 = after.place_on(part[static_cast<std::size_t>(p)], a, b),
-                   s1 = after.place_on(part[static_cast<std::size_t>(q)], a, b);
+      const Tet& part = split.corner[k];
+      const auto [p, q] = tet_edges[e];
+      const double s0 = after.place_on(part[p], a, b), s1 = after.place_on(part[q], a, b);
       if (s0 < 0 || s1 < 0 || s < std::min(s0, s1) - tolerance || s > std::max(s0, s1) + tolerance)
         continue;
       CutHit now = hit;
@@ -171,7 +168,7 @@ static void follow_edge(const Inserted& after, std::vector<BladePoint>& edge) {
     double most = -std::numeric_limits<double>::infinity();
     std::int32_t best = 0;
     for (std::int32_t k = 0; k < split->n_tets; ++k) {
-      const double depth = depth_in(after, split->corner[static_cast<std::size_t>(k)], point.X);
+      const double depth = depth_in(after, split->corner[k], point.X);
       if (depth <= most) continue;
       most = depth;
       best = k;
@@ -184,11 +181,11 @@ static void follow_edge(const Inserted& after, std::vector<BladePoint>& edge) {
 static std::vector<OfElement<std::int8_t>> node_sides(const Mesh& mesh, const CutStroke& stroke) {
   std::vector<OfElement<std::int8_t>> sides;
   for (const CutHit& hit : stroke.hit) {
-    const auto [a, b] = tet_edges[static_cast<std::size_t>(hit.edge)];
+    const auto [a, b] = tet_edges[hit.edge];
     const Tet c = corners_of(mesh, hit.element);
     const std::int8_t side = hit.is_first_plus ? 1 : -1;
-    sides.push_back({c[static_cast<std::size_t>(a)], side});
-    sides.push_back({c[static_cast<std::size_t>(b)], static_cast<std::int8_t>(-side)});
+    sides.push_back({c[a], side});
+    sides.push_back({c[b], static_cast<std::int8_t>(-side)});
   }
   std::ranges::stable_sort(sides, {}, &OfElement<std::int8_t>::element);
   const auto same = std::ranges::unique(sides, {}, &OfElement<std::int8_t>::element);
@@ -213,9 +210,7 @@ static std::int8_t side_of(std::span<const OfElement<std::int8_t>> sides, const 
 
 static double mean_edge(const Mesh& mesh, const Tet& tet) {
   double sum = 0;
-  for (const auto& [a, b] : tet_edges)
-    sum += (mesh.X[tet[static_cast<std::size_t>(a)]] - mesh.X[tet[static_cast<std::size_t>(b)]])
-               .norm();
+  for (const auto& [a, b] : tet_edges) sum += (mesh.X[tet[a]] - mesh.X[tet[b]]).norm();
   return sum / static_cast<double>(tet_edges.size());
 }
 
@@ -236,8 +231,7 @@ void split_stroke(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
   for (const ElementSplit& split : edit.splits)
     for (std::int32_t k = 0; k < split.n_tets; ++k) {
       const std::int32_t e = numbers.part(split.element, k);
-      part_side.push_back(
-          {e, side_of(sides, mesh, stroke, split.corner[static_cast<std::size_t>(k)])});
+      part_side.push_back({e, side_of(sides, mesh, stroke, split.corner[k])});
       stroke.fresh.push_back(e);
     }
   sort_unique(stroke.fresh);

@@ -216,7 +216,7 @@ bool TetCutter::has_crossed_ahead(const Mesh& mesh, std::int32_t element, const 
   const Front& f = *front_;
   std::int32_t first = element, end = element + 1;
   if (!f.tets.mesh.X.empty() && are_tets_of(f.tets, mesh)) {
-    first = f.tets.first[static_cast<std::size_t>(element)];
+    first = f.tets.first[element];
     end = f.tets.end(element);
   }
   const auto is_one_ahead = [&](const std::vector<CutHit>& hits) {

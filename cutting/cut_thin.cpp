@@ -39,7 +39,7 @@ struct Crossings {
   // It doesn't say how thick the tissue was.
   bool is_on_lip_alone(std::int32_t i) const { return is_lip[i] != 0 && is_outer[i] == 0; }
   bool is_crossed(std::int32_t e, std::int32_t k) const {
-    const auto [a, b] = tet_edges[static_cast<std::size_t>(k)];
+    const auto [a, b] = tet_edges[k];
     const std::array<std::int32_t, 4>& c = around.patch.corner[e];
     return is_made[c[a]] == 0 && is_made[c[b]] == 0 &&
            std::ranges::find(hits[e], k, &CutHit::edge) != hits[e].end();
@@ -102,7 +102,7 @@ static Crossings find_crossings(const Mesh& mesh, const CutSurroundings& around,
     if (const std::int32_t i = patch.local_node(node); i >= 0) c.is_made[i] = 1;
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     for (const CutHit& hit : c.hits[e]) {
-      const auto [a, b] = tet_edges[static_cast<std::size_t>(hit.edge)];
+      const auto [a, b] = tet_edges[hit.edge];
       c.votes[patch.corner[e][a]] |= hit.is_first_plus ? 1 : 2;
       c.votes[patch.corner[e][b]] |= hit.is_first_plus ? 2 : 1;
     }
@@ -152,7 +152,7 @@ static std::vector<std::int32_t> next_nodes(const Crossings& c, std::int32_t i) 
   do {
     for (const std::int32_t e : patch.star(t))
       for (std::int32_t k = 0; k < 6; ++k) {
-        const auto [a, b] = tet_edges[static_cast<std::size_t>(k)];
+        const auto [a, b] = tet_edges[k];
         const std::int32_t p = patch.corner[e][a], q = patch.corner[e][b];
         if ((p == t || q == t) && !c.is_crossed(e, k)) next.push_back(p == t ? q : p);
       }
@@ -237,7 +237,7 @@ static void for_crossed(const Crossings& c, std::int32_t i, const Body& body) {
   if (!patch.is_whole(i)) return;
   for (const std::int32_t e : patch.star(i))
     for (const CutHit& hit : c.hits[e]) {
-      const auto [a, b] = tet_edges[static_cast<std::size_t>(hit.edge)];
+      const auto [a, b] = tet_edges[hit.edge];
       const std::int32_t p = patch.corner[e][a], q = patch.corner[e][b];
       if ((p == i || q == i) && c.is_crossed(e, hit.edge)) body(p, q, hit.X);
     }
@@ -276,8 +276,7 @@ static bool reaches_both_faces(const Crossings& c, const ThinSlice& slice) {
   return std::ranges::any_of(slice.node, [&](std::int32_t i) {
     return std::ranges::any_of(patch.star(i), [&](std::int32_t e) {
       return std::ranges::any_of(tet_edges, [&](const std::array<int, 2>& end) {
-        return look_away(c, patch.corner[e][static_cast<std::size_t>(end[0])],
-                         patch.corner[e][static_cast<std::size_t>(end[1])]);
+        return look_away(c, patch.corner[e][end[0]], patch.corner[e][end[1]]);
       });
     });
   });

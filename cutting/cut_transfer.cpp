@@ -30,7 +30,7 @@ static NodeTransfer find_host(const CutPatch& patch, std::int32_t i, const Vec3&
   }
   for (int step = 0; step < 8 && least(best.weight) < 0; ++step) {
     const auto f = std::min_element(best.weight.begin(), best.weight.end()) - best.weight.begin();
-    const std::int32_t u = patch.across[best.host][static_cast<std::size_t>(f)];
+    const std::int32_t u = patch.across[best.host][f];
     if (u < 0) break;
     const std::array<double, 4> b = barycentric(patch.corner[u], patch.X, X);
     if (least(b) <= least(best.weight)) break;

@@ -23,21 +23,20 @@ AddedMass measure(const MassScaling& scaling, const Simulation& s) {
   added.mass = more.value();
   added.share = more.value() / s.whole_mass;
   for (std::int32_t c = 0; c < scaling.n_clusters(); ++c)
-    added.largest_cluster =
-        std::max(added.largest_cluster, scaling.offset[static_cast<std::size_t>(c) + 1] -
-                                            scaling.offset[static_cast<std::size_t>(c)]);
+    added.largest_cluster = std::max(
+        added.largest_cluster, scaling.offset[static_cast<std::size_t>(c) + 1] - scaling.offset[c]);
   const auto most = std::max_element(scaling.added.begin(), scaling.added.end());
-  added.heaviest_node = scaling.node[static_cast<std::size_t>(most - scaling.added.begin())];
-  added.low = added.high = s.mesh.X[static_cast<std::size_t>(added.heaviest_node)];
+  added.heaviest_node = scaling.node[most - scaling.added.begin()];
+  added.low = added.high = s.mesh.X[added.heaviest_node];
   for (const std::int32_t node : scaling.node) {
-    added.low = added.low.cwiseMin(s.mesh.X[static_cast<std::size_t>(node)]);
-    added.high = added.high.cwiseMax(s.mesh.X[static_cast<std::size_t>(node)]);
+    added.low = added.low.cwiseMin(s.mesh.X[node]);
+    added.high = added.high.cwiseMax(s.mesh.X[node]);
   }
   return added;
 }
 
 std::string sentence(const AddedMass& added, const Simulation& s) {
-  const Vec3 X = s.mesh.X[static_cast<std::size_t>(added.heaviest_node)];
+  const Vec3 X = s.mesh.X[added.heaviest_node];
   char text[240];
   std::snprintf(text, sizeof text,
                 "mass scaling adds %.3g kg, %.3g %% of the body, to %d nodes of %d elements in %d "

@@ -25,13 +25,13 @@ double least_element_step(const Simulation& s, std::span<const std::int32_t> ele
   double least = 1e300;
   for (const std::int32_t e : elements)
     if (const std::int64_t k = s.part.place_of(e); k >= 0)
-      least = std::min(least, s.model.element_step[static_cast<std::size_t>(k)]);
+      least = std::min(least, s.model.element_step[k]);
   return s.communicator->all_min(least);
 }
 
 double mass_of(std::span<const std::int32_t> nodes, std::span<const double> mass) {
   ExactSum sum;
-  for (const std::int32_t i : nodes) sum.add(mass[static_cast<std::size_t>(i)]);
+  for (const std::int32_t i : nodes) sum.add(mass[i]);
   return sum.value();
 }
 
@@ -88,7 +88,7 @@ bool keeps_energy(const Simulation& s) {
 
 // Supports and partner pairs go with the nodes; on an edge a node is held as far as both ends are.
 void inherit_by_new_nodes(Simulation& s, const MeshEdit& edit, std::int32_t n_before) {
-  const auto fixed = [&](std::int32_t i) { return s.fixed[static_cast<std::size_t>(i)]; };
+  const auto fixed = [&](std::int32_t i) { return s.fixed[i]; };
   for (const EdgeNode& node : edit.inserted)
     s.fixed.push_back(static_cast<FixedMask>(fixed(node.end[0]) & fixed(node.end[1])));
   const auto first = n_before + static_cast<std::int32_t>(edit.inserted.size());
@@ -225,8 +225,7 @@ double scale_of(const Mesh& mesh, const EditedElements& edited, std::int32_t e,
                 std::int32_t parent) {
   const auto at = std::ranges::lower_bound(edited.before, parent);
   if (at == edited.before.end() || *at != parent) return 1;
-  return element_volume(mesh, e, mesh.X) /
-         edited.volume[static_cast<std::size_t>(at - edited.before.begin())];
+  return element_volume(mesh, e, mesh.X) / edited.volume[at - edited.before.begin()];
 }
 
 // When the mesh is edited, while part, model and state are those before it. Collective.
@@ -302,7 +301,7 @@ static void scatter_edited(Simulation& s, std::size_t n_kept, std::span<const st
     std::copy_n(&global.v[from], 3, &state.v[3 * local]);
   };
   for (const std::int32_t i : nodes)
-    if (const std::int32_t local = s.part.node_local[static_cast<std::size_t>(i)];
+    if (const std::int32_t local = s.part.node_local[i];
         local >= 0 && std::cmp_less(local, n_owned))
       take(static_cast<std::size_t>(local));
   for (std::size_t local = n_kept; local < n_owned; ++local) take(local);

@@ -101,15 +101,15 @@ std::vector<std::int32_t> adjustable_nodes(const Simulation& s, const MeshEdit& 
   std::vector<std::uint8_t> is_held = immovable_nodes(s.holds, s.fixed);
   for (const EdgeNode& node : edit.inserted) {
     nodes.push_back(static_cast<std::int32_t>(is_held.size()));
-    const auto held = [&](std::int32_t i) { return is_held[static_cast<std::size_t>(i)] != 0; };
+    const auto held = [&](std::int32_t i) { return is_held[i] != 0; };
     is_held.push_back(held(node.end[0]) && held(node.end[1]) ? 1 : 0);
   }
   for (std::size_t k = 0; k < edit.duplicate_parent.size(); ++k) {
     nodes.push_back(static_cast<std::int32_t>(is_held.size()));
-    is_held.push_back(is_held[static_cast<std::size_t>(edit.duplicate_parent[k])]);
+    is_held.push_back(is_held[edit.duplicate_parent[k]]);
   }
   sort_unique(nodes);
-  std::erase_if(nodes, [&](std::int32_t i) { return is_held[static_cast<std::size_t>(i)] != 0; });
+  std::erase_if(nodes, [&](std::int32_t i) { return is_held[i] != 0; });
   return nodes;
 }
 
@@ -162,8 +162,7 @@ TakenUp take_up_around(Simulation& s, std::span<const std::int32_t> nodes, doubl
   for (int ring = 0; ring < most_rings && std::abs(taken.surplus) > tolerance; ++ring) {
     taken.nodes = nodes_of(s.mesh, elements_around(s.corners, taken.nodes));
     std::vector<std::int32_t> movable = taken.nodes;
-    std::erase_if(movable,
-                  [&](std::int32_t i) { return is_immovable[static_cast<std::size_t>(i)] != 0; });
+    std::erase_if(movable, [&](std::int32_t i) { return is_immovable[i] != 0; });
     const std::unique_ptr<Patch> patch =
         make_patch_of(s, elements_of_forces(s, taken.nodes), {.global = global});
     const auto energy = [&] {

@@ -21,7 +21,7 @@ void update_mass(const SubMesh& around, std::span<const std::int32_t> nodes, Sim
   s.mass.resize(s.mesh.X.size());
   for (std::size_t i = 0; i < mass.size(); ++i)
     if (std::binary_search(nodes.begin(), nodes.end(), around.node[i]))
-      s.mass[static_cast<std::size_t>(around.node[i])] = mass[i];
+      s.mass[around.node[i]] = mass[i];
 }
 
 // Pieces join nowhere, and part only where the elements around an edit part.
@@ -34,7 +34,7 @@ void update_least(Simulation& s, const ModelEdit& edit) {
   std::vector<std::int64_t> places;
   for (const std::int32_t e : edit.elements)
     if (const std::int64_t k = s.part.place_of(e); k >= 0) {
-      s.altitude[static_cast<std::size_t>(k)] = least_altitude(s.mesh, e, s.mesh.X);
+      s.altitude[k] = least_altitude(s.mesh, e, s.mesh.X);
       places.push_back(k);
     }
   if (edit.place_before.empty()) {
@@ -77,7 +77,7 @@ bool changes_averages(const Simulation& s, const TopologyEdit& edit) {
 }  // namespace
 
 bool keeps_owners(const Simulation& s, const MeshEdit& edit) {
-  const auto owner = [&](std::int32_t i) { return s.node_owner[static_cast<std::size_t>(i)]; };
+  const auto owner = [&](std::int32_t i) { return s.node_owner[i]; };
   const SplitNumbers numbers(edit.splits, s.mesh.n_elements());
   return std::all_of(edit.corners.begin(), edit.corners.end(), [&](const CornerChange& change) {
     return owner(change.node) == owner(node_before(numbers, s.mesh, change));

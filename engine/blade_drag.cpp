@@ -33,7 +33,7 @@ void add_engaged_edge(const EngagedEdge& edge, const Mesh& mesh, const Part& par
   for (const auto& [location, length] : edge.piece) {
     const auto corner = mesh.corners(location.element);
     for (std::size_t a = 0; a < corner.size(); ++a) {
-      const std::int32_t local = part.node_local[static_cast<std::size_t>(corner[a])];
+      const std::int32_t local = part.node_local[corner[a]];
       if (local < 0 || local >= part.n_owned) continue;
       BladeDrag::Node& node = node_of(drag, edge.tool, local);
       node.most += location.weight[a] * resistance * length;
@@ -50,7 +50,7 @@ void add_drag(const Model& model, const State& state, double dt, BladeDrag& drag
   for (BladeDrag::Node& node : drag.node) {
     const auto k = 3 * static_cast<std::size_t>(node.local);
     const double behind = node.speed - node.direction.dot(Vec3::Map(&state.v[k]));  // [m/s]
-    const double mass = model.mass[static_cast<std::size_t>(node.local)];
+    const double mass = model.mass[node.local];
     auto f = Vec3::Map(&force[k]);
     node.force = std::clamp(mass / gain * behind - node.direction.dot(f), 0.0, node.most);
     node.force_sum += node.force;
@@ -61,8 +61,7 @@ void add_drag(const Model& model, const State& state, double dt, BladeDrag& drag
 void sum_drag_reactions(const BladeDrag& drag, std::int64_t n_substeps,
                         std::span<ExactSum3> force) {
   for (const BladeDrag::Node& node : drag.node)
-    add(-node.force_sum / static_cast<double>(n_substeps) * node.direction,
-        force[static_cast<std::size_t>(node.tool)]);
+    add(-node.force_sum / static_cast<double>(n_substeps) * node.direction, force[node.tool]);
 }
 
 }  // namespace trocar

@@ -21,7 +21,7 @@ bool can_move(const Simulation& s, const SceneLoad& load, const NodeSet& region)
   for (int j = 0; j < 3; ++j)
     if (load.force[j] != 0) pushed = static_cast<FixedMask>(pushed | (1 << j));
   std::vector<std::uint8_t> is_carried(s.mesh.X.size());  // by a moving support
-  for (const Hold& hold : s.holds.holds) is_carried[static_cast<std::size_t>(hold.node)] = 1;
+  for (const Hold& hold : s.holds.holds) is_carried[hold.node] = 1;
   return std::any_of(region.node.begin(), region.node.end(), [&](std::int32_t node) {
     const auto i = static_cast<std::size_t>(node);
     return is_carried[i] == 0 && (pushed & ~s.fixed[i]) != 0;
@@ -59,7 +59,7 @@ void check_plane(const Simulation& s) {
 void check_fibres(const Simulation& s, OptionErrors& errors) {
   constexpr double least_sine = 1e-6;
   for (std::size_t e = 0; e < s.mesh.fibre.size(); ++e) {
-    const Material& material = s.materials[static_cast<std::size_t>(s.mesh.element_region[e])];
+    const Material& material = s.materials[s.mesh.element_region[e]];
     if (material.model != MaterialModel::holzapfel_gasser_ogden || !(material.fibre_angle > 0))
       continue;
     const Vec3& normal = material.fibre_normal;
@@ -108,8 +108,7 @@ void check_converted(const Simulation& s, OptionErrors& errors) {
   const SolverOptions options = solver_options(s.scene);
   std::vector<std::uint8_t> has_hexahedra(s.materials.size(), 0);
   for (std::size_t e = 0; e < s.mesh.element_type.size(); ++e)
-    if (s.mesh.element_type[e] == ElementType::hex8)
-      has_hexahedra[static_cast<std::size_t>(s.mesh.element_region[e])] = 1;
+    if (s.mesh.element_type[e] == ElementType::hex8) has_hexahedra[s.mesh.element_region[e]] = 1;
   for (std::size_t r = 0; r < s.materials.size(); ++r) {
     if (has_hexahedra[r] == 0) continue;
     if (const std::string fault = misfit_of(s.materials[r], options.tet4, options.precision);

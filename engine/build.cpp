@@ -37,8 +37,7 @@ std::vector<Material> region_materials(const SceneTissue& tissue, const Mesh& me
     const SceneRegionMaterial& other = tissue.region_materials[k];
     const auto at = std::find(mesh.region_name.begin(), mesh.region_name.end(), other.region);
     CHECK(at != mesh.region_name.end());
-    materials[static_cast<std::size_t>(at - mesh.region_name.begin())] =
-        to_material(other.material);
+    materials[at - mesh.region_name.begin()] = to_material(other.material);
   }
   return materials;
 }
@@ -58,8 +57,7 @@ void build_supports(Simulation& s) {
     s.holds.paths.emplace_back(support.path);
     const NodeSet* set = find_node_set(s.mesh, support.region);
     if (support.path.empty()) {
-      for (const std::int32_t node : set->node)
-        s.fixed[static_cast<std::size_t>(node)] |= fixed_mask(support.fix);
+      for (const std::int32_t node : set->node) s.fixed[node] |= fixed_mask(support.fix);
       continue;
     }
     for (const std::int32_t node : set->node)

@@ -88,11 +88,11 @@ void check_copies(const Mesh& mesh) {
       static_cast<std::int64_t>(mesh.X.size()) - static_cast<std::int64_t>(mesh.copied_node.size());
   // A copy is of the uncut mesh or of a node on an edge, which names itself.
   const auto is_original = [&](std::int64_t i) {
-    return i < n_uncut || mesh.copied_node[static_cast<std::size_t>(i - n_uncut)] == i;
+    return i < n_uncut || mesh.copied_node[i - n_uncut] == i;
   };
   bool is_sound = n_uncut >= 0;
   for (std::int64_t k = 0; k < std::ssize(mesh.copied_node) && is_sound; ++k) {
-    const std::int32_t i = mesh.copied_node[static_cast<std::size_t>(k)];
+    const std::int32_t i = mesh.copied_node[k];
     is_sound = i >= 0 && i <= n_uncut + k && is_original(i);
   }
   if (!is_sound) throw InputError("stored mesh has copies of nodes that it has not");

@@ -6,10 +6,9 @@
 #include <string>
 
 #include "engine/bytes.h"
+#include "engine/run_files.h"
 
 namespace trocar {
-
-inline constexpr const char* checkpoint_name = "checkpoint.bin";
 
 // Writes a neighbour of that name with ".new" at its end, all that `put` gives to the sink, waits
 // until it is on the disk, renames it. Throws MachineError "<file>: …" and leaves the old file as

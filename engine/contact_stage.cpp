@@ -43,10 +43,9 @@ void take_impulses(std::span<const double> impulses, ContactSet& set) {
     const auto node = static_cast<std::int32_t>(impulses[k]);
     const auto at = std::ranges::lower_bound(set.node, node);
     if (at == set.node.end() || *at != node) continue;
-    set.impulse[static_cast<std::size_t>(at - set.node.begin())] = {
-        .step = static_cast<std::int64_t>(impulses[k + 1]),
-        .push = impulses[k + 2],
-        .drag = Vec3::Map(&impulses[k + 3])};
+    set.impulse[at - set.node.begin()] = {.step = static_cast<std::int64_t>(impulses[k + 1]),
+                                          .push = impulses[k + 2],
+                                          .drag = Vec3::Map(&impulses[k + 3])};
   }
 }
 
@@ -85,7 +84,7 @@ std::vector<double> felt_masses(const ContactBody& body, std::span<const FixedMa
   std::vector<double> felt(body.mass.begin(), body.mass.end());
   const MassScaling& scaling = *body.scaling;
   for (std::int32_t c = 0; c < scaling.n_clusters(); ++c) {
-    const auto begin = static_cast<std::size_t>(scaling.offset[static_cast<std::size_t>(c)]),
+    const auto begin = static_cast<std::size_t>(scaling.offset[c]),
                end = static_cast<std::size_t>(scaling.offset[static_cast<std::size_t>(c) + 1]);
     double whole = 0;
     for (std::size_t k = begin; k < end; ++k) {
@@ -106,7 +105,7 @@ void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const 
   stage.set = {};
   if (stage.contacts.empty() && stage.tissue.empty()) return;
   std::vector<FixedMask> held(body.fixed.begin(), body.fixed.end());
-  for (const Hold& hold : holds.holds) held[static_cast<std::size_t>(hold.node)] = all_components;
+  for (const Hold& hold : holds.holds) held[hold.node] = all_components;
   const std::vector<double> scaled =
       body.scaling != nullptr ? felt_masses(body, held) : std::vector<double>();
   stage.set = prepare_contacts({stage.contacts, stage.tissue}, body.node_owner, body.part,
@@ -137,7 +136,7 @@ void share_positions(ContactStage& stage, std::span<const Vec3> X, std::span<con
   }
   stage.exchange->exchange(stage.positions, communicator);
   for (std::size_t k = 0; k < stage.set.node.size(); ++k) {
-    const Vec3& x = X[static_cast<std::size_t>(stage.set.node[k])];
+    const Vec3& x = X[stage.set.node[k]];
     stage.set.x_start[k] = x + Vec3::Map(&stage.positions[6 * k]);
     stage.set.x_end[k] = x + Vec3::Map(&stage.positions[6 * k + 3]);
   }
@@ -146,7 +145,7 @@ void share_positions(ContactStage& stage, std::span<const Vec3> X, std::span<con
 void add_contact_force(const ContactStage& stage, std::span<double> force) {
   for (std::size_t k = 0; k < stage.set.local.size(); ++k)
     Vec3::Map(&force[3 * static_cast<std::size_t>(stage.set.local[k])]) +=
-        stage.set.force[static_cast<std::size_t>(stage.set.owned[k])];
+        stage.set.force[stage.set.owned[k]];
 }
 
 void move_tools(std::span<const Tool> tools, double t, double dt, std::span<ToolMotion> motion) {
@@ -163,8 +162,7 @@ void sum_contact_reactions(ContactStage& stage, std::int64_t n_substeps,
                            std::span<ExactSum3> force) {
   if (!stage.set.is_counted_here) return;
   for (const ContactSet::Item& item : stage.set.items)
-    add(item.reaction_sum / static_cast<double>(n_substeps),
-        force[static_cast<std::size_t>(item.contact.tool)]);
+    add(item.reaction_sum / static_cast<double>(n_substeps), force[item.contact.tool]);
 }
 
 }  // namespace trocar

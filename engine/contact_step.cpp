@@ -5,7 +5,7 @@
 
 #include "base/sort_unique.h"
 #include "collision/contact_tilt.h"
-#include "engine/frame_watch.h"
+#include "engine/body_search.h"
 #include "engine/part_search.h"
 #include "engine/patch.h"
 

@@ -54,7 +54,7 @@ void cut_reach(Simulation& s, CutStage& stage, bool may_grow, double h) {
     return;
   }
   // A cut that ends before its path does, at nodes that are held, is not continued.
-  const auto X = [&](std::int32_t node) { return s.mesh.X[static_cast<std::size_t>(node)]; };
+  const auto X = [&](std::int32_t node) { return s.mesh.X[node]; };
   const bool is_continued = cut.tip >= 0 && (X(cut.tip) - path.back()).norm() < h;
   stage.plane_tip = is_continued ? cut.tip : -1;
   path = {is_continued ? X(cut.tip) : path.back()};

@@ -31,7 +31,7 @@ struct Motion {
   Vec3 velocity;         // of the edge's middle [m/s]
   Vec3 tissue_velocity;  // [m/s]
 
-  const Tool& tool() const { return s.tools[static_cast<std::size_t>(stage.tool)]; }
+  const Tool& tool() const { return s.tools[stage.tool]; }
   // As the tissue sees it, which lies as at the frame's begin.
   std::vector<Vec3> edge_at(double time) const {
     std::vector<Vec3> points = edge_in_body(s, tool(), time);
@@ -78,7 +78,7 @@ std::optional<Vec3> tissue_velocity_of(const Motion& motion, BodyPositions& posi
 // plane's normal.
 Mat3 axes_of(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
   const auto corner = mesh.corners(e);
-  const auto at = [&](std::size_t a) { return x[static_cast<std::size_t>(corner[a])]; };
+  const auto at = [&](std::size_t a) { return x[corner[a]]; };
   Mat3 axes;
   if (corner.size() == 8)
     axes << at(1) - at(0) + at(2) - at(3) + at(5) - at(4) + at(6) - at(7),

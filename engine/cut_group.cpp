@@ -49,11 +49,10 @@ void CutGroup::find(std::span<const std::int32_t> nodes) const {
   if (is_everyone()) return find_nodes(s_, nodes, *members_, known);
   std::vector<std::int32_t> asked;
   for (const std::int32_t i : nodes)
-    if (known.is_known[static_cast<std::size_t>(i)] == 0) asked.push_back(i);
+    if (known.is_known[i] == 0) asked.push_back(i);
   sort_unique(asked);
-  const bool is_ours = std::ranges::all_of(asked, [&](std::int32_t i) {
-    return std::ranges::binary_search(ranks_, s_.node_owner[static_cast<std::size_t>(i)]);
-  });
+  const bool is_ours = std::ranges::all_of(
+      asked, [&](std::int32_t i) { return std::ranges::binary_search(ranks_, s_.node_owner[i]); });
   if (is_ours) return find_nodes(s_, asked, *members_, known);
   std::vector<std::byte> bytes = bytes_of({.nodes = asked, .outcome = {}});
   say(bytes);

@@ -52,7 +52,7 @@ std::vector<Vec3> ways_of_ends(const BladeSweep& sweep, double spacing) {
 // the edge: once a closing, as a rule.
 bool begins_beside(const Simulation& s, const CutStage& stage, const BladeSweep& sweep,
                    BodyPositions& positions) {
-  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  const Tool& tool = s.tools[stage.tool];
   if (tool.kind != InstrumentKind::scissors) return false;
   const std::array<Vec3, 2> begin{sweep.before.front(), sweep.before.back()};
   if (is_one_inside(s, positions, begin)) return !stage.is_in_stroke;
@@ -87,7 +87,7 @@ void measure_inside(const Simulation& s, BodyPositions& positions, const BladeSw
 
 // True if this is the edge's last frame in the tissue.
 bool leaves_tissue(const Simulation& s, const CutStage& stage, const BladeWay& way, bool has_met) {
-  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  const Tool& tool = s.tools[stage.tool];
   const FrameSpan& span = way.span;
   return !way.is_near || (!has_met && stage.n_idle_frames + 1 >= idle_frames_to_leave) ||
          !is_cutting(tool, span.t1, span.t1 + (span.t1 - span.t0));
@@ -142,16 +142,15 @@ std::vector<int> ranks_around(const Simulation& s, const Box& blade, double way,
   const bool are_all = s.mesh.dimension() == 2 || s.communicator->size() == 1;
   std::vector<std::uint8_t> is_around(static_cast<std::size_t>(s.communicator->size()),
                                       are_all ? 1 : 0);
-  const auto mark = [&](int rank) { is_around[static_cast<std::size_t>(rank)] = 1; };
+  const auto mark = [&](int rank) { is_around[rank] = 1; };
   if (!are_all)
     for (const std::int32_t e : elements_near(blade, way + stage.margin * s.boxes.size, s.boxes))
-      for (const std::int32_t i : s.mesh.corners(e))
-        mark(s.node_owner[static_cast<std::size_t>(i)]);
+      for (const std::int32_t i : s.mesh.corners(e)) mark(s.node_owner[i]);
   if (std::ranges::count(is_around, 0) == std::ssize(is_around))
     mark(stage.keepers.empty() ? 0 : stage.keepers.front());
   std::vector<int> ranks(is_around.size());
   std::iota(ranks.begin(), ranks.end(), 0);
-  std::erase_if(ranks, [&](int r) { return is_around[static_cast<std::size_t>(r)] == 0; });
+  std::erase_if(ranks, [&](int r) { return is_around[r] == 0; });
   return ranks;
 }
 

@@ -25,12 +25,10 @@ bool passes(const std::array<Vec3, 3>& triangle, const std::array<Vec3, 2>& segm
 
 // A triangle's edge as a strip across the plane, so that all facets are polygons.
 std::array<Vec3, 4> corners_of(const Mesh& mesh, std::int32_t e, int f) {
-  const std::array<int, 4> corner =
-      facet_corners(mesh.element_type[static_cast<std::size_t>(e)], f);
+  const std::array<int, 4> corner = facet_corners(mesh.element_type[e], f);
   std::array<Vec3, 4> X{};
   for (std::size_t a = 0; a < 4; ++a)
-    if (corner[a] >= 0)
-      X[a] = mesh.X[static_cast<std::size_t>(mesh.corners(e)[static_cast<std::size_t>(corner[a])])];
+    if (corner[a] >= 0) X[a] = mesh.X[mesh.corners(e)[corner[a]]];
   if (corner[3] < 0) X[3] = X[2];
   if (corner[2] >= 0) return X;
   const Vec3 height = (X[1] - X[0]).norm() * Vec3::UnitZ();
@@ -43,7 +41,7 @@ bool passes_facet(const Mesh& mesh, std::int32_t e, int f, const std::array<Vec3
 }
 
 bool passes_cut_facet(const Mesh& mesh, std::int32_t e, const std::array<Vec3, 2>& segment) {
-  const unsigned mask = mesh.cut_facets[static_cast<std::size_t>(e)];
+  const unsigned mask = mesh.cut_facets[e];
   for (int f = 0; mask >> f != 0; ++f)
     if ((mask >> f & 1) != 0 && passes_facet(mesh, e, f, segment)) return true;
   return false;
@@ -56,7 +54,7 @@ bool is_parted(const Mesh& mesh, std::span<const std::int32_t> near,
   Box box;
   for (const Vec3& end : segment) box.add(end);
   return std::ranges::any_of(near, [&](std::int32_t e) {
-    return mesh.cut_facets[static_cast<std::size_t>(e)] != 0 &&
+    return mesh.cut_facets[e] != 0 &&
            element_box(mesh, e, mesh.X).overlaps(box, slack * (box.high - box.low).norm()) &&
            passes_cut_facet(mesh, e, segment);
   });

@@ -73,7 +73,7 @@ bool is_askew(const Simulation& s, const FrameSpan& span, const BladeSweep& swee
               const CutStage& stage) {
   constexpr double facing = 0.5;  // cosine
   const double rest = 1e-3 * s.edge_length;
-  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  const Tool& tool = s.tools[stage.tool];
   if (tool.kind != InstrumentKind::scalpel) return false;
   const Mat3 frame = tool.path.at(0.5 * (span.t0 + span.t1)).rotation.toRotationMatrix();
   const auto is_aside = [&](const Vec3& way) {
@@ -106,7 +106,7 @@ void add_to_record(const BladeLook& look, const BladeSweep& sweep, double millis
 // way: see begin_positions; none until a blade is near.
 BladeWay way_of_blade(Simulation& s, const FrameSpan& span, const FrameTissue& tissue,
                       const CutStage& stage, std::optional<double>& way) {
-  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  const Tool& tool = s.tools[stage.tool];
   BladeWay blade{.span = span, .sweep = sweep_of(s, tool, span), .box = {}};
   BladeSweep& sweep = blade.sweep;
   for (const std::vector<Vec3>* edge : {&sweep.before, &sweep.after})
@@ -203,7 +203,7 @@ void locate_edge_anew(Simulation& s, const BladeWay& blade, double& way, CutStag
 
 // Whether the blade is in a stroke then.
 bool take_up_stroke(Simulation& s, const BladeWay& blade, const BladeLook& look, CutStage& stage) {
-  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  const Tool& tool = s.tools[stage.tool];
   stage.is_engaged = !look.engaged.empty();
   if (!stage.is_in_stroke) {
     if (!look.has_met) return false;
@@ -223,7 +223,7 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
   if (stage.beside) stage.tissue_velocity = *stage.beside;
   const bool was_engaged = stage.is_in_stroke && stage.is_engaged;
   stage.is_engaged = false;
-  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  const Tool& tool = s.tools[stage.tool];
   stage.has_told_beside = stage.has_told_beside && is_cutting(tool, span.t0, span.t1);
   if (!blade.is_near && !stage.is_in_stroke) return;
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/options.h"
+#include "engine/frame_force.h"
 #include "engine/frame_report.h"
-#include "engine/frame_watch.h"
 #include "engine/simulation.h"
 #include "solver/mass_clusters.h"
 #include "solver/step.h"
@@ -46,7 +46,7 @@ void add_nodal_energies(const RankBody& body, std::vector<double>& kinetic,
       vf += body.state.v[k] * body.scratch.force[k];
       gu += body.model.options.gravity[j] * body.state.u[k];
     }
-    const double m = body.model.mass[static_cast<std::size_t>(i)];
+    const double m = body.model.mass[i];
     kinetic.push_back(0.5 * m * v2 + half_dt * vf);
     gravity.push_back(-m * gu);
   }

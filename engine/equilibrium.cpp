@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/timers.h"
+#include "engine/frame_force.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "engine/instrument_check.h"
@@ -74,7 +75,7 @@ void check_loads_are_held(std::span<const FixedMask> held, const Simulation& s,
 std::vector<FixedMask> held_components(const Simulation& s, std::span<const std::int32_t> piece) {
   std::vector<FixedMask> held(piece.size(), 0);
   const auto hold = [&](std::size_t node, FixedMask mask) {
-    FixedMask& of_piece = held[static_cast<std::size_t>(piece[node])];
+    FixedMask& of_piece = held[piece[node]];
     of_piece = static_cast<FixedMask>(of_piece | mask);
   };
   for (std::size_t node = 0; node < piece.size(); ++node) hold(node, s.fixed[node]);

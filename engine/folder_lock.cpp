@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "engine/run_files.h"
 
 namespace trocar {
 
@@ -56,7 +57,7 @@ void write_holder(int number) {
 
 }  // namespace
 
-FolderLock::FolderLock(const std::string& folder) : file_(folder + "/.trocar-lock") {
+FolderLock::FolderLock(const std::string& folder) : file_(folder + "/" + lock_name) {
   constexpr int enough_tries = 100;  // each in vain only if a run ends just then
   for (int tries = 0; tries < enough_tries; ++tries) {
     if (number_ >= 0) close(number_);

@@ -60,8 +60,7 @@ void sum_forces(Simulation& s, const FrameSpan& span, FrameRow& row) {
 void report_wound(const Simulation& s, FrameRow& row) {
   double sum = 0;
   for (std::size_t k = 0; k < s.duplicate_node.size(); ++k) {
-    const Vec3 gap = s.view.x[static_cast<std::size_t>(s.duplicate_node[k])] -
-                     s.view.x[static_cast<std::size_t>(s.duplicate_parent[k])];
+    const Vec3 gap = s.view.x[s.duplicate_node[k]] - s.view.x[s.duplicate_parent[k]];
     row.wound_width = std::max(row.wound_width, gap.norm());
     sum += gap.norm();
   }
@@ -136,7 +135,7 @@ void warn_event(Simulation& s, double time, const std::string& event) {
 }
 
 void note_grasp(Simulation& s, double time, const GraspAct& act) {
-  const Tool& tool = s.tools[static_cast<std::size_t>(act.tool)];
+  const Tool& tool = s.tools[act.tool];
   char text[160] = " opens";
   if (act.n_taken > 0)
     std::snprintf(text, sizeof text, " closes on %d nodes", act.n_taken);
@@ -198,7 +197,7 @@ static std::string why_nothing(const Simulation& s, std::span<const CutRecord> s
 // Its strokes that parted nothing, of which the first is told of. Beside strokes that did, one that
 // is still under way and one within an older slit are none.
 static void note_idle_strokes(Simulation& s, const CutStage& stage) {
-  const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+  const Tool& tool = s.tools[stage.tool];
   std::span<const CutRecord> strokes = stage.strokes;
   const auto has_cut = [](const CutRecord& stroke) { return stroke.n_opened_facets > 0; };
   if (std::ranges::none_of(strokes, has_cut))
@@ -218,7 +217,7 @@ static void note_idle_strokes(Simulation& s, const CutStage& stage) {
 
 static void note_idle_blades(Simulation& s) {
   for (const CutStage& stage : s.cuts) {
-    const Tool& tool = s.tools[static_cast<std::size_t>(stage.tool)];
+    const Tool& tool = s.tools[stage.tool];
     if (stage.strokes.empty())
       note_event(s, s.state.time,
                  tool.name + " has cut nothing: " +
@@ -244,7 +243,7 @@ std::uint64_t state_digest(const Simulation& s) {
   std::uint64_t sum = 0;
   for (std::int32_t i = 0; i < s.part.n_owned; ++i) {
     const auto k = static_cast<std::size_t>(i) * 3;
-    const auto global = static_cast<std::uint64_t>(s.part.node_global[static_cast<std::size_t>(i)]);
+    const auto global = static_cast<std::uint64_t>(s.part.node_global[i]);
     const Vec3& X = s.mesh.X[global];
     const std::array<double, 9> values = {X[0],
                                           X[1],

@@ -35,7 +35,7 @@ void forget_state(std::size_t n_nodes, GlobalState& global) {
   constexpr double nowhere[] = {unknown, unknown, unknown};
   for (const std::int32_t i : global.known) {
     set_node(i, Vec3::Zero(), nowhere, nowhere, global);
-    global.is_known[static_cast<std::size_t>(i)] = 0;
+    global.is_known[i] = 0;
   }
   global.known.clear();
   global.u.resize(3 * n_nodes, unknown);
@@ -48,13 +48,11 @@ std::vector<double> motion_at(const Simulation& s, std::span<const std::int32_t>
                               const Communicator& ranks) {
   std::vector<double> mine;
   std::vector<std::size_t> next(static_cast<std::size_t>(s.communicator->size()) + 1, 0);
-  const auto owner = [&](std::int32_t i) {
-    return static_cast<std::size_t>(s.node_owner[static_cast<std::size_t>(i)]);
-  };
+  const auto owner = [&](std::int32_t i) { return static_cast<std::size_t>(s.node_owner[i]); };
   for (const std::int32_t i : nodes) {
     next[owner(i) + 1] += 6;
     if (std::cmp_not_equal(owner(i), s.communicator->rank())) continue;
-    const auto local = 3 * static_cast<std::size_t>(s.part.node_local[static_cast<std::size_t>(i)]);
+    const auto local = 3 * static_cast<std::size_t>(s.part.node_local[i]);
     mine.insert(mine.end(), &s.state.u[local], &s.state.u[local] + 3);
     mine.insert(mine.end(), &s.state.v[local], &s.state.v[local] + 3);
   }
@@ -75,15 +73,13 @@ void find_nodes(const Simulation& s, std::span<const std::int32_t> nodes, const 
                 GlobalState& global) {
   const std::size_t n_known = global.known.size();
   for (const std::int32_t i : nodes) {
-    if (std::exchange(global.is_known[static_cast<std::size_t>(i)], 1) == 0)
-      global.known.push_back(i);
+    if (std::exchange(global.is_known[i], 1) == 0) global.known.push_back(i);
   }
   const std::span asked = std::span(global.known).subspan(n_known);
   if (asked.empty()) return;
   const std::vector<double> motion = motion_at(s, asked, ranks);
   for (std::size_t k = 0; k < asked.size(); ++k)
-    set_node(asked[k], s.mesh.X[static_cast<std::size_t>(asked[k])], &motion[6 * k],
-             &motion[6 * k + 3], global);
+    set_node(asked[k], s.mesh.X[asked[k]], &motion[6 * k], &motion[6 * k + 3], global);
 }
 
 void find_all_nodes(Simulation& s, GlobalState& global) {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "cutting/cut_constraints.h"
+
 namespace trocar {
 
 namespace {
@@ -60,14 +62,14 @@ std::vector<std::uint8_t> held_nodes(const Holds& holds, std::span<const std::ui
   const FixedMask holding = holding_components(fixed);
   for (std::size_t i = 0; i < fixed.size(); ++i)
     if ((fixed[i] & holding) != 0) is_held[i] = fixed[i] == all_components ? 1 : may_slide;
-  for (const Hold& hold : holds.holds) is_held[static_cast<std::size_t>(hold.node)] = 1;
+  for (const Hold& hold : holds.holds) is_held[hold.node] = 1;
   return is_held;
 }
 
 std::vector<std::uint8_t> immovable_nodes(const Holds& holds, std::span<const std::uint8_t> fixed) {
   std::vector<std::uint8_t> is_immovable(fixed.size());
   for (std::size_t i = 0; i < fixed.size(); ++i) is_immovable[i] = fixed[i] == all_components;
-  for (const Hold& hold : holds.holds) is_immovable[static_cast<std::size_t>(hold.node)] = 1;
+  for (const Hold& hold : holds.holds) is_immovable[hold.node] = 1;
   return is_immovable;
 }
 
@@ -99,8 +101,8 @@ std::vector<GraspAct> act_graspers(Holds& holds, std::span<const Tool> tools, do
                                    std::span<const Vec3> x, std::span<const std::uint8_t> fixed) {
   std::vector<GraspAct> acts;
   for (const auto& [key, number] : acts_in_turn(tools, t0, t1)) {
-    const Tool& tool = tools[static_cast<std::size_t>(number)];
-    holds.is_open[static_cast<std::size_t>(number)] = key.action == GraspAction::open;
+    const Tool& tool = tools[number];
+    holds.is_open[number] = key.action == GraspAction::open;
     if (tool.kind != InstrumentKind::grasper) continue;
     release(holds, number);
     acts.push_back(key.action == GraspAction::close
@@ -114,7 +116,7 @@ void localise_holds(Holds& holds, const Part& part) {
   holds.owned.clear();
   holds.prescribed.clear();
   for (std::size_t k = 0; k < holds.holds.size(); ++k) {
-    const std::int32_t local = part.node_local[static_cast<std::size_t>(holds.holds[k].node)];
+    const std::int32_t local = part.node_local[holds.holds[k].node];
     if (local < 0 || local >= part.n_owned) continue;
     holds.owned.push_back(static_cast<std::int32_t>(k));
     holds.prescribed.push_back({.node = local});
@@ -158,11 +160,10 @@ void aim_holds(Holds& holds, std::span<const Tool> tools, std::span<const Vec3> 
   if (holds.owned.empty()) return;
   for (std::size_t k = 0; k < tools.size(); ++k) holds.poses[k] = tools[k].path.at(time);
   for (std::size_t k = 0; k < holds.owned.size(); ++k) {
-    const Hold& hold = holds.holds[static_cast<std::size_t>(holds.owned[k])];
+    const Hold& hold = holds.holds[holds.owned[k]];
     holds.prescribed[k].u_next =
-        hold.tool >= 0 ? Vec3(holds.poses[static_cast<std::size_t>(hold.tool)].apply(hold.offset) -
-                              X[static_cast<std::size_t>(hold.node)])
-                       : holds.paths[static_cast<std::size_t>(hold.support)].at(time);
+        hold.tool >= 0 ? Vec3(holds.poses[hold.tool].apply(hold.offset) - X[hold.node])
+                       : holds.paths[hold.support].at(time);
   }
 }
 
@@ -178,12 +179,11 @@ void forget_hold_reactions(Holds& holds) {
 void sum_hold_reactions(Holds& holds, std::int64_t n_substeps, std::span<ExactSum3> on_tool,
                         std::span<ExactSum3> on_support) {
   for (std::size_t k = 0; k < holds.owned.size(); ++k) {
-    const Hold& hold = holds.holds[static_cast<std::size_t>(holds.owned[k])];
+    const Hold& hold = holds.holds[holds.owned[k]];
     const Vec3 mean = holds.reaction_sum[k] / static_cast<double>(n_substeps);
     holds.reaction_sum[k] = Vec3::Zero();
     // The tissue pulls back on what holds it.
-    add(-mean, hold.tool >= 0 ? on_tool[static_cast<std::size_t>(hold.tool)]
-                              : on_support[static_cast<std::size_t>(hold.support)]);
+    add(-mean, hold.tool >= 0 ? on_tool[hold.tool] : on_support[hold.support]);
   }
 }
 

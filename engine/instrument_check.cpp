@@ -100,7 +100,7 @@ void check_instruments_outside(const LoadedScene& loaded, double allowed, const 
   std::vector<double> depth(s.tools.size(), 0);
   detect_contacts(*s.contact, s.tools, s.holds, s.view, FrameSpan{}, 0);
   for (const Contact& contact : s.contact->contacts) {
-    double& deepest = depth[static_cast<std::size_t>(contact.tool)];
+    double& deepest = depth[contact.tool];
     deepest = std::max(deepest, -contact.gap);
   }
   for (std::size_t k = 0; k < s.tools.size(); ++k) {

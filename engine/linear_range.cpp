@@ -34,8 +34,7 @@ Mat3 derivatives(ElementType type, std::span<const std::int32_t> corners, const 
   Mat3 by_reference = Mat3::Zero();
   if (type == ElementType::hex8) {
     for (int a = 0; a < 8; ++a)
-      for (int k = 0; k < 3; ++k)
-        by_reference.col(k) += hex_corner_xi[a][k] * value(corners[static_cast<std::size_t>(a)]);
+      for (int k = 0; k < 3; ++k) by_reference.col(k) += hex_corner_xi[a][k] * value(corners[a]);
     return by_reference;
   }
   for (std::size_t k = 1; k < corners.size(); ++k)
@@ -45,14 +44,12 @@ Mat3 derivatives(ElementType type, std::span<const std::int32_t> corners, const 
 
 // H = du/dX at the centre of an element of this rank; of a plane element in its plane.
 Mat3 displacement_gradient(const Simulation& s, std::int32_t e) {
-  const ElementType type = s.mesh.element_type[static_cast<std::size_t>(e)];
+  const ElementType type = s.mesh.element_type[e];
   const auto corners = s.mesh.corners(e);
-  Mat3 dX = derivatives(type, corners,
-                        [&](std::int32_t i) { return s.mesh.X[static_cast<std::size_t>(i)]; });
+  Mat3 dX = derivatives(type, corners, [&](std::int32_t i) { return s.mesh.X[i]; });
   if (type == ElementType::tri3) dX.col(2) = Vec3::UnitZ();
   const Mat3 du = derivatives(type, corners, [&](std::int32_t i) -> Vec3 {
-    return Vec3::Map(
-        &s.state.u[3 * static_cast<std::size_t>(s.part.node_local[static_cast<std::size_t>(i)])]);
+    return Vec3::Map(&s.state.u[3 * static_cast<std::size_t>(s.part.node_local[i])]);
   });
   return du * dX.inverse();
 }
@@ -67,7 +64,7 @@ double norm_above(const Mat3& H, double enough) {
 }
 
 bool is_linear(const Simulation& s, std::int32_t e) {
-  const auto region = static_cast<std::size_t>(s.mesh.element_region[static_cast<std::size_t>(e)]);
+  const auto region = static_cast<std::size_t>(s.mesh.element_region[e]);
   return s.materials[region].model == MaterialModel::linear;
 }
 
@@ -78,7 +75,7 @@ Strained most_strained(const Simulation& s) {
   parallel_for(n, [&](std::int64_t begin, std::int64_t end) {
     Strained mine;
     for (std::int64_t k = begin; k < end; ++k) {
-      const std::int32_t e = s.part.element_global[static_cast<std::size_t>(k)];
+      const std::int32_t e = s.part.element_global[k];
       if (is_linear(s, e)) mine.take(norm_above(displacement_gradient(s, e), mine.norm), e);
     }
     const std::scoped_lock lock(mutex);

@@ -71,7 +71,7 @@ std::vector<double> parts_of(const Mesh& mesh, const NodeSet& region,
   double sum = 0;
   for (const LoadFace& face : faces) {
     const std::array<Vec3, 4> areas =
-        area_vectors(face, 1, [&](std::int32_t i) { return mesh.X[static_cast<std::size_t>(i)]; });
+        area_vectors(face, 1, [&](std::int32_t i) { return mesh.X[i]; });
     const Vec3 area = areas[0] + areas[1] + areas[2] + areas[3];
     sum += area.norm();
     for (int k = 0; k < size_of(face); ++k) part[face[k]] += areas[k].dot(area.normalized());
@@ -196,12 +196,11 @@ bool is_left_out(const LoadFace& face, const Mesh& mesh, const NodeSet& region) 
 std::vector<LoadFace> loaded_faces(const Mesh& mesh, const Surface& surface,
                                    const NodeSet& region) {
   std::vector<std::uint8_t> is_inside(mesh.X.size(), 0);
-  for (const std::int32_t node : region.node) is_inside[static_cast<std::size_t>(node)] = 1;
+  for (const std::int32_t node : region.node) is_inside[node] = 1;
   std::vector<LoadFace> faces = all_faces(mesh, surface);
   std::erase_if(faces, [&](const LoadFace& face) {
-    return std::any_of(face.begin(), face.end(), [&](std::int32_t i) {
-      return i >= 0 && is_inside[static_cast<std::size_t>(i)] == 0;
-    });
+    return std::any_of(face.begin(), face.end(),
+                       [&](std::int32_t i) { return i >= 0 && is_inside[i] == 0; });
   });
   std::erase_if(faces, [&](const LoadFace& face) { return is_left_out(face, mesh, region); });
   return faces;
@@ -253,8 +252,7 @@ void find_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Part& 
   for (const Loads::Share& share : loads.shares)
     loads.force[share.place] += loads.factor[share.load] * share.part * scene[share.load].force;
   const auto x = [&](std::int32_t local) -> Vec3 {
-    return mesh.X[static_cast<std::size_t>(part.node_global[local])] +
-           Vec3(u[3 * local], u[3 * local + 1], u[3 * local + 2]);
+    return mesh.X[part.node_global[local]] + Vec3(u[3 * local], u[3 * local + 1], u[3 * local + 2]);
   };
   for (const Loads::Face& face : loads.faces) {
     const double pressure = loads.factor[face.load] * scene[face.load].pressure;

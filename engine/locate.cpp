@@ -32,7 +32,7 @@ Weights simplex_weights(std::span<const std::int32_t> corner, std::span<const Ve
 std::array<std::int32_t, 4> nodes_of(const std::array<int, 4>& tet,
                                      std::span<const std::int32_t> corner) {
   std::array<std::int32_t, 4> node{};
-  for (std::size_t a = 0; a < 4; ++a) node[a] = corner[static_cast<std::size_t>(tet[a])];
+  for (std::size_t a = 0; a < 4; ++a) node[a] = corner[tet[a]];
   return node;
 }
 
@@ -44,14 +44,13 @@ Weights hexahedron_weights(const Mesh& mesh, std::int32_t e, std::span<const Vec
     const Weights w = simplex_weights(nodes_of(tet, mesh.corners(e)), x, p);
     if (w.least <= best.least) continue;
     best = {.least = w.least};
-    for (std::size_t a = 0; a < 4; ++a) best.weight[static_cast<std::size_t>(tet[a])] = w.weight[a];
+    for (std::size_t a = 0; a < 4; ++a) best.weight[tet[a]] = w.weight[a];
   }
   return best;
 }
 
 Weights weights_of(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x, const Vec3& p) {
-  if (mesh.element_type[static_cast<std::size_t>(e)] == ElementType::hex8)
-    return hexahedron_weights(mesh, e, x, p);
+  if (mesh.element_type[e] == ElementType::hex8) return hexahedron_weights(mesh, e, x, p);
   return simplex_weights(mesh.corners(e), x, p);
 }
 
@@ -103,7 +102,7 @@ void add_stretches(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x,
     if (stretch.begin < stretch.end) stretches.push_back(stretch);
   };
   const std::span<const std::int32_t> corner = mesh.corners(e);
-  if (mesh.element_type[static_cast<std::size_t>(e)] != ElementType::hex8) return add(corner);
+  if (mesh.element_type[e] != ElementType::hex8) return add(corner);
   for (const std::array<int, 4>& tet : hex_tets(mesh, e)) add(nodes_of(tet, corner));
 }
 
@@ -168,8 +167,7 @@ Location locate_nearest(const Mesh& mesh, std::span<const Vec3> x, const Vec3& p
 Vec3 interpolate(const Mesh& mesh, const Location& location, std::span<const Vec3> field) {
   Vec3 sum = Vec3::Zero();
   const auto corner = mesh.corners(location.element);
-  for (std::size_t a = 0; a < corner.size(); ++a)
-    sum += location.weight[a] * field[static_cast<std::size_t>(corner[a])];
+  for (std::size_t a = 0; a < corner.size(); ++a) sum += location.weight[a] * field[corner[a]];
   return sum;
 }
 

@@ -7,14 +7,13 @@ namespace trocar {
 double mean_edge_length(const Mesh& mesh) {
   double sum = 0;
   const auto edges = mesh_edges(mesh);
-  for (const auto& [a, b] : edges)
-    sum += (mesh.X[static_cast<std::size_t>(a)] - mesh.X[static_cast<std::size_t>(b)]).norm();
+  for (const auto& [a, b] : edges) sum += (mesh.X[a] - mesh.X[b]).norm();
   return sum / static_cast<double>(edges.size());
 }
 
 std::vector<std::int64_t> elements_by_region(const Mesh& mesh) {
   std::vector<std::int64_t> n(mesh.region_name.size(), 0);
-  for (const std::int32_t region : mesh.element_region) ++n[static_cast<std::size_t>(region)];
+  for (const std::int32_t region : mesh.element_region) ++n[region];
   return n;
 }
 

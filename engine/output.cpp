@@ -15,6 +15,7 @@
 #include "engine/frame_report.h"
 #include "engine/metrics_file.h"
 #include "engine/point_text.h"
+#include "engine/run_files.h"
 #include "engine/simulation.h"
 #include "engine/version.h"
 
@@ -145,7 +146,7 @@ void open_writers(const Simulation& s, const std::string& echo, const Checkpoint
     rename_films(s, outputs);
   else
     remove_checkpoint(outputs.folder);  // it would not belong to the files that are written now
-  if (!echo.empty()) write_text_file(outputs.folder + "/scene.toml", echo);
+  if (!echo.empty()) write_text_file(outputs.folder + "/" + scene_name, echo);
   for (const OutputSlot& slot : outputs.slots) {
     std::filesystem::create_directories(std::filesystem::path(slot.file).parent_path());
     outputs.metrics.push_back(slot.kind == OutputKind::metrics ? open_metrics(s, slot, resumed)

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/options.h"
+#include "engine/run_files.h"
 #include "engine/tissue.h"
 
 namespace trocar {
@@ -53,7 +54,7 @@ void warn_of_rounding(const std::string& key, double seconds, double frame_rate)
 
 std::string echo_in(const std::string& folder, const LoadedScene& loaded,
                     const std::string& scene_file) {
-  if (are_one_file(scene_file, folder + "/scene.toml")) return "";
+  if (are_one_file(scene_file, folder + "/" + scene_name)) return "";
   Scene scene = loaded.scene;
   const auto take_along = [&](std::string& mesh) {
     if (!mesh.empty() && !mesh.starts_with('/'))
@@ -66,7 +67,7 @@ std::string echo_in(const std::string& folder, const LoadedScene& loaded,
 
 void check_inputs_stay(const LoadedScene& loaded, const std::string& scene_file,
                        const std::string& folder) {
-  std::vector<std::string> written = {"summary.json", "checkpoint.bin"};
+  std::vector<std::string> written = {summary_name, checkpoint_name};
   for (const SceneOutput& output : loaded.scene.outputs) written.push_back(output.file);
   for (const std::string& name : written) {
     const std::string file = folder + "/" + name;
@@ -88,7 +89,7 @@ void warn_of_outputs(const Scene& scene, const std::string& folder) {
     else if (output.every > 0)
       warn_of_rounding(key, output.every, time.frame_rate);
   }
-  if (fs::exists(folder + "/summary.json"))
+  if (fs::exists(folder + "/" + summary_name))
     log_warning(
         "\"" + folder +
         "\" has files of an earlier run: those that this one does not write stay beside its own");

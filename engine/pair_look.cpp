@@ -80,7 +80,7 @@ double begin_of(const FrameSpan& span, std::int64_t k) {
 void add_pairs(std::span<const TissuePair> before, std::span<const Vec3> x, double near,
                std::vector<TissuePair>& pairs) {
   const auto key = [](const TissuePair& p) { return std::tie(p.node, p.corner); };
-  const auto at = [&](std::int32_t i) { return x[static_cast<std::size_t>(i)]; };
+  const auto at = [&](std::int32_t i) { return x[i]; };
   for (const TissuePair& p : before) {
     const Triangle triangle = {at(p.corner[0]), at(p.corner[1]), at(p.corner[2])};
     if (touch_tissue(at(p.node), triangle).distance < near) pairs.push_back(p);
@@ -93,7 +93,7 @@ void add_pairs(std::span<const TissuePair> before, std::span<const Vec3> x, doub
 // Of velocities of the surface.
 double largest_difference(const SurfaceView& view) {
   Box speed;
-  for (const std::int32_t node : view.node) speed.add(view.v[static_cast<std::size_t>(node)]);
+  for (const std::int32_t node : view.node) speed.add(view.v[node]);
   return (speed.high - speed.low).norm();
 }
 
@@ -185,7 +185,7 @@ void watch_sunk_tissue(Simulation& s, double time) {
   const auto it = std::ranges::find_if(
       sunk, [&](const SunkNode& n) { return s.contact->detector.lies_in_other_tissue(n.node); });
   if (it == sunk.end()) return;
-  const Vec3& x = s.view.x[static_cast<std::size_t>(it->node)];
+  const Vec3& x = s.view.x[it->node];
   char place[120];
   std::snprintf(place, sizeof place, "node %d at (%.4g, %.4g, %.4g) m lies %.3g mm", it->node,
                 x.x(), x.y(), x.z(), 1e3 * it->depth);

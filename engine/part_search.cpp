@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/frame_watch.h"
+#include "engine/body_search.h"
 #include "engine/patch.h"
 #include "solver/frequency.h"
 

@@ -7,8 +7,8 @@
 
 #include "base/check.h"
 #include "base/exact_sum.h"
+#include "engine/body_search.h"
 #include "engine/energy_ledger.h"
-#include "engine/frame_watch.h"
 #include "solver/frequency.h"
 #include "solver/step.h"
 #include "solver/watch.h"
@@ -207,8 +207,7 @@ static double search_patch(const Simulation& s, Patch& patch) {
   const double longer = s.multirate->steps.limit / 2;
   const double step = longer * search_step(patch, amplitude, alone, enough / longer);
   for (std::size_t i = 0; i < patch.sub.node.size(); ++i)
-    if (s.local_steps->plan.is_fine[static_cast<std::size_t>(patch.sub.node[i])] != 0)
-      patch.model.fixed[i] = all_components;
+    if (s.local_steps->plan.is_fine[patch.sub.node[i]] != 0) patch.model.fixed[i] = all_components;
   const bool is_all_fine = std::ranges::all_of(
       patch.model.fixed, [](FixedMask fixed) { return fixed == all_components; });
   return is_all_fine ? step : std::min(step, search_step(patch, amplitude, alone, enough));
@@ -222,7 +221,7 @@ static Watch watch_patch(const Simulation& s, Patch& patch) {
   if (by_frequency && w.least_J > 0 && w.stable_step < s.watch.stable_step)
     w.stable_step = std::max(w.stable_step, search_patch(s, patch));
   for (std::int32_t* element : {&w.stable_element, &w.least_J_element})
-    if (*element >= 0) *element = patch.sub.element[static_cast<std::size_t>(*element)];
+    if (*element >= 0) *element = patch.sub.element[*element];
   return w;
 }
 

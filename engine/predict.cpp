@@ -6,7 +6,7 @@
 #include "base/heap.h"
 #include "base/threads.h"
 #include "base/timers.h"
-#include "engine/frame_watch.h"
+#include "engine/frame_force.h"
 #include "engine/simulation.h"
 #include "mesh/quality.h"
 #include "solver/step.h"

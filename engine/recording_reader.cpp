@@ -32,7 +32,7 @@ bool is_within(std::int64_t number, std::int64_t n) {
 
 bool has_parts(const ElementSplit& split, const Mesh& mesh) {
   if (!is_within(split.element, mesh.n_elements())) return false;
-  const ElementType type = mesh.element_type[static_cast<std::size_t>(split.element)];
+  const ElementType type = mesh.element_type[split.element];
   return type == ElementType::hex8
              ? split.n_tets == n_hex_tets
              : type == ElementType::tet4 && split.n_tets >= 2 && split.n_tets <= max_split_tets;
@@ -53,7 +53,7 @@ bool is_of_element(std::int32_t node, std::span<const std::int32_t> own, const M
   };
   const std::int64_t k = std::int64_t{node} - n_nodes;
   if (!is_within(k, std::ssize(edit.inserted))) return is_own(node);
-  return std::ranges::all_of(edit.inserted[static_cast<std::size_t>(k)].end, is_own);
+  return std::ranges::all_of(edit.inserted[k].end, is_own);
 }
 
 bool splits_fit(const MeshEdit& edit, const Mesh& mesh) {

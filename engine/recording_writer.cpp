@@ -51,8 +51,7 @@ void RecordingWriter::Database::write_head(const RecordingHead& head) {
   insert.bind(4, std::int64_t{row_crc("head", head.version, head.scene, n_tools, mesh.crc)});
   bind_blob(insert, 5, mesh);
   insert.step();
-  for (std::int64_t k = 0; k < n_tools; ++k)
-    write_tool(k, head.tool_meshes[static_cast<std::size_t>(k)]);
+  for (std::int64_t k = 0; k < n_tools; ++k) write_tool(k, head.tool_meshes[k]);
   file.run("COMMIT");
 }
 

@@ -21,6 +21,7 @@
 #include "engine/frame_report.h"
 #include "engine/output_check.h"
 #include "engine/resume.h"
+#include "engine/run_files.h"
 #include "engine/summary.h"
 
 namespace trocar {
@@ -191,7 +192,7 @@ static void finish_run(Simulation& s, Outputs& outputs, FolderLock* lock, RunTim
   const std::string summary = make_summary(s, times, ending.sentence);
   const auto write_summary = [&] {
     lock->give_up_room();
-    write_text_file(outputs.folder + "/summary.json", summary);
+    write_text_file(outputs.folder + "/" + summary_name, summary);
   };
   add_failure(failure_of([&] { on_root(communicator, write_summary); }), ending);
 }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/quoted.h"
+#include "engine/run_files.h"
 #include "render/image_file.h"
 
 namespace trocar {
@@ -23,7 +24,7 @@ std::string plain_file(const SceneOutput& output) {
 
 // Only frames are a folder, in which others may lie.
 void check_no_output_lies_in_a_file(const Scene& scene, OptionErrors& errors) {
-  std::vector<std::string> files = {"summary.json", "scene.toml", "checkpoint.bin"};
+  std::vector<std::string> files(run_files.begin(), run_files.end());
   for (const SceneOutput& output : scene.outputs)
     if (output.kind != OutputKind::frames) files.push_back(plain_file(output));
   for (std::size_t k = 0; k < scene.outputs.size(); ++k)
@@ -100,8 +101,8 @@ void check_output_files(const Scene& scene, OptionErrors& errors) {
     const std::string ending = std::filesystem::path(plain).extension().string();
     if (!stays_inside(output.file))
       errors.add(key, "\"" + output.file + "\" must be a relative path inside the output folder");
-    if (plain == "summary.json" || plain == "scene.toml" || plain == ".trocar-lock" ||
-        plain.starts_with("checkpoint.bin"))
+    if (std::ranges::find(run_files, plain) != run_files.end() ||
+        plain.starts_with(checkpoint_name))
       errors.add(key, "\"" + plain + "\" is written by every run: choose another name");
     const std::string fault = output.kind == OutputKind::video ? film_name_fault(plain) : "";
     if (!fault.empty()) errors.add(key, fault);

@@ -38,13 +38,12 @@ void note_motion(Sleep& sleep, const State& state) {
 // go.
 void disquiet_touched(Simulation& s) {
   std::vector<std::int32_t>& quiet = s.sleep->quiet;
-  for (const PrescribedNode& held : s.holds.prescribed)
-    quiet[static_cast<std::size_t>(held.node)] = 0;
+  for (const PrescribedNode& held : s.holds.prescribed) quiet[held.node] = 0;
   if (!s.contact) return;
   for (const Contact& contact : s.contact->contacts)
     for (const std::int32_t node : contact.node) {
-      const std::int32_t local = s.part.node_local[static_cast<std::size_t>(node)];
-      if (local >= 0 && local < s.model.n_owned) quiet[static_cast<std::size_t>(local)] = 0;
+      const std::int32_t local = s.part.node_local[node];
+      if (local >= 0 && local < s.model.n_owned) quiet[local] = 0;
     }
 }
 
@@ -182,14 +181,14 @@ bool has_any(const Simulation& s, const std::vector<std::uint8_t>& sleepers) {
 bool is_touched(const Simulation& s) {
   const std::vector<std::uint8_t>& is_asleep = s.sleep->is_asleep;
   const auto sleeps = [&](std::int32_t node) {
-    const std::int32_t local = s.part.node_local[static_cast<std::size_t>(node)];
-    return local >= 0 && is_asleep[static_cast<std::size_t>(local)] != 0;
+    const std::int32_t local = s.part.node_local[node];
+    return local >= 0 && is_asleep[local] != 0;
   };
   if (s.contact)
     for (const Contact& contact : s.contact->contacts)
       if (std::any_of(contact.node.begin(), contact.node.end(), sleeps)) return true;
   for (const PrescribedNode& held : s.holds.prescribed)
-    if (is_asleep[static_cast<std::size_t>(held.node)] != 0) return true;
+    if (is_asleep[held.node] != 0) return true;
   const double rate = s.scene.time.frame_rate, frame = static_cast<double>(s.frame);
   if (do_loads_change(s.loads, frame / rate, (frame + 1) / rate)) return true;
   return !s.drag.node.empty() ||

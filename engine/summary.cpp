@@ -33,7 +33,7 @@ Json mesh_json(const Simulation& s) {
                                                 solver.hexahedron};
   Json elements, formulations;
   for (int type = 0; type < n_element_types; ++type)
-    if (const auto n = m.n_elements_by_type[static_cast<std::size_t>(type)]; n > 0) {
+    if (const auto n = m.n_elements_by_type[type]; n > 0) {
       elements[element_type_name(static_cast<ElementType>(type))] = n;
       formulations.push_back(name_of(of_type[type]));
     }

@@ -68,7 +68,7 @@ Holders find_holders(const Scene& scene, const Mesh& mesh) {
 
 Overlap find_overlap(const Scene& scene, std::int32_t number, const NodeSet& region,
                      const Holders& holders) {
-  const SceneSupport& support = scene.supports[static_cast<std::size_t>(number)];
+  const SceneSupport& support = scene.supports[number];
   Overlap overlap;
   for (const std::int32_t node : region.node) {
     const auto i = static_cast<std::size_t>(node);
@@ -79,7 +79,7 @@ Overlap find_overlap(const Scene& scene, std::int32_t number, const NodeSet& reg
       const std::int32_t holder = at_rest != nobody ? at_rest : holders.moving[i];
       if (holder == number) {
         overlap.has_own = true;
-      } else if (move_alike(support, scene.supports[static_cast<std::size_t>(holder)], axis)) {
+      } else if (move_alike(support, scene.supports[holder], axis)) {
         overlap.same = holder;
       } else {
         is_against = true;
@@ -115,8 +115,7 @@ void check_supports(const Scene& scene, const Mesh& mesh, OptionErrors& errors) 
   if (scene.supports.size() < 2) return;
   const Holders holders = find_holders(scene, mesh);
   for (std::int32_t k = 0; k < static_cast<std::int32_t>(scene.supports.size()); ++k) {
-    const NodeSet& region =
-        *find_node_set(mesh, scene.supports[static_cast<std::size_t>(k)].region);
+    const NodeSet& region = *find_node_set(mesh, scene.supports[k].region);
     tell_overlap(k, region, find_overlap(scene, k, region, holders), errors);
   }
 }

@@ -11,12 +11,12 @@ void localise_supports(std::span<const SceneSupport> supports, const Mesh& mesh,
   for (std::size_t k = 0; k < supports.size(); ++k) {
     if (!supports[k].path.empty()) continue;
     for (const std::int32_t node : find_node_set(mesh, supports[k].region)->node) {
-      const std::int64_t local = part.node_local[static_cast<std::size_t>(node)];
+      const std::int64_t local = part.node_local[node];
       if (local < 0 || local >= part.n_owned) continue;
       for (const char axis : supports[k].fix) {
         const std::int64_t component = 3 * local + (axis - 'x');
-        if (is_taken[static_cast<std::size_t>(component)]) continue;
-        is_taken[static_cast<std::size_t>(component)] = true;
+        if (is_taken[component]) continue;
+        is_taken[component] = true;
         forces.of_rank.push_back({.support = static_cast<std::int32_t>(k), .component = component});
       }
     }
@@ -30,15 +30,14 @@ void forget_support_forces(SupportForces& forces) {
 
 void add_support_forces(std::span<const double> force, SupportForces& forces) {
   for (std::size_t k = 0; k < forces.sum.size(); ++k)
-    forces.sum[k] += force[static_cast<std::size_t>(forces.of_rank[k].component)];
+    forces.sum[k] += force[forces.of_rank[k].component];
 }
 
 void sum_support_forces(const SupportForces& forces, std::int64_t n_substeps,
                         std::span<ExactSum3> force) {
   for (std::size_t k = 0; k < forces.sum.size(); ++k) {
     const SupportedComponent& at = forces.of_rank[k];
-    force[static_cast<std::size_t>(at.support)][static_cast<std::size_t>(at.component % 3)].add(
-        forces.sum[k] / static_cast<double>(n_substeps));
+    force[at.support][at.component % 3].add(forces.sum[k] / static_cast<double>(n_substeps));
   }
 }
 

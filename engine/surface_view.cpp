@@ -24,7 +24,7 @@ void gather(const SurfaceView& view, std::span<const double> field, Communicator
 
 Box box_of(const SurfaceView& view) {
   Box box;
-  for (const std::int32_t node : view.node) box.add(view.x[static_cast<std::size_t>(node)]);
+  for (const std::int32_t node : view.node) box.add(view.x[node]);
   return box;
 }
 
@@ -39,14 +39,13 @@ void update_surface_view(const Surface& surface, std::span<const std::int32_t> n
                          const Part& part, SurfaceView& view) {
   if (!view.x.empty()) view.x.resize(node_owner.size(), Vec3::Zero());
   view.node = surface.node;
-  const auto owner = [&](std::int32_t node) { return node_owner[static_cast<std::size_t>(node)]; };
+  const auto owner = [&](std::int32_t node) { return node_owner[node]; };
   const auto by_owner = [&](std::int32_t a, std::int32_t b) { return owner(a) < owner(b); };
   if (!std::is_sorted(view.node.begin(), view.node.end(), by_owner))
     std::stable_sort(view.node.begin(), view.node.end(), by_owner);
   view.local.clear();
   for (const std::int32_t node : view.node)
-    if (owner(node) == part.rank)
-      view.local.push_back(part.node_local[static_cast<std::size_t>(node)]);
+    if (owner(node) == part.rank) view.local.push_back(part.node_local[node]);
 }
 
 void gather_surface(SurfaceView& view, std::span<const Vec3> X, std::span<const double> u,

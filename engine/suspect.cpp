@@ -67,7 +67,7 @@ void look_at_holds(const Simulation& s, std::span<const Vec3> all, const Vec3& x
   for (const Hold& hold : s.holds.holds) {
     Mover found{.gap = (all[hold.node] - x).norm(), .how = "from a node held by "};
     if (hold.tool >= 0) {
-      const Tool& tool = s.tools[static_cast<std::size_t>(hold.tool)];
+      const Tool& tool = s.tools[hold.tool];
       found.name = "\"" + tool.name + "\"";
       const Vec3 grip = Vec3::Constant(tool.grip_radius);
       found.way = tool.path.travel(span.t0, span.t1, {-grip, grip});

@@ -75,7 +75,7 @@ void add_regions(const LoadedScene& loaded, Mesh& mesh, OptionErrors& errors) {
     }
     NodeSet set{.name = region.name, .node = {}};
     for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) {
-      const Vec3& X = mesh.X[static_cast<std::size_t>(i)];
+      const Vec3& X = mesh.X[i];
       if ((X.array() >= region.low.array()).all() && (X.array() <= region.high.array()).all())
         set.node.push_back(i);
     }
@@ -93,11 +93,11 @@ void add_volume_region(const std::string& name, Mesh& mesh) {
   if (name.empty() || at == mesh.region_name.end() || find_node_set(mesh, name)) return;
   std::vector<std::uint8_t> is_in(mesh.X.size(), 0);
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-    if (mesh.element_region[static_cast<std::size_t>(e)] == at - mesh.region_name.begin())
-      for (const std::int32_t node : mesh.corners(e)) is_in[static_cast<std::size_t>(node)] = 1;
+    if (mesh.element_region[e] == at - mesh.region_name.begin())
+      for (const std::int32_t node : mesh.corners(e)) is_in[node] = 1;
   NodeSet set{.name = name, .node = {}};
   for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
-    if (is_in[static_cast<std::size_t>(i)] != 0) set.node.push_back(i);
+    if (is_in[i] != 0) set.node.push_back(i);
   mesh.node_sets.push_back(std::move(set));
 }
 

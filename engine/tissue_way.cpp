@@ -17,7 +17,7 @@ double share_of_frame(double seconds) {
 double largest_surface_way(const Simulation& s) {
   double most = 0;
   for (const std::int32_t local : s.view.local) {
-    const auto i = static_cast<std::size_t>(s.part.node_global[static_cast<std::size_t>(local)]);
+    const auto i = static_cast<std::size_t>(s.part.node_global[local]);
     const Vec3 x = s.mesh.X[i] + Vec3::Map(&s.state.u[3 * std::ptrdiff_t{local}]);
     most = std::max(most, (x - s.view.x[i]).squaredNorm());
   }
@@ -56,8 +56,8 @@ std::vector<Vec3> ways_beside(const Simulation& s, PresentPositions& positions,
   for (std::size_t k = 0; k < ways.size(); ++k) {
     double least = 1e300;
     for (const std::int32_t node : nodes) {
-      const Vec3& x = positions.x()[static_cast<std::size_t>(node)];
-      const Vec3 way = x - s.view.x[static_cast<std::size_t>(node)];
+      const Vec3& x = positions.x()[node];
+      const Vec3 way = x - s.view.x[node];
       const double distance = distance2(x, sweep.before[k] + way, sweep.after[k]);
       if (distance >= least) continue;
       least = distance;

@@ -4,7 +4,7 @@ namespace trocar {
 
 std::array<double, 4> barycentric(std::span<const std::int32_t> corner, std::span<const Vec3> x,
                                   const Vec3& p) {
-  const auto at = [&](std::size_t a) { return x[static_cast<std::size_t>(corner[a])]; };
+  const auto at = [&](std::size_t a) { return x[corner[a]]; };
   Mat3 edges = Mat3::Identity();
   for (std::size_t a = 1; a < corner.size(); ++a)
     edges.col(static_cast<Eigen::Index>(a) - 1) = at(a) - at(0);

@@ -35,12 +35,12 @@ const ElementSplit* SplitNumbers::find(std::int32_t element) const {
 
 std::int32_t SplitNumbers::part(std::int32_t element, std::int32_t k) const {
   if (k == 0) return element;
-  return n_before_ + n_added_[static_cast<std::size_t>(find(element) - splits_.data())] + k - 1;
+  return n_before_ + n_added_[find(element) - splits_.data()] + k - 1;
 }
 
 const ElementSplit& SplitNumbers::split_of_added(std::int32_t part) const {
   const auto behind = std::ranges::upper_bound(n_added_, part - n_before_);
-  return splits_[static_cast<std::size_t>(behind - n_added_.begin() - 1)];
+  return splits_[behind - n_added_.begin() - 1];
 }
 
 std::int32_t SplitNumbers::whole(std::int32_t part) const {
@@ -65,7 +65,7 @@ std::int32_t node_before(const SplitNumbers& numbers, const Mesh& before,
   const auto corner = static_cast<std::size_t>(change.corner);
   const ElementSplit* const split = numbers.find(e);
   if (split == nullptr) return before.corners(e)[corner];
-  return split->corner[static_cast<std::size_t>(numbers.place_in_whole(change.element))][corner];
+  return split->corner[numbers.place_in_whole(change.element)][corner];
 }
 
 // Node `node` on an edge joins the sets of both ends; of a facet that was left out both halves are.
@@ -120,13 +120,11 @@ static int tet_facet_of(std::span<const std::int32_t> whole, std::span<const Edg
   const auto touches = [&](std::int32_t node, std::int32_t corner) {
     if (node == corner) return true;
     const std::int32_t k = node - first_inserted;
-    return k >= 0 && std::ranges::count(inserted[static_cast<std::size_t>(k)].end, corner) > 0;
+    return k >= 0 && std::ranges::count(inserted[k].end, corner) > 0;
   };
   for (int g = 0; g < 4; ++g) {
     bool is_on = true;
-    for (int c = 0; c < 4; ++c)
-      is_on = is_on && (c == f || !touches(tet[static_cast<std::size_t>(c)],
-                                           whole[static_cast<std::size_t>(g)]));
+    for (int c = 0; c < 4; ++c) is_on = is_on && (c == f || !touches(tet[c], whole[g]));
     if (is_on) return g;
   }
   return -1;
@@ -162,7 +160,7 @@ static void split_corners(const ElementSplit& split, Mesh& mesh) {
     const auto n_all = static_cast<std::int32_t>(mesh.corner_node.size());
     const std::int32_t first = k < room ? own + 4 * k : n_all;
     if (first == n_all) mesh.corner_node.resize(mesh.corner_node.size() + 4);
-    std::ranges::copy(split.corner[static_cast<std::size_t>(k)], &mesh.corner_node[first]);
+    std::ranges::copy(split.corner[k], &mesh.corner_node[first]);
     if (k > 0) mesh.corner_offset.push_back(first);
   }
 }
@@ -171,7 +169,7 @@ static void split_corners(const ElementSplit& split, Mesh& mesh) {
 template <class T>
 static void append_parts(const ElementSplit& split, std::vector<T>& values) {
   if (values.empty()) return;
-  const T value = values[static_cast<std::size_t>(split.element)];
+  const T value = values[split.element];
   values.insert(values.end(), static_cast<std::size_t>(split.n_tets - 1), value);
 }
 

@@ -20,11 +20,11 @@ void split(std::span<const Vec3> middle, std::size_t begin, std::size_t end, Ele
   const std::size_t half = begin + (end - begin) / 2;
   const auto at = [&](std::size_t leaf) { return boxes.order.begin() + boxes.first[leaf]; };
   Box box;
-  for (auto e = at(begin); e != at(end); ++e) box.add(middle[static_cast<std::size_t>(*e)]);
+  for (auto e = at(begin); e != at(end); ++e) box.add(middle[*e]);
   Eigen::Index axis = 0;
   (box.high - box.low).maxCoeff(&axis);
   std::nth_element(at(begin), at(half), at(end), [&](std::int32_t a, std::int32_t b) {
-    return middle[static_cast<std::size_t>(a)][axis] < middle[static_cast<std::size_t>(b)][axis];
+    return middle[a][axis] < middle[b][axis];
   });
   split(middle, begin, half, boxes);
   split(middle, half, end, boxes);
@@ -32,8 +32,7 @@ void split(std::span<const Vec3> middle, std::size_t begin, std::size_t end, Ele
 
 template <class Body>
 void for_elements_of_leaf(const ElementBoxes& boxes, std::size_t leaf, const Body& body) {
-  for (std::int32_t k = boxes.first[leaf]; k < boxes.first[leaf + 1]; ++k)
-    body(boxes.order[static_cast<std::size_t>(k)]);
+  for (std::int32_t k = boxes.first[leaf]; k < boxes.first[leaf + 1]; ++k) body(boxes.order[k]);
   const std::size_t n_ordered = boxes.order.size();
   for (std::int32_t e = boxes.last_added[leaf]; e >= 0;
        e = boxes.next_added[static_cast<std::size_t>(e) - n_ordered])
@@ -55,10 +54,10 @@ void fit_parent(std::size_t k, ElementBoxes& boxes) {
 // The tetrahedra of a split, all but the first, which takes its place, join its leaf.
 void split_elements(std::span<const ElementSplit> splits, ElementBoxes& boxes) {
   for (const ElementSplit& split : splits) {
-    const std::int32_t leaf = boxes.leaf[static_cast<std::size_t>(split.element)];
+    const std::int32_t leaf = boxes.leaf[split.element];
     for (std::int32_t k = 1; k < split.n_tets; ++k) {
       boxes.leaf.push_back(leaf);
-      std::int32_t& last = boxes.last_added[static_cast<std::size_t>(leaf)];
+      std::int32_t& last = boxes.last_added[leaf];
       boxes.next_added.push_back(last);
       last = static_cast<std::int32_t>(boxes.leaf.size()) - 1;
     }
@@ -78,7 +77,7 @@ double mean_size(const Mesh& mesh, std::span<const Vec3> x) {
 
 Box element_box(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
   Box box;
-  for (const std::int32_t i : mesh.corners(e)) box.add(x[static_cast<std::size_t>(i)]);
+  for (const std::int32_t i : mesh.corners(e)) box.add(x[i]);
   return box;
 }
 
@@ -97,13 +96,12 @@ ElementBoxes make_element_boxes(const Mesh& mesh, std::span<const Vec3> x) {
   std::vector<Vec3> middle(n);
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
     const Box box = element_box(mesh, e, x);
-    middle[static_cast<std::size_t>(e)] = 0.5 * (box.low + box.high);
+    middle[e] = 0.5 * (box.low + box.high);
   }
   split(middle, 0, n_leaves, boxes);
   for (std::size_t leaf = 0; leaf < n_leaves; ++leaf)
     for (std::int32_t k = boxes.first[leaf]; k < boxes.first[leaf + 1]; ++k)
-      boxes.leaf[static_cast<std::size_t>(boxes.order[static_cast<std::size_t>(k)])] =
-          static_cast<std::int32_t>(leaf);
+      boxes.leaf[boxes.order[k]] = static_cast<std::int32_t>(leaf);
   fit_element_boxes(mesh, x, boxes);
   return boxes;
 }
@@ -113,11 +111,9 @@ void update_element_boxes(const Mesh& mesh, std::span<const Vec3> x, const Boxes
   split_elements(edit.splits, boxes);
   CHECK_OP(boxes.leaf.size(), ==, mesh.element_type.size());
   boxes.x.resize(x.size());
-  for (const std::int32_t i : edit.nodes)
-    boxes.x[static_cast<std::size_t>(i)] = x[static_cast<std::size_t>(i)];
+  for (const std::int32_t i : edit.nodes) boxes.x[i] = x[i];
   std::vector<std::int32_t> changed;  // places in the tree
-  for (const std::int32_t e : edit.elements)
-    changed.push_back(boxes.leaf[static_cast<std::size_t>(e)]);
+  for (const std::int32_t e : edit.elements) changed.push_back(boxes.leaf[e]);
   sort_unique(changed);
   for (const std::int32_t leaf : changed) fit_leaf(mesh, static_cast<std::size_t>(leaf), boxes);
   for (std::int32_t& k : changed) k += static_cast<std::int32_t>(boxes.first.size()) - 1;

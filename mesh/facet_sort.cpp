@@ -19,8 +19,7 @@ static FacetSide facet_side(const Mesh& mesh, std::int32_t e, int f) {
   const std::array<int, 4> corner = facet_corners(mesh.element_type[e], f);
   const std::span<const std::int32_t> node = mesh.corners(e);
   FacetSide side{{-1, -1, -1, -1}, e, f};
-  for (std::size_t a = 0; a < 4 && corner[a] >= 0; ++a)
-    side.node[a] = node[static_cast<std::size_t>(corner[a])];
+  for (std::size_t a = 0; a < 4 && corner[a] >= 0; ++a) side.node[a] = node[corner[a]];
   auto& [a, b, c, d] = side.node;
   put_in_order(a, b);
   put_in_order(c, d);
@@ -34,7 +33,7 @@ static std::int32_t lowest_node(const Mesh& mesh, std::int32_t e, int f) {
   const std::span<const std::int32_t> node = mesh.corners(e);
   std::int32_t lowest = std::numeric_limits<std::int32_t>::max();
   for (const int corner : facet_corners(mesh.element_type[e], f))
-    if (corner >= 0) lowest = std::min(lowest, node[static_cast<std::size_t>(corner)]);
+    if (corner >= 0) lowest = std::min(lowest, node[corner]);
   return lowest;
 }
 

@@ -24,7 +24,7 @@ std::array<int, 4> facet_corners(ElementType type, int f) {
       {{{1, 2, 3, -1}, {0, 3, 2, -1}, {0, 1, 3, -1}, {0, 2, 1, -1}}},
       {{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
   }};
-  return corners[static_cast<std::size_t>(type)][static_cast<std::size_t>(f)];
+  return corners[static_cast<std::size_t>(type)][f];
 }
 
 static std::string nodes_text(const FacetSide& side) {

@@ -79,8 +79,7 @@ void add_box_cells(Mesh& mesh, const std::array<int, 3>& n, BoxElements elements
       for (int i = 0; i < n[0]; ++i) {
         std::array<std::int32_t, 8> node{};
         for (int c = 0; c < 8; ++c)
-          node[static_cast<std::size_t>(c)] =
-              i + (c & 1) + row * (j + (c >> 1 & 1)) + layer * (k + (c >> 2));
+          node[c] = i + (c & 1) + row * (j + (c >> 1 & 1)) + layer * (k + (c >> 2));
         add_cell(mesh, node, elements, mirror(i, j, k));
       }
   for (std::size_t direction = 0; direction < 3; ++direction) {

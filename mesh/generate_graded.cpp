@@ -53,7 +53,7 @@ Mesh make_graded_rectangle(const Vec2& size, std::span<const int> n_row_nodes, d
   Row below;
   const int n_rows = static_cast<int>(n_row_nodes.size());
   for (int r = 0; r < n_rows; ++r) {
-    const Row row{mesh.n_nodes(), n_row_nodes[static_cast<std::size_t>(r)]};
+    const Row row{mesh.n_nodes(), n_row_nodes[r]};
     const double y = size.y() * graded(1.0 * r / (n_rows - 1), grade_y);
     for (int i = 0; i < row.n; ++i)
       mesh.X.emplace_back(size.x() * graded(1.0 * i / (row.n - 1), grade_x), y, 0.0);

@@ -19,9 +19,7 @@ bool is_diagonal_at(const Mesh& mesh, std::int32_t i, std::int32_t j) {
 static Vec3 corner_normal(const Mesh& mesh, std::int32_t e, int f, int a) {
   const std::array<int, 4> quad = facet_corners(ElementType::hex8, f);
   const auto k = static_cast<std::size_t>(std::find(quad.begin(), quad.end(), a) - quad.begin());
-  const auto X = [&](std::size_t m) {
-    return mesh.X[mesh.corners(e)[static_cast<std::size_t>(quad[m % 4])]];
-  };
+  const auto X = [&](std::size_t m) { return mesh.X[mesh.corners(e)[quad[m % 4]]]; };
   return (X(k + 1) - X(k)).cross(X(k + 3) - X(k)).normalized();
 }
 
@@ -46,8 +44,7 @@ std::vector<std::uint8_t> diagonal_ranks(const Mesh& mesh) {
     if (mesh.element_type[e] != ElementType::hex8) continue;
     for (const std::int32_t i : mesh.corners(e)) ++n_hexahedra[i];
     for (const std::array<int, 2>& edge : edge_corners(ElementType::hex8))
-      for (const int a : edge)
-        sum[mesh.corners(e)[static_cast<std::size_t>(a)]] += flatness(mesh, e, edge, a);
+      for (const int a : edge) sum[mesh.corners(e)[a]] += flatness(mesh, e, edge, a);
   }
   constexpr double n_edges = 3;  // at a corner: all flat at most
   std::vector<std::uint8_t> rank;
@@ -59,10 +56,7 @@ std::vector<std::uint8_t> diagonal_ranks(const Mesh& mesh) {
 
 std::array<std::array<int, 4>, n_hex_tets> hex_tets(const Mesh& mesh, std::int32_t e) {
   const std::span<const std::int32_t> node = mesh.corners(e);
-  const auto is_lower = [&](int a, int b) {
-    return is_diagonal_at(mesh, node[static_cast<std::size_t>(a)],
-                          node[static_cast<std::size_t>(b)]);
-  };
+  const auto is_lower = [&](int a, int b) { return is_diagonal_at(mesh, node[a], node[b]); };
   int apex = 0;
   for (int a = 1; a < 8; ++a)
     if (is_lower(a, apex)) apex = a;
@@ -82,12 +76,11 @@ int hex_facet_of(const Mesh& mesh, std::int32_t e, const std::array<std::int32_t
   const std::span<const std::int32_t> node = mesh.corners(e);
   const auto is_on = [&](std::int32_t i, int g) {
     const std::array<int, 4> quad = facet_corners(ElementType::hex8, g);
-    return std::any_of(quad.begin(), quad.end(),
-                       [&](int a) { return node[static_cast<std::size_t>(a)] == i; });
+    return std::any_of(quad.begin(), quad.end(), [&](int a) { return node[a] == i; });
   };
   for (int g = 0; g < 6; ++g) {
     int n = 0;
-    for (int c = 0; c < 4; ++c) n += c != f && is_on(tet[static_cast<std::size_t>(c)], g) ? 1 : 0;
+    for (int c = 0; c < 4; ++c) n += c != f && is_on(tet[c], g) ? 1 : 0;
     if (n == 3) return g;
   }
   return -1;

@@ -60,10 +60,8 @@ static double hexahedron_volume(const std::array<Vec3, 8>& x) {
 
 double element_volume(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
   const std::span<const std::int32_t> node = mesh.corners(e);
-  const auto corner = [&](std::size_t a) -> const Vec3& {
-    return x[static_cast<std::size_t>(node[a])];
-  };
-  switch (mesh.element_type[static_cast<std::size_t>(e)]) {
+  const auto corner = [&](std::size_t a) -> const Vec3& { return x[node[a]]; };
+  switch (mesh.element_type[e]) {
     case ElementType::tri3:
       return triangle_area(corner(0), corner(1), corner(2));
     case ElementType::tet4:
@@ -83,11 +81,10 @@ std::vector<double> lumped_mass(const Mesh& mesh, std::span<const double> densit
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
     const auto k = static_cast<std::size_t>(e);
     const double depth = mesh.element_type[k] == ElementType::tri3 ? thickness : 1.0;
-    const double rho = density[static_cast<std::size_t>(mesh.element_region[k])];
+    const double rho = density[mesh.element_region[k]];
     const double m = rho * mesh.density_factor[k] * element_volume(mesh, e, mesh.X) * depth;
     const std::span<const std::int32_t> node = mesh.corners(e);
-    for (const std::int32_t i : node)
-      mass[static_cast<std::size_t>(i)] += m / static_cast<double>(node.size());
+    for (const std::int32_t i : node) mass[i] += m / static_cast<double>(node.size());
   }
   return mass;
 }

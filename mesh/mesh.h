@@ -72,7 +72,7 @@ struct Mesh {
   // The node that node i is or copies: of the uncut mesh, or one that a cut put on an edge.
   std::int32_t uncut_node(std::int32_t i) const {
     const std::int32_t first_made = n_nodes() - static_cast<std::int32_t>(copied_node.size());
-    return i < first_made ? i : copied_node[static_cast<std::size_t>(i - first_made)];
+    return i < first_made ? i : copied_node[i - first_made];
   }
 };
 

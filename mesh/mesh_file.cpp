@@ -45,13 +45,13 @@ bool is_surface(Format format) {
   return format == Format::stl || format == Format::obj;
 }
 
-RawMesh read_cells(Format format, ByteReader& in) {
+RawMesh read_cells(Format format, FileReader& in) {
   if (format == Format::gmsh) return read_gmsh(in);
   if (format == Format::legacy_vtk) return read_legacy_vtk(in);
   return read_vtu_cells(in);
 }
 
-TriangleMesh read_triangles(Format format, ByteReader& in) {
+TriangleMesh read_triangles(Format format, FileReader& in) {
   return format == Format::stl ? read_stl(in) : read_obj(in);
 }
 
@@ -65,7 +65,7 @@ std::string_view without_mark(std::string_view bytes) {
 RawMesh read_raw_mesh(const std::string& file) {
   const std::string whole = read_whole_file(file);
   const std::string_view bytes = without_mark(whole);
-  ByteReader in(file, bytes);
+  FileReader in(file, bytes);
   const Format format = find_format(file, bytes);
   if (format == Format::unknown)
     in.fail_file("is in no known mesh format: gmsh .msh (1.0, 2.2, 4.1), legacy VTK and VTU are");
@@ -81,7 +81,7 @@ RawMesh read_raw_mesh(const std::string& file) {
 TriangleMesh read_surface(const std::string& file) {
   const std::string whole = read_whole_file(file);
   const std::string_view bytes = without_mark(whole);
-  ByteReader in(file, bytes);
+  FileReader in(file, bytes);
   const Format format = find_format(file, bytes);
   if (format == Format::unknown)
     in.fail_file("is in no known surface format: STL, OBJ, gmsh .msh, legacy VTK and VTU are");

@@ -195,7 +195,7 @@ void read_section(GmshReader& g) {
 
 }  // namespace
 
-RawMesh read_gmsh(ByteReader& in) {
+RawMesh read_gmsh(FileReader& in) {
   GmshReader g{.in = in, .mesh = {}, .node_of = {}, .entities = {}};
   g.mesh.file = in.file();
   g.mesh.tag_word = "gmsh tag";

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mesh/byte_reader.h"
+#include "mesh/file_reader.h"
 #include "mesh/raw_mesh.h"
 
 namespace trocar {
@@ -21,7 +21,7 @@ struct GmshEntity {
 };
 
 struct GmshReader {
-  ByteReader& in;
+  FileReader& in;
   RawMesh mesh;
   int version = 0;                  // 1, 2 or 4
   bool is_binary = false;           // as the header says; in.is_binary while inside binary data

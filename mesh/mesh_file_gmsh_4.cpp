@@ -46,7 +46,7 @@ void read_entities_4(GmshReader& g) {
   for (std::size_t& count : n)
     count = g.in.check_count(gmsh_size(g, "the number of entities"), 10, "entities");
   for (int d = 0; d < 4; ++d)
-    for (std::size_t k = 0; k < n[static_cast<std::size_t>(d)]; ++k) read_entity(g, d);
+    for (std::size_t k = 0; k < n[d]; ++k) read_entity(g, d);
   std::sort(g.entities.begin(), g.entities.end(), is_before);
   end_section(g, "$EndEntities");
 }

@@ -12,7 +12,7 @@ namespace trocar {
 namespace {
 
 struct LegacyReader {
-  ByteReader& in;
+  FileReader& in;
   RawMesh mesh;
   VtkCells cells;
   bool is_binary = false;  // in.is_binary while inside binary data
@@ -21,7 +21,7 @@ struct LegacyReader {
   bool has_points = false, has_cells = false, has_types = false;
 };
 
-void expect_keyword(ByteReader& in, std::string_view expected) {
+void expect_keyword(FileReader& in, std::string_view expected) {
   if (upper_case(in.peek_word()) == expected)
     in.word("a keyword");
   else
@@ -171,7 +171,7 @@ void read_section(LegacyReader& r) {
 
 }  // namespace
 
-RawMesh read_legacy_vtk(ByteReader& in) {
+RawMesh read_legacy_vtk(FileReader& in) {
   LegacyReader r{.in = in, .mesh = {}, .cells = {}};
   r.mesh.file = in.file();
   r.mesh.tag_word = "cell";

@@ -47,7 +47,7 @@ static void split_elements(const SplitNumbers& numbers, std::span<const ElementS
   for (const ElementSplit& split : splits)
     for (std::int32_t k = 0; k < split.n_tets; ++k) {
       const std::int32_t part = numbers.part(split.element, k);
-      for (const std::int32_t node : split.corner[static_cast<std::size_t>(k)]) {
+      for (const std::int32_t node : split.corner[k]) {
         if (unused.empty()) {
           unused.push_back(static_cast<std::int32_t>(corners.next.size()));
           corners.next.push_back(-1);
@@ -82,11 +82,11 @@ std::vector<std::int32_t> elements_around(const NodeCorners& corners,
 
 std::vector<std::int32_t> elements_around(const Mesh& mesh, std::span<const std::int32_t> nodes) {
   std::vector<std::uint8_t> is_wanted(mesh.X.size());
-  for (const std::int32_t node : nodes) is_wanted[static_cast<std::size_t>(node)] = 1;
+  for (const std::int32_t node : nodes) is_wanted[node] = 1;
   std::vector<std::int32_t> elements;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
     for (const std::int32_t node : mesh.corners(e))
-      if (is_wanted[static_cast<std::size_t>(node)] != 0) {
+      if (is_wanted[node] != 0) {
         elements.push_back(e);
         break;
       }

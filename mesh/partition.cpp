@@ -20,8 +20,7 @@ using Edges = std::vector<std::array<std::int32_t, 2>>;
 static std::vector<idx_t> node_work(const Mesh& mesh) {
   std::vector<idx_t> work(mesh.X.size(), 0);
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-    for (const std::int32_t i : mesh.corners(e))
-      work[static_cast<std::size_t>(i)] += corner_work(mesh.element_type[e]);
+    for (const std::int32_t i : mesh.corners(e)) work[i] += corner_work(mesh.element_type[e]);
   return work;
 }
 
@@ -164,8 +163,7 @@ static std::vector<std::int32_t> least_work(const Mesh& mesh,
   std::vector<double> work;
   for (const std::vector<std::int32_t>& owner : owners)
     work.push_back(most_work(mesh, owner, n_parts));
-  return owners[static_cast<std::size_t>(std::min_element(work.begin(), work.end()) -
-                                         work.begin())];
+  return owners[std::min_element(work.begin(), work.end()) - work.begin()];
 }
 
 std::vector<std::int32_t> partition_nodes(const Mesh& mesh, int n_parts) {

@@ -67,7 +67,7 @@ TagIndex::TagIndex(std::span<const std::int64_t> tag) : tag_(tag) {
 
 void TagIndex::fill_dense() {
   for (std::size_t i = 0; i < tag_.size(); ++i) {
-    std::int32_t& position = position_[static_cast<std::size_t>(tag_[i] - low_)];
+    std::int32_t& position = position_[tag_[i] - low_];
     if (position >= 0 && duplicate_ < 0) duplicate_ = static_cast<std::int32_t>(i);
     position = static_cast<std::int32_t>(i);
   }

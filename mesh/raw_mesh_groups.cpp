@@ -55,12 +55,12 @@ std::vector<GroupKey> used_keys(const RawMesh& raw, int low, int high) {
 
 std::string default_name(const GroupKey& key) {
   constexpr std::array<const char*, n_dimensions> kind = {"point", "line", "surface", "volume"};
-  return std::string(kind[static_cast<std::size_t>(key.dimension)]) + "-" + std::to_string(key.tag);
+  return std::string(kind[key.dimension]) + "-" + std::to_string(key.tag);
 }
 
 std::int32_t group_number(const GroupNumbers& groups, const GroupKey& key) {
   const auto found = std::lower_bound(groups.key.begin(), groups.key.end(), key);
-  return groups.number[static_cast<std::size_t>(found - groups.key.begin())];
+  return groups.number[found - groups.key.begin()];
 }
 
 // Several groups of one cell are fine for node sets, but a hostile file could make them many more
@@ -195,7 +195,7 @@ static std::vector<std::vector<FacetNodes>> facets_of_sets(const RawMesh& raw, i
         return a < static_cast<std::size_t>(n) ? new_node[corner[a]] : -1;
       });
       for (const std::int32_t tag : raw.groups(raw.cell_group[c]))
-        facets[static_cast<std::size_t>(group_number(groups, {d, tag}))].push_back(nodes);
+        facets[group_number(groups, {d, tag})].push_back(nodes);
     }
     corner += n;
   }

@@ -22,7 +22,7 @@ template <class T>
 std::vector<T> values_of(std::span<const T> values, std::span<const std::int32_t> number) {
   std::vector<T> kept;
   kept.reserve(number.size());
-  for (const std::int32_t i : number) kept.push_back(values[static_cast<std::size_t>(i)]);
+  for (const std::int32_t i : number) kept.push_back(values[i]);
   return kept;
 }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t stl_header_bytes = 84;
 constexpr std::size_t stl_triangle_bytes = 50;
 
-Vec3 read_point(ByteReader& in) {
+Vec3 read_point(FileReader& in) {
   const double x = in.real("x"), y = in.real("y"), z = in.real("z");
   return {x, y, z};
 }
@@ -29,7 +29,7 @@ void close_triangle(TriangleMesh& mesh) {
 }
 
 // One or more solids, their names free text up to the end of the line.
-TriangleMesh read_ascii_stl(ByteReader& in) {
+TriangleMesh read_ascii_stl(FileReader& in) {
   TriangleMesh mesh;
   while (!in.is_at_end()) {
     in.expect_word("solid");
@@ -54,10 +54,10 @@ TriangleMesh read_ascii_stl(ByteReader& in) {
 
 std::uint32_t stl_count(std::string_view bytes) {
   constexpr bool is_swapped = std::endian::native == std::endian::big;
-  return ByteReader::load_number<std::uint32_t>(bytes.data() + stl_header_bytes - 4, is_swapped);
+  return FileReader::load_number<std::uint32_t>(bytes.data() + stl_header_bytes - 4, is_swapped);
 }
 
-TriangleMesh read_binary_stl(ByteReader& in) {
+TriangleMesh read_binary_stl(FileReader& in) {
   in.is_binary = true;
   in.swaps_bytes = std::endian::native == std::endian::big;
   in.take(stl_header_bytes - 4, "the header of a binary STL");
@@ -85,7 +85,7 @@ TriangleMesh read_binary_stl(ByteReader& in) {
 }
 
 // Vertex of "7", "7/1", "7//3" or "-1": from 1, or backwards from the last one so far.
-std::int32_t obj_corner(ByteReader& in, std::size_t n_vertices) {
+std::int32_t obj_corner(FileReader& in, std::size_t n_vertices) {
   const std::string_view text = in.word("a corner of a face");
   const std::string_view number = text.substr(0, text.find('/'));
   std::int64_t k = 0;
@@ -101,7 +101,7 @@ std::int32_t obj_corner(ByteReader& in, std::size_t n_vertices) {
 }
 
 // A large polygon that comes back to a vertex has a hole cut into it, which a fan would fill.
-void check_simple(const ByteReader& in, std::vector<std::int32_t> corner) {
+void check_simple(const FileReader& in, std::vector<std::int32_t> corner) {
   if (corner.size() <= 4) return;
   std::sort(corner.begin(), corner.end());
   const auto twice = std::adjacent_find(corner.begin(), corner.end());
@@ -111,7 +111,7 @@ void check_simple(const ByteReader& in, std::vector<std::int32_t> corner) {
 }
 
 // A polygon as the fan of triangles around its first corner.
-void read_obj_face(ByteReader& in, std::vector<std::int32_t>& corner, TriangleMesh& mesh) {
+void read_obj_face(FileReader& in, std::vector<std::int32_t>& corner, TriangleMesh& mesh) {
   corner.clear();
   while (!in.is_at_line_end() && !in.peek_word().starts_with('#'))
     corner.push_back(obj_corner(in, mesh.X.size()));
@@ -130,16 +130,16 @@ bool is_binary_stl(std::string_view bytes) {
   return n > 0 && (bytes.size() - stl_header_bytes) / stl_triangle_bytes >= n;
 }
 
-TriangleMesh read_stl(ByteReader& in) {
+TriangleMesh read_stl(FileReader& in) {
   // A binary file may begin with "solid" as well: its length tells.
   if (is_binary_stl(in.rest())) return read_binary_stl(in);
   const std::string text = in_small_letters(in.rest());  // some programs write capitals
-  ByteReader of_text(in.file(), text);
+  FileReader of_text(in.file(), text);
   if (of_text.peek_word() == "solid") return read_ascii_stl(of_text);
   return read_binary_stl(in);
 }
 
-TriangleMesh read_obj(ByteReader& in) {
+TriangleMesh read_obj(FileReader& in) {
   TriangleMesh mesh;
   std::vector<std::int32_t> corner;
   while (!in.is_at_end()) {

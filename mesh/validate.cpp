@@ -143,9 +143,7 @@ bool check_elements(Report& report, const Mesh& mesh) {
 // Tetrahedra have the places that the splits gave them.
 void check_split_hexahedra(Report& report, const Mesh& mesh) {
   std::int64_t end = 0;  // of the parts of the one before
-  const auto is_tet = [&](std::int64_t e) {
-    return mesh.element_type[static_cast<std::size_t>(e)] == ElementType::tet4;
-  };
+  const auto is_tet = [&](std::int64_t e) { return mesh.element_type[e] == ElementType::tet4; };
   for (const auto& [element, first] : mesh.split_hexahedra) {
     const bool is_after = first >= end && element >= 0 && element < first;
     end = std::int64_t{first} + n_hex_tets - 1;

@@ -32,14 +32,14 @@ std::optional<VtkNumber> find_vtk_number(std::string_view name) {
 
 double load_real(const char* from, const VtkNumber& number, bool swaps) {
   if (!number.is_float) return static_cast<double>(load_integer(from, number, swaps));
-  return number.n_bytes == 4 ? ByteReader::load_number<float>(from, swaps)
-                             : ByteReader::load_number<double>(from, swaps);
+  return number.n_bytes == 4 ? FileReader::load_number<float>(from, swaps)
+                             : FileReader::load_number<double>(from, swaps);
 }
 
 template <class Signed, class Unsigned>
 static std::int64_t load_as(const char* from, bool is_signed, bool swaps) {
-  if (is_signed) return static_cast<std::int64_t>(ByteReader::load_number<Signed>(from, swaps));
-  return static_cast<std::int64_t>(ByteReader::load_number<Unsigned>(from, swaps));
+  if (is_signed) return static_cast<std::int64_t>(FileReader::load_number<Signed>(from, swaps));
+  return static_cast<std::int64_t>(FileReader::load_number<Unsigned>(from, swaps));
 }
 
 std::int64_t load_integer(const char* from, const VtkNumber& number, bool swaps) {
@@ -55,7 +55,7 @@ std::int64_t load_integer(const char* from, const VtkNumber& number, bool swaps)
   }
 }
 
-std::int32_t fit_int32(const ByteReader& in, std::int64_t value, const char* what) {
+std::int32_t fit_int32(const FileReader& in, std::int64_t value, const char* what) {
   if (value < std::numeric_limits<std::int32_t>::min() ||
       value > std::numeric_limits<std::int32_t>::max())
     in.fail(std::string(what) + " is " + std::to_string(value) + ", beyond 32 bits");
@@ -86,12 +86,12 @@ std::string unsupported_name(std::int32_t type) {
   return is_second_order ? "of second order" : "of a kind that is not read";
 }
 
-[[noreturn]] void fail_cell(const ByteReader& in, std::size_t c, const std::string& sentence) {
+[[noreturn]] void fail_cell(const FileReader& in, std::size_t c, const std::string& sentence) {
   in.fail_file("cell " + std::to_string(c) + " " + sentence);
 }
 
 // nullopt for vertices and lines.
-std::optional<CellKind> cell_kind(const ByteReader& in, const VtkCells& cells, std::size_t c) {
+std::optional<CellKind> cell_kind(const FileReader& in, const VtkCells& cells, std::size_t c) {
   switch (cells.type[c]) {
     case vtk_vertex:
     case vtk_poly_vertex:
@@ -116,7 +116,7 @@ std::optional<CellKind> cell_kind(const ByteReader& in, const VtkCells& cells, s
   }
 }
 
-void check_size(const ByteReader& in, const VtkCells& cells, std::size_t c,
+void check_size(const FileReader& in, const VtkCells& cells, std::size_t c,
                 std::optional<CellKind> kind) {
   const std::int32_t n = cells.offset[c + 1] - cells.offset[c], type = cells.type[c];
   const std::int32_t least = type == vtk_line || type == vtk_poly_line ? 2 : 1;
@@ -128,7 +128,7 @@ void check_size(const ByteReader& in, const VtkCells& cells, std::size_t c,
                   std::to_string(type));
 }
 
-void check_offsets(const ByteReader& in, const VtkCells& cells) {
+void check_offsets(const FileReader& in, const VtkCells& cells) {
   const std::size_t n = cells.type.size();
   if (cells.offset.size() != n + 1)
     in.fail_file("has " + std::to_string(n) + " cell types, but " +
@@ -174,7 +174,7 @@ void name_regions(RawMesh& raw) {
 
 }  // namespace
 
-void add_vtk_cells(const ByteReader& in, const VtkCells& cells, RawMesh& raw) {
+void add_vtk_cells(const FileReader& in, const VtkCells& cells, RawMesh& raw) {
   check_offsets(in, cells);
   const std::size_t n = cells.type.size();
   raw.cell_kind.reserve(n);

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mesh/byte_reader.h"
+#include "mesh/file_reader.h"
 #include "mesh/raw_mesh.h"
 
 namespace trocar {
@@ -23,7 +23,7 @@ double load_real(const char* from, const VtkNumber& number, bool swaps);
 // Throws nothing: what 64 signed bits can't hold comes out negative. Not for floats.
 std::int64_t load_integer(const char* from, const VtkNumber& number, bool swaps);
 // Throws InputError at the reader's place where a value does not fit 32 bits.
-std::int32_t fit_int32(const ByteReader& in, std::int64_t value, const char* what);
+std::int32_t fit_int32(const FileReader& in, std::int64_t value, const char* what);
 
 struct VtkCells {
   std::vector<std::int32_t> type;          // (n_cells)
@@ -34,6 +34,6 @@ struct VtkCells {
 };
 // Adds the cells to raw.X and so on. Vertices and lines are left out: they carry nothing.
 // Throws InputError naming the cell.
-void add_vtk_cells(const ByteReader& in, const VtkCells& cells, RawMesh& raw);
+void add_vtk_cells(const FileReader& in, const VtkCells& cells, RawMesh& raw);
 
 }  // namespace trocar

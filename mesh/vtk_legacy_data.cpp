@@ -16,7 +16,7 @@ struct ValueType {
   bool is_bit = false, is_text = false;
 };
 
-ValueType read_value_type(ByteReader& in) {
+ValueType read_value_type(FileReader& in) {
   const std::string_view name = in.peek_word();
   const bool is_bit = name == "bit", is_text = name == "string" || name == "utf8_string";
   if (!is_bit && !is_text) return {.number = read_number_type(in)};
@@ -25,7 +25,7 @@ ValueType read_value_type(ByteReader& in) {
 }
 
 // A binary text stands behind its length, whose first two bits say in how many bytes.
-void skip_binary_text(ByteReader& in) {
+void skip_binary_text(FileReader& in) {
   const auto first = in.raw<std::uint8_t>("the length of a text");
   std::int64_t length = first & 63;
   for (int k = (1 << (3 - (first >> 6))) - 1; k > 0; --k)
@@ -33,7 +33,7 @@ void skip_binary_text(ByteReader& in) {
   in.take(in.check_count(length, 1, "bytes of a text"), "a text");
 }
 
-void skip_texts(ByteReader& in, std::size_t n) {
+void skip_texts(FileReader& in, std::size_t n) {
   if (!in.is_binary) in.line();  // of the header
   for (std::size_t k = 0; k < n; ++k) {
     if (in.is_binary)
@@ -45,7 +45,7 @@ void skip_texts(ByteReader& in, std::size_t n) {
   }
 }
 
-void skip_numbers(ByteReader& in, std::int64_t n_tuples, std::size_t width, std::size_t n_bytes) {
+void skip_numbers(FileReader& in, std::int64_t n_tuples, std::size_t width, std::size_t n_bytes) {
   const std::size_t n =
       in.check_count(n_tuples, std::max<std::size_t>(1, width) * n_bytes, "tuples of an array") *
       width;
@@ -53,7 +53,7 @@ void skip_numbers(ByteReader& in, std::int64_t n_tuples, std::size_t width, std:
   for (std::size_t k = 0; k < n && !in.is_binary; ++k) in.word("a number of an array");
 }
 
-void skip_bits(ByteReader& in, std::int64_t n_tuples, std::size_t width) {
+void skip_bits(FileReader& in, std::int64_t n_tuples, std::size_t width) {
   if (!in.is_binary) return skip_numbers(in, n_tuples, width, 2);
   const std::size_t n = in.check_count(n_tuples / 8, std::max<std::size_t>(1, width), "bits") * 8 +
                         static_cast<std::size_t>(n_tuples % 8);
@@ -61,7 +61,7 @@ void skip_bits(ByteReader& in, std::int64_t n_tuples, std::size_t width) {
 }
 
 // n_tuples times `width` values, after the header.
-void skip_values(ByteReader& in, bool is_binary, const ValueType& type, std::int64_t n_tuples,
+void skip_values(FileReader& in, bool is_binary, const ValueType& type, std::int64_t n_tuples,
                  std::size_t width) {
   begin_data(in, is_binary);
   if (type.is_text)
@@ -73,11 +73,11 @@ void skip_values(ByteReader& in, bool is_binary, const ValueType& type, std::int
   in.is_binary = false;
 }
 
-std::size_t read_width(ByteReader& in) {
+std::size_t read_width(FileReader& in) {
   return in.check_count(in.integer("a number of components"), 1, "components");
 }
 
-void skip_field_array(ByteReader& in, bool is_binary) {
+void skip_field_array(FileReader& in, bool is_binary) {
   if (upper_case(in.peek_word()) == "METADATA") {
     in.word("METADATA");
     skip_metadata(in);
@@ -90,14 +90,14 @@ void skip_field_array(ByteReader& in, bool is_binary) {
 }
 
 // Without moving on: binary data may begin in the next line.
-bool is_before_table(const ByteReader& in) {
+bool is_before_table(const FileReader& in) {
   constexpr std::string_view keyword = "LOOKUP_TABLE";
   const std::string_view rest = in.rest();
   const std::size_t at = std::min(rest.find_first_not_of(" \t\r\n"), rest.size());
   return upper_case(rest.substr(at, keyword.size())) == keyword;
 }
 
-void skip_scalars(ByteReader& in, bool is_binary, std::int64_t n) {
+void skip_scalars(FileReader& in, bool is_binary, std::int64_t n) {
   const ValueType type = read_value_type(in);
   const std::size_t width = in.is_at_line_end() ? 1 : read_width(in);
   if (is_before_table(in)) {
@@ -127,14 +127,14 @@ std::string upper_case(std::string_view word) {
   return text;
 }
 
-VtkNumber read_number_type(ByteReader& in) {
+VtkNumber read_number_type(FileReader& in) {
   const std::string_view name = in.word("a type of numbers");
   const std::optional<VtkNumber> number = find_vtk_number(name);
   if (!number) in.fail("there is no type of numbers called " + in_quotes(name));
   return *number;
 }
 
-void begin_data(ByteReader& in, bool is_binary) {
+void begin_data(FileReader& in, bool is_binary) {
   if (!is_binary) return;
   if (!in.is_at_line_end()) in.fail("nothing may stand before the binary data in its line");
   in.line();
@@ -142,18 +142,18 @@ void begin_data(ByteReader& in, bool is_binary) {
   in.swaps_bytes = std::endian::native == std::endian::little;
 }
 
-void skip_metadata(ByteReader& in) {
+void skip_metadata(FileReader& in) {
   in.line();
   while (in.n_left() > 0 && !in.line().empty()) continue;
 }
 
-void skip_field(ByteReader& in, bool is_binary) {
+void skip_field(FileReader& in, bool is_binary) {
   in.word("the name of a field");
   const std::size_t n = in.check_count(in.integer("the number of arrays"), 4, "arrays of a field");
   for (std::size_t k = 0; k < n; ++k) skip_field_array(in, is_binary);
 }
 
-bool skip_attribute(ByteReader& in, bool is_binary, const std::string& keyword, std::int64_t n) {
+bool skip_attribute(FileReader& in, bool is_binary, const std::string& keyword, std::int64_t n) {
   const bool has_width = keyword == "COLOR_SCALARS" || keyword == "TEXTURE_COORDINATES";
   const std::size_t width = width_of(keyword);
   if (!has_width && width == 0 && keyword != "SCALARS" && keyword != "LOOKUP_TABLE") return false;

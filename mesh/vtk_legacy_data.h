@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "mesh/byte_reader.h"
+#include "mesh/file_reader.h"
 #include "mesh/vtk_cells.h"
 
 namespace trocar {
@@ -13,15 +13,15 @@ namespace trocar {
 // Keywords count in any case.
 std::string upper_case(std::string_view word);
 // The next word as a type of numbers.
-VtkNumber read_number_type(ByteReader& in);
+VtkNumber read_number_type(FileReader& in);
 // Binary data begin in the line below their header and are big endian; in.is_binary while in them.
-void begin_data(ByteReader& in, bool is_binary);
+void begin_data(FileReader& in, bool is_binary);
 
 // Each throws InputError where what it passes over is not whole. After their keyword:
 // Names and units of the array above, up to an empty line.
-void skip_metadata(ByteReader& in);
-void skip_field(ByteReader& in, bool is_binary);
+void skip_metadata(FileReader& in);
+void skip_field(FileReader& in, bool is_binary);
 // SCALARS, VECTORS and so on, of n points or cells; false if the keyword is none of these.
-bool skip_attribute(ByteReader& in, bool is_binary, const std::string& keyword, std::int64_t n);
+bool skip_attribute(FileReader& in, bool is_binary, const std::string& keyword, std::int64_t n);
 
 }  // namespace trocar

@@ -82,19 +82,19 @@ class VtuBytes {
   std::size_t n_given_ = 0, n_kept_ = 0;
 };
 
-[[noreturn]] void fail_short(const ByteReader& in) {
+[[noreturn]] void fail_short(const FileReader& in) {
   in.fail("the data of this array are cut off or broken");
 }
 
-std::uint64_t read_header(const ByteReader& in, const VtuEncoding& encoding, VtuBytes& bytes) {
+std::uint64_t read_header(const FileReader& in, const VtuEncoding& encoding, VtuBytes& bytes) {
   std::array<char, 8> word{};
   if (!bytes.read(word.data(), encoding.n_header_bytes)) fail_short(in);
   return encoding.n_header_bytes == 8
-             ? ByteReader::load_number<std::uint64_t>(word.data(), encoding.swaps_bytes)
-             : ByteReader::load_number<std::uint32_t>(word.data(), encoding.swaps_bytes);
+             ? FileReader::load_number<std::uint64_t>(word.data(), encoding.swaps_bytes)
+             : FileReader::load_number<std::uint32_t>(word.data(), encoding.swaps_bytes);
 }
 
-void check_size(const ByteReader& in, std::uint64_t found, std::size_t n_bytes) {
+void check_size(const FileReader& in, std::uint64_t found, std::size_t n_bytes) {
   if (found != n_bytes)
     in.fail("this array has " + std::to_string(found) + " bytes, but " + std::to_string(n_bytes) +
             " follow from the numbers of points and cells");
@@ -107,7 +107,7 @@ struct ZlibHeader {
   std::vector<std::uint64_t> packed_bytes;  // (n_blocks)
 };
 
-ZlibHeader read_zlib_header(const ByteReader& in, const VtuEncoding& encoding, VtuBytes& bytes,
+ZlibHeader read_zlib_header(const FileReader& in, const VtuEncoding& encoding, VtuBytes& bytes,
                             std::size_t n_bytes) {
   ZlibHeader header;
   const std::uint64_t n_blocks = read_header(in, encoding, bytes);
@@ -130,7 +130,7 @@ ZlibHeader read_zlib_header(const ByteReader& in, const VtuEncoding& encoding, V
   return header;
 }
 
-std::string decode_zlib(const ByteReader& in, const VtuEncoding& encoding, VtuBytes& bytes,
+std::string decode_zlib(const FileReader& in, const VtuEncoding& encoding, VtuBytes& bytes,
                         std::size_t n_bytes) {
   // zlib packs at most 1032 to 1; 64 to 1 leaves room for any mesh, but not for a file made to fill
   // the memory.
@@ -177,7 +177,7 @@ void append_word(std::uint64_t word, std::string& bytes) {
 
 }  // namespace
 
-std::string decode_vtu_data(const ByteReader& in, const VtuEncoding& encoding,
+std::string decode_vtu_data(const FileReader& in, const VtuEncoding& encoding,
                             std::string_view text, std::size_t n_bytes) {
   const std::size_t start = text.find_first_not_of(" \t\r\n");
   if (encoding.is_base64) text.remove_prefix(std::min(start, text.size()));

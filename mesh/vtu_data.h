@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "mesh/byte_reader.h"
+#include "mesh/file_reader.h"
 
 namespace trocar {
 
@@ -20,7 +20,7 @@ struct VtuEncoding {
 // The array of n_bytes at the beginning of `text`. Throws InputError (at the place of `in`) if
 // there are more, fewer or broken bytes. What is announced is compared with the bytes there are
 // before anything is allocated.
-std::string decode_vtu_data(const ByteReader& in, const VtuEncoding& encoding,
+std::string decode_vtu_data(const FileReader& in, const VtuEncoding& encoding,
                             std::string_view text, std::size_t n_bytes);
 
 // Base64 with zlib blocks and 8-byte headers, appended to `text`.

@@ -25,7 +25,7 @@ struct VtuArray {
 };
 
 struct VtuReader {
-  ByteReader& in;
+  FileReader& in;
   VtuEncoding encoding;
   std::int64_t n_pieces = 0, n_points = 0, n_cells = 0;
   VtuArray points, connectivity, offsets, types, region, fibre;
@@ -33,7 +33,7 @@ struct VtuReader {
   bool is_appended_base64 = true;
 };
 
-std::uint64_t unsigned_attribute(const ByteReader& in, const XmlTag& tag, std::string_view name) {
+std::uint64_t unsigned_attribute(const FileReader& in, const XmlTag& tag, std::string_view name) {
   const std::string_view text = attribute(tag, name);
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -144,11 +144,11 @@ void scan_tags(VtuReader& r) {
 }
 
 // The reader whose messages point to the tag of the array.
-ByteReader reader_at(const VtuReader& r, const VtuArray& array) {
+FileReader reader_at(const VtuReader& r, const VtuArray& array) {
   return r.in.within(array.tag);
 }
 
-std::string decode(const VtuReader& r, const ByteReader& at, const VtuArray& array,
+std::string decode(const VtuReader& r, const FileReader& at, const VtuArray& array,
                    std::size_t n_bytes) {
   VtuEncoding encoding = r.encoding;
   if (array.format == "binary") return decode_vtu_data(at, encoding, array.content, n_bytes);
@@ -163,10 +163,10 @@ std::string decode(const VtuReader& r, const ByteReader& at, const VtuArray& arr
 template <class Value, class F>
 void read_numbers(const VtuReader& r, const VtuArray& array, std::size_t n, const F& take) {
   constexpr bool is_real = std::is_same_v<Value, double>;
-  const ByteReader at = reader_at(r, array);
+  const FileReader at = reader_at(r, array);
   if (!is_real && array.number.is_float) at.fail("integers are needed here");
   if (array.format == "ascii") {
-    ByteReader text = r.in.within(array.content);
+    FileReader text = r.in.within(array.content);
     text.check_count(static_cast<std::int64_t>(n), 2, "numbers");
     for (std::size_t k = 0; k < n; ++k)
       if constexpr (is_real)
@@ -193,7 +193,7 @@ std::vector<std::int32_t> read_integers(const VtuReader& r, const VtuArray& arra
                                         const char* name) {
   check_present(r, array, name);
   std::vector<std::int32_t> values;
-  read_numbers<std::int64_t>(r, array, n, [&](const ByteReader& at, std::int64_t value) {
+  read_numbers<std::int64_t>(r, array, n, [&](const FileReader& at, std::int64_t value) {
     if (values.empty()) values.reserve(n);
     values.push_back(fit_int32(at, value, name));
   });
@@ -206,7 +206,7 @@ std::vector<Vec3> read_vectors(const VtuReader& r, const VtuArray& array, std::i
   std::vector<Vec3> X;
   const std::size_t n = 3 * static_cast<std::size_t>(count);
   std::size_t k = 0;
-  read_numbers<double>(r, array, n, [&](const ByteReader& at, double x) {
+  read_numbers<double>(r, array, n, [&](const FileReader& at, double x) {
     if (!std::isfinite(x))
       at.fail("a coordinate of " + std::string(what) + " " + std::to_string(k / 3) +
               " is not finite");
@@ -226,7 +226,7 @@ std::vector<Vec3> read_points(const VtuReader& r) {
 std::vector<std::int32_t> read_float_regions(const VtuReader& r, std::size_t n) {
   std::vector<std::int32_t> region;
   bool is_whole = true;
-  read_numbers<double>(r, r.region, n, [&](const ByteReader&, double k) {
+  read_numbers<double>(r, r.region, n, [&](const FileReader&, double k) {
     is_whole = is_whole && k >= 0 && k < INT32_MAX && k == std::floor(k);
     region.push_back(is_whole ? static_cast<std::int32_t>(k) : 0);
   });
@@ -266,7 +266,7 @@ VtkCells read_cells(const VtuReader& r) {
 
 }  // namespace
 
-RawMesh read_vtu_cells(ByteReader& in) {
+RawMesh read_vtu_cells(FileReader& in) {
   VtuReader r{.in = in,
               .encoding = {},
               .points = {},

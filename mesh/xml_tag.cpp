@@ -13,7 +13,7 @@ static std::string_view without_spaces(std::string_view text) {
 }
 
 // name = "value" pairs up to the end of `text`.
-static void read_attributes(const ByteReader& in, std::string_view text, XmlTag& tag) {
+static void read_attributes(const FileReader& in, std::string_view text, XmlTag& tag) {
   for (text = without_spaces(text); !text.empty(); text = without_spaces(text)) {
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos)
@@ -47,7 +47,7 @@ static std::size_t find_tag_end(std::string_view rest) {
   return std::string_view::npos;
 }
 
-bool next_tag(ByteReader& in, XmlTag& tag) {
+bool next_tag(FileReader& in, XmlTag& tag) {
   while (true) {
     const std::size_t begin = in.rest().find('<');
     if (begin == std::string_view::npos) return false;

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/byte_reader.h"
+#include "mesh/file_reader.h"
 
 namespace trocar {
 
@@ -21,7 +21,7 @@ struct XmlTag {
 
 // Moves behind the next tag that is neither a comment nor a declaration; false if there is none.
 // Throws InputError for a tag that is cut off or malformed.
-bool next_tag(ByteReader& in, XmlTag& tag);
+bool next_tag(FileReader& in, XmlTag& tag);
 // "" if the tag doesn't have it.
 std::string_view attribute(const XmlTag& tag, std::string_view name);
 

@@ -116,7 +116,7 @@ void fill_square(Image& image, int x, int y, int side, std::uint8_t grey) {
   const int right = std::min(x + side, image.width), bottom = std::min(y + side, image.height);
   for (int j = std::max(y, 0); j < bottom; ++j)
     for (int i = std::max(x, 0); i < right; ++i)
-      std::fill_n(&image.rgb[static_cast<std::size_t>((j * image.width + i) * 3)], 3, grey);
+      std::fill_n(&image.rgb[(j * image.width + i) * 3], 3, grey);
 }
 
 // Calls body(x, y) with the upper left pixel of every dot that is set.

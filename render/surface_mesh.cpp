@@ -163,7 +163,7 @@ SurfaceMesh mark_edges(const SurfaceMesh& mesh, std::span<const std::uint8_t> is
     const std::size_t c = k % 3;
     vertex.edge = {0, 0, 0, full};
     vertex.edge[c] = full;
-    if (diagonal[k / 3] >= 0) vertex.edge[static_cast<std::size_t>(diagonal[k / 3])] = full;
+    if (diagonal[k / 3] >= 0) vertex.edge[diagonal[k / 3]] = full;
     marked.vertex.push_back(vertex);
     marked.point.push_back(mesh.point[mesh.index[k]]);
     marked.index.push_back(static_cast<std::uint32_t>(k));

@@ -114,7 +114,7 @@ std::vector<std::uint8_t> bump_texels(const std::vector<double>& height, int n) 
   std::vector<std::uint8_t> texel;
   texel.reserve(height.size() * 4);
   const auto at = [&](int i, int j, int k) {
-    return height[static_cast<std::size_t>(((k + n) % n * n + (j + n) % n) * n + (i + n) % n)];
+    return height[((k + n) % n * n + (j + n) % n) * n + (i + n) % n];
   };
   const double scale = 0.02 * n;  // fills the bytes without clipping
   for (int k = 0; k < n; ++k)

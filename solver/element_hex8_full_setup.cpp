@@ -66,8 +66,7 @@ ElementConstants constants_hex8_full(const ElementInput& input) {
   for (std::size_t k = 0; k < Element::n_points; ++k) {
     const MonomialGradients dS = monomial_gradients(point_at(k));
     Mat3 dX = Mat3::Zero();  // 8 dX/dxi
-    for (int m = 0; m < n_hex_modes; ++m)
-      dX += X[static_cast<std::size_t>(m)] * dS.col(m).transpose();
+    for (int m = 0; m < n_hex_modes; ++m) dX += X[m] * dS.col(m).transpose();
     const double det = dX.col(0).dot(dX.col(1).cross(dX.col(2)));
     if (!(det > 0)) return {};
     Mat3 C;

@@ -113,10 +113,9 @@ ElementConstants constants_hex8_enhanced(const ElementInput& input) {
   SymmetricTensor<double> A{};
   double b2 = 0;
   for (int p = 0; p < 3; ++p) {
-    const Vec3& b = shape.b[static_cast<std::size_t>(p)];
+    const Vec3& b = shape.b[p];
     b2 += b.squaredNorm();
-    for (int r = p + 1; r < 3; ++r)
-      A.v[symmetric_index[p][r]] = third * b.dot(shape.b[static_cast<std::size_t>(r)]);
+    for (int r = p + 1; r < 3; ++r) A.v[symmetric_index[p][r]] = third * b.dot(shape.b[r]);
   }
   for (std::size_t p = 0; p < 3; ++p) A.v[p] = third * (b2 - shape.b[p].squaredNorm());
   std::array<double, HourglassEnhanced::n_values> stiffness{};

@@ -14,8 +14,8 @@ ElementConstants constants_tri3(const ElementInput& input) {
   SymmetricTensor<double> G{};
   for (const Vec3& B : {B1, B2, Vec3(-B1 - B2)}) add_gradient(B, G);
   for (int j = 0; j < 2; ++j) {
-    c.value[static_cast<std::size_t>(ElementTri3::value_B + j)] = B1[j];
-    c.value[static_cast<std::size_t>(ElementTri3::value_B + 2 + j)] = B2[j];
+    c.value[ElementTri3::value_B + j] = B1[j];
+    c.value[ElementTri3::value_B + 2 + j] = B2[j];
   }
   c.omega2 = frequency_bound(G, 3, input);
   return c;

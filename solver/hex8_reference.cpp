@@ -19,10 +19,9 @@ int hex_mode_sign(int m, int a) {
 HexModes position_modes(std::span<const Vec3> X) {
   HexModes modes;
   for (int m = 0; m < n_hex_modes; ++m) {
-    Vec3& mode = modes[static_cast<std::size_t>(m)];
+    Vec3& mode = modes[m];
     mode = Vec3::Zero();
-    for (int a = 1; a < 8; ++a)
-      mode += hex_mode_sign(m, a) * (X[static_cast<std::size_t>(a)] - X[0]);
+    for (int a = 1; a < 8; ++a) mode += hex_mode_sign(m, a) * (X[a] - X[0]);
   }
   return modes;
 }

@@ -141,7 +141,7 @@ void restore_points(std::span<const double> copy, double scale, int width, int l
   CHECK_OP(n % width, ==, 0);
   const double n_parent_points = n / width;  // for each point of this element
   for (int k = 0; k < n; ++k) {
-    const double value = scale * copy[static_cast<std::size_t>(k)] / n_parent_points;
+    const double value = scale * copy[k] / n_parent_points;
     double& to = number[k % width * lanes];
     to = k < width ? value : to + value;
   }

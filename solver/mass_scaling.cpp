@@ -27,12 +27,11 @@ std::vector<std::int32_t> numbers_of(std::span<const RestingElement> elements) {
 std::vector<double> corner_masses(const Mesh& scaled, const MassScaling& scaling) {
   std::vector<double> added(scaled.X.size());
   for (std::int32_t k = 0; k < scaled.n_elements(); ++k) {
-    const RestingElement& element = scaling.element[static_cast<std::size_t>(k)];
+    const RestingElement& element = scaling.element[k];
     const double ratio = scaling.wanted_step / element.step;
     const std::span<const std::int32_t> corner = scaled.corners(k);
     for (const std::int32_t node : corner)
-      added[static_cast<std::size_t>(node)] +=
-          (ratio * ratio - 1) * element.mass / static_cast<double>(corner.size());
+      added[node] += (ratio * ratio - 1) * element.mass / static_cast<double>(corner.size());
   }
   return added;
 }
@@ -128,7 +127,7 @@ void scale_mass(const MassScaling& scaling, const Part& part, Model& model) {
     model.inertia[model.clusters.node[k]] += model.clusters.added[k];
   for (const RestingElement& element : scaling.element)
     if (const std::int64_t k = part.place_of(element.number); k >= 0)
-      model.element_step[static_cast<std::size_t>(k)] = scaling.wanted_step;
+      model.element_step[k] = scaling.wanted_step;
 }
 
 void unscale_mass(Model& model) {

@@ -39,7 +39,7 @@ std::array<Vec3, 2> families_of(const Material& material, const Vec3& fibre) {
 }
 
 void put(const Vec3& direction, int at, std::span<double> value) {
-  for (int i = 0; i < 3; ++i) value[static_cast<std::size_t>(at + i)] = direction[i];
+  for (int i = 0; i < 3; ++i) value[at + i] = direction[i];
 }
 
 void fill_ogden(const Material& material, double volume, std::span<double> value) {
@@ -63,8 +63,8 @@ void fill_holzapfel(const Material& material, double volume, const Vec3& fibre,
   const std::array<Vec3, 2> family = families_of(material, fibre);
   const int n = material.fibre_angle > 0 ? 2 : 1;
   for (int k = 0; k < n; ++k) {
-    value[static_cast<std::size_t>(M::value_family + 4 * k)] = material.k1 * volume;
-    put(family[static_cast<std::size_t>(k)], M::value_family + 4 * k + 1, value);
+    value[M::value_family + 4 * k] = material.k1 * volume;
+    put(family[k], M::value_family + 4 * k + 1, value);
   }
 }
 

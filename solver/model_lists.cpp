@@ -40,7 +40,7 @@ void fill_values(const ModelSource& source, std::int32_t e, const ElementConstan
   const std::int64_t first =
       lane / blocks.lanes * kernels.n_values * blocks.lanes + lane % blocks.lanes;
   for (std::int64_t k = 0; k < kernels.n_values; ++k) {
-    const double x = value[static_cast<std::size_t>(k)];
+    const double x = value[k];
     if (blocks.precision == Precision::in_single)
       blocks.data_single[first + k * blocks.lanes] = static_cast<float>(x);
     else
@@ -62,7 +62,7 @@ ElementBlocks empty_blocks(const ModelSource& source, std::size_t key, std::int3
   ElementBlocks blocks;
   blocks.formulation = static_cast<Formulation>(key % n_formulations);
   blocks.region = static_cast<std::int32_t>(key / n_formulations);
-  const Material& material = source.materials[static_cast<std::size_t>(blocks.region)];
+  const Material& material = source.materials[blocks.region];
   blocks.material = material.model;
   blocks.stiffening_at_rest = stiffening_at_rest(material);
   blocks.prony = material.prony;

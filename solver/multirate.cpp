@@ -25,7 +25,7 @@ Chebyshev chebyshev(int n, double x) {
   Chebyshev c{.T = {1, x}};
   double dT = 0, next_dT = 1;  // of T_k-1, T_k
   for (int k = 1; k < n; ++k) {
-    const double T_k = c.T[static_cast<std::size_t>(k)];
+    const double T_k = c.T[k];
     c.T.push_back(2 * x * T_k - c.T[static_cast<std::size_t>(k) - 1]);
     const double after = 2 * T_k + 2 * x * next_dT - dT;
     dT = next_dT;
@@ -180,8 +180,7 @@ std::unique_ptr<MultiRate> make_multirate(const MultiRatePlan& plan, const Multi
   m.halo = make_halo(m.mesh, owner, m.part, communicator.rank());
   m.coarse_fixed = body.model.fixed;
   for (std::size_t i = 0; i < m.coarse_fixed.size(); ++i)
-    if (plan.is_fine[static_cast<std::size_t>(body.part.node_global[i])] != 0)
-      m.coarse_fixed[i] = 7;
+    if (plan.is_fine[body.part.node_global[i]] != 0) m.coarse_fixed[i] = 7;
   m.of_whole.assign(static_cast<std::size_t>(body.model.n_owned), -1);
   m.whole.resize(m.part.node_global.size());
   for (std::int32_t i = 0; i < m.part.n_local(); ++i) {
@@ -189,7 +188,7 @@ std::unique_ptr<MultiRate> make_multirate(const MultiRatePlan& plan, const Multi
     m.whole[i] = body.part.node_local[global];
     if (i >= m.part.n_owned) continue;
     m.of_whole[m.whole[i]] = i;
-    m.is_fine.push_back(plan.is_fine[static_cast<std::size_t>(global)]);
+    m.is_fine.push_back(plan.is_fine[global]);
   }
   if (m.part.n_owned > 0) build_body(body, m, communicator);
   return multirate;

@@ -35,7 +35,7 @@ double thickness_stretch(const Model& model, const State& state, std::int32_t el
                           std::array<double, lanes_of_block<float>> enough, J, stiffening;
                           enough.fill(1e30);  // nobody asks for the growth
                           kernels.law.watch(task, {enough.data()}, J.data(), stiffening.data());
-                          stretch = J[static_cast<std::size_t>(lane)] / area;
+                          stretch = J[lane] / area;
                         });
   }
   return stretch;

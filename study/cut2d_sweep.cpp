@@ -8,6 +8,7 @@
 #include <random>
 
 #include "cutting/cut_plane_paper.h"
+#include "engine/summary.h"
 #include "mesh/edit.h"
 #include "mesh/quality.h"
 #include "study/cut2d_trial.h"
@@ -85,12 +86,6 @@ void cut_once(const Mesh& mesh, const std::vector<Vec3>& path, const CutPlaneOpt
   all.seconds.push_back(seconds);
   all.ratio.push_back(step_bound(after) / step_bound(mesh));
   all.sigma += area_sigma(mesh, after);
-}
-
-double quantile(const std::vector<double>& sorted, double share) {
-  return sorted.empty()
-             ? 0
-             : sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
 }
 
 }  // namespace

@@ -44,9 +44,9 @@ std::string curve_svg(const Cut2dParameter& parameter, int setting, double Cut2d
                       const std::string& dash) {
   std::vector<SvgPoint> points;
   std::string markers;
-  const std::string colour = setting_colours[static_cast<std::size_t>(setting)];
+  const std::string colour = setting_colours[setting];
   for (std::size_t k = 0; k < parameter.values.size(); ++k) {
-    const Cut2dSample& sample = parameter.values[k].samples[static_cast<std::size_t>(setting)];
+    const Cut2dSample& sample = parameter.values[k].samples[setting];
     points.push_back({x_of(parameter, k), y_of(sample.*member)});
     markers += svg_marker(points.back(), setting, colour, dash.empty(), "");
   }
@@ -57,7 +57,7 @@ std::string legend_svg() {
   std::string text;
   for (int s = 0; s < n_cut2d_settings; ++s) {
     const double x = left + 200.0 * s;
-    const char* colour = setting_colours[static_cast<std::size_t>(s)];
+    const char* colour = setting_colours[s];
     text += svg_marker({x, bottom + 44}, s, colour, true, "");
     text += svg_text({x + 10, bottom + 48}, {.text = cut2d_setting_names[s], .colour = colour});
   }
@@ -111,7 +111,7 @@ std::string parameter_section(const Cut2dParameter& parameter) {
                      "time of a cut |\n|---|---|---:|---:|---:|---:|---:|---:|\n";
   for (const Cut2dValue& value : parameter.values)
     for (int s = 0; s < n_cut2d_settings; ++s) {
-      const Cut2dSample& sample = value.samples[static_cast<std::size_t>(s)];
+      const Cut2dSample& sample = value.samples[s];
       const char* mark = is_default(value, s) ? "**" : "";
       text += "| " + (mark + value.label + mark) + " | " + cut2d_setting_names[s] + " | " +
               with_decimals(sample.median, 3) + " | " + with_decimals(sample.low, 3) + " | " +

@@ -21,22 +21,20 @@ std::vector<Simplex> simplices_of(const Mesh& mesh) {
   std::vector<Simplex> simplices;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
     const std::span<const std::int32_t> c = mesh.corners(e);
-    if (mesh.element_type[static_cast<std::size_t>(e)] != ElementType::hex8) {
+    if (mesh.element_type[e] != ElementType::hex8) {
       Simplex simplex{-1, -1, -1, -1};
       std::copy(c.begin(), c.end(), simplex.begin());
       simplices.push_back(simplex);
       continue;
     }
     for (const auto& tet : hex_tets)
-      simplices.push_back({c[static_cast<std::size_t>(tet[0])], c[static_cast<std::size_t>(tet[1])],
-                           c[static_cast<std::size_t>(tet[2])],
-                           c[static_cast<std::size_t>(tet[3])]});
+      simplices.push_back({c[tet[0]], c[tet[1]], c[tet[2]], c[tet[3]]});
   }
   return simplices;
 }
 
 const Vec3& at(const Mesh& mesh, std::int32_t node) {
-  return mesh.X[static_cast<std::size_t>(node)];
+  return mesh.X[node];
 }
 
 // Whether the point is within `reach` of the simplex's box.

@@ -16,9 +16,8 @@ constexpr double column_height = 6, duration = .55, frame_time = .025;
 // Top of the parabola through the largest of the samples and its neighbours.
 double peak_of(const std::vector<double>& y) {
   const auto k = std::max_element(y.begin(), y.end()) - y.begin();
-  if (k == 0 || k + 1 == std::ssize(y)) return y[static_cast<std::size_t>(k)];
-  const double left = y[static_cast<std::size_t>(k - 1)], mid = y[static_cast<std::size_t>(k)],
-               right = y[static_cast<std::size_t>(k + 1)];
+  if (k == 0 || k + 1 == std::ssize(y)) return y[k];
+  const double left = y[k - 1], mid = y[k], right = y[k + 1];
   const double curvature = left - 2 * mid + right, slope = (right - left) / 2;
   return curvature < 0 ? mid - slope * slope / (2 * curvature) : mid;
 }

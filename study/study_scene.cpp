@@ -12,7 +12,6 @@
 #include "engine/build.h"
 #include "engine/equilibrium.h"
 #include "engine/frame.h"
-#include "engine/frame_watch.h"
 #include "engine/mesh_measures.h"
 #include "engine/tissue.h"
 #include "solver/element_setup.h"
@@ -80,7 +79,7 @@ LoadedScene scene_of(const SceneStudy& study, const Case& c) {
   Formulation* const of_shape[] = {&solver.triangle, &solver.tetrahedron, &solver.hexahedron};
   *of_shape[static_cast<int>(shape_of(c.method.formulation))] = c.method.formulation;
   if (!study.has_shape()) {
-    if (!study.meshes.empty()) tissue.mesh = study.meshes[static_cast<std::size_t>(c.n - 1)];
+    if (!study.meshes.empty()) tissue.mesh = study.meshes[c.n - 1];
     return loaded;
   }
   scale_cells(c.n, *tissue.shape);
@@ -202,7 +201,7 @@ void describe(const SceneStudy& study, Problem& problem) {
   const std::vector<std::string> meshes =
       study.meshes.empty() ? std::vector<std::string>{scene.tissue.mesh} : study.meshes;
   problem.size_label = [meshes](int n) {
-    return std::filesystem::path(meshes[static_cast<std::size_t>(n - 1)]).stem().string();
+    return std::filesystem::path(meshes[n - 1]).stem().string();
   };
 }
 
@@ -228,7 +227,7 @@ void sort_meshes(SceneStudy& study, Communicator& communicator) {
   std::vector<std::pair<double, std::string>> by_edge;
   for (int n = 1; n <= static_cast<int>(study.meshes.size()); ++n) {
     const Mesh mesh = load_tissue(scene_of(study, {.n = n}), communicator);
-    by_edge.emplace_back(mean_edge_length(mesh), study.meshes[static_cast<std::size_t>(n - 1)]);
+    by_edge.emplace_back(mean_edge_length(mesh), study.meshes[n - 1]);
   }
   std::ranges::stable_sort(by_edge, std::ranges::greater(), &std::pair<double, std::string>::first);
   for (std::size_t k = 0; k < by_edge.size(); ++k) study.meshes[k] = by_edge[k].second;

@@ -14,7 +14,7 @@ constexpr std::int64_t most_iterations = 40000;  // 24 cells take 7000
 std::vector<PrescribedNode> held_nodes(const StudyBody& body, const StaticBox& box) {
   std::vector<PrescribedNode> held;
   for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)
-    if (const std::optional<Vec3> u = box.moved(body.mesh.X[static_cast<std::size_t>(i)]))
+    if (const std::optional<Vec3> u = box.moved(body.mesh.X[i]))
       held.push_back({.node = i, .u_next = *u});
   return held;
 }

@@ -18,8 +18,7 @@ TEST(LeastOfMany, follows_values_that_change_in_any_block) {
       // The least one rises, and one at the end and one in the middle change.
       const std::int64_t at = std::min_element(values.begin(), values.end()) - values.begin();
       const std::vector<std::int64_t> places{at, (round * 631) % n, n - 1};
-      for (const std::int64_t k : places)
-        values[static_cast<std::size_t>(k)] += static_cast<double>((round * 37) % 101) - 30;
+      for (const std::int64_t k : places) values[k] += static_cast<double>((round * 37) % 101) - 30;
       least.change(values, places);
       EXPECT_EQ(least.value(), *std::min_element(values.begin(), values.end()));
     }

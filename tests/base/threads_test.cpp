@@ -17,7 +17,7 @@ TEST(ParallelFor, visits_each_index_exactly_once_for_any_number_of_threads) {
     for (const std::int64_t n : {0, 1, 2, 63, 64, 65, 100, 127, 1000, 4099}) {
       std::vector<std::atomic<int>> n_visits(static_cast<std::size_t>(n));
       parallel_for(n, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t i = begin; i < end; ++i) ++n_visits[static_cast<std::size_t>(i)];
+        for (std::int64_t i = begin; i < end; ++i) ++n_visits[i];
       });
       for (const std::atomic<int>& n_visit : n_visits) ASSERT_EQ(n_visit, 1);
     }

@@ -54,7 +54,7 @@ struct Crowd {
     const double a = random.between(0, 1), b = random.between(0, 1 - a);
     c.weight = {a, b, 1 - a - b};
     // In the world within a cone: nothing is pressed from two sides.
-    c.normal = bench.tools[static_cast<std::size_t>(c.tool)].pose.rotation.conjugate() *
+    c.normal = bench.tools[c.tool].pose.rotation.conjugate() *
                (2 * Vec3::UnitZ() + random.direction()).normalized();
     c.point = random.in_box(0.02);
     return c;
@@ -166,7 +166,7 @@ TEST(SolveContacts, leaves_what_many_contacts_allow_nearest_to_the_step_without_
     double pushed = 0, work = 0;
     for (const ContactSet::Item& item : bench.set.items) {
       const Contact& c = item.contact;
-      const ToolMotion& tool = bench.tools[static_cast<std::size_t>(c.tool)];
+      const ToolMotion& tool = bench.tools[c.tool];
       const Vec3 n = tool.pose.rotation * c.normal, arm = tool.pose.rotation * c.point;
       Vec3 start = Vec3::Zero(), end = Vec3::Zero();
       for (std::size_t a = 0; a < 3; ++a) {
@@ -251,7 +251,7 @@ TEST(SolveContacts, gives_every_rank_that_holds_nodes_the_same_forces) {
                                         std::vector<std::uint8_t>(mass.size()));
       for (std::size_t k = 0; k < set.node.size(); ++k) {
         const std::int32_t i = set.node[k];
-        set.x_start[k] = mesh.X[static_cast<std::size_t>(i)];
+        set.x_start[k] = mesh.X[i];
         set.x_end[k] = set.x_start[k] + Vec3(moved(i, 0), moved(i, 1), moved(i, 2));
       }
       const ContactStep step = {.tools = tools, .dt = 1e-4, .response = 1e-8};
@@ -265,8 +265,7 @@ TEST(SolveContacts, gives_every_rank_that_holds_nodes_the_same_forces) {
       for (const Halo::Neighbour& other : set.halo.neighbours) {
         EXPECT_EQ(other.send, set.owned);
         for (const std::int32_t place : other.receive)
-          EXPECT_EQ(owner[static_cast<std::size_t>(set.node[static_cast<std::size_t>(place)])],
-                    other.rank);
+          EXPECT_EQ(owner[set.node[place]], other.rank);
       }
     }
     EXPECT_EQ(n_counted, 1);
@@ -338,8 +337,7 @@ TEST(LookAgain, finds_the_nearest_point_of_a_triangle_that_has_moved) {
   EXPECT_NEAR(item.contact.gap, -1e-4, 1e-16);
   const std::array<double, 3> expected = {0.5, 0.4, 0.1};  // of (4, 1, 0) mm
   for (std::size_t a = 0; a < 3; ++a)
-    EXPECT_NEAR(item.contact.weight[a], expected[static_cast<std::size_t>(item.contact.node[a])],
-                1e-13);
+    EXPECT_NEAR(item.contact.weight[a], expected[item.contact.node[a]], 1e-13);
   bench.tools[0].pose.translation.z() = 1e-4;
   look_again(bench.detector, bench.contact_step(), bench.set);
   EXPECT_FALSE(bench.set.items[0].is_near);

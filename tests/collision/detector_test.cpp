@@ -71,9 +71,7 @@ class PlainDetector {
  public:
   PlainDetector(const Mesh& mesh, const Surface& surface) {
     for (const auto& node : surface.triangle)
-      triangle_.push_back({mesh.X[static_cast<std::size_t>(node[0])],
-                           mesh.X[static_cast<std::size_t>(node[1])],
-                           mesh.X[static_cast<std::size_t>(node[2])]});
+      triangle_.push_back({mesh.X[node[0]], mesh.X[node[1]], mesh.X[node[2]]});
   }
 
   std::vector<std::int32_t> touching(const ConvexPiece& piece, const Pose& pose, double margin) {
@@ -146,8 +144,7 @@ TEST(ContactDetector, point_normal_and_weights_give_the_gap_in_any_pose) {
     for (const ToolShape& tool : mixed_tools())
       for (const Contact& c : detect(mesh, tool, pose)) {
         Vec3 q = Vec3::Zero();
-        for (std::size_t a = 0; a < 3; ++a)
-          q += c.weight[a] * mesh.X[static_cast<std::size_t>(c.node[a])];
+        for (std::size_t a = 0; a < 3; ++a) q += c.weight[a] * mesh.X[c.node[a]];
         const Vec3 n = pose.rotation * c.normal;
         EXPECT_NEAR(c.gap, n.dot(q - pose.apply(c.point)), 1e-11);  // Bullet's 1e-12, twice
       }
@@ -191,7 +188,7 @@ TEST(ContactDetector, keeps_pushing_inwards_while_a_sphere_sinks_and_slides) {
     double deepest = 1;
     for (const Contact& c : contacts) {
       EXPECT_LE(c.normal.z(), 1e-12);
-      for (const std::int32_t i : c.node) EXPECT_EQ(mesh.X[static_cast<std::size_t>(i)].z(), 0);
+      for (const std::int32_t i : c.node) EXPECT_EQ(mesh.X[i].z(), 0);
       if (c.normal.z() < -0.999999) deepest = std::min(deepest, c.gap);
     }
     EXPECT_NEAR(deepest, centre.z() - tool_radius, 1e-14) << centre.transpose();
@@ -206,7 +203,7 @@ TEST(ContactDetector, leaves_the_far_side_of_a_thin_lobe_alone) {
     const auto contacts = detect(lobe, sphere_tool(), at(Vec3(0.031, 0.032, z)));
     EXPECT_FALSE(contacts.empty());
     for (const Contact& c : contacts)
-      for (const std::int32_t i : c.node) EXPECT_EQ(lobe.X[static_cast<std::size_t>(i)].z(), 0);
+      for (const std::int32_t i : c.node) EXPECT_EQ(lobe.X[i].z(), 0);
   }
   // Beyond the middle the lower side is nearer, and the tool has come through.
   const auto through = detect(lobe, sphere_tool(), at(Vec3(0.031, 0.032, -3e-3)));
@@ -259,7 +256,7 @@ TEST(ContactDetector, touches_a_plane_mesh_at_its_boundary_edges) {
   EXPECT_FALSE(inside.empty());
   for (const Contact& c : inside) {
     EXPECT_LT(c.normal.y(), 0);
-    EXPECT_EQ(mesh.X[static_cast<std::size_t>(c.node[0])].y(), 0.04);
+    EXPECT_EQ(mesh.X[c.node[0]].y(), 0.04);
   }
   EXPECT_TRUE(
       detect(mesh, sphere_tool(), at(Vec3(0.036, 0.044, 0.02))).empty());  // above the plane

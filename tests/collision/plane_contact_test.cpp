@@ -22,7 +22,7 @@ TEST(BoundaryEdges, of_a_rectangle_are_its_four_sides_with_the_inside_to_their_l
   Vec3 centre = Vec3::Zero();
   for (const Vec3& X : mesh.X) centre += X / mesh.n_nodes();
   for (const auto& [a, b] : edges.node) {
-    const Vec3 p = mesh.X[static_cast<std::size_t>(a)], q = mesh.X[static_cast<std::size_t>(b)];
+    const Vec3 p = mesh.X[a], q = mesh.X[b];
     EXPECT_GT((q - p).cross(centre - p).z(), 0);
   }
 }

@@ -27,7 +27,7 @@ struct Bodies {
     triangle = boundary_surface(mesh).triangle;
   }
   Triangle corners(std::size_t t, const std::vector<Vec3>& x) const {
-    const auto at = [&](std::size_t a) { return x[static_cast<std::size_t>(triangle[t][a])]; };
+    const auto at = [&](std::size_t a) { return x[triangle[t][a]]; };
     return {at(0), at(1), at(2)};
   }
   Vec3 normal(std::size_t t) const { return *unit_normal(corners(t, mesh.X)); }

@@ -17,9 +17,7 @@ struct Ball {
 
 Triangle corners_of(const Ball& ball, std::size_t t) {
   const auto& node = ball.surface.triangle[t];
-  return {ball.mesh.X[static_cast<std::size_t>(node[0])],
-          ball.mesh.X[static_cast<std::size_t>(node[1])],
-          ball.mesh.X[static_cast<std::size_t>(node[2])]};
+  return {ball.mesh.X[node[0]], ball.mesh.X[node[1]], ball.mesh.X[node[2]]};
 }
 
 // Sum of the solid angles of all triangles over 4 pi (van Oosterom and Strackee 1983).
@@ -92,8 +90,7 @@ TEST(SurfaceTree, winding_number_is_two_where_the_surface_overlaps_itself) {
     triangles.push_back(triangles[t]);
     for (std::int32_t& i : triangles.back()) i += n_nodes;
   }
-  for (std::int32_t i = 0; i < n_nodes; ++i)
-    mesh.X.push_back(mesh.X[static_cast<std::size_t>(i)] + Vec3(0.5, 0, 0));
+  for (std::int32_t i = 0; i < n_nodes; ++i) mesh.X.push_back(mesh.X[i] + Vec3(0.5, 0, 0));
   const SurfaceTree tree(triangles, mesh.X);
   EXPECT_EQ(tree.winding_number(Vec3(0.7, 0.4, 0.3)), 2);
   EXPECT_EQ(tree.winding_number(Vec3(0.3, 0.4, 0.3)), 1);

@@ -62,9 +62,8 @@ TEST(TissuePairs, are_the_nodes_of_blocks_that_lie_on_each_other) {
   std::set<std::int32_t> nodes;
   for (const TissuePair& pair : pairs) {
     nodes.insert(pair.node);
-    const double z = mesh.X[static_cast<std::size_t>(pair.node)].z();
-    for (const std::int32_t i : pair.corner)
-      EXPECT_NEAR(std::abs(mesh.X[static_cast<std::size_t>(i)].z() - z), 0.001, 1e-12);
+    const double z = mesh.X[pair.node].z();
+    for (const std::int32_t i : pair.corner) EXPECT_NEAR(std::abs(mesh.X[i].z() - z), 0.001, 1e-12);
   }
   std::size_t n_over_each_other = 0;
   for (const Vec3& x : mesh.X)
@@ -94,7 +93,7 @@ TEST(TissuePairs, of_overlapping_blocks_are_the_ways_out) {
     const bool is_lower = pair.node < 7 * 6 * 4;
     for (const std::int32_t i : pair.corner) {
       EXPECT_EQ(i < 7 * 6 * 4, !is_lower) << pair.node;  // never a side of its own block
-      EXPECT_NEAR(mesh.X[static_cast<std::size_t>(i)].z(), is_lower ? 0.019 : 0.02, 1e-12);
+      EXPECT_NEAR(mesh.X[i].z(), is_lower ? 0.019 : 0.02, 1e-12);
     }
   }
 }
@@ -119,15 +118,12 @@ TEST(TissuePairs, of_a_folded_thin_lobe_are_across_its_fold) {
       const double closed = std::min(1.0, over / 0.01);
       x = Vec3(over - r * std::cos(angle), x.y(), side * (r * std::sin(angle) - closed * inward));
     }
-    const auto at = [&](std::int32_t i) { return plain[static_cast<std::size_t>(i)]; };
+    const auto at = [&](std::int32_t i) { return plain[i]; };
     const auto is_inner = [&](std::int32_t i) { return at(i).z() > 0.0009; };
     int n_across = 0;
     for (const TissuePair& pair : pairs_of(mesh, 0.0025, 0.0025)) {
-      const auto x = [&](std::size_t a) {
-        return mesh.X[static_cast<std::size_t>(pair.corner[a])];
-      };
-      const TissueTouch touch =
-          touch_tissue(mesh.X[static_cast<std::size_t>(pair.node)], {x(0), x(1), x(2)});
+      const auto x = [&](std::size_t a) { return mesh.X[pair.corner[a]]; };
+      const TissueTouch touch = touch_tissue(mesh.X[pair.node], {x(0), x(1), x(2)});
       const bool is_across = at(pair.node).x() * at(pair.corner[0]).x() < 1e-12 &&
                              is_inner(pair.node) && is_inner(pair.corner[0]);
       if (is_across) ++n_across;

@@ -31,7 +31,7 @@ struct Slits {
 void go_on_to_slit(int configuration, double x, double left, double aside, BridgeCount& outcome) {
   const Slits slits(configuration, x, left);
   ASSERT_GE(slits.tip, 0);
-  const Vec3 tip = slits.mesh.X[static_cast<std::size_t>(slits.tip)];
+  const Vec3 tip = slits.mesh.X[slits.tip];
   const PlaneCut rest = slits.go_on(tip, {tip.x() + aside, 20 * mm, 0}, configuration);
   ++outcome.n;
   if (rest.edit.is_empty()) {

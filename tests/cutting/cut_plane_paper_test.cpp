@@ -52,7 +52,7 @@ TEST(Table1, initial_meshes_print_as_in_the_paper) {
   for (int c = 1; c <= 4; ++c)
     EXPECT_EQ(
         misfits(plane_statistics(paper_mesh(c)), printed_row(c, PaperRowKind::initial).printed),
-        misprints[static_cast<std::size_t>(c - 1)])
+        misprints[c - 1])
         << c;
 }
 
@@ -69,7 +69,7 @@ TEST(Table1, subdivided_meshes_print_as_in_the_paper) {
     const std::vector<Vec3> path = paper_cut(c);
     EXPECT_EQ(misfits(plane_statistics(subdivide_along(paper_mesh(c), path[0], path[1])),
                       printed_row(c, PaperRowKind::old_remeshing).printed),
-              misprints[static_cast<std::size_t>(c - 1)])
+              misprints[c - 1])
         << c;
   }
 }
@@ -98,7 +98,7 @@ TEST(Table1, graded_meshes_stay_graded) {
           plane_statistics(applied(cut(mesh, paper_cut(c), -1, is_robust).edit, mesh));
       EXPECT_NEAR(after.area.min, before.area.min, 1e-12);  // the same element, unmoved
       EXPECT_NEAR(after.edge.min, before.edge.min, 1e-12);
-      EXPECT_LE(after.area.sigma, before.area.sigma * growth[static_cast<std::size_t>(c - 5)]);
+      EXPECT_LE(after.area.sigma, before.area.sigma * growth[c - 5]);
     }
 }
 

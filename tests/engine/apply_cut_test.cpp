@@ -97,8 +97,7 @@ TEST(FreedPiece, can_be_grasped) {
   ASSERT_EQ(s.n_pieces, 2);
   ASSERT_FALSE(s.holds.holds.empty());
   const std::vector<std::int32_t> piece = connected_nodes(s.mesh);
-  for (const Hold& hold : s.holds.holds)
-    EXPECT_EQ(piece[static_cast<std::size_t>(hold.node)], piece[0]);
+  for (const Hold& hold : s.holds.holds) EXPECT_EQ(piece[hold.node], piece[0]);
   // Free, it would be 0.5 g (0.28 s)^2 = 38 cm lower.
   EXPECT_GT(centre_of(s, piece, piece[0]).z(), -0.01);
 }

@@ -119,7 +119,7 @@ std::vector<double> history_of(const Simulation& s, std::span<const double> copi
   const std::vector<double> volume = volumes(s.mesh);
   for (std::size_t e = 0; e < parent.size(); ++e) {
     origins.element.push_back(static_cast<std::int32_t>(e));
-    origins.scale.push_back(volume[e] / volume_before[static_cast<std::size_t>(parent[e])]);
+    origins.scale.push_back(volume[e] / volume_before[parent[e]]);
   }
   State state = make_state(s.model);
   restore_history(s.model, s.part, copies, origins, state);

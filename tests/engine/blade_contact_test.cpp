@@ -82,7 +82,7 @@ TEST(ContactOfABlade, does_not_push_a_plate_aside_that_it_cuts_at_a_flat_angle) 
   for (std::int32_t e = 0; e < s.mesh.n_elements(); ++e) {
     const double volume = element_volume(s.mesh, e, s.mesh.X);
     all += volume;
-    if (piece[static_cast<std::size_t>(s.mesh.corners(e)[0])] == piece[0]) first += volume;
+    if (piece[s.mesh.corners(e)[0]] == piece[0]) first += volume;
   }
   // The plane at -20 degrees goes through (-3.3, 17.52) mm; x = 0 is at 16.3 mm and meets the lower
   // face at 44.8 mm, the upper at 20.1 mm.

@@ -53,7 +53,7 @@ TEST(BladeDrag, takes_light_nodes_to_the_speed_of_the_blade_and_no_further) {
   edge.step();
   ASSERT_FALSE(edge.drag.node.empty());
   for (const BladeDrag::Node& node : edge.drag.node) {
-    const double mass = edge.body.model.mass[static_cast<std::size_t>(node.local)];
+    const double mass = edge.body.model.mass[node.local];
     const double speed = node.force / mass * Edge::dt;  // undamped, from rest
     EXPECT_LE(speed, Edge::speed * (1 + 1e-12));
     EXPECT_NEAR(speed, std::min(Edge::speed, node.most / mass * Edge::dt), 1e-15);

@@ -24,7 +24,7 @@ TEST(BodyPositions, find_the_same_elements_with_boxes_of_any_age) {
   Simulation& s = *started->s;
   s.boxes = make_element_boxes(s.mesh, s.mesh.X);
   for (std::size_t i = 0; i < s.part.node_global.size(); ++i) {
-    const Vec3& X = s.mesh.X[static_cast<std::size_t>(s.part.node_global[i])];
+    const Vec3& X = s.mesh.X[s.part.node_global[i]];
     s.state.u[3 * i] = 0.05 * X.z() * X.y() / 0.04;
   }
   const CutGroup alone(s, {0});

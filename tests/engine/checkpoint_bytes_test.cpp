@@ -12,8 +12,7 @@ namespace {
 
 std::shared_ptr<std::vector<FrameRow>> rows_of(int n) {
   auto rows = std::make_shared<std::vector<FrameRow>>(static_cast<std::size_t>(n));
-  for (int k = 0; k < n; ++k)
-    (*rows)[static_cast<std::size_t>(k)].tools = {{.position = Vec3(7, 8, k)}};
+  for (int k = 0; k < n; ++k) (*rows)[k].tools = {{.position = Vec3(7, 8, k)}};
   return rows;
 }
 

@@ -258,7 +258,7 @@ TEST(ContactOfAPress, of_a_probe_that_rests_goes_on_where_what_it_touches_is_spl
   // Nothing has come through the probe's ball of 5 mm.
   const Vec3 tip = s.log.rows.back().tools[0].position;
   for (const std::int32_t node : s.view.node) {
-    const Vec3 way = s.view.x[static_cast<std::size_t>(node)] - tip;
+    const Vec3 way = s.view.x[node] - tip;
     EXPECT_GT((way - 0.005 * Vec3::UnitZ()).norm(), 0.0049) << node;
   }
 }

@@ -90,7 +90,7 @@ std::vector<Contact> touching(SlabUnderTool& c) {
     ContactDetector::Corners corners;
     const Pose pose = c.tools[0].path.at(0);
     for (std::size_t a = 0; a < 3; ++a) {
-      corners.x[a] = c.mesh.X[static_cast<std::size_t>(contact.node[a])];
+      corners.x[a] = c.mesh.X[contact.node[a]];
       corners.local[a] = pose.apply_inverse(corners.x[a]);
     }
     if (c.stage.detector.update(corners, pose, 1e-3, contact)) found.push_back(contact);
@@ -236,8 +236,8 @@ TEST(PrepareFrameContacts, starts_each_frame_without_reactions_and_moves_nothing
   const std::vector<double> mass(c.mesh.X.size(), 1e-3);
   std::vector<std::uint8_t> fixed(c.mesh.X.size(), 0);
   const Contact& first = c.stage.contacts[0];
-  fixed[static_cast<std::size_t>(first.node[0])] = 7;
-  fixed[static_cast<std::size_t>(first.node[1])] = 3;  // free to move along z
+  fixed[first.node[0]] = 7;
+  fixed[first.node[1]] = 3;  // free to move along z
   c.holds.holds = {{.node = first.node[2], .tool = 0}};
   const Part part = make_part(c.mesh, owner, 0);
   prepare_frame_contacts(c.stage, {.part = part, .node_owner = owner, .mass = mass, .fixed = fixed},
@@ -246,7 +246,7 @@ TEST(PrepareFrameContacts, starts_each_frame_without_reactions_and_moves_nothing
   ASSERT_EQ(set.items.size(), c.stage.contacts.size());
   const std::array<Vec3, 3> expected = {Vec3::Zero(), Vec3(0, 0, 1e3), Vec3::Zero()};
   for (std::size_t a = 0; a < 3; ++a)
-    EXPECT_EQ(set.inverse_mass[static_cast<std::size_t>(set.items[0].place[a])], expected[a]);
+    EXPECT_EQ(set.inverse_mass[set.items[0].place[a]], expected[a]);
   for (const ContactSet::Item& item : set.items) EXPECT_EQ(item.reaction_sum, Vec3(Vec3::Zero()));
   EXPECT_EQ(c.stage.set.local.size(), set.node.size());
 }

@@ -188,7 +188,7 @@ int n_deep_in_folded_strip(bool has_contact) {
   find_tissue_pairs(tree, {.ahead = s.view.x, .extra = 0.003, .depth = 0.003}, pairs);
   std::set<std::int32_t> deep;
   for (const TissuePair& pair : pairs) {
-    const auto x = [&](std::int32_t i) { return s.view.x[static_cast<std::size_t>(i)]; };
+    const auto x = [&](std::int32_t i) { return s.view.x[i]; };
     const Triangle triangle = {x(pair.corner[0]), x(pair.corner[1]), x(pair.corner[2])};
     if (touch_tissue(x(pair.node), triangle).height < -0.0003) deep.insert(pair.node);
   }

@@ -27,10 +27,9 @@ struct SlitBox {
     }
   }
   bool lies_in_slit(std::int32_t e, int f) const {
-    for (const int a : facet_corners(mesh.element_type[static_cast<std::size_t>(e)], f)) {
+    for (const int a : facet_corners(mesh.element_type[e], f)) {
       if (a < 0) continue;
-      const Vec3& X =
-          mesh.X[static_cast<std::size_t>(mesh.corners(e)[static_cast<std::size_t>(a)])];
+      const Vec3& X = mesh.X[mesh.corners(e)[a]];
       if (std::abs(X.x() - 0.5) > 1e-12 || X.z() > 0.5 + 1e-12) return false;
     }
     return true;

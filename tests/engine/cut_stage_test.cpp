@@ -26,9 +26,9 @@ Slit slit_along(const std::vector<std::pair<double, double>>& points) {
   const Mesh& mesh = s.mesh;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
     for (int f = 0; f < 3; ++f) {
-      if ((mesh.cut_facets[static_cast<std::size_t>(e)] >> f & 1) == 0) continue;
+      if ((mesh.cut_facets[e] >> f & 1) == 0) continue;
       const auto corner = facet_corners(ElementType::tri3, f);
-      const auto X = [&](int a) { return mesh.X[static_cast<std::size_t>(mesh.corners(e)[a])]; };
+      const auto X = [&](int a) { return mesh.X[mesh.corners(e)[a]]; };
       slit.length += 0.5 * (X(corner[0]) - X(corner[1])).norm();  // both lips have it
     }
   return slit;

@@ -81,7 +81,7 @@ TEST(Grasp, happens_in_the_frame_whose_half_open_span_holds_the_key) {
 TEST(Grasp, leaves_supported_nodes_and_those_of_another_holder_alone) {
   GraspedPlate c;
   const std::vector<std::int32_t> all = nodes_near(c.mesh, c.tools[1].path.at(1).translation, grip);
-  c.fixed[static_cast<std::size_t>(all[0])] = 7;
+  c.fixed[all[0]] = 7;
   c.holds.holds = {{.node = all[3], .support = 0}};
   EXPECT_EQ(c.act(0.9, 1), static_cast<int>(all.size()) - 2);
   const std::vector<std::int32_t> taken = c.nodes();
@@ -221,7 +221,7 @@ TEST(HeldNodes, do_not_move_at_the_moment_of_the_grasp_and_then_move_with_the_to
   aim_holds(c.holds, c.tools, c.mesh.X, 1.6);
   const Pose then = c.tools[1].path.at(1), now = c.tools[1].path.at(1.6);
   for (std::size_t k = 0; k < c.holds.prescribed.size(); ++k) {
-    const Vec3 X = c.mesh.X[static_cast<std::size_t>(c.holds.holds[k].node)];
+    const Vec3 X = c.mesh.X[c.holds.holds[k].node];
     const Vec3 expected = now.apply(then.apply_inverse(X)) - X;
     EXPECT_EQ(c.holds.prescribed[k].u_next, expected);
   }
@@ -252,9 +252,9 @@ TEST(HeldNodes, are_prescribed_by_their_owner_alone) {
     localise_holds(c.holds, part);
     ASSERT_EQ(c.holds.prescribed.size(), c.holds.owned.size());
     for (std::size_t k = 0; k < c.holds.owned.size(); ++k) {
-      const std::int32_t node = c.holds.holds[static_cast<std::size_t>(c.holds.owned[k])].node;
-      EXPECT_EQ(part.node_global[static_cast<std::size_t>(c.holds.prescribed[k].node)], node);
-      EXPECT_EQ(owner[static_cast<std::size_t>(node)], rank);
+      const std::int32_t node = c.holds.holds[c.holds.owned[k]].node;
+      EXPECT_EQ(part.node_global[c.holds.prescribed[k].node], node);
+      EXPECT_EQ(owner[node], rank);
       seen.push_back(node);
     }
   }

@@ -22,7 +22,7 @@ std::unique_ptr<Started> body_with_model(const std::string& kind, const std::str
 std::vector<std::string> told(Started& started, const Mat3& H) {
   Simulation& s = *started.s;
   for (std::size_t i = 0; i < s.part.node_global.size(); ++i)
-    Vec3::Map(&s.state.u[3 * i]) = H * s.mesh.X[static_cast<std::size_t>(s.part.node_global[i])];
+    Vec3::Map(&s.state.u[3 * i]) = H * s.mesh.X[s.part.node_global[i]];
   watch_linear_range(s, 0.25);
   return s.log.events;
 }

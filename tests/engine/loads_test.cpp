@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "engine/equilibrium.h"
-#include "engine/frame_watch.h"
+#include "engine/frame_force.h"
 #include "engine_motion.h"
 #include "engine_scene.h"
 #include "engine_split.h"
@@ -92,7 +92,7 @@ TEST(Loads, of_pressure_on_all_sides_do_not_turn_a_body_of_any_hexahedra) {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   for (std::size_t k = 0; k < s.loads.node.size(); ++k) {
     force += s.loads.force[k];
-    moment += s.mesh.X[static_cast<std::size_t>(s.loads.node[k])].cross(s.loads.force[k]);
+    moment += s.mesh.X[s.loads.node[k]].cross(s.loads.force[k]);
   }
   EXPECT_LT(force.norm(), 1e-12 * 500 * 0.02 * 0.05);
   EXPECT_LT(moment.norm(), 1e-12 * 500 * 0.02 * 0.05 * 0.05);
@@ -248,7 +248,7 @@ TEST(Loads, stay_what_they_are_where_a_cut_puts_nodes_on_edges) {
     const auto area = [&] {
       double sum = 0;
       for (const LoadFace& face : faces()) {
-        const auto X = [&](std::size_t k) { return s.mesh.X[static_cast<std::size_t>(face[k])]; };
+        const auto X = [&](std::size_t k) { return s.mesh.X[face[k]]; };
         sum += 0.5 * (X(1) - X(0)).cross(X(2) - X(0)).norm();
       }
       return sum;

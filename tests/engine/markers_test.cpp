@@ -80,7 +80,7 @@ TEST(Markers, stay_where_they_are_beside_a_cut_that_moves_nodes_and_follow_their
     const std::vector<std::int32_t> piece = connected_nodes(s.mesh, all);
     const NodeSet& lower = *find_node_set(s.mesh, "z-");
     for (std::size_t i = 0; i < s.mesh.X.size(); ++i)
-      if (piece[i] == piece[static_cast<std::size_t>(lower.node[0])])
+      if (piece[i] == piece[lower.node[0]])
         for (int j = 0; j < 3; ++j) s.state.u[3 * i + static_cast<std::size_t>(j)] += away[j];
     const std::vector<Vec3> moved = positions();
     for (std::size_t k = 0; k < before.size(); ++k) {
@@ -152,7 +152,7 @@ TEST(Markers, stay_where_they_are_in_elements_that_are_split_and_follow_their_si
   EXPECT_LT(largest_difference(after, before), 1e-5);
   const std::vector<std::int32_t> piece = connected_nodes(s.mesh);
   const auto side_of = [&](std::size_t k) {
-    return piece[static_cast<std::size_t>(s.mesh.corners(s.markers[k].element)[0])];
+    return piece[s.mesh.corners(s.markers[k].element)[0]];
   };
   EXPECT_NE(side_of(0), side_of(1));
   for (std::size_t k = 2; k < before.size(); ++k) EXPECT_EQ(side_of(k), side_of(k % 2)) << k;

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/body_search.h"
 #include "engine/equilibrium.h"
-#include "engine/frame_watch.h"
 #include "engine_checkpoint.h"
 #include "engine_motion.h"
 #include "engine_scene.h"

@@ -114,7 +114,7 @@ std::unique_ptr<Started> overlapping(double depth, Simulation*& s) {
   refresh_surface(*s);
   const auto node_at = [&](const Vec3& x) {
     for (std::int32_t i = s->mesh.n_nodes(); i-- > 0;)
-      if ((s->mesh.X[static_cast<std::size_t>(i)] - x).norm() < 1e-9) return i;
+      if ((s->mesh.X[i] - x).norm() < 1e-9) return i;
     return -1;
   };
   const double top = 0.012;

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/digest.h"
+#include "engine/body_search.h"
 #include "engine/cut_stage.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"

@@ -153,7 +153,7 @@ TEST(Scissors, push_what_stands_in_the_crotch_of_their_open_blades) {
   const double crossing = -0.014 + 0.02 - 0.15 * 0.02;
   double top = 0;  // beneath the crotch
   for (const std::int32_t i : s.surface.node) {
-    const Vec3& x = s.view.x[static_cast<std::size_t>(i)];
+    const Vec3& x = s.view.x[i];
     if (std::abs(x.y() - 0.001) < 0.4e-3 && std::abs(x.x()) < 0.5e-3)
       top = larger_or_nan(top, x.z());
   }

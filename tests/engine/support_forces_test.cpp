@@ -64,7 +64,7 @@ TEST(SupportForces, of_a_stretched_bar_are_its_tension_at_both_ends) {
 Vec3 momentum_of_scaled(const Simulation& s) {
   Vec3 sum = Vec3::Zero();
   for (std::int64_t i = 0; i < s.model.n_owned; ++i)
-    sum += s.model.mass[static_cast<std::size_t>(i)] * Vec3::Map(&s.state.v[3 * i]);
+    sum += s.model.mass[i] * Vec3::Map(&s.state.v[3 * i]);
   return sum;
 }
 
@@ -103,7 +103,7 @@ TEST(SupportForces, of_a_component_that_several_fix_go_to_the_first) {
                          "[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"z-\"\n");
   const SupportForces& forces = bar->s->energy->support_forces;
   std::vector<int> n(3);
-  for (const SupportedComponent& at : forces.of_rank) ++n[static_cast<std::size_t>(at.support)];
+  for (const SupportedComponent& at : forces.of_rank) ++n[at.support];
   EXPECT_EQ(n, (std::vector<int>{9, 3 * 18 - 3, 2 * 9 - 2 * 3}));
   EXPECT_EQ(support_names(bar->s->scene.supports), (std::vector<std::string>{"z-", "x-", "z-_2"}));
   const std::vector<SceneSupport> alike = {
@@ -136,7 +136,7 @@ TEST(SupportForces, have_the_nodes_that_a_cut_puts_on_edges) {
   for (std::size_t k = 0; k < split.inserted.size(); ++k) {
     const auto [a, b] = split.inserted[k].end;
     const FixedMask mask = s.fixed[before.size() + k];
-    EXPECT_EQ(mask, before[static_cast<std::size_t>(a)] & before[static_cast<std::size_t>(b)]);
+    EXPECT_EQ(mask, before[a] & before[b]);
     n_full += mask == 7 ? 1 : 0;
     n_rollers += mask == 4 ? 1 : 0;
   }

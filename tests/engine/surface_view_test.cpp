@@ -75,7 +75,7 @@ TEST(SurfaceView, after_an_edit_is_that_of_the_edited_surface_and_keeps_where_th
   SurfaceView view = make_surface_view(c.surface, owner, part);
   view.x = c.mesh.X;
   const Vec3 there(1, 2, 3);
-  view.x[static_cast<std::size_t>(c.surface.node[0])] = there;
+  view.x[c.surface.node[0]] = there;
 
   MeshEdit edit;
   const std::int32_t parent = c.surface.node[5], copy = c.mesh.n_nodes();
@@ -93,7 +93,7 @@ TEST(SurfaceView, after_an_edit_is_that_of_the_edited_surface_and_keeps_where_th
   EXPECT_EQ(view.node, expected.node);
   EXPECT_EQ(view.local, expected.local);
   EXPECT_EQ(view.x.size(), c.mesh.X.size());
-  EXPECT_EQ(view.x[static_cast<std::size_t>(c.surface.node[0])], there);
+  EXPECT_EQ(view.x[c.surface.node[0]], there);
 }
 
 }  // namespace

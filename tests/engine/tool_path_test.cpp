@@ -106,7 +106,7 @@ TEST(ToolPath, turns_with_its_keys) {
 
 TEST(ToolPath, is_straight_between_right_angles) {
   std::vector<InstrumentKey> keys(5);
-  for (int k = 0; k < 5; ++k) keys[static_cast<std::size_t>(k)].time = k;
+  for (int k = 0; k < 5; ++k) keys[k].time = k;
   keys[1].position = Vec3(0.03, 0.04, 0);
   keys[2].position = keys[1].position + Vec3(0, 0, 0.02);
   keys[3].position = keys[2].position + Vec3(0.04, -0.03, 0);
@@ -163,7 +163,7 @@ TEST(ToolPath, starts_and_ends_at_rest) {
 
 TEST(ToolPath, turns_at_a_turning_point_without_going_beyond) {
   std::vector<InstrumentKey> keys(3);
-  for (int k = 0; k < 3; ++k) keys[static_cast<std::size_t>(k)].time = k;
+  for (int k = 0; k < 3; ++k) keys[k].time = k;
   keys[1].position = Vec3(0.1, 0, 0);
   const ToolPath path(keys);
   double highest = 0;

@@ -17,8 +17,7 @@ TEST(Barycentric, weights_give_the_point_and_sum_to_one) {
       if (corner.size() == 3 && p.z() != 0) continue;
       const std::array<double, 4> weight = barycentric(corner, nodes, p);
       Vec3 sum = Vec3::Zero();
-      for (std::size_t a = 0; a < corner.size(); ++a)
-        sum += weight[a] * nodes[static_cast<std::size_t>(corner[a])];
+      for (std::size_t a = 0; a < corner.size(); ++a) sum += weight[a] * nodes[corner[a]];
       EXPECT_LT((sum - p).norm(), 1e-14);
       EXPECT_NEAR(weight[0] + weight[1] + weight[2] + weight[3], 1, 1e-14);
       if (corner.size() == 3) {
@@ -29,11 +28,11 @@ TEST(Barycentric, weights_give_the_point_and_sum_to_one) {
 
 TEST(Barycentric, weight_is_one_at_its_corner_and_negative_beyond_the_side_across) {
   for (std::size_t a = 0; a < 4; ++a) {
-    const Vec3& X = nodes[static_cast<std::size_t>(tetrahedron[a])];
+    const Vec3& X = nodes[tetrahedron[a]];
     EXPECT_NEAR(barycentric(tetrahedron, nodes, X)[a], 1, 1e-14);
     Vec3 middle = Vec3::Zero();
     for (std::size_t b = 0; b < 4; ++b)
-      if (b != a) middle += nodes[static_cast<std::size_t>(tetrahedron[b])] / 3;
+      if (b != a) middle += nodes[tetrahedron[b]] / 3;
     EXPECT_NEAR(barycentric(tetrahedron, nodes, middle)[a], 0, 1e-14);
     EXPECT_LT(barycentric(tetrahedron, nodes, middle + 0.1 * (middle - X))[a], 0);
   }

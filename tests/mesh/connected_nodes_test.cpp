@@ -54,7 +54,7 @@ TEST(UnjoinedNodes, are_none_within_a_piece) {
   Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {2, 2, 1}, BoxElements::hex8);
   const std::int32_t copy = mesh.n_nodes();  // of the middle of an edge at x = 0, for one element
   const std::int32_t split = mesh.corners(0)[3];
-  mesh.X.push_back(mesh.X[static_cast<std::size_t>(split)]);
+  mesh.X.push_back(mesh.X[split]);
   mesh.corner_node[3] = copy;
   EXPECT_EQ(count_unjoined(mesh, 1e-6), 0);
 }

@@ -35,8 +35,8 @@ Mesh numbered_at_random(Mesh mesh, unsigned seed) {
   std::mt19937 random(seed);
   std::shuffle(number.begin(), number.end(), random);
   const std::vector<Vec3> X = mesh.X;
-  for (std::size_t i = 0; i < X.size(); ++i) mesh.X[static_cast<std::size_t>(number[i])] = X[i];
-  for (std::int32_t& i : mesh.corner_node) i = number[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < X.size(); ++i) mesh.X[number[i]] = X[i];
+  for (std::int32_t& i : mesh.corner_node) i = number[i];
   mesh.node_sets.clear();
   return mesh;
 }

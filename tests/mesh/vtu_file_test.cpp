@@ -42,7 +42,7 @@ TEST(VtuFile, regions_may_be_floats_that_are_whole) {
   };
   const TestFolder folder;
   const Mesh mesh = read_mesh(folder.file("a.vtu", file("7 0")), 1);
-  EXPECT_EQ(mesh.region_name[static_cast<std::size_t>(mesh.element_region[0])], "region-7");
+  EXPECT_EQ(mesh.region_name[mesh.element_region[0]], "region-7");
   EXPECT_EQ(read_mesh(folder.file("b.vtu", file("7 0.5")), 1).region_name,
             std::vector<std::string>{""});
 }
@@ -74,7 +74,7 @@ std::vector<double> field_in(const std::string& content, const std::string& name
   const std::string_view text =
       std::string_view(content).substr(begin, content.find('<', begin) - begin);
   const VtuEncoding encoding{.is_zlib = true, .n_header_bytes = 8};
-  const std::string bytes = decode_vtu_data(ByteReader("f", content), encoding, text, 8 * n);
+  const std::string bytes = decode_vtu_data(FileReader("f", content), encoding, text, 8 * n);
   std::vector<double> values(n);
   std::memcpy(values.data(), bytes.data(), bytes.size());
   return values;
@@ -100,7 +100,7 @@ TEST(VtuFile, bytes_of_any_number_survive_base64_and_zlib) {
     std::string text;
     append_vtu_data(bytes, text);
     const VtuEncoding encoding{.is_zlib = true, .n_header_bytes = 8};
-    EXPECT_EQ(decode_vtu_data(ByteReader("f", text), encoding, text, bytes.size()), bytes);
+    EXPECT_EQ(decode_vtu_data(FileReader("f", text), encoding, text, bytes.size()), bytes);
     bytes += static_cast<char>(37 * n + 200);
   }
 }
@@ -109,7 +109,7 @@ TEST(VtuFile, bytes_of_any_number_survive_base64_and_zlib) {
 TEST(VtuFile, plain_base64_follows_the_standard) {
   const VtuEncoding encoding{};
   const auto decode = [&](const std::string& text, std::size_t n) {
-    return decode_vtu_data(ByteReader("f", text), encoding, text, n);
+    return decode_vtu_data(FileReader("f", text), encoding, text, n);
   };
   EXPECT_EQ(decode("BgAAAGZvb2Jhcg==", 6), "foobar");          // header and data in one stream
   EXPECT_EQ(decode(" BgAAAA==\n Zm9v\n YmFy ", 6), "foobar");  // header in a stream of its own
@@ -117,7 +117,7 @@ TEST(VtuFile, plain_base64_follows_the_standard) {
 
 TEST(VtuFile, a_wrong_size_is_named) {
   const std::string text = "BgAAAGZvb2Jhcg==";
-  EXPECT_EQ(error_of([&] { decode_vtu_data(ByteReader("f", text), {}, text, 8); }),
+  EXPECT_EQ(error_of([&] { decode_vtu_data(FileReader("f", text), {}, text, 8); }),
             "f:1: this array has 6 bytes, but 8 follow from the numbers of points and cells");
 }
 

@@ -377,8 +377,7 @@ TEST(InVain, volumes_of_a_mesh_file_are_regions_of_supports_and_loads) {
   Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(0.02, 0.02, 0.02), {2, 2, 2}, BoxElements::tet4_kuhn);
   mesh.region_name = {"upper", "floor"};
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-    mesh.element_region[static_cast<std::size_t>(e)] =
-        element_box(mesh, e, mesh.X).high.z() < 0.011 ? 1 : 0;
+    mesh.element_region[e] = element_box(mesh, e, mesh.X).high.z() < 0.011 ? 1 : 0;
   write_mesh(mesh, folder + "/m.msh");
   const auto run_with = [&](const std::string& region) {
     std::ofstream(folder + "/s.toml")

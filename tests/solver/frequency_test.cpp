@@ -57,8 +57,8 @@ TEST(HighestFrequency, that_is_below_what_is_of_interest_ends_the_search_early) 
     jitter(mesh, .05 * (k % 5), static_cast<unsigned>(k));
     if (k % 2 == 1) {
       const auto c = mesh.corners(37 * k % mesh.n_elements());
-      Vec3& X = mesh.X[static_cast<std::size_t>(c[0])];
-      X += .3 * (mesh.X[static_cast<std::size_t>(c[1])] - X);
+      Vec3& X = mesh.X[c[0]];
+      X += .3 * (mesh.X[c[1]] - X);
     }
     Body body = make_body(mesh);
     shake(body.state.u, 1e-3 * (k % 3), static_cast<unsigned>(k));
@@ -100,8 +100,7 @@ TEST(HighestFrequency, leaves_supported_components_out) {
   for (Eigen::Index i = 0; i < K.rows(); ++i)
     for (Eigen::Index j = 0; j < K.cols(); ++j)
       K(i, j) = i % 3 == 1 && j % 3 == 1
-                    ? K(i, j) / std::sqrt(body.model.mass[static_cast<std::size_t>(i / 3)] *
-                                          body.model.mass[static_cast<std::size_t>(j / 3)])
+                    ? K(i, j) / std::sqrt(body.model.mass[i / 3] * body.model.mass[j / 3])
                     : 0;
   const double omega = std::sqrt(eigenvalues(K).maxCoeff());
   EXPECT_NEAR(search(body, 1e-6, 300).omega / omega, 1, 1e-6);

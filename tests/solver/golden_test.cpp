@@ -75,7 +75,7 @@ TEST(Golden, volume_gradients_and_hourglass_stiffness_of_the_one_point_hexahedro
   ElementHex8::prepare(BlockValues<double>{value.data()}, Stash<double>{kept.data()});
   const auto b = [&](int m, int j) {
     return c.value[ElementHex8::value_inverse] *
-           kept[static_cast<std::size_t>((ElementHex8::kept_b + 3 * m + j) * block_lanes<double>)];
+           kept[(ElementHex8::kept_b + 3 * m + j) * block_lanes<double>];
   };
   for (int a = 0; a < 8; ++a) {
     const double x = xi[a][0], y = xi[a][1], z = xi[a][2];

@@ -17,7 +17,7 @@ using namespace trocar;
 
 static Body viscous_body(std::vector<PronyBranch> prony, MaterialModel model,
                          Precision precision = Precision::in_double, int element = 1) {
-  return make_body(irregular_elements()[static_cast<std::size_t>(element)],
+  return make_body(irregular_elements()[element],
                    {.materials = {viscous_material(std::move(prony), model)},
                     .solver = {.precision = precision}});
 }

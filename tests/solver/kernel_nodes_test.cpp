@@ -155,7 +155,7 @@ static void check_weight_less_sum() {
         node.data(), 2);
     // 4 (0.5, 0, -8) - (12, 13, 14) and 2 (0.5, 0, -8) - (4, 5, 6): exact.
     EXPECT_EQ(force, (std::vector<double>{-1, -1, -1, -3, -5, -22, -1, -1, -1, -10, -13, -46}));
-    for (const int k : {4, 5, 6, 12, 13, 14}) EXPECT_EQ(sum[static_cast<std::size_t>(k)], 0);
+    for (const int k : {4, 5, 6, 12, 13, 14}) EXPECT_EQ(sum[k], 0);
     EXPECT_EQ(sum[0], 0);
     EXPECT_EQ(sum[9], 9);
   });

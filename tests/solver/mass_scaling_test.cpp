@@ -53,7 +53,7 @@ Body scaled(const Body& body) {
 Eigen::MatrixXd dense_mass(const Model& model) {
   const auto n = static_cast<Eigen::Index>(model.mass.size());
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) M(i, i) = model.mass[static_cast<std::size_t>(i)];
+  for (Eigen::Index i = 0; i < n; ++i) M(i, i) = model.mass[i];
   const MassClusters& clusters = model.clusters;
   for (std::size_t c = 0; c + 1 < clusters.offset.size(); ++c) {
     Eigen::VectorXd d = Eigen::VectorXd::Zero(n);
@@ -106,8 +106,7 @@ TEST(MassScaling, adds_what_the_steps_of_the_elements_ask_for) {
   const MassScaling scaling = scaling_of(body, wanted);
   double expected = 0;
   for (std::int32_t e = 0; e < body.mesh.n_elements(); ++e) {
-    const double beta =
-        std::pow(wanted / body.model.element_step[static_cast<std::size_t>(e)], 2) - 1;
+    const double beta = std::pow(wanted / body.model.element_step[e], 2) - 1;
     const double mass = body.materials[0].density * element_volume(body.mesh, e, body.mesh.X);
     expected += mass * std::max(0., beta);
   }
@@ -212,14 +211,13 @@ TEST(MassScaling, is_inverted_in_closed_form_with_fixed_and_given_nodes) {
   const Eigen::MatrixXd M = dense_mass(model);
   for (Eigen::Index i = 0; i < M.rows(); ++i) {
     double Ma = 0;
-    for (Eigen::Index j = 0; j < M.cols(); ++j) Ma += M(i, j) * a[static_cast<std::size_t>(3 * j)];
-    EXPECT_NEAR(f[static_cast<std::size_t>(3 * i)], Ma, 1e-13 * M.maxCoeff());
+    for (Eigen::Index j = 0; j < M.cols(); ++j) Ma += M(i, j) * a[3 * j];
+    EXPECT_NEAR(f[3 * i], Ma, 1e-13 * M.maxCoeff());
   }
   std::vector<GivenAcceleration> given;
   for (const std::int32_t node : {model.clusters.node[1], model.clusters.node.back()}) {
     given.push_back({.node = node, .a = Vec3::Map(&a[3 * node])});
-    for (int j = 0; j < 3; ++j)
-      f[static_cast<std::size_t>(3 * node + j)] = 77;  // counts for nothing
+    for (int j = 0; j < 3; ++j) f[3 * node + j] = 77;  // counts for nothing
   }
   for (std::size_t k = 0; k < f.size(); ++k)
     if ((model.fixed[k / 3] >> k % 3 & 1) != 0) f[k] = -33;  // nor does that

@@ -21,21 +21,18 @@ std::vector<Mesh> meshes() {
 Eigen::MatrixXd operator_of(Refined& refined, double dt) {
   Body& body = refined.body;
   const auto n = static_cast<Eigen::Index>(body.state.u.size());
-  const auto mass = [&](Eigen::Index k) {
-    return inertia_of(body.model)[static_cast<std::size_t>(k / 3)];
-  };
+  const auto mass = [&](Eigen::Index k) { return inertia_of(body.model)[k / 3]; };
   const double h = 1e-7;
   Eigen::MatrixXd A(n, n);
   for (Eigen::Index k = 0; k < n; ++k) {
     std::vector<double> f[2];
     for (const int side : {0, 1}) {
-      body.state.u[static_cast<std::size_t>(k)] += side == 0 ? h : -h;
+      body.state.u[k] += side == 0 ? h : -h;
       f[side] = dt > 0 ? refined_force(refined, dt) : force(body);
-      body.state.u[static_cast<std::size_t>(k)] -= side == 0 ? h : -h;
+      body.state.u[k] -= side == 0 ? h : -h;
     }
     for (Eigen::Index i = 0; i < n; ++i)
-      A(i, k) = (f[1][static_cast<std::size_t>(i)] - f[0][static_cast<std::size_t>(i)]) /
-                (2 * h * std::sqrt(mass(i) * mass(k)));
+      A(i, k) = (f[1][i] - f[0][i]) / (2 * h * std::sqrt(mass(i) * mass(k)));
   }
   return A;
 }
@@ -46,7 +43,7 @@ double exact_limit(Refined& refined) {
   return stated_limit(refined, [&](const Body& body) {
     Eigen::MatrixXd free = A;
     for (Eigen::Index i = 0; i < A.rows(); ++i)
-      if (body.model.fixed[static_cast<std::size_t>(i / 3)] != 0) {
+      if (body.model.fixed[i / 3] != 0) {
         free.row(i).setZero();
         free.col(i).setZero();
       }

@@ -33,7 +33,7 @@ TEST(Relax, a_linear_body_comes_to_the_solution_of_its_stiffness_equations) {
     const std::vector<double> load = random_load(body, 1e-3);
     Eigen::VectorXd f = Eigen::Map<const Eigen::VectorXd>(load.data(), K.rows());
     for (Eigen::Index k = 0; k < K.rows(); ++k) {
-      if (body.model.fixed[static_cast<std::size_t>(k / 3)] == 0) continue;
+      if (body.model.fixed[k / 3] == 0) continue;
       K.row(k).setZero();
       K.col(k).setZero();
       K(k, k) = 1;

@@ -36,7 +36,7 @@ Mesh separate_copies(const Mesh& single) {
   constexpr std::array<std::int32_t, 8> place = {0, 1, 3, 2, 4, 5, 7, 6};
   const std::int32_t n = single.n_nodes();
   const auto node = [&](std::int32_t a, std::int32_t copy) {
-    return (n == 8 ? place[static_cast<std::size_t>(a)] : a) * n_copies + copy;
+    return (n == 8 ? place[a] : a) * n_copies + copy;
   };
   Mesh mesh;
   mesh.X.resize(static_cast<std::size_t>(n * n_copies));
@@ -44,7 +44,7 @@ Mesh separate_copies(const Mesh& single) {
     std::vector<std::int32_t> corner;
     for (std::int32_t a = 0; a < n; ++a) {
       corner.push_back(node(a, copy));
-      mesh.X[static_cast<std::size_t>(corner.back())] = single.X[static_cast<std::size_t>(a)];
+      mesh.X[corner.back()] = single.X[a];
     }
     add_element(mesh, single.element_type[0], corner);
   }

@@ -47,7 +47,7 @@ TEST(StudySweep, of_repeated_runs_the_median_and_the_least_time_are_kept) {
   int k = 0;
   problem.solve = [&](const Case& c) {
     Outcome outcome = solve_made_up(c);
-    outcome.stepping_seconds = 1e-3 * std::array{5, 2, 9}[static_cast<std::size_t>(k++ % 3)];
+    outcome.stepping_seconds = 1e-3 * std::array{5, 2, 9}[k++ % 3];
     return outcome;
   };
   const Study study =

@@ -18,6 +18,21 @@ std::unique_ptr<Started> built(const std::string& text, const std::vector<std::s
   return started;
 }
 
+std::unique_ptr<Started> block_of(const std::string& elements, int n) {
+  const std::string cells = std::to_string(n);
+  return built(R"([time]
+duration = "1 s"
+[tissue.shape]
+kind = "box"
+cells = [4, 4, 4]
+[tissue.material]
+young_modulus = "3 kPa"
+poisson_ratio = 0.45
+)",
+               {"tissue.shape.elements='" + elements + "'",
+                "tissue.shape.cells=[" + cells + "," + cells + "," + cells + "]"});
+}
+
 MeshEdit cut_across(const Simulation& s, const GlobalState& global, CutFigures& figures) {
   BladeSweep sweep;
   sweep.normal = Vec3(-0.3, 0, 1).normalized();

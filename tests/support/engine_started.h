@@ -26,6 +26,9 @@ struct Started {
 std::unique_ptr<Started> built(const std::string& text,
                                const std::vector<std::string>& overrides = {});
 
+// A block of n^3 irregular tetrahedra or hexahedra, at rest.
+std::unique_ptr<Started> block_of(const std::string& elements, int n = 4);
+
 // What a blade would do to the body, not done: it goes at once through all of a body within 2 cm of
 // the z axis, 18 degrees off the level, at z = 15 mm.
 MeshEdit cut_across(const Simulation& s, const GlobalState& global, CutFigures& figures);

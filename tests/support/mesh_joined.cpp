@@ -10,7 +10,7 @@ Mesh joined(Mesh mesh, const Mesh& other) {
   for (std::int32_t e = 0; e < other.n_elements(); ++e) {
     std::vector<std::int32_t> corner;
     for (const std::int32_t i : other.corners(e)) corner.push_back(i + n);
-    add_element(mesh, other.element_type[static_cast<std::size_t>(e)], corner);
+    add_element(mesh, other.element_type[e], corner);
   }
   return mesh;
 }

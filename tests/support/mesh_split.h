@@ -12,8 +12,7 @@ inline ElementSplit split_of(const Mesh& mesh, std::int32_t e) {
   ElementSplit split{.element = e};
   const auto tets = hex_tets(mesh, e);
   for (std::size_t k = 0; k < tets.size(); ++k)
-    for (std::size_t a = 0; a < 4; ++a)
-      split.corner[k][a] = mesh.corners(e)[static_cast<std::size_t>(tets[k][a])];
+    for (std::size_t a = 0; a < 4; ++a) split.corner[k][a] = mesh.corners(e)[tets[k][a]];
   return split;
 }
 

@@ -8,7 +8,7 @@ Eigen::MatrixXd tangent_stiffness(Body& body, double h) {
   const auto n = static_cast<Eigen::Index>(body.scratch.force.size());
   Eigen::MatrixXd K(n, n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    double& u = body.state.u[static_cast<std::size_t>(k)];
+    double& u = body.state.u[k];
     const double kept = u;
     u = kept + h;
     K.col(k) = -Eigen::Map<const Eigen::VectorXd>(force(body).data(), n);
@@ -24,8 +24,7 @@ double true_limit(Body& body, double h) {
   Eigen::MatrixXd K = tangent_stiffness(body, h);
   for (Eigen::Index i = 0; i < K.rows(); ++i)
     for (Eigen::Index j = 0; j < K.cols(); ++j)
-      K(i, j) /= std::sqrt(body.model.mass[static_cast<std::size_t>(i / 3)] *
-                           body.model.mass[static_cast<std::size_t>(j / 3)]);
+      K(i, j) /= std::sqrt(body.model.mass[i / 3] * body.model.mass[j / 3]);
   return 2 / std::sqrt(eigenvalues(K).maxCoeff());
 }
 

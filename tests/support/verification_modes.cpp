@@ -70,16 +70,14 @@ double highest_omega2(Body& body) {
   const auto n = static_cast<Eigen::Index>(body.scratch.force.size());
   const int n_steps = static_cast<int>(std::min<Eigen::Index>(80, n));
   Eigen::VectorXd scale(n);
-  for (Eigen::Index k = 0; k < n; ++k)
-    scale[k] = 1 / std::sqrt(body.model.mass[static_cast<std::size_t>(k / 3)]);
+  for (Eigen::Index k = 0; k < n; ++k) scale[k] = 1 / std::sqrt(body.model.mass[k / 3]);
   Noise noise(2);
   Eigen::MatrixXd Q(n, n_steps);
   Eigen::VectorXd q = Eigen::VectorXd::NullaryExpr(n, [&](auto) { return noise(); });
   Eigen::MatrixXd T = Eigen::MatrixXd::Zero(n_steps, n_steps);
   for (int k = 0; k < n_steps; ++k) {
     Q.col(k) = q.normalized();
-    for (Eigen::Index i = 0; i < n; ++i)
-      body.state.u[static_cast<std::size_t>(i)] = 1e-6 * scale[i] * Q(i, k);
+    for (Eigen::Index i = 0; i < n; ++i) body.state.u[i] = 1e-6 * scale[i] * Q(i, k);
     q = -1e6 * scale.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(force(body).data(), n));
     T.col(k).head(k + 1) = Q.leftCols(k + 1).transpose() * q;
     for (int twice = 0; twice < 2; ++twice)

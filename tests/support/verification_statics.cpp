@@ -36,7 +36,7 @@ double face_share(const Vec3& X, const Vec3& size, const std::array<int, 3>& n, 
   for (int j = 0; j < 3; ++j) {
     if (j == axis) continue;
     const bool is_edge = X[j] < 1e-9 * size[j] || X[j] > (1 - 1e-9) * size[j];
-    share *= (is_edge ? 0.5 : 1.0) / n[static_cast<std::size_t>(j)];
+    share *= (is_edge ? 0.5 : 1.0) / n[j];
   }
   return share;
 }

@@ -38,7 +38,7 @@ Body mixed_patch(const IsTet& is_tet) {
     const auto tets = hex_tets(mesh, e);
     for (std::size_t k = 0; k < tets.size(); ++k)
       for (std::size_t a = 0; a < 4; ++a)
-        edit.splits.back().corner[k][a] = mesh.corners(e)[static_cast<std::size_t>(tets[k][a])];
+        edit.splits.back().corner[k][a] = mesh.corners(e)[tets[k][a]];
   }
   apply_edit(edit, mesh);
   BodyOptions options{.materials = {{MaterialModel::neo_hookean, 3000, .4, 1000}}};

@@ -12,17 +12,17 @@
 
 namespace trocar {
 
-class ByteReader {
+class FileReader {
  public:
   // `bytes` outlives the reader.
-  ByteReader(std::string file, std::string_view bytes) : file_(std::move(file)), bytes_(bytes) {}
+  FileReader(std::string file, std::string_view bytes) : file_(std::move(file)), bytes_(bytes) {}
 
   const std::string& file() const { return file_; }
   std::size_t n_left() const { return bytes_.size() - at_; }
   std::size_t n_bytes() const { return bytes_.size(); }
   std::string_view rest() const { return bytes_.substr(at_); }
   // A reader of `part`, which lies in these bytes: its messages name the same lines.
-  ByteReader within(std::string_view part) const;
+  FileReader within(std::string_view part) const;
 
   // Text. White space is blank, tab, carriage return and new line.
   // True if nothing but white space is left (which is then skipped).

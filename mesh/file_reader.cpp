@@ -1,5 +1,5 @@
 // Bounded reading of text and binary numbers.
-#include "mesh/byte_reader.h"
+#include "mesh/file_reader.h"
 
 #include <algorithm>
 #include <charconv>
@@ -14,31 +14,31 @@ static bool is_space(char c) {
   return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == '\v' || c == '\f';
 }
 
-void ByteReader::skip_space() {
+void FileReader::skip_space() {
   while (at_ < bytes_.size() && is_space(bytes_[at_])) ++at_;
   begin_ = at_;
 }
 
-ByteReader ByteReader::within(std::string_view part) const {
+FileReader FileReader::within(std::string_view part) const {
   const auto begin = static_cast<std::size_t>(part.data() - bytes_.data());
-  ByteReader reader(file_, bytes_.substr(0, begin + part.size()));
+  FileReader reader(file_, bytes_.substr(0, begin + part.size()));
   reader.at_ = reader.begin_ = begin;
   return reader;
 }
 
-bool ByteReader::is_at_end() {
+bool FileReader::is_at_end() {
   skip_space();
   return at_ == bytes_.size();
 }
 
-std::string_view ByteReader::peek_word() {
+std::string_view FileReader::peek_word() {
   skip_space();
   std::size_t end = at_;
   while (end < bytes_.size() && !is_space(bytes_[end])) ++end;
   return bytes_.substr(at_, end - at_);
 }
 
-std::string_view ByteReader::word(const char* what) {
+std::string_view FileReader::word(const char* what) {
   const std::string_view found = peek_word();
   if (found.empty()) fail(std::string("the file ends where ") + what + " should stand");
   at_ += found.size();
@@ -51,7 +51,7 @@ static std::string_view without_plus(std::string_view text) {
   return has_plus ? text.substr(1) : text;
 }
 
-std::int64_t ByteReader::integer(const char* what) {
+std::int64_t FileReader::integer(const char* what) {
   const std::string_view text = without_plus(word(what));
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -62,7 +62,7 @@ std::int64_t ByteReader::integer(const char* what) {
   return value;
 }
 
-double ByteReader::real(const char* what) {
+double FileReader::real(const char* what) {
   const std::string_view text = without_plus(word(what));
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -74,7 +74,7 @@ double ByteReader::real(const char* what) {
   return value;
 }
 
-std::string_view ByteReader::line() {
+std::string_view FileReader::line() {
   begin_ = at_;
   const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
   std::string_view found = bytes_.substr(at_, end - at_);
@@ -83,12 +83,12 @@ std::string_view ByteReader::line() {
   return found;
 }
 
-bool ByteReader::is_at_line_end() {
+bool FileReader::is_at_line_end() {
   while (at_ < bytes_.size() && bytes_[at_] != '\n' && is_space(bytes_[at_])) ++at_;
   return at_ == bytes_.size() || bytes_[at_] == '\n';
 }
 
-void ByteReader::expect_word(std::string_view expected) {
+void FileReader::expect_word(std::string_view expected) {
   const std::string_view found = peek_word();
   if (found.empty())
     fail("the file ends where " + std::string(expected) + " should stand: it is cut off");
@@ -97,7 +97,7 @@ void ByteReader::expect_word(std::string_view expected) {
   at_ += found.size();
 }
 
-std::string_view ByteReader::take(std::size_t n, const char* what) {
+std::string_view FileReader::take(std::size_t n, const char* what) {
   begin_ = at_;
   if (n > n_left())
     fail(std::string("the file ends within ") + what + ": " + std::to_string(n) +
@@ -106,7 +106,7 @@ std::string_view ByteReader::take(std::size_t n, const char* what) {
   return bytes_.substr(begin_, n);
 }
 
-std::size_t ByteReader::check_count(std::int64_t n, std::size_t n_bytes_each,
+std::size_t FileReader::check_count(std::int64_t n, std::size_t n_bytes_each,
                                     const char* what) const {
   if (n < 0) fail("the number of " + std::string(what) + " is " + std::to_string(n));
   // The last thing of a text may lack its line end.
@@ -117,14 +117,14 @@ std::size_t ByteReader::check_count(std::int64_t n, std::size_t n_bytes_each,
   return static_cast<std::size_t>(n);
 }
 
-void ByteReader::fail(const std::string& sentence) const {
+void FileReader::fail(const std::string& sentence) const {
   if (is_binary) throw InputError(file_ + ": byte " + std::to_string(begin_) + ": " + sentence);
   const std::string_view before = bytes_.substr(0, begin_);
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   throw InputError(SourcePlace{file_, static_cast<int>(line), 0}, sentence);
 }
 
-void ByteReader::fail_file(const std::string& sentence) const {
+void FileReader::fail_file(const std::string& sentence) const {
   throw InputError(file_ + ": " + sentence);
 }
 

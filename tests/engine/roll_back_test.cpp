@@ -1,0 +1,55 @@
+#include "engine/roll_back.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "engine_started.h"
+
+namespace trocar {
+namespace {
+
+TEST(RollBack, halves_the_step_and_forgets_the_reactions_of_the_failed_frame) {
+  start_log(0, true);
+  Simulation s;
+  s.holds.reaction_sum = {Vec3(1, 2, 3)};
+  roll_back(s, {.t0 = 1}, s.watch, "element 7 is inverted", 0);
+  EXPECT_EQ(s.step_scale, 0.5);
+  EXPECT_EQ(s.log.n_roll_backs, 1);
+  EXPECT_EQ(s.holds.reaction_sum[0], Vec3::Zero());
+  ASSERT_EQ(s.log.events.size(), 1u);
+  EXPECT_TRUE(contains(s.log.events[0], "1.000 s: rolled back: element 7 is inverted"));
+}
+
+TEST(RollBack, gives_up_after_its_last_try_with_time_cause_and_place) {
+  const auto started = block_of("tet4-kuhn");
+  Simulation& s = *started->s;
+  const FrameSpan span{.t0 = 0.5, .t1 = 0.6};
+  const Watch failed{.least_J = -1, .least_J_element = 0};
+  for (int tries = 0; tries < most_roll_backs; ++tries) roll_back(s, span, failed, "t", tries);
+  const std::string sentence = error_of<SimulationError>(
+      [&] { roll_back(s, span, failed, "element 0 is inverted", most_roll_backs); });
+  EXPECT_TRUE(contains(sentence, "in the frame after 0.5 s: element 0 is inverted at (0.0"))
+      << sentence;
+  EXPECT_TRUE(contains(sentence, " m; 4 roll-backs")) << sentence;  // nothing moves
+  EXPECT_EQ(s.log.n_roll_backs, most_roll_backs);
+}
+
+TEST(RepeatFrame, keeps_the_new_stable_step_and_the_scale_and_says_why) {
+  start_log(0, true);
+  Simulation s;
+  s.watch.stable_step = 1e-4;
+  const double scale = s.step_scale;
+  repeat_frame(s, {.t0 = 0.5, .t1 = 0.6, .dt = 2e-4}, 0);
+  EXPECT_EQ(s.step_scale, scale);
+  EXPECT_EQ(s.watch.stable_step, 1e-4);
+  EXPECT_EQ(s.log.n_roll_backs, 1);
+  EXPECT_TRUE(
+      contains(s.log.events.back(), "stable step fell to 0.0001 s, below the step of 0.0002"))
+      << s.log.events.back();
+  s.watch.stable_element = -1;  // not known
+  EXPECT_THROW(repeat_frame(s, {.dt = 2e-4}, most_roll_backs), SimulationError);
+}
+
+}  // namespace
+}  // namespace trocar
