@@ -4,6 +4,7 @@
 
 #include "apps/read_scale.h"
 #include "apps/write_file.h"
+#include "base/box.h"
 #include "base/log.h"
 #include "cutting/cut_plane_paper.h"
 #include "mesh/mesh_file.h"

@@ -82,7 +82,7 @@ void add_run(CLI::App& app, CommandLine& line) {
   run->add_option("-o,--output", line.run.folder, "Folder for everything that is written")
       ->capture_default_str();
   run->add_flag(
-      "--resume", line.run.resume,
+      "--resume", line.run.is_resumed,
       "Continue the run that was stopped in the output folder from its last checkpoint, to "
       "the same bits, on any number of ranks and threads. The scene must be the same but for "
       "time.duration, time.pace, [checkpoint], cameras and outputs. Recording, metrics and "
@@ -221,9 +221,9 @@ void add_replay(CLI::App& app, CommandLine& line) {
   replay->add_option("recording", r.recording, "Recording (.trocar)")->required();
   replay->add_option("-o,--output", r.folder, "Folder")->capture_default_str();
   replay->add_option("--video", r.video, "Write a film of this name");
-  replay->add_flag("--frames", r.frames, "Write PNG files into frames/");
-  replay->add_flag("--vtu", r.vtu, "Write VTU files and recording.pvd");
-  replay->add_flag("--list", r.list, "Print frames, times and state digests");
+  replay->add_flag("--frames", r.writes_frames, "Write PNG files into frames/");
+  replay->add_flag("--vtu", r.writes_vtu, "Write VTU files and recording.pvd");
+  replay->add_flag("--list", r.is_list, "Print frames, times and state digests");
   replay->add_option("--from", r.from, "First time [s]");
   replay->add_option("--to", r.to, "Last time [s]");
   replay->add_option("--camera", r.camera, "Camera of the scene; the first if absent");

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "apps/read_scale.h"
+#include "base/box.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/threads.h"

@@ -1,6 +1,8 @@
 // A box along the axes, empty at first.
 #pragma once
 
+#include <span>
+
 #include "base/vec.h"
 
 namespace trocar {
@@ -21,9 +23,16 @@ struct Box {
            (box.low.array() <= high.array() + margin).all();
   }
   bool holds(const Vec3& p, double margin) const { return overlaps({p, p}, margin); }
+  Box grown(double margin) const { return {low.array() - margin, high.array() + margin}; }
   double distance2(const Vec3& p) const {
     return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
   }
 };
+
+inline Box bounding_box(std::span<const Vec3> points) {
+  Box box;
+  for (const Vec3& point : points) box.add(point);
+  return box;
+}
 
 }  // namespace trocar

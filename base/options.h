@@ -142,8 +142,6 @@ std::size_t read_choice(const OptionNode&, const std::vector<std::string>& names
 // TOML texts of values. A number reads back to the same bits; one that is not finite has the text
 // "".
 std::string number_text(double value);
-// Three digits, for sentences.
-std::string short_text(double value);
 // Of an item of a list in the scene: "support[2]".
 std::string item_path(const std::string& list, std::size_t number);
 std::string numbers_text(std::span<const double> values);

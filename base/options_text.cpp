@@ -1,7 +1,6 @@
 // Values and what is allowed as text: TOML for the echo, sentences for messages and help.
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "base/check.h"
 #include "base/options.h"
@@ -22,12 +21,6 @@ std::string number_text(double value) {
   std::string text = shortest_text(value);
   // Without a point or an exponent TOML reads an integer, and -0 would lose its sign.
   if (text.find_first_of(".e") == std::string::npos) text.append(".0");
-  return text;
-}
-
-std::string short_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
   return text;
 }
 

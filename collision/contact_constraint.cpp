@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/contact_clusters.h"
 #include "collision/contact_set.h"
 
 namespace trocar {
@@ -38,11 +39,16 @@ void add_constraint(double gap, double release, const Vec3& away, ContactConstra
     const std::size_t i = to_size(c.place[a]);
     relative += c.weight[a] * (set.x_end[i] - set.x_start[i]);
     const Vec3& by_mass = set.inverse_mass[i];
-    c.lever[a] = c.weight[a] * by_mass;
+    c.lever[a] = c.weight[a] * (set.clusters.is_empty() ? by_mass : set.clusters.alone[i]);
     inverse += c.weight[a] * c.weight[a] * by_mass.maxCoeff();
     along_n += c.weight[a] * c.weight[a] * yield_along(c.normal, by_mass);
     if (by_mass.maxCoeff() > 0) yielding = std::max(yielding, std::abs(c.weight[a]));
     lightest = std::max(lightest, std::abs(c.weight[a]) * by_mass.maxCoeff());
+  }
+  if (!set.clusters.is_empty()) {
+    const Vec3 joined = yield_of_clusters(c, set.clusters);
+    inverse += joined.maxCoeff();
+    along_n += c.normal.dot(joined.cwiseProduct(c.normal));
   }
   const double closing = c.normal.dot(relative), before = gap - closing;
   const double least = before < 0 ? std::min(0.0, before + release) : 0.0;
@@ -60,6 +66,7 @@ void add_constraint(double gap, double release, const Vec3& away, ContactConstra
 void apply_impulse(const ContactConstraint& c, const Vec3& impulse, ContactSet& set) {
   for (std::size_t a = 0; a < 4; ++a)
     set.move[to_size(c.place[a])] += c.lever[a].cwiseProduct(impulse);
+  if (!set.clusters.is_empty()) add_to_clusters(c, impulse, set.clusters);
 }
 
 Vec3 at_most(const Vec3& v, double most) {

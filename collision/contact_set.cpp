@@ -96,20 +96,38 @@ Vec3 inverse_mass(double mass, unsigned held) {
   return by_mass;
 }
 
+// Completes the inverse masses, which are those of nodes alone so far.
+void add_clusters(const ContactInertia& inertia, ContactSet& set) {
+  ContactClusters& clusters = set.clusters;
+  clusters.yield.assign(inertia.yield.begin(), inertia.yield.end());
+  clusters.impulse.resize(inertia.yield.size());
+  clusters.alone = set.inverse_mass;
+  for (std::size_t k = 0; k < set.node.size(); ++k) {
+    const std::int32_t i = set.node[k], c = inertia.cluster[i];
+    clusters.of.push_back(c);
+    clusters.share.push_back(Vec3::Zero());
+    if (c < 0) continue;
+    Vec3& share = clusters.share.back();
+    for (int j = 0; j < 3; ++j)
+      if (clusters.alone[k][j] != 0) share[j] = inertia.share[i];
+    set.inverse_mass[k] += share.cwiseProduct(share).cwiseProduct(clusters.yield[c]);
+  }
+}
+
 }  // namespace
 
 ContactSet prepare_contacts(const FoundContacts& contacts, std::span<const std::int32_t> node_owner,
-                            const Part& part, int rank, std::span<const double> mass,
-                            std::span<const std::uint8_t> held) {
+                            const Part& part, int rank, const ContactInertia& inertia) {
   ContactSet set{.node = nodes_of(contacts)};
   for (const std::int32_t i : set.node) {
     if (node_owner[to_size(i)] == rank) {
       set.owned.push_back(static_cast<std::int32_t>(set.inverse_mass.size()));
       set.local.push_back(part.node_local[to_size(i)]);
     }
-    set.inverse_mass.push_back(inverse_mass(mass[to_size(i)], held[to_size(i)]));
+    set.inverse_mass.push_back(inverse_mass(inertia.mass[i], inertia.held[i]));
   }
   if (set.owned.empty()) return {};
+  if (!inertia.cluster.empty()) add_clusters(inertia, set);
   add_items(contacts, set);
   set.x_start.resize(set.node.size());
   set.x_end.resize(set.node.size());

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "collision/contact_clusters.h"
 #include "collision/contact_constraint.h"
 #include "collision/detector.h"
 #include "collision/hull_manifold.h"
@@ -26,6 +27,17 @@ struct DeepestPiece {
 struct FoundContacts {
   std::span<const Contact> with_tools;
   std::span<const TissuePair> with_tissue = {};
+};
+
+// What moves by an impulse on a node, (n_nodes) of the whole mesh.
+struct ContactInertia {
+  std::span<const double> mass;        // [kg]
+  std::span<const std::uint8_t> held;  // components in which nothing moves it, bit 0 for x
+  // Where masses are joined by selective scaling, the nodes of a cluster move together, too: with
+  // impulses f, u_i = f_i / mass_i + share_i yield sum_j share_j f_j. Empty: none are.
+  std::span<const std::int32_t> cluster;  // -1: in none
+  std::span<const double> share;
+  std::span<const Vec3> yield;  // (n_clusters) by component [1/kg]
 };
 
 struct ContactSet {
@@ -82,8 +94,9 @@ struct ContactSet {
   std::vector<TissueNode> tissue_node;
   double way = 0;  // sum over the steps of the largest by which two nodes moved apart [m]
   // Nodes of the items, ascending by global number.
-  std::vector<std::int32_t> node;          // global numbers
-  std::vector<Vec3> inverse_mass;          // by component, 0: nothing moves it so [1/kg]
+  std::vector<std::int32_t> node;  // global numbers
+  std::vector<Vec3> inverse_mass;  // by component, 0: nothing moves it so [1/kg]
+  ContactClusters clusters;
   std::vector<std::int32_t> owned, local;  // of owned ones: places here, and local numbers
   std::vector<Vec3> x_start, x_end;  // positions around the step, without contact at its end [m]
   std::vector<Vec3> force;           // of the last step [N]
@@ -100,10 +113,8 @@ struct ContactSet {
   std::vector<Vec3> move;  // (node.size()) [m]
 };
 
-// node_owner, mass [kg], held (components in which nothing moves the node, bit 0 for x): (n_nodes)
-// global.
+// node_owner: (n_nodes) global.
 ContactSet prepare_contacts(const FoundContacts& contacts, std::span<const std::int32_t> node_owner,
-                            const Part& part, int rank, std::span<const double> mass,
-                            std::span<const std::uint8_t> held);
+                            const Part& part, int rank, const ContactInertia& inertia);
 
 }  // namespace trocar

@@ -218,21 +218,32 @@ struct Moves {
   }
 };
 
+// The contact point's, of a constraint that is worked on.
+Vec3 move_of(const ContactConstraint& c, const Moves& moves, const ContactSet& set) {
+  if (set.clusters.is_empty()) return moves.extra(c);
+  return moves.extra(c) + move_of_clusters(c, set.clusters);
+}
+
+void add(const ContactConstraint& c, const Vec3& impulse, Moves& moves, ContactSet& set) {
+  moves.add(c, impulse);
+  if (!set.clusters.is_empty()) add_to_clusters(c, impulse, set.clusters);
+}
+
 // Returns the square of the way that the contact point went.
-double project(double friction, ContactConstraint& c, std::span<Vec3> move) {
-  Moves moves(c, move);
-  const Vec3 before = moves.extra(c);
+double project(double friction, ContactConstraint& c, ContactSet& set) {
+  Moves moves(c, set.move);
+  const Vec3 before = move_of(c, moves, set);
   const double push =
       std::clamp(c.push + c.felt_mass * (c.lack - c.normal.dot(before)), 0.0, c.most_push);
   if (push == 0 && c.push == 0) return 0;
-  moves.add(c, (push - c.push) * c.normal);
+  add(c, (push - c.push) * c.normal, moves, set);
   c.push = push;
-  const Vec3 now = moves.extra(c), along = now - c.normal.dot(now) * c.normal;
+  const Vec3 now = move_of(c, moves, set), along = now - c.normal.dot(now) * c.normal;
   const Vec3 drag = at_most(c.drag - c.slip_mass * (c.slip + along), friction * push);
-  moves.add(c, drag - c.drag);
+  add(c, drag - c.drag, moves, set);
   c.drag = drag;
-  moves.put_back(c, move);
-  return (moves.extra(c) - before).squaredNorm();
+  moves.put_back(c, set.move);
+  return (move_of(c, moves, set) - before).squaredNorm();
 }
 
 // At a hull, which then sees as far as needed until the triangle has moved.
@@ -283,28 +294,29 @@ void solve_contacts(const ContactDetector& detector, const ContactStep& step,
   add_tissue({.number = step.number, .dt = step.dt}, release, set);
   double deepest = 0;
   for (const ContactConstraint& c : constraints) deepest = std::max(deepest, c.lack);
-  std::fill(set.move.begin(), set.move.end(), Vec3::Zero());
+  std::ranges::fill(set.move, Vec3::Zero());
+  std::ranges::fill(set.clusters.impulse, Vec3::Zero());
   begin_tissue(step.number, options.friction, set);
   double change = deepest;
   for (int round = 0; round < most_rounds && change > good_enough * deepest; ++round) {
     double change2 = 0;
     for (ContactConstraint& c : constraints)
-      change2 = std::max(change2, project(options.friction, c, set.move));
+      change2 = std::max(change2, project(options.friction, c, set));
     change = std::sqrt(change2);
   }
   end_tissue(step.number, set);
-  std::fill(set.force.begin(), set.force.end(), Vec3::Zero());
+  std::ranges::fill(set.force, Vec3::Zero());
   for (const ContactConstraint& c : constraints) {
     const Vec3 force = (c.push * c.normal + c.drag) / step.response;
     Vec3 sum = Vec3::Zero();
     for (std::size_t a = 0; a < 4; ++a) {
       // Instruments pass through what is held; tissue bears on it.
-      const bool is_held = set.inverse_mass[to_size(c.place[a])].maxCoeff() == 0;
+      const bool is_held = set.inverse_mass[c.place[a]].maxCoeff() == 0;
       if (is_held && c.item >= 0) continue;
-      set.force[to_size(c.place[a])] += c.weight[a] * force;
+      set.force[c.place[a]] += c.weight[a] * force;
       sum += c.weight[a] * force;
     }
-    if (c.item >= 0) set.items[to_size(c.item)].reaction_sum -= sum;
+    if (c.item >= 0) set.items[c.item].reaction_sum -= sum;
   }
 }
 

@@ -149,8 +149,7 @@ std::vector<Box> search_boxes(const PosedPiece& piece) {
         boxes[k].add(piece.to_world(
             point_at({points[0], points[1]}, static_cast<double>(end) / static_cast<double>(n))));
     }
-    boxes[k].low.array() -= reach;
-    boxes[k].high.array() += reach;
+    boxes[k] = boxes[k].grown(reach);
   }
   return boxes;
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/box.h"
+
 namespace trocar {
 
 namespace {
@@ -158,11 +160,9 @@ PieceCore make_core(const ConvexPiece& piece) {
                  .least_flatness = piece.least_flatness,
                  .deepest = piece.deepest,
                  .has_edge = piece.has_edge};
-  core.low = core.high = core.points[0];
-  for (const Vec3& p : core.points) {
-    core.low = core.low.cwiseMin(p);
-    core.high = core.high.cwiseMax(p);
-  }
+  const Box box = bounding_box(core.points);
+  core.low = box.low;
+  core.high = box.high;
   if (core.points.size() < 3) return core;
   core.thickness = (core.high - core.low).minCoeff();
   core.hull.emplace(core.points);
@@ -176,11 +176,7 @@ namespace {
 // and the piece is in front of it (a hull: its centre), or so far beside that nothing lies straight
 // below.
 bool is_out_of_reach(const PieceCore& core, const Facet& facet, double reach) {
-  Vec3 low = facet.x[0], high = low;
-  for (const Vec3& x : facet.x) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
+  const auto [low, high] = bounding_box(facet.x);
   const Vec3 apart = (low - core.high).cwiseMax(core.low - high);
   if (apart.cwiseMax(0.0).squaredNorm() <= reach * reach) return false;
   if (!core.hull)

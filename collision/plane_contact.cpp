@@ -5,6 +5,8 @@
 #include <limits>
 #include <tuple>
 
+#include "base/segment.h"
+
 namespace trocar {
 
 namespace {
@@ -144,8 +146,7 @@ TrianglePoint on_edge(const Segment& edge, double t) {
 }
 
 TrianglePoint straight_above(const Vec3& core, const Segment& edge) {
-  const Vec3 along = edge[1] - edge[0];
-  return on_edge(edge, std::clamp((core - edge[0]).dot(along) / along.squaredNorm(), 0.0, 1.0));
+  return on_edge(edge, share_to(edge[0], Vec3(edge[1] - edge[0]), core));
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/segment.h"
+
 namespace trocar {
 
 // Facets that meet at more than 40 degrees make a sharp edge; an edge that bends by more is a
@@ -37,9 +39,8 @@ static std::vector<BoundFacet> outer_facets(const CutPatch& patch, const CutStro
       if (patch.across[e][f] >= 0 || patch.corner[e][f] == i) continue;
       if (is_opened(patch, stroke, e, f)) continue;
       const std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);
-      const Vec3& o = patch.X[node[0]];
-      outer.push_back({node, (patch.X[node[1]] - o).cross(patch.X[node[2]] - o),
-                       (cut_facets[patch.element[e]] >> f & 1) != 0});
+      outer.push_back(
+          {node, facet_normal(patch, node), (cut_facets[patch.element[e]] >> f & 1) != 0});
     }
   }
   return outer;
@@ -60,11 +61,7 @@ static void add_interfaces(const CutPatch& patch, std::int32_t i, std::vector<Bo
       const std::int32_t u = patch.across[e][f];
       if (u < 0 || patch.corner[e][f] == i || patch.region[e] >= patch.region[u]) continue;
       const std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);
-      const Vec3& o = patch.X[node[0]];
-      bound.push_back({node,
-                       (patch.X[node[1]] - o).cross(patch.X[node[2]] - o),
-                       false,
-                       {patch.region[e], patch.region[u]}});
+      bound.push_back({node, facet_normal(patch, node), false, {patch.region[e], patch.region[u]}});
     }
 }
 
@@ -142,13 +139,6 @@ NodeBoundary node_boundary(const CutPatch& patch, const CutStroke& stroke,
   boundary.freedom = end.empty() ? NodeFreedom::surface : NodeFreedom::fixed;
   boundary.direction = normal.normalized();
   return boundary;
-}
-
-Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& X) {
-  const Vec3 d = b - a;
-  if (!(d.squaredNorm() > 0)) return a;
-  const double s = d.dot(X - a) / d.squaredNorm();
-  return a + std::clamp(s, 0.0, 1.0) * d;
 }
 
 // The foot of the perpendicular if it lies inside, else the nearest point of the three sides.

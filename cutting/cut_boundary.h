@@ -34,8 +34,6 @@ NodeBoundary node_boundary(const CutPatch& patch, const CutStroke& stroke,
 std::vector<Vec3> outer_normals(const CutPatch& patch, const CutStroke& stroke,
                                 std::span<const std::uint8_t> cut_facets, std::int32_t i);
 
-// Of the points between a and b, which may be one.
-Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& X);
 // The nearest allowed position.
 Vec3 project_to_boundary(const NodeBoundary& boundary, const Vec3& X);
 // Part of a displacement that is allowed to first order.

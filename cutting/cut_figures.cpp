@@ -18,7 +18,10 @@ const char* reason_of(const CutRefusal& refusal) {
       "which can't go to the blade: finer elements there, or a path farther from them",
       "a slice thinner than some third of an element stays with nodes of the outer surface or of "
       "an older cut, which can't go to the blade: finer elements there, or another path",
-      "tissue there is pressed together so far that an element would be inverted"};
+      "tissue there is pressed together so far that an element would be inverted",
+      "the blade has gone all around, and what is inside hangs by a neck of few elements: a deeper "
+      "way, "
+      "or one that ends beside the point where it comes together"};
   return text[refusal.reason];
 }
 

@@ -21,6 +21,7 @@ struct CutRefusal {
     slice_held,  // a stretch thinner than the mesh can show stays with held nodes …
     slice,       // … or with others of the outer surface or of a lip, which slide in that alone
     crushed,     // plane cuts: an element there would be inverted in the deformed body
+    neck,        // of few elements, all around which the blade has gone
     n_reasons
   };
   Vec3 X = Vec3::Zero();  // its centre, that of the stretch, or where the blade crossed the first

@@ -15,7 +15,7 @@ bool is_index_of(const CutIndex& index, const Mesh& mesh) {
          (index.corner_node == nullptr || index.corner_node == mesh.corner_node.data());
 }
 
-// A number for the facet, whatever the order of its nodes (the mixing of splitmix64).
+// A number for the facet, whatever the order of its nodes (mixed as in splitmix64).
 static std::uint64_t facet_key(std::span<const std::int32_t> corner, const std::array<int, 4>& f) {
   std::array<std::int32_t, 4> node{-1, -1, -1, -1};
   for (std::size_t k = 0; k < 4; ++k)

@@ -21,9 +21,7 @@ static constexpr double capacity_unit = 1e4;
 
 double facet_cost(const CutSurroundings& around, std::int32_t e, int f) {
   const std::array<std::int32_t, 3> node = facet_nodes(around.patch, e, f);
-  const Vec3& o = around.patch.X[node[0]];
-  const Vec3 normal = (around.patch.X[node[1]] - o).cross(around.patch.X[node[2]] - o);
-  double cost = area_weight * normal.norm() / (around.h * around.h);
+  double cost = area_weight * facet_normal(around.patch, node).norm() / (around.h * around.h);
   for (const std::int32_t i : node) cost += around.surface_cost[i];
   return cost;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/segment.h"
 #include "cutting/cut_boundary.h"
 #include "cutting/cut_missed_slice.h"
 #include "cutting/cut_slice.h"
@@ -47,6 +48,9 @@ struct LipEdge {
   std::array<std::int32_t, 2> node;  // ascending
   std::int32_t opposite;
 };
+
+// Its nodes, ascending.
+using RimEdge = std::array<std::int32_t, 2>;
 
 }  // namespace
 
@@ -106,7 +110,7 @@ static void add_joined_facets(const After& after, const CutStroke& stroke,
 
 // Both lips of an opened facet are triangles with the same corners in space; where they share an
 // edge, the opening ends.
-static void add_rims(const After& after, const CutStroke& stroke, std::vector<CutRefusal>& places) {
+static std::vector<RimEdge> rim_edges(const After& after, const CutStroke& stroke) {
   std::vector<LipEdge> edge;
   for (const auto& [e, mask] : stroke.opened) {
     if (is_of_another(stroke, e)) continue;
@@ -121,11 +125,51 @@ static void add_rims(const After& after, const CutStroke& stroke, std::vector<Cu
     }
   }
   std::ranges::sort(edge, {}, [](const LipEdge& l) { return std::pair{l.node, l.opposite}; });
+  std::vector<RimEdge> rim;
   for (std::size_t k = 1; k < edge.size(); ++k) {
     const auto& [node, opposite] = edge[k];
     if (node != edge[k - 1].node || opposite == edge[k - 1].opposite) continue;
-    if (after.X(opposite) != after.X(edge[k - 1].opposite)) continue;
+    if (after.X(opposite) == after.X(edge[k - 1].opposite)) rim.push_back(node);
+  }
+  return rim;
+}
+
+static void add_rims(const After& after, std::span<const RimEdge> rim,
+                     std::vector<CutRefusal>& places) {
+  for (const RimEdge& node : rim)
     places.push_back({(after.X(node[0]) + after.X(node[1])) / 2, CutRefusal::missed});
+}
+
+// Nodes of the rim that hang together with `first`, ascending; more than `most` if they are so
+// many.
+static std::vector<std::int32_t> nodes_with(std::int32_t first, std::span<const RimEdge> rim,
+                                            std::size_t most) {
+  std::vector<std::int32_t> node = {first};
+  for (std::size_t k = 0; k < node.size() && node.size() <= most; ++k)
+    for (const RimEdge& edge : rim)
+      for (const std::size_t end : {0, 1})
+        if (edge[end] == node[k] && std::ranges::find(node, edge[1 - end]) == node.end())
+          node.push_back(edge[1 - end]);
+  std::ranges::sort(node);
+  return node;
+}
+
+// Where a short rim runs into itself, the blade has gone around a neck, which may be an element
+// wide. A longer one is the front of a cut around what it has not undermined yet.
+static void add_necks(const After& after, std::span<const RimEdge> rim,
+                      std::vector<CutRefusal>& places) {
+  constexpr std::size_t longest = 12;  // edges
+  for (const RimEdge& first : rim) {
+    const std::vector<std::int32_t> node = nodes_with(first[0], rim, longest);
+    if (node.front() != first[0] || node.size() > longest) continue;
+    const auto degree = [&](std::int32_t i) {
+      return std::ranges::count_if(rim, [&](const RimEdge& e) { return e[0] == i || e[1] == i; });
+    };
+    if (!std::ranges::all_of(node, [&](std::int32_t i) { return degree(i) == 2; })) continue;
+    Vec3 middle = Vec3::Zero();
+    for (const std::int32_t i : node) middle += after.X(i) / static_cast<double>(node.size());
+    if (std::ranges::none_of(places, [&](const CutRefusal& p) { return p.X == middle; }))
+      places.push_back({middle, CutRefusal::neck});
   }
 }
 
@@ -153,12 +197,20 @@ std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut,
   }
   add_unparted(cut, stroke, places);
   add_joined_facets(after, stroke, places);
-  add_rims(after, stroke, places);
+  const std::vector<RimEdge> rim = rim_edges(after, stroke);
+  add_rims(after, rim, places);
   if (has_come_out(stroke)) {
     const std::vector<CutRefusal> slices = missed_slices(mesh, cut.around, stroke);
     places.insert(places.end(), slices.begin(), slices.end());
   }
   std::erase_if(places, [&](const CutRefusal& place) { return is_at_end(stroke, place.X); });
+  return places;
+}
+
+std::vector<CutRefusal> necks(const Mesh& mesh, const TetCut& cut, const CutStroke& stroke) {
+  const After after{mesh, cut};
+  std::vector<CutRefusal> places;
+  add_necks(after, rim_edges(after, stroke), places);
   return places;
 }
 

@@ -15,5 +15,8 @@ namespace trocar {
 // are not open, edges where both lips of an opened facet hang together, and, if the blade has left,
 // slices too thin to show.
 std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut, const CutStroke& stroke);
+// At the end of any stroke: the necks by which hangs what it has gone all around, as in a closed
+// ring that comes to a point.
+std::vector<CutRefusal> necks(const Mesh& mesh, const TetCut& cut, const CutStroke& stroke);
 
 }  // namespace trocar

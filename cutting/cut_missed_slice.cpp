@@ -39,11 +39,6 @@ static bool is_held(const CutPatch& patch, std::int32_t i) {
   return patch.is_locked[i] != 0 && patch.is_bent[i] == 0;
 }
 
-static double area_of(const CutPatch& patch, const std::array<std::int32_t, 3>& node) {
-  const Vec3& o = patch.X[node[0]];
-  return 0.5 * (patch.X[node[1]] - o).cross(patch.X[node[2]] - o).norm();
-}
-
 static bool bounds_slice(const Mesh& mesh, const CutSurroundings& around, std::int32_t e, int f) {
   const CutPatch& patch = around.patch;
   if (patch.across[e][f] >= 0) return false;
@@ -68,7 +63,7 @@ static std::vector<SliceFacet> slice_facets(const Mesh& mesh, const CutSurroundi
     for (int f = 0; side[e] == nullptr && !hits[e].empty() && f < 4; ++f) {
       if (!bounds_slice(mesh, around, e, f)) continue;
       const std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);
-      facet.push_back({e, node, area_of(patch, node)});
+      facet.push_back({e, node, 0.5 * facet_normal(patch, node).norm()});
     }
   return facet;
 }

@@ -28,6 +28,11 @@ std::array<std::int32_t, 3> facet_nodes(const CutPatch& patch, std::int32_t e, i
   return {corner[facet[0]], corner[facet[1]], corner[facet[2]]};
 }
 
+Vec3 facet_normal(const CutPatch& patch, const std::array<std::int32_t, 3>& node) {
+  const Vec3& o = patch.X[node[0]];
+  return (patch.X[node[1]] - o).cross(patch.X[node[2]] - o);
+}
+
 int facet_towards(const CutPatch& patch, std::int32_t e, std::int32_t u) {
   const std::array<std::int32_t, 4>& across = patch.across[e];
   return static_cast<int>(std::find(across.begin(), across.end(), u) - across.begin());

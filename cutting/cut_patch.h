@@ -59,6 +59,8 @@ CutPatch make_patch(const Mesh& mesh, CutIndex& index, PresentPositions& positio
 inline constexpr std::array<std::array<int, 3>, 4> tet_facets{
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 std::array<std::int32_t, 3> facet_nodes(const CutPatch& patch, std::int32_t e, int f);
+// Outward and twice as long as its area [m^2].
+Vec3 facet_normal(const CutPatch& patch, const std::array<std::int32_t, 3>& node);
 // The facet of `e` that neighbour `u` lies behind.
 int facet_towards(const CutPatch& patch, std::int32_t e, std::int32_t u);
 

@@ -214,17 +214,14 @@ void mark_border(const Extraction& extraction, std::span<const BorderEdge> borde
 void mark_interfaces(const Mesh& mesh, PlanePatch& patch) {
   if (mesh.region_name.size() < 2) return;
   patch.is_interface.assign(patch.node.size(), 0);
-  for (int e = 0; e < patch.n_elements(); ++e)
-    for (int f = 0; f < 3; ++f) {
-      const int g = patch.across[e][f];
-      if (g < e || patch.region[e] == patch.region[g]) continue;
-      for (const int i : {patch.corner[e][(f + 1) % 3], patch.corner[e][(f + 2) % 3]}) {
-        patch.is_interface[i] = 1;
-        if (patch.is_boundary[i] == 0) continue;
-        patch.is_sharp[i] = 1;
-        patch.side[i] = Vec2::Zero();
-      }
+  for_interface_edges(patch, [&](int a, int b) {
+    for (const int i : {a, b}) {
+      patch.is_interface[i] = 1;
+      if (patch.is_boundary[i] == 0) continue;
+      patch.is_sharp[i] = 1;
+      patch.side[i] = Vec2::Zero();
     }
+  });
 }
 
 }  // namespace

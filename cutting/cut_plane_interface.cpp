@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/segment.h"
+
 namespace trocar {
 
 namespace {
@@ -39,12 +41,7 @@ struct Search {
 
 std::vector<Edge> interface_edges(const PlanePatch& patch) {
   std::vector<Edge> edge;
-  for (int e = 0; e < patch.n_elements(); ++e)
-    for (int f = 0; f < 3; ++f) {
-      const int g = patch.across[e][f];
-      if (g < e || patch.region[e] == patch.region[g]) continue;
-      edge.push_back({patch.corner[e][(f + 1) % 3], patch.corner[e][(f + 2) % 3]});
-    }
+  for_interface_edges(patch, [&](int i, int j) { edge.push_back({i, j}); });
   return edge;
 }
 
@@ -200,9 +197,8 @@ void extend(Search& search, bool at_start, bool at_end) {
 double interface_distance(const Search& search, const Vec2& p) {
   double least = std::numeric_limits<double>::max();
   for (const auto& [i, j] : search.edge) {
-    const Vec2 &a = search.patch.X[i], d = search.patch.X[j] - a;
-    const double t = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
-    least = std::min(least, (p - a - t * d).norm());
+    const Vec2 foot = nearest_on_segment(search.patch.X[i], search.patch.X[j], p);
+    least = std::min(least, (p - foot).norm());
   }
   return least;
 }

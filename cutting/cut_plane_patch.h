@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "base/segment.h"
 #include "base/vec.h"
 #include "cutting/cut_constraints.h"
 #include "mesh/mesh.h"
@@ -70,10 +71,6 @@ inline bool is_in_triangle(const Vec2& a, const Vec2& b, const Vec2& c, const Ve
   return triangle_area(a, b, p) >= least && triangle_area(b, c, p) >= least &&
          triangle_area(c, a, p) >= least;
 }
-// Which share of the segment from a along d leads to its point nearest to p.
-inline double share_to(const Vec2& a, const Vec2& d, const Vec2& p) {
-  return std::min(1.0, std::max(0.0, (p - a).dot(d) / d.squaredNorm()));
-}
 // 4 sqrt(3) A / sum l^2: 1 for equilateral, <= 0 for inverted triangles.
 inline double quality(const Vec2& a, const Vec2& b, const Vec2& c) {
   const double four_sqrt_3 = 6.928203230275509;
@@ -132,6 +129,16 @@ struct PatchFacet {
   int element = -1;
   int facet = -1;
 };
+// Calls use(i, j) for each edge between two regions.
+template <class Use>
+void for_interface_edges(const PlanePatch& patch, const Use& use) {
+  for (int e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; f < 3; ++f) {
+      const int g = patch.across[e][f];
+      if (g >= e && patch.region[e] != patch.region[g])
+        use(patch.corner[e][(f + 1) % 3], patch.corner[e][(f + 2) % 3]);
+    }
+}
 // The element to the left of the edge from a to b, with the facet that the edge is; -1 if none.
 PatchFacet find_edge(const PlanePatch& patch, int a, int b);
 // The same facet from the other side; `element` is negative on the boundary and the rim.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/segment.h"
 #include "cutting/cut_plane_path.h"
 #include "mesh/facets.h"
 
@@ -25,7 +26,7 @@ struct Lip {
   Vec2 foot(const Vec2& p) const { return from + share_to(from, along, p) * along; }
   bool is_beside(const Vec2& p) const {
     constexpr double slack = 0.05;  // over the lip's length: an end may have slid along a surface
-    const double t = (p - from).dot(along) / along.squaredNorm();
+    const double t = share_on_line(from, along, p);
     return t >= -slack && t <= 1 + slack;
   }
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "base/segment.h"
 #include "base/sort_unique.h"
 #include "cutting/cut_follow.h"
 
@@ -93,7 +94,7 @@ static void split_hit(const Inserted& after, const ElementSplit& split, const Cu
   const auto [c, d] = tet_edges[hit.edge];
   const std::int32_t a = whole[c], b = whole[d];
   const Vec3 way = after.mesh.X[b] - after.mesh.X[a];
-  const double s = way.dot(hit.X - after.mesh.X[a]) / way.squaredNorm();
+  const double s = share_on_line(after.mesh.X[a], way, hit.X);
   for (std::int32_t k = 0; k < split.n_tets; ++k)
     for (std::int32_t e = 0; e < 6; ++e) {
       const Tet& part = split.corner[k];

@@ -187,6 +187,7 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
   figures = make_figures(cut, is_last);
   remember(cut, mesh, stroke);
   if (is_looked_over) add_refusals(missed_places(mesh, cut, stroke), figures);
+  if (is_last) add_refusals(necks(mesh, cut, stroke), figures);
   MeshEdit edit = make_edit(mesh, cut);
   edit_index(mesh, edit, index);
   return edit;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/segment.h"
 #include "base/sort_unique.h"
 
 namespace trocar {
@@ -302,7 +303,7 @@ static void find_crossed_edges(const Crossings& c, ThinSlice& slice) {
     if (std::ranges::binary_search(patch.border, BorderEdge{a, b})) return;
     const Vec3 way = patch.X[b] - patch.X[a];
     slice.crossing.push_back(
-        {.end = {patch.node[a], patch.node[b]}, .s = way.dot(X - patch.X[a]) / way.squaredNorm()});
+        {.end = {patch.node[a], patch.node[b]}, .s = share_on_line(patch.X[a], way, X)});
   };
   for (const std::int32_t i : slice.node) for_crossed(c, i, add);
   for (const std::int32_t i : slice.rim) for_crossed(c, i, add);

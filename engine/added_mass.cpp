@@ -1,10 +1,12 @@
 #include "engine/added_mass.h"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "base/box.h"
 #include "base/log.h"
+#include "base/number_text.h"
 #include "engine/frame_report.h"
+#include "engine/point_text.h"
 #include "engine/simulation.h"
 
 namespace trocar {
@@ -27,23 +29,19 @@ AddedMass measure(const MassScaling& scaling, const Simulation& s) {
         added.largest_cluster, scaling.offset[static_cast<std::size_t>(c) + 1] - scaling.offset[c]);
   const auto most = std::max_element(scaling.added.begin(), scaling.added.end());
   added.heaviest_node = scaling.node[most - scaling.added.begin()];
-  added.low = added.high = s.mesh.X[added.heaviest_node];
-  for (const std::int32_t node : scaling.node) {
-    added.low = added.low.cwiseMin(s.mesh.X[node]);
-    added.high = added.high.cwiseMax(s.mesh.X[node]);
-  }
+  Box box;
+  for (const std::int32_t node : scaling.node) box.add(s.mesh.X[node]);
+  added.low = box.low;
+  added.high = box.high;
   return added;
 }
 
 std::string sentence(const AddedMass& added, const Simulation& s) {
-  const Vec3 X = s.mesh.X[added.heaviest_node];
-  char text[240];
-  std::snprintf(text, sizeof text,
-                "mass scaling adds %.3g kg, %.3g %% of the body, to %d nodes of %d elements in %d "
-                "clusters, most at node %d (%.4g %.4g %.4g m)",
-                added.mass, 100 * added.share, added.n_nodes, added.n_elements, added.n_clusters,
-                added.heaviest_node, X[0], X[1], X[2]);
-  return text;
+  return "mass scaling adds " + short_text(added.mass) + " kg, " + short_text(100 * added.share) +
+         " % of the body, to " + std::to_string(added.n_nodes) + " nodes of " +
+         std::to_string(added.n_elements) + " elements in " + std::to_string(added.n_clusters) +
+         " clusters, most at node " + std::to_string(added.heaviest_node) + " at " +
+         point_text(s.mesh.X[added.heaviest_node]) + " m";
 }
 
 }  // namespace

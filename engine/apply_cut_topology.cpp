@@ -26,7 +26,7 @@ void update_mass(const SubMesh& around, std::span<const std::int32_t> nodes, Sim
 
 // Pieces join nowhere, and part only where the elements around an edit part.
 void update_pieces(const SubMesh& around, Simulation& s) {
-  if (count_pieces(around.mesh) > 1) s.n_pieces = count_pieces(s.mesh);
+  if (count_pieces(around.mesh) > 1) find_pieces(s);
 }
 
 void update_least(Simulation& s, const ModelEdit& edit) {

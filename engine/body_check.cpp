@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/log.h"
+#include "base/number_text.h"
 #include "base/options.h"
 #include "engine/support_check.h"
 #include "engine/unused_keys.h"

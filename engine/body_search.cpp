@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/number_text.h"
 #include "base/options.h"
 #include "engine/frame_report.h"
 #include "engine/part_search.h"
@@ -61,7 +62,12 @@ double step_with_local_steps(Simulation& s, double step_without) {
 double step_of_frequency(Simulation& s) {
   if (s.sleep) show_awake(s);  // the step must do when they wake
   double step = search_step(s);
-  if (s.multirate) step = step_with_local_steps(s, step);
+  s.look.of_small = 1;
+  if (s.multirate && step > 0) {
+    const double without = step;
+    step = step_with_local_steps(s, without);
+    s.look.of_small = without / step;
+  }
   if (s.sleep) show_asleep(s);
   return step;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/number_text.h"
 #include "base/on_root.h"
 #include "cutting/cut_hex.h"
 #include "engine/body_check.h"
@@ -187,15 +187,13 @@ void check_slow_element(const LoadedScene& loaded, const Simulation& s) {
   constexpr double many_substeps = 20000, too_many_substeps = 1e6;
   const double n = 1 / (s.scene.time.frame_rate * s.scene.solver.step_factor * s.watch.stable_step);
   if (n < many_substeps) return;
-  char figures[120];
-  std::snprintf(figures, sizeof figures,
-                "a frame needs %.3g steps, because element %d allows only %.3g s", n,
-                static_cast<int>(s.watch.stable_element), s.watch.stable_step);
   const std::string sentence =
-      figures + std::string(
-                    " a step: it is a sliver (\"trocar mesh\" shows the mesh's quality), or "
-                    "its material is too stiff, too light or too near poisson_ratio = 0.5, or "
-                    "solver.step_factor or time.frame_rate is too small");
+      "a frame needs " + short_text(n) + " steps, because element " +
+      std::to_string(s.watch.stable_element) + " allows only " + short_text(s.watch.stable_step) +
+      " s a step: it is a sliver (\"trocar mesh\" shows the mesh's quality), or its material is "
+      "too "
+      "stiff, too light or too near poisson_ratio = 0.5, or solver.step_factor or time.frame_rate "
+      "is too small";
   if (n > too_many_substeps) loaded.where.fail("tissue", sentence);
   log_warning(sentence);
 }
@@ -274,7 +272,7 @@ void rebuild_topology(Simulation& s) {
   begin_sleep(s);
   if (s.energy) keep_works(s.model, s.scratch);
   s.surface = boundary_surface(s.mesh);
-  s.n_pieces = count_pieces(s.mesh);
+  find_pieces(s);
   s.altitude = least_altitudes(s);
   s.least_altitude = LeastOfMany(s.altitude);
   s.least_element_step = LeastOfMany(s.model.element_step);
@@ -282,6 +280,19 @@ void rebuild_topology(Simulation& s) {
   if (s.contact) s.view.x = s.mesh.X;  // until they are gathered
   s.boxes = {};
   follow_model(s);
+}
+
+void find_pieces(Simulation& s) {
+  const std::vector<std::int32_t> piece = connected_nodes(s.mesh);
+  s.n_pieces = count_pieces(piece);
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < s.duplicate_node.size(); ++k) {
+    if (piece[s.duplicate_node[k]] != piece[s.duplicate_parent[k]]) continue;
+    s.duplicate_node[n] = s.duplicate_node[k];
+    s.duplicate_parent[n++] = s.duplicate_parent[k];
+  }
+  s.duplicate_node.resize(n);
+  s.duplicate_parent.resize(n);
 }
 
 void follow_model(Simulation& s) {

@@ -11,7 +11,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 27;
+constexpr std::uint32_t checkpoint_format = 28;
 
 static void visit(Saver& a, std::shared_ptr<const Mesh>& mesh) {
   a.writer().put(std::uint64_t{n_bytes_of(*mesh)});
@@ -30,7 +30,7 @@ static void visit(Archive& a, CutRecord& r) {
     r.least_quality, r.mass_change, r.momentum_change, r.kinetic_energy_change,
     r.strain_energy_change, r.largest_deviation, r.mean_deviation, r.mean_edge, r.n_beside,
     r.n_turned, r.n_chips, r.n_pulled_back, r.n_inserted, r.goes_through, r.is_in_slit, r.refusals,
-    r.blade_travel, r.deepest, r.milliseconds, r.worst_milliseconds);
+    r.blade_travel, r.deepest, r.seconds, r.worst_seconds);
 }
 template <class Archive>
 static void visit(Archive& a, CutMemory& m) {
@@ -86,7 +86,7 @@ static void visit(Archive& a, GrownElement& e) {
 }
 template <class Archive>
 static void visit(Archive& a, SearchMemory& m) {
-  a(m.at_step, m.step, m.growth, m.asked, m.searched);
+  a(m.at_step, m.step, m.of_small, m.growth, m.asked, m.searched);
 }
 template <class Archive>
 static void visit(Archive& a, QuietRange& r) {

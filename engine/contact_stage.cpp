@@ -77,28 +77,33 @@ void detect_tissue(ContactStage& stage, const SurfaceView& view, double time, do
                                stage.tissue);
 }
 
-// What a force on the node alone has to move, 1 / (M^-1)_ii with M of solver/mass_scaling.h, of
-// which nothing moves held nodes: with D = m + d, 1/D + (d/D)^2 / (sum_free d m/D + sum_held d).
-// With m alone pushes were too weak by m/D, and tissue crept into instruments.
-std::vector<double> felt_masses(const ContactBody& body, std::span<const FixedMask> held) {
-  std::vector<double> felt(body.mass.begin(), body.mass.end());
+// M of solver/mass_scaling.h against forces, for ContactInertia: of a cluster with D = m + d the
+// share of a node is d / D, and its yield 1 / (sum_free d m/D + sum_held d).
+struct JoinedMasses {
+  std::vector<double> mass, share;
+  std::vector<std::int32_t> cluster;
+  std::vector<Vec3> yield;
+};
+
+static JoinedMasses join_masses(const ContactBody& body, std::span<const FixedMask> held) {
   const MassScaling& scaling = *body.scaling;
+  JoinedMasses joined{.mass = {body.mass.begin(), body.mass.end()},
+                      .share = std::vector<double>(body.mass.size()),
+                      .cluster = std::vector<std::int32_t>(body.mass.size(), -1),
+                      .yield = {}};
   for (std::int32_t c = 0; c < scaling.n_clusters(); ++c) {
-    const auto begin = static_cast<std::size_t>(scaling.offset[c]),
-               end = static_cast<std::size_t>(scaling.offset[static_cast<std::size_t>(c) + 1]);
-    double whole = 0;
-    for (std::size_t k = begin; k < end; ++k) {
-      const auto i = static_cast<std::size_t>(scaling.node[k]);
+    Vec3 whole = Vec3::Zero();
+    for (std::int32_t k = scaling.offset[c]; k < scaling.offset[c + 1]; ++k) {
+      const std::int32_t i = scaling.node[k];
       const double m = body.mass[i], d = scaling.added[k];
-      whole += held[i] != 0 ? d : d * m / (m + d);
+      joined.mass[i] = m + d;
+      joined.share[i] = d / (m + d);
+      joined.cluster[i] = c;
+      for (int j = 0; j < 3; ++j) whole[j] += (held[i] >> j & 1) != 0 ? d : d * m / (m + d);
     }
-    for (std::size_t k = begin; k < end; ++k) {
-      const auto i = static_cast<std::size_t>(scaling.node[k]);
-      const double d = scaling.added[k], D = body.mass[i] + d;
-      felt[i] = 1 / (1 / D + d / D * (d / D) / whole);
-    }
+    joined.yield.push_back(whole.cwiseInverse());
   }
-  return felt;
+  return joined;
 }
 
 void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds) {
@@ -106,10 +111,15 @@ void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const 
   if (stage.contacts.empty() && stage.tissue.empty()) return;
   std::vector<FixedMask> held(body.fixed.begin(), body.fixed.end());
   for (const Hold& hold : holds.holds) held[hold.node] = all_components;
-  const std::vector<double> scaled =
-      body.scaling != nullptr ? felt_masses(body, held) : std::vector<double>();
-  stage.set = prepare_contacts({stage.contacts, stage.tissue}, body.node_owner, body.part,
-                               body.rank, scaled.empty() ? body.mass : scaled, held);
+  JoinedMasses joined;
+  if (body.scaling != nullptr) joined = join_masses(body, held);
+  stage.set =
+      prepare_contacts({stage.contacts, stage.tissue}, body.node_owner, body.part, body.rank,
+                       {.mass = body.scaling != nullptr ? joined.mass : body.mass,
+                        .held = held,
+                        .cluster = joined.cluster,
+                        .share = joined.share,
+                        .yield = joined.yield});
   stage.u_next.resize(3 * body.part.node_global.size());
   stage.exchange.emplace(stage.set.halo, 6);
   stage.positions.resize(6 * stage.set.node.size());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/segment.h"
 #include "engine/cut_look.h"
 #include "engine/cut_parted.h"
 #include "engine/frame_watch.h"
@@ -56,10 +57,8 @@ Motion motion_of(const Simulation& s, const FrameSpan& span, const CutStage& sta
 Box box_of(const Motion& motion, double margin) {
   Box box;
   for (const double time : {motion.span.t0, motion.span.t1})
-    for (const Vec3& point : motion.edge_at(time)) box.add(point);
-  box.low.array() -= margin;
-  box.high.array() += margin;
-  return box;
+    box.add(bounding_box(motion.edge_at(time)));
+  return box.grown(margin);
 }
 
 // In the stroke so far, else of what is near. What springs back from a blade that it met is not how
@@ -109,11 +108,8 @@ Place place_of(const Mesh& mesh, std::span<const Vec3> x, const Location& at, co
 
 double distance_to(const std::vector<Vec3>& path, const Vec3& p) {
   double least = 1e300;
-  for (std::size_t k = 1; k < path.size(); ++k) {
-    const Vec3 way = path[k] - path[k - 1];
-    const double t = std::clamp((p - path[k - 1]).dot(way) / way.squaredNorm(), 0.0, 1.0);
-    least = std::min(least, (p - path[k - 1] - t * way).norm());
-  }
+  for (std::size_t k = 1; k < path.size(); ++k)
+    least = std::min(least, (p - nearest_on_segment(path[k - 1], path[k], p)).norm());
   return least;
 }
 
@@ -141,10 +137,8 @@ void add_pieces(const Motion& motion, BodyPositions& positions, const std::vecto
   const Vec3 along = is_plane ? Vec3::UnitZ() : Vec3((edge.back() - edge.front()).normalized());
   const double across = along.cross(ahead).norm();
   if (across < least_across) return;
-  Box box = box_around(edge);
-  box.low.array() -= s.edge_length;
-  box.high.array() += s.edge_length;
-  const std::vector<std::int32_t> near = positions.elements_near(box);
+  const std::vector<std::int32_t> near =
+      positions.elements_near(box_around(edge).grown(s.edge_length));
   for (SegmentPiece& piece : locate_edge(s, positions, edge)) {
     const Place place = place_of(s.mesh, positions.x(), piece.middle, along, ahead);
     if (is_open(motion, near, place) || is_swept(motion, piece.middle.element, place)) continue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/box.h"
 #include "mesh/element_boxes.h"
 #include "mesh/facets.h"
 
@@ -51,8 +52,7 @@ bool passes_cut_facet(const Mesh& mesh, std::int32_t e, const std::array<Vec3, 2
 
 bool is_parted(const Mesh& mesh, std::span<const std::int32_t> near,
                const std::array<Vec3, 2>& segment) {
-  Box box;
-  for (const Vec3& end : segment) box.add(end);
+  const Box box = bounding_box(segment);
   return std::ranges::any_of(near, [&](std::int32_t e) {
     return mesh.cut_facets[e] != 0 &&
            element_box(mesh, e, mesh.X).overlaps(box, slack * (box.high - box.low).norm()) &&

@@ -39,7 +39,7 @@ struct CutRecord {
   double largest_deviation = 0, mean_deviation = 0, mean_edge = 0;  // [m]
   double blade_travel = 0,
          deepest = 0;  // of the edge's middle with some of it inside; depth of the edge inside [m]
-  double milliseconds = 0, worst_milliseconds = 0;
+  double seconds = 0, worst_seconds = 0;  // of all frames, of the longest one
 };
 
 // Applies an edit, of which there may be none, and puts it into the stroke's record. Collective.

@@ -5,6 +5,7 @@
 
 #include "base/box.h"
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/sort_unique.h"
 #include "engine/cut_along_tip.h"
 #include "engine/cut_look.h"
@@ -24,10 +25,8 @@ struct FrameTissue {
 };
 
 FrameTissue tissue_in_frame(const Simulation& s) {
-  FrameTissue tissue{.box = box_of(s.view), .way = largest_surface_way(s)};
-  tissue.box.low.array() -= tissue.way;
-  tissue.box.high.array() += tissue.way;
-  return tissue;
+  const double way = largest_surface_way(s);
+  return {.box = box_of(s.view).grown(way), .way = way};
 }
 
 void start_stroke(CutStage& stage, const Tool& tool, double time) {
@@ -95,10 +94,10 @@ void note_askew(Simulation& s, const CutRecord& record) {
                  " edits: it cuts all the same, but a blade would not (`forward` in its path)");
 }
 
-void add_to_record(const BladeLook& look, const BladeSweep& sweep, double milliseconds,
+void add_to_record(const BladeLook& look, const BladeSweep& sweep, double seconds,
                    CutRecord& record) {
-  record.milliseconds += milliseconds;
-  record.worst_milliseconds = std::max(record.worst_milliseconds, milliseconds);
+  record.seconds += seconds;
+  record.worst_seconds = std::max(record.worst_seconds, seconds);
   record.blade_travel += look.share_inside * way_of_middle(sweep).norm();
   record.deepest = std::max(record.deepest, look.most_inside);
 }
@@ -250,7 +249,7 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
     if (look.goes_on && is_askew(s, span, blade.sweep, stage))
       record.n_askew += record.n_edits - n_edits;
   }
-  add_to_record(look, blade.sweep, 1e3 * (monotonic_seconds() - start), record);
+  add_to_record(look, blade.sweep, monotonic_seconds() - start, record);
   note_body(s, record);
   if (!look.is_last) return;
   note_askew(s, record);

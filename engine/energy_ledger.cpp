@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/number_text.h"
 #include "base/options.h"
 #include "engine/frame_force.h"
 #include "engine/frame_report.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/timers.h"
 #include "engine/frame_force.h"
 #include "engine/frame_report.h"

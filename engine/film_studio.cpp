@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
-#include <cstdio>
 #include <deque>
 #include <exception>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/timers.h"
 #include "render/image_file.h"
 #include "render/renderer.h"
@@ -33,9 +33,7 @@ Camera to_camera(const SceneCamera& c) {
 }
 
 std::string time_text(double time) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f s", time);
-  return text;
+  return with_decimals(time, 2) + " s";
 }
 
 // An order, what writes it, and how far it has come.
@@ -57,16 +55,16 @@ struct Film {
   }
   void add(const Image& image, std::int64_t number, double time) {
     if (video) video->add(image);
-    if (pngs) {
-      char name[32];
-      std::snprintf(name, sizeof name, "/%06lld.png", static_cast<long long>(number));
-      pngs->add(image, order.file + name);
-    }
-    if (order.kind == OutputKind::contact_sheet && is_sheet_moment(n_seen)) {
+    if (pngs) pngs->add(image, order.file + "/" + with_zeros(number, 6) + ".png");
+    if (order.kind == OutputKind::contact_sheet) {
       sheet.images.push_back(image);
       sheet.captions.push_back(time_text(time));
     }
-    ++n_seen;
+  }
+  // Whether the next of its frames is to be drawn: of a contact sheet most are not.
+  bool takes_next() {
+    const std::int64_t k = n_seen++;
+    return order.kind != OutputKind::contact_sheet || is_sheet_moment(k);
   }
   // Nine moments, evenly spread, the last one included.
   bool is_sheet_moment(std::int64_t k) const {
@@ -101,6 +99,7 @@ struct FilmStudio::Thread {
   bool is_closing = false, is_ready = false;
   std::exception_ptr trouble;
   std::atomic<double> seconds = 0;
+  std::atomic<std::int64_t> n_drawn = 0;
   std::thread worker;
 
   void run();
@@ -148,6 +147,7 @@ void FilmStudio::Thread::draw(const FilmFrame& frame) {
   std::vector<std::pair<std::size_t, Image>>
       drawn;  // orders with the same camera and size share a picture
   for (const std::size_t k : frame.orders) {
+    if (!films[k].takes_next()) continue;
     const FilmOrder& order = films[k].order;
     auto found = std::find_if(drawn.begin(), drawn.end(), [&](const auto& d) {
       return same_picture(films[d.first].order, order);
@@ -156,6 +156,7 @@ void FilmStudio::Thread::draw(const FilmFrame& frame) {
       drawn.emplace_back(k, Image{});
       found = drawn.end() - 1;
       renderers.at({order.width, order.height}).draw(view_of(frame, order), found->second);
+      ++n_drawn;
     }
     films[k].add(found->second, frame.number, frame.time);
   }
@@ -259,6 +260,10 @@ void FilmStudio::finish() {
 
 double FilmStudio::seconds() const {
   return thread_->seconds;
+}
+
+std::int64_t FilmStudio::n_drawn() const {
+  return thread_->n_drawn;
 }
 
 }  // namespace trocar

@@ -43,7 +43,8 @@ class FilmStudio {
   // Waits while two frames are under way. Throws what went wrong in the thread.
   void add(FilmFrame frame);
   void finish();
-  double seconds() const;  // of drawing, so far
+  double seconds() const;        // of drawing, so far
+  std::int64_t n_drawn() const;  // pictures, so far; orders may share one
 
  private:
   struct Thread;

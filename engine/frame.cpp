@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/number_text.h"
 #include "base/options.h"
 #include "engine/checkpoint_output.h"
 #include "engine/contact_step.h"
@@ -29,19 +30,17 @@ namespace {
 // a step.
 constexpr double step_rise = 1e-4;
 
-double stable_step(const Simulation& s) {
-  return std::min(s.watch.stable_step, s.held_step);
-}
-
-FrameSpan plan_frame(const Simulation& s) {
+void plan_substeps(const Simulation& s, FrameSpan& span) {
   const double length = 1 / s.scene.time.frame_rate;
-  FrameSpan span;
-  span.t0 = static_cast<double>(s.frame) / s.scene.time.frame_rate;
-  span.t1 = static_cast<double>(s.frame + 1) / s.scene.time.frame_rate;
-  const double dt = s.scene.solver.step_factor * s.step_scale * stable_step(s);
+  const double stable = std::min(stable_step_of(s, span), s.held_step);
+  const double dt = s.scene.solver.step_factor * s.step_scale * stable;
   span.n_substeps = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / dt)));
   span.dt = length / static_cast<double>(span.n_substeps);
-  return span;
+}
+
+FrameSpan next_frame(const Simulation& s) {
+  return {.t0 = static_cast<double>(s.frame) / s.scene.time.frame_rate,
+          .t1 = static_cast<double>(s.frame + 1) / s.scene.time.frame_rate};
 }
 
 // What is held otherwise moves otherwise.
@@ -69,7 +68,6 @@ void detect(Simulation& s, const FrameSpan& span) {
   if (s.contact->has_tissue) {
     gather_velocities(s.view, s.state.v, *s.communicator);
     detect_tissue(*s.contact, s.view, time, s.contact_reach);
-    note_pair_look(s, span, 0);
   }
   prepare_frame_contacts(*s.contact, contact_body(s), s.holds);
 }
@@ -93,14 +91,13 @@ void resolve_contacts(Simulation& s, const FrameSpan& span, std::int64_t k) {
 
 // Of elements and loads. The first of a frame may be known from the look at the end of the one
 // before.
-void update_force(Simulation& s, double time, double dt) {
+void update_force(Simulation& s, double time) {
   const ForceScope scope(s);
   if (!s.scratch.has_force) find_force(s.model, s.neighbours, s.state, s.scratch);
   s.scratch.has_force = false;  // from here on it is added to
   find_viscous_force(s.model, s.state, s.scratch);
   find_loads_at(s, time);
   add_loads(s.loads, 1, s.scratch.force);
-  refine_forces(s, dt);
 }
 
 void list_waiting(Simulation& s) {
@@ -124,12 +121,19 @@ void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
     const ForceScope scope(s);
     step_others(s.model, s.neighbours, s.waiting, span.dt, s.state, s.scratch);
   } else {
-    update_force(s, span.t0 + static_cast<double>(k) * span.dt, span.dt);
+    update_force(s, span.t0 + static_cast<double>(k) * span.dt);
   }
   aim_holds(s.holds, s.tools, s.mesh.X, span.t0 + static_cast<double>(k + 1) * span.dt);
   if (s.contact) {
     const PhaseScope scope(s.timers, phase_contact);
     add_drag(s.model, s.state, span.dt, s.drag, s.scratch.force);
+  }
+  if (span.has_local_steps) {
+    const ForceScope scope(s);
+    refine_forces(s, span.dt);
+  }
+  if (s.contact) {
+    const PhaseScope scope(s.timers, phase_contact);
     resolve_contacts(s, span, k);
   }
   {
@@ -156,8 +160,11 @@ void look_again_for_pairs(Simulation& s, const FrameSpan& span, std::int64_t k) 
 }
 
 FrameSpan begin_substeps(Simulation& s) {
-  const FrameSpan span = plan_frame(s);
+  FrameSpan span = next_frame(s);
   if (s.contact) detect(s, span);
+  span.has_local_steps = may_take_local_steps(s, span.t0);
+  plan_substeps(s, span);
+  if (s.contact && s.contact->has_tissue) note_pair_look(s, span, 0);
   if (!s.cuts.empty()) prepare_drag(s, span);
   if (s.sleep) wake_touched(s);
   list_waiting(s);
@@ -209,7 +216,7 @@ bool was_stable(const Simulation& s, const FrameSpan& span) {
   const SceneSolver& solver = s.scene.solver;
   const bool is_limit = solver.stable_step == StableStep::frequency;
   const double most = is_limit ? 0.5 * (1 + solver.step_factor) : 1;
-  return span.dt <= most * s.watch.stable_step;
+  return span.dt <= most * stable_step_of(s, span);
 }
 
 // All substeps of the frame, twice if they disturb what slept. On trouble they are done again from
@@ -267,12 +274,12 @@ void recover_step_scale(Simulation& s, const FrameSpan& span) {
 
 void run_frame(Simulation& s, Outputs& outputs) {
   const double start = monotonic_seconds();
-  grasp(s, plan_frame(s));
-  const double held_step = stable_step(s);
+  grasp(s, next_frame(s));
+  const double held_step = std::min(s.watch.stable_step, s.held_step);
   const FrameSpan span = step_safely(s);
   // What the next frame's step follows from.
-  s.held_step =
-      std::min(stable_step_with_contact(s, span), held_step + step_rise / s.scene.time.frame_rate);
+  s.held_step = std::min({stable_step_of(s, span), stable_step_with_contact(s, span),
+                          held_step + step_rise / s.scene.time.frame_rate});
   recover_step_scale(s, span);
   // What the substeps have done, before a cut changes what touches and holds the body.
   if (s.energy) close_frame_work(s);

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "base/digest.h"
 #include "base/exact_sum.h"
 #include "base/log.h"
+#include "base/number_text.h"
 #include "base/options.h"
 #include "engine/point_text.h"
 #include "solver/step.h"
@@ -115,9 +115,7 @@ void report_state(Simulation& s, FrameRow& row) {
 }
 
 static const std::string& add_event(Simulation& s, double time, const std::string& event) {
-  char stamp[32];
-  std::snprintf(stamp, sizeof stamp, "%.3f s: ", time);
-  return s.log.events.emplace_back(stamp + event);
+  return s.log.events.emplace_back(with_decimals(time, 3) + " s: " + event);
 }
 
 void note_event(Simulation& s, double time, const std::string& event) {
@@ -136,16 +134,14 @@ void warn_event(Simulation& s, double time, const std::string& event) {
 
 void note_grasp(Simulation& s, double time, const GraspAct& act) {
   const Tool& tool = s.tools[act.tool];
-  char text[160] = " opens";
+  std::string text = " opens";
   if (act.n_taken > 0)
-    std::snprintf(text, sizeof text, " closes on %d nodes", act.n_taken);
+    text = " closes on " + (act.n_taken == 1 ? "one node" : std::to_string(act.n_taken) + " nodes");
   else if (act.has_closed && std::isinf(act.nearest))
-    std::snprintf(text, sizeof text, " closes on nothing: all nodes are held by others");
+    text = " closes on nothing: all nodes are held by others";
   else if (act.has_closed)
-    std::snprintf(text, sizeof text,
-                  " closes on nothing: the nearest free node is %.3g mm from its tip, and it grips "
-                  "within %.3g mm",
-                  1e3 * act.nearest, 1e3 * tool.grip_radius);
+    text = " closes on nothing: the nearest free node is " + short_text(1e3 * act.nearest) +
+           " mm from its tip, and it grips within " + short_text(1e3 * tool.grip_radius) + " mm";
   note_event(s, time, tool.name + text);
 }
 

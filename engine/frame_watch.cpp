@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/number_text.h"
 #include "base/options.h"
 #include "engine/body_search.h"
 #include "engine/frame_force.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -10,6 +9,7 @@
 
 #include "base/box.h"
 #include "base/log.h"
+#include "base/number_text.h"
 #include "base/options.h"
 #include "collision/closest_point.h"
 #include "engine/frame_report.h"
@@ -109,10 +109,8 @@ void check_instruments_outside(const LoadedScene& loaded, double allowed, const 
     if (s.mesh.dimension() == 3 && tool.edge.empty())
       depth[k] = std::max(depth[k], depth_of_axes(s, tool));
     if (depth[k] <= allowed) continue;
-    char text[40];
-    std::snprintf(text, sizeof text, "%.3g m", depth[k]);
     errors.add(item_path("instrument", k) + ".path[0].position",
-               "\"" + tool.name + "\" reaches " + text + " into " + what +
+               "\"" + tool.name + "\" reaches " + short_text(depth[k]) + " m into " + what +
                    (s.mesh.dimension() == 2 ? " (in a plane scene z does not count: "
                                               "move it aside)"
                                             : ""));

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <mutex>
 
+#include "base/number_text.h"
 #include "base/options.h"
 #include "base/threads.h"
+#include "engine/element_gradient.h"
 #include "engine/frame_report.h"
-#include "solver/hex8_reference.h"
 
 namespace trocar {
 
@@ -28,30 +29,10 @@ struct Strained {
   }
 };
 
-// Derivatives of a field at the element's centre by its reference coordinates, but for a factor.
-template <class Value>
-Mat3 derivatives(ElementType type, std::span<const std::int32_t> corners, const Value& value) {
-  Mat3 by_reference = Mat3::Zero();
-  if (type == ElementType::hex8) {
-    for (int a = 0; a < 8; ++a)
-      for (int k = 0; k < 3; ++k) by_reference.col(k) += hex_corner_xi[a][k] * value(corners[a]);
-    return by_reference;
-  }
-  for (std::size_t k = 1; k < corners.size(); ++k)
-    by_reference.col(static_cast<Eigen::Index>(k) - 1) = value(corners[k]) - value(corners[0]);
-  return by_reference;
-}
-
-// H = du/dX at the centre of an element of this rank; of a plane element in its plane.
-Mat3 displacement_gradient(const Simulation& s, std::int32_t e) {
-  const ElementType type = s.mesh.element_type[e];
-  const auto corners = s.mesh.corners(e);
-  Mat3 dX = derivatives(type, corners, [&](std::int32_t i) { return s.mesh.X[i]; });
-  if (type == ElementType::tri3) dX.col(2) = Vec3::UnitZ();
-  const Mat3 du = derivatives(type, corners, [&](std::int32_t i) -> Vec3 {
+Mat3 present_gradient(const Simulation& s, std::int32_t e) {
+  return displacement_gradient(s.mesh, e, [&](std::int32_t i) -> Vec3 {
     return Vec3::Map(&s.state.u[3 * static_cast<std::size_t>(s.part.node_local[i])]);
   });
-  return du * dX.inverse();
 }
 
 // The largest singular value, which that of all components bounds; 0 where it is not above `enough`
@@ -76,7 +57,7 @@ Strained most_strained(const Simulation& s) {
     Strained mine;
     for (std::int64_t k = begin; k < end; ++k) {
       const std::int32_t e = s.part.element_global[k];
-      if (is_linear(s, e)) mine.take(norm_above(displacement_gradient(s, e), mine.norm), e);
+      if (is_linear(s, e)) mine.take(norm_above(present_gradient(s, e), mine.norm), e);
     }
     const std::scoped_lock lock(mutex);
     if (mine.element >= 0) most.take(mine.norm, mine.element);

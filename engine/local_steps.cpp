@@ -1,7 +1,9 @@
 #include "engine/local_steps.h"
 
 #include <algorithm>
+#include <string>
 
+#include "engine/frame_report.h"
 #include "engine/simulation.h"
 
 namespace trocar {
@@ -60,6 +62,29 @@ bool keep_local_steps(const MultiRatePlan& before, bool is_given_up,
   const bool stays = is_same_elsewhere(before, s.local_steps->plan, nodes);
   if (stays && is_given_up) s.multirate.reset();
   return stays;
+}
+
+static bool touches_small_elements(const ContactStage& contact, const MultiRatePlan& plan) {
+  const auto is_fine = [&](std::int32_t node) { return plan.is_fine[node] != 0; };
+  const auto touches = [&](const Contact& c) { return std::ranges::any_of(c.node, is_fine); };
+  const auto meets = [&](const TissuePair& pair) {
+    return is_fine(pair.node) || std::ranges::any_of(pair.corner, is_fine);
+  };
+  return std::ranges::any_of(contact.contacts, touches) ||
+         std::ranges::any_of(contact.tissue, meets);
+}
+
+bool may_take_local_steps(Simulation& s, double t) {
+  if (!s.multirate) return false;
+  if (!s.contact || !touches_small_elements(*s.contact, s.local_steps->plan)) return true;
+  const std::string sentence = "small elements take no local steps (solver.multirate)";
+  if (!is_told(s, sentence))
+    note_event(s, t, sentence + " while they are touched: all elements take theirs meanwhile");
+  return false;
+}
+
+double stable_step_of(const Simulation& s, const FrameSpan& span) {
+  return span.has_local_steps ? s.watch.stable_step : s.watch.stable_step * s.look.of_small;
 }
 
 }  // namespace trocar

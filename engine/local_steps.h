@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/contact_stage.h"
 #include "solver/multirate.h"
 
 namespace trocar {
@@ -26,5 +27,13 @@ bool follow_local_steps(std::span<const std::int32_t> elements, std::span<const 
 // The same answer after all was planned anew: `before` and whether local steps had been given up.
 bool keep_local_steps(const MultiRatePlan& before, bool is_given_up,
                       std::span<const std::int32_t> nodes, Simulation& s);
+
+// Whether this frame, whose contacts are known, is one with local steps. Contact knows of none:
+// small elements would spring free of an instrument in each of them, and a plate pressed 0.57 of
+// its force. While one may touch them, or tissue tissue at them, all elements take their step. t:
+// for the event that says so. The same on every rank.
+bool may_take_local_steps(Simulation& s, double t);
+// The limit of the frame's steps: without local steps that of the small elements. [s]
+double stable_step_of(const Simulation& s, const FrameSpan& span);
 
 }  // namespace trocar

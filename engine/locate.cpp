@@ -4,6 +4,7 @@
 #include <ranges>
 #include <tuple>
 
+#include "base/box.h"
 #include "mesh/barycentric.h"
 #include "mesh/element_boxes.h"
 #include "mesh/hex_split.h"
@@ -61,8 +62,7 @@ template <class Elements>
 std::vector<Location> locate_in(const Mesh& mesh, std::span<const Vec3> x,
                                 std::span<const Vec3> points, const Elements& elements) {
   std::vector<Location> location(points.size());
-  Box all;
-  for (const Vec3& point : points) all.add(point);
+  const Box all = bounding_box(points);
   for (const std::int32_t e : elements) {
     const Box box = element_box(mesh, e, x);
     if (!box.overlaps(all, margin)) continue;
@@ -144,10 +144,7 @@ std::vector<Location> locate_points(const Mesh& mesh, std::span<const Vec3> x,
 }
 
 Box box_around(std::span<const Vec3> points) {
-  Box all;
-  for (const Vec3& point : points)
-    for (const double way : {-2 * margin, 2 * margin}) all.add((point.array() + way).matrix());
-  return all;
+  return bounding_box(points).grown(2 * margin);
 }
 
 Location locate_nearest(const Mesh& mesh, std::span<const Vec3> x, const Vec3& point) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/number_text.h"
 #include "base/quoted.h"
 #include "engine/markers.h"
 #include "engine/mesh_measures.h"

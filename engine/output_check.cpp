@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/number_text.h"
 #include "base/options.h"
 #include "engine/run_files.h"
 #include "engine/tissue.h"

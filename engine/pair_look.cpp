@@ -1,15 +1,16 @@
 #include "engine/pair_look.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <tuple>
 #include <utility>
 
 #include "base/box.h"
+#include "base/number_text.h"
 #include "base/options.h"
 #include "collision/contact_tissue.h"
 #include "engine/energy_ledger.h"
 #include "engine/frame_report.h"
+#include "engine/point_text.h"
 
 namespace trocar {
 
@@ -37,8 +38,7 @@ constexpr std::size_t per_rank = 18;
 double diagonal(std::span<const double> corners, std::size_t from) {
   Box all;
   for (std::size_t k = from; k < corners.size(); k += per_rank) {
-    all.low = all.low.cwiseMin(Vec3::Map(&corners[k]));
-    all.high = all.high.cwiseMax(Vec3::Map(&corners[k + 3]));
+    all.add(Box{Vec3::Map(&corners[k]), Vec3::Map(&corners[k + 3])});
   }
   return (all.high - all.low).norm();
 }
@@ -185,13 +185,10 @@ void watch_sunk_tissue(Simulation& s, double time) {
   const auto it = std::ranges::find_if(
       sunk, [&](const SunkNode& n) { return s.contact->detector.lies_in_other_tissue(n.node); });
   if (it == sunk.end()) return;
-  const Vec3& x = s.view.x[it->node];
-  char place[120];
-  std::snprintf(place, sizeof place, "node %d at (%.4g, %.4g, %.4g) m lies %.3g mm", it->node,
-                x.x(), x.y(), x.z(), 1e3 * it->depth);
   warn_event(s, time,
-             std::string(sunk_in) + ": " + place +
-                 " deep in it, and contact knows the way out of " +
+             std::string(sunk_in) + ": node " + std::to_string(it->node) + " at " +
+                 point_text(s.view.x[it->node]) + " m lies " + short_text(1e3 * it->depth) +
+                 " mm deep in it, and contact knows the way out of " +
                  short_text(1e3 * s.contact_reach) +
                  " mm, half an edge; from here on it may pass through. Tissue that moves or is "
                  "pressed less hard, elements that are smaller than it is thick, or a higher "

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "base/options.h"
+#include "base/number_text.h"
 #include "base/vec.h"
 
 namespace trocar {

@@ -7,6 +7,8 @@
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/number_text.h"
+#include "engine/element_gradient.h"
 #include "engine/film_studio.h"
 #include "engine/mesh_measures.h"
 #include "engine/output.h"
@@ -44,16 +46,25 @@ std::vector<Tool> recorded_tools(const Scene& scene, const RecordingHead& head) 
 }
 
 std::string vtu_name(std::int64_t frame) {
-  char name[32];
-  std::snprintf(name, sizeof name, "frame_%06lld.vtu", static_cast<long long>(frame));
-  return name;
+  return "frame_" + with_zeros(frame, 6) + ".vtu";
 }
 
 PvdEntry write_frame_vtu(const Mesh& mesh, const RecordedFrame& frame, const std::string& folder) {
-  std::vector<double> touches_cut(static_cast<std::size_t>(mesh.n_elements()));
-  for (std::size_t e = 0; e < touches_cut.size(); ++e) touches_cut[e] = mesh.cut_facets[e] ? 1 : 0;
+  std::vector<double> touches_cut, det_F, strain;
+  const auto u = [&](std::int32_t i) -> Vec3 {
+    return Vec3::Map(&frame.u[3 * static_cast<std::size_t>(i)]);
+  };
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    touches_cut.push_back(mesh.cut_facets[e] ? 1 : 0);
+    const Mat3 F = Mat3::Identity() + displacement_gradient(mesh, e, u);
+    det_F.push_back(F.determinant());
+    const Mat3 E = 0.5 * (F.transpose() * F - Mat3::Identity());
+    strain.insert(strain.end(), E.data(), E.data() + E.size());
+  }
   const VtuField nodal[] = {{.name = "displacement", .width = 3, .values = frame.u}};
-  const VtuField elemental[] = {{.name = "touches_cut", .width = 1, .values = touches_cut}};
+  const VtuField elemental[] = {{.name = "touches_cut", .width = 1, .values = touches_cut},
+                                {.name = "det_F", .width = 1, .values = det_F},
+                                {.name = "green_strain", .width = 9, .values = strain}};
   const std::string name = vtu_name(frame.frame);
   write_vtu(mesh, present_positions(mesh.X, frame.u), nodal, elemental, folder + "/" + name);
   return {.time = frame.time, .file = name};
@@ -104,7 +115,7 @@ std::vector<FilmOrder> orders_of(const Scene& scene, const ReplayOptions& option
     order.file = video_file(options);
     orders.push_back(order);
   }
-  if (options.frames) {
+  if (options.writes_frames) {
     order.kind = OutputKind::frames;
     order.file = options.folder + "/frames";
     orders.push_back(order);
@@ -135,7 +146,7 @@ void check_frame(const RecordedFrame& frame, const Mesh& mesh, const std::string
 }
 
 std::size_t n_orders(const ReplayOptions& options) {
-  return (options.video.empty() ? 0u : 1u) + (options.frames ? 1u : 0u);
+  return (options.video.empty() ? 0u : 1u) + (options.writes_frames ? 1u : 0u);
 }
 
 // The picture thread for what is asked for, null for none.
@@ -171,8 +182,8 @@ void replay(const ReplayOptions& options) {
   for (const std::string& sentence : reader.damage())
     log_warning(options.recording + ": " + sentence);
   const auto frames = chosen_frames(reader, options);
-  if (options.list) return list_frames(reader, frames);
-  if (options.video.empty() && !options.frames && !options.vtu)
+  if (options.is_list) return list_frames(reader, frames);
+  if (options.video.empty() && !options.writes_frames && !options.writes_vtu)
     throw InputError("nothing to do: ask for --video FILE, --frames, --vtu or --list");
   check_recording_stays(options);
   make_output_folder(options.folder);
@@ -183,13 +194,13 @@ void replay(const ReplayOptions& options) {
     const RecordedFrame frame = reader.read(frames[k].first);
     const Mesh mesh = reader.mesh_at(frames[k].first);
     check_frame(frame, mesh, options.recording);
-    if (options.vtu) entries.push_back(write_frame_vtu(mesh, frame, options.folder));
+    if (options.writes_vtu) entries.push_back(write_frame_vtu(mesh, frame, options.folder));
     if (studio) studio->add(film_frame(mesh, frame, n_orders(options)));
     bar.update(static_cast<double>(k + 1) / static_cast<double>(frames.size()),
                std::to_string(k + 1) + " frames");
   }
   if (studio) studio->finish();
-  if (options.vtu) write_pvd(entries, options.folder + "/recording.pvd");
+  if (options.writes_vtu) write_pvd(entries, options.folder + "/recording.pvd");
 }
 
 }  // namespace trocar

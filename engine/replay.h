@@ -12,9 +12,9 @@ struct ReplayOptions {
   std::string recording;
   std::string folder = "replay";
   std::string video;                // file name in the folder, "" for none
-  bool frames = false;              // PNG files
-  bool vtu = false;                 // VTU files and a PVD for ParaView
-  bool list = false;                // print frames, times and digests only
+  bool writes_frames = false;       // PNG files
+  bool writes_vtu = false;          // VTU files and a PVD for ParaView
+  bool is_list = false;             // print frames, times and digests only
   double from = 0, to = 1e300;      // [s]
   std::string camera;               // of the scene; "" for the first
   std::vector<double> eye, target;  // a view of the user's own, overrides the camera

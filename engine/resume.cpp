@@ -1,13 +1,13 @@
 #include "engine/resume.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/number_text.h"
 #include "base/on_root.h"
 #include "engine/checkpoint_file.h"
 #include "engine/frame_report.h"
@@ -65,10 +65,8 @@ Scene without_free_keys(Scene scene) {
 }
 
 std::string time_text(const Checkpoint& checkpoint, const LoadedScene& loaded) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f s",
-                static_cast<double>(checkpoint.frame) / loaded.scene.time.frame_rate);
-  return text;
+  return with_decimals(static_cast<double>(checkpoint.frame) / loaded.scene.time.frame_rate, 3) +
+         " s";
 }
 
 void check_end(const Checkpoint& checkpoint, const LoadedScene& loaded) {

@@ -1,6 +1,7 @@
 #include "engine/roll_back.h"
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/options.h"
 #include "engine/frame_report.h"
 #include "engine/suspect.h"

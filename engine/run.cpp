@@ -2,13 +2,13 @@
 
 #include <atomic>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <optional>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/number_text.h"
 #include "base/on_root.h"
 #include "engine/build.h"
 #include "engine/bytes.h"
@@ -54,11 +54,9 @@ std::string progress_note(const Simulation& s, double start) {
   const double wall = monotonic_seconds() - start;
   const double rate = s.scene.time.frame_rate;
   const double done = static_cast<double>(s.frame - s.first_frame) / rate;
-  char note[96];
-  std::snprintf(note, sizeof note, "%.2f of %.2f s, real-time factor %.2f",
-                static_cast<double>(s.frame) / rate, s.scene.time.duration,
-                wall > 0 ? done / wall : 0.0);
-  return note;
+  return with_decimals(static_cast<double>(s.frame) / rate, 2) + " of " +
+         with_decimals(s.scene.time.duration, 2) + " s, real-time factor " +
+         with_decimals(wall > 0 ? done / wall : 0.0, 2);
 }
 
 // How a run ended, and the sentence that says why if it did not go through.
@@ -173,9 +171,9 @@ static std::unique_ptr<FolderLock> claim_folder(const RunOptions& options,
   std::unique_ptr<FolderLock> lock;
   on_root(communicator, [&] {
     check_inputs_stay(loaded, options.scene_file, options.folder);
-    if (!options.resume) make_output_folder(options.folder);
+    if (!options.is_resumed) make_output_folder(options.folder);
     lock = std::make_unique<FolderLock>(options.folder);
-    if (!options.resume) warn_of_outputs(loaded.scene, options.folder);
+    if (!options.is_resumed) warn_of_outputs(loaded.scene, options.folder);
   });
   return lock;
 }
@@ -203,7 +201,7 @@ bool run_scene(const RunOptions& options, Communicator& communicator) {
   const LoadedScene loaded = share_scene(options.scene_file, options.overrides, communicator);
   const auto lock = claim_folder(options, loaded, communicator);
   std::optional<Checkpoint> checkpoint;
-  if (options.resume) checkpoint = load_checkpoint(options.folder, loaded, communicator);
+  if (options.is_resumed) checkpoint = load_checkpoint(options.folder, loaded, communicator);
   const auto simulation = build(loaded, communicator);
   Ending ending;
   if (checkpoint)

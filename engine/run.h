@@ -13,7 +13,7 @@ struct RunOptions {
   std::string scene_file;
   std::string folder = "out";
   std::vector<std::string> overrides;  // "key.path=value"
-  bool resume = false;                 // from the checkpoint in `folder`
+  bool is_resumed = false;             // from the checkpoint in `folder`
 };
 
 // Rank 0 reads and checks; every rank gets the same scene. Collective; InputErrors are thrown on

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "base/number_text.h"
 #include "engine/scene.h"
 #include "engine/scene_outputs.h"
 #include "engine/support_forces.h"

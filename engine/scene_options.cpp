@@ -9,8 +9,8 @@ constexpr Range unit_range{.low = 0, .high = 1};
 
 Options<SceneTime> time_options() {
   Options<SceneTime> t("How long, how often, how fast.");
-  t.number("duration", &SceneTime::duration, dim::time, positive, "Simulated time.",
-           Need::required);
+  t.number("duration", &SceneTime::duration, dim::time, positive,
+           "Simulated time; up to the next whole frame.", Need::required);
   t.number("frame_rate", &SceneTime::frame_rate, dim::rate, {.low = 1, .high = 10000},
            "Frames a second: contact detection, cuts and outputs happen once a frame. \"30 Hz\".");
   t.choice(
@@ -135,7 +135,8 @@ Options<SceneSolver> solver_options() {
            "sleeps.");
   s.boolean("multirate", &SceneSolver::is_multirate,
             "Small elements take substeps of their own where that saves work, so that they don't "
-            "set everyone's step. Needs stable_step = \"frequency\"; not for viscoelastic tissue, "
+            "set everyone's step while nothing touches them. Needs stable_step = \"frequency\"; "
+            "not for viscoelastic tissue, "
             "nodal-pressure or mass_scaling_step.");
   return s;
 }
@@ -241,7 +242,8 @@ Options<SceneLoad> load_options() {
   l.number("pressure", &SceneLoad::pressure, dim::pressure, any,
            "On these faces from outside, always straight; wounds in them are left out.");
   l.list("path", &SceneLoad::path, key,
-         "Factor over time, smooth in between, constant before and after; 1 if absent.");
+         "Factor over time, a smooth curve through the keys without overshoot, constant before and "
+         "after; 1 if absent.");
   return l;
 }
 
@@ -291,7 +293,7 @@ Options<SceneInstrument> instrument_options() {
   i.list("path", &SceneInstrument::path, key,
          "Key positions. The way through them is smooth and goes forwards along each leg; where it "
          "turns by 90 degrees or more it stops, and legs between such turns are straight. At "
-         "smaller turns legs bulge, by up to 6 % of their length, to the side that the way does "
+         "smaller turns legs bulge, by up to 8 % of their length, to the side that the way does "
          "not turn to: for a straight cut at a constant depth, stop at both of its keys.",
          Need::required);
   return i;
@@ -335,7 +337,7 @@ Options<SceneOutput> output_options() {
   o.text("camera", &SceneOutput::camera, "Name of a [[camera]]; the first if absent.");
   o.integers("size", &SceneOutput::size, {.low = 16, .high = 8192}, "Pixels: width, height.");
   o.number("every", &SceneOutput::every, dim::time, not_negative,
-           "Interval; every frame if absent.");
+           "Interval, up to the next whole number of frames; every frame if absent.");
   return o;
 }
 

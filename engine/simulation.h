@@ -68,6 +68,7 @@ inline constexpr const char* phase_names[n_phases] = {"contact detection",
 struct SearchMemory {
   std::int64_t at_step = 0;  // State::step of the last one of the body
   double step = 0;           // stable there; 0 without a search, or where it did not end [s]
+  double of_small = 1;       // that without local steps over it
   // Searches of parts since then (part_search.h): what the body's omega^2 may have grown by, by the
   // last one, and growth of the elements at which the last one was thought of.
   double growth = 1, asked = 1;
@@ -107,8 +108,8 @@ struct Simulation : RankBody {
   std::vector<FixedMask> fixed;          // (n_nodes)
   std::vector<std::int32_t> node_owner;  // (n_nodes)
   Surface surface;
-  std::vector<std::int32_t> duplicate_parent,
-      duplicate_node;         // pairs of partner nodes, over all cuts
+  // Pairs of partner nodes, over all cuts, that have not come into two pieces.
+  std::vector<std::int32_t> duplicate_parent, duplicate_node;
   std::int32_t n_pieces = 1;  // that the body has fallen into
 
   std::vector<Tool> tools;
@@ -152,5 +153,7 @@ SolverOptions solver_options(const Scene& scene);
 
 // Everything that follows from mesh and owners: after building and after each edit.
 void rebuild_topology(Simulation& s);
+// Counts the pieces of the body; between two of them there is no wound.
+void find_pieces(Simulation& s);
 
 }  // namespace trocar

@@ -91,8 +91,8 @@ Json stroke_json(const CutRecord& c) {
                  {"scene_stable_step_ratio", c.scene_step_ratio},
                  {"blade_travel_m", c.blade_travel},
                  {"edge_inside_max_m", c.deepest},
-                 {"milliseconds", c.milliseconds},
-                 {"milliseconds_worst", c.worst_milliseconds}};
+                 {"milliseconds", 1e3 * c.seconds},
+                 {"milliseconds_worst", 1e3 * c.worst_seconds}};
   if (c.n_edits > 0) stroke.update(edits_json(c));
   return stroke;
 }

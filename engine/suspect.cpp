@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/number_text.h"
 #include "base/options.h"
 #include "collision/narrow_phase.h"
 #include "engine/point_text.h"
@@ -92,20 +93,34 @@ std::string material_cure(std::span<const Material> materials) {
   return is_any(MaterialModel::linear) ? large + ", " : "";
 }
 
+// The grasper that has opened a moment before t: what it had stretched springs back. "": none has.
+std::string just_opened(std::span<const Tool> tools, double t) {
+  constexpr double moment = 0.1;  // [s]
+  for (const Tool& tool : tools)
+    for (const InstrumentKey& key : tool.keys)
+      if (tool.kind == InstrumentKind::grasper && key.action == GraspAction::open &&
+          key.time <= t && key.time > t - moment)
+        return "\"" + tool.name + "\"";
+  return "";
+}
+
 // `mover` comes near in the frame; "" where none does.
-std::string cure(const Simulation& s, const std::string& mover) {
+std::string cure(const Simulation& s, const std::string& mover, double t) {
+  const std::string rest = ", a finer mesh or a lower poisson_ratio";
+  if (const std::string opened = just_opened(s.tools, t); !opened.empty())
+    return "a shorter pull of " + opened +
+           ", which has just let go, or a way back before it opens" + rest;
   const bool has_loads = !s.scene.loads.empty() || s.scene.solver.gravity != Vec3::Zero();
   const std::string less = has_loads || s.tools.empty() ? "smaller loads" : "to press less deep";
   return material_cure(s.materials) +
-         (mover.empty() ? less : "a slower or shorter path of " + mover) +
-         ", a finer mesh or a lower poisson_ratio";
+         (mover.empty() ? less : "a slower or shorter path of " + mover) + rest;
 }
 
 }  // namespace
 
 Suspect find_suspect(Simulation& s, const Watch& failed, const FrameSpan& span) {
   const std::vector<std::int32_t> nodes = failed_nodes(s.mesh, failed);
-  if (nodes.empty()) return {.place = "", .cure = cure(s, "")};
+  if (nodes.empty()) return {.place = "", .cure = cure(s, "", span.t0)};
   const GlobalState global = gather_state(s);
   Vec3 x = Vec3::Zero();
   for (const std::int32_t node : nodes) x += global.x[node] / static_cast<double>(nodes.size());
@@ -114,12 +129,12 @@ Suspect find_suspect(Simulation& s, const Watch& failed, const FrameSpan& span) 
   look_at_holds(s, global.x, x, span, choice);
   const Mover& best = choice.best;
   std::string place = " at " + point_text(x) + " m";
-  if (best.name.empty()) return {.place = place, .cure = cure(s, "")};
+  if (best.name.empty()) return {.place = place, .cure = cure(s, "", span.t0)};
   place += ", " + short_text(best.gap) + " m " + best.how + best.name;
   place += best.way > 0 ? ", which moves at " + short_text(best.way / (span.t1 - span.t0)) + " m/s"
                         : ", which rests";
   const bool may_be = best.way > 0 && choice.comes_near(best);
-  return {.place = place, .cure = cure(s, may_be ? best.name : "")};
+  return {.place = place, .cure = cure(s, may_be ? best.name : "", span.t0)};
 }
 
 }  // namespace trocar

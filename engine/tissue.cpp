@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "base/box.h"
 #include "base/log.h"
+#include "base/number_text.h"
 #include "base/on_root.h"
 #include "cutting/cut_hex.h"
 #include "engine/bytes.h"
@@ -152,9 +153,7 @@ void warn_of_size(const std::string& file, const std::string& key, std::span<con
   const Box box = bounding_box(X);
   const double longest = (box.high - box.low).maxCoeff();
   if (longest >= smallest && longest <= largest) return;
-  char size[32];
-  std::snprintf(size, sizeof size, "%.3g", longest);
-  log_warning(file + ": is " + size + " m long: " + key +
+  log_warning(file + ": is " + short_text(longest) + " m long: " + key +
               " says what one unit of the file is, \"1 mm\" for a mesh in millimetres");
 }
 

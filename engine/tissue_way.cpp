@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "base/box.h"
+#include "base/segment.h"
 #include "engine/simulation.h"
 
 namespace trocar {
@@ -26,22 +27,12 @@ double largest_surface_way(const Simulation& s) {
 
 namespace {
 
-double distance2(const Vec3& p, const Vec3& from, const Vec3& to) {
-  const Vec3 way = to - from;
-  const double length2 = way.squaredNorm();
-  const double t = length2 > 0 ? std::clamp((p - from).dot(way) / length2, 0.0, 1.0) : 0;
-  return (p - from - t * way).squaredNorm();
-}
-
 std::vector<std::int32_t> surface_nodes_near(const Simulation& s, PresentPositions& positions,
                                              const BladeSweep& sweep, double reach) {
   Box box;
-  for (const std::vector<Vec3>* edge : {&sweep.before, &sweep.after})
-    for (const Vec3& point : *edge) box.add(point);
-  box.low.array() -= reach;
-  box.high.array() += reach;
+  for (const std::vector<Vec3>* edge : {&sweep.before, &sweep.after}) box.add(bounding_box(*edge));
   std::vector<std::int32_t> nodes;
-  std::ranges::set_intersection(positions.nodes_near(box), s.surface.node,
+  std::ranges::set_intersection(positions.nodes_near(box.grown(reach)), s.surface.node,
                                 std::back_inserter(nodes));
   return nodes;
 }
@@ -58,7 +49,8 @@ std::vector<Vec3> ways_beside(const Simulation& s, PresentPositions& positions,
     for (const std::int32_t node : nodes) {
       const Vec3& x = positions.x()[node];
       const Vec3 way = x - s.view.x[node];
-      const double distance = distance2(x, sweep.before[k] + way, sweep.after[k]);
+      const double distance =
+          (x - nearest_on_segment(Vec3(sweep.before[k] + way), sweep.after[k], x)).squaredNorm();
       if (distance >= least) continue;
       least = distance;
       ways[k] = way;
@@ -74,7 +66,8 @@ std::optional<Vec3> velocity_beside(const Simulation& s, PresentPositions& posit
   for (const std::int32_t node :
        surface_nodes_near(s, positions, {.before = edge, .after = edge}, reach)) {
     const auto i = static_cast<std::size_t>(node);
-    const double distance = distance2(s.cut_state.x[i], edge.front(), edge.back());
+    const Vec3& x = s.cut_state.x[i];
+    const double distance = (x - nearest_on_segment(edge.front(), edge.back(), x)).squaredNorm();
     if (distance >= least) continue;
     least = distance;
     velocity = Vec3::Map(&s.cut_state.v[3 * i]);

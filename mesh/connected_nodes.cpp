@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "mesh/equal_points.h"
 
@@ -35,9 +36,12 @@ std::vector<std::int32_t> connected_nodes(const Mesh& mesh) {
 }
 
 std::int32_t count_pieces(const Mesh& mesh) {
-  const std::vector<std::int32_t> piece = connected_nodes(mesh);
+  return count_pieces(connected_nodes(mesh));
+}
+
+std::int32_t count_pieces(std::span<const std::int32_t> piece) {
   std::int32_t n = 0;
-  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) n += piece[i] == i ? 1 : 0;
+  for (std::size_t i = 0; i < piece.size(); ++i) n += std::cmp_equal(piece[i], i) ? 1 : 0;
   return n;
 }
 

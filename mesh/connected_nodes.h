@@ -18,6 +18,8 @@ std::vector<std::int32_t> connected_nodes(const Mesh& mesh);
 // Pieces that hang together through nodes. Where no two pieces touch in a node or an edge alone, as
 // after every cut, these are the pieces that hang together through facets.
 std::int32_t count_pieces(const Mesh& mesh);
+// The same from the piece of each node.
+std::int32_t count_pieces(std::span<const std::int32_t> piece);
 
 // Nodes that lie where a node of another piece does, but for rounding to multiples of `tolerance`
 // [m]: facets that were meant to be joined, as a rule.

@@ -86,6 +86,15 @@ std::int32_t gmsh_node(const GmshReader& g, std::int64_t tag, std::int64_t eleme
   return i;
 }
 
+void read_gmsh_corners(GmshReader& g, CellKind kind, std::int64_t tag, std::int32_t group,
+                       std::int64_t (*read)(GmshReader&, const char* what)) {
+  std::array<std::int32_t, max_corners> corner{};
+  const auto n = static_cast<std::size_t>(n_cell_corners(kind));
+  for (std::size_t a = 0; a < n; ++a)
+    corner[a] = gmsh_node(g, read(g, "a corner of an element"), tag);
+  add_cell(g.mesh, kind, std::span(corner.data(), n), tag, group);
+}
+
 void finish_nodes(GmshReader& g) {
   if (g.mesh.X.empty()) g.in.fail_file("holds no nodes");
   if (g.mesh.X.size() > std::numeric_limits<std::int32_t>::max())

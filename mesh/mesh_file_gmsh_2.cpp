@@ -17,14 +17,6 @@ void read_nodes_2(GmshReader& g, std::string_view end) {
   finish_nodes(g);
 }
 
-static void read_corners(GmshReader& g, CellKind kind, std::int64_t tag, std::int32_t physical) {
-  std::array<std::int32_t, max_corners> corner{};
-  const auto n = static_cast<std::size_t>(n_cell_corners(kind));
-  for (std::size_t a = 0; a < n; ++a)
-    corner[a] = gmsh_node(g, gmsh_int(g, "a corner of an element"), tag);
-  add_cell(g.mesh, kind, std::span(corner.data(), n), tag, physical);
-}
-
 static void reserve_cells(GmshReader& g, std::size_t n) {
   g.mesh.cell_kind.reserve(n);
   g.mesh.cell_tag.reserve(n);
@@ -43,7 +35,7 @@ void read_elements_1(GmshReader& g) {
     if (n_corners != n_cell_corners(kind))
       g.in.fail("element " + std::to_string(tag) + " is a " + cell_kind_name(kind) + " with " +
                 std::to_string(n_corners) + " corners");
-    read_corners(g, kind, tag, physical);
+    read_gmsh_corners(g, kind, tag, physical, gmsh_int);
   }
   g.in.expect_word("$ENDELM");
   make_group_lists(g.mesh);
@@ -67,7 +59,7 @@ static void read_text_elements(GmshReader& g, std::size_t n) {
     const CellKind kind = gmsh_cell_kind(g, g.in.integer("an element type"), tag);
     const std::int64_t n_tags = g.in.integer("the number of tags");
     g.in.check_count(n_tags, 2, "tags of an element");
-    read_corners(g, kind, tag, read_tags(g, n_tags));
+    read_gmsh_corners(g, kind, tag, read_tags(g, n_tags), gmsh_int);
   }
 }
 
@@ -84,7 +76,7 @@ static void read_binary_elements(GmshReader& g, std::size_t n) {
     for (std::int64_t e = 0; e < n_block; ++e, ++n_read) {
       const std::int64_t tag = gmsh_int(g, "an element number");
       const CellKind kind = gmsh_cell_kind(g, type, tag);
-      read_corners(g, kind, tag, read_tags(g, n_tags));
+      read_gmsh_corners(g, kind, tag, read_tags(g, n_tags), gmsh_int);
     }
   }
 }

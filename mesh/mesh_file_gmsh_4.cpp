@@ -121,11 +121,7 @@ void read_nodes_4(GmshReader& g) {
 
 static void read_element(GmshReader& g, CellKind kind, std::int32_t groups) {
   const std::int64_t tag = gmsh_size(g, "an element tag");
-  std::array<std::int32_t, max_corners> corner{};
-  const auto n = static_cast<std::size_t>(n_cell_corners(kind));
-  for (std::size_t a = 0; a < n; ++a)
-    corner[a] = gmsh_node(g, gmsh_size(g, "a corner of an element"), tag);
-  add_cell(g.mesh, kind, std::span(corner.data(), n), tag, groups);
+  read_gmsh_corners(g, kind, tag, groups, gmsh_size);
 }
 
 // The first element stands for a block of a kind that is not supported: its tag comes next.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/box.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/facet_sort.h"
 #include "mesh/facets.h"
@@ -102,12 +103,6 @@ ElementStatistics element_statistics(const Mesh& mesh) {
     statistics.worst_element = e;
   }
   return statistics;
-}
-
-Box bounding_box(std::span<const Vec3> points) {
-  Box box;
-  for (const Vec3& point : points) box.add(point);
-  return box;
 }
 
 MeshStatistics mesh_statistics(const Mesh& mesh) {

@@ -38,8 +38,6 @@ struct MeshStatistics : ElementStatistics {
 };
 MeshStatistics mesh_statistics(const Mesh& mesh);
 
-Box bounding_box(std::span<const Vec3> points);
-
 // Every broken invariant, one sentence each, empty if the mesh is sound: corner numbers in range,
 // no repeated corner, positive volume, finite positions, no unreferenced node, no facet of three
 // elements or with both on one side, no duplicate element. At most `most` sentences.

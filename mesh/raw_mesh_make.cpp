@@ -2,24 +2,19 @@
 // way round they are.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "base/box.h"
 #include "base/check.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/number_text.h"
 #include "mesh/raw_mesh.h"
 #include "mesh/raw_mesh_groups.h"
 
 namespace trocar {
 
 namespace {
-
-std::string number_text(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", value);
-  return text.data();
-}
 
 std::array<std::int64_t, 6> count_kinds(const RawMesh& raw) {
   std::array<std::int64_t, 6> n{};
@@ -40,14 +35,12 @@ void for_cells(const RawMesh& raw, int dimension, const F& f) {
 
 // All in one plane z = const, up to the rounding of whoever wrote the file.
 bool is_plane(const RawMesh& raw) {
-  Vec3 low = Vec3::Constant(INFINITY), high = -low;
+  Box box;
   for_cells(raw, 2, [&](std::int32_t, std::span<const std::int32_t> corners) {
-    for (const std::int32_t i : corners) {
-      low = low.cwiseMin(raw.X[i]);
-      high = high.cwiseMax(raw.X[i]);
-    }
+    for (const std::int32_t i : corners) box.add(raw.X[i]);
   });
-  return high.z() - low.z() <= 1e-9 * std::max(high.x() - low.x(), high.y() - low.y());
+  const Vec3 size = box.high - box.low;
+  return size.z() <= 1e-9 * std::max(size.x(), size.y());
 }
 
 std::string place_text(const RawMesh& raw, std::int32_t e, std::int32_t cell) {
@@ -97,11 +90,11 @@ std::vector<std::int32_t> take_nodes(const RawMesh& raw, int dimension, double s
     if (dimension == 2) height = std::exchange(x.z(), 0.0);
     if (!x.allFinite())
       throw InputError(raw.file + ": a node lies at a position that is not finite when scaled by " +
-                       number_text(scale));
+                       short_text(scale, 4));
     mesh.X.push_back(x);
   }
   if (std::abs(height) > 1e-6)
-    log_warning(raw.file + ": is a plane mesh at z = " + number_text(height) +
+    log_warning(raw.file + ": is a plane mesh at z = " + short_text(height, 4) +
                 " m; plane bodies lie at z = 0, and so does this one now");
   return new_node;
 }
@@ -158,8 +151,8 @@ std::int32_t cell_of_element(const RawMesh& raw, int dimension, std::int32_t e) 
 }
 
 std::string volume_text(const Mesh& mesh, double volume) {
-  return mesh.dimension() == 2 ? "area " + number_text(volume) + " m^2"
-                               : "volume " + number_text(volume) + " m^3";
+  return mesh.dimension() == 2 ? "area " + short_text(volume, 4) + " m^2"
+                               : "volume " + short_text(volume, 4) + " m^3";
 }
 
 [[noreturn]] void fail_element(const RawMesh& raw, const Mesh& mesh, std::int32_t e,
@@ -176,12 +169,12 @@ double sound_volume(const RawMesh& raw, const Mesh& mesh, std::int32_t e) {
   const double edge = longest_edge(mesh, e);
   const double cube = mesh.element_type[e] == ElementType::tri3 ? edge * edge : edge * edge * edge;
   if (!std::isfinite(cube) || !std::isfinite(volume))
-    fail_element(raw, mesh, e, "is too large: its longest edge is " + number_text(edge) + " m");
+    fail_element(raw, mesh, e, "is too large: its longest edge is " + short_text(edge, 4) + " m");
   // Not <=: the volume of a tiny element may underflow to zero together with the cube.
   if (!(std::abs(volume) > 1e-12 * cube))
-    fail_element(
-        raw, mesh, e,
-        "is flat: " + volume_text(mesh, volume) + " with edges up to " + number_text(edge) + " m");
+    fail_element(raw, mesh, e,
+                 "is flat: " + volume_text(mesh, volume) + " with edges up to " +
+                     short_text(edge, 4) + " m");
   return volume;
 }
 
@@ -227,7 +220,7 @@ void take_fibres(const RawMesh& raw, int dimension, Mesh& mesh) {
     if (e < 0) continue;
     const double length = std::sqrt(direction.dot(direction));
     if (!(length > 0) || !std::isfinite(length))
-      fail_element(raw, mesh, e, "has a fibre direction of length " + number_text(length));
+      fail_element(raw, mesh, e, "has a fibre direction of length " + short_text(length, 4));
     mesh.fibre[e] = direction / length;
   }
 }

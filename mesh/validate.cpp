@@ -1,8 +1,8 @@
 // Every broken invariant of a mesh as a sentence.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "base/number_text.h"
 #include "mesh/edit.h"
 #include "mesh/facet_sort.h"
 #include "mesh/facets.h"
@@ -23,9 +23,7 @@ struct Report {
 };
 
 std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", value);
-  return text.data();
+  return short_text(value, 4);
 }
 
 std::string element_text(const Mesh& mesh, std::int32_t e) {

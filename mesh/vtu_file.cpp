@@ -8,27 +8,11 @@
 #include "mesh/text_append.h"
 #include "mesh/vtu_data.h"
 #include "mesh/whole_file.h"
+#include "mesh/xml_tag.h"
 
 namespace trocar {
 
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
 
 struct ArrayHead {
   std::string_view type;  // "Float64"
@@ -39,7 +23,7 @@ struct ArrayHead {
 template <class Number>
 void append_array(std::string& text, const ArrayHead& head, std::span<const Number> values) {
   text.append("<DataArray type=\"").append(head.type);
-  text.append("\" Name=\"").append(escaped(head.name)).append("\" NumberOfComponents=\"");
+  text.append("\" Name=\"").append(escaped_xml(head.name)).append("\" NumberOfComponents=\"");
   append_number(text, head.width);
   text += "\" format=\"binary\">";
   append_vtu_data({reinterpret_cast<const char*>(values.data()), values.size_bytes()}, text);
@@ -116,7 +100,7 @@ void write_pvd(std::span<const PvdEntry> entries, const std::string& file) {
   for (const PvdEntry& entry : entries) {
     text += "<DataSet timestep=\"";
     append_number(text, entry.time);
-    text.append("\" part=\"0\" file=\"").append(escaped(entry.file)).append("\"/>\n");
+    text.append("\" part=\"0\" file=\"").append(escaped_xml(entry.file)).append("\"/>\n");
   }
   text += "</Collection>\n</VTKFile>\n";
   write_whole_file(file, text);

@@ -74,4 +74,21 @@ std::string_view attribute(const XmlTag& tag, std::string_view name) {
   return {};
 }
 
+std::string escaped_xml(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '&')
+      safe += "&amp;";
+    else if (c == '<')
+      safe += "&lt;";
+    else if (c == '>')
+      safe += "&gt;";
+    else if (c == '"')
+      safe += "&quot;";
+    else
+      safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return safe;
+}
+
 }  // namespace trocar

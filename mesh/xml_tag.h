@@ -1,7 +1,8 @@
-// Just enough XML for the tags of VTU files: names and attributes, front to back. No entities, no
-// nesting: whoever reads the tags knows what may stand where.
+// Just enough XML for VTU files and pictures. Tags: names and attributes, front to back. No
+// entities, no nesting: whoever reads the tags knows what may stand where.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -24,5 +25,9 @@ struct XmlTag {
 bool next_tag(FileReader& in, XmlTag& tag);
 // "" if the tag doesn't have it.
 std::string_view attribute(const XmlTag& tag, std::string_view name);
+
+// Text as it may stand in an attribute or between tags: entities for what XML keeps for itself,
+// blanks for control characters, which it does not allow.
+std::string escaped_xml(std::string_view text);
 
 }  // namespace trocar

@@ -41,10 +41,6 @@ Function library_symbol(void* library, const char* name) {
 
 }  // namespace
 
-std::span<const char* const> osmesa_library_names() {
-  return library_names;
-}
-
 void* load_osmesa(std::span<const char* const> names) {
   std::string reason = "no name to look for";
   for (const char* name : names) {

@@ -75,8 +75,6 @@ struct GlFunctions {
 // (Mesa's threads and exit handlers do not survive an unload). Throws MachineError naming the
 // package.
 void* load_osmesa(std::span<const char* const> names);
-// The names under which distributions install OSMesa.
-std::span<const char* const> osmesa_library_names();
 
 class GlContext {
  public:

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -14,6 +13,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/quoted.h"
 #include "render/encoder_process.h"
 #include "render/image_file.h"
@@ -54,12 +54,6 @@ void check_writable(const std::string& file) {
   close(f);
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
-}
-
 std::vector<std::string> encoder_arguments(const std::string& file, int width, int height,
                                            double frame_rate) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
@@ -81,7 +75,7 @@ std::vector<std::string> encoder_arguments(const std::string& file, int width, i
       "-s",
       size,
       "-r",
-      number(frame_rate),
+      short_text(frame_rate, 10),
       "-i",
       "pipe:0",
       "-vf",
@@ -163,7 +157,7 @@ VideoWriter::VideoWriter(const std::string& file, int width, int height, double 
                      std::to_string(width) + " x " + std::to_string(height));
   if (!(frame_rate > 0 && frame_rate <= 1e6))
     throw InputError("a film's frame rate must be above 0 and at most 1e6 Hz, not " +
-                     number(frame_rate));
+                     short_text(frame_rate, 10));
   if (const std::string fault = film_name_fault(file); !fault.empty()) throw InputError(fault);
   needed_ffmpeg();
   check_writable(file);

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
+#include "base/number_text.h"
 #include "solver/block_data.h"
 #include "solver/material_list.h"
 #include "solver/material_setup.h"
@@ -81,10 +81,10 @@ std::string softening_of(const Material& material) {
   if (material.model == MaterialModel::linear ||
       material.model == MaterialModel::st_venant_kirchhoff)
     return {};
-  char text[160] = "";
+  std::string text;
   const auto look = [&](double at, const char* strain) {
-    if (text[0] == 0 && at < grows)
-      std::snprintf(text, sizeof text, "its stress falls beyond a %s of %.3g", strain, at);
+    if (text.empty() && at < grows)
+      text = std::string("its stress falls beyond a ") + strain + " of " + short_text(at);
   };
   look(first_softening(material, stretched, 1, largest_stretch), "stretch");
   look(first_softening(material, stretched, 1, least_stretch), "compression to a stretch");

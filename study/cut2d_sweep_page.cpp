@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "study/study_text.h"
 #include "study/svg.h"
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "base/number_text.h"
 #include "cutting/cut_plane_paper.h"
 #include "study/study_text.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/box.h"
 #include "base/check.h"
 #include "engine/mesh_measures.h"
 #include "mesh/facets.h"
@@ -39,14 +40,10 @@ const Vec3& at(const Mesh& mesh, std::int32_t node) {
 
 // Whether the point is within `reach` of the simplex's box.
 bool is_near(const Mesh& mesh, const Simplex& simplex, const Vec3& point, double reach) {
-  Vec3 low = at(mesh, simplex[0]), high = low;
-  for (const std::int32_t node : simplex) {
-    if (node < 0) break;
-    low = low.cwiseMin(at(mesh, node));
-    high = high.cwiseMax(at(mesh, node));
-  }
-  return (point.array() >= low.array() - reach).all() &&
-         (point.array() <= high.array() + reach).all();
+  Box box;
+  for (const std::int32_t node : simplex)
+    if (node >= 0) box.add(at(mesh, node));
+  return box.holds(point, reach);
 }
 
 SamplePoint weigh(const Mesh& mesh, const Simplex& simplex, const Vec3& point) {

@@ -54,7 +54,8 @@ const char* precision_name(Precision precision) {
   return precision == Precision::in_single ? "single" : "double";
 }
 
-SolverOptions with_method(SolverOptions options, const Method& method, Precision precision) {
+SolverOptions solver_options(const Method& method, Precision precision) {
+  SolverOptions options;
   options.precision = precision;
   Formulation* const of_shape[] = {&options.tri3, &options.tet4, &options.hex8};
   *of_shape[static_cast<int>(shape_of(method.formulation))] = method.formulation;

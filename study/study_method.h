@@ -24,6 +24,6 @@ Precision precision_named(const std::string& name);
 const char* precision_name(Precision precision);
 
 // `options` with the method's shape computed by its formulation.
-SolverOptions with_method(SolverOptions options, const Method& method, Precision precision);
+SolverOptions solver_options(const Method& method, Precision precision);
 
 }  // namespace trocar

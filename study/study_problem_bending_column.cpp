@@ -42,7 +42,7 @@ Outcome solve_column(const Case& c) {
       make_box(Vec3::Zero(), Vec3(1, column_height, 1), {c.n, 6 * c.n, c.n}, c.method.elements),
       outcome.h, {MaterialModel::neo_hookean, 17e6, .45, 1100},
       [](const Vec3& X) { return FixedMask{X.y() < 1e-9 ? FixedMask{7} : FixedMask{0}}; },
-      with_method({}, c.method, c.precision));
+      solver_options(c.method, c.precision));
   for (std::size_t i = 0; i < body.mesh.X.size(); ++i)
     body.state.v[3 * i] = 10 * body.mesh.X[i].y() / column_height;
   const double ready = processor_seconds();

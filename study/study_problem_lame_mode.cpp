@@ -68,7 +68,7 @@ Outcome solve_lame_mode(const Case& c) {
   StudyBody body = make_study_body(
       make_box(Vec3::Zero(), Vec3(a, a, outcome.h), {c.n, c.n, 1}, c.method.elements), outcome.h,
       {MaterialModel::neo_hookean, young_modulus, poisson_ratio, density}, {},
-      with_method({}, c.method, c.precision));
+      solver_options(c.method, c.precision));
   for (std::size_t i = 0; i < body.mesh.X.size(); ++i)
     Vec3::Map(&body.state.u[3 * i]) = 1e-6 * shape(body.mesh.X[i]);
   const double ready = processor_seconds();

@@ -28,7 +28,7 @@ Outcome relax_box(const Case& c, const StaticBox& box,
   outcome.h = box.size[0] / box.n[0];
   StudyBody body =
       make_study_body(make_box(Vec3::Zero(), box.size, box.n, c.method.elements), outcome.h,
-                      box.material, box.fixed, with_method({}, c.method, c.precision));
+                      box.material, box.fixed, solver_options(c.method, c.precision));
   const std::vector<PrescribedNode> held = held_nodes(body, box);
   const double ready = processor_seconds();
   const Relaxation relaxed = relax(

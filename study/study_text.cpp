@@ -1,26 +1,19 @@
 #include "study/study_text.h"
 
 #include <cmath>
-#include <cstdio>
+
+#include "base/number_text.h"
 
 namespace trocar {
 
 std::string significant(double value, int digits) {
-  char text[64];
   const double size = std::abs(value);
-  // %g rounds to digits but changes to an exponent as soon as the number has more places.
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  // short_text changes to an exponent as soon as the number has more places than digits.
   if (size >= 1 && size < 1e6) {
     const double step = std::pow(10., std::floor(std::log10(size)) + 1 - digits);
-    if (step >= 1) std::snprintf(text, sizeof text, "%.0f", std::round(value / step) * step);
+    if (step >= 1) return with_decimals(std::round(value / step) * step, 0);
   }
-  return text;
-}
-
-std::string with_decimals(double value, int decimals) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
+  return short_text(value, digits);
 }
 
 namespace {

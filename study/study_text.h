@@ -7,7 +7,6 @@ namespace trocar {
 
 // Rounded to this many digits, without an exponent between 1e-4 and 1e6.
 std::string significant(double value, int digits);
-std::string with_decimals(double value, int decimals);
 // "1.25 mm", "3.4 um".
 std::string length_text(double metres);
 std::string percent_text(double share);  // "0.31 %"

@@ -1,37 +1,18 @@
 #include "study/svg.h"
 
-#include <cstdio>
+#include "base/number_text.h"
+#include "mesh/xml_tag.h"
 
 namespace trocar {
 
 namespace {
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", value);
-  return text;
-}
-
-// Characters that XML keeps for itself.
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (c == '"')
-      safe += "&quot;";
-    else
-      safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return safe;
+  return with_decimals(value, 1);
 }
 
 std::string attribute(const char* name, const std::string& value) {
-  return std::string(" ") + name + "=\"" + escaped(value) + "\"";
+  return std::string(" ") + name + "=\"" + escaped_xml(value) + "\"";
 }
 
 std::string stroke_attributes(const SvgStroke& stroke) {
@@ -80,7 +61,7 @@ std::string svg_text(SvgPoint at, const SvgText& text) {
          attribute("text-anchor", anchors[static_cast<int>(text.anchor)]) +
          (text.is_bold ? " font-weight=\"bold\"" : "") +
          (text.is_upright ? attribute("transform", "rotate(-90 " + place + ")") : "") + ">" +
-         escaped(text.text) + "</text>\n";
+         escaped_xml(text.text) + "</text>\n";
 }
 
 std::string svg_marker(SvgPoint at, int shape, const std::string& colour, bool is_filled,
@@ -88,7 +69,7 @@ std::string svg_marker(SvgPoint at, int shape, const std::string& colour, bool i
   const std::string look = (title.empty() ? "" : attribute("class", "point")) +
                            attribute("fill", is_filled ? colour : "#ffffff") +
                            attribute("stroke", colour) + " stroke-width=\"1.6\"";
-  const std::string tail = ">" + (title.empty() ? "" : "<title>" + escaped(title) + "</title>");
+  const std::string tail = ">" + (title.empty() ? "" : "<title>" + escaped_xml(title) + "</title>");
   if (shape % 4 == 0)
     return "<circle" + attribute("cx", number(at.x)) + attribute("cy", number(at.y)) +
            " r=\"4.5\"" + look + tail + "</circle>\n";
@@ -102,7 +83,7 @@ std::string svg_document(double width, double height, const std::string& title,
   return "<svg xmlns=\"http://www.w3.org/2000/svg\"" + attribute("width", number(width)) +
          attribute("height", number(height)) +
          attribute("viewBox", "0 0 " + number(width) + " " + number(height)) +
-         " font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\">\n<title>" + escaped(title) +
+         " font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\">\n<title>" + escaped_xml(title) +
          "</title>\n" + svg_rectangle({0, 0}, {width, height}, "#ffffff") + content + "</svg>\n";
 }
 

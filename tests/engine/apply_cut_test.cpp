@@ -59,6 +59,8 @@ TEST(FreedPiece, falls_like_a_body_of_its_own_and_is_counted) {
     EXPECT_EQ(s.cuts[0].strokes[0].n_pieces, 2);
     EXPECT_EQ(s.log.rows.front().n_pieces, 1);
     EXPECT_EQ(s.log.rows.back().n_pieces, 2);
+    // What falls off leaves no wound that grows as it falls.
+    EXPECT_EQ(s.log.rows.back().wound_width, 0);
     EXPECT_EQ(std::count_if(s.log.events.begin(), s.log.events.end(),
                             [](const std::string& e) { return e.find("piece") != e.npos; }),
               1);

@@ -34,7 +34,7 @@ Checkpoint without_wall_times(Checkpoint c) {
   for (FrameRow& row : *rows) row.seconds = row.latency = 0;
   c.rows = std::move(rows);
   for (CutMemory& cut : c.cuts)
-    for (CutRecord& stroke : cut.strokes) stroke.milliseconds = stroke.worst_milliseconds = 0;
+    for (CutRecord& stroke : cut.strokes) stroke.seconds = stroke.worst_seconds = 0;
   c.tally.n_deadlines_missed = 0;
   return c;
 }

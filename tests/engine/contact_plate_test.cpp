@@ -6,8 +6,11 @@
 #include <string>
 
 #include "box_file.h"
+#include "engine/frame_report.h"
 #include "engine_started.h"
 #include "larger_or_nan.h"
+#include "mesh/generate.h"
+#include "mesh_write.h"
 
 namespace trocar {
 namespace {
@@ -42,6 +45,7 @@ struct Slide {
   std::string body, supports;
   bool is_plane = false;
   bool is_mesh = true;  // else a shaft that lies on the tissue
+  std::string solver = "";
 };
 
 std::unique_ptr<Started> make_slide(const Slide& slide, double friction) {
@@ -60,7 +64,7 @@ std::unique_ptr<Started> make_slide(const Slide& slide, double friction) {
   return built("[time]\nduration = 10\nframe_rate = 60\n" + slide.body +
                "[tissue.material]\nyoung_modulus = 5000\npoisson_ratio = "
                "0.3\n[solver]\nmass_damping = 60\n" +
-               slide.supports + "[contact]\nfriction = " + std::to_string(friction) +
+               slide.solver + slide.supports + "[contact]\nfriction = " + std::to_string(friction) +
                "\n[[instrument]]\nkind = \"probe\"\nradius = 0.005\nlength = 0.2\n" +
                (slide.is_mesh ? "mesh = \"" + folder.file("plate.obj") + "\"\n" : "") +
                "path = [{ time = 0, " + at(from, side + 0.002) + " }, { time = 0.2, " +
@@ -70,6 +74,31 @@ std::unique_ptr<Started> make_slide(const Slide& slide, double friction) {
 
 const std::string rollers =
     "[[support]]\nregion = \"x-\"\nfix = \"x\"\n[[support]]\nregion = \"y-\"\nfix = \"y\"\n";
+
+const std::string on_foot = "[[support]]\nregion = \"z-\"\nfix = \"z\"\n";
+// The same of a mesh whose faces have no names.
+const std::string sides_of_cube = R"([[region]]
+name = "left"
+low = [-1, -1, -1]
+high = [-0.01999, 1, 1]
+[[region]]
+name = "front"
+low = [-1, -1, -1]
+high = [1, -0.01999, 1]
+[[region]]
+name = "foot"
+low = [-1, -1, -1]
+high = [1, 1, 1e-5]
+[[support]]
+region = "left"
+fix = "x"
+[[support]]
+region = "front"
+fix = "y"
+[[support]]
+region = "foot"
+fix = "z"
+)";
 
 Slide on_cube(const std::string& elements, const std::string& supports) {
   return {.body = "[tissue.shape]\nkind = \"box\"\nelements = \"" + elements +
@@ -89,9 +118,9 @@ Slide on_plane(const std::string& supports, bool is_mesh) {
 // While only edges touched in the plane, each with one of its ends, tissue without friction was
 // two thirds of the way inside the plate, with a quarter of the force.
 TEST(ContactOfAPlate, that_tissue_may_slide_on_is_pressed_as_the_closed_form_says) {
-  const std::string on_foot = rollers + "[[support]]\nregion = \"z-\"\nfix = \"z\"\n";
-  for (const Slide& slide : {on_cube("hex8", on_foot), on_cube("tet4-kuhn", on_foot),
-                             on_plane(rollers, true), on_plane(rollers, false)}) {
+  for (const Slide& slide :
+       {on_cube("hex8", rollers + on_foot), on_cube("tet4-kuhn", rollers + on_foot),
+        on_plane(rollers, true), on_plane(rollers, false)}) {
     const auto body = make_slide(slide, 0);
     for (int frame = 0; frame < 22; ++frame) run_frame(*body->s, body->outputs);
     const double force = body->s->log.rows.back().tools[0].force[slide.is_plane ? 1 : 2],
@@ -100,6 +129,46 @@ TEST(ContactOfAPlate, that_tissue_may_slide_on_is_pressed_as_the_closed_form_say
     // Contacts are solved to 1e-3 of the deepest point.
     EXPECT_NEAR(force, exact, 1e-3 * exact);
   }
+}
+
+// While each node's push was found as if the others of its cluster stayed, a plate pressed one of
+// these cubes with 1.1 times the force, and the tissue hovered off it.
+TEST(ContactOfAPlate, presses_as_the_closed_form_says_whatever_masses_are_scaled_to) {
+  for (const std::string step : {"4 ms", "8 ms"})
+    for (const std::string elements : {"hex8", "tet4-kuhn"}) {
+      Slide slide = on_cube(elements, rollers + on_foot);
+      slide.solver = "mass_scaling_step = \"" + step + "\"\n";
+      const auto body = make_slide(slide, 0);
+      ASSERT_TRUE(body->s->added_mass) << elements;
+      for (int frame = 0; frame < 60; ++frame) run_frame(*body->s, body->outputs);
+      const double force = body->s->log.rows.back().tools[0].force.z(),
+                   exact = closed_form(false, side);
+      std::printf("scaled to %s: %.5f N, closed form %.5f N\n", step.c_str(), force, exact);
+      EXPECT_NEAR(force, exact, 1e-3 * exact) << elements;
+    }
+}
+
+// A cube whose uppermost layer is a tenth as thick as the others. With local steps under the plate
+// it pressed with 0.84 of the force.
+TEST(ContactOfAPlate, presses_small_elements_as_without_their_local_steps) {
+  Mesh mesh = make_box(Vec3(-0.02, -0.02, 0), Vec3(0.02, 0.02, side), {4, 4, 5}, BoxElements::hex8);
+  const double thick = side / 4.1;
+  for (Vec3& X : mesh.X) X.z() = X.z() > 0.99 * side ? side : X.z() / (side / 5) * thick;
+  const TestFolder folder;
+  write_mesh(mesh, folder.file("layer.msh"));
+  const Slide slide{.body = "[tissue]\nmesh = \"" + folder.file("layer.msh") + "\"\n",
+                    .supports = sides_of_cube,
+                    .solver = "multirate = true\n"};
+  const auto body = make_slide(slide, 0);
+  Simulation& s = *body->s;
+  ASSERT_TRUE(s.multirate);
+  EXPECT_LT(s.look.of_small, 0.5);
+  for (int frame = 0; frame < 22; ++frame) run_frame(s, body->outputs);
+  EXPECT_EQ(s.log.n_roll_backs, 0);
+  EXPECT_TRUE(is_told(s, "small elements take no local steps"));
+  const double force = s.log.rows.back().tools[0].force.z(), exact = closed_form(false, side);
+  std::printf("with small elements %.5f N, closed form %.5f N\n", force, exact);
+  EXPECT_NEAR(force, exact, 1e-3 * exact);
 }
 
 // What of a plate lies "straight below" the bulging sides that end at it dragged the body along

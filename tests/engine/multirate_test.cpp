@@ -28,12 +28,12 @@ namespace {
 const std::string hung_text = time_table("1 s") + "[checkpoint]\nevery = 0\n" + tissue_of_kpa(6) +
                               solver_table("-2", 20) + held_left;
 const std::string tools_text = probe_along(R"(
-  { time = 0, position = ["12 mm", "15 mm", "34 mm"] },
-  { time = 0.3, position = ["12 mm", "15 mm", "26 mm"] },
+  { time = 0, position = ["40 mm", "15 mm", "34 mm"] },
+  { time = 0.3, position = ["40 mm", "15 mm", "26 mm"] },
 )") + grasper_along("7 mm", R"(
-  { time = 0, position = ["11 mm", "-20 mm", "-20 mm"] },
-  { time = 0.15, position = ["11 mm", 0, 0], action = "close" },
-  { time = 0.4, position = ["13 mm", "-3 mm", "-2 mm"] },
+  { time = 0, position = ["70 mm", "-20 mm", "-20 mm"] },
+  { time = 0.15, position = ["70 mm", 0, 0], action = "close" },
+  { time = 0.4, position = ["72 mm", "-3 mm", "-2 mm"] },
 )");
 const std::string scalpel_text = scalpel_along("40 mm", R"(
   { time = 0.1, position = ["32 mm", "-6 mm", "12 mm"], forward = [0, 1, 0] },

@@ -24,7 +24,8 @@ ExampleRun replayable_run() {
 struct RunToReplay {
   TestFolder folder;
   ExampleRun run = replayable_run();
-  ReplayOptions options{.recording = folder.file("r"), .folder = folder.file("out"), .vtu = true};
+  ReplayOptions options{
+      .recording = folder.file("r"), .folder = folder.file("out"), .writes_vtu = true};
   RunToReplay() {
     start_log(0, true);
     write_run(run, options.recording);
@@ -39,6 +40,8 @@ TEST(Replay, writes_a_vtu_of_each_frame_with_the_displaced_mesh_of_that_frame) {
   RunToReplay c;
   replay(c.options);
   for (std::size_t k = 0; k < c.run.frames.size(); ++k) {
+    for (const char* field : {"displacement", "touches_cut", "det_F", "green_strain"})
+      EXPECT_TRUE(contains(read_text(c.vtu(c.run.frames[k].frame)), field));
     const Mesh read = read_mesh(c.vtu(c.run.frames[k].frame), 1);
     const Mesh& mesh = c.run.meshes[k];
     ASSERT_EQ(read.X.size(), mesh.X.size()) << k;
@@ -77,7 +80,7 @@ TEST(Replay, says_that_no_frame_lies_in_the_chosen_time) {
 
 TEST(Replay, lists_frames_with_times_and_digests_and_writes_nothing) {
   RunToReplay c;
-  c.options.list = true;
+  c.options.is_list = true;
   testing::internal::CaptureStdout();
   replay(c.options);
   const std::string text = testing::internal::GetCapturedStdout();
@@ -90,7 +93,7 @@ TEST(Replay, lists_frames_with_times_and_digests_and_writes_nothing) {
 
 TEST(Replay, lists_the_whole_frames_behind_a_damaged_one) {
   RunToReplay c;
-  c.options.list = true;
+  c.options.is_list = true;
   const std::int64_t damaged = c.run.frames[1].frame;
   Database(c.options.recording, Database::Mode::read)
       .run("UPDATE frame SET u = zeroblob(length(u)) WHERE frame = " + std::to_string(damaged));
@@ -105,13 +108,13 @@ TEST(Replay, lists_the_whole_frames_behind_a_damaged_one) {
 
 TEST(Replay, says_that_it_has_nothing_to_do) {
   RunToReplay c;
-  c.options.vtu = false;
+  c.options.writes_vtu = false;
   EXPECT_TRUE(contains(error_of([&] { replay(c.options); }), "--vtu"));
 }
 
 TEST(Replay, names_a_camera_that_the_scene_lacks) {
   RunToReplay c;
-  c.options.frames = true;
+  c.options.writes_frames = true;
   c.options.camera = "other";
   EXPECT_TRUE(contains(error_of([&] { replay(c.options); }), "no camera \"other\""));
 }

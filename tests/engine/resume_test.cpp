@@ -86,7 +86,7 @@ bool run_block(const TestFolder& folder, const std::vector<std::string>& setting
   return run_scene({.scene_file = write_text(folder.file("s.toml"), text),
                     .folder = folder.file("out"),
                     .overrides = settings,
-                    .resume = resume},
+                    .is_resumed = resume},
                    alone);
 }
 

@@ -89,5 +89,31 @@ path = [
   EXPECT_TRUE(contains(suspect.cure, "a slower or shorter path of \"grasper\"")) << suspect.cure;
 }
 
+// It said "to press less deep".
+TEST(Suspect, is_the_grasper_that_has_just_let_go_of_what_it_had_stretched) {
+  const auto started = built(R"([time]
+duration = "1 s"
+[tissue.shape]
+kind = "box"
+elements = "hex8"
+cells = [4, 4, 4]
+[[instrument]]
+kind = "grasper"
+path = [
+  { time = 0, position = [0.05, 0.05, 0.102] },
+  { time = 0.1, position = [0.05, 0.05, 0.102], action = "close" },
+  { time = 0.5, position = [0.05, 0.05, 0.202], action = "open" },
+]
+)",
+                             {});
+  const Watch failed{.least_J = -1, .least_J_element = 0};
+  const auto cure_at = [&](double t) {
+    return find_suspect(*started->s, failed, {.t0 = t, .t1 = t + 0.01}).cure;
+  };
+  EXPECT_TRUE(contains(cure_at(0.51), "shorter pull of \"grasper\", which has just let go"));
+  EXPECT_FALSE(contains(cure_at(0.49), "let go"));
+  EXPECT_FALSE(contains(cure_at(0.61), "let go"));
+}
+
 }  // namespace
 }  // namespace trocar

@@ -34,7 +34,7 @@ void run(const std::vector<std::string>& words, int n_threads, trocar::Communica
     options.overrides.push_back("time.duration='" + first_half + "'");
     run_scene(options, world);
     options.overrides.pop_back();
-    options.resume = true;
+    options.is_resumed = true;
   }
   run_scene(options, world);
 }

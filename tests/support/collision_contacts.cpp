@@ -34,7 +34,7 @@ void ContactBench::prepare(const std::vector<Contact>& contacts, std::vector<std
                            const std::vector<TissuePair>& tissue) {
   held.resize(mass.size());
   set = prepare_contacts({contacts, tissue}, std::vector<std::int32_t>(mass.size(), 0), part, 0,
-                         mass, held);
+                         {.mass = mass, .held = held});
 }
 
 void ContactBench::place() {

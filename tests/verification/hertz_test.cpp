@@ -73,7 +73,7 @@ struct Indentation {
                          [&](std::int32_t i) { return body.mesh.X[i].z() < -1e-9; });
     });
     set = prepare_contacts({contacts}, std::vector<std::int32_t>(mass.size(), 0), body.part, 0,
-                           mass, body.model.fixed);
+                           {.mass = mass, .held = body.model.fixed});
   }
   // Before relax_step, whose prediction it makes.
   void add_force(const Relaxer& relaxer, std::int64_t number, Body& body) {
