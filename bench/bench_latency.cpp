@@ -68,7 +68,7 @@ double seconds_of_step(const Communicator& ranks, int n, int n_rounds) {
 
 // Stable step of a cube of elements over their edge, as the watch finds it, and the collectives
 // that this takes in a frame; some more are for forces, contact and outputs. A search in every
-// frame is on the safe side (frame_watch.h).
+// frame is on the safe side (body_search.h).
 void measure_frame(ScalingParameters& m) {
   constexpr int n = 12;
   Body body =

@@ -21,9 +21,10 @@ struct ContactConstraint {
   std::int32_t item = 0;  // -1: between tissue and tissue
   std::array<std::int32_t, 4> place{};
   std::array<double, 4> weight{};
-  std::array<Vec3, 4> lever{};  // weight / mass by component, 0 along supported ones [1/kg]
-  Vec3 normal, slip;            // n; slip of the step without contact [m]
-  double lack = 0;              // [m]
+  // weight / mass by component, 0 along supported ones; of joined masses the node's own part [1/kg]
+  std::array<Vec3, 4> lever{};
+  Vec3 normal, slip;  // n; slip of the step without contact [m]
+  double lack = 0;    // [m]
   // 1 / sum w^2 n·M^-1 n, and against slip 1 / sum w^2 / m: less than the former, so that what
   // supports keep from slipping takes all the friction there is. [kg]
   double felt_mass = 0, slip_mass = 0;

@@ -59,8 +59,8 @@ void add_tilt_force(const Tilt& tilt, const std::array<Vec3, 3>& u, std::array<V
   for (std::size_t a = 0; a < 3; ++a) force[a] -= tilt.turn * tilt.edge[a].dot(slope) * tilt.normal;
 }
 
-double tilt_frequency2(std::span<const Tilt> tilts, const ContactSet& set) {
-  if (tilts.empty()) return 0;
+// As if each node had its mass alone.
+static double tilt_frequency2_apart(std::span<const Tilt> tilts, const ContactSet& set) {
   std::vector<double> u(set.node.size()), force(set.node.size());
   std::uint32_t noise = 1;
   for (double& of_node : u)
@@ -88,6 +88,12 @@ double tilt_frequency2(std::span<const Tilt> tilts, const ContactSet& set) {
     for (double& of_node : u) of_node /= largest;
   }
   return omega2;
+}
+
+double tilt_frequency2(std::span<const Tilt> tilts, const ContactSet& set) {
+  if (tilts.empty()) return 0;
+  // Joined masses give way by up to twice as much as each node alone.
+  return (set.clusters.is_empty() ? 1 : 2) * tilt_frequency2_apart(tilts, set);
 }
 
 }  // namespace trocar

@@ -20,8 +20,7 @@ const char* reason_of(const CutRefusal& refusal) {
       "an older cut, which can't go to the blade: finer elements there, or another path",
       "tissue there is pressed together so far that an element would be inverted",
       "the blade has gone all around, and what is inside hangs by a neck of few elements: a deeper "
-      "way, "
-      "or one that ends beside the point where it comes together"};
+      "way, or one that ends beside the point where it comes together"};
   return text[refusal.reason];
 }
 

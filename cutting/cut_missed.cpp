@@ -2,6 +2,7 @@
 #include "cutting/cut_missed.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/segment.h"
@@ -134,10 +135,15 @@ static std::vector<RimEdge> rim_edges(const After& after, const CutStroke& strok
   return rim;
 }
 
+static Vec3 middle_of(const After& after, std::span<const std::int32_t> node) {
+  Vec3 sum = Vec3::Zero();
+  for (const std::int32_t i : node) sum += after.X(i);
+  return sum / static_cast<double>(node.size());
+}
+
 static void add_rims(const After& after, std::span<const RimEdge> rim,
                      std::vector<CutRefusal>& places) {
-  for (const RimEdge& node : rim)
-    places.push_back({(after.X(node[0]) + after.X(node[1])) / 2, CutRefusal::missed});
+  for (const RimEdge& node : rim) places.push_back({middle_of(after, node), CutRefusal::missed});
 }
 
 // Nodes of the rim that hang together with `first`, ascending; more than `most` if they are so
@@ -154,23 +160,11 @@ static std::vector<std::int32_t> nodes_with(std::int32_t first, std::span<const 
   return node;
 }
 
-// Where a short rim runs into itself, the blade has gone around a neck, which may be an element
-// wide. A longer one is the front of a cut around what it has not undermined yet.
-static void add_necks(const After& after, std::span<const RimEdge> rim,
-                      std::vector<CutRefusal>& places) {
-  constexpr std::size_t longest = 12;  // edges
-  for (const RimEdge& first : rim) {
-    const std::vector<std::int32_t> node = nodes_with(first[0], rim, longest);
-    if (node.front() != first[0] || node.size() > longest) continue;
-    const auto degree = [&](std::int32_t i) {
-      return std::ranges::count_if(rim, [&](const RimEdge& e) { return e[0] == i || e[1] == i; });
-    };
-    if (!std::ranges::all_of(node, [&](std::int32_t i) { return degree(i) == 2; })) continue;
-    Vec3 middle = Vec3::Zero();
-    for (const std::int32_t i : node) middle += after.X(i) / static_cast<double>(node.size());
-    if (std::ranges::none_of(places, [&](const CutRefusal& p) { return p.X == middle; }))
-      places.push_back({middle, CutRefusal::neck});
-  }
+static std::size_t count_opened(const CutStroke& stroke) {
+  std::size_t n = 0;
+  for (const auto& [e, mask] : stroke.opened)
+    n += static_cast<std::size_t>(std::popcount(static_cast<unsigned>(mask)));
+  return n / 2;
 }
 
 // Whether X lies where the stroke ends in the tissue, or where the blade has stopped and not parted
@@ -197,8 +191,7 @@ std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut,
   }
   add_unparted(cut, stroke, places);
   add_joined_facets(after, stroke, places);
-  const std::vector<RimEdge> rim = rim_edges(after, stroke);
-  add_rims(after, rim, places);
+  add_rims(after, rim_edges(after, stroke), places);
   if (has_come_out(stroke)) {
     const std::vector<CutRefusal> slices = missed_slices(mesh, cut.around, stroke);
     places.insert(places.end(), slices.begin(), slices.end());
@@ -207,10 +200,32 @@ std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut,
   return places;
 }
 
-std::vector<CutRefusal> necks(const Mesh& mesh, const TetCut& cut, const CutStroke& stroke) {
+// Where a short rim runs into itself, the blade has gone around a neck, which may be an element
+// wide. A longer one is the front of a cut around what it has not undermined yet, and one around
+// few opened facets is the outline of a slit inside.
+std::vector<CutRefusal> necks(const Mesh& mesh, const TetCut& cut, const CutStroke& stroke,
+                              std::span<const CutRefusal> told) {
+  constexpr std::size_t longest = 12;  // edges
   const After after{mesh, cut};
+  const std::vector<RimEdge> rim = rim_edges(after, stroke);
+  const std::size_t n_opened = count_opened(stroke);
+  const auto is_told = [&](const RimEdge& edge) {
+    const Vec3 X = middle_of(after, edge);
+    return std::ranges::any_of(told, [&](const CutRefusal& place) { return place.X == X; });
+  };
+  const auto is_twice = [&](std::int32_t i) {
+    return std::ranges::count_if(rim, [&](const RimEdge& e) { return e[0] == i || e[1] == i; }) ==
+           2;
+  };
   std::vector<CutRefusal> places;
-  add_necks(after, rim_edges(after, stroke), places);
+  for (std::size_t k = 0; k < rim.size(); ++k) {
+    if (k > 0 && rim[k][0] == rim[k - 1][0]) continue;
+    const std::vector<std::int32_t> node = nodes_with(rim[k][0], rim, longest);
+    const bool is_outline = 4 * n_opened <= node.size() * node.size();
+    if (node.front() != rim[k][0] || node.size() > longest || is_outline) continue;
+    if (std::ranges::all_of(node, is_twice) && !is_told(rim[k]))
+      places.push_back({middle_of(after, node), CutRefusal::neck});
+  }
   return places;
 }
 

@@ -2,6 +2,7 @@
 // must not end without saying so.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "cutting/cut_figures.h"
@@ -16,7 +17,8 @@ namespace trocar {
 // slices too thin to show.
 std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut, const CutStroke& stroke);
 // At the end of any stroke: the necks by which hangs what it has gone all around, as in a closed
-// ring that comes to a point.
-std::vector<CutRefusal> necks(const Mesh& mesh, const TetCut& cut, const CutStroke& stroke);
+// ring that comes to a point. None that `told` has edges of.
+std::vector<CutRefusal> necks(const Mesh& mesh, const TetCut& cut, const CutStroke& stroke,
+                              std::span<const CutRefusal> told);
 
 }  // namespace trocar

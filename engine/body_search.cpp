@@ -66,7 +66,7 @@ double step_of_frequency(Simulation& s) {
   if (s.multirate && step > 0) {
     const double without = step;
     step = step_with_local_steps(s, without);
-    s.look.of_small = without / step;
+    if (step > 0) s.look.of_small = without / step;
   }
   if (s.sleep) show_asleep(s);
   return step;

@@ -49,6 +49,35 @@ void take_impulses(std::span<const double> impulses, ContactSet& set) {
   }
 }
 
+// M of solver/mass_scaling.h against forces, for ContactInertia: of a cluster with D = m + d the
+// share of a node is d / D, and its yield 1 / (sum_free d m/D + sum_held d).
+struct JoinedMasses {
+  std::vector<double> mass, share;
+  std::vector<std::int32_t> cluster;
+  std::vector<Vec3> yield;
+};
+
+JoinedMasses join_masses(const ContactBody& body, std::span<const FixedMask> held) {
+  const MassScaling& scaling = *body.scaling;
+  JoinedMasses joined{.mass = {body.mass.begin(), body.mass.end()},
+                      .share = std::vector<double>(body.mass.size()),
+                      .cluster = std::vector<std::int32_t>(body.mass.size(), -1),
+                      .yield = {}};
+  for (std::int32_t c = 0; c < scaling.n_clusters(); ++c) {
+    Vec3 whole = Vec3::Zero();
+    for (std::int32_t k = scaling.offset[c]; k < scaling.offset[c + 1]; ++k) {
+      const std::int32_t i = scaling.node[k];
+      const double m = body.mass[i], d = scaling.added[k];
+      joined.mass[i] = m + d;
+      joined.share[i] = d / (m + d);
+      joined.cluster[i] = c;
+      for (int j = 0; j < 3; ++j) whole[j] += (held[i] >> j & 1) != 0 ? d : d * m / (m + d);
+    }
+    joined.yield.push_back(whole.cwiseInverse());
+  }
+  return joined;
+}
+
 }  // namespace
 
 void detect_contacts(ContactStage& stage, std::span<const Tool> tools, const Holds& holds,
@@ -75,35 +104,6 @@ void detect_tissue(ContactStage& stage, const SurfaceView& view, double time, do
   }
   stage.detector.detect_tissue({.ahead = stage.ahead, .extra = reach, .depth = reach},
                                stage.tissue);
-}
-
-// M of solver/mass_scaling.h against forces, for ContactInertia: of a cluster with D = m + d the
-// share of a node is d / D, and its yield 1 / (sum_free d m/D + sum_held d).
-struct JoinedMasses {
-  std::vector<double> mass, share;
-  std::vector<std::int32_t> cluster;
-  std::vector<Vec3> yield;
-};
-
-static JoinedMasses join_masses(const ContactBody& body, std::span<const FixedMask> held) {
-  const MassScaling& scaling = *body.scaling;
-  JoinedMasses joined{.mass = {body.mass.begin(), body.mass.end()},
-                      .share = std::vector<double>(body.mass.size()),
-                      .cluster = std::vector<std::int32_t>(body.mass.size(), -1),
-                      .yield = {}};
-  for (std::int32_t c = 0; c < scaling.n_clusters(); ++c) {
-    Vec3 whole = Vec3::Zero();
-    for (std::int32_t k = scaling.offset[c]; k < scaling.offset[c + 1]; ++k) {
-      const std::int32_t i = scaling.node[k];
-      const double m = body.mass[i], d = scaling.added[k];
-      joined.mass[i] = m + d;
-      joined.share[i] = d / (m + d);
-      joined.cluster[i] = c;
-      for (int j = 0; j < 3; ++j) whole[j] += (held[i] >> j & 1) != 0 ? d : d * m / (m + d);
-    }
-    joined.yield.push_back(whole.cwiseInverse());
-  }
-  return joined;
 }
 
 void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds) {

@@ -43,7 +43,6 @@ struct FrameSpan {
   double t0 = 0, t1 = 0;  // [s]
   double dt = 0;          // of a substep [s]
   std::int64_t n_substeps = 1;
-  bool has_local_steps = false;  // small elements take more of them (solver/multirate.h)
 };
 
 // Finds the contacts of the frame. reach_extra: how far tissue may move towards a tool within a

@@ -6,6 +6,7 @@
 #include "base/sort_unique.h"
 #include "collision/contact_tilt.h"
 #include "engine/body_search.h"
+#include "engine/local_steps.h"
 #include "engine/part_search.h"
 #include "engine/patch.h"
 
@@ -101,7 +102,7 @@ std::size_t elements_worth(const Simulation& s, const FrameSpan& span, double lo
 }  // namespace
 
 double stable_step_with_contact(Simulation& s, const FrameSpan& span) {
-  const double stable = s.watch.stable_step;
+  const double stable = step_share(s) * s.watch.stable_step;
   if (!s.contact) return stable;
   const PhaseScope scope(s.timers, phase_watch);
   const std::vector<Tilt> tilts = find_tilts(s.contact->detector, span.n_substeps, s.contact->set);

@@ -88,7 +88,7 @@ static void refine_last_forces(Simulation& s) {
 EnergyState mechanical_energy(Simulation& s) {
   if (!s.scratch.has_force) compute_force(s.model, s.state, s.scratch);
   find_viscous_force(s.model, s.state, s.scratch);
-  if (s.multirate) refine_last_forces(s);
+  if (s.multirate && s.has_local_steps) refine_last_forces(s);
   EnergyTerms terms;
   energy_terms(s.model, s.part, s.state, terms);
   terms.strain.insert(terms.strain.end(), terms.volumetric.begin(), terms.volumetric.end());

@@ -32,8 +32,8 @@ constexpr double step_rise = 1e-4;
 
 void plan_substeps(const Simulation& s, FrameSpan& span) {
   const double length = 1 / s.scene.time.frame_rate;
-  const double stable = std::min(stable_step_of(s, span), s.held_step);
-  const double dt = s.scene.solver.step_factor * s.step_scale * stable;
+  const double stable = std::min(s.watch.stable_step, s.held_step);
+  const double dt = s.scene.solver.step_factor * s.step_scale * step_share(s) * stable;
   span.n_substeps = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / dt)));
   span.dt = length / static_cast<double>(span.n_substeps);
 }
@@ -128,7 +128,7 @@ void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
     const PhaseScope scope(s.timers, phase_contact);
     add_drag(s.model, s.state, span.dt, s.drag, s.scratch.force);
   }
-  if (span.has_local_steps) {
+  if (s.has_local_steps) {
     const ForceScope scope(s);
     refine_forces(s, span.dt);
   }
@@ -162,7 +162,7 @@ void look_again_for_pairs(Simulation& s, const FrameSpan& span, std::int64_t k) 
 FrameSpan begin_substeps(Simulation& s) {
   FrameSpan span = next_frame(s);
   if (s.contact) detect(s, span);
-  span.has_local_steps = may_take_local_steps(s, span.t0);
+  choose_local_steps(s, span.t0);
   plan_substeps(s, span);
   if (s.contact && s.contact->has_tissue) note_pair_look(s, span, 0);
   if (!s.cuts.empty()) prepare_drag(s, span);
@@ -216,7 +216,7 @@ bool was_stable(const Simulation& s, const FrameSpan& span) {
   const SceneSolver& solver = s.scene.solver;
   const bool is_limit = solver.stable_step == StableStep::frequency;
   const double most = is_limit ? 0.5 * (1 + solver.step_factor) : 1;
-  return span.dt <= most * stable_step_of(s, span);
+  return span.dt <= most * step_share(s) * s.watch.stable_step;
 }
 
 // All substeps of the frame, twice if they disturb what slept. On trouble they are done again from
@@ -224,7 +224,9 @@ bool was_stable(const Simulation& s, const FrameSpan& span) {
 // stiffened beyond it, at most `most_roll_backs` times.
 FrameSpan step_safely(Simulation& s) {
   s.frame_start = s.state;
-  const Watch good_watch = s.watch;  // that of a failed frame holds no step to go on with
+  // Those of a failed frame hold no step to go on with.
+  const Watch good_watch = s.watch;
+  const double of_small = s.look.of_small;
   for (int tries = 0;; ++tries) {
     FrameSpan span = run_substeps(s);
     if (s.sleep && wake_disturbed(s)) {
@@ -241,6 +243,7 @@ FrameSpan step_safely(Simulation& s) {
       repeat_frame(s, span, tries);
     } else {
       const Watch failed = std::exchange(s.watch, good_watch);
+      s.look.of_small = of_small;
       roll_back(s, span, failed, trouble, tries);
     }
   }
@@ -278,8 +281,8 @@ void run_frame(Simulation& s, Outputs& outputs) {
   const double held_step = std::min(s.watch.stable_step, s.held_step);
   const FrameSpan span = step_safely(s);
   // What the next frame's step follows from.
-  s.held_step = std::min({stable_step_of(s, span), stable_step_with_contact(s, span),
-                          held_step + step_rise / s.scene.time.frame_rate});
+  s.held_step = std::min(stable_step_with_contact(s, span) / step_share(s),
+                         held_step + step_rise / s.scene.time.frame_rate);
   recover_step_scale(s, span);
   // What the substeps have done, before a cut changes what touches and holds the body.
   if (s.energy) close_frame_work(s);

@@ -64,27 +64,33 @@ bool keep_local_steps(const MultiRatePlan& before, bool is_given_up,
   return stays;
 }
 
-static bool touches_small_elements(const ContactStage& contact, const MultiRatePlan& plan) {
-  const auto is_fine = [&](std::int32_t node) { return plan.is_fine[node] != 0; };
+static bool touches_small_elements(const Simulation& s) {
+  if (!s.contact) return false;
+  const auto is_fine = [&](std::int32_t node) { return s.local_steps->plan.is_fine[node] != 0; };
   const auto touches = [&](const Contact& c) { return std::ranges::any_of(c.node, is_fine); };
   const auto meets = [&](const TissuePair& pair) {
     return is_fine(pair.node) || std::ranges::any_of(pair.corner, is_fine);
   };
-  return std::ranges::any_of(contact.contacts, touches) ||
-         std::ranges::any_of(contact.tissue, meets);
+  return std::ranges::any_of(s.contact->contacts, touches) ||
+         std::ranges::any_of(s.contact->tissue, meets);
 }
 
-bool may_take_local_steps(Simulation& s, double t) {
-  if (!s.multirate) return false;
-  if (!s.contact || !touches_small_elements(*s.contact, s.local_steps->plan)) return true;
+static bool drags_tissue(const Simulation& s) {
+  return s.scene.cutting.resistance > 0 &&
+         std::ranges::any_of(s.cuts, [](const CutStage& stage) { return stage.is_engaged; });
+}
+
+void choose_local_steps(Simulation& s, double t) {
+  s.has_local_steps = s.multirate && !touches_small_elements(s) && !drags_tissue(s);
+  if (!s.multirate || s.has_local_steps) return;
   const std::string sentence = "small elements take no local steps (solver.multirate)";
   if (!is_told(s, sentence))
-    note_event(s, t, sentence + " while they are touched: all elements take theirs meanwhile");
-  return false;
+    note_event(s, t,
+               sentence + " while they are touched or cut: all elements take theirs meanwhile");
 }
 
-double stable_step_of(const Simulation& s, const FrameSpan& span) {
-  return span.has_local_steps ? s.watch.stable_step : s.watch.stable_step * s.look.of_small;
+double step_share(const Simulation& s) {
+  return s.has_local_steps ? 1 : s.look.of_small;
 }
 
 }  // namespace trocar

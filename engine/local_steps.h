@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/contact_stage.h"
 #include "solver/multirate.h"
 
 namespace trocar {
@@ -28,12 +27,12 @@ bool follow_local_steps(std::span<const std::int32_t> elements, std::span<const 
 bool keep_local_steps(const MultiRatePlan& before, bool is_given_up,
                       std::span<const std::int32_t> nodes, Simulation& s);
 
-// Whether this frame, whose contacts are known, is one with local steps. Contact knows of none:
+// Sets s.has_local_steps of a frame whose contacts are known. Contact and drag know of no substeps:
 // small elements would spring free of an instrument in each of them, and a plate pressed 0.57 of
-// its force. While one may touch them, or tissue tissue at them, all elements take their step. t:
-// for the event that says so. The same on every rank.
-bool may_take_local_steps(Simulation& s, double t);
-// The limit of the frame's steps: without local steps that of the small elements. [s]
-double stable_step_of(const Simulation& s, const FrameSpan& span);
+// its force. While one may touch them, or tissue tissue at them, and while a blade that meets
+// resistance is in the tissue, all elements take their step. t: for the event that says so.
+void choose_local_steps(Simulation& s, double t);
+// Of the stable step with local steps: what the frame may take.
+double step_share(const Simulation& s);
 
 }  // namespace trocar

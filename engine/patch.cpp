@@ -238,6 +238,8 @@ void watch_edit(Simulation& s, std::span<const std::int32_t> edited, const Patch
     s.watch.least_J_element = w.least_J_element;
   }
   follow_from_here(s, s.watch.stable_step);
+  // The small elements' own limit may have changed unseen.
+  s.look.of_small = s.multirate ? 2 / s.multirate->steps.limit : 1;
 }
 
 }  // namespace trocar

@@ -4,6 +4,7 @@
 #include "base/number_text.h"
 #include "base/options.h"
 #include "engine/frame_report.h"
+#include "engine/local_steps.h"
 #include "engine/suspect.h"
 
 namespace trocar {
@@ -29,10 +30,10 @@ std::string go_back(Simulation& s, const FrameSpan& span, const Watch& failed,
 }  // namespace
 
 void repeat_frame(Simulation& s, const FrameSpan& span, int tries) {
-  const std::string trouble = "the tissue's stable step fell to " +
-                              short_text(s.watch.stable_step) + " s, " +
-                              (s.watch.stable_step < span.dt ? "below" : "too near") +
-                              " the step of " + short_text(span.dt) + " s";
+  const double stable = step_share(s) * s.watch.stable_step;
+  const std::string trouble = "the tissue's stable step fell to " + short_text(stable) + " s, " +
+                              (stable < span.dt ? "below" : "too near") + " the step of " +
+                              short_text(span.dt) + " s";
   note_event(s, span.t0, go_back(s, span, s.watch, trouble, tries));
 }
 

@@ -68,7 +68,7 @@ inline constexpr const char* phase_names[n_phases] = {"contact detection",
 struct SearchMemory {
   std::int64_t at_step = 0;  // State::step of the last one of the body
   double step = 0;           // stable there; 0 without a search, or where it did not end [s]
-  double of_small = 1;       // that without local steps over it
+  double of_small = 1;       // that without local steps over it, or less
   // Searches of parts since then (part_search.h): what the body's omega^2 may have grown by, by the
   // last one, and growth of the elements at which the last one was thought of.
   double growth = 1, asked = 1;
@@ -76,7 +76,7 @@ struct SearchMemory {
   std::vector<GrownElement> searched;
 };
 
-// Where the stable step of the body was last found, from which it follows (frame_watch.h).
+// Where the stable step of the body was last found, from which it follows (body_search.h).
 struct ElementLook : SearchMemory {
   bool is_done = false;
   // (n_owned * 3) [m] Displacements there, none before; frames share them with their beginnings.
@@ -131,6 +131,7 @@ struct Simulation : RankBody {
   std::unique_ptr<EnergyLedger> energy;      // only with a metrics output
   std::optional<LocalStepPlan> local_steps;  // only if the scene asks for it; replicated
   std::unique_ptr<MultiRate> multirate;      // of it, if it saves work
+  bool has_local_steps = false;              // in this frame
   std::optional<Sleep> sleep;                // only if the scene asks for it
   double step_scale = 1;                     // halved by each roll-back, then rises slowly
   // The stable step falls at once and rises slowly (step_rise in frame.cpp). [s]

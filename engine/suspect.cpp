@@ -31,6 +31,7 @@ struct Mover {
   double gap = std::numeric_limits<double>::infinity();  // at the frame's beginning [m]
   double way = 0;                                        // within the frame [m]
   std::string name, how;
+  bool is_scalpel = false;
 };
 
 // The one so far: of those that come near the one that moves most, else the nearest.
@@ -59,7 +60,8 @@ void look_at_tools(std::span<const Tool> tools, const Vec3& x, const FrameSpan& 
                     .way = tool.path.travel(span.t0, span.t1,
                                             {Vec3::Zero(), Vec3(0, 0, std::max(0.0, local.z()))}),
                     .name = "\"" + tool.name + "\"",
-                    .how = "from "});
+                    .how = "from ",
+                    .is_scalpel = tool.kind == InstrumentKind::scalpel});
   }
 }
 
@@ -104,23 +106,25 @@ std::string just_opened(std::span<const Tool> tools, double t) {
   return "";
 }
 
-// `mover` comes near in the frame; "" where none does.
-std::string cure(const Simulation& s, const std::string& mover, double t) {
+// `mover` comes near in the frame; without a name: none does.
+std::string cure(const Simulation& s, const Mover& mover, double t) {
   const std::string rest = ", a finer mesh or a lower poisson_ratio";
   if (const std::string opened = just_opened(s.tools, t); !opened.empty())
     return "a shorter pull of " + opened +
            ", which has just let go, or a way back before it opens" + rest;
   const bool has_loads = !s.scene.loads.empty() || s.scene.solver.gravity != Vec3::Zero();
   const std::string less = has_loads || s.tools.empty() ? "smaller loads" : "to press less deep";
+  const std::string narrower = mover.is_scalpel ? ", a shorter and so narrower blade_length" : "";
   return material_cure(s.materials) +
-         (mover.empty() ? less : "a slower or shorter path of " + mover) + rest;
+         (mover.name.empty() ? less : "a slower or shorter path of " + mover.name + narrower) +
+         rest;
 }
 
 }  // namespace
 
 Suspect find_suspect(Simulation& s, const Watch& failed, const FrameSpan& span) {
   const std::vector<std::int32_t> nodes = failed_nodes(s.mesh, failed);
-  if (nodes.empty()) return {.place = "", .cure = cure(s, "", span.t0)};
+  if (nodes.empty()) return {.place = "", .cure = cure(s, {}, span.t0)};
   const GlobalState global = gather_state(s);
   Vec3 x = Vec3::Zero();
   for (const std::int32_t node : nodes) x += global.x[node] / static_cast<double>(nodes.size());
@@ -129,12 +133,12 @@ Suspect find_suspect(Simulation& s, const Watch& failed, const FrameSpan& span) 
   look_at_holds(s, global.x, x, span, choice);
   const Mover& best = choice.best;
   std::string place = " at " + point_text(x) + " m";
-  if (best.name.empty()) return {.place = place, .cure = cure(s, "", span.t0)};
+  if (best.name.empty()) return {.place = place, .cure = cure(s, {}, span.t0)};
   place += ", " + short_text(best.gap) + " m " + best.how + best.name;
   place += best.way > 0 ? ", which moves at " + short_text(best.way / (span.t1 - span.t0)) + " m/s"
                         : ", which rests";
   const bool may_be = best.way > 0 && choice.comes_near(best);
-  return {.place = place, .cure = cure(s, may_be ? best.name : "", span.t0)};
+  return {.place = place, .cure = cure(s, may_be ? best : Mover{}, span.t0)};
 }
 
 }  // namespace trocar

@@ -23,7 +23,7 @@ const Method& method_named(const std::string& name);
 Precision precision_named(const std::string& name);
 const char* precision_name(Precision precision);
 
-// `options` with the method's shape computed by its formulation.
+// With the method's shape computed by its formulation.
 SolverOptions solver_options(const Method& method, Precision precision);
 
 }  // namespace trocar

@@ -35,7 +35,7 @@ struct Sample {
 
   static double at(std::vector<double>& values, double fraction) {
     std::sort(values.begin(), values.end());
-    return values[fraction * static_cast<double>(values.size() - 1)];
+    return values[static_cast<std::size_t>(fraction * static_cast<double>(values.size() - 1))];
   }
   void print(const char* kind, int configuration) {
     std::printf(

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "mesh/generate.h"
 #include "test_files.h"
 
@@ -17,23 +19,37 @@ FilmFrame frame_of(const Mesh& mesh, std::int64_t number) {
           .orders = {0}};
 }
 
+std::int64_t n_drawn_of(std::vector<FilmOrder> orders, const Mesh& mesh, std::int64_t first) {
+  for (FilmOrder& order : orders) {
+    order.camera.eye = Vec3(0.1, 0.1, 0.1);
+    order.width = 64;
+    order.height = 48;
+    order.n_frames = 40;
+    order.n_before = first;
+  }
+  const std::size_t n_orders = orders.size();
+  FilmStudio studio(std::move(orders), {}, false, {});
+  for (std::int64_t k = first + 1; k <= 40; ++k) {
+    FilmFrame frame = frame_of(mesh, k);
+    frame.orders.resize(n_orders);
+    std::iota(frame.orders.begin(), frame.orders.end(), std::size_t{0});
+    studio.add(std::move(frame));
+  }
+  studio.finish();
+  return studio.n_drawn();
+}
+
 // It drew each frame of the run and kept nine: 39 s where the simulation took 0.7 s.
 TEST(FilmStudio, draws_the_nine_pictures_of_a_contact_sheet_and_no_others) {
   const Mesh mesh = make_box(Vec3::Zero(), Vec3::Constant(0.02), {2, 2, 2}, BoxElements::hex8);
   const TestFolder folder;
-  SceneCamera camera;
-  camera.eye = Vec3(0.1, 0.1, 0.1);
-  FilmStudio studio({{.kind = OutputKind::contact_sheet,
-                      .file = folder.file("sheet.png"),
-                      .camera = camera,
-                      .width = 64,
-                      .height = 48,
-                      .n_frames = 40}},
-                    {}, false, {});
-  for (std::int64_t k = 1; k <= 40; ++k) studio.add(frame_of(mesh, k));
-  studio.finish();
-  EXPECT_EQ(studio.n_drawn(), 9);
-  EXPECT_TRUE(std::filesystem::exists(folder.file("sheet.png")));
+  const FilmOrder sheet{.kind = OutputKind::contact_sheet, .file = folder.file("sheet.png")},
+      frames{.kind = OutputKind::frames, .file = folder.file("frames")};
+  EXPECT_EQ(n_drawn_of({sheet}, mesh, 0), 9);
+  EXPECT_TRUE(std::filesystem::exists(sheet.file));
+  // Moments are 4, 8, 13, 17, 22, 26, 31, 35 and 40: the last five of a run that goes on at 20.
+  EXPECT_EQ(n_drawn_of({sheet}, mesh, 20), 5);
+  EXPECT_EQ(n_drawn_of({sheet, frames}, mesh, 0), 40);  // one picture for both
 }
 
 }  // namespace

@@ -88,6 +88,26 @@ TEST(MultiRate, halves_the_steps_of_a_pressed_and_pulled_body_and_keeps_its_moti
   }
 }
 
+// Beside the layer: all elements take the small ones' step then, as without.
+TEST(MultiRate, leaves_a_body_that_is_touched_at_small_elements_as_without) {
+  const std::string pressed = probe_along(R"(
+  { time = 0, position = ["12 mm", "15 mm", "34 mm"] },
+  { time = 0.3, position = ["12 mm", "15 mm", "26 mm"] },
+)");
+  const std::string metrics = "output=[{kind='metrics',file='m.csv'}]";
+  const auto plain = hung(pressed, BoxElements::hex8, {metrics}),
+             with = hung(pressed, BoxElements::hex8, {metrics, with_local_steps[0]});
+  for (Started* run : {plain.get(), with.get()}) run_to_frame(*run, 20);
+  ASSERT_TRUE(with->s->multirate);
+  EXPECT_LT(with->s->state.step, 1.1 * static_cast<double>(plain->s->state.step));
+  const FrameRow &a = plain->s->log.rows.back(), &b = with->s->log.rows.back();
+  EXPECT_NE(a.works.contact, 0);
+  // The first steps, before the probe comes near, are local ones; their error falls with the square
+  // of the step.
+  EXPECT_NEAR(b.tools[0].force.z(), a.tools[0].force.z(), 0.03 * a.tools[0].force.norm());
+  EXPECT_LT(std::abs(b.energy_error), 1e-3 * b.energy.strain);
+}
+
 double largest_balance_error(const Simulation& s) {
   double error = 0, turned_over = 0;
   for (const FrameRow& row : s.log.rows) {
@@ -206,6 +226,9 @@ TEST(MultiRate, keeps_a_stable_step_behind_each_edit) {
       ++n_edits;
       ASSERT_TRUE(s.multirate);
       EXPECT_LT(s.watch.stable_step / step_by_searches(s), frequency_margin);
+      // Nor without local steps.
+      const double whole = search_step(s, search_amplitude(s.model, s.edge_length), Communicator());
+      EXPECT_LT(s.watch.stable_step * s.look.of_small / whole, frequency_margin);
     }
     EXPECT_GE(n_edits, 3);
   }

@@ -89,6 +89,24 @@ path = [
   EXPECT_TRUE(contains(suspect.cure, "a slower or shorter path of \"grasper\"")) << suspect.cure;
 }
 
+TEST(Suspect, that_is_a_scalpel_may_have_too_wide_a_blade) {
+  const auto started = built(R"([time]
+duration = "1 s"
+[tissue.shape]
+kind = "box"
+elements = "hex8"
+cells = [4, 4, 4]
+[[instrument]]
+kind = "scalpel"
+path = [ { time = 0, position = [-0.02, 0.05, 0.11] }, { time = 1, position = [0.12, 0.05, 0.11] } ]
+)",
+                             {});
+  const Watch failed{.least_J = -1, .least_J_element = started->s->mesh.n_elements() - 1};
+  const Suspect suspect = find_suspect(*started->s, failed, {.t0 = 0.8, .t1 = 0.81});
+  EXPECT_TRUE(contains(suspect.cure, "path of \"scalpel\", a shorter and so narrower blade_length"))
+      << suspect.cure;
+}
+
 // It said "to press less deep".
 TEST(Suspect, is_the_grasper_that_has_just_let_go_of_what_it_had_stretched) {
   const auto started = built(R"([time]
