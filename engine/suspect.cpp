@@ -110,7 +110,7 @@ std::string just_opened(std::span<const Tool> tools, double t) {
 std::string cure(const Simulation& s, const Mover& mover, double t) {
   const std::string rest = ", a finer mesh or a lower poisson_ratio";
   if (const std::string opened = just_opened(s.tools, t); !opened.empty())
-    return "a shorter pull of " + opened +
+    return material_cure(s.materials) + "a shorter pull of " + opened +
            ", which has just let go, or a way back before it opens" + rest;
   const bool has_loads = !s.scene.loads.empty() || s.scene.solver.gravity != Vec3::Zero();
   const std::string less = has_loads || s.tools.empty() ? "smaller loads" : "to press less deep";
