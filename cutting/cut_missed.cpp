@@ -200,9 +200,10 @@ std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut,
   return places;
 }
 
-// Where a short rim runs into itself, the blade has gone around a neck, which may be an element
-// wide. A longer one is the front of a cut around what it has not undermined yet, and one around
-// few opened facets is the outline of a slit inside.
+// Where a short rim runs into itself, and there is no other, the blade has gone around a neck,
+// which may be an element wide. A longer one is the front of a cut around what it has not
+// undermined yet, beside others it is a hole behind the front, and around few opened facets the
+// outline of a slit inside.
 std::vector<CutRefusal> necks(const Mesh& mesh, const TetCut& cut, const CutStroke& stroke,
                               std::span<const CutRefusal> told) {
   constexpr std::size_t longest = 12;  // edges
@@ -221,9 +222,9 @@ std::vector<CutRefusal> necks(const Mesh& mesh, const TetCut& cut, const CutStro
   for (std::size_t k = 0; k < rim.size(); ++k) {
     if (k > 0 && rim[k][0] == rim[k - 1][0]) continue;
     const std::vector<std::int32_t> node = nodes_with(rim[k][0], rim, longest);
-    const bool is_outline = 4 * n_opened <= node.size() * node.size();
-    if (node.front() != rim[k][0] || node.size() > longest || is_outline) continue;
-    if (std::ranges::all_of(node, is_twice) && !is_told(rim[k]))
+    const bool is_outline = 2 * n_opened <= node.size() * node.size();
+    if (node.size() > longest || is_outline || !std::ranges::all_of(node, is_twice)) return {};
+    if (node.front() == rim[k][0] && !is_told(rim[k]))
       places.push_back({middle_of(after, node), CutRefusal::neck});
   }
   return places;
