@@ -41,6 +41,18 @@ Suspect suspect_of_cell(int i, int j) {
   return find_suspect(s, failed, {.t0 = 0.5, .t1 = 0.51});
 }
 
+// A cube of 4 x 4 x 4 hexahedra of 25 mm under an instrument of these keys.
+std::unique_ptr<Started> cube_under(const std::string& keys) {
+  return built(R"([time]
+duration = "1 s"
+[tissue.shape]
+kind = "box"
+elements = "hex8"
+cells = [4, 4, 4]
+[[instrument]]
+)" + keys);
+}
+
 TEST(Suspect, is_what_moves_most_of_all_that_come_near) {
   const Suspect suspect = suspect_of_cell(0, 1);  // beside x-, a cell away from y-
   EXPECT_TRUE(contains(suspect.place, " at (0.0125, 0.0375, 0.0625) m, ")) << suspect.place;
@@ -62,21 +74,13 @@ TEST(Suspect, is_nobody_where_none_comes_near) {
 }
 
 TEST(Suspect, that_turns_moves_though_its_tip_rests) {
-  const auto started = built(R"([time]
-duration = "1 s"
-[tissue.shape]
-kind = "box"
-elements = "hex8"
-cells = [4, 4, 4]
-[[instrument]]
-kind = "grasper"
+  const auto started = cube_under(R"(kind = "grasper"
 path = [
   { time = 0, position = [0.05, 0.05, 0.102] },
   { time = 0.3, position = [0.05, 0.05, 0.102], action = "close" },
   { time = 0.8, position = [0.05, 0.05, 0.102], forward = [0, 1, 0] },
 ]
-)",
-                             {});
+)");
   Simulation& s = *started->s;
   while (s.frame < 33) run_frame(s, started->outputs);
   ASSERT_FALSE(s.holds.holds.empty());
@@ -90,17 +94,9 @@ path = [
 }
 
 TEST(Suspect, that_is_a_scalpel_may_have_too_wide_a_blade) {
-  const auto started = built(R"([time]
-duration = "1 s"
-[tissue.shape]
-kind = "box"
-elements = "hex8"
-cells = [4, 4, 4]
-[[instrument]]
-kind = "scalpel"
+  const auto started = cube_under(R"(kind = "scalpel"
 path = [ { time = 0, position = [-0.02, 0.05, 0.11] }, { time = 1, position = [0.12, 0.05, 0.11] } ]
-)",
-                             {});
+)");
   const Watch failed{.least_J = -1, .least_J_element = started->s->mesh.n_elements() - 1};
   const Suspect suspect = find_suspect(*started->s, failed, {.t0 = 0.8, .t1 = 0.81});
   EXPECT_TRUE(contains(suspect.cure, "path of \"scalpel\", a shorter and so narrower blade_length"))
@@ -109,21 +105,13 @@ path = [ { time = 0, position = [-0.02, 0.05, 0.11] }, { time = 1, position = [0
 
 // It said "to press less deep".
 TEST(Suspect, is_the_grasper_that_has_just_let_go_of_what_it_had_stretched) {
-  const auto started = built(R"([time]
-duration = "1 s"
-[tissue.shape]
-kind = "box"
-elements = "hex8"
-cells = [4, 4, 4]
-[[instrument]]
-kind = "grasper"
+  const auto started = cube_under(R"(kind = "grasper"
 path = [
   { time = 0, position = [0.05, 0.05, 0.102] },
   { time = 0.1, position = [0.05, 0.05, 0.102], action = "close" },
   { time = 0.5, position = [0.05, 0.05, 0.202], action = "open" },
 ]
-)",
-                             {});
+)");
   const Watch failed{.least_J = -1, .least_J_element = 0};
   const auto cure_at = [&](double t) {
     return find_suspect(*started->s, failed, {.t0 = t, .t1 = t + 0.01}).cure;
