@@ -53,11 +53,15 @@ const char* const examples_help =
     "\nexamples:\n  trocar help scene\n  trocar help scene --markdown > docs/scene.md\n"
     "  trocar help tissues --markdown > docs/tissues.md\n";
 
+void add_quiet(CLI::App& app, MachineOptions& machine) {
+  app.add_flag("-q,--quiet", machine.is_quiet, "Warnings and errors only");
+}
+
 void add_kernel_options(CLI::App& app, MachineOptions& machine) {
   app.add_option("--simd", machine.simd,
                  "Instruction set of the kernels: auto, scalar, sse2, avx2, avx512 (bits are "
                  "promised per set)");
-  app.add_flag("-q,--quiet", machine.is_quiet, "Warnings and errors only");
+  add_quiet(app, machine);
 }
 
 void add_machine_options(CLI::App& app, MachineOptions& machine) {
@@ -219,6 +223,7 @@ void add_replay(CLI::App& app, CommandLine& line) {
       "replay", "Show a recording again: film, pictures, VTU for ParaView; nothing is simulated");
   ReplayOptions& r = line.replay;
   replay->add_option("recording", r.recording, "Recording (.trocar)")->required();
+  add_quiet(*replay, line.machine);
   replay->add_option("-o,--output", r.folder, "Folder")->capture_default_str();
   replay->add_option("--video", r.video, "Write a film of this name");
   replay->add_flag("--frames", r.writes_frames, "Write PNG files into frames/");

@@ -217,9 +217,11 @@ TEST(PlaneCut, opens_and_its_recording_can_be_replayed) {
   EXPECT_EQ(list.exit_code, 0) << list.err;
   const std::string digest = ran.summary["state_digest"];
   EXPECT_NE(list.out.rfind(digest), std::string::npos);  // the last frame is the final state
-  const Finished vtu = run_trocar(
-      {"replay", recording, "--vtu", "-o", folder, "--from", "1.9", "--to", "2.1"}, ran.folder);
+  const Finished vtu =
+      run_trocar({"replay", recording, "--vtu", "-q", "-o", folder, "--from", "1.9", "--to", "2.1"},
+                 ran.folder);
   EXPECT_EQ(vtu.exit_code, 0) << vtu.err;
+  EXPECT_EQ(vtu.out + vtu.err, "");
   EXPECT_TRUE(std::filesystem::exists(folder + "/recording.pvd"));
   EXPECT_TRUE(std::filesystem::exists(folder + "/frame_000060.vtu"));
 }
