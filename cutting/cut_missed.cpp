@@ -180,9 +180,10 @@ static bool is_at_end(const CutStroke& stroke, const Vec3& X) {
          std::ranges::adjacent_find(stroke.edge, is_near) != stroke.edge.end();
 }
 
-std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut,
-                                      const CutStroke& stroke) {
-  const After after{mesh, cut};
+// Of a blade that has not drawn back.
+static std::vector<CutRefusal> places_on_way(const After& after, const CutStroke& stroke,
+                                             std::span<const RimEdge> rim) {
+  const auto& [mesh, cut] = after;
   std::vector<CutRefusal> places;
   for (const std::int32_t e : stroke.whole) {
     Vec3 middle = Vec3::Zero();
@@ -191,7 +192,7 @@ std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut,
   }
   add_unparted(cut, stroke, places);
   add_joined_facets(after, stroke, places);
-  add_rims(after, rim_edges(after, stroke), places);
+  add_rims(after, rim, places);
   if (has_come_out(stroke)) {
     const std::vector<CutRefusal> slices = missed_slices(mesh, cut.around, stroke);
     places.insert(places.end(), slices.begin(), slices.end());
@@ -204,11 +205,10 @@ std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut,
 // which may be an element wide. A longer one is the front of a cut around what it has not
 // undermined yet, beside others it is a hole behind the front, and around few opened facets the
 // outline of a slit inside.
-std::vector<CutRefusal> necks(const Mesh& mesh, const TetCut& cut, const CutStroke& stroke,
-                              std::span<const CutRefusal> told) {
+static std::vector<CutRefusal> necks(const After& after, const CutStroke& stroke,
+                                     std::span<const RimEdge> rim,
+                                     std::span<const CutRefusal> told) {
   constexpr std::size_t longest = 12;  // edges
-  const After after{mesh, cut};
-  const std::vector<RimEdge> rim = rim_edges(after, stroke);
   const std::size_t n_opened = count_opened(stroke);
   const auto is_told = [&](const RimEdge& edge) {
     const Vec3 X = middle_of(after, edge);
@@ -227,6 +227,17 @@ std::vector<CutRefusal> necks(const Mesh& mesh, const TetCut& cut, const CutStro
     if (node.front() == rim[k][0] && !is_told(rim[k]))
       places.push_back({middle_of(after, node), CutRefusal::neck});
   }
+  return places;
+}
+
+std::vector<CutRefusal> missed_places(const Mesh& mesh, const TetCut& cut,
+                                      const CutStroke& stroke) {
+  const After after{mesh, cut};
+  const std::vector<RimEdge> rim = rim_edges(after, stroke);
+  std::vector<CutRefusal> places;
+  if (!has_drawn_back(stroke)) places = places_on_way(after, stroke, rim);
+  const std::vector<CutRefusal> found = necks(after, stroke, rim, places);
+  places.insert(places.end(), found.begin(), found.end());
   return places;
 }
 

@@ -113,13 +113,6 @@ static void add_refusals(const std::vector<CutRefusal>& list, CutFigures& figure
   figures.n_refused = static_cast<std::int32_t>(figures.refusals.size());
 }
 
-// What a stroke that ends leaves joined.
-static void look_over(const Mesh& mesh, const TetCut& cut, const CutStroke& stroke,
-                      CutFigures& figures) {
-  if (!has_drawn_back(stroke)) add_refusals(missed_places(mesh, cut, stroke), figures);
-  add_refusals(necks(mesh, cut, stroke, figures.refusals), figures);
-}
-
 // The least bound of the body before blades touched it.
 static double least_step(const Mesh& mesh, const CutStroke& stroke, CutIndex& index) {
   double least = std::numeric_limits<double>::infinity();
@@ -162,7 +155,7 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
                       stroke, is_last);
   const bool is_out = is_last && has_come_out(stroke);
   if (cut.around.patch.n_elements() == 0) {
-    if (is_last) look_over(mesh, cut, stroke, figures);
+    if (is_last) add_refusals(missed_places(mesh, cut, stroke), figures);
     return {};
   }
   const bool is_through = is_last && has_gone_through(stroke);
@@ -192,7 +185,7 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
 
   figures = make_figures(cut, is_last);
   remember(cut, mesh, stroke);
-  if (is_last) look_over(mesh, cut, stroke, figures);
+  if (is_last) add_refusals(missed_places(mesh, cut, stroke), figures);
   MeshEdit edit = make_edit(mesh, cut);
   edit_index(mesh, edit, index);
   return edit;

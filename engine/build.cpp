@@ -192,8 +192,7 @@ void check_slow_element(const LoadedScene& loaded, const Simulation& s) {
       std::to_string(s.watch.stable_element) + " allows only " + short_text(s.watch.stable_step) +
       " s a step: it is a sliver (\"trocar mesh\" shows the mesh's quality), or its material is "
       "too stiff, too light or too near poisson_ratio = 0.5, or solver.step_factor or "
-      "time.frame_rate "
-      "is too small";
+      "time.frame_rate is too small";
   if (n > too_many_substeps) loaded.where.fail("tissue", sentence);
   log_warning(sentence);
 }

@@ -8,15 +8,20 @@
 namespace trocar {
 namespace {
 
-// A cube of 4 x 4 x 4 hexahedra of 25 mm whose sides x- and y- are moved at 1 and 100 mm/s.
-std::unique_ptr<Started> moved_cube() {
+// A cube of 4 x 4 x 4 hexahedra of 25 mm with these other tables.
+std::unique_ptr<Started> cube_with(const std::string& tables) {
   return built(R"([time]
 duration = "1 s"
 [tissue.shape]
 kind = "box"
 elements = "hex8"
 cells = [4, 4, 4]
-[tissue.material]
+)" + tables);
+}
+
+// Its sides x- and y- are moved at 1 and 100 mm/s.
+std::unique_ptr<Started> moved_cube() {
+  return cube_with(R"([tissue.material]
 model = "linear"
 [[support]]
 region = "x-"
@@ -24,8 +29,7 @@ path = [ { time = 0, displacement = [0, 0, 0] }, { time = "1 s", displacement = 
 [[support]]
 region = "y-"
 path = [ { time = 0, displacement = [0, 0, 0] }, { time = "1 s", displacement = [0, "100 mm", 0] } ]
-)",
-               {});
+)");
 }
 
 // Of the hexahedron in cell (i, j, 2).
@@ -39,18 +43,6 @@ Suspect suspect_of_cell(int i, int j) {
   }
   EXPECT_GE(failed.least_J_element, 0);
   return find_suspect(s, failed, {.t0 = 0.5, .t1 = 0.51});
-}
-
-// A cube of 4 x 4 x 4 hexahedra of 25 mm under an instrument of these keys.
-std::unique_ptr<Started> cube_under(const std::string& keys) {
-  return built(R"([time]
-duration = "1 s"
-[tissue.shape]
-kind = "box"
-elements = "hex8"
-cells = [4, 4, 4]
-[[instrument]]
-)" + keys);
 }
 
 TEST(Suspect, is_what_moves_most_of_all_that_come_near) {
@@ -74,7 +66,8 @@ TEST(Suspect, is_nobody_where_none_comes_near) {
 }
 
 TEST(Suspect, that_turns_moves_though_its_tip_rests) {
-  const auto started = cube_under(R"(kind = "grasper"
+  const auto started = cube_with(R"([[instrument]]
+kind = "grasper"
 path = [
   { time = 0, position = [0.05, 0.05, 0.102] },
   { time = 0.3, position = [0.05, 0.05, 0.102], action = "close" },
@@ -94,7 +87,8 @@ path = [
 }
 
 TEST(Suspect, that_is_a_scalpel_may_have_too_wide_a_blade) {
-  const auto started = cube_under(R"(kind = "scalpel"
+  const auto started = cube_with(R"([[instrument]]
+kind = "scalpel"
 path = [ { time = 0, position = [-0.02, 0.05, 0.11] }, { time = 1, position = [0.12, 0.05, 0.11] } ]
 )");
   const Watch failed{.least_J = -1, .least_J_element = started->s->mesh.n_elements() - 1};
@@ -105,7 +99,8 @@ path = [ { time = 0, position = [-0.02, 0.05, 0.11] }, { time = 1, position = [0
 
 // It said "to press less deep".
 TEST(Suspect, is_the_grasper_that_has_just_let_go_of_what_it_had_stretched) {
-  const auto started = cube_under(R"(kind = "grasper"
+  const auto started = cube_with(R"([[instrument]]
+kind = "grasper"
 path = [
   { time = 0, position = [0.05, 0.05, 0.102] },
   { time = 0.1, position = [0.05, 0.05, 0.102], action = "close" },
