@@ -109,9 +109,7 @@ std::vector<StabilityRow> stiffness_jumps(double scale) {
       Mesh mesh = block(elements, 4, .15);
       mesh.region_name = {"soft", "stiff"};
       for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-        Vec3 centre = Vec3::Zero();
-        for (const std::int32_t node : mesh.corners(e)) centre += mesh.X[node];
-        centre /= static_cast<double>(mesh.corners(e).size());
+        const Vec3 centre = element_centre(mesh, e);
         mesh.element_region[e] = (centre - Vec3::Constant(2 * edge)).norm() < 1.2 * edge ? 1 : 0;
       }
       Body body =

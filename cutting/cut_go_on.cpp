@@ -13,12 +13,6 @@
 
 namespace trocar {
 
-static Vec3 middle_of(const Mesh& mesh, std::int32_t e) {
-  Vec3 sum = Vec3::Zero();
-  for (const std::int32_t i : mesh.corners(e)) sum += mesh.X[i];
-  return sum / static_cast<double>(mesh.corners(e).size());
-}
-
 // Over h: how far from its own crossings a stroke looks for those of others, and how far beside its
 // surface they may lie.
 static constexpr double reach_along = 1, reach_beside = 0.35;
@@ -223,7 +217,7 @@ static void take_up_uncrossed(const Mesh& mesh, const CutKnown& from, CutStroke&
   for (const TakenHit& t : taken.hit) around.add(t.hit.X);
   const double reach = reach_along * stroke.mean_edge;
   for (const auto& [e, side] : from.side) {
-    const Vec3 X = middle_of(mesh, e);
+    const Vec3 X = element_centre(mesh, e);
     if (!around.holds(X, reach) || find_element(stroke.side, e) != nullptr || knows(from)(e))
       continue;
     if (const TakenHit* beside = nearest_to(X, taken.hit, reach))

@@ -185,11 +185,8 @@ static std::vector<CutRefusal> places_on_way(const After& after, const CutStroke
                                              std::span<const RimEdge> rim) {
   const auto& [mesh, cut] = after;
   std::vector<CutRefusal> places;
-  for (const std::int32_t e : stroke.whole) {
-    Vec3 middle = Vec3::Zero();
-    for (const std::int32_t i : mesh.corners(e)) middle += mesh.X[i] / max_corners;
-    places.push_back({middle, CutRefusal::bent});
-  }
+  for (const std::int32_t e : stroke.whole)
+    places.push_back({element_centre(mesh, e), CutRefusal::bent});
   add_unparted(cut, stroke, places);
   add_joined_facets(after, stroke, places);
   add_rims(after, rim, places);

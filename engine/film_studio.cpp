@@ -36,6 +36,20 @@ std::string time_text(double time) {
   return with_decimals(time, 2) + " s";
 }
 
+// The colours of the mesh's regions.
+std::vector<TissueColours> region_colours(const SceneTissue& tissue, const Mesh& mesh) {
+  const auto colours_of = [](const auto& look) {
+    return TissueColours{.outer = look.colour, .cut = look.cut_colour};
+  };
+  std::vector<TissueColours> colours(mesh.region_name.size(), colours_of(tissue.look));
+  for (const SceneRegionMaterial& other : tissue.region_materials) {
+    const auto region = std::ranges::find(mesh.region_name, other.region);
+    if (other.look && region != mesh.region_name.end())
+      colours[region - mesh.region_name.begin()] = colours_of(*other.look);
+  }
+  return colours;
+}
+
 // An order, what writes it, and how far it has come.
 struct Film {
   FilmOrder order;
@@ -87,8 +101,8 @@ bool same_picture(const FilmOrder& a, const FilmOrder& b) {
 }  // namespace
 
 struct FilmStudio::Thread {
-  SceneLook look;
-  bool is_plane = false;
+  TissueLook look;
+  bool is_plane = false, has_edges = false;
   std::vector<Tool> tools;
   std::vector<Film> films;
   std::map<std::pair<int, int>, Renderer> renderers;  // by size
@@ -120,13 +134,11 @@ SceneView FilmStudio::Thread::view_of(const FilmFrame& frame, const FilmOrder& o
                           .X = frame.X,
                           .triangle = frame.surface.triangle,
                           .is_cut = frame.surface.is_cut,
+                          .region = frame.region,
                           .is_quad_half = frame.surface.is_quad_half,
-                          .look = {.colour = look.colour,
-                                   .cut_colour = look.cut_colour,
-                                   .wetness = look.wetness,
-                                   .texture_size = look.texture_size},
+                          .look = look,
                           .is_two_sided = is_plane,
-                          .has_edges = look.has_edges});
+                          .has_edges = has_edges});
   for (const Tool& tool : tools)
     for (const ToolPart& part : tool.parts)
       view.instruments.push_back(
@@ -204,12 +216,22 @@ bool is_in_view(const FilmOrder& order, std::span<const Vec3> x) {
   });
 }
 
-FilmStudio::FilmStudio(std::vector<FilmOrder> orders, SceneLook look, bool is_plane,
+std::vector<std::int32_t> surface_regions(const Mesh& mesh, const Surface& surface) {
+  std::vector<std::int32_t> region;
+  region.reserve(surface.element.size());
+  for (const std::int32_t e : surface.element) region.push_back(mesh.element_region[e]);
+  return region;
+}
+
+FilmStudio::FilmStudio(std::vector<FilmOrder> orders, const SceneTissue& tissue, const Mesh& mesh,
                        std::vector<Tool> tools)
     : thread_(std::make_unique<Thread>()) {
   Thread& t = *thread_;
-  t.look = look;
-  t.is_plane = is_plane;
+  t.look = {.colours = region_colours(tissue, mesh),
+            .wetness = tissue.look.wetness,
+            .texture_size = tissue.look.texture_size};
+  t.is_plane = mesh.dimension() == 2;
+  t.has_edges = tissue.look.has_edges;
   t.tools = std::move(tools);
   for (FilmOrder& order : orders) {
     t.films.emplace_back();

@@ -32,13 +32,17 @@ struct FilmFrame {
   double time = 0;          // [s]
   std::vector<Vec3> x, X;   // (n_nodes)
   Surface surface;
-  std::vector<std::size_t> orders;  // which orders want it
+  std::vector<std::int32_t> region;  // (n_triangles) of the mesh, behind each triangle
+  std::vector<std::size_t> orders;   // which orders want it
 };
+std::vector<std::int32_t> surface_regions(const Mesh& mesh, const Surface& surface);
 
 class FilmStudio {
  public:
-  // Tools are drawn at their path. Throws MachineError if the renderer or ffmpeg can't be started.
-  FilmStudio(std::vector<FilmOrder> orders, SceneLook look, bool is_plane, std::vector<Tool> tools);
+  // Of a body of this mesh. Tools are drawn at their path. Throws MachineError if the renderer or
+  // ffmpeg can't be started.
+  FilmStudio(std::vector<FilmOrder> orders, const SceneTissue& tissue, const Mesh& mesh,
+             std::vector<Tool> tools);
   ~FilmStudio();
   // Waits while two frames are under way. Throws what went wrong in the thread.
   void add(FilmFrame frame);

@@ -161,8 +161,7 @@ void open_writers(const Simulation& s, const std::string& echo, const Checkpoint
   const bool is_over = s.first_frame >= s.scene.time.n_frames();
   if (orders.empty() || is_over) return;
   warn_of_empty_pictures(s, orders);
-  outputs.studio =
-      std::make_unique<FilmStudio>(orders, s.scene.tissue.look, s.mesh.dimension() == 2, s.tools);
+  outputs.studio = std::make_unique<FilmStudio>(orders, s.scene.tissue, s.mesh, s.tools);
 }
 
 void add_film_frame(const Simulation& s, Outputs& outputs, const FrameRow& row) {
@@ -177,6 +176,7 @@ void add_film_frame(const Simulation& s, Outputs& outputs, const FrameRow& row) 
   frame.x = s.view.x;
   frame.X = s.mesh.X;
   frame.surface = s.surface;
+  frame.region = surface_regions(s.mesh, s.surface);
   outputs.studio->add(std::move(frame));
 }
 

@@ -160,9 +160,8 @@ std::unique_ptr<FilmStudio> open_studio(
   const double span = frames.back().second - frames.front().second;
   const double rate =
       span > 0 ? static_cast<double>(frames.size() - 1) / span : scene.time.frame_rate;
-  return std::make_unique<FilmStudio>(orders_of(scene, options, frames.size(), rate),
-                                      scene.tissue.look, reader.head().mesh.dimension() == 2,
-                                      recorded_tools(scene, reader.head()));
+  return std::make_unique<FilmStudio>(orders_of(scene, options, frames.size(), rate), scene.tissue,
+                                      reader.head().mesh, recorded_tools(scene, reader.head()));
 }
 
 FilmFrame film_frame(const Mesh& mesh, const RecordedFrame& frame, std::size_t orders) {
@@ -171,6 +170,7 @@ FilmFrame film_frame(const Mesh& mesh, const RecordedFrame& frame, std::size_t o
                     .x = present_positions(mesh.X, frame.u),
                     .X = mesh.X,
                     .surface = boundary_surface(mesh)};
+  picture.region = surface_regions(mesh, picture.surface);
   for (std::size_t k = 0; k < orders; ++k) picture.orders.push_back(k);
   return picture;
 }

@@ -48,10 +48,17 @@ struct SceneTime {
   std::int64_t n_frames() const { return frames_in(duration); }
 };
 
+// How the tissue of a region looks, linear RGB.
+struct SceneRegionLook {
+  Vec3 colour{0.42, 0.10, 0.08};
+  Vec3 cut_colour{0.62, 0.20, 0.17};
+};
+
 // Elements of this region of the mesh are made of something else.
 struct SceneRegionMaterial {
   std::string region;
   SceneMaterial material;
+  std::optional<SceneRegionLook> look;  // none: that of the tissue
 };
 
 struct SceneShape {
@@ -139,8 +146,11 @@ struct SceneStart {
   int max_iterations = 200000;
 };
 
+enum class RegionShape { box, ellipsoid };
+
 struct SceneRegion {
   std::string name;
+  RegionShape shape = RegionShape::box;
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
 };
 

@@ -20,11 +20,20 @@ Options<SceneTime> time_options() {
   return t;
 }
 
+template <class Look>
+void add_colours(Options<Look>& look) {
+  look.vector("colour", &Look::colour, dim::none, unit_range, "Outer surface, linear RGB.");
+  look.vector("cut_colour", &Look::cut_colour, dim::none, unit_range, "Inside, where it was cut.");
+}
+
 Options<SceneRegionMaterial> region_material_options() {
-  Options<SceneRegionMaterial> r("Another material for a region of the mesh.");
-  r.text("region", &SceneRegionMaterial::region, "Name of the region in the mesh file.",
-         Need::required);
+  Options<SceneRegionMaterial> r("Another material for a region of the mesh; the last one counts.");
+  r.text("region", &SceneRegionMaterial::region,
+         "Region of elements of the mesh file, or of [[region]].", Need::required);
   r.table("material", &SceneRegionMaterial::material, material_options(), Need::required);
+  Options<SceneRegionLook> look("How the region looks, where not as the tissue does.");
+  add_colours(look);
+  r.table("look", &SceneRegionMaterial::look, look);
   return r;
 }
 
@@ -58,9 +67,7 @@ Options<SceneShape> shape_options() {
 
 Options<SceneLook> look_options() {
   Options<SceneLook> l("How the tissue looks.");
-  l.vector("colour", &SceneLook::colour, dim::none, unit_range, "Outer surface, linear RGB.");
-  l.vector("cut_colour", &SceneLook::cut_colour, dim::none, unit_range,
-           "Inside, where it was cut.");
+  add_colours(l);
   l.number("wetness", &SceneLook::wetness, dim::none, unit_range, "0 dry … 1 wet.");
   l.number("texture_size", &SceneLook::texture_size, dim::length, positive,
            "Of the surface pattern.");
@@ -206,9 +213,15 @@ Options<SceneCheckpoint> checkpoint_options() {
 }
 
 Options<SceneRegion> region_options() {
-  Options<SceneRegion> r("A named set of nodes: those in a box, in the body's first position.");
-  r.text("name", &SceneRegion::name, "Name for supports and loads.", Need::required);
-  r.vector("low", &SceneRegion::low, dim::length, any, "Lower corner.", Need::required);
+  Options<SceneRegion> r(
+      "A named part of the body in its first position: the nodes in it, and for another material "
+      "the "
+      "elements whose middle lies in it.");
+  r.text("name", &SceneRegion::name, "Name for supports, loads and materials.", Need::required);
+  r.choice("shape", &SceneRegion::shape,
+           {{"box", RegionShape::box}, {"ellipsoid", RegionShape::ellipsoid}},
+           "ellipsoid: the one that fills the box.");
+  r.vector("low", &SceneRegion::low, dim::length, any, "Lower corner of the box.", Need::required);
   r.vector("high", &SceneRegion::high, dim::length, any, "Upper corner.", Need::required);
   return r;
 }

@@ -66,7 +66,15 @@ std::string reach_text(const Mesh& mesh) {
   return "from " + point_text(box.low) + " to " + point_text(box.high) + " m";
 }
 
-void add_regions(const LoadedScene& loaded, Mesh& mesh, OptionErrors& errors) {
+bool is_in(const SceneRegion& region, const Vec3& X) {
+  const bool is_in_box =
+      (X.array() >= region.low.array()).all() && (X.array() <= region.high.array()).all();
+  if (!is_in_box || region.shape == RegionShape::box) return is_in_box;
+  const Vec3 half = 0.5 * (region.high - region.low), offset = X - 0.5 * (region.low + region.high);
+  return (half.array() > 0).select(offset.array() / half.array(), 0).matrix().squaredNorm() <= 1;
+}
+
+void add_node_regions(const LoadedScene& loaded, Mesh& mesh, OptionErrors& errors) {
   for (std::size_t k = 0; k < loaded.scene.regions.size(); ++k) {
     const SceneRegion& region = loaded.scene.regions[k];
     const std::string path = item_path("region", k);
@@ -75,15 +83,30 @@ void add_regions(const LoadedScene& loaded, Mesh& mesh, OptionErrors& errors) {
       continue;
     }
     NodeSet set{.name = region.name, .node = {}};
-    for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) {
-      const Vec3& X = mesh.X[i];
-      if ((X.array() >= region.low.array()).all() && (X.array() <= region.high.array()).all())
-        set.node.push_back(i);
-    }
+    for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
+      if (is_in(region, mesh.X[i])) set.node.push_back(i);
     if (set.node.empty())
       errors.add(path + ".low", "region \"" + region.name + "\" holds no node of the mesh, which " +
                                     "reaches " + reach_text(mesh));
     mesh.node_sets.push_back(std::move(set));
+  }
+}
+
+// Of [[region]]s that materials name: the elements whose middle lies there.
+void add_element_regions(const Scene& scene, Mesh& mesh, OptionErrors& errors) {
+  for (std::size_t k = 0; k < scene.tissue.region_materials.size(); ++k) {
+    const std::string& name = scene.tissue.region_materials[k].region;
+    const auto region = std::ranges::find(scene.regions, name, &SceneRegion::name);
+    if (region == scene.regions.end() || std::ranges::count(mesh.region_name, name) > 0) continue;
+    const auto number = static_cast<std::int32_t>(mesh.region_name.size());
+    mesh.region_name.push_back(name);
+    for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+      if (is_in(*region, element_centre(mesh, e))) mesh.element_region[e] = number;
+    const bool is_empty = std::ranges::count(mesh.element_region, number) == 0;
+    if (is_empty && !find_node_set(mesh, name)->node.empty())  // else that is told
+      errors.add(item_path("tissue.region_material", k) + ".region",
+                 "region \"" + name + "\" holds the middle of no element: enlarge it or take a " +
+                     "finer mesh");
   }
 }
 
@@ -134,7 +157,8 @@ Mesh read_tissue(const LoadedScene& loaded) {
   }
   if (has_blades(loaded.scene)) mesh.hex_split_rank = hex_split_ranks(mesh);
   OptionErrors errors(loaded.where);
-  add_regions(loaded, mesh, errors);
+  add_node_regions(loaded, mesh, errors);
+  add_element_regions(loaded.scene, mesh, errors);
   for (const SceneSupport& support : loaded.scene.supports) add_volume_region(support.region, mesh);
   for (const SceneLoad& load : loaded.scene.loads) add_volume_region(load.region, mesh);
   check_fit(loaded.scene, mesh, errors);

@@ -155,7 +155,7 @@ std::vector<std::string> unused_keys(const Scene& scene, const Mesh& mesh) {
     const auto region = static_cast<std::size_t>(
         std::ranges::find(mesh.region_name, of_region.region) - mesh.region_name.begin());
     tell({{path, true, region < n_elements.size() && n_elements[region] > 0,
-           "the mesh file names its region and has no elements there"}});
+           "no element is of its region"}});
     tell(of_material(of_region.material, path + ".material"));
   }
   tell(of_solver(scene, mesh));

@@ -58,6 +58,12 @@ static double hexahedron_volume(const std::array<Vec3, 8>& x) {
          12;
 }
 
+Vec3 element_centre(const Mesh& mesh, std::int32_t e) {
+  Vec3 sum = Vec3::Zero();
+  for (const std::int32_t i : mesh.corners(e)) sum += mesh.X[i];
+  return sum / static_cast<double>(mesh.corners(e).size());
+}
+
 double element_volume(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
   const std::span<const std::int32_t> node = mesh.corners(e);
   const auto corner = [&](std::size_t a) -> const Vec3& { return x[node[a]]; };

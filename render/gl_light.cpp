@@ -7,8 +7,8 @@ namespace trocar {
 
 static constexpr const char* glsl_version = "#version 330 core\n";
 
-std::string surface_vertex(bool has_swell) {
-  return std::string(glsl_version) + (has_swell ? "#define HAS_SWELL\n" : "") +
+std::string surface_vertex(bool is_tissue) {
+  return std::string(glsl_version) + (is_tissue ? "#define IS_TISSUE\n" : "") +
          shader_surface_vertex;
 }
 

@@ -9,7 +9,7 @@
 namespace trocar {
 
 // The vertex shader of surfaces; of tissue it looks up the pattern's widest bumps.
-std::string surface_vertex(bool has_swell);
+std::string surface_vertex(bool is_tissue);
 // A surface's fragment shader, whole.
 std::string with_light(const char* shader);
 // Uses the program and tells it of eye and lamp.

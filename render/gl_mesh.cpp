@@ -29,6 +29,7 @@ GlMesh make_gl_mesh(const GlFunctions& gl) {
   set_attribute(gl, 2, 3, GL_FLOAT, offsetof(SurfaceVertex, normal));
   set_attribute(gl, 3, 4, GL_UNSIGNED_BYTE, offsetof(SurfaceVertex, edge));
   set_attribute(gl, 4, 4, GL_UNSIGNED_BYTE, offsetof(SurfaceVertex, mark));
+  set_attribute(gl, 5, 3, GL_FLOAT, offsetof(SurfaceVertex, colour));
   gl.BindVertexArray(0);
   return mesh;
 }

@@ -9,8 +9,8 @@
 namespace trocar {
 
 // Names of the vertex attributes in the shaders; the place is the attribute's number.
-inline constexpr std::array<const char*, 5> gl_attribute_names = {
-    "in_position", "in_reference", "in_normal", "in_edge", "in_mark"};
+inline constexpr std::array<const char*, 6> gl_attribute_names = {
+    "in_position", "in_reference", "in_normal", "in_edge", "in_mark", "in_colour"};
 
 struct GlMesh {
   GLuint vertex_array = 0, vertex_buffer = 0, index_buffer = 0;

@@ -24,12 +24,16 @@ struct Camera {
   bool has_endoscope_mask = false;  // round picture on black, light at the tip
 };
 
-// Linear RGB in [0, 1] and how wet the surface looks.
+// Linear RGB in [0, 1].
+struct TissueColours {
+  Vec3 outer{0.42, 0.10, 0.08};
+  Vec3 cut{0.62, 0.20, 0.17};
+};
+
 struct TissueLook {
-  Vec3 colour{0.42, 0.10, 0.08};
-  Vec3 cut_colour{0.62, 0.20, 0.17};
-  double wetness = 0.7;         // [0, 1]
-  double texture_size = 0.012;  // of the procedural pattern [m]
+  std::vector<TissueColours> colours = {{}};  // of each region
+  double wetness = 0.7;                       // [0, 1]
+  double texture_size = 0.012;                // of the procedural pattern [m]
 };
 
 struct TissueView {
@@ -37,6 +41,7 @@ struct TissueView {
   std::span<const Vec3> X;  // (n_nodes) reference, anchors the texture
   std::span<const std::array<std::int32_t, 3>> triangle;  // outward
   std::span<const std::uint8_t> is_cut;                   // (n_triangles)
+  std::span<const std::int32_t> region;                   // (n_triangles) or empty: all 0
   std::span<const std::uint8_t> is_quad_half;             // (n_triangles) or empty, see mark_edges
   TissueLook look;
   bool is_two_sided = false;  // plane meshes

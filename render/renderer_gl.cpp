@@ -64,8 +64,17 @@ int checked_side(int side, int width, int height) {
 }
 
 SurfaceMesh tissue_mesh(const TissueView& tissue, const Vec3& eye) {
-  const SurfaceMesh mesh = make_surface_mesh(
-      {.x = tissue.x, .X = tissue.X, .triangle = tissue.triangle, .is_cut = tissue.is_cut});
+  std::vector<Vec3> colour;
+  colour.reserve(tissue.triangle.size());
+  for (std::size_t t = 0; t < tissue.triangle.size(); ++t) {
+    const TissueColours& of = tissue.look.colours[tissue.region.empty() ? 0 : tissue.region[t]];
+    colour.push_back(!tissue.is_cut.empty() && tissue.is_cut[t] != 0 ? of.cut : of.outer);
+  }
+  const SurfaceMesh mesh = make_surface_mesh({.x = tissue.x,
+                                              .X = tissue.X,
+                                              .triangle = tissue.triangle,
+                                              .is_cut = tissue.is_cut,
+                                              .colour = colour});
   if (tissue.has_edges) return mark_edges(mesh, tissue.is_quad_half);
   if (mesh.index.size() > 3 * most_refined_triangles || tissue.is_two_sided) return mesh;
   return refine_surface_mesh(mesh, &eye);
@@ -195,8 +204,6 @@ void Renderer::Gl::use_with_light(const GlProgram& program, const View& view) co
 void Renderer::Gl::draw_tissues(const SceneView& scene) const {
   for (std::size_t k = 0; k < scene.tissues.size(); ++k) {
     const TissueView& view = scene.tissues[k];
-    tissue.set("colour", view.look.colour);
-    tissue.set("cut_colour", view.look.cut_colour);
     tissue.set("wetness", view.look.wetness);
     tissue.set("texture_size", view.look.texture_size);
     tissue.set("has_edges", view.has_edges ? 1.0 : 0.0);

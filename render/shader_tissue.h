@@ -5,7 +5,8 @@
 
 namespace trocar {
 
-// Of tissue HAS_SWELL: the widest bumps of the pattern stretch over many triangles.
+// IS_TISSUE: has colours of its own and a swell, the widest bumps of the pattern, which stretch
+// over many triangles.
 inline constexpr const char* shader_surface_vertex = R"glsl(
 in vec3 in_position, in_reference, in_normal;
 in vec4 in_edge, in_mark;
@@ -13,10 +14,12 @@ uniform mat4 projection;
 out vec3 x, X, normal;
 out vec3 edge;
 out vec2 mark;
-#ifdef HAS_SWELL
+#ifdef IS_TISSUE
+in vec3 in_colour;
 uniform sampler3D bump;
 uniform float texture_size;
 out vec3 swell;
+flat out vec3 colour;
 #endif
 void main() {
   x = in_position;
@@ -24,7 +27,8 @@ void main() {
   normal = in_normal;
   edge = in_edge.xyz;
   mark = in_mark.xy;
-#ifdef HAS_SWELL
+#ifdef IS_TISSUE
+  colour = in_colour;
   swell = textureLod(bump, 0.13 * X / texture_size, 0.0).xyz - 0.5;
 #endif
   gl_Position = projection * vec4(x, 1.0);
@@ -40,8 +44,8 @@ in vec3 x, X, normal;
 in vec3 edge;
 in vec2 mark;         // is_cut, rim
 in vec3 swell;        // of the pattern
+flat in vec3 colour;  // of the outer surface, or of the cut
 uniform sampler3D field, bump;
-uniform vec3 colour, cut_colour;
 uniform float wetness, texture_size;
 uniform float has_edges;
 
@@ -87,7 +91,7 @@ Skin outer_skin(Looks k) {
 Skin cut_skin(Looks k, float depth) {
   Skin s;
   float inside = smoothstep(0.0, 0.36, k.fine.g);
-  s.albedo = cut_colour * mix(vec3(0.75, 0.40, 0.38), vec3(1.25, 1.12, 1.08), inside);
+  s.albedo = colour * mix(vec3(0.75, 0.40, 0.38), vec3(1.25, 1.12, 1.08), inside);
   s.albedo *= 0.75 + 0.50 * k.fine.r + 0.9 * (k.near.r - 0.5);
   // A vessel runs where both fields vanish; cut across it shows a pale wall around a dark opening.
   float tube = length(k.near.ba - 0.5);

@@ -26,6 +26,7 @@ std::array<float, 3> to_float(const Vec3& v) {
 struct Faces {
   std::vector<std::array<std::int32_t, 3>> node;
   std::vector<std::uint8_t> is_cut;
+  std::vector<std::array<float, 3>> colour;
   std::vector<Vec3> normal;            // present, as long as twice the area
   std::vector<Vec3> reference_normal;  // unit, or zero if flat
 };
@@ -33,6 +34,7 @@ struct Faces {
 Faces drawable_faces(const SurfaceShape& shape) {
   CHECK_OP(shape.x.size(), ==, shape.X.size());
   CHECK(shape.is_cut.empty() || shape.is_cut.size() == shape.triangle.size());
+  CHECK(shape.colour.empty() || shape.colour.size() == shape.triangle.size());
   const auto n_nodes = static_cast<std::int32_t>(shape.x.size());
   Faces faces;
   faces.node.reserve(shape.triangle.size());
@@ -46,6 +48,7 @@ Faces drawable_faces(const SurfaceShape& shape) {
     const auto [i, j, k] = shape.triangle[t];
     faces.node.push_back(shape.triangle[t]);
     faces.is_cut.push_back(shape.is_cut.empty() ? 0 : shape.is_cut[t] != 0);
+    faces.colour.push_back(to_float(shape.colour.empty() ? Vec3::Zero() : shape.colour[t]));
     faces.normal.push_back((shape.x[j] - shape.x[i]).cross(shape.x[k] - shape.x[i]));
     faces.reference_normal.push_back(
         (shape.X[j] - shape.X[i]).cross(shape.X[k] - shape.X[i]).stableNormalized());
@@ -100,11 +103,13 @@ void add_node_vertices(const SurfaceShape& shape, const Faces& faces, std::int32
         .x = to_float(shape.x[node]),
         .X = to_float(shape.X[node]),
         .normal = to_float(unit_or_up(sum)),
+        .colour = faces.colour[corner / 3],
         .edge = {full, full, full, full},
         .mark = {is_cut(corner) ? full : std::uint8_t{0}, is_rim ? full : std::uint8_t{0}, 0, 0}};
     std::size_t v = first;
     while (v < mesh.vertex.size() &&
-           (mesh.vertex[v].normal != vertex.normal || mesh.vertex[v].mark != vertex.mark))
+           (mesh.vertex[v].normal != vertex.normal || mesh.vertex[v].mark != vertex.mark ||
+            mesh.vertex[v].colour != vertex.colour))
       ++v;
     if (v == mesh.vertex.size()) {
       mesh.vertex.push_back(vertex);
@@ -115,19 +120,19 @@ void add_node_vertices(const SurfaceShape& shape, const Faces& faces, std::int32
 }
 
 // Averages the normals of cut faces with their neighbours': a cut follows element faces, and their
-// zigzag would glitter.
-void smooth_cut_normals(SurfaceMesh& mesh) {
-  std::vector<Vec3f> sum(mesh.vertex.size(), Vec3f::Zero());
+// zigzag would glitter. Cut faces that meet at one of the n_nodes have one normal there.
+void smooth_cut_normals(SurfaceMesh& mesh, std::size_t n_nodes) {
+  std::vector<Vec3f> sum(n_nodes, Vec3f::Zero());
   for (std::size_t k = 0; k < mesh.index.size(); k += 3) {
     const std::uint32_t* v = &mesh.index[k];
     if (mesh.vertex[v[0]].mark[0] == 0) continue;
     for (int c = 0; c < 3; ++c)
-      sum[v[c]] += as_vector(mesh.vertex[v[(c + 1) % 3]].normal) +
-                   as_vector(mesh.vertex[v[(c + 2) % 3]].normal);
+      sum[mesh.point[v[c]]] += as_vector(mesh.vertex[v[(c + 1) % 3]].normal) +
+                               as_vector(mesh.vertex[v[(c + 2) % 3]].normal);
   }
   for (std::size_t v = 0; v < mesh.vertex.size(); ++v) {
     if (mesh.vertex[v].mark[0] == 0) continue;
-    const Vec3f n = sum[v] + 4.0f * as_vector(mesh.vertex[v].normal);
+    const Vec3f n = sum[mesh.point[v]] + 4.0f * as_vector(mesh.vertex[v].normal);
     if (n.squaredNorm() > 1e-6f) Eigen::Map<Vec3f>(mesh.vertex[v].normal.data()) = n.normalized();
   }
 }
@@ -146,7 +151,8 @@ SurfaceMesh make_surface_mesh(const SurfaceShape& shape) {
                       {around.corner.data() + begin, end - begin}, mesh);
   }
   if (std::find(faces.is_cut.begin(), faces.is_cut.end(), 1) != faces.is_cut.end())
-    for (int pass = 0; pass < cut_smoothing_passes; ++pass) smooth_cut_normals(mesh);
+    for (int pass = 0; pass < cut_smoothing_passes; ++pass)
+      smooth_cut_normals(mesh, shape.x.size());
   return mesh;
 }
 

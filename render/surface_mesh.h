@@ -1,5 +1,6 @@
 // From triangles that share nodes to vertices that can be drawn: normals are smooth within a sheet
 // and split where the outer surface meets a cut face and along creases of the reference shape.
+// Where colours meet, vertices are split and the sheet goes on.
 #pragma once
 
 #include <array>
@@ -21,6 +22,7 @@ struct SurfaceVertex {
   std::array<float, 3> x;       // present position [m]
   std::array<float, 3> X;       // reference position [m]
   std::array<float, 3> normal;  // unit
+  std::array<float, 3> colour;  // linear RGB
   std::array<std::uint8_t, 4>
       edge;  // 0…255: distance from the three edges, 255 where no edge is drawn; unused
   std::array<std::uint8_t, 4>
@@ -39,6 +41,7 @@ struct SurfaceShape {
   std::span<const Vec3> x, X;  // (n_nodes)
   std::span<const std::array<std::int32_t, 3>> triangle;
   std::span<const std::uint8_t> is_cut;  // (n_triangles), empty: no cut faces
+  std::span<const Vec3> colour;          // (n_triangles) linear RGB, empty: black
   double crease_cosine = 0.64;           // of the angle from which on an edge is sharp (50 degrees)
 };
 SurfaceMesh make_surface_mesh(const SurfaceShape& shape);

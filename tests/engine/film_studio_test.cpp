@@ -16,6 +16,7 @@ FilmFrame frame_of(const Mesh& mesh, std::int64_t number) {
           .x = mesh.X,
           .X = mesh.X,
           .surface = boundary_surface(mesh),
+          .region = surface_regions(mesh, boundary_surface(mesh)),
           .orders = {0}};
 }
 
@@ -28,7 +29,7 @@ std::int64_t n_drawn_of(std::vector<FilmOrder> orders, const Mesh& mesh, std::in
     order.n_before = first;
   }
   const std::size_t n_orders = orders.size();
-  FilmStudio studio(std::move(orders), {}, false, {});
+  FilmStudio studio(std::move(orders), {}, mesh, {});
   for (std::int64_t k = first + 1; k <= 40; ++k) {
     FilmFrame frame = frame_of(mesh, k);
     frame.orders.resize(n_orders);
@@ -50,6 +51,30 @@ TEST(FilmStudio, draws_the_nine_pictures_of_a_contact_sheet_and_no_others) {
   // Moments are 4, 8, 13, 17, 22, 26, 31, 35 and 40: the last five of a run that goes on at 20.
   EXPECT_EQ(n_drawn_of({sheet}, mesh, 20), 5);
   EXPECT_EQ(n_drawn_of({sheet, frames}, mesh, 0), 40);  // one picture for both
+}
+
+// Of a box with a tumour in a corner, which has a look of its own.
+TEST(FilmStudio, draws_regions_in_their_colours) {
+  Mesh mesh = make_box(Vec3::Zero(), Vec3::Constant(0.02), {2, 2, 2}, BoxElements::hex8);
+  mesh.region_name.push_back("tumour");
+  mesh.element_region[0] = 1;
+  SceneTissue tissue;
+  const auto bytes_with = [&](const SceneTissue& of) {
+    const TestFolder folder;
+    FilmOrder order{.kind = OutputKind::frames, .file = folder.file("frames")};
+    order.camera.eye = Vec3(-0.03, -0.03, -0.03);
+    FilmStudio studio({order}, of, mesh, {});
+    studio.add(frame_of(mesh, 1));
+    studio.finish();
+    return file_bytes(order.file + "/000001.png");
+  };
+  const std::string plain = bytes_with(tissue);
+  tissue.region_materials.push_back({.region = "tumour"});
+  EXPECT_EQ(bytes_with(tissue), plain);
+  tissue.region_materials.back().look = {.colour = {0.6, 0.6, 0.3}};
+  EXPECT_NE(bytes_with(tissue), plain);
+  mesh.element_region[0] = 0;
+  EXPECT_EQ(bytes_with(tissue), plain);
 }
 
 }  // namespace

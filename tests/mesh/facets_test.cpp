@@ -19,12 +19,6 @@ static Mesh reference_element(ElementType type) {
   return single_element(type, X);
 }
 
-static Vec3 centroid(const Mesh& mesh, std::int32_t e) {
-  Vec3 sum = Vec3::Zero();
-  for (const std::int32_t i : mesh.corners(e)) sum += mesh.X[i];
-  return sum / static_cast<double>(mesh.corners(e).size());
-}
-
 // Area vector of a facet; in 2D the edge turned by -90 degrees.
 static Vec3 facet_normal(const Mesh& mesh, const std::array<int, 4>& corner) {
   const Vec3 &a = mesh.X[corner[0]], &b = mesh.X[corner[1]];
@@ -37,7 +31,7 @@ TEST(FacetCorners, normals_of_all_element_types_point_outward) {
     const Mesh mesh = reference_element(type);
     for (int f = 0; f < n_facets(type); ++f) {
       const std::array<int, 4> corner = facet_corners(type, f);
-      const Vec3 outward = mesh.X[corner[0]] - centroid(mesh, 0);
+      const Vec3 outward = mesh.X[corner[0]] - element_centre(mesh, 0);
       EXPECT_GT(facet_normal(mesh, corner).dot(outward), 0) << element_type_name(type) << " " << f;
     }
   }

@@ -106,6 +106,25 @@ TEST(Renderer, same_scene_gives_the_same_picture_again) {
   EXPECT_NE(first.rgb, between.rgb);
 }
 
+// The left half of a sheet is a blue region, inside and out.
+TEST(Renderer, each_region_has_its_colours) {
+  for (const bool is_cut : {false, true}) {
+    const Sheet sheet = make_sheet(0.1, 12, is_cut);
+    std::vector<std::int32_t> region;
+    for (const auto& triangle : sheet.triangle)
+      region.push_back((sheet.x[triangle[0]] + sheet.x[triangle[1]] + sheet.x[triangle[2]]).x() <
+                       0);
+    SceneView scene{.camera = camera_above(0.15)};
+    scene.tissues.push_back(view_of(sheet));
+    scene.tissues[0].region = region;
+    scene.tissues[0].look.colours = {{}, {.outer = {0.1, 0.1, 0.6}, .cut = {0.1, 0.1, 0.6}}};
+    const Image image = draw_once(scene);
+    constexpr int red = 0, blue = 2;
+    EXPECT_GT(mean_level(image, 60, 60, 10, blue), 1.5 * mean_level(image, 60, 60, 10, red));
+    EXPECT_GT(mean_level(image, 100, 60, 10, red), 1.5 * mean_level(image, 100, 60, 10, blue));
+  }
+}
+
 TEST(Renderer, two_of_different_size_live_side_by_side) {
   const FullScene scene;
   Renderer small(64, 48), large(160, 120);

@@ -90,6 +90,40 @@ TEST(SurfaceMesh, vertices_split_where_outer_surface_and_cut_face_meet) {
   }
 }
 
+TEST(SurfaceMesh, vertices_split_where_colours_meet_and_the_surface_stays_smooth) {
+  Sheet sheet = make_sheet(1, 4);
+  for (Vec3& x : sheet.x) x.z() = 0.1 * x.y() * x.y();
+  const SurfaceShape shape{.x = sheet.x, .X = sheet.x, .triangle = sheet.triangle};
+  const SurfaceMesh of_one = make_surface_mesh(shape);
+  SurfaceShape of_two = shape;
+  std::vector<Vec3> colour(sheet.triangle.size(), Vec3(1, 0, 0));
+  std::fill_n(colour.begin(), colour.size() / 2, Vec3(0, 0, 1));
+  of_two.colour = colour;
+  const SurfaceMesh mesh = make_surface_mesh(of_two);
+  EXPECT_EQ(mesh.vertex.size(), of_one.vertex.size() + 5);
+  for (std::size_t k = 0; k < mesh.index.size(); ++k) {
+    const SurfaceVertex& v = mesh.vertex[mesh.index[k]];
+    EXPECT_EQ(vec(v.colour), colour[k / 3]);
+    EXPECT_EQ(v.normal, of_one.vertex[of_one.index[k]].normal);
+  }
+}
+
+// Else a seam would run where regions meet.
+TEST(SurfaceMesh, cut_faces_of_two_colours_have_the_normals_of_one) {
+  Sheet sheet = make_sheet(1, 4, true);
+  for (Vec3& x : sheet.x) x.z() = 0.2 * std::abs(x.y()) + 0.1 * x.x() * x.x();
+  const SurfaceShape shape{
+      .x = sheet.x, .X = sheet.x, .triangle = sheet.triangle, .is_cut = sheet.is_cut};
+  SurfaceShape of_two = shape;
+  std::vector<Vec3> colour(sheet.triangle.size(), Vec3(1, 0, 0));
+  std::fill_n(colour.begin(), colour.size() / 2, Vec3(0, 0, 1));
+  of_two.colour = colour;
+  const SurfaceMesh one = make_surface_mesh(shape), two = make_surface_mesh(of_two);
+  ASSERT_EQ(one.index.size(), two.index.size());
+  for (std::size_t k = 0; k < one.index.size(); ++k)
+    EXPECT_EQ(two.vertex[two.index[k]].normal, one.vertex[one.index[k]].normal);
+}
+
 TEST(SurfaceMesh, positions_that_are_not_finite_drop_their_triangles) {
   Sheet sheet = make_sheet(1, 2);
   sheet.x[4].y() = std::numeric_limits<double>::quiet_NaN();  // the middle: two triangles are left
