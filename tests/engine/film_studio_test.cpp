@@ -66,7 +66,7 @@ TEST(FilmStudio, draws_regions_in_their_colours) {
     FilmStudio studio({order}, of, mesh, {});
     studio.add(frame_of(mesh, 1));
     studio.finish();
-    return file_bytes(order.file + "/000001.png");
+    return read_text(order.file + "/000001.png");
   };
   const std::string plain = bytes_with(tissue);
   tissue.region_materials.push_back({.region = "tumour"});

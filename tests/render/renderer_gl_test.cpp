@@ -272,7 +272,7 @@ TEST(Renderer, endoscope_shows_the_same_whatever_was_drawn_before) {
   SceneView scene{.camera = camera_above(0.2)};
   scene.tissues = {view_of(sheet)};
   SceneView bright = scene;
-  bright.tissues[0].look.colour = Vec3(30, 30, 30);  // as highlights are
+  bright.tissues[0].look.colours[0].outer = Vec3(30, 30, 30);  // as highlights are
   scene.camera.has_endoscope_mask = true;
   Renderer renderer(320, 200);
   Image first, other, again;
