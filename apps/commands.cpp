@@ -68,7 +68,6 @@ const char* yes_no(bool is_true) {
 
 // Least stable step of the mesh with the default material. [s]
 double default_stable_step(const Mesh& mesh) {
-  Communicator alone;
   const std::vector<std::int32_t> owner(mesh.X.size(), 0);
   const Part part = make_part(mesh, owner, 0);
   const std::vector<Material> materials(mesh.region_name.size());
