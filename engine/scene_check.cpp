@@ -29,7 +29,7 @@ void check_shape(const SceneShape& shape, OptionErrors& errors) {
     errors.add_at_first({"tissue.shape.high", "tissue.shape.low"},
                         "each component of low must be below that of high");
   const bool is_round = shape.kind == ShapeKind::ball || shape.kind == ShapeKind::cylinder;
-  if (is_round && shape.elements == ElementKind::tet4_five)
+  if (is_round && shape.elements == BoxElements::tet4_five)
     errors.add("tissue.shape.elements",
                "balls and cylinders can't be of tet4-five, some of which would be flat: take "
                "\"tet4-kuhn\" or \"hex8\"");

@@ -47,9 +47,9 @@ Options<SceneShape> shape_options() {
             {"triangular-rectangle", ShapeKind::triangular_rectangle}},
            "Sides are named \"x-\", \"x+\", \"y-\", … as regions.", Need::required);
   s.choice("elements", &SceneShape::elements,
-           {{"hex8", ElementKind::hex8},
-            {"tet4-kuhn", ElementKind::tet4_kuhn},
-            {"tet4-five", ElementKind::tet4_five}},
+           {{"hex8", BoxElements::hex8},
+            {"tet4-kuhn", BoxElements::tet4_kuhn},
+            {"tet4-five", BoxElements::tet4_five}},
            "Elements of box, ball and cylinder.");
   s.vector("low", &SceneShape::low, dim::length, any, "Lower corner of a box.");
   s.vector("high", &SceneShape::high, dim::length, any,
