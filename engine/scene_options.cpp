@@ -10,7 +10,7 @@ constexpr Range unit_range{.low = 0, .high = 1};
 Options<SceneTime> time_options() {
   Options<SceneTime> t("How long, how often, how fast.");
   t.number("duration", &SceneTime::duration, dim::time, positive,
-           "Simulated time; up to the next whole frame.", Need::required);
+           "Simulated time; to the nearest whole frame.", Need::required);
   t.number("frame_rate", &SceneTime::frame_rate, dim::rate, {.low = 1, .high = 10000},
            "Frames a second: contact detection, cuts and outputs happen once a frame. \"30 Hz\".");
   t.choice(
@@ -350,7 +350,7 @@ Options<SceneOutput> output_options() {
   o.text("camera", &SceneOutput::camera, "Name of a [[camera]]; the first if absent.");
   o.integers("size", &SceneOutput::size, {.low = 16, .high = 8192}, "Pixels: width, height.");
   o.number("every", &SceneOutput::every, dim::time, not_negative,
-           "Interval, up to the next whole number of frames; every frame if absent.");
+           "Interval, to the nearest whole number of frames; every frame if absent.");
   return o;
 }
 
