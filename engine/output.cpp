@@ -27,12 +27,6 @@ Outputs::Outputs(Outputs&&) noexcept = default;
 
 namespace {
 
-SceneCamera camera_of(const Scene& scene, const std::string& name) {
-  for (const SceneCamera& camera : scene.cameras)
-    if (name.empty() || camera.name == name) return camera;
-  return {};
-}
-
 std::vector<FilmOrder> film_orders(const Scene& scene, const Outputs& outputs,
                                    std::int64_t first_frame) {
   const std::int64_t n_frames = scene.time.n_frames();
@@ -43,7 +37,7 @@ std::vector<FilmOrder> film_orders(const Scene& scene, const Outputs& outputs,
     const OutputSlot& slot = outputs.slots[k];
     orders.push_back({.kind = output.kind,
                       .file = slot.file,
-                      .camera = camera_of(scene, output.camera),
+                      .camera = *find_camera(scene, output.camera),
                       .width = output.size[0],
                       .height = output.size[1],
                       .frame_rate = scene.time.frame_rate / static_cast<double>(slot.interval),

@@ -13,6 +13,7 @@
 #include "engine/mesh_measures.h"
 #include "engine/output.h"
 #include "engine/recording.h"
+#include "engine/scene_outputs.h"
 #include "mesh/facets.h"
 #include "mesh/vtu_file.h"
 
@@ -21,15 +22,10 @@ namespace trocar {
 namespace {
 
 SceneCamera camera_of(const Scene& scene, const ReplayOptions& options) {
-  SceneCamera camera;
-  bool is_found = options.camera.empty();
-  if (!scene.cameras.empty()) camera = scene.cameras.front();
-  for (const SceneCamera& c : scene.cameras)
-    if (c.name == options.camera) {
-      camera = c;
-      is_found = true;
-    }
-  if (!is_found) throw InputError("the recorded scene has no camera \"" + options.camera + "\"");
+  const SceneCamera* found = find_camera(scene, options.camera);
+  if (!found && !options.camera.empty())
+    throw InputError("the recorded scene has " + no_camera_text(scene, options.camera));
+  SceneCamera camera = found ? *found : SceneCamera{};
   if (options.eye.size() == 3) camera.eye = Vec3(options.eye[0], options.eye[1], options.eye[2]);
   if (options.target.size() == 3)
     camera.target = Vec3(options.target[0], options.target[1], options.target[2]);

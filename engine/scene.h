@@ -242,6 +242,8 @@ struct Scene {
 bool has_blades(const Scene& scene);
 // Whether anything of the scene is written to a table of metrics.
 bool has_metrics(const Scene& scene);
+// The first one for "", null if there is none.
+const SceneCamera* find_camera(const Scene& scene, const std::string& name);
 
 Options<Scene> scene_options();
 

@@ -241,6 +241,12 @@ bool has_metrics(const Scene& scene) {
                      [](const SceneOutput& output) { return output.kind == OutputKind::metrics; });
 }
 
+const SceneCamera* find_camera(const Scene& scene, const std::string& name) {
+  const auto found = std::ranges::find_if(
+      scene.cameras, [&](const SceneCamera& c) { return name.empty() || c.name == name; });
+  return found != scene.cameras.end() ? &*found : nullptr;
+}
+
 // What each table tells by itself.
 static void check_tables(LoadedScene& loaded, OptionErrors& errors) {
   const Scene& scene = loaded.scene;
