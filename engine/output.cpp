@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/on_root.h"
+#include "base/whole_file.h"
 #include "engine/checkpoint.h"
 #include "engine/checkpoint_file.h"
 #include "engine/film_studio.h"
@@ -140,7 +141,7 @@ void open_writers(const Simulation& s, const std::string& echo, const Checkpoint
     rename_films(s, outputs);
   else
     remove_checkpoint(outputs.folder);  // it would not belong to the files that are written now
-  if (!echo.empty()) write_text_file(outputs.folder + "/" + scene_name, echo);
+  if (!echo.empty()) write_whole_file(outputs.folder + "/" + scene_name, echo);
   for (const OutputSlot& slot : outputs.slots) {
     std::filesystem::create_directories(std::filesystem::path(slot.file).parent_path());
     outputs.metrics.push_back(slot.kind == OutputKind::metrics ? open_metrics(s, slot, resumed)
@@ -214,14 +215,6 @@ void make_output_folder(const std::string& folder) {
   if (trouble)
     throw MachineError("the output folder \"" + folder + "\" can't be written: " +
                        trouble.message() + "; choose another one with -o");
-}
-
-void write_text_file(const std::string& file, const std::string& text) {
-  std::ofstream stream(file);
-  if ((stream << text).flush()) return;
-  std::error_code ignored;  // what is wrong is told below
-  if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
-  throw MachineError(file + ": can't be written (disk full or no permission)");
 }
 
 Outputs open_outputs(Simulation& s, const std::string& folder, const std::string& echo,

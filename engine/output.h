@@ -43,8 +43,6 @@ struct Outputs {
 
 // Throws MachineError if nothing can be written there.
 void make_output_folder(const std::string& folder);
-// Throws MachineError if the file can't be written, and leaves none then.
-void write_text_file(const std::string& file, const std::string& text);
 // Makes the folder, puts the scene's `echo` there if there is one and opens all files. Collective;
 // throws MachineError on every rank if the folder can't be written. resumed: where the run goes on,
 // null at time zero: recordings and metrics are cut off there and go on, films and contact sheets

@@ -6,11 +6,11 @@
 #include <set>
 
 #include "base/number_text.h"
+#include "base/whole_file.h"
 #include "engine/scene.h"
 #include "engine/scene_outputs.h"
 #include "engine/support_forces.h"
 #include "engine/tissue.h"
-#include "mesh/whole_file.h"
 
 namespace trocar {
 
