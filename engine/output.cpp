@@ -22,15 +22,26 @@
 
 namespace trocar {
 
+// Nine moments, evenly spread, the last one included.
+static bool is_sheet_moment(std::int64_t k, std::int64_t n) {
+  constexpr std::int64_t n_pictures = 9;
+  for (std::int64_t j = 1; j <= n_pictures; ++j)
+    if (k == std::max<std::int64_t>(1, n * j / n_pictures)) return true;
+  return false;
+}
+
+bool OutputSlot::is_due(std::int64_t frame) const {
+  return frame % interval == 0 && (kind != OutputKind::contact_sheet ||
+                                   is_sheet_moment(frame / interval, n_frames / interval));
+}
+
 Outputs::Outputs() = default;
 Outputs::~Outputs() = default;
 Outputs::Outputs(Outputs&&) noexcept = default;
 
 namespace {
 
-std::vector<FilmOrder> film_orders(const Scene& scene, const Outputs& outputs,
-                                   std::int64_t first_frame) {
-  const std::int64_t n_frames = scene.time.n_frames();
+std::vector<FilmOrder> film_orders(const Scene& scene, const Outputs& outputs) {
   std::vector<FilmOrder> orders;
   for (std::size_t k = 0; k < scene.outputs.size(); ++k) {
     const SceneOutput& output = scene.outputs[k];
@@ -41,9 +52,7 @@ std::vector<FilmOrder> film_orders(const Scene& scene, const Outputs& outputs,
                       .camera = *find_camera(scene, output.camera),
                       .width = output.size[0],
                       .height = output.size[1],
-                      .frame_rate = scene.time.frame_rate / static_cast<double>(slot.interval),
-                      .n_frames = n_frames / slot.interval,
-                      .n_before = first_frame / slot.interval});
+                      .frame_rate = scene.time.frame_rate / static_cast<double>(slot.interval)});
   }
   return orders;
 }
@@ -152,7 +161,7 @@ void open_writers(const Simulation& s, const std::string& echo, const Checkpoint
     outputs.recordings.back() =
         slot.is_continued ? old_recording(slot.file, slot.last_frame) : new_recording(s, slot.file);
   }
-  const std::vector<FilmOrder> orders = film_orders(s.scene, outputs, s.first_frame);
+  const std::vector<FilmOrder> orders = film_orders(s.scene, outputs);
   const bool is_over = s.first_frame >= s.scene.time.n_frames();
   if (orders.empty() || is_over) return;
   warn_of_empty_pictures(s, orders);
@@ -224,7 +233,8 @@ Outputs open_outputs(Simulation& s, const std::string& folder, const std::string
   for (const SceneOutput& output : s.scene.outputs)
     outputs.slots.push_back({.kind = output.kind,
                              .file = folder + "/" + output.file,
-                             .interval = s.scene.time.interval(output.every)});
+                             .interval = s.scene.time.interval(output.every),
+                             .n_frames = s.scene.time.n_frames()});
   if (resumed) take_over_marks(s.scene, *resumed, outputs);
   on_root(*s.communicator, [&] { open_writers(s, echo, resumed, outputs); });
   return outputs;

@@ -98,13 +98,11 @@ void check_recording_stays(const ReplayOptions& options) {
     throw InputError("--video " + options.video + ": the film would replace its recording");
 }
 
-std::vector<FilmOrder> orders_of(const Scene& scene, const ReplayOptions& options,
-                                 std::size_t n_frames, double rate) {
+std::vector<FilmOrder> orders_of(const Scene& scene, const ReplayOptions& options, double rate) {
   FilmOrder order{.camera = camera_of(scene, options),
                   .width = options.width,
                   .height = options.height,
-                  .frame_rate = rate,
-                  .n_frames = static_cast<std::int64_t>(n_frames)};
+                  .frame_rate = rate};
   std::vector<FilmOrder> orders;
   if (!options.video.empty()) {
     order.kind = OutputKind::video;
@@ -156,7 +154,7 @@ std::unique_ptr<FilmStudio> open_studio(
   const double span = frames.back().second - frames.front().second;
   const double rate =
       span > 0 ? static_cast<double>(frames.size() - 1) / span : scene.time.frame_rate;
-  return std::make_unique<FilmStudio>(orders_of(scene, options, frames.size(), rate), scene.tissue,
+  return std::make_unique<FilmStudio>(orders_of(scene, options, rate), scene.tissue,
                                       reader.head().mesh, recorded_tools(scene, reader.head()));
 }
 
