@@ -1,7 +1,5 @@
 #include "apps/commands.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -10,6 +8,7 @@
 #include "apps/read_scale.h"
 #include "base/box.h"
 #include "base/error.h"
+#include "base/host.h"
 #include "base/log.h"
 #include "base/threads.h"
 #include "engine/build.h"
@@ -28,12 +27,6 @@
 namespace trocar {
 
 namespace {
-
-std::string host_name() {
-  char name[256] = "";
-  gethostname(name, sizeof name - 1);
-  return name;
-}
 
 // Ranks that share this one's cores: mpirun may bind each to cores of its own. Collective.
 int ranks_on_cores(const Communicator& communicator) {
@@ -68,7 +61,6 @@ const char* yes_no(bool is_true) {
 
 // Least stable step of the mesh with the default material. [s]
 double default_stable_step(const Mesh& mesh) {
-  Communicator alone;
   const std::vector<std::int32_t> owner(mesh.X.size(), 0);
   const Part part = make_part(mesh, owner, 0);
   const std::vector<Material> materials(mesh.region_name.size());

@@ -8,27 +8,12 @@
 #include <cerrno>
 #include <cstring>
 
+#include "base/descriptor.h"
 #include "base/error.h"
 
 namespace trocar {
 
 namespace {
-
-// Closes on every way out.
-class Descriptor {
- public:
-  explicit Descriptor(const std::string& file)
-      : number_(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {}
-  ~Descriptor() {
-    if (number_ >= 0) close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
 
 [[noreturn]] void fail(const std::string& file, const std::string& sentence) {
   throw InputError({file, 0, 0}, sentence);
@@ -43,7 +28,7 @@ void check_regular(const std::string& file, const struct stat& status) {
 
 std::string read_options_file(const std::string& file) {
   if (file.find('\0') != std::string::npos) fail(file.c_str(), "a file name can't hold a NUL byte");
-  const Descriptor descriptor(file);
+  const Descriptor descriptor(file, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
   struct stat status {};
   if (descriptor.number() < 0 || fstat(descriptor.number(), &status) != 0)
     fail(file, std::string("can't be opened: ").append(std::strerror(errno)));

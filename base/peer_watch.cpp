@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/host.h"
 
 namespace trocar {
 
@@ -30,12 +31,6 @@ struct Peer {
   long pid = 0;
   std::string host;
 };
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  gethostname(name.data(), name.size() - 1);
-  return name.data();
-}
 
 // Numbers of processes are those of a name space: a container may have its own.
 std::string name_space() {

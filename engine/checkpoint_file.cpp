@@ -8,26 +8,16 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/descriptor.h"
 #include "base/error.h"
 
 namespace trocar {
 
 namespace {
 
-// An open file; closed with the object.
-struct OpenFile {
-  int number = -1;
-  OpenFile(const std::string& file, int flags) : number(open(file.c_str(), flags, 0666)) {}
-  ~OpenFile() {
-    if (number >= 0) close(number);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-};
-
-bool write_all(const OpenFile& file, std::span<const std::byte> bytes) {
+bool write_all(const Descriptor& file, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
-    const ssize_t n = write(file.number, bytes.data(), bytes.size());
+    const ssize_t n = write(file.number(), bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return false;
     bytes = bytes.subspan(static_cast<std::size_t>(n));
@@ -38,13 +28,13 @@ bool write_all(const OpenFile& file, std::span<const std::byte> bytes) {
 // Returns the number of the error, 0 if there is none; n_bytes: that `put` has given.
 int write_to_disk(const std::string& file, const std::function<void(const ByteSink&)>& put,
                   std::size_t& n_bytes) {
-  const OpenFile stream(file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC);
-  int trouble = stream.number >= 0 ? 0 : errno;
+  const Descriptor stream(file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC);
+  int trouble = stream.number() >= 0 ? 0 : errno;
   put([&](std::span<const std::byte> bytes) {
     n_bytes += bytes.size();
     if (trouble == 0 && !write_all(stream, bytes)) trouble = errno;
   });
-  if (trouble == 0 && fsync(stream.number) != 0) trouble = errno;
+  if (trouble == 0 && fsync(stream.number()) != 0) trouble = errno;
   return trouble;
 }
 
@@ -52,8 +42,8 @@ int write_to_disk(const std::string& file, const std::function<void(const ByteSi
 // later.
 void sync_folder(const std::string& file) {
   const std::string parent = std::filesystem::path(file).parent_path().string();
-  const OpenFile folder(parent.empty() ? "." : parent, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder.number >= 0) fsync(folder.number);
+  const Descriptor folder(parent.empty() ? "." : parent, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder.number() >= 0) fsync(folder.number());
 }
 
 }  // namespace

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <condition_variable>
-#include <deque>
-#include <exception>
 #include <filesystem>
+#include <functional>
 #include <map>
-#include <mutex>
-#include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "base/number_text.h"
@@ -16,13 +13,13 @@
 #include "render/image_file.h"
 #include "render/renderer.h"
 #include "render/view.h"
+#include "render/work_queue.h"
 
 namespace trocar {
 
 namespace {
 
 constexpr std::size_t queue_length = 2;
-constexpr std::int64_t sheet_pictures = 9;
 
 Camera to_camera(const SceneCamera& c) {
   return {.eye = c.eye,
@@ -50,13 +47,12 @@ std::vector<TissueColours> region_colours(const SceneTissue& tissue, const Mesh&
   return colours;
 }
 
-// An order, what writes it, and how far it has come.
+// An order and what writes it.
 struct Film {
   FilmOrder order;
   std::unique_ptr<VideoWriter> video;
   std::unique_ptr<PngQueue> pngs;
   ContactSheet sheet;
-  std::int64_t n_seen = 0;
 
   void open() {
     if (order.kind == OutputKind::video)
@@ -74,17 +70,6 @@ struct Film {
       sheet.images.push_back(image);
       sheet.captions.push_back(time_text(time));
     }
-  }
-  // Whether the next of its frames is to be drawn: of a contact sheet most are not.
-  bool takes_next() {
-    const std::int64_t k = n_seen++;
-    return order.kind != OutputKind::contact_sheet || is_sheet_moment(k);
-  }
-  // Nine moments, evenly spread, the last one included.
-  bool is_sheet_moment(std::int64_t k) const {
-    for (std::int64_t j = 1; j <= sheet_pictures; ++j)
-      if (k == std::max<std::int64_t>(0, order.n_frames * j / sheet_pictures - 1)) return true;
-    return false;
   }
   void finish() {
     if (video) video->finish();
@@ -105,27 +90,19 @@ struct FilmStudio::Thread {
   bool is_plane = false, has_edges = false;
   std::vector<Tool> tools;
   std::vector<Film> films;
-  std::map<std::pair<int, int>, Renderer> renderers;  // by size
-
-  std::mutex mutex;
-  std::condition_variable changed;
-  std::deque<FilmFrame> queue;
-  bool is_closing = false, is_ready = false;
-  std::exception_ptr trouble;
   std::atomic<double> seconds = 0;
   std::atomic<std::int64_t> n_drawn = 0;
-  std::thread worker;
+  bool is_finished = false;
+  // By size. GL contexts belong to the thread that made them, so they are made and ended by jobs.
+  std::map<std::pair<int, int>, Renderer> renderers;
+  WorkQueue<std::function<void()>> jobs{queue_length,
+                                        [this](const std::function<void()>& job) { run(job); }};
 
-  void run();
+  void run(const std::function<void()>& job);
   void open();
   void draw(const FilmFrame& frame);
+  void finish();
   SceneView view_of(const FilmFrame& frame, const FilmOrder& order) const;
-  void throw_trouble(std::unique_lock<std::mutex>& lock) {
-    if (!trouble) return;
-    const std::exception_ptr thrown = trouble;
-    lock.unlock();
-    std::rethrow_exception(thrown);
-  }
 };
 
 SceneView FilmStudio::Thread::view_of(const FilmFrame& frame, const FilmOrder& order) const {
@@ -159,7 +136,6 @@ void FilmStudio::Thread::draw(const FilmFrame& frame) {
   std::vector<std::pair<std::size_t, Image>>
       drawn;  // orders with the same camera and size share a picture
   for (const std::size_t k : frame.orders) {
-    if (!films[k].takes_next()) continue;
     const FilmOrder& order = films[k].order;
     auto found = std::find_if(drawn.begin(), drawn.end(), [&](const auto& d) {
       return same_picture(films[d.first].order, order);
@@ -175,35 +151,18 @@ void FilmStudio::Thread::draw(const FilmFrame& frame) {
   seconds = seconds + monotonic_seconds() - start;
 }
 
-// GL contexts belong to the thread that made them, so the renderers are made here.
-void FilmStudio::Thread::run() {
-  std::unique_lock lock(mutex);
+void FilmStudio::Thread::finish() {
+  for (Film& film : films) film.finish();
+  renderers.clear();
+}
+
+void FilmStudio::Thread::run(const std::function<void()>& job) {
   try {
-    lock.unlock();
-    open();
-    lock.lock();
-    is_ready = true;
-    changed.notify_all();
-    while (true) {
-      changed.wait(lock, [&] { return is_closing || !queue.empty(); });
-      if (queue.empty()) break;
-      const FilmFrame frame = std::move(queue.front());
-      queue.pop_front();
-      lock.unlock();
-      draw(frame);
-      lock.lock();
-      changed.notify_all();
-    }
-    lock.unlock();
-    for (Film& film : films) film.finish();
-    renderers.clear();
-    lock.lock();
+    job();
   } catch (...) {
-    if (!lock.owns_lock()) lock.lock();
-    trouble = std::current_exception();
+    renderers.clear();
+    throw;
   }
-  is_ready = true;
-  changed.notify_all();
 }
 
 bool is_in_view(const FilmOrder& order, std::span<const Vec3> x) {
@@ -235,49 +194,28 @@ FilmStudio::FilmStudio(std::vector<FilmOrder> orders, const SceneTissue& tissue,
   t.tools = std::move(tools);
   for (FilmOrder& order : orders) {
     t.films.emplace_back();
-    t.films.back().n_seen = order.n_before;
     t.films.back().order = std::move(order);
   }
-  t.worker = std::thread([&t] { t.run(); });
-  std::unique_lock lock(t.mutex);
-  t.changed.wait(lock, [&] { return t.is_ready; });
-  if (t.trouble) {
-    const std::exception_ptr thrown = t.trouble;
-    lock.unlock();
-    t.worker.join();
-    std::rethrow_exception(thrown);
-  }
+  t.jobs.add([&t] { t.open(); });
+  t.jobs.wait();
 }
 
 FilmStudio::~FilmStudio() {
-  if (!thread_->worker.joinable()) return;
-  {
-    const std::lock_guard lock(thread_->mutex);
-    thread_->is_closing = true;
+  try {
+    finish();
+  } catch (...) {  // whoever leaves without finish() has something else to tell
   }
-  thread_->changed.notify_all();
-  thread_->worker.join();
 }
 
 void FilmStudio::add(FilmFrame frame) {
-  Thread& t = *thread_;
-  std::unique_lock lock(t.mutex);
-  t.changed.wait(lock, [&] { return t.trouble || t.queue.size() < queue_length; });
-  t.throw_trouble(lock);
-  t.queue.push_back(std::move(frame));
-  t.changed.notify_all();
+  thread_->jobs.add([&t = *thread_, frame = std::move(frame)] { t.draw(frame); });
 }
 
 void FilmStudio::finish() {
   Thread& t = *thread_;
-  {
-    const std::lock_guard lock(t.mutex);
-    t.is_closing = true;
-  }
-  t.changed.notify_all();
-  if (t.worker.joinable()) t.worker.join();
-  std::unique_lock lock(t.mutex);
-  t.throw_trouble(lock);
+  if (std::exchange(t.is_finished, true)) return;
+  t.jobs.add([&t] { t.finish(); });
+  t.jobs.finish();
 }
 
 double FilmStudio::seconds() const {

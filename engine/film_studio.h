@@ -18,9 +18,7 @@ struct FilmOrder {
   std::string file;  // full path; frames: a folder
   SceneCamera camera;
   int width = 1280, height = 720;
-  double frame_rate = 30;     // of a video [1/s]
-  std::int64_t n_frames = 0;  // of the whole run, for the nine moments of a contact sheet
-  std::int64_t n_before = 0;  // of them, drawn before the run was resumed
+  double frame_rate = 30;  // of a video [1/s]
 };
 
 // Whether any of the points is in the picture.
@@ -33,7 +31,7 @@ struct FilmFrame {
   std::vector<Vec3> x, X;   // (n_nodes)
   Surface surface;
   std::vector<std::int32_t> region;  // (n_triangles) of the mesh, behind each triangle
-  std::vector<std::size_t> orders;   // which orders want it
+  std::vector<std::size_t> orders;   // which orders it is drawn for
 };
 std::vector<std::int32_t> surface_regions(const Mesh& mesh, const Surface& surface);
 
@@ -43,7 +41,7 @@ class FilmStudio {
   // ffmpeg can't be started.
   FilmStudio(std::vector<FilmOrder> orders, const SceneTissue& tissue, const Mesh& mesh,
              std::vector<Tool> tools);
-  ~FilmStudio();
+  ~FilmStudio();  // finishes, if that has not been done
   // Waits while two frames are under way. Throws what went wrong in the thread.
   void add(FilmFrame frame);
   void finish();

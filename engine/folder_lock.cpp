@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/host.h"
 #include "base/log.h"
 #include "engine/run_files.h"
 
@@ -40,10 +41,8 @@ std::string holder(int number) {
 // Where the disk is too full for the room, or its file system can't reserve any, there is none.
 void write_holder(int number) {
   constexpr off_t room = 1 << 16;  // [bytes]
-  std::array<char, 256> host{};
-  gethostname(host.data(), host.size() - 1);
   if (ftruncate(number, 0) == 0)
-    dprintf(number, "process %d on %s", static_cast<int>(getpid()), host.data());
+    dprintf(number, "process %d on %s", static_cast<int>(getpid()), host_name().c_str());
   fallocate(number, FALLOC_FL_KEEP_SIZE, 0, room);
 }
 

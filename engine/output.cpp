@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/on_root.h"
+#include "base/whole_file.h"
 #include "engine/checkpoint.h"
 #include "engine/checkpoint_file.h"
 #include "engine/film_studio.h"
@@ -21,21 +22,26 @@
 
 namespace trocar {
 
+// Nine moments, evenly spread, the last one included.
+static bool is_sheet_moment(std::int64_t k, std::int64_t n) {
+  constexpr std::int64_t n_pictures = 9;
+  for (std::int64_t j = 1; j <= n_pictures; ++j)
+    if (k == std::max<std::int64_t>(1, n * j / n_pictures)) return true;
+  return false;
+}
+
+bool OutputSlot::is_due(std::int64_t frame) const {
+  return frame % interval == 0 && (kind != OutputKind::contact_sheet ||
+                                   is_sheet_moment(frame / interval, n_frames / interval));
+}
+
 Outputs::Outputs() = default;
 Outputs::~Outputs() = default;
 Outputs::Outputs(Outputs&&) noexcept = default;
 
 namespace {
 
-SceneCamera camera_of(const Scene& scene, const std::string& name) {
-  for (const SceneCamera& camera : scene.cameras)
-    if (name.empty() || camera.name == name) return camera;
-  return {};
-}
-
-std::vector<FilmOrder> film_orders(const Scene& scene, const Outputs& outputs,
-                                   std::int64_t first_frame) {
-  const std::int64_t n_frames = scene.time.n_frames();
+std::vector<FilmOrder> film_orders(const Scene& scene, const Outputs& outputs) {
   std::vector<FilmOrder> orders;
   for (std::size_t k = 0; k < scene.outputs.size(); ++k) {
     const SceneOutput& output = scene.outputs[k];
@@ -43,12 +49,10 @@ std::vector<FilmOrder> film_orders(const Scene& scene, const Outputs& outputs,
     const OutputSlot& slot = outputs.slots[k];
     orders.push_back({.kind = output.kind,
                       .file = slot.file,
-                      .camera = camera_of(scene, output.camera),
+                      .camera = *find_camera(scene, output.camera),
                       .width = output.size[0],
                       .height = output.size[1],
-                      .frame_rate = scene.time.frame_rate / static_cast<double>(slot.interval),
-                      .n_frames = n_frames / slot.interval,
-                      .n_before = first_frame / slot.interval});
+                      .frame_rate = scene.time.frame_rate / static_cast<double>(slot.interval)});
   }
   return orders;
 }
@@ -146,7 +150,7 @@ void open_writers(const Simulation& s, const std::string& echo, const Checkpoint
     rename_films(s, outputs);
   else
     remove_checkpoint(outputs.folder);  // it would not belong to the files that are written now
-  if (!echo.empty()) write_text_file(outputs.folder + "/" + scene_name, echo);
+  if (!echo.empty()) write_whole_file(outputs.folder + "/" + scene_name, echo);
   for (const OutputSlot& slot : outputs.slots) {
     std::filesystem::create_directories(std::filesystem::path(slot.file).parent_path());
     outputs.metrics.push_back(slot.kind == OutputKind::metrics ? open_metrics(s, slot, resumed)
@@ -157,7 +161,7 @@ void open_writers(const Simulation& s, const std::string& echo, const Checkpoint
     outputs.recordings.back() =
         slot.is_continued ? old_recording(slot.file, slot.last_frame) : new_recording(s, slot.file);
   }
-  const std::vector<FilmOrder> orders = film_orders(s.scene, outputs, s.first_frame);
+  const std::vector<FilmOrder> orders = film_orders(s.scene, outputs);
   const bool is_over = s.first_frame >= s.scene.time.n_frames();
   if (orders.empty() || is_over) return;
   warn_of_empty_pictures(s, orders);
@@ -222,14 +226,6 @@ void make_output_folder(const std::string& folder) {
                        trouble.message() + "; choose another one with -o");
 }
 
-void write_text_file(const std::string& file, const std::string& text) {
-  std::ofstream stream(file);
-  if ((stream << text).flush()) return;
-  std::error_code ignored;  // what is wrong is told below
-  if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
-  throw MachineError(file + ": can't be written (disk full or no permission)");
-}
-
 Outputs open_outputs(Simulation& s, const std::string& folder, const std::string& echo,
                      const Checkpoint* resumed) {
   Outputs outputs;
@@ -237,7 +233,8 @@ Outputs open_outputs(Simulation& s, const std::string& folder, const std::string
   for (const SceneOutput& output : s.scene.outputs)
     outputs.slots.push_back({.kind = output.kind,
                              .file = folder + "/" + output.file,
-                             .interval = s.scene.time.interval(output.every)});
+                             .interval = s.scene.time.interval(output.every),
+                             .n_frames = s.scene.time.n_frames()});
   if (resumed) take_over_marks(s.scene, *resumed, outputs);
   on_root(*s.communicator, [&] { open_writers(s, echo, resumed, outputs); });
   return outputs;

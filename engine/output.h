@@ -20,10 +20,12 @@ struct OutputSlot {
   OutputKind kind = OutputKind::metrics;
   std::string file;               // full path
   std::int64_t interval = 1;      // [frames]
+  std::int64_t n_frames = 0;      // of the whole run
   std::int64_t last_frame = 0;    // of a recording: the last one in it, 0 none
   std::vector<MeshEdit> pending;  // of a recording: edits since then
   bool is_continued = false;      // a recording or metrics that a stopped run began
-  bool is_due(std::int64_t frame) const { return frame % interval == 0; }
+  // Of a contact sheet only the frames that it shows.
+  bool is_due(std::int64_t frame) const;
 };
 
 // The writers exist on rank 0 only, and only those that the scene asks for.
@@ -43,8 +45,6 @@ struct Outputs {
 
 // Throws MachineError if nothing can be written there.
 void make_output_folder(const std::string& folder);
-// Throws MachineError if the file can't be written, and leaves none then.
-void write_text_file(const std::string& file, const std::string& text);
 // Makes the folder, puts the scene's `echo` there if there is one and opens all files. Collective;
 // throws MachineError on every rank if the folder can't be written. resumed: where the run goes on,
 // null at time zero: recordings and metrics are cut off there and go on, films and contact sheets

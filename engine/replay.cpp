@@ -13,6 +13,7 @@
 #include "engine/mesh_measures.h"
 #include "engine/output.h"
 #include "engine/recording.h"
+#include "engine/scene_outputs.h"
 #include "mesh/facets.h"
 #include "mesh/vtu_file.h"
 
@@ -21,15 +22,10 @@ namespace trocar {
 namespace {
 
 SceneCamera camera_of(const Scene& scene, const ReplayOptions& options) {
-  SceneCamera camera;
-  bool is_found = options.camera.empty();
-  if (!scene.cameras.empty()) camera = scene.cameras.front();
-  for (const SceneCamera& c : scene.cameras)
-    if (c.name == options.camera) {
-      camera = c;
-      is_found = true;
-    }
-  if (!is_found) throw InputError("the recorded scene has no camera \"" + options.camera + "\"");
+  const SceneCamera* found = find_camera(scene, options.camera);
+  if (!found && !options.camera.empty())
+    throw InputError("the recorded scene has " + no_camera_text(scene, options.camera));
+  SceneCamera camera = found ? *found : SceneCamera{};
   if (options.eye.size() == 3) camera.eye = Vec3(options.eye[0], options.eye[1], options.eye[2]);
   if (options.target.size() == 3)
     camera.target = Vec3(options.target[0], options.target[1], options.target[2]);
@@ -102,13 +98,11 @@ void check_recording_stays(const ReplayOptions& options) {
     throw InputError("--video " + options.video + ": the film would replace its recording");
 }
 
-std::vector<FilmOrder> orders_of(const Scene& scene, const ReplayOptions& options,
-                                 std::size_t n_frames, double rate) {
+std::vector<FilmOrder> orders_of(const Scene& scene, const ReplayOptions& options, double rate) {
   FilmOrder order{.camera = camera_of(scene, options),
                   .width = options.width,
                   .height = options.height,
-                  .frame_rate = rate,
-                  .n_frames = static_cast<std::int64_t>(n_frames)};
+                  .frame_rate = rate};
   std::vector<FilmOrder> orders;
   if (!options.video.empty()) {
     order.kind = OutputKind::video;
@@ -160,7 +154,7 @@ std::unique_ptr<FilmStudio> open_studio(
   const double span = frames.back().second - frames.front().second;
   const double rate =
       span > 0 ? static_cast<double>(frames.size() - 1) / span : scene.time.frame_rate;
-  return std::make_unique<FilmStudio>(orders_of(scene, options, frames.size(), rate), scene.tissue,
+  return std::make_unique<FilmStudio>(orders_of(scene, options, rate), scene.tissue,
                                       reader.head().mesh, recorded_tools(scene, reader.head()));
 }
 

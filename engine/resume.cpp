@@ -9,9 +9,9 @@
 #include "base/log.h"
 #include "base/number_text.h"
 #include "base/on_root.h"
+#include "base/whole_file.h"
 #include "engine/checkpoint_file.h"
 #include "engine/frame_report.h"
-#include "mesh/whole_file.h"
 
 namespace trocar {
 

@@ -10,6 +10,7 @@
 #include "base/log.h"
 #include "base/number_text.h"
 #include "base/on_root.h"
+#include "base/whole_file.h"
 #include "engine/build.h"
 #include "engine/bytes.h"
 #include "engine/checkpoint_output.h"
@@ -190,7 +191,7 @@ static void finish_run(Simulation& s, Outputs& outputs, FolderLock* lock, RunTim
   const std::string summary = make_summary(s, times, ending.sentence);
   const auto write_summary = [&] {
     lock->give_up_room();
-    write_text_file(outputs.folder + "/" + summary_name, summary);
+    write_whole_file(outputs.folder + "/" + summary_name, summary);
   };
   add_failure(failure_of([&] { on_root(communicator, write_summary); }), ending);
 }

@@ -14,13 +14,13 @@
 #include "base/options.h"
 #include "base/vec.h"
 #include "engine/scene_material.h"
+#include "mesh/generate.h"
 #include "solver/formulation.h"
 
 namespace trocar {
 
 enum class Pace { fast, real_time };
 enum class ShapeKind { box, ball, cylinder, rectangle, triangular_rectangle };
-enum class ElementKind { hex8, tet4_kuhn, tet4_five };
 enum class InstrumentKind { probe, grasper, scalpel, scissors };
 inline bool has_blade(InstrumentKind kind) {
   return kind == InstrumentKind::scalpel || kind == InstrumentKind::scissors;
@@ -63,7 +63,7 @@ struct SceneRegionMaterial {
 
 struct SceneShape {
   ShapeKind kind = ShapeKind::box;
-  ElementKind elements = ElementKind::hex8;
+  BoxElements elements = BoxElements::hex8;
   Vec3 low = Vec3::Zero(), high{0.1, 0.1, 0.1};  // box and rectangle
   Vec3 centre = Vec3::Zero();                    // ball, cylinder (of its base)
   double radius = 0.05, height = 0.1;
@@ -242,6 +242,8 @@ struct Scene {
 bool has_blades(const Scene& scene);
 // Whether anything of the scene is written to a table of metrics.
 bool has_metrics(const Scene& scene);
+// The first one for "", null if there is none.
+const SceneCamera* find_camera(const Scene& scene, const std::string& name);
 
 Options<Scene> scene_options();
 

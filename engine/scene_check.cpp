@@ -6,11 +6,11 @@
 #include <set>
 
 #include "base/number_text.h"
+#include "base/whole_file.h"
 #include "engine/scene.h"
 #include "engine/scene_outputs.h"
 #include "engine/support_forces.h"
 #include "engine/tissue.h"
-#include "mesh/whole_file.h"
 
 namespace trocar {
 
@@ -29,7 +29,7 @@ void check_shape(const SceneShape& shape, OptionErrors& errors) {
     errors.add_at_first({"tissue.shape.high", "tissue.shape.low"},
                         "each component of low must be below that of high");
   const bool is_round = shape.kind == ShapeKind::ball || shape.kind == ShapeKind::cylinder;
-  if (is_round && shape.elements == ElementKind::tet4_five)
+  if (is_round && shape.elements == BoxElements::tet4_five)
     errors.add("tissue.shape.elements",
                "balls and cylinders can't be of tet4-five, some of which would be flat: take "
                "\"tet4-kuhn\" or \"hex8\"");
@@ -239,6 +239,12 @@ bool has_blades(const Scene& scene) {
 bool has_metrics(const Scene& scene) {
   return std::any_of(scene.outputs.begin(), scene.outputs.end(),
                      [](const SceneOutput& output) { return output.kind == OutputKind::metrics; });
+}
+
+const SceneCamera* find_camera(const Scene& scene, const std::string& name) {
+  const auto found = std::ranges::find_if(
+      scene.cameras, [&](const SceneCamera& c) { return name.empty() || c.name == name; });
+  return found != scene.cameras.end() ? &*found : nullptr;
 }
 
 // What each table tells by itself.

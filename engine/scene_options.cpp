@@ -10,7 +10,7 @@ constexpr Range unit_range{.low = 0, .high = 1};
 Options<SceneTime> time_options() {
   Options<SceneTime> t("How long, how often, how fast.");
   t.number("duration", &SceneTime::duration, dim::time, positive,
-           "Simulated time; up to the next whole frame.", Need::required);
+           "Simulated time; to the nearest whole frame.", Need::required);
   t.number("frame_rate", &SceneTime::frame_rate, dim::rate, {.low = 1, .high = 10000},
            "Frames a second: contact detection, cuts and outputs happen once a frame. \"30 Hz\".");
   t.choice(
@@ -47,9 +47,9 @@ Options<SceneShape> shape_options() {
             {"triangular-rectangle", ShapeKind::triangular_rectangle}},
            "Sides are named \"x-\", \"x+\", \"y-\", … as regions.", Need::required);
   s.choice("elements", &SceneShape::elements,
-           {{"hex8", ElementKind::hex8},
-            {"tet4-kuhn", ElementKind::tet4_kuhn},
-            {"tet4-five", ElementKind::tet4_five}},
+           {{"hex8", BoxElements::hex8},
+            {"tet4-kuhn", BoxElements::tet4_kuhn},
+            {"tet4-five", BoxElements::tet4_five}},
            "Elements of box, ball and cylinder.");
   s.vector("low", &SceneShape::low, dim::length, any, "Lower corner of a box.");
   s.vector("high", &SceneShape::high, dim::length, any,
@@ -350,7 +350,7 @@ Options<SceneOutput> output_options() {
   o.text("camera", &SceneOutput::camera, "Name of a [[camera]]; the first if absent.");
   o.integers("size", &SceneOutput::size, {.low = 16, .high = 8192}, "Pixels: width, height.");
   o.number("every", &SceneOutput::every, dim::time, not_negative,
-           "Interval, up to the next whole number of frames; every frame if absent.");
+           "Interval, to the nearest whole number of frames; every frame if absent.");
   return o;
 }
 

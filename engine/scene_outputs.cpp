@@ -63,21 +63,25 @@ void check_files_differ(const Scene& scene, OptionErrors& errors) {
 }
 
 void check_cameras_of_outputs(const Scene& scene, OptionErrors& errors) {
-  std::vector<std::string> names;
-  for (const SceneCamera& camera : scene.cameras) names.push_back(camera.name);
   for (std::size_t k = 0; k < scene.outputs.size(); ++k) {
     const SceneOutput& output = scene.outputs[k];
     if (!is_picture(output.kind)) continue;
     // Once, for all of them.
-    if (names.empty())
+    if (scene.cameras.empty())
       return errors.add(item_path("output", k) + ".kind", "a picture needs a [[camera]]");
-    if (!output.camera.empty() && std::ranges::find(names, output.camera) == names.end())
+    if (!find_camera(scene, output.camera))
       errors.add(item_path("output", k) + ".camera",
-                 "there is no camera \"" + output.camera + "\"" + names_hint(output.camera, names));
+                 "there is " + no_camera_text(scene, output.camera));
   }
 }
 
 }  // namespace
+
+std::string no_camera_text(const Scene& scene, const std::string& name) {
+  std::vector<std::string> names;
+  for (const SceneCamera& camera : scene.cameras) names.push_back(camera.name);
+  return "no camera \"" + name + "\"" + names_hint(name, names);
+}
 
 void check_views(const Scene& scene, OptionErrors& errors) {
   for (std::size_t k = 0; k < scene.cameras.size(); ++k) {

@@ -22,27 +22,14 @@ namespace trocar {
 
 namespace {
 
-BoxElements box_elements(ElementKind kind) {
-  switch (kind) {
-    case ElementKind::hex8:
-      return BoxElements::hex8;
-    case ElementKind::tet4_kuhn:
-      return BoxElements::tet4_kuhn;
-    case ElementKind::tet4_five:
-      return BoxElements::tet4_five;
-  }
-  return BoxElements::hex8;
-}
-
 Mesh generate_tissue(const SceneShape& s) {
-  const BoxElements elements = box_elements(s.elements);
   switch (s.kind) {
     case ShapeKind::box:
-      return make_box(s.low, s.high, s.cells, elements);
+      return make_box(s.low, s.high, s.cells, s.elements);
     case ShapeKind::ball:
-      return make_ball(s.centre, s.radius, s.cells[0], elements);
+      return make_ball(s.centre, s.radius, s.cells[0], s.elements);
     case ShapeKind::cylinder:
-      return make_cylinder(s.centre, s.radius, s.height, s.cells[0], s.cells[2], elements);
+      return make_cylinder(s.centre, s.radius, s.height, s.cells[0], s.cells[2], s.elements);
     case ShapeKind::rectangle:
       return make_rectangle(s.high.x(), s.high.y(), s.cells[0], s.cells[1]);
     case ShapeKind::triangular_rectangle:

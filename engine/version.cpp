@@ -3,7 +3,7 @@
 namespace trocar {
 
 std::string version_text() {
-  return "trocar 0.1.0";
+  return "trocar " TROCAR_VERSION;  // the project's, from CMakeLists.txt
 }
 
 }  // namespace trocar

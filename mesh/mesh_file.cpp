@@ -6,8 +6,8 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/whole_file.h"
 #include "mesh/mesh_file_formats.h"
-#include "mesh/whole_file.h"
 
 namespace trocar {
 

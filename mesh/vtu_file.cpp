@@ -5,9 +5,9 @@
 #include <bit>
 
 #include "base/check.h"
+#include "base/whole_file.h"
 #include "mesh/text_append.h"
 #include "mesh/vtu_data.h"
-#include "mesh/whole_file.h"
 #include "mesh/xml_tag.h"
 
 namespace trocar {

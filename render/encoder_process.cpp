@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "base/error.h"
 
@@ -24,6 +25,12 @@ namespace {
 constexpr int slice_ms = 100;
 constexpr std::size_t most_words = 4096;
 
+void close_end(int& end) {
+  if (end >= 0) close(end);
+  end = -1;
+}
+
+// Closes what ends it still has.
 struct Pipe {
   int read = -1, write = -1;
   Pipe() {
@@ -33,6 +40,12 @@ struct Pipe {
     read = end[0];
     write = end[1];
   }
+  ~Pipe() {
+    close_end(read);
+    close_end(write);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
 };
 
 // The program starts with default signals and a process group of its own: Ctrl-C goes to us, and
@@ -90,11 +103,6 @@ class NoSigpipe {
   sigset_t mask_{}, before_{};
 };
 
-void close_end(int& end) {
-  if (end >= 0) close(end);
-  end = -1;
-}
-
 std::string end_of(int status) {
   if (WIFSIGNALED(status)) return "was ended by signal " + std::to_string(WTERMSIG(status));
   return "ended with code " + std::to_string(WEXITSTATUS(status));
@@ -106,18 +114,11 @@ EncoderProcess::EncoderProcess(const std::vector<std::string>& argv, double pati
     : name_(argv.at(0)), n_slices_(static_cast<int>(patience * 1000 / slice_ms)) {
   Pipe input, words;
   const int error = spawn(argv, input.read, words.write, pid_);
-  close_end(input.read);
-  close_end(words.write);
-  input_ = input.write;
-  words_ = words.read;
-  if (error == 0) {
-    fcntl(input_, F_SETFL, O_NONBLOCK);
-    fcntl(words_, F_SETFL, O_NONBLOCK);
-    return;
-  }
-  close_end(input_);
-  close_end(words_);
-  throw MachineError("can't start " + name_ + ": " + std::strerror(error));
+  if (error != 0) throw MachineError("can't start " + name_ + ": " + std::strerror(error));
+  input_ = std::exchange(input.write, -1);
+  words_ = std::exchange(words.read, -1);
+  fcntl(input_, F_SETFL, O_NONBLOCK);
+  fcntl(words_, F_SETFL, O_NONBLOCK);
 }
 
 EncoderProcess::~EncoderProcess() {

@@ -32,7 +32,13 @@ class WorkQueue {
     jobs_.push_back(std::move(job));
     changed_.notify_all();
   }
-  // Waits until all is done. Throws what `work` threw.
+  // Waits until all that was added is done. Throws what `work` threw.
+  void wait() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return trouble_ || (jobs_.empty() && !is_busy_); });
+    if (trouble_) std::rethrow_exception(trouble_);
+  }
+  // The same, and ends the thread: no more can be added.
   void finish() {
     close();
     if (trouble_) std::rethrow_exception(trouble_);
@@ -55,6 +61,7 @@ class WorkQueue {
       if (jobs_.empty()) return;
       Job job = std::move(jobs_.front());
       jobs_.pop_front();
+      is_busy_ = true;
       changed_.notify_all();
       lock.unlock();
       std::exception_ptr trouble;
@@ -64,10 +71,10 @@ class WorkQueue {
         trouble = std::current_exception();
       }
       lock.lock();
-      if (!trouble) continue;
+      is_busy_ = false;
       trouble_ = trouble;
       changed_.notify_all();
-      return;
+      if (trouble_) return;
     }
   }
 
@@ -76,7 +83,7 @@ class WorkQueue {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Job> jobs_;
-  bool is_closing_ = false;
+  bool is_busy_ = false, is_closing_ = false;
   std::exception_ptr trouble_;
   std::thread thread_;  // last: it uses the others
 };

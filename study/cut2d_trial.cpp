@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <limits>
 
 #include "base/error.h"
+#include "base/timers.h"
 #include "cutting/cut_plane_reaches.h"
 #include "cutting/cut_plane_slit.h"
 #include "cutting/cut_plane_subdivide.h"
@@ -16,13 +16,7 @@ namespace trocar {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double least_seconds = 0.25;  // of repetitions whose number is left open
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void add_figures(const CutFigures& figures, Cut2dTrial& trial) {
   trial.n_opened_edges += figures.n_opened_facets;
@@ -55,14 +49,14 @@ double displace(const Cut2dOptions& options, Cut2dTrial& trial) {
     for (Cut2dPath reach : reaches(path)) {
       if (!rest.empty()) reach.front() = rest.front();
       const std::vector<std::uint8_t> is_held(trial.after.X.size(), 0);
-      const Clock::time_point start = Clock::now();
+      const double start = monotonic_seconds();
       PathFromSlit from{reach, tip};
       if (options.mode == Cut2dMode::robust && trial.n_opened_edges > 0)
         from = outside_slits(trial.after, reach, tip, h);
       if (from.point.size() < 2) continue;
       const PlaneCut cut = cut_plane(trial.after, from.point, from.tip, is_held, plane);
       apply_edit(cut.edit, trial.after);
-      seconds += seconds_since(start);
+      seconds += monotonic_seconds() - start;
       tip = cut.tip;
       rest = cut.rest;
       add_figures(cut.figures, trial);
@@ -77,9 +71,9 @@ double subdivide(Cut2dTrial& trial) {
   for (const Cut2dPath& path : trial.paths) {
     if (path.size() != 2)
       throw InputError("the subdivision cuts along straight lines: give --path two points");
-    const Clock::time_point start = Clock::now();
+    const double start = monotonic_seconds();
     trial.after = subdivide_along(trial.after, path.front(), path.back());
-    seconds += seconds_since(start);
+    seconds += monotonic_seconds() - start;
   }
   int n_lips = 0;
   for (const std::uint8_t mask : trial.after.cut_facets) n_lips += std::popcount(mask);
@@ -89,9 +83,9 @@ double subdivide(Cut2dTrial& trial) {
 
 // A quarter of a second holds hundreds of cuts, the fastest of which a noisy machine has left in
 // peace.
-bool is_more_to_do(int repetitions, std::size_t n_done, Clock::time_point start) {
+bool is_more_to_do(int repetitions, std::size_t n_done, double start) {
   return repetitions > 0 ? n_done < static_cast<std::size_t>(repetitions)
-                         : seconds_since(start) < least_seconds;
+                         : monotonic_seconds() - start < least_seconds;
 }
 
 double smallest_altitude(const Mesh& mesh) {
@@ -114,7 +108,7 @@ Cut2dTrial run_trial(const Mesh& mesh, const std::vector<Cut2dPath>& paths,
   trial.before = mesh;
   trial.paths = paths;
   std::vector<double> seconds;
-  const Clock::time_point start = Clock::now();
+  const double start = monotonic_seconds();
   do {
     seconds.push_back(options.mode == Cut2dMode::subdivision ? subdivide(trial)
                                                              : displace(options, trial));

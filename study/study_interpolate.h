@@ -11,12 +11,13 @@
 namespace trocar {
 
 struct SamplePoint {
-  std::array<std::int32_t, 4> node{};
-  std::array<double, 4> weight{};  // barycentric, 0 for corners that do not exist
+  std::array<std::int32_t, 4> node{};  // -1: there is no such corner
+  std::array<double, 4> weight{};      // barycentric
 };
 
-// Finds the simplex that holds each point (hexahedra count as six tetrahedra). For a point outside,
-// which curved surfaces leave, the nearby simplex whose least weight is largest extrapolates.
+// Finds the simplex that holds each point (hexahedra count as the tetrahedra of hex_split.h). For a
+// point outside, which curved surfaces leave, the nearby simplex whose least weight is largest
+// extrapolates.
 std::vector<SamplePoint> locate_samples(const Mesh& mesh, std::span<const Vec3> points);
 
 // u (n_nodes * 3).

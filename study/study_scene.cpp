@@ -83,10 +83,10 @@ LoadedScene scene_of(const SceneStudy& study, const Case& c) {
     return loaded;
   }
   scale_cells(c.n, *tissue.shape);
-  if (c.method.elements == BoxElements::hex8)
-    tissue.shape->elements = ElementKind::hex8;
-  else if (tissue.shape->elements == ElementKind::hex8)
-    tissue.shape->elements = ElementKind::tet4_kuhn;
+  // Tetrahedra stay those of the scene.
+  BoxElements& elements = tissue.shape->elements;
+  if (c.method.elements == BoxElements::hex8 || elements == BoxElements::hex8)
+    elements = c.method.elements;
   return loaded;
 }
 
@@ -244,7 +244,7 @@ Problem problem_of_scene(const SceneStudyOptions& options, Communicator& communi
   problem.sizes = sizes_of(*study, options.sizes);
   problem.sleeps = sleeps_of(options, *study);
   Case coarsest{.n = *std::min_element(problem.sizes.begin(), problem.sizes.end())};
-  if (study->has_shape() && study->loaded.scene.tissue.shape->elements != ElementKind::hex8)
+  if (study->has_shape() && study->loaded.scene.tissue.shape->elements != BoxElements::hex8)
     coarsest.method.elements = BoxElements::tet4_kuhn;
   const Mesh mesh = load_tissue(scene_of(*study, coarsest), communicator);
   study->points = surface_points(mesh, most_sample_points);

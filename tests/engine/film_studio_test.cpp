@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
+#include "engine/output.h"
 #include "mesh/generate.h"
 #include "test_files.h"
 
@@ -21,19 +20,19 @@ FilmFrame frame_of(const Mesh& mesh, std::int64_t number) {
 }
 
 std::int64_t n_drawn_of(std::vector<FilmOrder> orders, const Mesh& mesh, std::int64_t first) {
+  std::vector<OutputSlot> slots;
   for (FilmOrder& order : orders) {
     order.camera.eye = Vec3(0.1, 0.1, 0.1);
     order.width = 64;
     order.height = 48;
-    order.n_frames = 40;
-    order.n_before = first;
+    slots.push_back({.kind = order.kind, .n_frames = 40});
   }
-  const std::size_t n_orders = orders.size();
   FilmStudio studio(std::move(orders), {}, mesh, {});
   for (std::int64_t k = first + 1; k <= 40; ++k) {
     FilmFrame frame = frame_of(mesh, k);
-    frame.orders.resize(n_orders);
-    std::iota(frame.orders.begin(), frame.orders.end(), std::size_t{0});
+    frame.orders.clear();
+    for (std::size_t order = 0; order < slots.size(); ++order)
+      if (slots[order].is_due(k)) frame.orders.push_back(order);
     studio.add(std::move(frame));
   }
   studio.finish();
@@ -51,6 +50,24 @@ TEST(FilmStudio, draws_the_nine_pictures_of_a_contact_sheet_and_no_others) {
   // Moments are 4, 8, 13, 17, 22, 26, 31, 35 and 40: the last five of a run that goes on at 20.
   EXPECT_EQ(n_drawn_of({sheet}, mesh, 20), 5);
   EXPECT_EQ(n_drawn_of({sheet, frames}, mesh, 0), 40);  // one picture for both
+}
+
+TEST(FilmStudio, says_at_once_that_a_film_can_not_be_opened) {
+  const Mesh mesh = make_box(Vec3::Zero(), Vec3::Constant(0.02), {1, 1, 1}, BoxElements::hex8);
+  const TestFolder folder;
+  const FilmOrder frames{.kind = OutputKind::frames, .file = folder.file("file", "") + "/frames"};
+  EXPECT_ANY_THROW(FilmStudio({frames}, {}, mesh, {}));
+}
+
+TEST(FilmStudio, that_nobody_finishes_writes_what_it_has) {
+  const Mesh mesh = make_box(Vec3::Zero(), Vec3::Constant(0.02), {1, 1, 1}, BoxElements::hex8);
+  const TestFolder folder;
+  FilmOrder sheet{.kind = OutputKind::contact_sheet, .file = folder.file("sheet.png")};
+  sheet.camera.eye = Vec3(0.1, 0.1, 0.1);
+  sheet.width = 64;
+  sheet.height = 48;
+  FilmStudio({sheet}, {}, mesh, {}).add(frame_of(mesh, 1));
+  EXPECT_TRUE(std::filesystem::exists(sheet.file));
 }
 
 // Of a box with a tumour in a corner, which has a look of its own.

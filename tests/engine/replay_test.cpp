@@ -116,7 +116,7 @@ TEST(Replay, names_a_camera_that_the_scene_lacks) {
   RunToReplay c;
   c.options.writes_frames = true;
   c.options.camera = "other";
-  EXPECT_TRUE(contains(error_of([&] { replay(c.options); }), "no camera \"other\""));
+  EXPECT_TRUE(contains(error_of([&] { replay(c.options); }), "no camera \"other\"; there"));
 }
 
 TEST(Replay, does_not_write_a_film_over_its_recording) {

@@ -208,7 +208,7 @@ TEST(SceneOptions, every_key_of_a_shape_reaches_its_member_in_si) {
                                  "3]\ncentre = [4, 5, 6]\nradius = \"1 cm\"\n"
                                  "height = \"2 cm\"\ncells = [7, 8, 9]\n"));
   EXPECT_EQ(s.tissue.shape->kind, ShapeKind::box);
-  EXPECT_EQ(s.tissue.shape->elements, ElementKind::tet4_kuhn);
+  EXPECT_EQ(s.tissue.shape->elements, BoxElements::tet4_kuhn);
   EXPECT_DOUBLE_EQ(s.tissue.shape->low.x(), -0.01);
   EXPECT_EQ(s.tissue.shape->high, Vec3(1, 2, 3));
   EXPECT_EQ(s.tissue.shape->centre, Vec3(4, 5, 6));

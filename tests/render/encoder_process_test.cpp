@@ -1,7 +1,12 @@
 #include "render/encoder_process.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
 
 #include "base/error.h"
 #include "error_of.h"
@@ -29,6 +34,22 @@ TEST(EncoderProcess, program_that_does_not_exist_is_an_error) {
   EXPECT_NE(
       error_of<MachineError>([] { EncoderProcess({"/no/such/program"}); }).find("/no/such/program"),
       std::string::npos);
+}
+
+// With three free numbers the second pipe can't be made.
+TEST(EncoderProcess, without_a_pipe_nothing_stays_open) {
+  std::array<int, 3> free{};
+  for (int& number : free) number = dup(STDIN_FILENO);
+  for (const int number : free) close(number);
+  rlimit usual{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &usual), 0);
+  rlimit few = usual;
+  few.rlim_cur = static_cast<rlim_t>(free.back()) + 1;
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &few), 0);
+  const std::string what = error_of<MachineError>([] { EncoderProcess({"/bin/true"}); });
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &usual), 0);
+  EXPECT_NE(what.find("pipe"), std::string::npos) << what;
+  for (const int number : free) EXPECT_EQ(fcntl(number, F_GETFD), -1) << number;
 }
 
 TEST(EncoderProcess, killed_program_is_an_error_not_a_signal) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "base/whole_file.h"
 #include "mesh/text_append.h"
-#include "mesh/whole_file.h"
 
 namespace trocar {
 

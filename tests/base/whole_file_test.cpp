@@ -1,6 +1,7 @@
-#include "mesh/whole_file.h"
+#include "base/whole_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "error_of.h"
 #include "test_files.h"
@@ -29,9 +30,18 @@ TEST(WriteWholeFile, a_failed_write_leaves_neither_half_a_file_nor_a_temporary_o
 TEST(WriteWholeFile, a_full_disk_is_reported) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this machine has no /dev/full";
   const TestFolder folder;
+  write_text(folder.file("a.msh"), "old");
   std::filesystem::create_symlink("/dev/full", folder.file("a.msh.part"));
   EXPECT_EQ(refusal_to_write(folder.file("a.msh")),
             folder.file("a.msh") + ": can't be written: No space left on device");
+  EXPECT_EQ(read_text(folder.file("a.msh")), "old");
+}
+
+TEST(WriteWholeFile, a_pipe_stays_what_it_is) {
+  const TestFolder folder;
+  ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
+  EXPECT_TRUE(contains(refusal_to_write(folder.file("pipe")), "can't be written"));
+  EXPECT_TRUE(std::filesystem::is_fifo(folder.file("pipe")));
 }
 
 }  // namespace

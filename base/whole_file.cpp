@@ -1,5 +1,5 @@
 // Reading and writing of whole files.
-#include "mesh/whole_file.h"
+#include "base/whole_file.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -58,6 +58,9 @@ std::string read_whole_file(const std::string& file) {
 
 void write_whole_file(const std::string& file, std::string_view content) {
   const std::string part = file + ".part";
+  std::error_code ignored;  // opening tells
+  if (std::filesystem::is_other(file, ignored))
+    throw MachineError(file + ": can't be written: a device or a pipe is not replaced");
   Stream stream(std::fopen(part.c_str(), "wb"));
   if (!stream) fail_write(file, part);
   const bool is_written =
