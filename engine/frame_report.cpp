@@ -146,15 +146,16 @@ void note_grasp(Simulation& s, double time, const GraspAct& act) {
 }
 
 void note_refusals(Simulation& s, const CutRecord& record) {
-  if (record.refusals.empty()) return;
-  const CutRefusal& first = record.refusals.front();
-  const bool is_one = record.n_refused == 1;
-  note_event(s, record.end,
-             record.tool + " leaves tissue joined in " +
-                 (is_one ? "one place" : std::to_string(record.n_refused) + " places, the first") +
-                 " at " + point_text(first.X) + " m of the undeformed body" +
-                 (first.area > 0 ? ", " + short_text(1e4 * first.area) + " cm^2" : "") + ": " +
-                 reason_of(first) + (is_one ? "" : " (all: `refusals` in the summary)"));
+  if (record.figures.refusals.empty()) return;
+  const CutRefusal& first = record.figures.refusals.front();
+  const bool is_one = record.figures.n_refused == 1;
+  note_event(
+      s, record.end,
+      record.tool + " leaves tissue joined in " +
+          (is_one ? "one place" : std::to_string(record.figures.n_refused) + " places, the first") +
+          " at " + point_text(first.X) + " m of the undeformed body" +
+          (first.area > 0 ? ", " + short_text(1e4 * first.area) + " cm^2" : "") + ": " +
+          reason_of(first) + (is_one ? "" : " (all: `refusals` in the summary)"));
 }
 
 // Why strokes of a blade have parted nothing of the tissue that it was in.
@@ -166,8 +167,8 @@ static std::string why_nothing(const Simulation& s, std::span<const CutRecord> s
   for (const CutRecord& stroke : strokes) {
     deepest = std::max(deepest, stroke.deepest);
     way = std::max(way, stroke.blade_travel);
-    goes_through |= stroke.goes_through;
-    is_told |= !stroke.refusals.empty();
+    goes_through |= stroke.figures.goes_through;
+    is_told |= !stroke.figures.refusals.empty();
   }
   const std::string elements =
       ", whose elements have edges of " + short_text(1e3 * s.edge_length) + " mm, and ";
@@ -195,12 +196,12 @@ static std::string why_nothing(const Simulation& s, std::span<const CutRecord> s
 static void note_idle_strokes(Simulation& s, const CutStage& stage) {
   const Tool& tool = s.tools[stage.tool];
   std::span<const CutRecord> strokes = stage.strokes;
-  const auto has_cut = [](const CutRecord& stroke) { return stroke.n_opened_facets > 0; };
+  const auto has_cut = [](const CutRecord& stroke) { return stroke.figures.n_opened_facets > 0; };
   if (std::ranges::none_of(strokes, has_cut))
     return note_event(s, s.state.time, tool.name + " has cut nothing: " + why_nothing(s, strokes));
   if (stage.is_in_stroke) strokes = strokes.first(strokes.size() - 1);
   const auto is_idle = [&](const CutRecord& stroke) {
-    return !has_cut(stroke) && !stroke.is_in_slit;
+    return !has_cut(stroke) && !stroke.figures.is_in_slit;
   };
   const auto n_idle = std::ranges::count_if(strokes, is_idle);
   if (n_idle == 0) return;
