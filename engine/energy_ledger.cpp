@@ -124,7 +124,7 @@ void begin_contact_work(Simulation& s) {
 // local_of: a node's number on this rank.
 template <class Nodes, class LocalOf>
 static void note_before(const State& state, const Nodes& nodes, const LocalOf& local_of,
-                        NodeWorks& works) {
+                        ForceWorks& works) {
   works.before.clear();
   for (const auto& node : nodes) works.before.push_back(velocity_of(state, local_of(node)));
 }
@@ -161,7 +161,7 @@ void add_work(Simulation& s) {
     ledger.start_kinetic = sum_over_ranks(kinetic_of_start(s), *s.communicator);
   const double half_dt = ledger.dt_mid / 2;
   add_support_forces(s.scratch.force, ledger.support_forces);
-  const auto add = [&](std::size_t k, std::int32_t local, const Vec3& force, NodeWorks& works) {
+  const auto add = [&](std::size_t k, std::int32_t local, const Vec3& force, ForceWorks& works) {
     works.work[k] += half_dt * force.dot(works.before[k] + velocity_of(s.state, local));
   };
   for (std::size_t k = 0; k < ledger.contact.work.size(); ++k) {

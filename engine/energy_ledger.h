@@ -35,7 +35,7 @@ struct EnergyMemory {
 };
 
 // Of forces at nodes of this rank in this frame.
-struct NodeWorks {
+struct ForceWorks {
   std::vector<Vec3> before;  // velocity before the step [m/s]
   std::vector<double> work;  // [J]
 };
@@ -44,7 +44,7 @@ struct EnergyLedger {
   EnergyMemory memory;
   // In the order of the contact set's nodes, of the holds, of the nodes that blades drag along and
   // of the loads' nodes.
-  NodeWorks contact, holds, blade, loads;
+  ForceWorks contact, holds, blade, loads;
   std::vector<double> earlier_contact_work;  // with the frame's earlier contact sets [J]
   double dt_mid = 0;                         // between the two velocities of the step [s]
   std::optional<std::vector<double>>
