@@ -131,7 +131,7 @@ static constexpr std::ptrdiff_t rows_in_blob = 256;
 static void pack_rows(std::span<const FrameRow> rows, ByteWriter& blobs) {
   if (rows.empty()) return;  // an empty blob would end the section
   Saver saver;
-  for (FrameRow row : rows) saver(row);
+  for (const FrameRow& row : rows) saver(row);
   put_blob(blobs, pack_blob(saver.take(), 1));
 }
 
@@ -148,7 +148,7 @@ static void put_rows(std::span<const FrameRow> rows, PackedRows& packed, const B
   sink(rest.take());
 }
 
-void put_checkpoint(Checkpoint& checkpoint, PackedRows& packed, const ByteSink& sink) {
+void put_checkpoint(const Checkpoint& checkpoint, PackedRows& packed, const ByteSink& sink) {
   std::uint32_t crc = 0;
   const ByteSink checked = [&](std::span<const std::byte> bytes) {
     crc = crc32c(bytes, crc);
