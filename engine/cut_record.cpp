@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/apply_cut.h"
-#include "engine/frame_report.h"
+#include "engine/event_log.h"
 
 namespace trocar {
 

@@ -9,10 +9,11 @@
 #include "base/sort_unique.h"
 #include "engine/cut_along_tip.h"
 #include "engine/cut_look.h"
-#include "engine/frame_report.h"
+#include "engine/event_log.h"
 #include "engine/frame_watch.h"
 #include "engine/simulation.h"
 #include "engine/tissue_way.h"
+#include "engine/tool_report.h"
 
 namespace trocar {
 

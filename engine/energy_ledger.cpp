@@ -8,8 +8,8 @@
 
 #include "base/number_text.h"
 #include "base/options.h"
+#include "engine/event_log.h"
 #include "engine/frame_force.h"
-#include "engine/frame_report.h"
 #include "engine/simulation.h"
 #include "solver/mass_clusters.h"
 #include "solver/step.h"

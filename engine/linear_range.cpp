@@ -9,7 +9,7 @@
 #include "base/options.h"
 #include "base/threads.h"
 #include "engine/element_gradient.h"
-#include "engine/frame_report.h"
+#include "engine/event_log.h"
 
 namespace trocar {
 

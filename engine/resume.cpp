@@ -10,7 +10,6 @@
 #include "base/number_text.h"
 #include "base/on_root.h"
 #include "engine/checkpoint_file.h"
-#include "engine/frame_report.h"
 #include "mesh/whole_file.h"
 
 namespace trocar {

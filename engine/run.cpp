@@ -18,11 +18,11 @@
 #include "engine/film_studio.h"
 #include "engine/folder_lock.h"
 #include "engine/frame.h"
-#include "engine/frame_report.h"
 #include "engine/output_check.h"
 #include "engine/resume.h"
 #include "engine/run_files.h"
 #include "engine/summary.h"
+#include "engine/tool_report.h"
 
 namespace trocar {
 

@@ -8,7 +8,7 @@
 #include "base/exact_sum.h"
 #include "base/heap.h"
 #include "base/threads.h"
-#include "engine/frame_report.h"
+#include "engine/state_digest.h"
 #include "engine/version.h"
 #include "mesh/quality.h"
 #include "solver/step.h"
