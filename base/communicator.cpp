@@ -180,6 +180,14 @@ double Communicator::all_min(double value) const {
   return least == 0 ? std::numeric_limits<double>::quiet_NaN() : from_ordered_bits(least);
 }
 
+std::int32_t Communicator::lowest(std::int32_t number) const {
+  ++traffic_.n_collectives;
+  std::uint32_t least =
+      number < 0 ? std::numeric_limits<std::uint32_t>::max() : static_cast<std::uint32_t>(number);
+  if (handle_) MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_UINT32_T, MPI_MIN, handle_->group);
+  return static_cast<std::int32_t>(least);
+}
+
 double Communicator::all_max(double value) const {
   ++traffic_.n_collectives;
   constexpr std::uint64_t nan_key = std::numeric_limits<std::uint64_t>::max();

@@ -51,6 +51,8 @@ class Communicator {
   void barrier() const;
   double all_min(double value) const;
   double all_max(double value) const;
+  // The least number >= 0 of all ranks', -1 if there is none.
+  std::int32_t lowest(std::int32_t number) const;
   std::uint64_t all_sum(std::uint64_t value) const;  // modulo 2^64
   void all_sum(std::span<std::uint64_t> values) const;
   // Bytes of `root` to everyone; resizes on the others.

@@ -5,7 +5,7 @@
 #include "base/box.h"
 #include "base/log.h"
 #include "base/number_text.h"
-#include "engine/frame_report.h"
+#include "engine/event_log.h"
 #include "engine/point_text.h"
 #include "engine/simulation.h"
 

@@ -22,9 +22,10 @@ class Saver {
  public:
   Saver() = default;
   explicit Saver(ByteSink sink) : writer_(std::move(sink)) {}
+  // Changes nothing: visit() takes them as the Loader needs them.
   template <class... Values>
-  void operator()(Values&... values) {
-    (put(values), ...);
+  void operator()(const Values&... values) {
+    (put(const_cast<Values&>(values)), ...);
   }
   std::vector<std::byte> take() { return writer_.take(); }
   ByteWriter& writer() { return writer_; }

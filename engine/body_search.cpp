@@ -7,7 +7,7 @@
 
 #include "base/number_text.h"
 #include "base/options.h"
-#include "engine/frame_report.h"
+#include "engine/event_log.h"
 #include "engine/part_search.h"
 #include "solver/step.h"
 

@@ -9,6 +9,7 @@
 #include "base/log.h"
 #include "engine/body_search.h"
 #include "engine/frame_report.h"
+#include "engine/state_digest.h"
 #include "engine/version.h"
 #include "solver/history.h"
 #include "solver/step.h"

@@ -87,9 +87,8 @@ FrameStart start_of_frame(const Simulation& s);
 Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start);
 
 // Packed, with checksums that find every flipped byte (checkpoint_bytes.cpp); the first hands on
-// piece by piece, and leaves the checkpoint as it is. packed: by earlier checkpoints of the run, so
-// that each row is packed once.
-void put_checkpoint(Checkpoint& checkpoint, PackedRows& packed, const ByteSink& sink);
+// piece by piece. packed: by earlier checkpoints of the run, so that each row is packed once.
+void put_checkpoint(const Checkpoint& checkpoint, PackedRows& packed, const ByteSink& sink);
 // Throws InputError "<name>: …" for damaged bytes or another format.
 Checkpoint checkpoint_from_bytes(std::span<const std::byte> bytes, const std::string& name);
 

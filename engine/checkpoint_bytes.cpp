@@ -11,7 +11,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 28;
+constexpr std::uint32_t checkpoint_format = 29;
 
 static void visit(Saver& a, std::shared_ptr<const Mesh>& mesh) {
   a.writer().put(std::uint64_t{n_bytes_of(*mesh)});
@@ -24,13 +24,10 @@ static void visit(Loader& a, std::shared_ptr<const Mesh>& mesh) {
 }
 template <class Archive>
 static void visit(Archive& a, CutRecord& r) {
-  a(r.tool, r.start, r.end, r.n_edits, r.n_refused, r.n_moved, r.n_duplicated, r.n_opened_facets,
-    r.n_ranks, r.n_askew, r.n_pieces, r.n_elements_added, r.n_elements_dissolved, r.n_converted,
-    r.n_kept_hexahedra, r.stable_step_ratio, r.scene_step_ratio, r.scene_step_before,
-    r.least_quality, r.mass_change, r.momentum_change, r.kinetic_energy_change,
-    r.strain_energy_change, r.largest_deviation, r.mean_deviation, r.mean_edge, r.n_beside,
-    r.n_turned, r.n_chips, r.n_pulled_back, r.n_inserted, r.goes_through, r.is_in_slit, r.refusals,
-    r.blade_travel, r.deepest, r.seconds, r.worst_seconds);
+  a(r.tool, r.start, r.end, r.figures, r.n_edits, r.n_ranks, r.n_askew, r.n_pieces,
+    r.n_elements_added, r.n_elements_dissolved, r.stable_step_ratio, r.scene_step_ratio,
+    r.scene_step_before, r.mass_change, r.momentum_change, r.kinetic_energy_change,
+    r.strain_energy_change, r.blade_travel, r.deepest, r.seconds, r.worst_seconds);
 }
 template <class Archive>
 static void visit(Archive& a, CutMemory& m) {
@@ -134,7 +131,7 @@ static constexpr std::ptrdiff_t rows_in_blob = 256;
 static void pack_rows(std::span<const FrameRow> rows, ByteWriter& blobs) {
   if (rows.empty()) return;  // an empty blob would end the section
   Saver saver;
-  for (FrameRow row : rows) saver(row);
+  for (const FrameRow& row : rows) saver(row);
   put_blob(blobs, pack_blob(saver.take(), 1));
 }
 
@@ -151,7 +148,7 @@ static void put_rows(std::span<const FrameRow> rows, PackedRows& packed, const B
   sink(rest.take());
 }
 
-void put_checkpoint(Checkpoint& checkpoint, PackedRows& packed, const ByteSink& sink) {
+void put_checkpoint(const Checkpoint& checkpoint, PackedRows& packed, const ByteSink& sink) {
   std::uint32_t crc = 0;
   const ByteSink checked = [&](std::span<const std::byte> bytes) {
     crc = crc32c(bytes, crc);

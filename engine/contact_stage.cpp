@@ -15,10 +15,9 @@ bool can_touch(const Tool& tool, bool is_open, const Contact& contact) {
 }
 
 bool is_held(const Holds& holds, const Contact& contact) {
-  return std::any_of(contact.node.begin(), contact.node.end(), [&](std::int32_t node) {
-    const auto hold = std::lower_bound(holds.holds.begin(), holds.holds.end(), node,
-                                       [](const Hold& h, std::int32_t n) { return h.node < n; });
-    return hold != holds.holds.end() && hold->node == node && hold->tool == contact.tool;
+  return std::ranges::any_of(contact.node, [&](std::int32_t node) {
+    const Hold* const hold = find_hold(holds.holds, node);
+    return hold != nullptr && hold->tool == contact.tool;
   });
 }
 

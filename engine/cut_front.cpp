@@ -205,12 +205,10 @@ void prepare_drag(Simulation& s, const FrameSpan& span) {
     Motion motion = motion_of(s, span, stage);
     const Box box = box_of(motion, reach);
     if (!is_cutting(motion.tool(), span.t0, span.t1) || !is_near(s, box)) continue;
-    if (!way || s.boxes.is_empty()) way = begin_positions(s);
-    const CutGroup group(s, ranks_around(s, box, *way, stage));
-    bring_stroke(s, group.ranks(), stage);
-    BodyPositions positions(s, group, *way);
-    const auto front =
-        found_by<CutFront>(group, [&] { return find_front(s, span, stage, positions, reach); });
+    AroundBlade around(s, box, stage, way);
+    bring_stroke(s, around.group.ranks(), stage);
+    const auto front = found_by<CutFront>(
+        around.group, [&] { return find_front(s, span, stage, around.positions, reach); });
     if (front.is_near) stage.beside = front.tissue_velocity;
     motion.tissue_velocity = front.tissue_velocity;
     add_engaged_edge(motion.engaged(front.piece), s.mesh, s.part, s.scene.cutting.resistance,

@@ -137,8 +137,8 @@ void advance_stroke(const Simulation& s, const BladeSweep& sweep, CutStage& stag
   if (look.is_last) look.left = stage.tet.left();
 }
 
-std::vector<int> ranks_around(const Simulation& s, const Box& blade, double way,
-                              const CutStage& stage) {
+static std::vector<int> ranks_around(const Simulation& s, const Box& blade, double way,
+                                     const CutStage& stage) {
   const bool are_all = s.mesh.dimension() == 2 || s.communicator->size() == 1;
   std::vector<std::uint8_t> is_around(static_cast<std::size_t>(s.communicator->size()),
                                       are_all ? 1 : 0);
@@ -153,5 +153,15 @@ std::vector<int> ranks_around(const Simulation& s, const Box& blade, double way,
   std::erase_if(ranks, [&](int r) { return is_around[r] == 0; });
   return ranks;
 }
+
+// Anew where an edit has outrun the boxes.
+static double begun(Simulation& s, std::optional<double>& way) {
+  if (!way || s.boxes.is_empty()) way = begin_positions(s);
+  return *way;
+}
+
+AroundBlade::AroundBlade(Simulation& s, const Box& blade, const CutStage& stage,
+                         std::optional<double>& way)
+    : group(s, ranks_around(s, blade, begun(s, way), stage)), positions(s, group, *way) {}
 
 }  // namespace trocar

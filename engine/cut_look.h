@@ -55,8 +55,16 @@ BladeLook look_and_cut(const Simulation& s, const BladeWay& way, bool was_engage
 void advance_stroke(const Simulation& s, const BladeSweep& sweep, CutStage& stage,
                     BodyPositions& positions, BladeLook& look);
 
-// The ranks that own nodes around a blade, or one of those that cut before; in the plane all.
-std::vector<int> ranks_around(const Simulation& s, const Box& blade, double way,
-                              const CutStage& stage);
+// The ranks that own nodes around a blade, or one of those that cut before; in the plane all. With
+// where nodes are there.
+struct AroundBlade {
+  // way: see begin_positions; none until a blade needs it. Collective.
+  AroundBlade(Simulation& s, const Box& blade, const CutStage& stage, std::optional<double>& way);
+  AroundBlade(const AroundBlade&) = delete;
+  AroundBlade& operator=(const AroundBlade&) = delete;
+
+  const CutGroup group;
+  BodyPositions positions;
+};
 
 }  // namespace trocar

@@ -3,39 +3,38 @@
 #include <algorithm>
 
 #include "engine/apply_cut.h"
-#include "engine/frame_report.h"
+#include "engine/event_log.h"
 
 namespace trocar {
 
-static void add_figures(const CutFigures& figures, bool has_edit, CutRecord& record) {
-  record.goes_through = figures.goes_through;
-  record.is_in_slit = figures.is_in_slit;
-  record.n_refused += figures.n_refused;
-  record.n_beside += figures.n_beside;
-  record.refusals.insert(record.refusals.end(), figures.refusals.begin(), figures.refusals.end());
+// Of a step of a stroke without an edit only what its blade met counts.
+static void add(const CutFigures& of, bool has_edit, CutFigures& sum) {
+  sum.goes_through = of.goes_through;
+  sum.is_in_slit = of.is_in_slit;
+  sum.n_refused += of.n_refused;
+  sum.n_beside += of.n_beside;
+  sum.refusals.insert(sum.refusals.end(), of.refusals.begin(), of.refusals.end());
   if (!has_edit) return;
-  const auto n_old = static_cast<double>(record.n_moved),
-             n_new = static_cast<double>(figures.n_moved);
+  const double n_old = sum.n_moved, n_new = of.n_moved;
   if (n_old + n_new > 0)
-    record.mean_deviation =
-        (record.mean_deviation * n_old + figures.mean_deviation * n_new) / (n_old + n_new);
-  ++record.n_edits;
-  record.n_moved += figures.n_moved;
-  record.n_duplicated += figures.n_duplicated;
-  record.n_opened_facets += figures.n_opened_facets;
-  record.n_turned += figures.n_turned;
-  record.n_chips += figures.n_chips;
-  record.n_pulled_back += figures.n_pulled_back;
-  record.n_inserted += figures.n_inserted;
-  record.n_converted += figures.n_converted;
-  record.n_kept_hexahedra += figures.n_kept_hexahedra;
-  record.largest_deviation = std::max(record.largest_deviation, figures.largest_deviation);
-  record.mean_edge = figures.mean_edge;
+    sum.mean_deviation = (sum.mean_deviation * n_old + of.mean_deviation * n_new) / (n_old + n_new);
+  sum.n_moved += of.n_moved;
+  sum.n_duplicated += of.n_duplicated;
+  sum.n_opened_facets += of.n_opened_facets;
+  sum.n_turned += of.n_turned;
+  sum.n_chips += of.n_chips;
+  sum.n_pulled_back += of.n_pulled_back;
+  sum.n_inserted += of.n_inserted;
+  sum.n_converted += of.n_converted;
+  sum.n_kept_hexahedra += of.n_kept_hexahedra;
+  sum.largest_deviation = std::max(sum.largest_deviation, of.largest_deviation);
+  sum.mean_edge = of.mean_edge;
 }
 
 void note_edit(Simulation& s, const MeshEdit& edit, const CutFigures& figures, CutRecord& record) {
-  add_figures(figures, !edit.is_empty(), record);
+  add(figures, !edit.is_empty(), record.figures);
   if (edit.is_empty()) return;
+  ++record.n_edits;
   const std::int32_t n_before = s.mesh.n_elements(), n_pieces_before = s.n_pieces;
   apply_cut(s, edit, s.cut_state, record);
   if (s.n_pieces > n_pieces_before)

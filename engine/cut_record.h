@@ -15,28 +15,21 @@ struct Simulation;
 // One stroke of a blade, from entry to exit.
 struct CutRecord {
   std::string tool;
-  double start = 0, end = 0;                              // [s]
-  bool goes_through = false, is_in_slit = false;          // see CutFigures
-  std::int64_t n_edits = 0, n_refused = 0, n_beside = 0;  // n_beside: see CutFigures
-  std::vector<CutRefusal> refusals;
-  std::int64_t n_moved = 0, n_duplicated = 0, n_opened_facets = 0;
+  double start = 0, end = 0;  // [s]
+  CutFigures figures;         // of all edits
+  std::int64_t n_edits = 0;
   std::int64_t n_ranks = 0;   // that cut together, at most
   std::int64_t n_askew = 0;   // edits of an edge that did not face its way
   std::int64_t n_pieces = 1;  // of the whole body after the stroke, or so far
   std::int64_t n_elements_added = 0, n_elements_dissolved = 0;
-  std::int64_t n_turned = 0, n_chips = 0, n_pulled_back = 0;  // rungs of the ladder: see CutFigures
-  std::int64_t n_inserted = 0;                                // the same
-  std::int64_t n_converted = 0, n_kept_hexahedra = 0;  // see CutFigures; kept ones once an edit
   double stable_step_ratio =
       1;  // least stable step after / before, of the elements around, worst edit
-  double scene_step_ratio = 1;   // of the whole body, after or so far / before the stroke
-  double scene_step_before = 0;  // [s]
-  double least_quality = 1;
+  double scene_step_ratio = 1;       // of the whole body, after or so far / before the stroke
+  double scene_step_before = 0;      // [s]
   double mass_change = 0;            // largest |relative| of an edit
   double momentum_change = 0;        // |P after - P before| / sum |m v| around the cut, largest
   double kinetic_energy_change = 0;  // summed [J]
   double strain_energy_change = 0;   // largest |relative| of the edited elements by an edit
-  double largest_deviation = 0, mean_deviation = 0, mean_edge = 0;  // [m]
   double blade_travel = 0,
          deepest = 0;  // of the edge's middle with some of it inside; depth of the edge inside [m]
   double seconds = 0, worst_seconds = 0;  // of all frames, of the longest one

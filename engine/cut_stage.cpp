@@ -9,10 +9,11 @@
 #include "base/sort_unique.h"
 #include "engine/cut_along_tip.h"
 #include "engine/cut_look.h"
-#include "engine/frame_report.h"
+#include "engine/event_log.h"
 #include "engine/frame_watch.h"
 #include "engine/simulation.h"
 #include "engine/tissue_way.h"
+#include "engine/tool_report.h"
 
 namespace trocar {
 
@@ -102,7 +103,6 @@ void add_to_record(const BladeLook& look, const BladeSweep& sweep, double second
   record.deepest = std::max(record.deepest, look.most_inside);
 }
 
-// way: see begin_positions; none until a blade is near.
 BladeWay way_of_blade(Simulation& s, const FrameSpan& span, const FrameTissue& tissue,
                       const CutStage& stage, std::optional<double>& way) {
   const Tool& tool = s.tools[stage.tool];
@@ -112,11 +112,9 @@ BladeWay way_of_blade(Simulation& s, const FrameSpan& span, const FrameTissue& t
     for (const Vec3& point : *edge) blade.box.add(point);
   blade.is_near = blade.box.overlaps(tissue.box) && is_cutting(tool, span.t0, span.t1);
   if (!blade.is_near || tissue.way == 0) return blade;
-  if (!way) way = begin_positions(s);
-  const CutGroup group(s, ranks_around(s, blade.box, *way, stage));
-  BodyPositions positions(s, group, *way);
+  AroundBlade around(s, blade.box, stage, way);
   sweep.tissue_way = found_by<std::vector<Vec3>>(
-      group, [&] { return ways_beside(s, positions, sweep, tissue.way); });
+      around.group, [&] { return ways_beside(s, around.positions, sweep, tissue.way); });
   for (std::size_t k = 0; k < sweep.tissue_way.size(); ++k)
     blade.box.add(sweep.before[k] + sweep.tissue_way[k]);
   return blade;
@@ -151,11 +149,12 @@ void note_energy_change(Simulation& s, const CutRecord& record) {
 // A floor under the stable step, supports and sharp edges keep nodes off the blade's way.
 void note_deviation(Simulation& s, const CutRecord& record) {
   constexpr double far = 0.25;  // edges
-  if (record.mean_deviation > far * record.mean_edge)
+  if (record.figures.mean_deviation > far * record.figures.mean_edge)
     note_event(
         s, record.end,
-        record.tool + "'s cut lies " + short_text(1e3 * record.mean_deviation) +
-            " mm beside its way in the mean, of edges of " + short_text(1e3 * record.mean_edge) +
+        record.tool + "'s cut lies " + short_text(1e3 * record.figures.mean_deviation) +
+            " mm beside its way in the mean, of edges of " +
+            short_text(1e3 * record.figures.mean_edge) +
             " mm (deviation_mean_m): a lower cutting.least_step_ratio or a finer mesh helps");
 }
 
@@ -172,31 +171,28 @@ void take_over(Simulation& s, const CutGroup& group, const BladeLook& look, CutS
 }
 
 // What follows nodes on edges, the blade at rest.
-void finish_cut(Simulation& s, const BladeWay& blade, double& way, CutStage& stage,
+void finish_cut(Simulation& s, const BladeWay& blade, std::optional<double>& way, CutStage& stage,
                 BladeLook look) {
   const BladeSweep rest{
       .before = blade.sweep.after, .after = blade.sweep.after, .normal = blade.sweep.normal};
   while (is_unfinished(look)) {
-    if (s.boxes.is_empty()) way = begin_positions(s);
-    const CutGroup group(s, ranks_around(s, blade.box, way, stage));
-    bring_stroke(s, group.ranks(), stage);
-    BodyPositions positions(s, group, way);
-    look = found_by<BladeLook>(group, [&] {
+    AroundBlade around(s, blade.box, stage, way);
+    bring_stroke(s, around.group.ranks(), stage);
+    look = found_by<BladeLook>(around.group, [&] {
       BladeLook next{.is_last = look.is_last};
-      advance_stroke(s, rest, stage, positions, next);
+      advance_stroke(s, rest, stage, around.positions, next);
       return next;
     });
-    take_over(s, group, look, stage);
+    take_over(s, around.group, look, stage);
   }
 }
 
 // After an edit.
-void locate_edge_anew(Simulation& s, const BladeWay& blade, double& way, CutStage& stage) {
-  if (s.boxes.is_empty()) way = begin_positions(s);
-  const CutGroup group(s, ranks_around(s, blade.box, way, stage));
-  BodyPositions positions(s, group, way);
-  stage.is_engaged = !found_by<std::vector<SegmentPiece>>(group, [&] {
-                        return locate_edge(s, positions, blade.sweep.after);
+void locate_edge_anew(Simulation& s, const BladeWay& blade, std::optional<double>& way,
+                      CutStage& stage) {
+  AroundBlade around(s, blade.box, stage, way);
+  stage.is_engaged = !found_by<std::vector<SegmentPiece>>(around.group, [&] {
+                        return locate_edge(s, around.positions, blade.sweep.after);
                       }).empty();
 }
 
@@ -227,24 +223,22 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
   if (!blade.is_near && !stage.is_in_stroke) return;
 
   const double start = monotonic_seconds();
-  if (!way || s.boxes.is_empty()) way = begin_positions(s);
-  const CutGroup group(s, ranks_around(s, blade.box, *way, stage));
-  bring_stroke(s, group.ranks(), stage);
-  BodyPositions positions(s, group, *way);
+  AroundBlade around(s, blade.box, stage, way);
+  bring_stroke(s, around.group.ranks(), stage);
   const auto look = found_by<BladeLook>(
-      group, [&] { return look_and_cut(s, blade, was_engaged, stage, positions); });
+      around.group, [&] { return look_and_cut(s, blade, was_engaged, stage, around.positions); });
   if (!take_up_stroke(s, blade, look, stage)) return;
   follow_tissue(s, span.t1 - span.t0, was_engaged, look, stage);
   const std::int64_t n_edits = stage.strokes.back().n_edits;
   if (s.mesh.dimension() == 2)
     cut_along_tip(s, stage, blade.sweep, look.is_last);
   else
-    take_over(s, group, look, stage);
-  if (is_unfinished(look)) finish_cut(s, blade, *way, stage, look);
+    take_over(s, around.group, look, stage);
+  if (is_unfinished(look)) finish_cut(s, blade, way, stage, look);
   CutRecord& record = stage.strokes.back();
-  record.n_ranks = std::max<std::int64_t>(record.n_ranks, std::ssize(group.ranks()));
+  record.n_ranks = std::max<std::int64_t>(record.n_ranks, std::ssize(around.group.ranks()));
   if (record.n_edits > n_edits) {
-    locate_edge_anew(s, blade, *way, stage);
+    locate_edge_anew(s, blade, way, stage);
     // Back in its slit it opens what it parted ahead.
     if (look.goes_on && is_askew(s, span, blade.sweep, stage))
       record.n_askew += record.n_edits - n_edits;

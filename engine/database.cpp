@@ -10,10 +10,12 @@ namespace trocar {
 
 struct Database::Handle {
   sqlite3* connection = nullptr;
+  ~Handle() { sqlite3_close_v2(connection); }
 };
 
 struct Statement::Handle {
   sqlite3_stmt* statement = nullptr;
+  ~Handle() { sqlite3_finalize(statement); }
 };
 
 namespace {
@@ -45,14 +47,13 @@ Database::Database(const std::string& file, Mode mode)
       sqlite3_open_v2(file.c_str(), &handle_->connection, flags | SQLITE_OPEN_NOMUTEX, nullptr);
   if (result != SQLITE_OK &&
       mode == Mode::read) {  // a read-only folder: no place for the write-ahead log's index
-    sqlite3_close(handle_->connection);
+    handle_ = std::make_unique<Handle>();
     result = sqlite3_open_v2(file.c_str(), &handle_->connection,
                              SQLITE_OPEN_READONLY | SQLITE_OPEN_NOMUTEX, nullptr);
   }
   if (result != SQLITE_OK) {
     const std::string reason = sqlite3_errmsg(handle_->connection);
-    sqlite3_close(handle_->connection);
-    handle_->connection = nullptr;
+    handle_ = std::make_unique<Handle>();
     fail(reason);
   }
   // A file of unknown origin: nothing that it brings along is called, broken pages are looked for.
@@ -62,9 +63,7 @@ Database::Database(const std::string& file, Mode mode)
     run("PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
 }
 
-Database::~Database() {
-  sqlite3_close_v2(handle_->connection);
-}
+Database::~Database() = default;
 
 void Database::run(const std::string& sql) {
   if (sqlite3_exec(handle_->connection, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
@@ -98,9 +97,7 @@ Statement::Statement(Database& database, const std::string& sql)
     database.fail(sqlite3_errmsg(database.handle_->connection));
 }
 
-Statement::~Statement() {
-  sqlite3_finalize(handle_->statement);
-}
+Statement::~Statement() = default;
 
 Statement& Statement::bound(int result) {
   if (result != SQLITE_OK) database_.fail(sqlite3_errmsg(database_.handle_->connection));

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
 #include "base/number_text.h"
 #include "base/options.h"
+#include "engine/event_log.h"
 #include "engine/frame_force.h"
-#include "engine/frame_report.h"
 #include "engine/simulation.h"
 #include "solver/mass_clusters.h"
 #include "solver/step.h"
@@ -103,21 +104,29 @@ EnergyState mechanical_energy(Simulation& s) {
 
 void begin_frame_work(Simulation& s) {
   EnergyLedger& ledger = *s.energy;
-  ledger.contact_work.clear();
+  ledger.contact.work.clear();
   ledger.earlier_contact_work.clear();
   begin_contact_work(s);
-  ledger.hold_work.assign(s.holds.owned.size(), 0.0);
-  ledger.blade_work.assign(s.drag.node.size(), 0.0);
-  ledger.load_work.assign(s.loads.node.size(), 0.0);
+  ledger.holds.work.assign(s.holds.owned.size(), 0.0);
+  ledger.blade.work.assign(s.drag.node.size(), 0.0);
+  ledger.loads.work.assign(s.loads.node.size(), 0.0);
   forget_works(s.scratch);
   forget_support_forces(ledger.support_forces);
 }
 
 void begin_contact_work(Simulation& s) {
   EnergyLedger& ledger = *s.energy;
-  ledger.earlier_contact_work.insert(ledger.earlier_contact_work.end(), ledger.contact_work.begin(),
-                                     ledger.contact_work.end());
-  ledger.contact_work.assign(s.contact ? s.contact->set.local.size() : 0, 0.0);
+  std::vector<double>& work = ledger.contact.work;
+  ledger.earlier_contact_work.insert(ledger.earlier_contact_work.end(), work.begin(), work.end());
+  work.assign(s.contact ? s.contact->set.local.size() : 0, 0.0);
+}
+
+// local_of: a node's number on this rank.
+template <class Nodes, class LocalOf>
+static void note_before(const State& state, const Nodes& nodes, const LocalOf& local_of,
+                        ForceWorks& works) {
+  works.before.clear();
+  for (const auto& node : nodes) works.before.push_back(velocity_of(state, local_of(node)));
 }
 
 void note_velocities(Simulation& s, double dt) {
@@ -126,19 +135,11 @@ void note_velocities(Simulation& s, double dt) {
   ledger.start_velocity.reset();
   if (s.state.last_dt == 0)
     ledger.start_velocity.emplace(s.state.v.begin(), s.state.v.begin() + 3 * s.model.n_owned);
-  ledger.contact_velocity.clear();
-  if (s.contact)
-    for (const std::int32_t node : s.contact->set.local)
-      ledger.contact_velocity.push_back(velocity_of(s.state, node));
-  ledger.hold_velocity.clear();
-  for (const PrescribedNode& node : s.holds.prescribed)
-    ledger.hold_velocity.push_back(velocity_of(s.state, node.node));
-  ledger.blade_velocity.clear();
-  for (const BladeDrag::Node& node : s.drag.node)
-    ledger.blade_velocity.push_back(velocity_of(s.state, node.local));
-  ledger.load_velocity.clear();
-  for (const std::int32_t node : s.loads.node)
-    ledger.load_velocity.push_back(velocity_of(s.state, node));
+  const auto itself = [](std::int32_t node) { return node; };
+  if (s.contact) note_before(s.state, s.contact->set.local, itself, ledger.contact);
+  note_before(s.state, s.holds.prescribed, std::mem_fn(&PrescribedNode::node), ledger.holds);
+  note_before(s.state, s.drag.node, std::mem_fn(&BladeDrag::Node::local), ledger.blade);
+  note_before(s.state, s.loads.node, itself, ledger.loads);
 }
 
 // What is held moves as it is told to, whatever the forces.
@@ -160,41 +161,39 @@ void add_work(Simulation& s) {
     ledger.start_kinetic = sum_over_ranks(kinetic_of_start(s), *s.communicator);
   const double half_dt = ledger.dt_mid / 2;
   add_support_forces(s.scratch.force, ledger.support_forces);
-  for (std::size_t k = 0; k < ledger.contact_work.size(); ++k) {
-    const ContactStage& contact = *s.contact;
-    const Vec3 v = ledger.contact_velocity[k] + velocity_of(s.state, contact.set.local[k]);
-    const auto place = static_cast<std::size_t>(contact.set.owned[k]);
-    ledger.contact_work[k] += half_dt * contact.set.force[place].dot(v);
+  const auto add = [&](std::size_t k, std::int32_t local, const Vec3& force, ForceWorks& works) {
+    works.work[k] += half_dt * force.dot(works.before[k] + velocity_of(s.state, local));
+  };
+  for (std::size_t k = 0; k < ledger.contact.work.size(); ++k) {
+    const ContactSet& set = s.contact->set;
+    add(k, set.local[k], set.force[set.owned[k]], ledger.contact);
   }
-  for (std::size_t k = 0; k < ledger.hold_work.size(); ++k) {
-    const PrescribedNode& node = s.holds.prescribed[k];
-    ledger.hold_work[k] +=
-        half_dt * node.reaction.dot(ledger.hold_velocity[k] + velocity_of(s.state, node.node));
-  }
-  for (std::size_t k = 0; k < ledger.blade_work.size(); ++k) {
+  for (std::size_t k = 0; k < ledger.holds.work.size(); ++k)
+    add(k, s.holds.prescribed[k].node, s.holds.prescribed[k].reaction, ledger.holds);
+  for (std::size_t k = 0; k < ledger.blade.work.size(); ++k) {
     const BladeDrag::Node& node = s.drag.node[k];
-    const Vec3 v = ledger.blade_velocity[k] + velocity_of(s.state, node.local);
-    ledger.blade_work[k] += half_dt * node.force * node.direction.dot(v);
+    add(k, node.local, node.force * node.direction, ledger.blade);
   }
-  for (std::size_t k = 0; k < ledger.load_work.size(); ++k) {
-    const Vec3 v = ledger.load_velocity[k] + velocity_of(s.state, s.loads.node[k]);
-    ledger.load_work[k] += half_dt * s.loads.force[k].dot(v);
-  }
+  for (std::size_t k = 0; k < ledger.loads.work.size(); ++k)
+    add(k, s.loads.node[k], s.loads.force[k], ledger.loads);
 }
 
 void close_frame_work(Simulation& s) {
   EnergyLedger& ledger = *s.energy;
   ledger.memory.initial -= std::exchange(ledger.start_kinetic, 0);
-  std::vector<double>& contact_work = ledger.contact_work;
+  std::vector<double>& contact_work = ledger.contact.work;
   contact_work.insert(contact_work.end(), ledger.earlier_contact_work.begin(),
                       ledger.earlier_contact_work.end());
-  ledger.memory.works.contact += sum_over_ranks(contact_work, *s.communicator);
-  ledger.memory.works.holds += sum_over_ranks(ledger.hold_work, *s.communicator);
-  ledger.memory.works.blade += sum_over_ranks(ledger.blade_work, *s.communicator);
-  ledger.memory.works.loads += sum_over_ranks(ledger.load_work, *s.communicator);
-  ledger.memory.works.damping -=
-      sum_over_ranks(find_damping_work(s.model, s.scratch), *s.communicator);
-  ledger.memory.works.viscous += sum_over_ranks(s.scratch.viscous_work, *s.communicator);
+  const auto sum = [&](std::span<const double> terms) {
+    return sum_over_ranks(terms, *s.communicator);
+  };
+  EnergyWorks& works = ledger.memory.works;
+  works.contact += sum(contact_work);
+  works.holds += sum(ledger.holds.work);
+  works.blade += sum(ledger.blade.work);
+  works.loads += sum(ledger.loads.work);
+  works.damping -= sum(find_damping_work(s.model, s.scratch));
+  works.viscous += sum(s.scratch.viscous_work);
 }
 
 // Beside energies of motion and height; what a body that falls freely stores is rounding.

@@ -34,13 +34,17 @@ struct EnergyMemory {
   double largest_hourglass_share = 0;  // of frames that store 1 % of that or more
 };
 
+// Of forces at nodes of this rank in this frame.
+struct ForceWorks {
+  std::vector<Vec3> before;  // velocity before the step [m/s]
+  std::vector<double> work;  // [J]
+};
+
 struct EnergyLedger {
   EnergyMemory memory;
-  // Of this frame on this rank: velocities [m/s] before the step of where forces act, and their
-  // work [J], in the order of the contact set's nodes, of the holds, of the nodes that blades drag
-  // along and of the loads' nodes.
-  std::vector<Vec3> contact_velocity, hold_velocity, blade_velocity, load_velocity;
-  std::vector<double> contact_work, hold_work, blade_work, load_work;
+  // In the order of the contact set's nodes, of the holds, of the nodes that blades drag along and
+  // of the loads' nodes.
+  ForceWorks contact, holds, blade, loads;
   std::vector<double> earlier_contact_work;  // with the frame's earlier contact sets [J]
   double dt_mid = 0;                         // between the two velocities of the step [s]
   std::optional<std::vector<double>>

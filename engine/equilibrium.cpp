@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "base/timers.h"
+#include "engine/event_log.h"
 #include "engine/frame_force.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"

@@ -12,12 +12,14 @@
 #include "engine/contact_step.h"
 #include "engine/cut_front.h"
 #include "engine/deadline.h"
+#include "engine/event_log.h"
 #include "engine/frame_force.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "engine/linear_range.h"
 #include "engine/pair_look.h"
 #include "engine/roll_back.h"
+#include "engine/tool_report.h"
 #include "solver/step.h"
 
 namespace trocar {

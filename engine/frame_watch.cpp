@@ -16,19 +16,14 @@ namespace {
 // The least of all ranks' values with its number; ties go to the lower number.
 void least_of_all(const Communicator& communicator, double& value, std::int32_t& number) {
   const double least = communicator.all_min(value);
-  constexpr double none = 1e18;
-  const double first = communicator.all_min(value == least && number >= 0 ? number : none);
-  number = first < none ? static_cast<std::int32_t>(first) : -1;
+  number = communicator.lowest(value == least ? number : -1);
   value = least;
 }
 
 // Whether all is finite.
 bool watch_nodes(Simulation& s) {
-  constexpr double none = 1e18;
-  const std::int32_t mine = first_bad_node(s.model, s.part, s.state);
-  const double bad = s.communicator->all_min(mine < 0 ? none : mine);
-  s.watch.is_finite = bad >= none;
-  s.watch.bad_node = s.watch.is_finite ? -1 : static_cast<std::int32_t>(bad);
+  s.watch.bad_node = s.communicator->lowest(first_bad_node(s.model, s.part, s.state));
+  s.watch.is_finite = s.watch.bad_node < 0;
   return s.watch.is_finite;
 }
 

@@ -85,14 +85,18 @@ bool will_act(std::span<const Tool> tools, double t0, double t1) {
   return false;
 }
 
+double grip_travel(const Tool& tool, double t0, double t1) {
+  const Vec3 grip = Vec3::Constant(tool.grip_radius);
+  return tool.path.travel(t0, t1, {-grip, grip});
+}
+
 double largest_travel(const Holds& holds, std::span<const Tool> tools, double t0, double t1) {
   double most = 0;
   for (const DisplacementPath& path : holds.paths) most = std::max(most, path.travel(t0, t1));
   for (std::size_t k = 0; k < tools.size(); ++k) {
     const auto is_its = [&](const Hold& hold) { return hold.tool == static_cast<int>(k); };
     if (std::ranges::none_of(holds.holds, is_its)) continue;
-    const Vec3 grip = Vec3::Constant(tools[k].grip_radius);
-    most = std::max(most, tools[k].path.travel(t0, t1, {-grip, grip}));
+    most = std::max(most, grip_travel(tools[k], t0, t1));
   }
   return most;
 }
@@ -124,7 +128,7 @@ void localise_holds(Holds& holds, const Part& part) {
   holds.reaction_sum.assign(holds.owned.size(), Vec3::Zero());
 }
 
-static const Hold* find_hold(std::span<const Hold> holds, std::int32_t node) {
+const Hold* find_hold(std::span<const Hold> holds, std::int32_t node) {
   const auto at = std::ranges::lower_bound(holds, node, {}, &Hold::node);
   return at != holds.end() && at->node == node ? &*at : nullptr;
 }

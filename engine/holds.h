@@ -54,11 +54,16 @@ struct GraspAct {
 std::vector<GraspAct> act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,
                                    std::span<const Vec3> x, std::span<const std::uint8_t> fixed);
 bool will_act(std::span<const Tool> tools, double t0, double t1);
+// The longest way in [t0, t1] of anything within the grip radius of the tip. [m]
+double grip_travel(const Tool& tool, double t0, double t1);
 // The longest way in [t0, t1] of what moves as it is told: of supports, and of all within the grip
 // radius of the tip of graspers that hold something. [m]
 double largest_travel(const Holds& holds, std::span<const Tool> tools, double t0, double t1);
 // Lets go of all that the tool holds: how many nodes.
 int release(Holds& holds, std::int32_t tool);
+
+// Of a node; null: nothing holds it.
+const Hold* find_hold(std::span<const Hold> holds, std::int32_t node);
 
 // After a change of part, holds or topology.
 void localise_holds(Holds& holds, const Part& part);

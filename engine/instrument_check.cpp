@@ -12,7 +12,6 @@
 #include "base/number_text.h"
 #include "base/options.h"
 #include "collision/closest_point.h"
-#include "engine/frame_report.h"
 
 namespace trocar {
 

@@ -9,7 +9,7 @@
 #include "base/options.h"
 #include "base/threads.h"
 #include "engine/element_gradient.h"
-#include "engine/frame_report.h"
+#include "engine/event_log.h"
 
 namespace trocar {
 
@@ -75,12 +75,11 @@ void watch_linear_range(Simulation& s, double time) {
   const Strained mine = most_strained(s);
   const double norm = s.communicator->all_max(mine.norm);
   if (norm <= linear_range) return;
-  constexpr double none = 1e18;
-  const double element = s.communicator->all_min(mine.norm == norm ? mine.element : none);
+  const std::int32_t element = s.communicator->lowest(mine.norm == norm ? mine.element : -1);
   warn_event(s, time,
              std::string(beyond) + ": the displacement gradient of element " +
-                 std::to_string(static_cast<std::int64_t>(element)) + " is " + short_text(norm) +
-                 ", and beyond " + short_text(linear_range) +
+                 std::to_string(element) + " is " + short_text(norm) + ", and beyond " +
+                 short_text(linear_range) +
                  " its forces are wrong by a tenth or more; tissue.material.model = "
                  "\"neo-hookean\" is for large ones");
 }

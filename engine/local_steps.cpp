@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "engine/frame_report.h"
+#include "engine/event_log.h"
 #include "engine/simulation.h"
 
 namespace trocar {

@@ -13,11 +13,11 @@
 #include "engine/checkpoint.h"
 #include "engine/checkpoint_file.h"
 #include "engine/film_studio.h"
-#include "engine/frame_report.h"
 #include "engine/metrics_file.h"
 #include "engine/point_text.h"
 #include "engine/run_files.h"
 #include "engine/simulation.h"
+#include "engine/state_digest.h"
 #include "engine/version.h"
 
 namespace trocar {

@@ -9,7 +9,7 @@
 #include "base/options.h"
 #include "collision/contact_tissue.h"
 #include "engine/energy_ledger.h"
-#include "engine/frame_report.h"
+#include "engine/event_log.h"
 #include "engine/point_text.h"
 
 namespace trocar {

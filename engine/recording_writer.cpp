@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "engine/blob.h"
 #include "engine/bytes.h"
 #include "engine/database.h"
@@ -20,18 +22,25 @@ void bind_blob(Statement& statement, int k, const Blob& blob) {
 }  // namespace
 
 struct RecordingWriter::Database {
-  trocar::Database file;  // the tables and the head are there before the statements are prepared
+  trocar::Database file;
   FramePlace next;
-  Statement add_edit, add_frame;
+  std::optional<Statement> add_edit, add_frame;
 
   Database(const std::string& name, const RecordingHead& head)
-      : file(name, trocar::Database::Mode::create),
-        add_edit((write_head(head), file), insert_edit),
-        add_frame(file, insert_frame) {}
+      : file(name, trocar::Database::Mode::create) {
+    write_head(head);
+    prepare();
+  }
   Database(const std::string& name, std::int64_t last_frame)
-      : file(name, trocar::Database::Mode::extend),
-        add_edit((go_back_to(last_frame), file), insert_edit),
-        add_frame(file, insert_frame) {}
+      : file(name, trocar::Database::Mode::extend) {
+    go_back_to(last_frame);
+    prepare();
+  }
+  // Once the tables are there.
+  void prepare() {
+    add_edit.emplace(file, insert_edit);
+    add_frame.emplace(file, insert_frame);
+  }
   void go_back_to(std::int64_t last_frame);
   void write_head(const RecordingHead& head);
   void write_tool(std::int64_t number, const TriangleMesh& surface);
@@ -79,29 +88,29 @@ void RecordingWriter::Database::write_tool(std::int64_t number, const TriangleMe
 void RecordingWriter::Database::write_edit(const MeshEdit& edit, std::int64_t frame) {
   const Blob change = pack_blob(edit_to_bytes(edit), 1);
   const std::int64_t number = next.n_edits++;
-  add_edit.bind(0, number).bind(1, frame).bind(
+  add_edit->bind(0, number).bind(1, frame).bind(
       2, std::int64_t{row_crc("edit", number, frame, change.crc)});
-  bind_blob(add_edit, 3, change);
-  add_edit.step();
-  add_edit.reset();
+  bind_blob(*add_edit, 3, change);
+  add_edit->step();
+  add_edit->reset();
 }
 
 void RecordingWriter::Database::write_frame(const RecordedFrame& frame) {
   const Blob u = pack_blob(std::as_bytes(std::span(frame.u)), sizeof(double));
   const std::int64_t place = next.place++;
-  add_frame.bind(0, frame.frame)
+  add_frame->bind(0, frame.frame)
       .bind(1, place)
       .bind(2, next.n_edits)
       .bind(3, frame.step)
       .bind(4, frame.time);
-  add_frame.bind(5, static_cast<std::int64_t>(frame.digest))
+  add_frame->bind(5, static_cast<std::int64_t>(frame.digest))
       .bind(6, std::as_bytes(std::span(frame.tool_forces)));
-  add_frame.bind(7, static_cast<std::int64_t>(u.plain_size)).bind(8, std::int64_t{u.crc});
-  add_frame.bind(9, std::int64_t{row_crc("frame", frame.frame, place, next.n_edits, frame.step,
-                                         frame.time, frame.digest, frame.tool_forces, u.crc)});
-  add_frame.bind(10, std::span<const std::byte>(u.packed));
-  add_frame.step();
-  add_frame.reset();
+  add_frame->bind(7, static_cast<std::int64_t>(u.plain_size)).bind(8, std::int64_t{u.crc});
+  add_frame->bind(9, std::int64_t{row_crc("frame", frame.frame, place, next.n_edits, frame.step,
+                                          frame.time, frame.digest, frame.tool_forces, u.crc)});
+  add_frame->bind(10, std::span<const std::byte>(u.packed));
+  add_frame->step();
+  add_frame->reset();
 }
 
 RecordingWriter::RecordingWriter(const std::string& file, const RecordingHead& head)

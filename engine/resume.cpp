@@ -11,7 +11,6 @@
 #include "base/on_root.h"
 #include "base/whole_file.h"
 #include "engine/checkpoint_file.h"
-#include "engine/frame_report.h"
 
 namespace trocar {
 

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "base/options.h"
-#include "engine/frame_report.h"
+#include "engine/event_log.h"
 #include "engine/local_steps.h"
 #include "engine/suspect.h"
 

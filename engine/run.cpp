@@ -19,11 +19,11 @@
 #include "engine/film_studio.h"
 #include "engine/folder_lock.h"
 #include "engine/frame.h"
-#include "engine/frame_report.h"
 #include "engine/output_check.h"
 #include "engine/resume.h"
 #include "engine/run_files.h"
 #include "engine/summary.h"
+#include "engine/tool_report.h"
 
 namespace trocar {
 
@@ -96,6 +96,8 @@ Ending run_frame_or_end(Simulation& s, Outputs& outputs) {
     Ending ending{.code = ExitCode::simulation, .sentence = trouble.what()};
     add_failure(failure_of([&] { write_checkpoint(s, outputs, &frame_start); }), ending);
     return ending;
+  } catch (const InputError& trouble) {  // of a body that a cut has made
+    return {.code = ExitCode::simulation, .sentence = trouble.what()};
   } catch (const SharedMachineError& failure) {
     return {.code = ExitCode::machine,
             .sentence = failure.what() + std::string("; the run ends after frame ") +

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/frame_report.h"
+#include "engine/event_log.h"
 #include "engine/settling.h"
 #include "engine/simulation.h"
 

@@ -8,7 +8,7 @@
 #include "base/exact_sum.h"
 #include "base/heap.h"
 #include "base/threads.h"
-#include "engine/frame_report.h"
+#include "engine/state_digest.h"
 #include "engine/version.h"
 #include "mesh/quality.h"
 #include "solver/step.h"
@@ -46,7 +46,7 @@ Json mesh_json(const Simulation& s) {
 
 Json refusals_json(const CutRecord& c) {
   Json list = Json::array();
-  for (const CutRefusal& r : c.refusals) {
+  for (const CutRefusal& r : c.figures.refusals) {
     list.push_back({{"X_m", {r.X.x(), r.X.y(), r.X.z()}}, {"reason", reason_of(r)}});
     if (r.area > 0) list.back()["area_m2"] = r.area;
   }
@@ -55,14 +55,14 @@ Json refusals_json(const CutRecord& c) {
 
 Json edits_json(const CutRecord& c) {
   return {{"stable_step_ratio", c.stable_step_ratio},
-          {"quality_min", c.least_quality},
+          {"quality_min", c.figures.least_quality},
           {"mass_change", c.mass_change},
           {"momentum_change", c.momentum_change},
           {"kinetic_energy_change_J", c.kinetic_energy_change},
           {"strain_energy_change", c.strain_energy_change},
-          {"deviation_max_m", c.largest_deviation},
-          {"deviation_mean_m", c.mean_deviation},
-          {"edge_mean_m", c.mean_edge}};
+          {"deviation_max_m", c.figures.largest_deviation},
+          {"deviation_mean_m", c.figures.mean_deviation},
+          {"edge_mean_m", c.figures.mean_edge}};
 }
 
 // What a stroke without edits has, too.
@@ -72,22 +72,22 @@ Json stroke_json(const CutRecord& c) {
                  {"end_s", c.end},
                  {"edits", c.n_edits},
                  {"edits_askew", c.n_askew},
-                 {"refused", c.n_refused},
+                 {"refused", c.figures.n_refused},
                  {"refusals", refusals_json(c)},
-                 {"nodes_beside_blade", c.n_beside},
-                 {"elements_turned", c.n_turned},
-                 {"chips", c.n_chips},
-                 {"nodes_pulled_back", c.n_pulled_back},
-                 {"nodes_inserted", c.n_inserted},
-                 {"nodes_moved", c.n_moved},
-                 {"nodes_duplicated", c.n_duplicated},
-                 {"facets_opened", c.n_opened_facets},
+                 {"nodes_beside_blade", c.figures.n_beside},
+                 {"elements_turned", c.figures.n_turned},
+                 {"chips", c.figures.n_chips},
+                 {"nodes_pulled_back", c.figures.n_pulled_back},
+                 {"nodes_inserted", c.figures.n_inserted},
+                 {"nodes_moved", c.figures.n_moved},
+                 {"nodes_duplicated", c.figures.n_duplicated},
+                 {"facets_opened", c.figures.n_opened_facets},
                  {"pieces", c.n_pieces},
                  {"ranks", c.n_ranks},
                  {"elements_added", c.n_elements_added},
                  {"elements_dissolved", c.n_elements_dissolved},
-                 {"hexahedra_converted", c.n_converted},
-                 {"hexahedra_kept", c.n_kept_hexahedra},
+                 {"hexahedra_converted", c.figures.n_converted},
+                 {"hexahedra_kept", c.figures.n_kept_hexahedra},
                  {"scene_stable_step_ratio", c.scene_step_ratio},
                  {"blade_travel_m", c.blade_travel},
                  {"edge_inside_max_m", c.deepest},
@@ -102,7 +102,8 @@ Json cuts_json(const Simulation& s) {
   for (const CutStage& stage : s.cuts)
     for (const CutRecord& stroke : stage.strokes) {
       list.push_back(stroke_json(stroke));
-      if (s.mesh.dimension() == 3) list.back()["from_surface_to_surface"] = stroke.goes_through;
+      if (s.mesh.dimension() == 3)
+        list.back()["from_surface_to_surface"] = stroke.figures.goes_through;
     }
   return list;
 }

@@ -53,8 +53,7 @@ struct Choice {
 void look_at_tools(std::span<const Tool> tools, const Vec3& x, const FrameSpan& span,
                    Choice& choice) {
   for (const Tool& tool : tools) {
-    const Pose pose = tool.path.at(span.t0);
-    const Vec3 local = pose.rotation.conjugate() * (x - pose.translation);
+    const Vec3 local = tool.path.at(span.t0).apply_inverse(x);
     for (const ConvexPiece& piece : tool.shape.pieces)
       choice.offer({.gap = std::max(0.0, signed_distance(make_core(piece), local).gap),
                     .way = tool.path.travel(span.t0, span.t1,
@@ -72,8 +71,7 @@ void look_at_holds(const Simulation& s, std::span<const Vec3> all, const Vec3& x
     if (hold.tool >= 0) {
       const Tool& tool = s.tools[hold.tool];
       found.name = "\"" + tool.name + "\"";
-      const Vec3 grip = Vec3::Constant(tool.grip_radius);
-      found.way = tool.path.travel(span.t0, span.t1, {-grip, grip});
+      found.way = grip_travel(tool, span.t0, span.t1);
     } else {
       const auto support = static_cast<std::size_t>(hold.support);
       const DisplacementPath& path = s.holds.paths[support];

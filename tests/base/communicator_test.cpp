@@ -51,6 +51,12 @@ TEST_P(OneRank, keeps_a_nan_in_minimum_and_maximum) {
   EXPECT_TRUE(std::isnan(ranks().all_max(-std::nan(""))));
 }
 
+TEST_P(OneRank, has_the_lowest_number) {
+  EXPECT_EQ(ranks().lowest(7), 7);
+  EXPECT_EQ(ranks().lowest(0), 0);
+  EXPECT_EQ(ranks().lowest(-1), -1);
+}
+
 TEST_P(OneRank, sums_to_its_own_value) {
   std::array<std::uint64_t, 2> values{7, std::numeric_limits<std::uint64_t>::max()};
   ranks().all_sum(values);

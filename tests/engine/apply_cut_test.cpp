@@ -158,7 +158,7 @@ CutRecord cut_at_once(Simulation& s) {
   const MeshEdit edit = cut_across(s, global, figures);
   CutRecord record;
   apply_cut(s, edit, global, record);
-  record.n_converted = figures.n_converted;
+  record.figures.n_converted = figures.n_converted;
   return record;
 }
 
@@ -190,7 +190,7 @@ TEST(ApplyCut, keeps_mass_and_both_momenta_where_hexahedra_are_converted) {
   const MassAndMomenta before = momenta_of(s);
   const CutRecord record = cut_at_once(s);
   const MassAndMomenta after = momenta_of(s);
-  EXPECT_GT(record.n_converted, 0);
+  EXPECT_GT(record.figures.n_converted, 0);
   EXPECT_EQ(s.n_pieces, 2);
   // Rounding of some hundred terms; velocities are of 2 m/s, positions of 0.03 m.
   EXPECT_NEAR(after.mass, before.mass, 1e-14 * before.mass);
@@ -275,7 +275,7 @@ TEST(ApplyCut, keeps_the_viscous_stress_of_converted_hexahedra) {
     compute_force(s.model, s.state, s.scratch);
     const auto before = history_per_volume(s);
     ASSERT_GT(largest(before[0]), 1);  // [Pa]
-    EXPECT_GT(cut_at_once(s).n_converted, 0);
+    EXPECT_GT(cut_at_once(s).figures.n_converted, 0);
     const auto after = history_per_volume(s);
     EXPECT_GT(after.size(), before.size());
     for (const auto& element : after)  // rounding

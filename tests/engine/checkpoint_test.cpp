@@ -106,7 +106,7 @@ TEST(Checkpoint, of_each_frame_of_a_plate_in_use_that_is_split_leads_to_the_next
   const Checkpoint first = checkpoint_from_bytes(checkpoints[0], "c"),
                    last = checkpoint_from_bytes(checkpoints[n - 1], "c");
   const CutRecord& stroke = last.cuts[0].strokes.at(0);
-  EXPECT_GT(stroke.n_inserted, 300);
+  EXPECT_GT(stroke.figures.n_inserted, 300);
   EXPECT_EQ(stroke.n_pieces, 2);
   EXPECT_GT(last.mesh->n_elements(), first.mesh->n_elements() + 1000);
   EXPECT_LT(stroke.end, 0.5);  // frames behind it

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "box_file.h"
-#include "engine/frame_report.h"
+#include "engine/event_log.h"
 #include "engine_started.h"
 #include "larger_or_nan.h"
 #include "mesh/generate.h"

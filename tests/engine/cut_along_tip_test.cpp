@@ -1,5 +1,7 @@
 #include "engine/cut_along_tip.h"
 
+#include <gtest/gtest.h>
+
 #include "engine/simulation.h"
 #include "engine_plate.h"
 #include "engine_started.h"
@@ -31,7 +33,7 @@ TEST(CutAlongTip, goes_on_from_the_end_of_its_slit_in_a_plate) {
       while (s.frame < 45) run_frame(s, started->outputs);
       EXPECT_EQ(s.n_pieces, 2) << x << ' ' << aside << ' ' << is_lifted;
       for (const CutRecord& stroke : s.cuts[0].strokes)
-        EXPECT_EQ(stroke.n_refused, 0) << x << ' ' << aside << ' ' << is_lifted;
+        EXPECT_EQ(stroke.figures.n_refused, 0) << x << ' ' << aside << ' ' << is_lifted;
     }
 }
 
@@ -71,7 +73,7 @@ TEST(CutAlongTip, second_scalpel_follows_the_slit_of_the_first) {
       EXPECT_EQ(s.n_pieces, 2) << later << ' ' << aside;
       EXPECT_FALSE(s.cuts[1].strokes.empty()) << later << ' ' << aside;
       for (const CutRecord& stroke : s.cuts[1].strokes)
-        EXPECT_EQ(stroke.n_refused + stroke.n_edits, 0) << later << ' ' << aside;
+        EXPECT_EQ(stroke.figures.n_refused + stroke.n_edits, 0) << later << ' ' << aside;
     }
 }
 

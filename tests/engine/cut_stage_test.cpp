@@ -22,7 +22,7 @@ Slit slit_along(const std::vector<std::pair<double, double>>& points) {
   Simulation& s = *started->s;
   for (int frame = 0; frame < 60; ++frame) run_frame(s, started->outputs);
   Slit slit;
-  for (const CutRecord& stroke : s.cuts[0].strokes) slit.n_opened += stroke.n_opened_facets;
+  for (const CutRecord& stroke : s.cuts[0].strokes) slit.n_opened += stroke.figures.n_opened_facets;
   const Mesh& mesh = s.mesh;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
     for (int f = 0; f < 3; ++f) {
@@ -95,9 +95,9 @@ Cut cut_along(const std::string& tissue, const std::string& from, const std::str
   for (int frame = 0; frame < 18; ++frame) run_frame(s, started->outputs);
   Cut cut{.n_pieces = s.n_pieces};
   for (const CutRecord& stroke : s.cuts[0].strokes) {
-    cut.n_opened += stroke.n_opened_facets;
-    cut.n_refused += stroke.n_refused;
-    cut.goes_through = stroke.goes_through;
+    cut.n_opened += stroke.figures.n_opened_facets;
+    cut.n_refused += stroke.figures.n_refused;
+    cut.goes_through = stroke.figures.goes_through;
   }
   return cut;
 }
@@ -170,7 +170,7 @@ TEST(CutStage, crosses_its_own_slit_in_a_plate) {
     Simulation& s = *started->s;
     while (s.frame < 56) run_frame(s, started->outputs);
     EXPECT_EQ(s.n_pieces, 4) << x;
-    for (const CutRecord& stroke : s.cuts[0].strokes) EXPECT_EQ(stroke.n_refused, 0) << x;
+    for (const CutRecord& stroke : s.cuts[0].strokes) EXPECT_EQ(stroke.figures.n_refused, 0) << x;
   }
 }
 
@@ -226,7 +226,7 @@ Meeting meet(const std::string& tissue, double share, double resistance, double 
   }
   meeting.n_pieces = s.n_pieces;
   for (const CutRecord& stroke : s.cuts[0].strokes) {
-    meeting.n_refused += stroke.n_refused;
+    meeting.n_refused += stroke.figures.n_refused;
     meeting.n_edits += stroke.n_edits;
     meeting.n_askew += stroke.n_askew;
   }
@@ -299,9 +299,9 @@ TEST(CutStage, has_nothing_to_tell_of_a_scalpel_that_draws_back_in_its_slit) {
     Simulation& s = *block->s;
     while (s.frame < 48) run_frame(s, block->outputs);
     ASSERT_FALSE(s.cuts[0].strokes.empty());
-    EXPECT_GT(s.cuts[0].strokes[0].n_opened_facets, 0);
+    EXPECT_GT(s.cuts[0].strokes[0].figures.n_opened_facets, 0);
     for (const CutRecord& stroke : s.cuts[0].strokes) {
-      EXPECT_EQ(stroke.n_refused, 0) << elements;
+      EXPECT_EQ(stroke.figures.n_refused, 0) << elements;
       EXPECT_EQ(stroke.n_askew, 0) << elements;
     }
     for (const std::string& event : s.log.events) EXPECT_FALSE(contains(event, "scalpel")) << event;
@@ -330,17 +330,18 @@ TEST(CutStage, tells_at_the_end_of_a_stroke_how_much_it_leaves_joined) {
     n_refused_strokes = 0;
     for (const CutRecord& stroke : s.cuts[0].strokes) {
       const bool has_ended = &stroke != &s.cuts[0].strokes.back() || !s.cuts[0].is_in_stroke;
-      n_refused_strokes += has_ended && stroke.n_refused > 0 ? 1 : 0;
+      n_refused_strokes += has_ended && stroke.figures.n_refused > 0 ? 1 : 0;
     }
     EXPECT_EQ(n_told(), n_refused_strokes) << s.frame;
   }
   ASSERT_GT(n_refused_strokes, 0);
   const CutRecord& first = s.cuts[0].strokes[0];
-  ASSERT_GT(first.n_refused, 1);
+  ASSERT_GT(first.figures.n_refused, 1);
   const auto event = std::ranges::find_if(
       s.log.events, [](const std::string& e) { return contains(e, "leaves tissue joined"); });
-  EXPECT_TRUE(contains(*event, std::to_string(first.n_refused) + " places, the first at ("));
-  EXPECT_TRUE(contains(*event, reason_of(first.refusals[0]))) << *event;
+  EXPECT_TRUE(
+      contains(*event, std::to_string(first.figures.n_refused) + " places, the first at ("));
+  EXPECT_TRUE(contains(*event, reason_of(first.figures.refusals[0]))) << *event;
 }
 
 // 15 mm behind the first one, at once with it, and 0.4 mm beside its slit.
@@ -362,8 +363,8 @@ TEST(CutStage, second_scalpel_opens_no_slit_beside_that_of_the_first) {
     Simulation& s = *started->s;
     while (s.frame < 54 + 60 * later) run_frame(s, started->outputs);
     std::int64_t n_first = 0, n_second = 0;
-    for (const CutRecord& stroke : s.cuts[0].strokes) n_first += stroke.n_opened_facets;
-    for (const CutRecord& stroke : s.cuts[1].strokes) n_second += stroke.n_opened_facets;
+    for (const CutRecord& stroke : s.cuts[0].strokes) n_first += stroke.figures.n_opened_facets;
+    for (const CutRecord& stroke : s.cuts[1].strokes) n_second += stroke.figures.n_opened_facets;
     EXPECT_GT(n_first, 40) << x << ' ' << later;
     EXPECT_LE(n_second, n_first / 5) << x << ' ' << later << ' ' << aside;
   }

@@ -391,7 +391,7 @@ TEST(Loads, act_on_the_same_area_after_a_cut_beside_its_edge) {
       const double before = loaded_area(s);
       EXPECT_NEAR(before, 20e-3 * 20e-3, 1e-15);
       for (int frame = 0; frame < 35; ++frame) run_frame(s, body->outputs);
-      EXPECT_GT(s.cuts[0].strokes.at(0).n_opened_facets, 20);
+      EXPECT_GT(s.cuts[0].strokes.at(0).figures.n_opened_facets, 20);
       EXPECT_NEAR(loaded_area(s), before, 1e-12 * before) << elements << " " << x;
     }
 }

@@ -90,8 +90,8 @@ TEST(Scissors, leave_lips_alone_that_spring_back_from_their_edge) {
   const Simulation& s = *started->s;
   EXPECT_EQ(s.n_pieces, 2);
   const CutRecord& record = s.cuts.at(0).strokes.at(0);
-  EXPECT_EQ(record.n_refused, 0);
-  EXPECT_LT(record.largest_deviation, 0.5 * record.mean_edge);
+  EXPECT_EQ(record.figures.n_refused, 0);
+  EXPECT_LT(record.figures.largest_deviation, 0.5 * record.figures.mean_edge);
 }
 
 TEST(Scissors, cut_a_slit_into_a_plate_that_is_wider_than_they_open) {
@@ -99,10 +99,10 @@ TEST(Scissors, cut_a_slit_into_a_plate_that_is_wider_than_they_open) {
   const Simulation& s = *started->s;
   EXPECT_EQ(s.n_pieces, 1);
   ASSERT_EQ(s.cuts.at(0).strokes.size(), 1U);
-  EXPECT_GT(s.cuts[0].strokes[0].n_opened_facets, 0);
+  EXPECT_GT(s.cuts[0].strokes[0].figures.n_opened_facets, 0);
   // The blades are at most 17 mm * tan(0.3) from the middle; an element may be taken in whole.
   for (std::size_t i =
-           s.mesh.X.size() - static_cast<std::size_t>(s.cuts[0].strokes[0].n_duplicated);
+           s.mesh.X.size() - static_cast<std::size_t>(s.cuts[0].strokes[0].figures.n_duplicated);
        i < s.mesh.X.size(); ++i)
     EXPECT_LT(std::abs(s.mesh.X[i].x()), 0.0053 + 1.25e-3);
 }
@@ -186,7 +186,8 @@ TEST(Scissors, tell_of_bridges_that_they_leave_behind) {
           path + "]\n",
       60);
   std::int32_t n_refused = 0;
-  for (const CutRecord& stroke : started->s->cuts.at(0).strokes) n_refused += stroke.n_refused;
+  for (const CutRecord& stroke : started->s->cuts.at(0).strokes)
+    n_refused += stroke.figures.n_refused;
   EXPECT_TRUE(started->s->n_pieces == 2 || n_refused > 0);
 }
 

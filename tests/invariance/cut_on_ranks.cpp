@@ -11,7 +11,7 @@
 #include "engine/build.h"
 #include "engine/cut_group.h"
 #include "engine/frame.h"
-#include "engine/frame_report.h"
+#include "engine/state_digest.h"
 #include "engine_checkpoint.h"
 #include "error_of.h"
 #include "scene_parts.h"

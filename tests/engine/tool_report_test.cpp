@@ -1,6 +1,7 @@
-#include "engine/frame_report.h"
+#include "engine/tool_report.h"
 
-#include "engine/simulation.h"
+#include <gtest/gtest.h>
+
 #include "engine_started.h"
 
 namespace trocar {
