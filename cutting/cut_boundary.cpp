@@ -11,7 +11,7 @@ namespace trocar {
 
 // Facets that meet at more than 40 degrees make a sharp edge; an edge that bends by more is a
 // corner.
-static constexpr double cos_sharp = 0.766;
+static constexpr double cos_sharp_edge = 0.766;
 
 namespace {
 
@@ -75,7 +75,7 @@ static std::int32_t shared_node(const BoundFacet& p, const BoundFacet& q, std::i
 // Whether the edge that both have is sharp, or where an interface meets another facet.
 static bool is_sharp(const BoundFacet& p, const BoundFacet& q) {
   if (p.between != q.between) return true;
-  return !(p.normal.dot(q.normal) >= cos_sharp * p.normal.norm() * q.normal.norm());
+  return !(p.normal.dot(q.normal) >= cos_sharp_edge * p.normal.norm() * q.normal.norm());
 }
 
 static void add_end(std::int32_t j, std::vector<std::int32_t>& end) {
@@ -106,7 +106,7 @@ static void set_edge(const CutPatch& patch, std::int32_t i, std::int32_t j, std:
                      NodeBoundary& boundary) {
   const Vec3 &X = patch.X[i], forward = patch.X[j] - X, back = X - patch.X[k];
   boundary.freedom = NodeFreedom::fixed;
-  if (forward.dot(back) < cos_sharp * forward.norm() * back.norm()) return;
+  if (forward.dot(back) < cos_sharp_edge * forward.norm() * back.norm()) return;
   boundary.freedom = NodeFreedom::edge;
   boundary.direction = (patch.X[j] - patch.X[k]).normalized();
   boundary.piece = {{X, patch.X[j], patch.X[j]}, {X, patch.X[k], patch.X[k]}};

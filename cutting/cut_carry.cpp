@@ -14,7 +14,7 @@
 namespace trocar {
 
 // A point this far outside (barycentric) still counts as inside: rounding at facets.
-static constexpr double tolerance = 1e-9;
+static constexpr double outside_slack = 1e-9;
 // A point outside goes with the element beside it up to this far (barycentric, heights):
 // tissue that runs from the blade and comes back must not pass it uncut.
 static constexpr double reach = 3.0;
@@ -52,7 +52,7 @@ static void try_element(const Mesh& mesh, std::span<const Vec3> x, std::int32_t 
   const std::array<double, 4> next = inside_of(b);
   place.most = least;
   place.point.element = e;
-  place.point.is_inside = least >= -tolerance;
+  place.point.is_inside = least >= -outside_slack;
   place.point.X = at(mesh, e, mesh.X, next);
   place.point.beyond = place.point.x - at(mesh, e, x, next);
 }

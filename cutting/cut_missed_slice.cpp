@@ -16,7 +16,7 @@ namespace trocar {
 static constexpr double on_surface = 0.05, on_lip = 0.15;
 // Over h^2, of the facets of a stretch. Where a blade comes out through the surface, one or two are
 // left now and then, 0.3 to 0.4 h^2 each.
-static constexpr double least_area = 1;
+static constexpr double least_stretch_area = 1;
 
 namespace {
 
@@ -98,7 +98,7 @@ std::vector<CutRefusal> missed_slices(const Mesh& mesh, const CutSurroundings& a
   }
   std::vector<CutRefusal> places;
   for (const auto& [first, area, held_area] : stretch) {
-    if (first < 0 || area < least_area * around.h * around.h) continue;
+    if (first < 0 || area < least_stretch_area * around.h * around.h) continue;
     const Vec3& X = hits_of(stroke, {&patch.element[first], 1})[0].front().X;
     places.push_back({X, 2 * held_area > area ? CutRefusal::slice_held : CutRefusal::slice, area});
   }

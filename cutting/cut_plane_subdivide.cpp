@@ -25,7 +25,7 @@ struct Line {
   double s(const Vec3& X) const { return along.dot(X - from) / along.squaredNorm(); }
 };
 
-using EdgeEnds = std::array<std::int32_t, 2>;  // ascending
+using EdgeEnds = std::array<std::int32_t, 2>;
 
 // A node on the line: its copies on the two sides, equal at an inner end of the cut.
 struct CutPoint {
