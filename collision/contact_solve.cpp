@@ -127,8 +127,7 @@ std::optional<NodeTouch> look_at_node(const ContactDetector& detector, const Con
 }
 
 Vec3 facet_of(const ContactSet& set, const ContactSet::Item& item) {
-  const std::array<Vec3, 3> x = corners_of(set, item).x;
-  return (x[1] - x[0]).cross(x[2] - x[0]);
+  return area_normal(corners_of(set, item).x);
 }
 
 // Out of the tissue, of an edge of a plane body, too.

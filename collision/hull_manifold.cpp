@@ -14,7 +14,7 @@ constexpr std::size_t solid = 4;      // faces
 // Of the triangle's point straight above or below p, nothing where p is beside it.
 std::optional<std::array<double, 3>> weights_along(const Vec3& p, const Triangle& x,
                                                    const Vec3& n) {
-  const double twice_area = (x[1] - x[0]).cross(x[2] - x[0]).dot(n);
+  const double twice_area = area_normal(x).dot(n);
   std::array<double, 3> weight;
   for (std::size_t a = 0; a < 3; ++a) {
     const Vec3 &q = x[(a + 1) % 3], &r = x[(a + 2) % 3];

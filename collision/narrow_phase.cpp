@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/box.h"
+#include "base/segment.h"
 
 namespace trocar {
 
@@ -200,8 +201,7 @@ SignedDistance signed_distance(const PieceCore& core, const Vec3& x) {
     farthest.gap -= core.radius;
     return farthest;
   }
-  const Vec3 out =
-      x - closest_points_segments({x, x}, {core.points.front(), core.points.back()}).second;
+  const Vec3 out = x - nearest_on_segment(core.points.front(), core.points.back(), x);
   const double distance = out.norm();
   return {.normal = distance > 0 ? Vec3(out / distance) : Vec3::Zero(),
           .gap = distance - core.radius};

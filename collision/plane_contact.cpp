@@ -217,7 +217,8 @@ std::optional<Touch> touch_edge(const PlaneSection& section, const Segment& edge
 SignedDistance signed_distance(const PlaneSection& section, const Vec3& x) {
   if (section.points.empty()) return {.gap = std::numeric_limits<double>::infinity()};
   if (section.points.size() < 3) {
-    const Vec3 core = closest_points_segments({x, x}, side(section, 0)).second;
+    const auto [a, b] = side(section, 0);
+    const Vec3 core = nearest_on_segment(a, b, x);
     const Vec3 out = x - in_plane(core);
     const double radius = circle_radius(section, core);
     if (radius < 0) return {.gap = std::numeric_limits<double>::infinity()};
@@ -245,7 +246,7 @@ Vec3 plane_way_out(const PlaneEdges& edges, std::span<const Vec3> x, const Vec3&
     const double turn = cross_z(edge[1] - edge[0], p - edge[0]);
     if (is_up && turn > 0) ++winding;
     if (is_down && turn < 0) --winding;
-    const Vec3 to_edge = closest_points_segments({p, p}, edge).second - p;
+    const Vec3 to_edge = nearest_on_segment(edge[0], edge[1], p) - p;
     const Vec3 n = edge_normal(edge);
     if (to_edge.dot(n) <= 0 || (best2 >= 0 && to_edge.squaredNorm() >= best2)) continue;
     best2 = to_edge.squaredNorm();

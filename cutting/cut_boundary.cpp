@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/segment.h"
+#include "base/triangle.h"
 
 namespace trocar {
 
@@ -143,7 +144,7 @@ NodeBoundary node_boundary(const CutPatch& patch, const CutStroke& stroke,
 
 // The foot of the perpendicular if it lies inside, else the nearest point of the three sides.
 static Vec3 nearest_on_triangle(const std::array<Vec3, 3>& t, const Vec3& X) {
-  const Vec3 n = (t[1] - t[0]).cross(t[2] - t[0]);
+  const Vec3 n = area_normal(t);
   const double n2 = n.squaredNorm();
   const auto is_within = [&](const Vec3& a, const Vec3& b) {
     return (b - a).cross(X - a).dot(n) >= 0;

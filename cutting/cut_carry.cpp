@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/triangle.h"
 #include "cutting/cut_patch.h"
 #include "mesh/barycentric.h"
 #include "mesh/element_boxes.h"
@@ -135,7 +136,7 @@ static void add_to_rim(const std::vector<Place>& places, CutStroke& stroke) {
 // Whether X lies within `depth` below the triangle, or a little beside it.
 static bool is_below(const std::array<Vec3, 3>& triangle, const Vec3& X, double depth) {
   constexpr double slack = 0.1;  // barycentric
-  const Vec3 n = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+  const Vec3 n = area_normal(triangle);
   return std::abs(n.dot(X - triangle[0])) < depth * n.norm() && least_share(triangle, X) > -slack;
 }
 
