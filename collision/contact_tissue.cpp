@@ -56,7 +56,7 @@ std::int64_t steps_apart(const ContactSet& set, const Nearest& near, double dt) 
 double largest_way(const ContactSet& set) {
   Box moves;
   for (std::size_t i = 0; i < set.node.size(); ++i) moves.add(set.x_end[i] - set.x_start[i]);
-  return (moves.high - moves.low).norm();
+  return moves.size().norm();
 }
 
 // The nearest triangle that the node may meet, of those that are looked at in this step. Where

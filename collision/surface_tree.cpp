@@ -47,7 +47,7 @@ void SurfaceTree::split(std::span<const Vec3> centroid, std::int32_t first, std:
   Box box;
   for (std::int32_t k = first; k < first + count; ++k) box.add(centroid[order_[k]]);
   Eigen::Index axis = 0;
-  (box.high - box.low).maxCoeff(&axis);
+  box.size().maxCoeff(&axis);
   const std::int32_t half = count / 2;
   std::nth_element(order_.begin() + first, order_.begin() + first + half,
                    order_.begin() + first + count, [&](std::int32_t a, std::int32_t b) {
