@@ -39,8 +39,7 @@ std::vector<std::int32_t> nodes_of(const FoundContacts& contacts) {
 }
 
 std::int32_t place_of(const ContactSet& set, std::int32_t node) {
-  return static_cast<std::int32_t>(std::lower_bound(set.node.begin(), set.node.end(), node) -
-                                   set.node.begin());
+  return place_in(set.node, node);
 }
 
 // The detector has a piece's contacts one behind the other.

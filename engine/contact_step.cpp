@@ -81,10 +81,8 @@ double search_around(const Simulation& s, std::vector<Tilt> tilts, double enough
                      std::size_t most) {
   const std::unique_ptr<Patch> patch = make_present_patch_around(s, corners_of(tilts), most);
   if (!patch) return 0;
-  const std::vector<std::int32_t>& node = patch->sub.node;
   for (Tilt& tilt : tilts)
-    for (std::int32_t& place : tilt.place)
-      place = static_cast<std::int32_t>(std::ranges::lower_bound(node, place) - node.begin());
+    for (std::int32_t& place : tilt.place) place = place_in(patch->sub.node, place);
   const auto with_tilts = [&](const std::vector<double>& u, std::vector<double>& force) {
     add_tilt_forces(tilts, patch->state, u, force);
   };
