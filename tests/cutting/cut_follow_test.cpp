@@ -8,6 +8,7 @@
 #include <random>
 
 #include "cutting_cube.h"
+#include "known_positions.h"
 
 namespace trocar::cutting_test {
 namespace {
