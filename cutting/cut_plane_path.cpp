@@ -90,6 +90,18 @@ void for_boundary(const PlanePatch& patch, const Vec2& p, int except, const Use&
     }
 }
 
+// Distance to the nearest boundary facet, which is returned; facets at `except` do not count.
+double boundary_distance(const PlanePatch& patch, const Vec2& p, int except, PatchFacet& nearest) {
+  double least = std::numeric_limits<double>::max();
+  for_boundary(patch, p, except, [&](const PatchFacet& facet, const Vec2& way) {
+    const double distance = way.norm();
+    if (distance >= least) return;
+    least = distance;
+    nearest = facet;
+  });
+  return least;
+}
+
 // As boundary_distance; of the two lips of an older cut, which lie on each other, the facet is of
 // the one through which `way` goes into the body.
 double entered_distance(const PlanePatch& patch, const Vec2& p, const Vec2& way, int except,
@@ -284,17 +296,6 @@ void draw_back_ends(const PlanePatch& patch, SubPath& path) {
   const double to =
       path.end_on.element < 0 ? cleared_end(patch, path, path.length()) : path.length();
   path = trimmed(path, from, to);
-}
-
-double boundary_distance(const PlanePatch& patch, const Vec2& p, int except, PatchFacet& nearest) {
-  double least = std::numeric_limits<double>::max();
-  for_boundary(patch, p, except, [&](const PatchFacet& facet, const Vec2& way) {
-    const double distance = way.norm();
-    if (distance >= least) return;
-    least = distance;
-    nearest = facet;
-  });
-  return least;
 }
 
 bool has_room_ahead(const PlanePatch& patch, const SubPath& path, double room) {
