@@ -159,15 +159,14 @@ PlaneEdges boundary_edges(const Surface& surface) {
   std::vector<std::size_t> first(static_cast<std::size_t>(n_nodes) + 1, 0);
   std::vector<std::int32_t> end(3 * surface.triangle.size());
   for (const std::array<std::int32_t, 3>& triangle : surface.triangle)
-    for (const std::int32_t i : triangle) ++first[static_cast<std::size_t>(i) + 1];
+    for (const std::int32_t i : triangle) ++first[i + 1];
   for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
   std::vector<std::size_t> next(first.begin(), first.end() - 1);
   for (const std::array<std::int32_t, 3>& triangle : surface.triangle)
     for (std::size_t k = 0; k < 3; ++k) end[next[triangle[k]]++] = triangle[(k + 1) % 3];
   const auto has_side = [&](std::int32_t a, std::int32_t b) {
     const auto at = [&](std::size_t i) { return end.begin() + static_cast<std::ptrdiff_t>(i); };
-    const auto i = static_cast<std::size_t>(a);
-    return std::find(at(first[i]), at(first[i + 1]), b) != at(first[i + 1]);
+    return std::find(at(first[a]), at(first[a + 1]), b) != at(first[a + 1]);
   };
   PlaneEdges edges;
   for (std::size_t t = 0; t < surface.triangle.size(); ++t)

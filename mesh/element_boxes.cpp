@@ -34,8 +34,7 @@ template <class Body>
 void for_elements_of_leaf(const ElementBoxes& boxes, std::size_t leaf, const Body& body) {
   for (std::int32_t k = boxes.first[leaf]; k < boxes.first[leaf + 1]; ++k) body(boxes.order[k]);
   const std::size_t n_ordered = boxes.order.size();
-  for (std::int32_t e = boxes.last_added[leaf]; e >= 0;
-       e = boxes.next_added[static_cast<std::size_t>(e) - n_ordered])
+  for (std::int32_t e = boxes.last_added[leaf]; e >= 0; e = boxes.next_added[e - n_ordered])
     body(e);
 }
 
