@@ -73,19 +73,20 @@ double default_stable_step(const Mesh& mesh) {
 
 void print_surface(const std::string& file, double scale) {
   const TriangleMesh mesh = read_triangle_mesh(file, scale);
-  const auto [low, high] = bounding_box(mesh.X);
+  const Box box = bounding_box(mesh.X);
+  const Vec3 size = box.size();
   std::printf(
       "%s: a surface, for instruments\n  vertices   %zu\n  triangles  %zu\n  box        %.4g x "
       "%.4g x %.4g m, from (%.4g, %.4g, %.4g) m\n",
-      file.c_str(), mesh.X.size(), mesh.triangle.size(), high.x() - low.x(), high.y() - low.y(),
-      high.z() - low.z(), low.x(), low.y(), low.z());
+      file.c_str(), mesh.X.size(), mesh.triangle.size(), size.x(), size.y(), size.z(), box.low.x(),
+      box.low.y(), box.low.z());
 }
 
 constexpr double sliver_quality = 0.02;
 
 void print_mesh(const std::string& file, const Mesh& mesh) {
   const MeshStatistics m = mesh_statistics(mesh);
-  const Vec3 size = m.high - m.low;
+  const Vec3 size = m.box.size();
   std::printf("%s\n  nodes             %d\n", file.c_str(), m.n_nodes);
   for (int type = 0; type < n_element_types; ++type)
     if (const auto n = m.n_elements_by_type[type]; n > 0)
@@ -98,7 +99,7 @@ void print_mesh(const std::string& file, const Mesh& mesh) {
         "apart unless the mesher merges these nodes\n",
         m.n_unjoined);
   std::printf("  box               %.4g x %.4g x %.4g m, from (%.4g, %.4g, %.4g) m\n", size.x(),
-              size.y(), size.z(), m.low.x(), m.low.y(), m.low.z());
+              size.y(), size.z(), m.box.low.x(), m.box.low.y(), m.box.low.z());
   std::printf("  volume            %.5g %s\n", m.volume, mesh.dimension() == 2 ? "m^2" : "m^3");
   std::printf("  edges             %.3g … %.3g m, mean %.3g m\n", m.edge_min, m.edge_max,
               m.edge_mean);

@@ -18,6 +18,8 @@ struct Box {
     low = low.cwiseMin(box.low);
     high = high.cwiseMax(box.high);
   }
+  Vec3 size() const { return high - low; }
+  Vec3 middle() const { return 0.5 * (low + high); }
   bool overlaps(const Box& box, double margin = 0) const {
     return (low.array() <= box.high.array() + margin).all() &&
            (box.low.array() <= high.array() + margin).all();

@@ -76,6 +76,13 @@ struct PeerWatch::Thread {
   std::vector<pollfd> process;  // (n_peers + 1) and what stops the watch
   std::thread thread;
 
+  Thread() = default;
+  Thread(const Thread&) = delete;
+  Thread& operator=(const Thread&) = delete;
+  ~Thread() {
+    for (const pollfd& each : process)
+      if (each.fd >= 0) close(each.fd);
+  }
   bool is_stopped() const { return process.back().revents != 0; }
   bool is_lowest_left() const {
     for (std::size_t k = 0; k < peers.size(); ++k)
@@ -107,7 +114,9 @@ PeerWatch::PeerWatch(const Communicator& communicator) {
     watch->peers.push_back(std::move(peer));
   }
   if (watch->peers.empty()) return;
-  watch->process.push_back({.fd = eventfd(0, EFD_CLOEXEC), .events = POLLIN, .revents = 0});
+  const int stop = eventfd(0, EFD_CLOEXEC);
+  if (stop < 0) return;  // no descriptor left: a watch that could not be stopped
+  watch->process.push_back({.fd = stop, .events = POLLIN, .revents = 0});
   // Signals are for the other threads.
   sigset_t all, before;
   sigfillset(&all);
@@ -121,8 +130,6 @@ PeerWatch::~PeerWatch() {
   if (!thread_) return;
   eventfd_write(thread_->process.back().fd, 1);
   thread_->thread.join();
-  for (const pollfd& process : thread_->process)
-    if (process.fd >= 0) close(process.fd);
 }
 
 }  // namespace trocar

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace trocar {
@@ -32,6 +33,11 @@ inline void sort_unique(std::vector<std::int32_t>& values) {
   for (std::uint64_t k = 0; k < n_words; ++k)
     for (std::uint64_t word = words[k]; word != 0; word &= word - 1)
       values.push_back(least + static_cast<std::int32_t>(k * bits) + std::countr_zero(word));
+}
+
+// Of the first that is not less.
+inline std::int32_t place_in(std::span<const std::int32_t> sorted, std::int32_t value) {
+  return static_cast<std::int32_t>(std::ranges::lower_bound(sorted, value) - sorted.begin());
 }
 
 }  // namespace trocar

@@ -33,7 +33,7 @@ std::string fault_of_file(const std::string& file) {
   if (status.type() == std::filesystem::file_type::not_found)
     return file + ": there is no file of this name";
   if (error) return file + ": can't be read: " + error.message();
-  if (std::filesystem::is_directory(status)) return file + ": is a directory, not a mesh file";
+  if (std::filesystem::is_directory(status)) return file + ": is a directory, not a file";
   if (!std::filesystem::is_regular_file(status))
     return file + ": is not a regular file (a pipe or a device can't be read)";
   return "";

@@ -3,6 +3,7 @@
 
 #include "cut_case.h"
 #include "engine/apply_cut.h"
+#include "known_positions.h"
 #include "larger_or_nan.h"
 #include "stability_body.h"
 

@@ -1,6 +1,7 @@
 // Random strokes: planes and cylinders through a body, at once or in steps of half an edge.
 #include <cmath>
 
+#include "base/box.h"
 #include "cut_case.h"
 
 namespace trocar::cut_bench {
@@ -21,12 +22,8 @@ struct Frame {
 }  // namespace
 
 static Extent extent_of(const Mesh& mesh) {
-  Vec3 low = mesh.X[0], high = mesh.X[0];
-  for (const Vec3& X : mesh.X) {
-    low = low.cwiseMin(X);
-    high = high.cwiseMax(X);
-  }
-  return {(low + high) / 2, (high - low) / 2, (high - low).norm() / 2};
+  const Box box = bounding_box(mesh.X);
+  return {box.middle(), box.size() / 2, box.size().norm() / 2};
 }
 
 static double uniform(Random& random, double low, double high) {

@@ -6,6 +6,7 @@
 #include "base/sort_unique.h"
 #include "cutting/cut_hex.h"
 #include "cutting/cut_hex_shape.h"
+#include "known_positions.h"
 #include "larger_or_nan.h"
 
 namespace trocar::cut_bench {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cut_case.h"
+#include "mesh/element_boxes.h"
 
 namespace trocar::cut_bench {
 

@@ -2,6 +2,7 @@
 #include <numeric>
 
 #include "cut_case.h"
+#include "known_positions.h"
 #include "mesh/node_corners.h"
 
 namespace trocar::cut_bench {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/segment.h"
+
 namespace trocar {
 
 namespace {
@@ -16,12 +18,14 @@ TrianglePoint closest_point_on_edges(const Vec3& p, const Triangle& x) {
   double best2 = -1;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t next = (k + 1) % 3;
-    const SegmentPair pair = closest_points_segments({p, p}, {x[k], x[next]});
-    if (best2 >= 0 && pair.distance2 >= best2) continue;
-    best2 = pair.distance2;
-    best = {.point = pair.second};
-    best.weight[k] = 1 - pair.t;
-    best.weight[next] = pair.t;
+    const double t = share_to<Vec3>(x[k], x[next] - x[k], p);
+    const Vec3 point = point_at({x[k], x[next]}, t);
+    const double distance2 = (p - point).squaredNorm();
+    if (best2 >= 0 && distance2 >= best2) continue;
+    best2 = distance2;
+    best = {.point = point};
+    best.weight[k] = 1 - t;
+    best.weight[next] = t;
   }
   return best;
 }
@@ -31,15 +35,6 @@ double unit_clamp(double t) {
 }
 
 }  // namespace
-
-std::optional<Vec3> unit_normal(const Triangle& x) {
-  const Vec3 area = (x[1] - x[0]).cross(x[2] - x[0]);
-  const double length2 = area.squaredNorm();
-  const double edge2 = std::max((x[1] - x[0]).squaredNorm(), (x[2] - x[0]).squaredNorm());
-  // Below a height of 1e-12 edges the direction is rounding.
-  if (!(length2 > 1e-24 * edge2 * edge2)) return std::nullopt;
-  return area / std::sqrt(length2);
-}
 
 TrianglePoint closest_point_triangle(const Vec3& p, const Triangle& x) {
   const Vec3 ab = x[1] - x[0], ac = x[2] - x[0];

@@ -5,15 +5,12 @@
 #include <array>
 #include <optional>
 
+#include "base/triangle.h"
 #include "base/vec.h"
 
 namespace trocar {
 
 using Segment = std::array<Vec3, 2>;
-using Triangle = std::array<Vec3, 3>;
-
-// Unit normal by the right-hand rule; nothing for a triangle without area.
-std::optional<Vec3> unit_normal(const Triangle& triangle);
 
 // A point of a triangle: its position and its barycentric weights (sum 1, none negative).
 struct TrianglePoint {

@@ -36,7 +36,7 @@ void add_constraint(double gap, double release, const Vec3& away, ContactConstra
   Vec3 relative = -away;
   double inverse = 0, along_n = 0, lightest = 0, yielding = 0;
   for (std::size_t a = 0; a < 4; ++a) {
-    const std::size_t i = to_size(c.place[a]);
+    const std::size_t i = c.place[a];
     relative += c.weight[a] * (set.x_end[i] - set.x_start[i]);
     const Vec3& by_mass = set.inverse_mass[i];
     c.lever[a] = c.weight[a] * (set.clusters.is_empty() ? by_mass : set.clusters.alone[i]);
@@ -64,8 +64,7 @@ void add_constraint(double gap, double release, const Vec3& away, ContactConstra
 }
 
 void apply_impulse(const ContactConstraint& c, const Vec3& impulse, ContactSet& set) {
-  for (std::size_t a = 0; a < 4; ++a)
-    set.move[to_size(c.place[a])] += c.lever[a].cwiseProduct(impulse);
+  for (std::size_t a = 0; a < 4; ++a) set.move[c.place[a]] += c.lever[a].cwiseProduct(impulse);
   if (!set.clusters.is_empty()) add_to_clusters(c, impulse, set.clusters);
 }
 

@@ -11,10 +11,6 @@ namespace trocar {
 
 struct ContactSet;
 
-inline std::size_t to_size(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 // n·(extra displacement of sum w x) >= lack. Weights add up to 1 where a tool touches, to 0 between
 // tissue and tissue: one node less a point of a triangle.
 struct ContactConstraint {

@@ -13,14 +13,14 @@ namespace {
 // Each rank with nodes tells all others of them: they are few.
 Halo all_to_all(const ContactSet& set, std::span<const std::int32_t> node_owner, int rank) {
   std::vector<int> ranks;
-  for (const std::int32_t i : set.node) ranks.push_back(node_owner[to_size(i)]);
+  for (const std::int32_t i : set.node) ranks.push_back(node_owner[i]);
   sort_unique(ranks);
   Halo halo;
   for (const int other : ranks) {
     if (other == rank) continue;
     halo.neighbours.push_back({.rank = other, .send = set.owned});
     for (std::size_t place = 0; place < set.node.size(); ++place)
-      if (node_owner[to_size(set.node[place])] == other)
+      if (node_owner[set.node[place]] == other)
         halo.neighbours.back().receive.push_back(static_cast<std::int32_t>(place));
   }
   return halo;
@@ -39,8 +39,7 @@ std::vector<std::int32_t> nodes_of(const FoundContacts& contacts) {
 }
 
 std::int32_t place_of(const ContactSet& set, std::int32_t node) {
-  return static_cast<std::int32_t>(std::lower_bound(set.node.begin(), set.node.end(), node) -
-                                   set.node.begin());
+  return place_in(set.node, node);
 }
 
 // The detector has a piece's contacts one behind the other.
@@ -53,7 +52,7 @@ void add_beside(ContactSet& set) {
     if (contact.tool != before.tool || contact.piece != before.piece)
       first = static_cast<std::int32_t>(set.beside.size());
     for (std::size_t a = 0; a < 3; ++a) {
-      std::int32_t& entry = last[to_size(item.place[a])];
+      std::int32_t& entry = last[item.place[a]];
       if (entry < first) {
         entry = static_cast<std::int32_t>(set.beside.size());
         set.beside.push_back({.item = static_cast<std::int32_t>(k), .place = item.place[a]});
@@ -86,7 +85,7 @@ bool counts_reactions(const FoundContacts& contacts, std::span<const std::int32_
                       int rank) {
   std::int32_t first = std::numeric_limits<std::int32_t>::max();
   for (const Contact& contact : contacts.with_tools)
-    for (const std::int32_t i : contact.node) first = std::min(first, node_owner[to_size(i)]);
+    for (const std::int32_t i : contact.node) first = std::min(first, node_owner[i]);
   return first == rank;
 }
 
@@ -120,9 +119,9 @@ ContactSet prepare_contacts(const FoundContacts& contacts, std::span<const std::
                             const Part& part, int rank, const ContactInertia& inertia) {
   ContactSet set{.node = nodes_of(contacts)};
   for (const std::int32_t i : set.node) {
-    if (node_owner[to_size(i)] == rank) {
+    if (node_owner[i] == rank) {
       set.owned.push_back(static_cast<std::int32_t>(set.inverse_mass.size()));
-      set.local.push_back(part.node_local[to_size(i)]);
+      set.local.push_back(part.node_local[i]);
     }
     set.inverse_mass.push_back(inverse_mass(inertia.mass[i], inertia.held[i]));
   }

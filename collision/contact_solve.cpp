@@ -24,7 +24,7 @@ constexpr double good_enough = 1e-3;  // change in a round / deepest point at th
 ContactDetector::Corners corners_of(const ContactSet& set, const ContactSet::Item& item) {
   ContactDetector::Corners corners;
   for (std::size_t a = 0; a < 3; ++a) {
-    const ContactSet::BesidePiece& b = set.beside[to_size(item.beside[a])];
+    const ContactSet::BesidePiece& b = set.beside[item.beside[a]];
     corners.x[a] = b.x;
     corners.local[a] = b.local;
   }
@@ -32,7 +32,7 @@ ContactDetector::Corners corners_of(const ContactSet& set, const ContactSet::Ite
 }
 
 const ToolMotion& tool_of(const ContactStep& step, const ContactSet::Item& item) {
-  return step.tools[to_size(item.contact.tool)];
+  return step.tools[item.contact.tool];
 }
 
 // The displacement of a tool's point in the step. arm: from the tool's origin to it.
@@ -42,27 +42,25 @@ Vec3 motion_of(const ToolMotion& tool, const Vec3& arm, const ContactStep& step)
 
 // How far the node goes from where the tool would take it, contact left out.
 double own_way(const ContactSet& set, const ContactSet::BesidePiece& b) {
-  return (set.x_end[to_size(b.place)] - b.x).norm();
+  return (set.x_end[b.place] - b.x).norm();
 }
 
 bool is_at_front(const ContactSet& set, const ContactSet::Item& item) {
-  return std::ranges::any_of(item.beside,
-                             [&](std::int32_t b) { return set.beside[to_size(b)].is_front; });
+  return std::ranges::any_of(item.beside, [&](std::int32_t b) { return set.beside[b].is_front; });
 }
 
 // Whether the conditions of its corners keep a triangle out of the tool, too.
 bool is_kept_by_corners(const ContactSet& set, const ContactConstraint& c, double lack) {
   double size2 = 0;
   for (std::size_t a = 0; a < 3; ++a) {
-    const std::size_t i = to_size(c.place[a]);
+    const std::size_t i = c.place[a];
     if (c.weight[a] == 0) continue;
     const DeepestPiece& deepest = set.deepest[i];
     if (deepest.item < 0 || deepest.touch.normal.dot(c.normal) < as_steep) return false;
-    const Contact &contact = set.items[to_size(deepest.item)].contact,
-                  &own = set.items[to_size(c.item)].contact;
+    const Contact &contact = set.items[deepest.item].contact, &own = set.items[c.item].contact;
     if (contact.tool != own.tool || contact.piece != own.piece) return false;
     lack += c.weight[a] * deepest.touch.gap;
-    const Vec3& next = set.x_end[to_size(c.place[(a + 1) % 3])];
+    const Vec3& next = set.x_end[c.place[(a + 1) % 3]];
     size2 = std::max(size2, (set.x_end[i] - next).squaredNorm());
   }
   return lack < flat_enough * std::sqrt(size2);
@@ -74,8 +72,8 @@ double leeway_of(const ContactDetector& detector, const ContactSet::Item& item, 
                  const ContactSet& set) {
   double least = 1;
   for (const std::int32_t k : item.beside) {
-    const ContactSet::BesidePiece& b = set.beside[to_size(k)];
-    const double leeway = leeway_along(n, set.inverse_mass[to_size(b.place)]);
+    const ContactSet::BesidePiece& b = set.beside[k];
+    const double leeway = leeway_along(n, set.inverse_mass[b.place]);
     if (leeway < least && detector.is_inside(item.contact, b.local)) least = leeway;
   }
   return least;
@@ -89,7 +87,7 @@ struct Release {
 // Unless the corners do all that it asks for.
 void add_point(const ManifoldPoint& touch, const ContactStep& step, const Release& release,
                std::int32_t k, ContactSet& set) {
-  const ContactSet::Item& item = set.items[to_size(k)];
+  const ContactSet::Item& item = set.items[k];
   const ToolMotion& tool = tool_of(step, item);
   const auto& [i, j, l] = item.place;
   const auto& w = touch.weight;
@@ -99,7 +97,7 @@ void add_point(const ManifoldPoint& touch, const ContactStep& step, const Releas
                       .normal = tool.pose.rotation * touch.normal};
   const Vec3 arm = tool.pose.rotation * touch.point;
   Vec3 x = Vec3::Zero();
-  for (std::size_t a = 0; a < 3; ++a) x += c.weight[a] * set.x_end[to_size(c.place[a])];
+  for (std::size_t a = 0; a < 3; ++a) x += c.weight[a] * set.x_end[c.place[a]];
   const double gap = c.normal.dot(x - (arm + tool.pose.translation));
   if (gap >= 0 || is_kept_by_corners(set, c, -gap)) return;
   add_constraint(gap, release.most * leeway_of(release.detector, item, c.normal, set),
@@ -108,7 +106,7 @@ void add_point(const ManifoldPoint& touch, const ContactStep& step, const Releas
 
 void add_triangle(const ContactStep& step, const Release& release, std::int32_t k,
                   ContactSet& set) {
-  const ContactSet::Item& item = set.items[to_size(k)];
+  const ContactSet::Item& item = set.items[k];
   if (!item.is_near || is_at_front(set, item)) return;
   const Contact& nearest = item.contact;
   add_point({.weight = nearest.weight, .point = nearest.point, .normal = nearest.normal}, step,
@@ -122,13 +120,12 @@ std::optional<NodeTouch> look_at_node(const ContactDetector& detector, const Con
                                       const ContactSet& set) {
   std::optional<NodeTouch> touch =
       detector.touch_node(contact, {beside.x, beside.facing}, pose, own_way(set, beside));
-  if (touch) touch->gap += touch->normal.dot(set.x_end[to_size(beside.place)] - beside.x);
+  if (touch) touch->gap += touch->normal.dot(set.x_end[beside.place] - beside.x);
   return touch;
 }
 
 Vec3 facet_of(const ContactSet& set, const ContactSet::Item& item) {
-  const std::array<Vec3, 3> x = corners_of(set, item).x;
-  return (x[1] - x[0]).cross(x[2] - x[0]);
+  return area_normal(corners_of(set, item).x);
 }
 
 // Out of the tissue, of an edge of a plane body, too.
@@ -152,7 +149,7 @@ void face_nodes(const ContactDetector& detector, const ContactStep& step, Contac
     const double along_flank = flank.dot(facet);
     const bool is_lip = std::abs(along_flank) > as_a_lip * facet.norm();
     for (const std::int32_t k : item.beside) {
-      ContactSet::BesidePiece& b = set.beside[to_size(k)];
+      ContactSet::BesidePiece& b = set.beside[k];
       b.facing += facet;
       if (!is_lip) continue;
       if (along_flank * b.lip < 0) b.is_front = true;
@@ -165,17 +162,17 @@ void find_deepest(const ContactDetector& detector, const ContactStep& step, Cont
   std::fill(set.deepest.begin(), set.deepest.end(), DeepestPiece{});
   face_nodes(detector, step, set);
   for (ContactSet::BesidePiece& b : set.beside) {
-    const ContactSet::Item& item = set.items[to_size(b.item)];
+    const ContactSet::Item& item = set.items[b.item];
     b.touch = look_at_node(detector, item.contact, tool_of(step, item).pose, b, set);
   }
   for (std::size_t k = 0; k < set.items.size(); ++k) {
     const ContactSet::Item& item = set.items[k];
     const Vec3 facet = outward(set, item);
     for (std::size_t a = 0; a < 3; ++a) {
-      const ContactSet::BesidePiece& beside = set.beside[to_size(item.beside[a])];
+      const ContactSet::BesidePiece& beside = set.beside[item.beside[a]];
       const std::optional<NodeTouch>& found = beside.touch;
       if (beside.is_front) continue;
-      DeepestPiece& of_node = set.deepest[to_size(item.place[a])];
+      DeepestPiece& of_node = set.deepest[item.place[a]];
       if (found && found->gap < of_node.touch.gap && found->normal.dot(facet) < 0)
         of_node = {.item = static_cast<std::int32_t>(k), .touch = *found};
     }
@@ -187,7 +184,7 @@ void add_nodes(const ContactDetector& detector, const ContactStep& step, double 
   find_deepest(detector, step, set);
   for (std::size_t i = 0; i < set.deepest.size(); ++i) {
     if (set.deepest[i].item < 0) continue;
-    const ToolMotion& tool = tool_of(step, set.items[to_size(set.deepest[i].item)]);
+    const ToolMotion& tool = tool_of(step, set.items[set.deepest[i].item]);
     const NodeTouch& touch = set.deepest[i].touch;
     const auto place = static_cast<std::int32_t>(i);
     ContactConstraint c{.item = set.deepest[i].item,
@@ -204,11 +201,10 @@ struct Moves {
   std::array<Vec3, 4> of;
 
   Moves(const ContactConstraint& c, std::span<const Vec3> move)
-      : of{move[to_size(c.place[0])], move[to_size(c.place[1])], move[to_size(c.place[2])],
-           move[to_size(c.place[3])]} {}
+      : of{move[c.place[0]], move[c.place[1]], move[c.place[2]], move[c.place[3]]} {}
   // Last ones first: a node that stands there twice has its weight in the first place.
   void put_back(const ContactConstraint& c, std::span<Vec3> move) const {
-    for (std::size_t a = 4; a-- > 0;) move[to_size(c.place[a])] = of[a];
+    for (std::size_t a = 4; a-- > 0;) move[c.place[a]] = of[a];
   }
   Vec3 extra(const ContactConstraint& c) const {
     return c.weight[0] * of[0] + c.weight[1] * of[1] + c.weight[2] * of[2] + c.weight[3] * of[3];
@@ -261,8 +257,8 @@ bool has_to_look(const std::array<Vec3, 3>& corners, double& way, ContactSet::It
 
 void place_beside(const ContactStep& step, ContactSet& set) {
   for (ContactSet::BesidePiece& b : set.beside) {
-    const ToolMotion& tool = tool_of(step, set.items[to_size(b.item)]);
-    const Vec3& x = set.x_start[to_size(b.place)];
+    const ToolMotion& tool = tool_of(step, set.items[b.item]);
+    const Vec3& x = set.x_start[b.place];
     b.x = x + motion_of(tool, x - tool.pose.translation, step);
     b.local = tool.pose.apply_inverse(b.x);
   }
@@ -272,8 +268,7 @@ void look_again(const ContactDetector& detector, const ContactStep& step, Contac
   place_beside(step, set);
   for (ContactSet::Item& item : set.items) {
     double way = 0;
-    for (const std::int32_t b : item.beside)
-      way = std::max(way, own_way(set, set.beside[to_size(b)]));
+    for (const std::int32_t b : item.beside) way = std::max(way, own_way(set, set.beside[b]));
     const ContactDetector::Corners corners = corners_of(set, item);
     if (detector.is_hull(item.contact) && !has_to_look(corners.local, way, item)) continue;
     item.is_near = detector.update(corners, tool_of(step, item).pose, way, item.contact);

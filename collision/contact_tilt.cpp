@@ -21,7 +21,7 @@ Tilt make_tilt(const ContactSet::Item& item, double force, double radius, const 
   constexpr double flat = 1e-9;  // on plane meshes the third corner is a copy
   Tilt tilt{.place = item.place, .normal = item.reaction_sum.normalized()};
   std::array<Vec3, 3> x;
-  for (std::size_t a = 0; a < 3; ++a) x[a] = set.x_start[to_size(item.place[a])];
+  for (std::size_t a = 0; a < 3; ++a) x[a] = set.x_start[item.place[a]];
   double longest2 = 0;
   for (std::size_t a = 0; a < 3; ++a) {
     tilt.edge[a] = x[(a + 2) % 3] - x[(a + 1) % 3];
@@ -70,9 +70,9 @@ static double tilt_frequency2_apart(std::span<const Tilt> tilts, const ContactSe
     std::ranges::fill(force, 0);
     for (const Tilt& tilt : tilts) {
       Vec3 slope = Vec3::Zero();
-      for (std::size_t a = 0; a < 3; ++a) slope += u[to_size(tilt.place[a])] * tilt.edge[a];
+      for (std::size_t a = 0; a < 3; ++a) slope += u[tilt.place[a]] * tilt.edge[a];
       for (std::size_t a = 0; a < 3; ++a)
-        force[to_size(tilt.place[a])] += tilt.turn * tilt.edge[a].dot(slope);
+        force[tilt.place[a]] += tilt.turn * tilt.edge[a].dot(slope);
     }
     // Rayleigh's quotient of M^-1 K in the metric of M, over nodes that move.
     double stored = 0, swung = 0, largest = 0;

@@ -22,11 +22,11 @@ struct Nearest {
 
 Triangle corners_of(const ContactSet& set, const ContactSet::TissueItem& item) {
   const auto& [i, a, b, c] = item.place;
-  return {set.x_end[to_size(a)], set.x_end[to_size(b)], set.x_end[to_size(c)]};
+  return {set.x_end[a], set.x_end[b], set.x_end[c]};
 }
 
 const Vec3& node_of(const ContactSet& set, const ContactSet::TissueItem& item) {
-  return set.x_end[to_size(item.place[0])];
+  return set.x_end[item.place[0]];
 }
 
 TissueCandidate candidate_of(const ContactSet& set, const Nearest& near) {
@@ -44,7 +44,7 @@ bool says_more(const ContactSet& set, const Nearest& near, const Nearest& than) 
 std::int64_t steps_apart(const ContactSet& set, const Nearest& near, double dt) {
   if (near.distance < speedup * dt) return 0;
   const auto motion = [&](std::size_t a) -> Vec3 {
-    const std::size_t i = to_size(near.item->place[a]);
+    const std::size_t i = near.item->place[a];
     return set.x_end[i] - set.x_start[i];
   };
   Vec3 relative = motion(0);
@@ -56,7 +56,7 @@ std::int64_t steps_apart(const ContactSet& set, const Nearest& near, double dt) 
 double largest_way(const ContactSet& set) {
   Box moves;
   for (std::size_t i = 0; i < set.node.size(); ++i) moves.add(set.x_end[i] - set.x_start[i]);
-  return (moves.high - moves.low).norm();
+  return moves.size().norm();
 }
 
 // The nearest triangle that the node may meet, of those that are looked at in this step. Where
@@ -100,17 +100,17 @@ void add_tissue(const TissueStep& step, double release, ContactSet& set) {
                         .place = nearest.item->place,
                         .weight = {1, -w[0], -w[1], -w[2]},
                         .normal = touch.normal};
-    set.found_by[to_size(c.place[0])] = static_cast<std::int32_t>(nearest.item - set.tissue.data());
+    set.found_by[c.place[0]] = static_cast<std::int32_t>(nearest.item - set.tissue.data());
     add_constraint(touch.height, release, Vec3::Zero(), c, set);
   }
 }
 
 std::vector<double> depths_in_tissue(const ContactSet& set, std::span<const Vec3> x) {
   std::vector<double> depth(set.node.size(), 0.0);
-  const auto at = [&](std::int32_t place) { return x[to_size(set.node[to_size(place)])]; };
+  const auto at = [&](std::int32_t place) { return x[set.node[place]]; };
   for (std::size_t i = 0; i < depth.size(); ++i) {
     if (set.found_by[i] < 0) continue;
-    const auto& [node, a, b, c] = set.tissue[to_size(set.found_by[i])].place;
+    const auto& [node, a, b, c] = set.tissue[set.found_by[i]].place;
     const TissueTouch touch = touch_tissue(at(node), {at(a), at(b), at(c)});
     if (touch.is_below) depth[i] = -touch.height;
   }
@@ -120,7 +120,7 @@ std::vector<double> depths_in_tissue(const ContactSet& set, std::span<const Vec3
 void begin_tissue(std::int64_t step, double friction, ContactSet& set) {
   for (ContactConstraint& c : set.constraints) {
     if (c.item >= 0) continue;
-    const ContactSet::TissueImpulse& last = set.impulse[to_size(c.place[0])];
+    const ContactSet::TissueImpulse& last = set.impulse[c.place[0]];
     if (last.step + 1 != step) continue;
     c.push = std::min(last.push, c.most_push);
     c.drag = at_most(last.drag - c.normal.dot(last.drag) * c.normal, friction * c.push);
@@ -130,8 +130,7 @@ void begin_tissue(std::int64_t step, double friction, ContactSet& set) {
 
 void end_tissue(std::int64_t step, ContactSet& set) {
   for (const ContactConstraint& c : set.constraints)
-    if (c.item < 0)
-      set.impulse[to_size(c.place[0])] = {.step = step, .push = c.push, .drag = c.drag};
+    if (c.item < 0) set.impulse[c.place[0]] = {.step = step, .push = c.push, .drag = c.drag};
 }
 
 }  // namespace trocar

@@ -313,8 +313,7 @@ bool ContactDetector::lies_in_other_tissue(std::int32_t node) const {
   Vec3 outward = Vec3::Zero();
   for (std::size_t t = 0; t < state_->triangle.size(); ++t) {
     if (!std::ranges::count(state_->triangle[t], node)) continue;
-    const Triangle x = state_->tree->corners(static_cast<std::int32_t>(t));
-    outward += (x[1] - x[0]).cross(x[2] - x[0]);
+    outward += area_normal(state_->tree->corners(static_cast<std::int32_t>(t)));
   }
   if (outward.isZero(0)) return false;
   const Vec3 below = inward / std::sqrt(outward.norm()) * outward;

@@ -7,14 +7,14 @@ namespace trocar {
 
 namespace {
 
-constexpr double as_deep = 2;     // as the nearest points
-constexpr double slack = 1e-3;    // of the triangle's size
-constexpr std::size_t solid = 4;  // faces
+constexpr double as_deep = 2;         // as the nearest points
+constexpr double depth_slack = 1e-3;  // of the triangle's size
+constexpr std::size_t solid = 4;      // faces
 
 // Of the triangle's point straight above or below p, nothing where p is beside it.
 std::optional<std::array<double, 3>> weights_along(const Vec3& p, const Triangle& x,
                                                    const Vec3& n) {
-  const double twice_area = (x[1] - x[0]).cross(x[2] - x[0]).dot(n);
+  const double twice_area = area_normal(x).dot(n);
   std::array<double, 3> weight;
   for (std::size_t a = 0; a < 3; ++a) {
     const Vec3 &q = x[(a + 1) % 3], &r = x[(a + 2) % 3];
@@ -96,7 +96,7 @@ Manifold find_manifold(const PieceCore& core, const Triangle& triangle, double n
   const std::optional<Vec3> n = unit_normal(triangle);
   if (core.faces.normal.size() < solid || !n) return manifold;
   const double size = (triangle[1] - triangle[0]).norm();
-  const Limits limits{.deepest = as_deep * std::min(0.0, nearest_gap) - slack * size,
+  const Limits limits{.deepest = as_deep * std::min(0.0, nearest_gap) - depth_slack * size,
                       .margin = margin};
   add_corners(core, triangle, *n, limits, manifold);
   add_edges(core, triangle, *n, limits, manifold);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/box.h"
+#include "base/segment.h"
 
 namespace trocar {
 
@@ -160,11 +160,9 @@ PieceCore make_core(const ConvexPiece& piece) {
                  .least_flatness = piece.least_flatness,
                  .deepest = piece.deepest,
                  .has_edge = piece.has_edge};
-  const Box box = bounding_box(core.points);
-  core.low = box.low;
-  core.high = box.high;
+  core.box = bounding_box(core.points);
   if (core.points.size() < 3) return core;
-  core.thickness = (core.high - core.low).minCoeff();
+  core.thickness = core.box.size().minCoeff();
   core.hull.emplace(core.points);
   core.faces = hull_faces(core.points);
   return core;
@@ -177,15 +175,15 @@ namespace {
 // below.
 bool is_out_of_reach(const PieceCore& core, const Facet& facet, double reach) {
   const auto [low, high] = bounding_box(facet.x);
-  const Vec3 apart = (low - core.high).cwiseMax(core.low - high);
+  const Vec3 apart = (low - core.box.high).cwiseMax(core.box.low - high);
   if (apart.cwiseMax(0.0).squaredNorm() <= reach * reach) return false;
   if (!core.hull)
     return std::all_of(core.points.begin(), core.points.end(),
                        [&](const Vec3& p) { return facet.n.dot(p - facet.x[0]) >= 0; });
-  const Vec3 to_triangle = facet.x[0] - 0.5 * (core.low + core.high);
+  const Vec3 to_triangle = facet.x[0] - core.box.middle();
   const double height = facet.n.dot(to_triangle);
   const double beside = (to_triangle - height * facet.n).norm();
-  return height <= 0 || beside > 0.5 * (core.high - core.low).norm() + facet.edge + reach;
+  return height <= 0 || beside > 0.5 * core.box.size().norm() + facet.edge + reach;
 }
 
 }  // namespace
@@ -200,8 +198,7 @@ SignedDistance signed_distance(const PieceCore& core, const Vec3& x) {
     farthest.gap -= core.radius;
     return farthest;
   }
-  const Vec3 out =
-      x - closest_points_segments({x, x}, {core.points.front(), core.points.back()}).second;
+  const Vec3 out = x - nearest_on_segment(core.points.front(), core.points.back(), x);
   const double distance = out.norm();
   return {.normal = distance > 0 ? Vec3(out / distance) : Vec3::Zero(),
           .gap = distance - core.radius};

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "base/box.h"
 #include "collision/closest_point.h"
 #include "collision/hull_bullet.h"
 #include "collision/hull_reduce.h"
@@ -13,13 +14,13 @@ namespace trocar {
 
 // A piece is its core (a point, a segment, a hull) thickened by the radius.
 struct PieceCore {
-  std::vector<Vec3> points;                      // a hull has at most 64
-  double radius = 0;                             // [m]
-  std::optional<HullShape> hull;                 // of three and more points
-  HullFaces faces;                               // of a hull
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // bounding box of the points [m]
-  double thickness = 0;       // shortest side of a hull's box, zero for points and segments [m]
-  double least_flatness = 0;  // see ConvexPiece
+  std::vector<Vec3> points;       // a hull has at most 64
+  double radius = 0;              // [m]
+  std::optional<HullShape> hull;  // of three and more points
+  HullFaces faces;                // of a hull
+  Box box;                        // around the points [m]
+  double thickness = 0;           // shortest side of a hull's box, zero for points and segments [m]
+  double least_flatness = 0;      // see ConvexPiece
   double deepest = std::numeric_limits<double>::infinity();
   bool has_edge = false;
 };

@@ -159,15 +159,14 @@ PlaneEdges boundary_edges(const Surface& surface) {
   std::vector<std::size_t> first(static_cast<std::size_t>(n_nodes) + 1, 0);
   std::vector<std::int32_t> end(3 * surface.triangle.size());
   for (const std::array<std::int32_t, 3>& triangle : surface.triangle)
-    for (const std::int32_t i : triangle) ++first[static_cast<std::size_t>(i) + 1];
+    for (const std::int32_t i : triangle) ++first[i + 1];
   for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
   std::vector<std::size_t> next(first.begin(), first.end() - 1);
   for (const std::array<std::int32_t, 3>& triangle : surface.triangle)
     for (std::size_t k = 0; k < 3; ++k) end[next[triangle[k]]++] = triangle[(k + 1) % 3];
   const auto has_side = [&](std::int32_t a, std::int32_t b) {
     const auto at = [&](std::size_t i) { return end.begin() + static_cast<std::ptrdiff_t>(i); };
-    const auto i = static_cast<std::size_t>(a);
-    return std::find(at(first[i]), at(first[i + 1]), b) != at(first[i + 1]);
+    return std::find(at(first[a]), at(first[a + 1]), b) != at(first[a + 1]);
   };
   PlaneEdges edges;
   for (std::size_t t = 0; t < surface.triangle.size(); ++t)
@@ -217,7 +216,8 @@ std::optional<Touch> touch_edge(const PlaneSection& section, const Segment& edge
 SignedDistance signed_distance(const PlaneSection& section, const Vec3& x) {
   if (section.points.empty()) return {.gap = std::numeric_limits<double>::infinity()};
   if (section.points.size() < 3) {
-    const Vec3 core = closest_points_segments({x, x}, side(section, 0)).second;
+    const auto [a, b] = side(section, 0);
+    const Vec3 core = nearest_on_segment(a, b, x);
     const Vec3 out = x - in_plane(core);
     const double radius = circle_radius(section, core);
     if (radius < 0) return {.gap = std::numeric_limits<double>::infinity()};
@@ -245,7 +245,7 @@ Vec3 plane_way_out(const PlaneEdges& edges, std::span<const Vec3> x, const Vec3&
     const double turn = cross_z(edge[1] - edge[0], p - edge[0]);
     if (is_up && turn > 0) ++winding;
     if (is_down && turn < 0) --winding;
-    const Vec3 to_edge = closest_points_segments({p, p}, edge).second - p;
+    const Vec3 to_edge = nearest_on_segment(edge[0], edge[1], p) - p;
     const Vec3 n = edge_normal(edge);
     if (to_edge.dot(n) <= 0 || (best2 >= 0 && to_edge.squaredNorm() >= best2)) continue;
     best2 = to_edge.squaredNorm();

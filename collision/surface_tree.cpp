@@ -20,7 +20,7 @@ int side_of(const Vec3& a, const Vec3& b, const Vec3& p) {
 }
 
 bool is_above(const Triangle& x, const Vec3& p) {
-  const Vec3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
+  const Vec3 normal = area_normal(x);
   const double height = normal.dot(x[0] - p);
   return normal.z() > 0 ? height > 0 : height < 0;
 }
@@ -47,7 +47,7 @@ void SurfaceTree::split(std::span<const Vec3> centroid, std::int32_t first, std:
   Box box;
   for (std::int32_t k = first; k < first + count; ++k) box.add(centroid[order_[k]]);
   Eigen::Index axis = 0;
-  (box.high - box.low).maxCoeff(&axis);
+  box.size().maxCoeff(&axis);
   const std::int32_t half = count / 2;
   std::nth_element(order_.begin() + first, order_.begin() + first + half,
                    order_.begin() + first + count, [&](std::int32_t a, std::int32_t b) {
@@ -129,7 +129,7 @@ std::int32_t SurfaceTree::nearest_exit(const Vec3& p, double reach) const {
          const Vec3 to_surface = closest_point_triangle(p, x).point - p;
          const double distance2 = to_surface.squaredNorm();
          if (distance2 > best2 || (distance2 == best2 && best >= 0 && t > best)) return;
-         if (to_surface.dot((x[1] - x[0]).cross(x[2] - x[0])) <= 0) return;
+         if (to_surface.dot(area_normal(x)) <= 0) return;
          best2 = distance2;
          best = t;
        });

@@ -111,9 +111,8 @@ class FacingSearch {
                     [&](std::int32_t s) { for_triangles(b, [&](std::int32_t t) { take(s, t); }); });
       return;
     }
-    const bool goes_into_a =
-        is_leaf(b) || (!is_leaf(a) && (part_a.way.high - part_a.way.low).squaredNorm() >=
-                                          (part_b.way.high - part_b.way.low).squaredNorm());
+    const bool goes_into_a = is_leaf(b) || (!is_leaf(a) && part_a.way.size().squaredNorm() >=
+                                                               part_b.way.size().squaredNorm());
     const std::size_t parent = goes_into_a ? a : b, other = goes_into_a ? b : a;
     between(parent + 1, other);
     between(right_of(parent), other);

@@ -6,12 +6,13 @@
 #include <cmath>
 
 #include "base/segment.h"
+#include "base/triangle.h"
 
 namespace trocar {
 
 // Facets that meet at more than 40 degrees make a sharp edge; an edge that bends by more is a
 // corner.
-static constexpr double cos_sharp = 0.766;
+static constexpr double cos_sharp_edge = 0.766;
 
 namespace {
 
@@ -75,7 +76,7 @@ static std::int32_t shared_node(const BoundFacet& p, const BoundFacet& q, std::i
 // Whether the edge that both have is sharp, or where an interface meets another facet.
 static bool is_sharp(const BoundFacet& p, const BoundFacet& q) {
   if (p.between != q.between) return true;
-  return !(p.normal.dot(q.normal) >= cos_sharp * p.normal.norm() * q.normal.norm());
+  return !(p.normal.dot(q.normal) >= cos_sharp_edge * p.normal.norm() * q.normal.norm());
 }
 
 static void add_end(std::int32_t j, std::vector<std::int32_t>& end) {
@@ -106,7 +107,7 @@ static void set_edge(const CutPatch& patch, std::int32_t i, std::int32_t j, std:
                      NodeBoundary& boundary) {
   const Vec3 &X = patch.X[i], forward = patch.X[j] - X, back = X - patch.X[k];
   boundary.freedom = NodeFreedom::fixed;
-  if (forward.dot(back) < cos_sharp * forward.norm() * back.norm()) return;
+  if (forward.dot(back) < cos_sharp_edge * forward.norm() * back.norm()) return;
   boundary.freedom = NodeFreedom::edge;
   boundary.direction = (patch.X[j] - patch.X[k]).normalized();
   boundary.piece = {{X, patch.X[j], patch.X[j]}, {X, patch.X[k], patch.X[k]}};
@@ -143,7 +144,7 @@ NodeBoundary node_boundary(const CutPatch& patch, const CutStroke& stroke,
 
 // The foot of the perpendicular if it lies inside, else the nearest point of the three sides.
 static Vec3 nearest_on_triangle(const std::array<Vec3, 3>& t, const Vec3& X) {
-  const Vec3 n = (t[1] - t[0]).cross(t[2] - t[0]);
+  const Vec3 n = area_normal(t);
   const double n2 = n.squaredNorm();
   const auto is_within = [&](const Vec3& a, const Vec3& b) {
     return (b - a).cross(X - a).dot(n) >= 0;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/triangle.h"
 #include "cutting/cut_patch.h"
 #include "mesh/barycentric.h"
 #include "mesh/element_boxes.h"
@@ -14,7 +15,7 @@
 namespace trocar {
 
 // A point this far outside (barycentric) still counts as inside: rounding at facets.
-static constexpr double tolerance = 1e-9;
+static constexpr double outside_slack = 1e-9;
 // A point outside goes with the element beside it up to this far (barycentric, heights):
 // tissue that runs from the blade and comes back must not pass it uncut.
 static constexpr double reach = 3.0;
@@ -52,7 +53,7 @@ static void try_element(const Mesh& mesh, std::span<const Vec3> x, std::int32_t 
   const std::array<double, 4> next = inside_of(b);
   place.most = least;
   place.point.element = e;
-  place.point.is_inside = least >= -tolerance;
+  place.point.is_inside = least >= -outside_slack;
   place.point.X = at(mesh, e, mesh.X, next);
   place.point.beyond = place.point.x - at(mesh, e, x, next);
 }
@@ -135,7 +136,7 @@ static void add_to_rim(const std::vector<Place>& places, CutStroke& stroke) {
 // Whether X lies within `depth` below the triangle, or a little beside it.
 static bool is_below(const std::array<Vec3, 3>& triangle, const Vec3& X, double depth) {
   constexpr double slack = 0.1;  // barycentric
-  const Vec3 n = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+  const Vec3 n = area_normal(triangle);
   return std::abs(n.dot(X - triangle[0])) < depth * n.norm() && least_share(triangle, X) > -slack;
 }
 

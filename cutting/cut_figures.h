@@ -26,7 +26,7 @@ struct CutRefusal {
   };
   Vec3 X = Vec3::Zero();  // its centre, that of the stretch, or where the blade crossed the first
                           // element of a slice, reference configuration [m]
-  std::int32_t reason = pinched;
+  Reason reason = pinched;
   double area = 0;  // of the outer surface along a slice; else 0 [m^2]
 };
 

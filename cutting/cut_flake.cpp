@@ -14,7 +14,7 @@ static constexpr std::size_t n_walked = 2000;
 namespace {
 
 // A facet that this stroke opened, and the element that has it.
-struct Lip {
+struct OpenedFacet {
   std::array<Vec3, 3> X;  // in the order of their coordinates
   std::int32_t element;
 };
@@ -29,7 +29,7 @@ struct Walk {
   const Mesh& mesh;
   const CutIndex& index;
   const CutStroke& stroke;
-  std::vector<Lip> lip;                          // sorted
+  std::vector<OpenedFacet> lip;                  // sorted
   std::vector<OfElement<std::uint8_t>> visited;  // bit c: corner c
   std::vector<Met> met;                          // the nearest first
   std::ptrdiff_t now = -1;
@@ -41,19 +41,19 @@ static bool is_before(const Vec3& a, const Vec3& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
-static bool is_lip_before(const Lip& a, const Lip& b) {
+static bool is_lip_before(const OpenedFacet& a, const OpenedFacet& b) {
   return std::lexicographical_compare(a.X.begin(), a.X.end(), b.X.begin(), b.X.end(), is_before);
 }
 
-static Lip lip_of(const Mesh& mesh, std::int32_t e, int f) {
-  Lip lip{{}, e};
+static OpenedFacet lip_of(const Mesh& mesh, std::int32_t e, int f) {
+  OpenedFacet lip{{}, e};
   for (std::size_t k = 0; k < 3; ++k) lip.X[k] = mesh.X[mesh.corners(e)[tet_facets[f][k]]];
   std::ranges::sort(lip.X, is_before);
   return lip;
 }
 
-static std::vector<Lip> lips(const Mesh& mesh, const CutStroke& stroke) {
-  std::vector<Lip> lip;
+static std::vector<OpenedFacet> lips(const Mesh& mesh, const CutStroke& stroke) {
+  std::vector<OpenedFacet> lip;
   for (const auto& [e, mask] : stroke.opened)
     for (int f = 0; f < 4; ++f)
       if ((mask >> f & 1) != 0) lip.push_back(lip_of(mesh, e, f));
@@ -81,7 +81,8 @@ static std::int32_t element_before(const Walk& walk, std::int32_t e, int f) {
     return element_across(walk.mesh, walk.index, e, f);
   const auto [first, last] =
       std::equal_range(walk.lip.begin(), walk.lip.end(), lip_of(walk.mesh, e, f), is_lip_before);
-  const auto other = std::find_if(first, last, [&](const Lip& lip) { return lip.element != e; });
+  const auto other =
+      std::find_if(first, last, [&](const OpenedFacet& lip) { return lip.element != e; });
   return other == last ? -1 : other->element;
 }
 

@@ -15,7 +15,7 @@ namespace trocar {
 static constexpr double least_step_part = 0.15;
 
 // Of a tetrahedron, present over reference volume, below which it counts as nearly flat.
-static constexpr double least_volume_ratio = 0.1;
+static constexpr double flat_volume_ratio = 0.1;
 
 bool has_hexahedra(const Mesh& mesh) {
   return std::find(mesh.element_type.begin(), mesh.element_type.end(), ElementType::hex8) !=
@@ -91,7 +91,7 @@ static bool is_bent(const HexTets& tets, std::span<const Vec3> x, std::int32_t h
   for (std::int32_t s = tets.first[hex]; s < tets.end(hex); ++s) {
     const std::span<const std::int32_t> c = tets.mesh.corners(s);
     const std::array<std::int32_t, 4> node{c[0], c[1], c[2], c[3]};
-    if (!(six_volumes(x, node) > least_volume_ratio * six_volumes(tets.mesh.X, node))) return true;
+    if (!(six_volumes(x, node) > flat_volume_ratio * six_volumes(tets.mesh.X, node))) return true;
   }
   return false;
 }

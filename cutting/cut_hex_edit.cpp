@@ -13,7 +13,7 @@ namespace trocar {
 
 // A hexahedron whose Jacobian falls below this part of the centre's is converted: in the reference,
 // and in the present configuration, where the load bends it too.
-static constexpr double least_reference_ratio = 0.2, least_present_ratio = 0.02;
+static constexpr double least_reference_ratio = 0.2, least_bent_ratio = 0.02;
 
 namespace {
 
@@ -116,7 +116,7 @@ static bool is_sound(const Translation& t, std::int32_t e, const KeptHex& hex) {
     X[a] = reference;
     x[a] = present;
   }
-  if (least_gauss_ratio(X) < least_reference_ratio || least_gauss_ratio(x) < least_present_ratio)
+  if (least_gauss_ratio(X) < least_reference_ratio || least_gauss_ratio(x) < least_bent_ratio)
     return false;
   double least = std::numeric_limits<double>::infinity();
   for (std::int32_t s = t.tets.first[e]; s < t.tets.end(e); ++s) {

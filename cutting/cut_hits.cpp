@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/box.h"
 #include "base/sort_unique.h"
 #include "cutting/cut_carry.h"
 #include "cutting/cut_go_on.h"
@@ -34,11 +35,11 @@ struct Band {
   struct Triangle {
     std::array<int, 3> point;
     Vec3 normal;  // unit, towards +
-    Vec3 low, high;
+    Box box;
   };
   std::vector<Vec3> point;  // before 0, after 0, before 1, ...
   std::vector<Triangle> triangle;
-  Vec3 low, high;
+  Box box;
 };
 
 struct Crossing {
@@ -67,7 +68,7 @@ static void add_triangle(Band& band, const std::array<int, 3>& point, const Vec3
   // A triangle without area sweeps nothing: a point of the edge that stands still.
   if (!(size > 1e-12 * longest2)) return;
   normal *= (normal.dot(side) < 0 ? -1 : 1) / size;
-  band.triangle.push_back({point, normal, p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r)});
+  band.triangle.push_back({point, normal, bounding_box(std::array{p, q, r})});
 }
 
 // Begins behind its begin by `back`, but no farther than the blade has been.
@@ -88,10 +89,7 @@ static Band make_band(const BladeSweep& sweep, double back, const CutStroke& str
     add_triangle(band, {k, k + 2, k + 3}, sweep.normal);
     add_triangle(band, {k, k + 3, k + 1}, sweep.normal);
   }
-  for (std::size_t t = 0; t < band.triangle.size(); ++t) {
-    band.low = t == 0 ? band.triangle[t].low : band.low.cwiseMin(band.triangle[t].low).eval();
-    band.high = t == 0 ? band.triangle[t].high : band.high.cwiseMax(band.triangle[t].high).eval();
-  }
+  for (const Band::Triangle& t : band.triangle) band.box.add(t.box);
   return band;
 }
 
@@ -105,15 +103,11 @@ static BandBox box_of(const Band& band) {
   along -= n * n.dot(along);
   const Vec3 u = along.norm() > 0 ? along.normalized() : n.unitOrthogonal();
   box.axes << n, u, n.cross(u);
-  box.low = box.high = box.axes.transpose() * band.point[0];
-  for (const Vec3& p : band.point) {
-    const Vec3 q = box.axes.transpose() * p;
-    box.low = box.low.cwiseMin(q);
-    box.high = box.high.cwiseMax(q);
-  }
-  const Vec3 margin = Vec3::Constant(1e-9 * (box.high - box.low).norm());
-  box.low -= margin;
-  box.high += margin;
+  Box along_axes;
+  for (const Vec3& p : band.point) along_axes.add(box.axes.transpose() * p);
+  along_axes = along_axes.grown(1e-9 * along_axes.size().norm());
+  box.low = along_axes.low;
+  box.high = along_axes.high;
   return box;
 }
 
@@ -147,13 +141,12 @@ static bool passes_through(const Band& band, const Band::Triangle& t, const Vec3
 
 // Net crossing of the band: an edge that goes through and back stays on its side.
 static bool find_crossing(const Band& band, const Vec3& a, const Vec3& b, Crossing& crossing) {
-  const Vec3 low = a.cwiseMin(b), high = a.cwiseMax(b);
-  if ((low.array() > band.high.array()).any() || (high.array() < band.low.array()).any())
-    return false;
+  const Box box{a.cwiseMin(b), a.cwiseMax(b)};
+  if (!band.box.overlaps(box)) return false;
   std::array<Crossing, 2> first;
   int net = 0;
   for (const Band::Triangle& t : band.triangle) {
-    if ((low.array() > t.high.array()).any() || (high.array() < t.low.array()).any()) continue;
+    if (!t.box.overlaps(box)) continue;
     const Vec3& p = band.point[t.point[0]];
     const double phi_a = t.normal.dot(a - p), phi_b = t.normal.dot(b - p);
     if ((phi_a >= 0) == (phi_b >= 0) || !passes_through(band, t, a, b)) continue;

@@ -6,6 +6,7 @@
 
 #include "base/box.h"
 #include "base/sort_unique.h"
+#include "base/triangle.h"
 #include "cutting/cut_patch.h"
 #include "mesh/facets.h"
 
@@ -41,7 +42,7 @@ std::vector<OpenFacet> older_facets(const Mesh& mesh, std::span<const std::int32
       OpenFacet facet;
       for (std::size_t k = 0; k < 3; ++k) facet.node[k] = mesh.corners(e)[corner[k]];
       const auto X = [&](std::size_t k) { return mesh.X[facet.node[k]]; };
-      facet.normal = (X(1) - X(0)).cross(X(2) - X(0)).normalized();
+      facet.normal = area_normal({X(0), X(1), X(2)}).normalized();
       facets.push_back(facet);
     }
   }

@@ -13,10 +13,10 @@ namespace trocar {
 
 // Over h: a blade nearer to the outer surface lies on it. Lips of a cut lie up to this far beside
 // the blade that made them, all along some: it cuts nothing when it comes again.
-static constexpr double on_surface = 0.05, on_lip = 0.15;
+static constexpr double on_surface = 0.05, beside_lip = 0.15;
 // Over h^2, of the facets of a stretch. Where a blade comes out through the surface, one or two are
 // left now and then, 0.3 to 0.4 h^2 each.
-static constexpr double least_area = 1;
+static constexpr double least_stretch_area = 1;
 
 namespace {
 
@@ -43,7 +43,7 @@ static bool bounds_slice(const Mesh& mesh, const CutSurroundings& around, std::i
   const CutPatch& patch = around.patch;
   if (patch.across[e][f] >= 0) return false;
   const bool is_lip = (mesh.cut_facets[patch.element[e]] >> f & 1) != 0;
-  const double least = (is_lip ? on_lip : on_surface) * around.h;
+  const double least = (is_lip ? beside_lip : on_surface) * around.h;
   const double opposite = around.distance[patch.corner[e][f]];
   return std::abs(opposite) > least &&
          std::ranges::all_of(facet_nodes(patch, e, f), [&](std::int32_t i) {
@@ -98,7 +98,7 @@ std::vector<CutRefusal> missed_slices(const Mesh& mesh, const CutSurroundings& a
   }
   std::vector<CutRefusal> places;
   for (const auto& [first, area, held_area] : stretch) {
-    if (first < 0 || area < least_area * around.h * around.h) continue;
+    if (first < 0 || area < least_stretch_area * around.h * around.h) continue;
     const Vec3& X = hits_of(stroke, {&patch.element[first], 1})[0].front().X;
     places.push_back({X, 2 * held_area > area ? CutRefusal::slice_held : CutRefusal::slice, area});
   }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "mesh/element_boxes.h"
+
 namespace trocar {
 
 // Beyond which sides of the box a node lies, in index.ring: bits 0 to 5; and how far the search is.

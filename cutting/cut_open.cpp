@@ -8,7 +8,7 @@
 namespace trocar {
 
 using Corners = std::vector<std::array<std::int32_t, 4>>;
-using Edge = std::array<std::int32_t, 2>;
+using EdgeEnds = std::array<std::int32_t, 2>;
 
 // A node of the front this near to the surface (over h) may be parted.
 static constexpr double ripe_distance = 0.1;
@@ -93,9 +93,9 @@ static void split_nodes(const CutPatch& patch, const PatchMesh& mesh,
 }
 
 // The boundary facets at node `copy`, as directed edges of its link.
-static std::vector<Edge> link_boundary(const CutPatch& patch, const Corners& corner,
-                                       std::span<const std::int32_t> star, std::int32_t copy) {
-  std::vector<Edge> edge;
+static std::vector<EdgeEnds> link_boundary(const CutPatch& patch, const Corners& corner,
+                                           std::span<const std::int32_t> star, std::int32_t copy) {
+  std::vector<EdgeEnds> edge;
   for (const std::int32_t e : star) {
     const auto at = std::find(corner[e].begin(), corner[e].end(), copy) - corner[e].begin();
     if (at == 4) continue;
@@ -110,7 +110,7 @@ static std::vector<Edge> link_boundary(const CutPatch& patch, const Corners& cor
 }
 
 // One closed cycle, or nothing at all inside the body.
-static bool is_one_cycle(std::vector<Edge> edge) {
+static bool is_one_cycle(std::vector<EdgeEnds> edge) {
   if (edge.empty()) return true;
   std::sort(edge.begin(), edge.end());
   for (std::size_t k = 0; k + 1 < edge.size(); ++k)
@@ -118,7 +118,7 @@ static bool is_one_cycle(std::vector<Edge> edge) {
   std::size_t n_visited = 0;
   std::int32_t at = edge[0][0];
   do {
-    const auto next = std::lower_bound(edge.begin(), edge.end(), Edge{at, -1});
+    const auto next = std::lower_bound(edge.begin(), edge.end(), EdgeEnds{at, -1});
     if (next == edge.end() || (*next)[0] != at) return false;
     at = (*next)[1];
   } while (++n_visited <= edge.size() && at != edge[0][0]);
@@ -136,7 +136,7 @@ static bool is_link_sound(const CutPatch& patch, const Corners& corner, std::int
   });
 }
 
-static void add_edges(const std::array<std::int32_t, 3>& node, std::vector<Edge>& edge) {
+static void add_edges(const std::array<std::int32_t, 3>& node, std::vector<EdgeEnds>& edge) {
   for (std::size_t k = 0; k < 3; ++k) {
     const std::int32_t a = node[k], b = node[(k + 1) % 3];
     edge.push_back({std::min(a, b), std::max(a, b)});
@@ -144,20 +144,20 @@ static void add_edges(const std::array<std::int32_t, 3>& node, std::vector<Edge>
 }
 
 // Number of edges of a facet where the opening ends inside the body.
-static int rim_edges(const std::array<std::int32_t, 3>& node, const std::vector<Edge>& opened,
-                     const std::vector<Edge>& outer) {
-  std::vector<Edge> edge;
+static int rim_edges(const std::array<std::int32_t, 3>& node, const std::vector<EdgeEnds>& opened,
+                     const std::vector<EdgeEnds>& outer) {
+  std::vector<EdgeEnds> edge;
   add_edges(node, edge);
   int n = 0;
-  for (const Edge& k : edge) {
+  for (const EdgeEnds& k : edge) {
     const auto use = std::equal_range(opened.begin(), opened.end(), k);
     if (use.second - use.first == 1 && !std::binary_search(outer.begin(), outer.end(), k)) ++n;
   }
   return n;
 }
 
-static std::vector<Edge> outer_edges(const CutPatch& patch) {
-  std::vector<Edge> edge;
+static std::vector<EdgeEnds> outer_edges(const CutPatch& patch) {
+  std::vector<EdgeEnds> edge;
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     for (int f = 0; f < 4; ++f)
       if (patch.across[e][f] < 0) add_edges(facet_nodes(patch, e, f), edge);
@@ -169,8 +169,8 @@ static std::vector<Edge> outer_edges(const CutPatch& patch) {
 // none.
 static std::ptrdiff_t facet_to_close(const CutSurroundings& around,
                                      const std::vector<TetFacet>& facet, std::int32_t i,
-                                     const std::vector<Edge>& outer) {
-  std::vector<Edge> opened;
+                                     const std::vector<EdgeEnds>& outer) {
+  std::vector<EdgeEnds> opened;
   for (const auto& [e, f] : facet) add_edges(facet_nodes(around.patch, e, f), opened);
   std::sort(opened.begin(), opened.end());
   std::ptrdiff_t best = -1;
@@ -209,7 +209,7 @@ static std::vector<std::int32_t> broken_nodes(const CutSurroundings& around,
 static bool close_facets(const CutSurroundings& around, const std::vector<std::int32_t>& broken,
                          std::vector<TetFacet>& facet, CutOpening& opening) {
   if (broken.empty()) return false;
-  const std::vector<Edge> outer = outer_edges(around.patch);
+  const std::vector<EdgeEnds> outer = outer_edges(around.patch);
   bool is_changed = false;
   for (const std::int32_t i : broken) {
     const std::ptrdiff_t k = facet_to_close(around, facet, i, outer);

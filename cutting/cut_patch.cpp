@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/sort_unique.h"
+#include "base/triangle.h"
 
 namespace trocar {
 
@@ -29,8 +30,7 @@ std::array<std::int32_t, 3> facet_nodes(const CutPatch& patch, std::int32_t e, i
 }
 
 Vec3 facet_normal(const CutPatch& patch, const std::array<std::int32_t, 3>& node) {
-  const Vec3& o = patch.X[node[0]];
-  return (patch.X[node[1]] - o).cross(patch.X[node[2]] - o);
+  return area_normal({patch.X[node[0]], patch.X[node[1]], patch.X[node[2]]});
 }
 
 int facet_towards(const CutPatch& patch, std::int32_t e, std::int32_t u) {

@@ -11,6 +11,7 @@
 #include "cutting/cut_constraints.h"
 #include "cutting/cut_index.h"
 #include "cutting/cut_positions.h"
+#include "mesh/facets.h"
 #include "mesh/mesh.h"
 
 namespace trocar {
@@ -55,9 +56,6 @@ struct CutPatch {
 CutPatch make_patch(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
                     const CutConstraints& constraints, std::span<const std::int32_t> seeds);
 
-// Local number of corner c of the facet opposite to corner f, outward by the right-hand rule.
-inline constexpr std::array<std::array<int, 3>, 4> tet_facets{
-    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 std::array<std::int32_t, 3> facet_nodes(const CutPatch& patch, std::int32_t e, int f);
 // Outward and twice as long as its area [m^2].
 Vec3 facet_normal(const CutPatch& patch, const std::array<std::int32_t, 3>& node);

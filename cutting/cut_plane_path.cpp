@@ -20,7 +20,7 @@ struct PathCrossing {
   double s = 0;
   PatchFacet facet;
 };
-struct Crossings {
+struct PathCrossings {
   std::vector<PathCrossing> enter, leave;  // ascending s
 };
 
@@ -42,7 +42,7 @@ bool is_inside(const PlanePatch& patch, const Vec2& p) {
 
 // Ends of the edge count as left of the segment when they lie on it, for all edges alike.
 void cross_segment(const PlanePatch& patch, const SubPath& path, std::size_t k, PatchFacet facet,
-                   Crossings& crossings) {
+                   PathCrossings& crossings) {
   const Vec2& a = patch.X[patch.corner[facet.element][(facet.facet + 1) % 3]];
   const Vec2& b = patch.X[patch.corner[facet.element][(facet.facet + 2) % 3]];
   const Vec2 &p = path.point[k], d = path.point[k + 1] - p;
@@ -54,8 +54,8 @@ void cross_segment(const PlanePatch& patch, const SubPath& path, std::size_t k, 
   (turn > 0 ? crossings.enter : crossings.leave).push_back(crossing);
 }
 
-Crossings find_crossings(const PlanePatch& patch, const SubPath& path, int tip) {
-  Crossings crossings;
+PathCrossings find_crossings(const PlanePatch& patch, const SubPath& path, int tip) {
+  PathCrossings crossings;
   for (int e = 0; e < patch.n_elements(); ++e)
     for (int f = 0; f < 3; ++f) {
       if (patch.across[e][f] != across_boundary) continue;
@@ -90,6 +90,18 @@ void for_boundary(const PlanePatch& patch, const Vec2& p, int except, const Use&
     }
 }
 
+// Distance to the nearest boundary facet, which is returned; facets at `except` do not count.
+double boundary_distance(const PlanePatch& patch, const Vec2& p, int except, PatchFacet& nearest) {
+  double least = std::numeric_limits<double>::max();
+  for_boundary(patch, p, except, [&](const PatchFacet& facet, const Vec2& way) {
+    const double distance = way.norm();
+    if (distance >= least) return;
+    least = distance;
+    nearest = facet;
+  });
+  return least;
+}
+
 // As boundary_distance; of the two lips of an older cut, which lie on each other, the facet is of
 // the one through which `way` goes into the body.
 double entered_distance(const PlanePatch& patch, const Vec2& p, const Vec2& way, int except,
@@ -111,7 +123,7 @@ double entered_distance(const PlanePatch& patch, const Vec2& p, const Vec2& way,
 
 // Where the first piece begins; s < 0 if the path never meets the body.
 PathCrossing find_start(const PlanePatch& patch, const SubPath& path, int tip,
-                        const Crossings& crossings) {
+                        const PathCrossings& crossings) {
   if (tip >= 0) return {0, {}};
   PathCrossing start{0, {}};
   const double distance = entered_distance(patch, path.point[0], tangent(path, 0), -1, start.facet);
@@ -286,17 +298,6 @@ void draw_back_ends(const PlanePatch& patch, SubPath& path) {
   path = trimmed(path, from, to);
 }
 
-double boundary_distance(const PlanePatch& patch, const Vec2& p, int except, PatchFacet& nearest) {
-  double least = std::numeric_limits<double>::max();
-  for_boundary(patch, p, except, [&](const PatchFacet& facet, const Vec2& way) {
-    const double distance = way.norm();
-    if (distance >= least) return;
-    least = distance;
-    nearest = facet;
-  });
-  return least;
-}
-
 bool has_room_ahead(const PlanePatch& patch, const SubPath& path, double room) {
   constexpr double ahead = 0.5;  // cosine
   if (path.end_on.element >= 0) return true;
@@ -311,7 +312,7 @@ bool has_room_ahead(const PlanePatch& patch, const SubPath& path, double room) {
 
 ClippedPath clip_to_body(const PlanePatch& patch, const SubPath& path, int tip) {
   ClippedPath result;
-  const Crossings crossings = find_crossings(patch, path, tip);
+  const PathCrossings crossings = find_crossings(patch, path, tip);
   const double tolerance = same_crossing * patch.h;
   PathCrossing start = find_start(patch, path, tip, crossings);
   while (start.s >= 0 && start.s < path.length()) {

@@ -56,7 +56,4 @@ void leave_out_near(const PlanePatch& patch, const Vec2& point, std::vector<SubP
 // nearer than that leaves no room for the elements between. Never below half the length.
 void draw_back_ends(const PlanePatch& patch, SubPath& path);
 
-// Distance to the nearest boundary facet, which is returned; facets at `except` do not count.
-double boundary_distance(const PlanePatch& patch, const Vec2& p, int except, PatchFacet& nearest);
-
 }  // namespace trocar

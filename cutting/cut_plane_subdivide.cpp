@@ -25,7 +25,7 @@ struct Line {
   double s(const Vec3& X) const { return along.dot(X - from) / along.squaredNorm(); }
 };
 
-using EdgeEnds = std::array<std::int32_t, 2>;  // ascending
+using EdgeEnds = std::array<std::int32_t, 2>;
 
 // A node on the line: its copies on the two sides, equal at an inner end of the cut.
 struct CutPoint {
@@ -102,7 +102,7 @@ void add_nodes(std::map<EdgeEnds, CutPoint>& points, Mesh& mesh) {
   }
 }
 
-struct Triangle {
+struct SplitPart {
   std::array<std::int32_t, 3> corner;
   std::uint8_t cut_facets = 0;
 };
@@ -110,8 +110,8 @@ struct Triangle {
 // The lone corner's triangle and the two of the quadrilateral, halved by the diagonal that starts
 // on the edge from corner 0 to 1 where that is cut, else on the edge from corner 2 to 0. `before`:
 // facets of earlier cuts, by the element's corners.
-std::array<Triangle, 3> split(std::span<const std::int32_t> corner, const Crossed& c,
-                              const CutPoint& p, const CutPoint& q, std::uint8_t before) {
+std::array<SplitPart, 3> split(std::span<const std::int32_t> corner, const Crossed& c,
+                               const CutPoint& p, const CutPoint& q, std::uint8_t before) {
   // Facet f lies opposite corner f.
   const auto old = [&](int beyond, int place) {
     const unsigned facet = before >> ((c.lone + beyond) % 3) & 1U;
@@ -125,12 +125,12 @@ std::array<Triangle, 3> split(std::span<const std::int32_t> corner, const Crosse
   const std::int32_t quad_q = c.is_lone_left ? q.right : q.left;
   constexpr std::uint8_t at_0 = 1U << 0, at_1 = 1U << 1;
   const auto mask = [](unsigned bits) { return static_cast<std::uint8_t>(bits); };
-  const Triangle tip{{v, lone_p, lone_q}, mask(at_0 | old(1, 1) | old(2, 2))};
+  const SplitPart tip{{v, lone_p, lone_q}, mask(at_0 | old(1, 1) | old(2, 2))};
   if (c.lone == 1)
-    return {tip, Triangle{{quad_p, next, quad_q}, mask(at_1 | old(2, 2))},
-            Triangle{{next, last, quad_q}, mask(old(1, 0) | old(0, 2))}};
-  return {tip, Triangle{{quad_p, next, last}, mask(old(0, 0) | old(2, 2))},
-          Triangle{{quad_p, last, quad_q}, mask(at_1 | old(1, 0))}};
+    return {tip, SplitPart{{quad_p, next, quad_q}, mask(at_1 | old(2, 2))},
+            SplitPart{{next, last, quad_q}, mask(old(1, 0) | old(0, 2))}};
+  return {tip, SplitPart{{quad_p, next, last}, mask(old(0, 0) | old(2, 2))},
+          SplitPart{{quad_p, last, quad_q}, mask(at_1 | old(1, 0))}};
 }
 
 }  // namespace
@@ -153,7 +153,7 @@ Mesh subdivide_along(const Mesh& mesh, const Vec3& a, const Vec3& b) {
     }
     const CutPoint& p = points.at(edge_of(corner, next->lone));
     const CutPoint& q = points.at(edge_of(corner, next->lone + 2));
-    for (const Triangle& t : split(corner, *next, p, q, mesh.cut_facets[e])) {
+    for (const SplitPart& t : split(corner, *next, p, q, mesh.cut_facets[e])) {
       add_element(result, ElementType::tri3, t.corner);
       result.cut_facets.back() = t.cut_facets;
     }

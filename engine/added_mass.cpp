@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/box.h"
 #include "base/log.h"
 #include "base/number_text.h"
 #include "engine/event_log.h"
@@ -29,10 +28,8 @@ AddedMass measure(const MassScaling& scaling, const Simulation& s) {
         added.largest_cluster, scaling.offset[static_cast<std::size_t>(c) + 1] - scaling.offset[c]);
   const auto most = std::max_element(scaling.added.begin(), scaling.added.end());
   added.heaviest_node = scaling.node[most - scaling.added.begin()];
-  Box box;
-  for (const std::int32_t node : scaling.node) box.add(s.mesh.X[node]);
-  added.low = box.low;
-  added.high = box.high;
+  added.box = {};
+  for (const std::int32_t node : scaling.node) added.box.add(s.mesh.X[node]);
   return added;
 }
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "base/vec.h"
+#include "base/box.h"
 #include "solver/mass_scaling.h"
 
 namespace trocar {
@@ -14,8 +14,8 @@ struct Simulation;
 struct AddedMass {
   double mass = 0, share = 0;  // [kg], of the body's mass
   std::int32_t n_elements = 0, n_nodes = 0, n_clusters = 0, largest_cluster = 0;  // in nodes
-  std::int32_t heaviest_node = -1;               // where most was added
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // box around the nodes concerned [m]
+  std::int32_t heaviest_node = -1;      // where most was added
+  Box box{Vec3::Zero(), Vec3::Zero()};  // around the nodes concerned [m]
 };
 
 // Finds the elements to be scaled, if the scene asks for it, and moves clusters that lie on several

@@ -140,10 +140,7 @@ double restore_strain_energy(std::span<const std::int32_t> nodes, double wanted,
 double restore_strain_energy(std::span<const std::int32_t> nodes, double wanted, double tolerance,
                              const Mesh& mesh, Patch& patch, GlobalState& global) {
   std::vector<std::int32_t> local;
-  const std::vector<std::int32_t>& all = patch.sub.node;
-  for (const std::int32_t i : nodes)
-    local.push_back(
-        static_cast<std::int32_t>(std::lower_bound(all.begin(), all.end(), i) - all.begin()));
+  for (const std::int32_t i : nodes) local.push_back(place_in(patch.sub.node, i));
   const double surplus = restore_strain_energy(local, wanted, tolerance, patch);
   for (std::size_t k = 0; k < local.size(); ++k) {
     const auto i = static_cast<std::size_t>(nodes[k]);

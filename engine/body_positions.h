@@ -5,6 +5,7 @@
 #include "cutting/cut_positions.h"
 #include "engine/cut_group.h"
 #include "engine/simulation.h"
+#include "mesh/element_boxes.h"
 
 namespace trocar {
 

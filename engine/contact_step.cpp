@@ -25,7 +25,7 @@ constexpr std::size_t n_numbers = 16;
 std::vector<double> as_numbers(const ContactSet& set, std::span<const Tilt> tilts) {
   std::vector<double> numbers;
   for (const Tilt& tilt : tilts) {
-    for (const std::int32_t place : tilt.place) numbers.push_back(set.node[to_size(place)]);
+    for (const std::int32_t place : tilt.place) numbers.push_back(set.node[place]);
     for (const Vec3& edge : tilt.edge) numbers.insert(numbers.end(), edge.begin(), edge.end());
     numbers.insert(numbers.end(), tilt.normal.begin(), tilt.normal.end());
     numbers.push_back(tilt.turn);
@@ -67,11 +67,12 @@ void add_tilt_forces(std::span<const Tilt> tilts, const State& start, const std:
   for (const Tilt& tilt : tilts) {
     std::array<Vec3, 3> moved, of_tilt{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     for (std::size_t a = 0; a < 3; ++a) {
-      const std::size_t k = 3 * to_size(tilt.place[a]);
+      const std::size_t k = 3 * static_cast<std::size_t>(tilt.place[a]);
       moved[a] = Vec3::Map(&u[k]) - Vec3::Map(&start.u[k]);
     }
     add_tilt_force(tilt, moved, of_tilt);
-    for (std::size_t a = 0; a < 3; ++a) Vec3::Map(&force[3 * to_size(tilt.place[a])]) += of_tilt[a];
+    for (std::size_t a = 0; a < 3; ++a)
+      Vec3::Map(&force[3 * static_cast<std::size_t>(tilt.place[a])]) += of_tilt[a];
   }
 }
 
@@ -81,10 +82,8 @@ double search_around(const Simulation& s, std::vector<Tilt> tilts, double enough
                      std::size_t most) {
   const std::unique_ptr<Patch> patch = make_present_patch_around(s, corners_of(tilts), most);
   if (!patch) return 0;
-  const std::vector<std::int32_t>& node = patch->sub.node;
   for (Tilt& tilt : tilts)
-    for (std::int32_t& place : tilt.place)
-      place = static_cast<std::int32_t>(std::ranges::lower_bound(node, place) - node.begin());
+    for (std::int32_t& place : tilt.place) place = place_in(patch->sub.node, place);
   const auto with_tilts = [&](const std::vector<double>& u, std::vector<double>& force) {
     add_tilt_forces(tilts, patch->state, u, force);
   };

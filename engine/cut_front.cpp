@@ -25,7 +25,7 @@ constexpr double beside = 0.4;
 constexpr double least_across = 0.05;
 
 // A blade's motion in a frame.
-struct Motion {
+struct EdgeMotion {
   const Simulation& s;
   const FrameSpan& span;
   const CutStage& stage;
@@ -47,14 +47,14 @@ struct Motion {
   }
 };
 
-Motion motion_of(const Simulation& s, const FrameSpan& span, const CutStage& stage) {
-  Motion motion{s, span, stage, Vec3::Zero(), Vec3::Zero()};
+EdgeMotion motion_of(const Simulation& s, const FrameSpan& span, const CutStage& stage) {
+  EdgeMotion motion{s, span, stage, Vec3::Zero(), Vec3::Zero()};
   const Vec3 way = middle_of(motion.edge_at(span.t1)) - middle_of(motion.edge_at(span.t0));
   motion.velocity = way / (span.t1 - span.t0);
   return motion;
 }
 
-Box box_of(const Motion& motion, double margin) {
+Box box_of(const EdgeMotion& motion, double margin) {
   Box box;
   for (const double time : {motion.span.t0, motion.span.t1})
     box.add(bounding_box(motion.edge_at(time)));
@@ -63,7 +63,7 @@ Box box_of(const Motion& motion, double margin) {
 
 // In the stroke so far, else of what is near. What springs back from a blade that it met is not how
 // the tissue comes.
-std::optional<Vec3> tissue_velocity_of(const Motion& motion, BodyPositions& positions,
+std::optional<Vec3> tissue_velocity_of(const EdgeMotion& motion, BodyPositions& positions,
                                        double reach) {
   const CutStage& stage = motion.stage;
   if (stage.is_in_stroke) return stage.tissue_velocity;
@@ -114,7 +114,7 @@ double distance_to(const std::vector<Vec3>& path, const Vec3& p) {
 }
 
 // Whether the blade has been where the edge goes, and the cut waits there or leaves it joined.
-bool is_swept(const Motion& motion, std::int32_t element, const Place& place) {
+bool is_swept(const EdgeMotion& motion, std::int32_t element, const Place& place) {
   const CutStage& stage = motion.stage;
   const Vec3 ahead = place.ahead - place.along.dot(place.ahead) * place.along;
   if (motion.s.mesh.dimension() == 3)
@@ -123,13 +123,13 @@ bool is_swept(const Motion& motion, std::int32_t element, const Place& place) {
   return stage.is_in_stroke && distance_to(stage.plane_path, place.X + reach * ahead) < 0.5 * reach;
 }
 
-bool is_open(const Motion& motion, std::span<const std::int32_t> near, const Place& place) {
+bool is_open(const EdgeMotion& motion, std::span<const std::int32_t> near, const Place& place) {
   const Vec3 aside = beside * place.size * place.normal();
   return is_parted(motion.s.mesh, near, {place.X - aside, place.X + aside});
 }
 
 // Of the edge as it lies at some time in the tissue.
-void add_pieces(const Motion& motion, BodyPositions& positions, const std::vector<Vec3>& edge,
+void add_pieces(const EdgeMotion& motion, BodyPositions& positions, const std::vector<Vec3>& edge,
                 double share, std::vector<SegmentPiece>& pieces) {
   const Simulation& s = motion.s;
   const Vec3 ahead = direction_of(motion.engaged({}));
@@ -152,7 +152,7 @@ struct Look {
   std::vector<Vec3> edge;
   double share = 0;
 };
-std::vector<Look> looks_of(const Motion& motion) {
+std::vector<Look> looks_of(const EdgeMotion& motion) {
   const auto time = [&](double share) {
     return motion.span.t0 + share * (motion.span.t1 - motion.span.t0);
   };
@@ -181,7 +181,7 @@ bool is_near(const Simulation& s, const Box& blade) {
 // [m]
 CutFront find_front(const Simulation& s, const FrameSpan& span, const CutStage& stage,
                     BodyPositions& positions, double reach) {
-  Motion motion = motion_of(s, span, stage);
+  EdgeMotion motion = motion_of(s, span, stage);
   positions.elements_near(box_of(motion, reach));  // asks for all nodes at once
   const std::optional<Vec3> tissue = tissue_velocity_of(motion, positions, reach);
   motion.tissue_velocity = tissue.value_or(Vec3::Zero());
@@ -202,7 +202,7 @@ void prepare_drag(Simulation& s, const FrameSpan& span) {
   std::optional<double> way;
   for (CutStage& stage : s.cuts) {
     stage.beside.reset();
-    Motion motion = motion_of(s, span, stage);
+    EdgeMotion motion = motion_of(s, span, stage);
     const Box box = box_of(motion, reach);
     if (!is_cutting(motion.tool(), span.t0, span.t1) || !is_near(s, box)) continue;
     AroundBlade around(s, box, stage, way);

@@ -55,7 +55,7 @@ bool is_parted(const Mesh& mesh, std::span<const std::int32_t> near,
   const Box box = bounding_box(segment);
   return std::ranges::any_of(near, [&](std::int32_t e) {
     return mesh.cut_facets[e] != 0 &&
-           element_box(mesh, e, mesh.X).overlaps(box, slack * (box.high - box.low).norm()) &&
+           element_box(mesh, e, mesh.X).overlaps(box, slack * box.size().norm()) &&
            passes_cut_facet(mesh, e, segment);
   });
 }

@@ -40,7 +40,7 @@ double diagonal(std::span<const double> corners, std::size_t from) {
   for (std::size_t k = from; k < corners.size(); k += per_rank) {
     all.add(Box{Vec3::Map(&corners[k]), Vec3::Map(&corners[k + 3])});
   }
-  return (all.high - all.low).norm();
+  return all.size().norm();
 }
 
 Apart find_apart(const Simulation& s, double time) {
@@ -94,7 +94,7 @@ void add_pairs(std::span<const TissuePair> before, std::span<const Vec3> x, doub
 double largest_difference(const SurfaceView& view) {
   Box speed;
   for (const std::int32_t node : view.node) speed.add(view.v[node]);
-  return (speed.high - speed.low).norm();
+  return speed.size().norm();
 }
 
 constexpr const char* sunk_in = "tissue has sunk into other tissue";

@@ -60,7 +60,7 @@ std::string predict(Simulation& s) {
   std::string text = s.scene.name + "\n";
   text += line("nodes", "%.0f", m.n_nodes);
   text += line("elements", "%.0f", s.mesh.n_elements());
-  text += line("body", "%.4g m on its longest side", (m.high - m.low).maxCoeff());
+  text += line("body", "%.4g m on its longest side", m.box.size().maxCoeff());
   text += line("least quality", "%.3f (mean ratio, 1 is ideal)", m.quality_min);
   text += line("stable step", "%.4g ms", 1e3 * s.watch.stable_step);
   text += line("set by element", "%.0f", s.watch.stable_element);

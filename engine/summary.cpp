@@ -162,8 +162,8 @@ Json added_mass_json(const AddedMass& a) {
           {"clusters", a.n_clusters},
           {"nodes_of_largest_cluster", a.largest_cluster},
           {"heaviest_node", a.heaviest_node},
-          {"box_low_m", {a.low[0], a.low[1], a.low[2]}},
-          {"box_high_m", {a.high[0], a.high[1], a.high[2]}}};
+          {"box_low_m", {a.box.low[0], a.box.low[1], a.box.low[2]}},
+          {"box_high_m", {a.box.high[0], a.box.high[1], a.box.high[2]}}};
 }
 
 Json equilibrium_json(const Equilibrium& e) {

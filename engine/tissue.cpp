@@ -40,10 +40,9 @@ Mesh generate_tissue(const SceneShape& s) {
 
 void place(const SceneTissue& tissue, Mesh& mesh) {
   const Box box = bounding_box(mesh.X);
-  const Vec3 centre = 0.5 * (box.low + box.high);
-  const double longest = (box.high - box.low).maxCoeff();
+  const double longest = box.size().maxCoeff();
   const double factor = tissue.longest_side > 0 ? tissue.longest_side / longest : 1;
-  const Vec3 origin = tissue.is_centred ? centre : Vec3::Zero();
+  const Vec3 origin = tissue.is_centred ? box.middle() : Vec3::Zero();
   for (Vec3& X : mesh.X) X = (X - origin) * factor + tissue.translate;
 }
 
@@ -161,8 +160,7 @@ std::string scene_path(const LoadedScene& loaded, const std::string& file) {
 
 void warn_of_size(const std::string& file, const std::string& key, std::span<const Vec3> X) {
   constexpr double smallest = 5e-4, largest = 3;  // [m]
-  const Box box = bounding_box(X);
-  const double longest = (box.high - box.low).maxCoeff();
+  const double longest = bounding_box(X).size().maxCoeff();
   if (longest >= smallest && longest <= largest) return;
   log_warning(file + ": is " + short_text(longest) + " m long: " + key +
               " says what one unit of the file is, \"1 mm\" for a mesh in millimetres");

@@ -22,7 +22,7 @@ void split(std::span<const Vec3> middle, std::size_t begin, std::size_t end, Ele
   Box box;
   for (auto e = at(begin); e != at(end); ++e) box.add(middle[*e]);
   Eigen::Index axis = 0;
-  (box.high - box.low).maxCoeff(&axis);
+  box.size().maxCoeff(&axis);
   std::nth_element(at(begin), at(half), at(end), [&](std::int32_t a, std::int32_t b) {
     return middle[a][axis] < middle[b][axis];
   });
@@ -34,8 +34,7 @@ template <class Body>
 void for_elements_of_leaf(const ElementBoxes& boxes, std::size_t leaf, const Body& body) {
   for (std::int32_t k = boxes.first[leaf]; k < boxes.first[leaf + 1]; ++k) body(boxes.order[k]);
   const std::size_t n_ordered = boxes.order.size();
-  for (std::int32_t e = boxes.last_added[leaf]; e >= 0;
-       e = boxes.next_added[static_cast<std::size_t>(e) - n_ordered])
+  for (std::int32_t e = boxes.last_added[leaf]; e >= 0; e = boxes.next_added[e - n_ordered])
     body(e);
 }
 
@@ -66,10 +65,8 @@ void split_elements(std::span<const ElementSplit> splits, ElementBoxes& boxes) {
 
 double mean_size(const Mesh& mesh, std::span<const Vec3> x) {
   double sum = 0;
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    const Box box = element_box(mesh, e, x);
-    sum += (box.high - box.low).maxCoeff();
-  }
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    sum += element_box(mesh, e, x).size().maxCoeff();
   return sum / std::max(1, mesh.n_elements());
 }
 
@@ -94,10 +91,7 @@ ElementBoxes make_element_boxes(const Mesh& mesh, std::span<const Vec3> x) {
   for (std::size_t k = 0; k <= n_leaves; ++k)
     boxes.first[k] = static_cast<std::int32_t>(n * k / n_leaves);
   std::vector<Vec3> middle(n);
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    const Box box = element_box(mesh, e, x);
-    middle[e] = 0.5 * (box.low + box.high);
-  }
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) middle[e] = element_box(mesh, e, x).middle();
   split(middle, 0, n_leaves, boxes);
   for (std::size_t leaf = 0; leaf < n_leaves; ++leaf)
     for (std::int32_t k = boxes.first[leaf]; k < boxes.first[leaf + 1]; ++k)

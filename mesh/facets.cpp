@@ -19,9 +19,12 @@ int n_facets(ElementType type) {
 
 std::array<int, 4> facet_corners(ElementType type, int f) {
   using Corners = std::array<int, 4>;
+  constexpr auto of_tet = [](int k) {
+    return Corners{tet_facets[k][0], tet_facets[k][1], tet_facets[k][2], -1};
+  };
   static constexpr std::array<std::array<Corners, 6>, n_element_types> corners = {{
       {{{1, 2, -1, -1}, {2, 0, -1, -1}, {0, 1, -1, -1}}},
-      {{{1, 2, 3, -1}, {0, 3, 2, -1}, {0, 1, 3, -1}, {0, 2, 1, -1}}},
+      {{of_tet(0), of_tet(1), of_tet(2), of_tet(3)}},
       {{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
   }};
   return corners[static_cast<std::size_t>(type)][f];

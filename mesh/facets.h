@@ -14,6 +14,8 @@ namespace trocar {
 // with the inside to its left. hex8: bottom, top, front, right, back, left.
 std::array<int, 4> facet_corners(ElementType type, int f);
 int n_facets(ElementType type);
+inline constexpr std::array<std::array<int, 3>, 4> tet_facets{
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 // Which element lies across each facet.
 struct FacetNeighbours {

@@ -78,7 +78,7 @@ CellKind gmsh_cell_kind(const GmshReader& g, std::int64_t type, std::int64_t ele
   }
 }
 
-std::int32_t gmsh_node(const GmshReader& g, std::int64_t tag, std::int64_t element) {
+static std::int32_t gmsh_node(const GmshReader& g, std::int64_t tag, std::int64_t element) {
   const std::int32_t i = g.node_of->find(tag);
   if (i < 0)
     g.in.fail("element " + std::to_string(element) + " refers to node " + std::to_string(tag) +

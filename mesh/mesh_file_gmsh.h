@@ -43,7 +43,6 @@ Vec3 gmsh_point(GmshReader& g);
 std::int32_t gmsh_physical_tag(GmshReader& g);
 // Throws InputError naming the element where its type is not supported.
 CellKind gmsh_cell_kind(const GmshReader& g, std::int64_t type, std::int64_t element);
-std::int32_t gmsh_node(const GmshReader& g, std::int64_t tag, std::int64_t element);
 // Adds the cell whose corners, numbers by `read`, come next.
 void read_gmsh_corners(GmshReader& g, CellKind kind, std::int64_t tag, std::int32_t group,
                        std::int64_t (*read)(GmshReader&, const char* what));

@@ -111,11 +111,7 @@ MeshStatistics mesh_statistics(const Mesh& mesh) {
   statistics.n_surface_triangles =
       static_cast<std::int32_t>(boundary_surface(mesh).triangle.size());
   statistics.n_pieces = count_pieces(mesh);
-  if (!mesh.X.empty()) {
-    const Box box = bounding_box(mesh.X);
-    statistics.low = box.low;
-    statistics.high = box.high;
-  }
+  if (!mesh.X.empty()) statistics.box = bounding_box(mesh.X);
   count_edges(mesh, statistics);
   if (statistics.n_pieces > 1)
     statistics.n_unjoined = count_unjoined(mesh, 1e-6 * statistics.edge_mean);

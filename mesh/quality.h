@@ -33,7 +33,7 @@ ElementStatistics element_statistics(const Mesh& mesh);
 struct MeshStatistics : ElementStatistics {
   std::int32_t n_nodes = 0, n_surface_triangles = 0, n_pieces = 0;
   std::int32_t n_unjoined = 0;  // nodes of pieces, see count_unjoined; within 1e-6 mean edges
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();      // bounding box [m]
+  Box box{Vec3::Zero(), Vec3::Zero()};               // around it [m]
   double edge_min = 0, edge_mean = 0, edge_max = 0;  // [m]
 };
 MeshStatistics mesh_statistics(const Mesh& mesh);

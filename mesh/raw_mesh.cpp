@@ -45,9 +45,7 @@ void make_group_lists(RawMesh& raw) {
   raw.group_offset.resize(tags.size() + 2);
   std::iota(raw.group_offset.begin() + 1, raw.group_offset.end(), 0);
   for (std::int32_t& group : raw.cell_group)
-    if (group != 0)
-      group = 1 + static_cast<std::int32_t>(std::lower_bound(tags.begin(), tags.end(), group) -
-                                            tags.begin());
+    if (group != 0) group = 1 + place_in(tags, group);
   raw.group_tag = std::move(tags);
 }
 

@@ -35,8 +35,7 @@ std::vector<bool> used_lists(const RawMesh& raw) {
   std::vector<bool> is_used((raw.group_offset.size() - 1) * n_dimensions, false);
   for (std::int32_t c = 0; c < raw.n_cells(); ++c) {
     const auto list = static_cast<std::size_t>(raw.cell_group[c]);
-    is_used[list * n_dimensions + static_cast<std::size_t>(cell_dimension(raw.cell_kind[c]))] =
-        true;
+    is_used[list * n_dimensions + cell_dimension(raw.cell_kind[c])] = true;
   }
   return is_used;
 }
@@ -46,7 +45,7 @@ std::vector<GroupKey> used_keys(const RawMesh& raw, int low, int high) {
   std::vector<GroupKey> keys;
   for (int d = low; d <= high; ++d)
     for (std::size_t list = 0; list + 1 < raw.group_offset.size(); ++list)
-      if (is_used[list * n_dimensions + static_cast<std::size_t>(d)])
+      if (is_used[list * n_dimensions + d])
         for (const std::int32_t tag : raw.groups(static_cast<std::int32_t>(list)))
           keys.push_back({d, tag});
   sort_unique(keys);
@@ -118,9 +117,7 @@ static void name_only_region(const RawMesh& raw, int dimension, GroupNumbers& gr
 std::vector<std::int32_t> make_regions(const RawMesh& raw, int dimension, Mesh& mesh) {
   GroupNumbers groups = number_groups(raw, dimension, dimension);
   const std::vector<bool> is_used = used_lists(raw);
-  const auto has_cells = [&](std::size_t list) {
-    return is_used[list * n_dimensions + static_cast<std::size_t>(dimension)];
-  };
+  const auto has_cells = [&](std::size_t list) { return is_used[list * n_dimensions + dimension]; };
   if (!has_cells(0)) name_only_region(raw, dimension, groups);
   std::vector<std::int32_t> region(raw.group_offset.size() - 1, -1);
   for (std::size_t list = 1; list < region.size(); ++list) {

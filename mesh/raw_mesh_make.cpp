@@ -39,7 +39,7 @@ bool is_plane(const RawMesh& raw) {
   for_cells(raw, 2, [&](std::int32_t, std::span<const std::int32_t> corners) {
     for (const std::int32_t i : corners) box.add(raw.X[i]);
   });
-  const Vec3 size = box.high - box.low;
+  const Vec3 size = box.size();
   return size.z() <= 1e-9 * std::max(size.x(), size.y());
 }
 

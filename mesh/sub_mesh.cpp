@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/sort_unique.h"
 #include "mesh/node_corners.h"
 
 namespace trocar {
@@ -11,10 +12,7 @@ SubMesh make_sub_mesh(const Mesh& mesh, std::span<const std::int32_t> elements) 
               .node = nodes_of(mesh, elements),
               .element = {elements.begin(), elements.end()}};
   for (const std::int32_t i : sub.node) sub.mesh.X.push_back(mesh.X[i]);
-  const auto number = [&](std::int32_t i) {
-    return static_cast<std::int32_t>(std::lower_bound(sub.node.begin(), sub.node.end(), i) -
-                                     sub.node.begin());
-  };
+  const auto number = [&](std::int32_t i) { return place_in(sub.node, i); };
   for (const std::int32_t e : elements) {
     std::array<std::int32_t, max_corners> corner{};
     const std::span<const std::int32_t> node = mesh.corners(e);

@@ -28,8 +28,8 @@ static const HourglassKernels& made_once(Precision precision) {
   return kernels;
 }
 
-const HourglassKernels& hourglass_kernels_of(Simd simd, Precision precision) {
-  switch (simd) {
+const HourglassKernels& active_hourglass_kernels(Precision precision) {
+  switch (active_simd()) {
     case Simd::sse2:
       return made_once<sse2::make_hourglass_kernels>(precision);
     case Simd::avx2:
@@ -40,10 +40,6 @@ const HourglassKernels& hourglass_kernels_of(Simd simd, Precision precision) {
       break;
   }
   return made_once<scalar::make_hourglass_kernels>(precision);
-}
-
-const HourglassKernels& active_hourglass_kernels(Precision precision) {
-  return hourglass_kernels_of(active_simd(), precision);
 }
 
 }  // namespace trocar

@@ -37,8 +37,7 @@ struct HourglassKernels {
   HourglassBalanceKernel balance;
 };
 
-// As kernels_of and active_kernels.
-const HourglassKernels& hourglass_kernels_of(Simd simd, Precision precision);
+// As active_kernels.
 const HourglassKernels& active_hourglass_kernels(Precision precision);
 
 }  // namespace trocar

@@ -17,7 +17,7 @@ void sum_cluster(const Model& model, std::size_t c, std::span<const double> forc
     const std::int64_t i = clusters.node[k];
     const double d = clusters.added[k], share = d / model.inertia[i];
     for (int j = 0; j < 3; ++j) {
-      const std::size_t at = 3 * c + static_cast<std::size_t>(j);
+      const std::size_t at = 3 * c + j;
       const bool is_free = !is_fixed(model, i, j);
       sides.mass[at] += is_free ? share * model.mass[i] : d;
       sides.force[at] += is_free ? share * force[3 * i + j] : 0;

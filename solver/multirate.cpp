@@ -26,7 +26,7 @@ Chebyshev chebyshev(int n, double x) {
   double dT = 0, next_dT = 1;  // of T_k-1, T_k
   for (int k = 1; k < n; ++k) {
     const double T_k = c.T[k];
-    c.T.push_back(2 * x * T_k - c.T[static_cast<std::size_t>(k) - 1]);
+    c.T.push_back(2 * x * T_k - c.T[k - 1]);
     const double after = 2 * T_k + 2 * x * next_dT - dT;
     dT = next_dT;
     next_dT = after;

@@ -129,8 +129,7 @@ void add_load(const Model& model, const RelaxTask& task, double share, Scratch& 
   if (share == 1) return;
   for (std::size_t i = 0; i < model.mass.size(); ++i)
     for (int j = 0; j < 3; ++j)
-      scratch.force[3 * i + static_cast<std::size_t>(j)] -=
-          (1 - share) * model.mass[i] * model.options.gravity[j];
+      scratch.force[3 * i + j] -= (1 - share) * model.mass[i] * model.options.gravity[j];
 }
 
 void place_held(const Model& model, const RelaxTask& task, std::span<const Vec3> start,

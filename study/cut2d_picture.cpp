@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/box.h"
 #include "mesh/facets.h"
 #include "study/svg.h"
 
@@ -22,17 +23,11 @@ struct Frame {
 };
 
 Frame frame_of(const Mesh& mesh, const std::vector<Cut2dPath>& paths) {
-  Vec3 low = mesh.X.front(), high = low;
-  const auto include = [&](const Vec3& X) {
-    low = low.cwiseMin(X);
-    high = high.cwiseMax(X);
-  };
-  for (const Vec3& X : mesh.X) include(X);
-  for (const Cut2dPath& path : paths)
-    for (const Vec3& X : path) include(X);
-  const Vec3 size = high - low;
+  Box box = bounding_box(mesh.X);
+  for (const Cut2dPath& path : paths) box.add(bounding_box(path));
+  const Vec3 size = box.size();
   const double scale = longest_side / std::max(size.x(), size.y());
-  return {low.x(), high.y(), scale, scale * size.x() + 2 * margin,
+  return {box.low.x(), box.high.y(), scale, scale * size.x() + 2 * margin,
           scale * size.y() + 2 * margin + head};
 }
 

@@ -41,5 +41,11 @@ TEST(SortUnique, keeps_the_ends_of_a_full_range) {
   EXPECT_EQ(values, (std::vector<std::int32_t>{highest - 1000, highest}));
 }
 
+TEST(SortUnique, makes_a_list_in_which_a_value_has_a_place) {
+  const std::vector<std::int32_t> values = {3, 5, 9};
+  for (std::int32_t k = 0; k < 3; ++k) EXPECT_EQ(place_in(values, values[std::size_t(k)]), k);
+  EXPECT_EQ(place_in(values, 6), 2);
+}
+
 }  // namespace
 }  // namespace trocar

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cutting_tet.h"
+#include "known_positions.h"
 
 namespace trocar {
 namespace {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "cutting_cube.h"
+#include "known_positions.h"
 
 namespace trocar::cutting_test {
 namespace {
@@ -49,7 +50,7 @@ TEST(CutFollow, second_blade_on_the_same_line_opens_no_slit_of_its_own) {
     }
 }
 
-struct Plane {
+struct BladePlane {
   Vec3 centre, normal;
 };
 
@@ -71,7 +72,7 @@ class TwoBlades {
     for (int k = 0; k < 2; ++k) cutters_.emplace_back(CutTetOptions{}).prepare(body_.mesh);
   }
   // Their edges are across the line in which the planes cross, and go along that line.
-  TwoBlades(Body body, const std::array<Plane, 2>& planes)
+  TwoBlades(Body body, const std::array<BladePlane, 2>& planes)
       : TwoBlades(std::move(body), across(planes)) {}
 
   // The second one begins `lag` frames later.
@@ -97,7 +98,7 @@ class TwoBlades {
   std::vector<TetCutter> cutters_;
   Ledger ledger_;
 
-  static std::array<MovingBlade, 2> across(const std::array<Plane, 2>& planes) {
+  static std::array<MovingBlade, 2> across(const std::array<BladePlane, 2>& planes) {
     const Vec3 line = planes[0].normal.cross(planes[1].normal).normalized();
     std::array<MovingBlade, 2> blades;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -130,10 +131,10 @@ TEST(CutFollow, two_blades_at_once_whose_planes_cross_part_the_body_in_four) {
   constexpr int n = 30;
   int n_right = 0;
   for (int k = 0; k < n; ++k) {
-    std::array<Plane, 2> planes;
+    std::array<BladePlane, 2> planes;
     do {
       const Vec3 centre = Vec3::Constant(0.5) + 0.1 * random_direction(random);
-      for (Plane& plane : planes) plane = {centre, random_direction(random)};
+      for (BladePlane& plane : planes) plane = {centre, random_direction(random)};
     } while (std::abs(planes[0].normal.dot(planes[1].normal)) > 0.5);
     TwoBlades blades(cube(), planes);
     blades.advance_both();
@@ -186,8 +187,8 @@ TEST(CutFollow, two_blades_that_meet_part_the_body) {
 TEST(CutFollow, floors_do_not_sink_from_blade_to_blade) {
   std::mt19937_64 random(5);
   for (int k = 0; k < 8; ++k) {
-    std::array<Plane, 2> planes;
-    for (Plane& plane : planes)
+    std::array<BladePlane, 2> planes;
+    for (BladePlane& plane : planes)
       plane = {Vec3::Constant(0.5) + 0.1 * random_direction(random), random_direction(random)};
     const Body body = cube();
     for (const bool by_one_cutter : {true, false}) {

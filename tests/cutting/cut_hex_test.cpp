@@ -7,6 +7,7 @@
 
 #include "cutting/cut_hex_shape.h"
 #include "cutting_tet.h"
+#include "known_positions.h"
 #include "mesh/hex_split.h"
 
 namespace trocar {

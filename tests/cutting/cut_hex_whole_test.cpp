@@ -3,6 +3,7 @@
 
 #include "cutting/cut_hex.h"
 #include "cutting_tet.h"
+#include "known_positions.h"
 #include "mesh/hex_split.h"
 
 namespace trocar {

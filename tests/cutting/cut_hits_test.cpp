@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cutting_tet.h"
+#include "known_positions.h"
 
 namespace trocar {
 namespace {

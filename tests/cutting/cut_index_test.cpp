@@ -5,6 +5,7 @@
 #include "cutting/cut_patch.h"
 #include "cutting/cut_split.h"
 #include "cutting_tet.h"
+#include "known_positions.h"
 
 namespace trocar {
 namespace {

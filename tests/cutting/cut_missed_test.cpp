@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cutting_cube.h"
+#include "known_positions.h"
 
 namespace trocar {
 namespace {
@@ -161,8 +162,7 @@ TEST(Necks, of_a_piece_that_a_closed_ring_does_not_free_are_told_near_its_point)
   for (const BoxElements elements : {BoxElements::tet4_kuhn, BoxElements::tet4_five})
     for (const double beyond : {-0.001, 0.0, 0.001, 0.002, 0.003}) {
       const Outcome outcome = cut_cone(elements, point, beyond);
-      const auto neck =
-          std::ranges::find(outcome.refusals, std::int32_t{CutRefusal::neck}, &CutRefusal::reason);
+      const auto neck = std::ranges::find(outcome.refusals, CutRefusal::neck, &CutRefusal::reason);
       const bool is_told = neck != outcome.refusals.end();
       n_freed += outcome.n_pieces > 1 ? 1 : 0;
       n_told += outcome.n_pieces == 1 && is_told ? 1 : 0;

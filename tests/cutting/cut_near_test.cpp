@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cutting_tet.h"
+#include "known_positions.h"
 #include "mesh_joined.h"
 
 namespace trocar {

@@ -36,13 +36,13 @@ std::array<double, 2> region_areas(const Mesh& mesh) {
   return area;
 }
 
-struct Count {
+struct RegionCount {
   int n_cut = 0, n_whole = 0, n_places = 0;  // whole: nothing was refused
   double step = 1, deviation = 0;
 };
 
 // The areas of both regions change by rounding alone.
-Mesh cut_regions_and_check(const Mesh& mesh, const std::vector<Vec3>& path, Count& count) {
+Mesh cut_regions_and_check(const Mesh& mesh, const std::vector<Vec3>& path, RegionCount& count) {
   const double floor = plane_step_ratio * least_step_bound(mesh);
   const PlaneCut result = cut_plane(mesh, path, -1, none_held(mesh), {.least_step = floor});
   count.n_places += result.figures.n_refused;
@@ -68,7 +68,7 @@ double uniform(std::mt19937& random, double a, double b) {
   return a + (b - a) * (random() / 4294967296.0);
 }
 
-void print(const char* kind, int configuration, const Count& count) {
+void print(const char* kind, int configuration, const RegionCount& count) {
   std::printf(
       "%s, configuration %d: %d cut, %d without a refused place, %d places; least step %.2f, "
       "largest deviation %.2f\n",
@@ -78,7 +78,7 @@ void print(const char* kind, int configuration, const Count& count) {
 TEST(CutPlaneInterface, keeps_both_regions_when_a_cut_passes_beside_it) {
   for (const int c : {2, 4}) {
     const Mesh mesh = layered_plate(c);
-    Count count;
+    RegionCount count;
     for (int k = -18; k <= 18; ++k) {
       const double y = (interface_row + 0.05 * k) * row_height(mesh);
       cut_regions_and_check(mesh, {{20 * mm, y, 0}, {50 * mm, y, 0}}, count);
@@ -109,7 +109,7 @@ TEST(CutPlaneInterface, keeps_both_regions_when_through_cuts_cross_it) {
   for (const int c : {2, 4}) {
     const Mesh mesh = layered_plate(c);
     std::mt19937 random(5);
-    Count count;
+    RegionCount count;
     int n_apart = 0;
     for (int k = 0; k < n_cuts_across; ++k) {
       const std::vector<Vec3> path = {{uniform(random, 12, 58) * mm, -mm, 0},
@@ -126,7 +126,7 @@ TEST(CutPlaneInterface, keeps_both_regions_when_cuts_inside_cross_it) {
     const Mesh mesh = layered_plate(c);
     const double top = 15 * row_height(mesh);
     std::mt19937 random(6);
-    Count count;
+    RegionCount count;
     for (int k = 0; k < n_cuts_across; ++k) {
       std::vector<Vec3> path(2);
       do

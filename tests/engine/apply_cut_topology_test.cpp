@@ -17,6 +17,7 @@
 #include "engine_split.h"
 #include "engine_started.h"
 #include "engine_topology_equal.h"
+#include "known_positions.h"
 #include "mesh/surface_edit.h"
 #include "mesh_split.h"
 #include "solver/history.h"

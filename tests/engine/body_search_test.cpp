@@ -48,7 +48,7 @@ TEST(BodySearch, never_gives_a_longer_step_than_a_search_of_the_body_as_it_is) {
 void stretch_middle(Simulation& s, double strain) {
   Box box;
   for (const Vec3& X : s.mesh.X) box.add(X);
-  const Vec3 middle = (box.low + box.high) / 2;
+  const Vec3 middle = box.middle();
   for (std::size_t i = 0; i < s.mesh.X.size(); ++i) {
     const Vec3 r = s.mesh.X[i] - middle;
     const double far = r.squaredNorm() / (4 * s.edge_length * s.edge_length);

@@ -202,7 +202,7 @@ TEST(PlaneMeshes, of_alternating_rows_begin_with_a_long_one_at_the_origin) {
   EXPECT_EQ(find_node_set(mesh, "y-")->node.size(), 10U);
   EXPECT_EQ(find_node_set(mesh, "y+")->node.size(), 9U);
   EXPECT_EQ(find_node_set(mesh, "x-")->node.size(), 8U);
-  EXPECT_NEAR(mesh_statistics(mesh).high.y(), 47.151e-3, 1e-6);
+  EXPECT_NEAR(mesh_statistics(mesh).box.high.y(), 47.151e-3, 1e-6);
 }
 
 TEST(PlaneMeshes, refuse_what_has_no_area) {

@@ -72,7 +72,7 @@ TEST(MeshFile, a_missing_file_an_empty_file_and_a_directory_are_refused) {
   EXPECT_EQ(error_of([&] { read_mesh(folder.file("empty.msh", ""), 1); }),
             folder.file("empty.msh") + ": is empty");
   EXPECT_EQ(error_of([&] { read_mesh(folder.file("."), 1); }),
-            folder.file(".") + ": is a directory, not a mesh file");
+            folder.file(".") + ": is a directory, not a file");
 }
 
 TEST(MeshFile, a_surface_file_is_known_by_its_ending_in_small_or_capital_letters) {

@@ -88,8 +88,8 @@ TEST(MeshStatistics, of_a_box_of_cubes_are_known) {
   EXPECT_EQ(s.n_surface_triangles, 2 * 2 * (2 * 3 + 3 * 1 + 1 * 2));
   EXPECT_EQ(s.n_pieces, 1);
   EXPECT_NEAR(s.volume, 6, 1e-14);
-  EXPECT_EQ(s.low, Vec3(-1, 0, 0));
-  EXPECT_EQ(s.high, Vec3(1, 3, 1));
+  EXPECT_EQ(s.box.low, Vec3(-1, 0, 0));
+  EXPECT_EQ(s.box.high, Vec3(1, 3, 1));
   for (const double edge : {s.edge_min, s.edge_mean, s.edge_max}) EXPECT_NEAR(edge, 1, 1e-14);
   for (const double q : {s.quality_min, s.quality_mean}) EXPECT_NEAR(q, 1, 1e-14);
 }

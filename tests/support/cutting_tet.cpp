@@ -1,6 +1,7 @@
 #include "cutting_tet.h"
 
 #include "cutting/cut_hex.h"
+#include "known_positions.h"
 
 namespace trocar::cutting_test {
 

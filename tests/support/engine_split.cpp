@@ -1,6 +1,7 @@
 #include "engine_split.h"
 
 #include "engine/simulation.h"
+#include "known_positions.h"
 
 namespace trocar {
 

@@ -2,6 +2,7 @@
 
 #include "base/log.h"
 #include "base/threads.h"
+#include "known_positions.h"
 
 namespace trocar {
 
