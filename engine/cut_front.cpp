@@ -7,6 +7,7 @@
 #include "base/segment.h"
 #include "engine/cut_look.h"
 #include "engine/cut_parted.h"
+#include "engine/edge_place.h"
 #include "engine/frame_watch.h"
 #include "engine/tissue_way.h"
 
@@ -73,39 +74,6 @@ std::optional<Vec3> tissue_velocity_of(const EdgeMotion& motion, BodyPositions& 
   return stage.tissue_velocity + share_of_frame(span.t1 - span.t0) * (*now - stage.tissue_velocity);
 }
 
-// Columns: three edges, of a hexahedron the means of four parallel ones, of a triangle two and the
-// plane's normal.
-Mat3 axes_of(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
-  const auto corner = mesh.corners(e);
-  const auto at = [&](std::size_t a) { return x[corner[a]]; };
-  Mat3 axes;
-  if (corner.size() == 8)
-    axes << at(1) - at(0) + at(2) - at(3) + at(5) - at(4) + at(6) - at(7),
-        at(3) - at(0) + at(2) - at(1) + at(7) - at(4) + at(6) - at(5),
-        at(4) - at(0) + at(5) - at(1) + at(6) - at(2) + at(7) - at(3);
-  else
-    axes << at(1) - at(0), at(2) - at(0), corner.size() == 4 ? Vec3(at(3) - at(0)) : Vec3::UnitZ();
-  return corner.size() == 8 ? Mat3(axes / 4) : axes;
-}
-
-// Where a piece of the edge is in the reference configuration, with the edge and its way there.
-struct Place {
-  Vec3 X, along, ahead;
-  double size = 0;  // of the element [m]
-
-  Vec3 normal() const { return along.cross(ahead).normalized(); }
-};
-Place place_of(const Mesh& mesh, std::span<const Vec3> x, const Location& at, const Vec3& along,
-               const Vec3& ahead) {
-  const Mat3 dX = axes_of(mesh, at.element, mesh.X);
-  const Mat3 back = dX * axes_of(mesh, at.element, x).inverse();
-  const double volume = std::abs(dX.determinant());
-  return {.X = interpolate(mesh, at, mesh.X),
-          .along = (back * along).normalized(),
-          .ahead = (back * ahead).normalized(),
-          .size = mesh.dimension() == 2 ? std::sqrt(volume) : std::cbrt(volume)};
-}
-
 double distance_to(const std::vector<Vec3>& path, const Vec3& p) {
   double least = 1e300;
   for (std::size_t k = 1; k < path.size(); ++k)
@@ -114,7 +82,7 @@ double distance_to(const std::vector<Vec3>& path, const Vec3& p) {
 }
 
 // Whether the blade has been where the edge goes, and the cut waits there or leaves it joined.
-bool is_swept(const EdgeMotion& motion, std::int32_t element, const Place& place) {
+bool is_swept(const EdgeMotion& motion, std::int32_t element, const EdgePlace& place) {
   const CutStage& stage = motion.stage;
   const Vec3 ahead = place.ahead - place.along.dot(place.ahead) * place.along;
   if (motion.s.mesh.dimension() == 3)
@@ -123,7 +91,7 @@ bool is_swept(const EdgeMotion& motion, std::int32_t element, const Place& place
   return stage.is_in_stroke && distance_to(stage.plane_path, place.X + reach * ahead) < 0.5 * reach;
 }
 
-bool is_open(const EdgeMotion& motion, std::span<const std::int32_t> near, const Place& place) {
+bool is_open(const EdgeMotion& motion, std::span<const std::int32_t> near, const EdgePlace& place) {
   const Vec3 aside = beside * place.size * place.normal();
   return is_parted(motion.s.mesh, near, {place.X - aside, place.X + aside});
 }
@@ -140,7 +108,7 @@ void add_pieces(const EdgeMotion& motion, BodyPositions& positions, const std::v
   const std::vector<std::int32_t> near =
       positions.elements_near(box_around(edge).grown(s.edge_length));
   for (SegmentPiece& piece : locate_edge(s, positions, edge)) {
-    const Place place = place_of(s.mesh, positions.x(), piece.middle, along, ahead);
+    const EdgePlace place = place_of(s.mesh, positions.x(), piece.middle, along, ahead);
     if (is_open(motion, near, place) || is_swept(motion, piece.middle.element, place)) continue;
     piece.length *= share * across;
     pieces.push_back(piece);

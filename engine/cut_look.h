@@ -4,6 +4,7 @@
 
 #include "engine/archive_cut.h"
 #include "engine/body_positions.h"
+#include "engine/swept_area.h"
 
 namespace trocar {
 
@@ -26,11 +27,12 @@ struct BladeLook {
   CutterEdit edit;
   CutFigures figures;
   CutLeft left;  // by the stroke, if it ends
+  std::vector<SweptPlace> swept;
 };
 template <class Archive>
 void visit(Archive& a, BladeLook& l) {
   a(l.engaged, l.has_met, l.is_beside, l.is_last, l.goes_on, l.share_inside, l.most_inside, l.edit,
-    l.figures, l.left);
+    l.figures, l.left, l.swept);
 }
 
 inline Vec3 middle_of(const std::vector<Vec3>& edge) {

@@ -32,6 +32,8 @@ struct CutRecord {
   double strain_energy_change = 0;   // largest |relative| of the edited elements by an edit
   double blade_travel = 0,
          deepest = 0;  // of the edge's middle with some of it inside; depth of the edge inside [m]
+  // Of a stroke that has ended in a body in space, see SweptArea. [m^2]
+  double swept_area = 0, parted_area = 0;
   double seconds = 0, worst_seconds = 0;  // of all frames, of the longest one
 };
 

@@ -35,6 +35,7 @@ void start_stroke(CutStage& stage, const Tool& tool, double time) {
   stage.n_idle_frames = 0;
   stage.strokes.push_back({.tool = tool.name, .start = time});
   stage.plane_tip = -1;
+  stage.swept.clear();
   if (!stage.knows_tissue) stage.tissue_velocity.setZero();
 }
 
@@ -158,6 +159,25 @@ void note_deviation(Simulation& s, const CutRecord& record) {
             " mm (deviation_mean_m): a lower cutting.least_step_ratio or a finer mesh helps");
 }
 
+// Elements of which the edge went through a part alone stay whole, as do those around an end of the
+// cut: of a shallow one that may be all.
+void note_swept_area(Simulation& s, std::span<const SweptPlace> swept, CutRecord& record) {
+  constexpr double little = 1.0 / 3, enough = 4;  // of the swept area; edges squared
+  const SweptArea area = measure_swept(s.mesh, s.edge_length, swept);
+  record.swept_area = area.whole;
+  record.parted_area = area.parted;
+  if (record.figures.n_opened_facets == 0 || area.parted > little * area.whole ||
+      area.whole < enough * s.edge_length * s.edge_length)
+    return;
+  note_event(s, record.end,
+             record.tool + " has parted " + short_text(1e4 * area.parted) + " of the " +
+                 short_text(1e4 * area.whole) + " cm^2 that its edge went through, at most " +
+                 short_text(1e3 * record.deepest) + " mm deep: elements, whose edges have " +
+                 short_text(1e3 * s.edge_length) +
+                 " mm, stay whole where it goes through a part of them; a finer mesh helps, or a "
+                 "deeper cut");
+}
+
 // What the group's cutters have made, on all ranks.
 void take_over(Simulation& s, const CutGroup& group, const BladeLook& look, CutStage& stage) {
   stage.keepers = group.is_everyone() ? std::vector<int>() : group.ranks();
@@ -207,6 +227,7 @@ bool take_up_stroke(Simulation& s, const BladeWay& blade, const BladeLook& look,
   }
   stage.n_idle_frames = look.has_met ? 0 : stage.n_idle_frames + 1;
   stage.strokes.back().end = blade.span.t1;
+  stage.swept.insert(stage.swept.end(), look.swept.begin(), look.swept.end());
   if (look.is_beside) note_beside(s, blade.span.t1, tool, stage);
   return true;
 }
@@ -248,6 +269,7 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
   if (!look.is_last) return;
   note_askew(s, record);
   note_refusals(s, record);
+  note_swept_area(s, stage.swept, record);
   note_deviation(s, record);
   note_energy_change(s, record);
   end_stroke(stage);

@@ -15,6 +15,12 @@ namespace trocar {
 
 struct Simulation;
 
+// Where a blade's edge came by in the tissue, in the reference configuration (swept_area.h).
+struct SweptPlace {
+  Vec3 X = Vec3::Zero(), normal = Vec3::UnitZ();  // [m], unit: of the surface that it sweeps
+  double area = 0;                                // [m^2]
+};
+
 // What a blade keeps from frame to frame beside its stroke.
 struct CutProgress {
   std::vector<Vec3> plane_path;  // swept by the tip since the last edit, reference positions [m]
@@ -26,6 +32,7 @@ struct CutProgress {
   bool is_engaged = false;              // some of the edge is in the tissue at the frame's end
   Vec3 tissue_velocity = Vec3::Zero();  // around the edge, in the stroke so far [m/s]
   bool knows_tissue = false;            // from before it met the blade
+  std::vector<SweptPlace> swept;        // in the stroke so far, of a body in space
 };
 
 struct CutStage : CutProgress {

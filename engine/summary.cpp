@@ -91,6 +91,8 @@ Json stroke_json(const CutRecord& c) {
                  {"scene_stable_step_ratio", c.scene_step_ratio},
                  {"blade_travel_m", c.blade_travel},
                  {"edge_inside_max_m", c.deepest},
+                 {"swept_area_m2", c.swept_area},
+                 {"parted_area_m2", c.parted_area},
                  {"milliseconds", 1e3 * c.seconds},
                  {"milliseconds_worst", 1e3 * c.worst_seconds}};
   if (c.n_edits > 0) stroke.update(edits_json(c));

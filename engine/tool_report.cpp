@@ -102,9 +102,20 @@ static void note_idle_blades(Simulation& s) {
   }
 }
 
+// Of a stroke that the run's end finds under way.
+static void note_unfinished(Simulation& s, const CutRecord& record) {
+  note_refusals(s, record);
+  if (s.mesh.dimension() == 3)
+    note_event(s, s.state.time,
+               record.tool +
+                   " is still in the tissue: its cut ends half an edge to one and a half (" +
+                   short_text(1.5e3 * s.edge_length) +
+                   " mm) behind it, and what it has left joined is told once it is drawn out");
+}
+
 void note_idle_tools(Simulation& s) {
   for (const CutStage& stage : s.cuts)
-    if (stage.is_in_stroke) note_refusals(s, stage.strokes.back());
+    if (stage.is_in_stroke) note_unfinished(s, stage.strokes.back());
   note_idle_blades(s);
   for (std::size_t k = 0; k < s.tools.size(); ++k)
     if (s.tools[k].kind == InstrumentKind::probe &&

@@ -8,8 +8,8 @@ namespace trocar {
 void note_grasp(Simulation& s, double time, const GraspAct& act);
 // At the end of a stroke: how much the blade left joined, and the first place with its reason.
 void note_refusals(Simulation& s, const CutRecord& record);
-// At the end of a run: strokes that have not ended, blades that have cut nothing, and probes that
-// have touched nothing.
+// At the end of a run: strokes that have not ended, with what they leave joined, blades that have
+// cut nothing, and probes that have touched nothing.
 void note_idle_tools(Simulation& s);
 
 }  // namespace trocar
