@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -196,9 +197,12 @@ void close_frame_work(Simulation& s) {
   works.viscous += sum(s.scratch.viscous_work);
 }
 
-// Beside energies of motion and height; what a body that falls freely stores is rounding.
-static double least_stored(const EnergyState& energy) {
-  return 1e-6 * std::max(energy.kinetic, std::abs(energy.gravity));
+// Beside energies of motion and height, what a body that falls freely stores is rounding; and its
+// shape counts from strains of 1e-3 on, in the mean of the whole body.
+static double least_stored(const Simulation& s, const EnergyState& energy) {
+  double softest = std::numeric_limits<double>::infinity();  // speed of shear waves squared
+  for (const Material& m : s.materials) softest = std::min(softest, lame_mu(m) / m.density);
+  return 1e-6 * std::max({energy.kinetic, std::abs(energy.gravity), softest * s.whole_mass});
 }
 
 void report_energies(Simulation& s, FrameRow& row) {
@@ -209,15 +213,16 @@ void report_energies(Simulation& s, FrameRow& row) {
   row.energy_error = row.energy.sum() - ledger.memory.initial - row.works.sum();
   const double stored = row.energy.strain + row.energy.hourglass;
   ledger.memory.largest_stored = std::max(ledger.memory.largest_stored, stored);
-  const double least = std::max(0.01 * ledger.memory.largest_stored, least_stored(row.energy));
+  const double least = std::max(0.01 * ledger.memory.largest_stored, least_stored(s, row.energy));
   if (stored < least || !(stored > 0)) return;  // next to nothing is stored
   const double share = row.energy.hourglass / stored;
   if (share > hourglass_alarm && ledger.memory.largest_hourglass_share <= hourglass_alarm &&
       s.scene.solver.hexahedron == Formulation::hex8_one_point)
     note_event(s, row.time,
                "hourglass energy is " + number_text(std::round(1000 * share) / 10) +
-                   " % of the stored energy: the mesh is too coarse for how the tissue bends; a "
-                   "finer one helps, or hexahedra whose hourglass energy is the material's "
+                   " % of the stored energy: the mesh is too coarse for how the tissue bends or "
+                   "for the tip that presses it; a finer one helps, or hexahedra whose hourglass "
+                   "energy is the material's "
                    "(solver.hexahedron = \"enhanced\")");
   ledger.memory.largest_hourglass_share = std::max(ledger.memory.largest_hourglass_share, share);
 }

@@ -113,7 +113,8 @@ Options<SceneSolver> solver_options() {
       "modulus, without a free constant; full: eight points, locks when nu is near 0.5.");
   s.choice("tetrahedron", &SceneSolver::tetrahedron,
            {{"linear", Formulation::tet4}, {"nodal-pressure", Formulation::tet4_nodal_pressure}},
-           "linear: locks when nu is near 0.5; nodal-pressure: averages the pressure at nodes.");
+           "linear: locks when nu is near 0.5; nodal-pressure: averages the pressure at nodes, of "
+           "materials whose volumetric energy stands apart (not linear, not st-venant-kirchhoff).");
   s.choice("triangle", &SceneSolver::triangle,
            {{"plane-strain", Formulation::tri3_plane_strain},
             {"plane-stress", Formulation::tri3_plane_stress}},
@@ -300,7 +301,8 @@ Options<SceneInstrument> instrument_options() {
            "jaws, all at once. 0: they hold whatever pulls.");
   i.text("mesh", &SceneInstrument::mesh,
          "Surface (.stl, .obj) of the tip instead of the built-in shape; its origin is the tip, "
-         "its +z the shaft. Tissue feels its convex hull, of a flat one as of a plate of 0.05 mm.");
+         "its +z the shaft, which stays (`length`). Tissue feels its convex hull, of a flat one as "
+         "of a plate of 0.05 mm.");
   i.number("scale", &SceneInstrument::scale, dim::length, positive,
            "Length of one unit of that file.");
   i.list("path", &SceneInstrument::path, key,

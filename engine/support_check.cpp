@@ -103,7 +103,7 @@ void tell_overlap(std::int32_t number, const NodeSet& region, const Overlap& ove
   else if (overlap.n_nodes_against > 0)
     log_warning(who + ": " + name_of(overlap.against) + " holds " +
                 std::to_string(overlap.n_nodes_against) + " of its " + n_nodes +
-                " nodes otherwise, and has them");
+                " nodes otherwise, and keeps them in the components that both name");
   else if (!overlap.has_own)
     log_warning(who + " adds nothing: its nodes (region \"" + region.name +
                 "\") are held in the same way without it, by " + name_of(overlap.same));

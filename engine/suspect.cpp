@@ -111,7 +111,8 @@ std::string cure(const Simulation& s, const Mover& mover, double t) {
     return material_cure(s.materials) + "a shorter pull of " + opened +
            ", which has just let go, or a way back before it opens" + rest;
   const bool has_loads = !s.scene.loads.empty() || s.scene.solver.gravity != Vec3::Zero();
-  const std::string less = has_loads || s.tools.empty() ? "smaller loads" : "to press less deep";
+  const std::string less =
+      has_loads || s.tools.empty() ? "smaller loads" : "to press less deep or more slowly";
   const std::string narrower = mover.is_scalpel ? ", a shorter and so narrower blade_length" : "";
   return material_cure(s.materials) +
          (mover.name.empty() ? less : "a slower or shorter path of " + mover.name + narrower) +

@@ -254,7 +254,8 @@ TEST(InVain, supports_of_the_same_nodes_are_told) {
       << against.err;
   // The edge of five nodes that two sides of the block share.
   EXPECT_TRUE(has(run_with("\"x+\"\n" + path + "[0.001, 0, 0] }]").err,
-                  "support[1]: support[0] holds 5 of its 25 nodes otherwise, and has them"));
+                  "support[1]: support[0] holds 5 of its 25 nodes otherwise, and keeps them "
+                  "in the components that both name"));
   EXPECT_EQ(run_with("\"x+\"\nfix = \"x\"").err, "");
 }
 
