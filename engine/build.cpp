@@ -31,17 +31,6 @@ namespace {
 // Depth from which on an instrument is not laid on the body but lies in it, in reaches of contact.
 constexpr double buried = 0.4;
 
-std::vector<Material> region_materials(const SceneTissue& tissue, const Mesh& mesh) {
-  std::vector<Material> materials(mesh.region_name.size(), to_material(tissue.material));
-  for (std::size_t k = 0; k < tissue.region_materials.size(); ++k) {
-    const SceneRegionMaterial& other = tissue.region_materials[k];
-    const auto at = std::find(mesh.region_name.begin(), mesh.region_name.end(), other.region);
-    CHECK(at != mesh.region_name.end());
-    materials[at - mesh.region_name.begin()] = to_material(other.material);
-  }
-  return materials;
-}
-
 FixedMask fixed_mask(const std::string& components) {
   FixedMask mask = 0;
   for (const char c : components) mask = static_cast<FixedMask>(mask | (1 << (c - 'x')));

@@ -8,14 +8,14 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/number_text.h"
-#include "engine/element_gradient.h"
 #include "engine/film_studio.h"
+#include "engine/frame_vtu.h"
 #include "engine/mesh_measures.h"
 #include "engine/output.h"
 #include "engine/recording.h"
 #include "engine/scene_outputs.h"
+#include "engine/tissue.h"
 #include "mesh/facets.h"
-#include "mesh/vtu_file.h"
 
 namespace trocar {
 
@@ -39,31 +39,6 @@ std::vector<Tool> recorded_tools(const Scene& scene, const RecordingHead& head) 
                               k < head.tool_meshes.size() ? head.tool_meshes[k] : TriangleMesh{},
                               1e-3));
   return tools;
-}
-
-std::string vtu_name(std::int64_t frame) {
-  return "frame_" + with_zeros(frame, 6) + ".vtu";
-}
-
-PvdEntry write_frame_vtu(const Mesh& mesh, const RecordedFrame& frame, const std::string& folder) {
-  std::vector<double> touches_cut, det_F, strain;
-  const auto u = [&](std::int32_t i) -> Vec3 {
-    return Vec3::Map(&frame.u[3 * static_cast<std::size_t>(i)]);
-  };
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    touches_cut.push_back(mesh.cut_facets[e] ? 1 : 0);
-    const Mat3 F = Mat3::Identity() + displacement_gradient(mesh, e, u);
-    det_F.push_back(F.determinant());
-    const Mat3 E = 0.5 * (F.transpose() * F - Mat3::Identity());
-    strain.insert(strain.end(), E.data(), E.data() + E.size());
-  }
-  const VtuField nodal[] = {{.name = "displacement", .width = 3, .values = frame.u}};
-  const VtuField elemental[] = {{.name = "touches_cut", .width = 1, .values = touches_cut},
-                                {.name = "det_F", .width = 1, .values = det_F},
-                                {.name = "green_strain", .width = 9, .values = strain}};
-  const std::string name = vtu_name(frame.frame);
-  write_vtu(mesh, present_positions(mesh.X, frame.u), nodal, elemental, folder + "/" + name);
-  return {.time = frame.time, .file = name};
 }
 
 // All of them; throws InputError behind the last one if any is damaged.
@@ -143,19 +118,30 @@ std::size_t n_orders(const ReplayOptions& options) {
   return (options.video.empty() ? 0u : 1u) + (options.writes_frames ? 1u : 0u);
 }
 
-// The picture thread for what is asked for, null for none.
-std::unique_ptr<FilmStudio> open_studio(
-    const RecordingReader& reader, const ReplayOptions& options,
-    const std::vector<std::pair<std::int64_t, double>>& frames) {
-  if (n_orders(options) == 0) return nullptr;
+Scene recorded_scene(const RecordingReader& reader, const ReplayOptions& options) {
   Scene scene;
   SourceMap where;
   read_options_text(scene_options(), reader.head().scene, options.recording, {}, &scene, where);
+  return scene;
+}
+
+// The picture thread for what is asked for, null for none.
+std::unique_ptr<FilmStudio> open_studio(
+    const Scene& scene, const RecordingHead& head, const ReplayOptions& options,
+    const std::vector<std::pair<std::int64_t, double>>& frames) {
+  if (n_orders(options) == 0) return nullptr;
   const double span = frames.back().second - frames.front().second;
   const double rate =
       span > 0 ? static_cast<double>(frames.size() - 1) / span : scene.time.frame_rate;
-  return std::make_unique<FilmStudio>(orders_of(scene, options, rate), scene.tissue,
-                                      reader.head().mesh, recorded_tools(scene, reader.head()));
+  return std::make_unique<FilmStudio>(orders_of(scene, options, rate), scene.tissue, head.mesh,
+                                      recorded_tools(scene, head));
+}
+
+// None of a plane body whose thickness is free: its strain across is not recorded.
+std::vector<Material> recorded_materials(const Scene& scene, const Mesh& mesh) {
+  const bool is_free =
+      mesh.dimension() == 2 && scene.solver.triangle == Formulation::tri3_plane_stress;
+  return is_free ? std::vector<Material>() : region_materials(scene.tissue, mesh);
 }
 
 FilmFrame film_frame(const Mesh& mesh, const RecordedFrame& frame, std::size_t orders) {
@@ -181,14 +167,18 @@ void replay(const ReplayOptions& options) {
     throw InputError("nothing to do: ask for --video FILE, --frames, --vtu or --list");
   check_recording_stays(options);
   make_output_folder(options.folder);
-  const std::unique_ptr<FilmStudio> studio = open_studio(reader, options, frames);
+  const RecordingHead& head = reader.head();
+  const Scene scene = recorded_scene(reader, options);
+  const std::vector<Material> materials = recorded_materials(scene, head.mesh);
+  const std::unique_ptr<FilmStudio> studio = open_studio(scene, head, options, frames);
   std::vector<PvdEntry> entries;
   ProgressBar bar("replay");
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const RecordedFrame frame = reader.read(frames[k].first);
     const Mesh mesh = reader.mesh_at(frames[k].first);
     check_frame(frame, mesh, options.recording);
-    if (options.writes_vtu) entries.push_back(write_frame_vtu(mesh, frame, options.folder));
+    if (options.writes_vtu)
+      entries.push_back(write_frame_vtu(mesh, frame, materials, options.folder));
     if (studio) studio->add(film_frame(mesh, frame, n_orders(options)));
     bar.update(static_cast<double>(k + 1) / static_cast<double>(frames.size()),
                std::to_string(k + 1) + " frames");

@@ -11,6 +11,9 @@ namespace trocar {
 // node sets of [[region]].
 Mesh load_tissue(const LoadedScene& loaded, Communicator& communicator);
 
+// Of each region of the mesh; those that the scene names must be there.
+std::vector<Material> region_materials(const SceneTissue& tissue, const Mesh& mesh);
+
 // The path of a file that the scene names: relative ones start at the scene file's folder.
 std::string scene_path(const LoadedScene& loaded, const std::string& file);
 

@@ -1,13 +1,11 @@
 #include "solver/material_response.h"
 
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "base/number_text.h"
-#include "solver/block_data.h"
-#include "solver/material_list.h"
 #include "solver/material_setup.h"
+#include "solver/material_stress.h"
 
 namespace trocar {
 
@@ -33,30 +31,9 @@ PathPoint sheared(double g) {
   return point;
 }
 
-template <class Law>
-double stress_along(const Material& material, const PathPoint& at) {
-  std::array<double, std::size_t{max_material_values} * block_lanes<double>> number{};
-  std::array<double, max_material_values> value{};
-  fill_material(material, 1, unit_fibre(material), value);
-  for (std::size_t k = 0; k < value.size(); ++k) number[k * block_lanes<double>] = value[k];
-  Tensor<double> H{};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) H.v[i][j] = at.H(i, j);
-  const Tensor<double> P = Law::stress(H, BlockValues<double>{number.data()});
-  double sum = 0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) sum += P.v[i][j] * at.dF(i, j);
-  return sum;
-}
-
 // P : dF/ds, the nominal stress that does the work of the path. [Pa]
-template <class... Laws>
-double stress_along(const Material& material, const PathPoint& at, TypeList<Laws...>) {
-  double stress = 0;
-  ((Laws::model == material.model ? static_cast<void>(stress = stress_along<Laws>(material, at))
-                                  : static_cast<void>(0)),
-   ...);
-  return stress;
+double stress_along(const Material& material, const PathPoint& at) {
+  return first_piola_stress(material, unit_fibre(material), at.H).cwiseProduct(at.dF).sum();
 }
 
 constexpr double grows = std::numeric_limits<double>::infinity();
@@ -65,10 +42,10 @@ constexpr double grows = std::numeric_limits<double>::infinity();
 template <class Path>
 double first_softening(const Material& material, Path path, double from, double to) {
   constexpr int n = 80;
-  double before = stress_along(material, path(from), MaterialList{});
+  double before = stress_along(material, path(from));
   for (int k = 1; k <= n; ++k) {
     const double s = from + (to - from) * k / n;
-    const double stress = stress_along(material, path(s), MaterialList{});
+    const double stress = stress_along(material, path(s));
     if (!((stress - before) * (to - from) > 0)) return s;
     before = stress;
   }

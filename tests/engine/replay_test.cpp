@@ -40,7 +40,8 @@ TEST(Replay, writes_a_vtu_of_each_frame_with_the_displaced_mesh_of_that_frame) {
   RunToReplay c;
   replay(c.options);
   for (std::size_t k = 0; k < c.run.frames.size(); ++k) {
-    for (const char* field : {"displacement", "touches_cut", "det_F", "green_strain"})
+    for (const char* field : {"displacement", "touches_cut", "det_F", "green_strain",
+                              "cauchy_stress", "von_mises_stress"})
       EXPECT_TRUE(contains(read_text(c.vtu(c.run.frames[k].frame)), field));
     const Mesh read = read_mesh(c.vtu(c.run.frames[k].frame), 1);
     const Mesh& mesh = c.run.meshes[k];
