@@ -1,5 +1,6 @@
 #include "cutting/cut_figures.h"
 
+#include <algorithm>
 #include <array>
 
 namespace trocar {
@@ -22,6 +23,31 @@ const char* reason_of(const CutRefusal& refusal) {
       "the blade has gone all around, and what is inside hangs by a neck of few elements: a deeper "
       "way, or one that ends beside the point where it comes together"};
   return text[refusal.reason];
+}
+
+void add(const CutFigures& of, bool has_edit, CutFigures& sum) {
+  sum.goes_through = of.goes_through;
+  sum.is_in_slit = of.is_in_slit;
+  sum.n_refused += of.n_refused;
+  sum.n_beside += of.n_beside;
+  sum.refusals.insert(sum.refusals.end(), of.refusals.begin(), of.refusals.end());
+  if (!has_edit) return;
+  const double n_old = sum.n_moved, n_new = of.n_moved;
+  if (n_old + n_new > 0)
+    sum.mean_deviation = (sum.mean_deviation * n_old + of.mean_deviation * n_new) / (n_old + n_new);
+  sum.n_moved += of.n_moved;
+  sum.n_duplicated += of.n_duplicated;
+  sum.n_opened_facets += of.n_opened_facets;
+  sum.least_quality = std::min(sum.least_quality, of.least_quality);
+  sum.n_turned += of.n_turned;
+  sum.n_chips += of.n_chips;
+  sum.n_pulled_back += of.n_pulled_back;
+  sum.n_inserted += of.n_inserted;
+  sum.n_inverted += of.n_inverted;
+  sum.n_converted += of.n_converted;
+  sum.n_kept_hexahedra += of.n_kept_hexahedra;
+  sum.largest_deviation = std::max(sum.largest_deviation, of.largest_deviation);
+  sum.mean_edge = of.mean_edge;
 }
 
 }  // namespace trocar

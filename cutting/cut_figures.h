@@ -58,4 +58,8 @@ struct CutFigures {
   double mean_edge = 0;               // mean edge length around the cut [m]
 };
 
+// Those of a stroke's next step to the sum of the ones before; without an edit only what the blade
+// met counts.
+void add(const CutFigures& of, bool has_edit, CutFigures& sum);
+
 }  // namespace trocar

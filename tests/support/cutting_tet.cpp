@@ -24,7 +24,7 @@ CutPatch whole_patch(const Body& body) {
 }
 
 void apply(const MeshEdit& edit, const CutFigures& figures, Body& body, Ledger& ledger) {
-  ledger.total.n_refused += figures.n_refused;
+  add(figures, !edit.is_empty(), ledger.total);
   if (edit.is_empty()) return;
   std::vector<double> field;
   for (const Vec3& p : body.x) field.insert(field.end(), {p.x(), p.y(), p.z()});
@@ -42,19 +42,7 @@ void apply(const MeshEdit& edit, const CutFigures& figures, Body& body, Ledger& 
     body.is_held.push_back(held);
   }
   ++ledger.n_edits;
-  CutFigures& total = ledger.total;
-  total.n_opened_facets += figures.n_opened_facets;
-  total.n_moved += figures.n_moved;
-  total.n_beside += figures.n_beside;
-  total.n_duplicated += figures.n_duplicated;
-  total.n_turned += figures.n_turned;
-  total.n_chips += figures.n_chips;
-  total.n_pulled_back += figures.n_pulled_back;
-  total.n_inverted += figures.n_inverted;
-  total.least_quality = std::min(total.least_quality, figures.least_quality);
-  total.largest_deviation = std::max(total.largest_deviation, figures.largest_deviation);
   ledger.deviation_sum += figures.mean_deviation * figures.n_duplicated;
-  total.mean_edge = figures.mean_edge;
 }
 
 CutterEdit advance(TetCutter& cutter, Body& body, const BladeSweep& sweep, bool is_last,
