@@ -1,8 +1,10 @@
 #include "base/exact_sum.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace trocar {
 
@@ -68,6 +70,17 @@ double ExactSum::value() const {
   for (std::size_t k = digit.size(); k-- > 0;)
     total += std::ldexp(static_cast<double>(digit[k]), lowest_bit + 32 * static_cast<int>(k));
   return is_negative ? -total : total;
+}
+
+void ExactSum::all_sum(std::span<ExactSum> sums, const Communicator& communicator) {
+  std::vector<std::uint64_t> all;
+  for (const ExactSum& sum : sums) all.insert(all.end(), sum.limbs_.begin(), sum.limbs_.end());
+  communicator.all_sum(all);
+  auto from = all.begin();
+  for (ExactSum& sum : sums) {
+    std::copy_n(from, sum.limbs_.size(), sum.limbs_.begin());
+    from += static_cast<std::ptrdiff_t>(sum.limbs_.size());
+  }
 }
 
 }  // namespace trocar

@@ -17,6 +17,7 @@ class ExactSum {
   void add(double value);
   // Adds every rank's sum to all. Collective.
   void all_sum(const Communicator& communicator) { communicator.all_sum(limbs_); }
+  static void all_sum(std::span<ExactSum> sums, const Communicator& communicator);
   double value() const;
 
  private:
@@ -35,7 +36,7 @@ inline void add(const Vec3& value, ExactSum3& sum) {
 }
 // Collective.
 inline Vec3 sum_over_ranks(ExactSum3& sum, const Communicator& communicator) {
-  for (ExactSum& component : sum) component.all_sum(communicator);
+  ExactSum::all_sum(sum, communicator);
   return {sum[0].value(), sum[1].value(), sum[2].value()};
 }
 

@@ -50,7 +50,8 @@ struct ContactSet {
     std::array<Vec3, 3> seen{};
     double sight = -1;
     Manifold manifold;
-    Vec3 reaction_sum = Vec3::Zero();  // on the tool, over the steps so far [N]
+    // On the tool and about its tip, over the steps so far. [N], [N m]
+    Vec3 reaction_sum = Vec3::Zero(), torque_sum = Vec3::Zero();
   };
   struct TissueItem {
     std::array<std::int32_t, 4> place{};  // of the node and the corners of the triangle

@@ -58,10 +58,11 @@ void add_drag(const Model& model, const State& state, double dt, BladeDrag& drag
   }
 }
 
-void sum_drag_reactions(const BladeDrag& drag, std::int64_t n_substeps,
-                        std::span<ExactSum3> force) {
-  for (const BladeDrag::Node& node : drag.node)
-    add(-node.force_sum / static_cast<double>(n_substeps) * node.direction, force[node.tool]);
+void sum_drag_reactions(const BladeDrag& drag, std::int64_t n_substeps, std::span<ToolLoad> loads) {
+  for (const BladeDrag::Node& node : drag.node) {
+    const Vec3 force = -node.force_sum / static_cast<double>(n_substeps) * node.direction;
+    add(force, node.arm.cross(force), loads[node.tool]);
+  }
 }
 
 }  // namespace trocar

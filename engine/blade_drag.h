@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "base/exact_sum.h"
 #include "base/vec.h"
 #include "engine/locate.h"
+#include "engine/tool_load.h"
 #include "mesh/mesh.h"
 #include "mesh/partition.h"
 #include "solver/step.h"
@@ -34,6 +34,7 @@ struct BladeDrag {
     Vec3 direction = Vec3::Zero();  // of the blade's motion in the tissue
     double force = 0;               // of the last step [N]
     double force_sum = 0;           // over the steps of this frame [N]
+    Vec3 arm = Vec3::Zero();        // from the tool's tip, at the frame's begin [m]
   };
   std::vector<Node> node;  // of this rank, ascending (tool, local)
 };
@@ -50,8 +51,7 @@ void add_engaged_edge(const EngagedEdge& edge, const Mesh& mesh, const Part& par
 void add_drag(const Model& model, const State& state, double dt, BladeDrag& drag,
               std::span<double> force);
 
-// Mean force of the tissue on each tool over n substeps; adds to force (n_tools), exact in any
-// order.
-void sum_drag_reactions(const BladeDrag& drag, std::int64_t n_substeps, std::span<ExactSum3> force);
+// What the tissue does to each tool, mean over n substeps; adds to loads (n_tools).
+void sum_drag_reactions(const BladeDrag& drag, std::int64_t n_substeps, std::span<ToolLoad> loads);
 
 }  // namespace trocar

@@ -46,7 +46,7 @@ static void visit(Archive& a, Watch& w) {
 }
 template <class Archive>
 static void visit(Archive& a, ToolRow& r) {
-  a(r.position, r.force);
+  a(r.position, r.force, r.torque);
 }
 template <class Archive>
 static void visit(Archive& a, EnergyState& e) {

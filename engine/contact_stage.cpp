@@ -130,8 +130,10 @@ void renew_frame_contacts(ContactStage& stage, const ContactBody& body, const Ho
   const std::vector<double> impulses = gather_impulses(stage.set, communicator);
   prepare_frame_contacts(stage, body, holds);
   // Ranks that had no nodes before know nothing of what tools have felt: they don't report it.
-  for (std::size_t k = 0; k < std::min(before.size(), stage.set.items.size()); ++k)
+  for (std::size_t k = 0; k < std::min(before.size(), stage.set.items.size()); ++k) {
     stage.set.items[k].reaction_sum = before[k].reaction_sum;
+    stage.set.items[k].torque_sum = before[k].torque_sum;
+  }
   take_impulses(impulses, stage.set);
 }
 
@@ -167,11 +169,12 @@ void move_tools(std::span<const Tool> tools, double t, double dt, std::span<Tool
   }
 }
 
-void sum_contact_reactions(ContactStage& stage, std::int64_t n_substeps,
-                           std::span<ExactSum3> force) {
+void sum_contact_reactions(const ContactStage& stage, std::int64_t n_substeps,
+                           std::span<ToolLoad> loads) {
   if (!stage.set.is_counted_here) return;
+  const auto n = static_cast<double>(n_substeps);
   for (const ContactSet::Item& item : stage.set.items)
-    add(item.reaction_sum / static_cast<double>(n_substeps), force[item.contact.tool]);
+    add(item.reaction_sum / n, item.torque_sum / n, loads[item.contact.tool]);
 }
 
 }  // namespace trocar

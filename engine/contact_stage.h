@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "base/exact_sum.h"
 #include "collision/contact_solve.h"
 #include "collision/detector.h"
 #include "engine/holds.h"
 #include "engine/surface_view.h"
 #include "engine/tool.h"
+#include "engine/tool_load.h"
 #include "solver/mass_scaling.h"
 
 namespace trocar {
@@ -76,8 +76,8 @@ void add_contact_force(const ContactStage& stage, std::span<double> force);
 
 // Poses and velocities of all tools at time t (velocity over the substep before).
 void move_tools(std::span<const Tool> tools, double t, double dt, std::span<ToolMotion> motion);
-// Mean over the frame, added to force (n_tools), exact in any order.
-void sum_contact_reactions(ContactStage& stage, std::int64_t n_substeps,
-                           std::span<ExactSum3> force);
+// Mean over the frame, added to loads (n_tools).
+void sum_contact_reactions(const ContactStage& stage, std::int64_t n_substeps,
+                           std::span<ToolLoad> loads);
 
 }  // namespace trocar

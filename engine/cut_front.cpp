@@ -182,6 +182,10 @@ void prepare_drag(Simulation& s, const FrameSpan& span) {
     add_engaged_edge(motion.engaged(front.piece), s.mesh, s.part, s.scene.cutting.resistance,
                      s.drag);
   }
+  for (BladeDrag::Node& node : s.drag.node)
+    node.arm = s.mesh.X[s.part.node_global[node.local]] +
+               Vec3::Map(&s.state.u[3 * static_cast<std::size_t>(node.local)]) -
+               s.tools[node.tool].path.at(span.t0).translation;
 }
 
 }  // namespace trocar

@@ -14,6 +14,7 @@ namespace trocar {
 struct ToolRow {
   Vec3 position = Vec3::Zero();  // of the tip [m]
   Vec3 force = Vec3::Zero();     // of the tissue on the tool, mean over the frame [N]
+  Vec3 torque = Vec3::Zero();    // and about the tip; with metrics [N m]
 };
 
 // Energy that a body holds. [J]

@@ -32,14 +32,16 @@ void wake_support_forces(Simulation& s, std::int64_t n_substeps) {
 // Mean over the frame of what the tissue does to each tool, by contact, held nodes and the blade's
 // resistance, and to each support.
 void sum_forces(Simulation& s, const FrameSpan& span, FrameRow& row) {
-  std::vector<ExactSum3> sums(s.tools.size()), on_support(s.scene.supports.size());
-  if (s.contact) sum_contact_reactions(*s.contact, span.n_substeps, sums);
-  sum_hold_reactions(s.holds, span.n_substeps, sums, on_support);
-  sum_drag_reactions(s.drag, span.n_substeps, sums);
+  std::vector<ToolLoad> loads(s.tools.size());
+  std::vector<ExactSum3> on_support(s.scene.supports.size());
+  if (s.contact) sum_contact_reactions(*s.contact, span.n_substeps, loads);
+  sum_hold_reactions(s.holds, span.n_substeps, loads, on_support);
+  sum_drag_reactions(s.drag, span.n_substeps, loads);
   row.tools.resize(s.tools.size());
   for (std::size_t k = 0; k < s.tools.size(); ++k) {
     row.tools[k].position = s.tools[k].path.at(span.t1).translation;
-    row.tools[k].force = sum_over_ranks(sums[k], *s.communicator);
+    row.tools[k].force = sum_over_ranks(loads[k].force, *s.communicator);
+    if (s.energy) row.tools[k].torque = sum_over_ranks(loads[k].torque, *s.communicator);
   }
   if (!s.energy) return;
   wake_support_forces(s, span.n_substeps);

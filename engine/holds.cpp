@@ -180,14 +180,17 @@ void forget_hold_reactions(Holds& holds) {
   std::fill(holds.reaction_sum.begin(), holds.reaction_sum.end(), Vec3::Zero());
 }
 
-void sum_hold_reactions(Holds& holds, std::int64_t n_substeps, std::span<ExactSum3> on_tool,
+void sum_hold_reactions(Holds& holds, std::int64_t n_substeps, std::span<ToolLoad> on_tool,
                         std::span<ExactSum3> on_support) {
   for (std::size_t k = 0; k < holds.owned.size(); ++k) {
     const Hold& hold = holds.holds[holds.owned[k]];
     const Vec3 mean = holds.reaction_sum[k] / static_cast<double>(n_substeps);
     holds.reaction_sum[k] = Vec3::Zero();
     // The tissue pulls back on what holds it.
-    add(-mean, hold.tool >= 0 ? on_tool[hold.tool] : on_support[hold.support]);
+    if (hold.tool >= 0)
+      add(-mean, mean.cross(holds.poses[hold.tool].rotation * hold.offset), on_tool[hold.tool]);
+    else
+      add(-mean, on_support[hold.support]);
   }
 }
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/communicator.h"
-#include "base/exact_sum.h"
 #include "engine/tool.h"
+#include "engine/tool_load.h"
 #include "mesh/edit.h"
 #include "mesh/partition.h"
 #include "solver/step.h"
@@ -77,9 +77,9 @@ void aim_holds(Holds& holds, std::span<const Tool> tools, std::span<const Vec3> 
 void add_hold_reactions(Holds& holds);
 // Of a frame that is done again.
 void forget_hold_reactions(Holds& holds);
-// Mean force of the tissue on each tool and moving support through its holds, over n substeps; adds
-// to on_tool (n_tools) and on_support (n_supports), exact in any order.
-void sum_hold_reactions(Holds& holds, std::int64_t n_substeps, std::span<ExactSum3> on_tool,
+// What the tissue does to each tool and moving support through its holds, mean over n substeps;
+// adds to on_tool (n_tools) and on_support (n_supports), exact in any order.
+void sum_hold_reactions(Holds& holds, std::int64_t n_substeps, std::span<ToolLoad> on_tool,
                         std::span<ExactSum3> on_support);
 
 }  // namespace trocar

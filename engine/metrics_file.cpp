@@ -76,6 +76,7 @@ MetricsFile::MetricsFile(const std::string& file, std::span<const Tool> tools,
   for (const Tool& tool : tools) {
     add_vector(tool.name, "m");
     add_vector(tool.name + "_force", "N");
+    add_vector(tool.name + "_torque", "Nm");
   }
   for (const std::string& support : supports) add_vector("support_" + support + "_force", "N");
   for (const SceneMarker& marker : markers) add_vector("marker_" + marker.name, "m");
@@ -95,6 +96,7 @@ void MetricsFile::add(const FrameRow& row) {
   for (const ToolRow& tool : row.tools) {
     add_vector(tool.position);
     add_vector(tool.force);
+    add_vector(tool.torque);
   }
   for (const Vec3& force : row.support_forces) add_vector(force);
   for (const Vec3& marker : row.markers) add_vector(marker);

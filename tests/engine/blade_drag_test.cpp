@@ -96,10 +96,12 @@ TEST(BladeDrag, on_the_tool_is_what_it_is_on_the_tissue) {
   Edge edge;
   edge.step();
   edge.step();
-  std::vector<ExactSum3> reaction(1);
+  for (BladeDrag::Node& node : edge.drag.node) node.arm = Vec3(0, 0, 0.03);
+  std::vector<ToolLoad> reaction(1);
   sum_drag_reactions(edge.drag, 2, reaction);
-  EXPECT_NEAR(reaction[0][0].value(), -edge.sum(0) / 2, 1e-15);
-  EXPECT_EQ(reaction[0][1].value(), 0);
+  EXPECT_NEAR(reaction[0].force[0].value(), -edge.sum(0) / 2, 1e-15);
+  EXPECT_EQ(reaction[0].force[1].value(), 0);
+  EXPECT_NEAR(reaction[0].torque[1].value(), -0.03 * edge.sum(0) / 2, 1e-15);
 }
 
 // A blade of 40 mm goes through a block of the same height, its tip at a depth that is no multiple

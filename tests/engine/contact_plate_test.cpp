@@ -29,15 +29,21 @@ double stress(double a, double b, double c) {
   return mu * std::pow(J, -5.0 / 3) * (a * a - I1 / 3) + K * (J - 1);
 }
 
-// Of a cube of tissue, or of a plate of tissue in plane strain, that may go aside freely. [N]
-double closed_form(bool is_plane, double thickness) {
-  const auto other = [&](double aside) { return is_plane ? 1 : aside; };
-  double low = 1, high = 1.5;  // of the stretch aside
+// Of a cube of tissue, or of a plate of tissue in plane strain, that may go aside freely: its
+// stretch aside.
+double stretch_aside(bool is_plane) {
+  double low = 1, high = 1.5;
   for (int k = 0; k < 60; ++k) {
     const double aside = 0.5 * (low + high);
-    (stress(aside, stretch, other(aside)) < 0 ? low : high) = aside;
+    (stress(aside, stretch, is_plane ? 1 : aside) < 0 ? low : high) = aside;
   }
-  return -stress(stretch, low, other(low)) * side * low * thickness * other(low);
+  return low;
+}
+
+// And what presses it. [N]
+double closed_form(bool is_plane, double thickness) {
+  const double aside = stretch_aside(is_plane), other = is_plane ? 1 : aside;
+  return -stress(stretch, aside, other) * side * aside * thickness * other;
 }
 
 // Presses along -z, in the plane along -y, for 0.2 s, rests until 0.4 s and slides along x.
@@ -129,6 +135,21 @@ TEST(ContactOfAPlate, that_tissue_may_slide_on_is_pressed_as_the_closed_form_say
     // Contacts are solved to 1e-3 of the deepest point.
     EXPECT_NEAR(force, exact, 1e-3 * exact);
   }
+}
+
+// The tip is at x = y = 0, and the body's middle goes aside from there.
+TEST(ContactOfAPlate, turns_about_its_tip_by_the_way_of_the_body_s_middle_times_the_force) {
+  const auto body = make_slide(on_cube("hex8", rollers + on_foot +
+                                                   "[[output]]\nkind = \"metrics\"\nfile = "
+                                                   "\"m.csv\"\n"),
+                               0);
+  for (int frame = 0; frame < 22; ++frame) run_frame(*body->s, body->outputs);
+  const ToolRow& plate = body->s->log.rows.back().tools[0];
+  const double force = closed_form(false, side), arm = side * (stretch_aside(false) - 1) / 2;
+  EXPECT_GT(arm, 5e-4);
+  EXPECT_NEAR(plate.torque.x(), arm * force, 3e-3 * arm * force);
+  EXPECT_NEAR(plate.torque.y(), -arm * force, 3e-3 * arm * force);
+  EXPECT_NEAR(plate.torque.z(), 0, 1e-3 * arm * force);
 }
 
 // While each node's push was found as if the others of its cluster stayed, a plate pressed one of

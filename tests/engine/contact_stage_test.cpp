@@ -216,17 +216,20 @@ TEST(ContactReactions, are_the_mean_over_the_substeps_by_tool) {
   for (std::size_t k = 0; k < 3; ++k) {
     c.stage.set.items[k].contact.tool = k == 2 ? 1 : 0;
     c.stage.set.items[k].reaction_sum = Vec3(2, 8 * static_cast<double>(k), 1);
+    c.stage.set.items[k].torque_sum = Vec3(0, 0, 4);
   }
-  std::vector<ExactSum3> force(2);
-  sum_contact_reactions(c.stage, 4, force);
-  EXPECT_EQ(force[0][0].value(), 0);  // another rank reports them
+  std::vector<ToolLoad> load(2);
+  sum_contact_reactions(c.stage, 4, load);
+  EXPECT_EQ(load[0].force[0].value(), 0);  // another rank reports them
   c.stage.set.is_counted_here = true;
-  sum_contact_reactions(c.stage, 4, force);
-  EXPECT_EQ(force[0][0].value(), 2 * 2 / 4.0);
-  EXPECT_EQ(force[0][1].value(), 8 / 4.0);
-  EXPECT_EQ(force[1][0].value(), 2 / 4.0);
-  EXPECT_EQ(force[1][1].value(), 16 / 4.0);
-  EXPECT_EQ(force[1][2].value(), 0.25);
+  sum_contact_reactions(c.stage, 4, load);
+  EXPECT_EQ(load[0].force[0].value(), 2 * 2 / 4.0);
+  EXPECT_EQ(load[0].force[1].value(), 8 / 4.0);
+  EXPECT_EQ(load[0].torque[2].value(), 2 * 4 / 4.0);
+  EXPECT_EQ(load[1].force[0].value(), 2 / 4.0);
+  EXPECT_EQ(load[1].force[1].value(), 16 / 4.0);
+  EXPECT_EQ(load[1].force[2].value(), 0.25);
+  EXPECT_EQ(load[1].torque[2].value(), 1);
 }
 
 TEST(PrepareFrameContacts, starts_each_frame_without_reactions_and_moves_nothing_that_is_held) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cutting/cut_constraints.h"
 #include "mesh/generate.h"
 
 namespace trocar {
@@ -338,17 +339,26 @@ TEST(HoldReactions, are_the_mean_over_the_substeps_with_the_sign_of_the_tissue_o
       c.holds.prescribed[k].reaction = Vec3(step, 10.0 * static_cast<double>(k), 0.5);
     add_hold_reactions(c.holds);
   }
-  std::vector<ExactSum3> force(2), on_support(1);
-  sum_hold_reactions(c.holds, 4, force, on_support);
-  EXPECT_EQ(sum_of(force[1][0]), -2 * (1 + 2 + 3 + 4) / 4.0);  // two nodes
+  c.holds.poses.resize(2);
+  c.holds.poses[1].rotation = Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitZ()));  // x to y
+  c.holds.holds[0].offset = Vec3(0.02, 0, 0);
+  std::vector<ToolLoad> loads(2);
+  std::vector<ExactSum3> on_support(1);
+  sum_hold_reactions(c.holds, 4, loads, on_support);
+  const ExactSum3 &force = loads[1].force, &torque = loads[1].torque;
+  EXPECT_EQ(sum_of(force[0]), -2 * (1 + 2 + 3 + 4) / 4.0);  // two nodes
   EXPECT_EQ(sum_of(on_support[0][0]), -(1 + 2 + 3 + 4) / 4.0);
   EXPECT_EQ(sum_of(on_support[0][1]), -20);
-  EXPECT_EQ(sum_of(force[1][1]), -10);
-  EXPECT_EQ(sum_of(force[1][2]), -1);
-  EXPECT_EQ(sum_of(force[0][0]), 0);
-  std::vector<ExactSum3> again(2);
+  EXPECT_EQ(sum_of(force[1]), -10);
+  EXPECT_EQ(sum_of(force[2]), -1);
+  EXPECT_EQ(sum_of(loads[0].force[0]), 0);
+  // Of the first node alone: (0, 0.02, 0) x (-2.5, 0, -0.5) = (-0.01, 0, 0.05).
+  EXPECT_NEAR(sum_of(torque[0]), -0.01, 1e-15);
+  EXPECT_NEAR(sum_of(torque[1]), 0, 1e-15);
+  EXPECT_NEAR(sum_of(torque[2]), 0.05, 1e-15);
+  std::vector<ToolLoad> again(2);
   sum_hold_reactions(c.holds, 4, again, on_support);
-  EXPECT_EQ(sum_of(again[1][0]), 0);
+  EXPECT_EQ(sum_of(again[1].force[0]), 0);
 }
 
 }  // namespace

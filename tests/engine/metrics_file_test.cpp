@@ -70,8 +70,10 @@ FrameRow example_row() {
                .n_pieces = 28,
                .seconds = 9};
   row.tools.resize(2);
-  row.tools[0] = {.position = Vec3(10, 11, 12), .force = Vec3(13, 14, 15)};
-  row.tools[1] = {.position = Vec3(16, 17, 18), .force = Vec3(19, 20, 1.0 / 3)};
+  row.tools[0] = {
+      .position = Vec3(10, 11, 12), .force = Vec3(13, 14, 15), .torque = Vec3(38, 39, 40)};
+  row.tools[1] = {
+      .position = Vec3(16, 17, 18), .force = Vec3(19, 20, 1.0 / 3), .torque = Vec3(41, 42, 43)};
   row.support_forces = {Vec3(30, 31, 32)};
   row.markers = {Vec3(34, 35, 36)};
   return row;
@@ -133,12 +135,18 @@ TEST(MetricsFile, has_each_value_of_a_row_under_its_column) {
                                                                 {"probe_force_x_N", 13},
                                                                 {"probe_force_y_N", 14},
                                                                 {"probe_force_z_N", 15},
+                                                                {"probe_torque_x_Nm", 38},
+                                                                {"probe_torque_y_Nm", 39},
+                                                                {"probe_torque_z_Nm", 40},
                                                                 {"blade_x_m", 16},
                                                                 {"blade_y_m", 17},
                                                                 {"blade_z_m", 18},
                                                                 {"blade_force_x_N", 19},
                                                                 {"blade_force_y_N", 20},
-                                                                {"blade_force_z_N", 1.0 / 3}};
+                                                                {"blade_force_z_N", 1.0 / 3},
+                                                                {"blade_torque_x_Nm", 41},
+                                                                {"blade_torque_y_Nm", 42},
+                                                                {"blade_torque_z_Nm", 43}};
   EXPECT_EQ(names.size(), expected.size());
   for (const auto& [name, number] : expected)
     EXPECT_EQ(value(name), number) << name;  // texts read back to the same bits
