@@ -52,7 +52,7 @@ position = [0, 0, 2]
                 "\"z-\"; there are \"x-\", \"x+\"",
                 "s.toml:9:10: load[0].region: the body has no region \"tip\"; there are",
                 "s.toml:12:10: tissue.region_material[0].region: the body has no region of "
-                "elements \"x-\"; there are none",
+                "elements \"x-\"; there are \"far\"",
                 "s.toml:15:8: region[0].name: the body has a region \"x+\" already",
                 "s.toml:20:7: region[1].low: region \"far\" holds no node of the mesh, which "
                 "reaches from (0, 0, 0) to (0.1, 0.1, 0.1) m",

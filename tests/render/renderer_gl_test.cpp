@@ -117,7 +117,7 @@ TEST(Renderer, each_region_has_its_colours) {
     SceneView scene{.camera = camera_above(0.15)};
     scene.tissues.push_back(view_of(sheet));
     scene.tissues[0].region = region;
-    scene.tissues[0].look.colours = {{}, {.outer = {0.1, 0.1, 0.6}, .cut = {0.1, 0.1, 0.6}}};
+    scene.tissues[0].look.colours = {{}, {.outer = {0.02, 0.1, 0.6}, .cut = {0.02, 0.1, 0.6}}};
     const Image image = draw_once(scene);
     constexpr int red = 0, blue = 2;
     EXPECT_GT(mean_level(image, 60, 60, 10, blue), 1.5 * mean_level(image, 60, 60, 10, red));
