@@ -23,8 +23,8 @@ std::vector<OutputMark> output_marks(const Simulation& s, const Outputs& outputs
 
 void save(Checkpoint checkpoint, Outputs& outputs) {
   CHECK(!outputs.folder.empty());
-  for (const auto& recording : outputs.recordings)
-    if (recording) recording->sync();
+  for (const OutputSlot& slot : outputs.slots)
+    if (slot.recording) slot.recording->sync();
   replace_file(outputs.folder + "/" + checkpoint_name, [&](const ByteSink& sink) {
     put_checkpoint(checkpoint, outputs.rows_in_checkpoints, sink);
   });

@@ -13,7 +13,6 @@
 #include "engine/checkpoint.h"
 #include "engine/checkpoint_file.h"
 #include "engine/film_studio.h"
-#include "engine/metrics_file.h"
 #include "engine/point_text.h"
 #include "engine/run_files.h"
 #include "engine/simulation.h"
@@ -41,12 +40,13 @@ Outputs::Outputs(Outputs&&) noexcept = default;
 
 namespace {
 
-std::vector<FilmOrder> film_orders(const Scene& scene, const Outputs& outputs) {
+std::vector<FilmOrder> place_orders(const Scene& scene, Outputs& outputs) {
   std::vector<FilmOrder> orders;
   for (std::size_t k = 0; k < scene.outputs.size(); ++k) {
     const SceneOutput& output = scene.outputs[k];
     if (!is_picture(output.kind)) continue;
-    const OutputSlot& slot = outputs.slots[k];
+    OutputSlot& slot = outputs.slots[k];
+    slot.film = orders.size();
     orders.push_back({.kind = output.kind,
                       .file = slot.file,
                       .camera = *find_camera(scene, output.camera),
@@ -151,17 +151,15 @@ void open_writers(const Simulation& s, const std::string& echo, const Checkpoint
   else
     remove_checkpoint(outputs.folder);  // it would not belong to the files that are written now
   if (!echo.empty()) write_whole_file(outputs.folder + "/" + scene_name, echo);
-  for (const OutputSlot& slot : outputs.slots) {
+  for (OutputSlot& slot : outputs.slots) {
     std::filesystem::create_directories(std::filesystem::path(slot.file).parent_path());
-    outputs.metrics.push_back(slot.kind == OutputKind::metrics ? open_metrics(s, slot, resumed)
-                                                               : nullptr);
-    outputs.recordings.push_back(nullptr);
+    if (slot.kind == OutputKind::metrics) slot.metrics = open_metrics(s, slot, resumed);
     if (slot.kind != OutputKind::recording) continue;
     if (resumed && !slot.is_continued) set_aside(slot.file, s.first_frame);
-    outputs.recordings.back() =
+    slot.recording =
         slot.is_continued ? old_recording(slot.file, slot.last_frame) : new_recording(s, slot.file);
   }
-  const std::vector<FilmOrder> orders = film_orders(s.scene, outputs);
+  const std::vector<FilmOrder> orders = place_orders(s.scene, outputs);
   const bool is_over = s.first_frame >= s.scene.time.n_frames();
   if (orders.empty() || is_over) return;
   warn_of_empty_pictures(s, orders);
@@ -170,12 +168,8 @@ void open_writers(const Simulation& s, const std::string& echo, const Checkpoint
 
 void add_film_frame(const Simulation& s, Outputs& outputs, const FrameRow& row) {
   FilmFrame frame{.number = row.frame, .time = row.time};
-  std::size_t order = 0;
-  for (const OutputSlot& slot : outputs.slots) {
-    if (!is_picture(slot.kind)) continue;
-    if (slot.is_due(row.frame)) frame.orders.push_back(order);
-    ++order;
-  }
+  for (const OutputSlot& slot : outputs.slots)
+    if (is_picture(slot.kind) && slot.is_due(row.frame)) frame.orders.push_back(slot.film);
   if (frame.orders.empty()) return;
   frame.x = s.view.x;
   frame.X = s.mesh.X;
@@ -185,8 +179,7 @@ void add_film_frame(const Simulation& s, Outputs& outputs, const FrameRow& row) 
 }
 
 // The displacements come from all ranks to the one with the writer. Collective.
-void add_recorded_frame(Simulation& s, Outputs& outputs, std::size_t k, const FrameRow& row) {
-  OutputSlot& slot = outputs.slots[k];
+void add_recorded_frame(Simulation& s, OutputSlot& slot, const FrameRow& row) {
   RecordedFrame frame{
       .frame = row.frame, .step = row.step, .time = row.time, .digest = state_digest(s)};
   frame.u = gather_field(s.part, 3, s.state.u, *s.communicator);
@@ -194,9 +187,9 @@ void add_recorded_frame(Simulation& s, Outputs& outputs, std::size_t k, const Fr
     for (int i = 0; i < 3; ++i) frame.tool_forces.push_back(tool.force[i]);
   on_root(*s.communicator, [&] {
     // One that fails is left as a kill would leave it, without an end that it has not come to.
-    std::unique_ptr<RecordingWriter> writer = std::move(outputs.recordings[k]);
+    std::unique_ptr<RecordingWriter> writer = std::move(slot.recording);
     writer->add(slot.pending, frame);
-    outputs.recordings[k] = std::move(writer);
+    slot.recording = std::move(writer);
   });
   slot.pending.clear();
   slot.last_frame = row.frame;
@@ -243,19 +236,19 @@ Outputs open_outputs(Simulation& s, const std::string& folder, const std::string
 void write_outputs(Simulation& s, Outputs& outputs, const FrameRow& row) {
   const PhaseScope scope(s.timers, phase_output);
   hand_out_edits(s, outputs);
-  for (std::size_t k = 0; k < outputs.slots.size(); ++k)
-    if (outputs.slots[k].kind == OutputKind::recording && outputs.slots[k].is_due(row.frame))
-      add_recorded_frame(s, outputs, k, row);
+  for (OutputSlot& slot : outputs.slots)
+    if (slot.kind == OutputKind::recording && slot.is_due(row.frame))
+      add_recorded_frame(s, slot, row);
   on_root(*s.communicator, [&] {
-    for (std::size_t k = 0; k < outputs.metrics.size(); ++k)
-      if (outputs.metrics[k] && outputs.slots[k].is_due(row.frame)) outputs.metrics[k]->add(row);
+    for (OutputSlot& slot : outputs.slots)
+      if (slot.metrics && slot.is_due(row.frame)) slot.metrics->add(row);
     if (outputs.studio) add_film_frame(s, outputs, row);
   });
 }
 
 void finish_outputs(Outputs& outputs) {
-  for (auto& recording : outputs.recordings)
-    if (recording) recording->finish();
+  for (OutputSlot& slot : outputs.slots)
+    if (slot.recording) slot.recording->finish();
   if (outputs.studio) outputs.studio->finish();
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/frame_log.h"
+#include "engine/metrics_file.h"
 #include "engine/recording.h"
 #include "engine/scene.h"
 
@@ -14,8 +15,8 @@ namespace trocar {
 struct Checkpoint;
 struct Simulation;
 class FilmStudio;
-class MetricsFile;
 
+// The writers exist on rank 0 only, each of its kind of output.
 struct OutputSlot {
   OutputKind kind = OutputKind::metrics;
   std::string file;               // full path
@@ -24,19 +25,19 @@ struct OutputSlot {
   std::int64_t last_frame = 0;    // of a recording: the last one in it, 0 none
   std::vector<MeshEdit> pending;  // of a recording: edits since then
   bool is_continued = false;      // a recording or metrics that a stopped run began
+  std::unique_ptr<MetricsFile> metrics;
+  std::unique_ptr<RecordingWriter> recording;
+  std::size_t film = 0;  // of a picture: its place among the studio's orders
   // Of a contact sheet only the frames that it shows.
   bool is_due(std::int64_t frame) const;
 };
 
-// The writers exist on rank 0 only, and only those that the scene asks for.
 struct Outputs {
   std::string folder;
   std::int64_t last_checkpoint = -1;  // its frame
   PackedRows rows_in_checkpoints;
   std::vector<OutputSlot> slots;
-  std::unique_ptr<FilmStudio> studio;
-  std::vector<std::unique_ptr<MetricsFile>> metrics;  // one a slot, null for other kinds
-  std::vector<std::unique_ptr<RecordingWriter>> recordings;
+  std::unique_ptr<FilmStudio> studio;  // on rank 0, of all pictures
 
   Outputs();
   ~Outputs();
