@@ -21,7 +21,7 @@ struct Swarm {
       mass.push_back(1e-3 * (0.5 + unit(random)));
       state.x.emplace_back(unit(random), unit(random), unit(random));
       const Vec3 v = Vec3(1, 2, 3) + Vec3(0, 0, 4).cross(state.x[i]) +
-                     Vec3(unit(random), unit(random), unit(random));
+                     4 * Vec3(unit(random), unit(random), unit(random));
       state.v.insert(state.v.end(), v.begin(), v.end());
     }
   }
