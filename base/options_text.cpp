@@ -1,4 +1,5 @@
 // Values and what is allowed as text: TOML for the echo, sentences for messages and help.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -42,6 +43,7 @@ std::string item_path(const std::string& list, std::size_t number) {
 }
 
 std::string numbers_text(std::span<const double> values) {
+  if (std::ranges::any_of(values, [](double x) { return std::isnan(x); })) return "";
   return list_text(values, number_text);
 }
 

@@ -20,7 +20,7 @@ using Stream = std::unique_ptr<std::FILE, CloseFile>;
 
 [[noreturn]] void fail_write(const std::string& file, const std::string& part) {
   const std::string reason = std::strerror(errno);
-  std::remove(part.c_str());
+  if (part != file) std::remove(part.c_str());
   throw MachineError(file + ": can't be written: " + reason);
 }
 
@@ -57,10 +57,12 @@ std::string read_whole_file(const std::string& file) {
 }
 
 void write_whole_file(const std::string& file, std::string_view content) {
-  const std::string part = file + ".part";
   std::error_code ignored;  // opening tells
-  if (std::filesystem::is_other(file, ignored))
-    throw MachineError(file + ": can't be written: a device or a pipe is not replaced");
+  const bool is_link = std::filesystem::is_symlink(file, ignored);
+  const std::string linked = is_link ? std::filesystem::canonical(file, ignored).string() : "";
+  const std::string target = linked.empty() ? file : linked;
+  const bool is_replaced = !std::filesystem::is_other(file, ignored);  // no device, no pipe
+  const std::string part = is_replaced ? target + ".part" : file;
   Stream stream(std::fopen(part.c_str(), "wb"));
   if (!stream) fail_write(file, part);
   const bool is_written =
@@ -68,7 +70,7 @@ void write_whole_file(const std::string& file, std::string_view content) {
   // fclose flushes: a full disk may show only there.
   if (!is_written || std::fflush(stream.get()) != 0) fail_write(file, part);
   if (std::fclose(stream.release()) != 0) fail_write(file, part);
-  if (std::rename(part.c_str(), file.c_str()) != 0) fail_write(file, part);
+  if (is_replaced && std::rename(part.c_str(), target.c_str()) != 0) fail_write(file, part);
 }
 
 }  // namespace trocar

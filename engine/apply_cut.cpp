@@ -277,8 +277,7 @@ void add_to_record(const Simulation& s, const Before& before, std::span<const st
                    CutRecord& record) {
   const std::vector<std::int32_t>& elements = before.edited.after;
   for (const std::int32_t e : elements)
-    record.figures.least_quality =
-        std::min(record.figures.least_quality, element_quality(s.mesh, e, s.mesh.X));
+    record.least_quality = std::min(record.least_quality, element_quality(s.mesh, e, s.mesh.X));
   record.stable_step_ratio =
       std::min(record.stable_step_ratio, least_element_step(s, elements) / before.least_step);
   const double mass_change = std::abs(mass_of(nodes, s.mass) - before.mass);

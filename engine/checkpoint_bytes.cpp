@@ -27,7 +27,7 @@ template <class Archive>
 static void visit(Archive& a, CutRecord& r) {
   a(r.tool, r.start, r.end, r.figures, r.n_edits, r.n_ranks, r.n_askew, r.n_pieces,
     r.n_elements_added, r.n_elements_dissolved, r.stable_step_ratio, r.scene_step_ratio,
-    r.scene_step_before, r.mass_change, r.momentum_change, r.kinetic_energy_change,
+    r.scene_step_before, r.least_quality, r.mass_change, r.momentum_change, r.kinetic_energy_change,
     r.strain_energy_change, r.blade_travel, r.deepest, r.swept_area, r.parted_area, r.seconds,
     r.worst_seconds);
 }

@@ -123,9 +123,9 @@ BladeLook look_and_cut(const Simulation& s, const BladeWay& way, bool was_engage
   look.is_last = leaves_tissue(s, stage, way, look.has_met);
   measure_inside(s, positions, sweep, was_engaged, look);
   if (s.mesh.dimension() == 2) return look;
-  look.swept = swept_places(s, positions, sweep);
   if (!stage.is_in_stroke) stage.tet.start_stroke();
   advance_stroke(s, sweep, stage, positions, look);
+  look.swept = swept_places(s, positions, sweep);
   return look;
 }
 

@@ -26,6 +26,7 @@ struct CutRecord {
       1;  // least stable step after / before, of the elements around, worst edit
   double scene_step_ratio = 1;       // of the whole body, after or so far / before the stroke
   double scene_step_before = 0;      // [s]
+  double least_quality = 1;          // of elements around an edit, after it
   double mass_change = 0;            // largest |relative| of an edit
   double momentum_change = 0;        // |P after - P before| / sum |m v| around the cut, largest
   double kinetic_energy_change = 0;  // summed [J]

@@ -35,7 +35,6 @@ void start_stroke(CutStage& stage, const Tool& tool, double time) {
   stage.n_idle_frames = 0;
   stage.strokes.push_back({.tool = tool.name, .start = time});
   stage.plane_tip = -1;
-  stage.swept.clear();
   if (!stage.knows_tissue) stage.tissue_velocity.setZero();
 }
 
@@ -48,6 +47,7 @@ BladeSweep sweep_of(const Simulation& s, const Tool& tool, const FrameSpan& span
 void end_stroke(CutStage& stage) {
   stage.is_in_stroke = false;
   stage.plane_path.clear();
+  stage.swept.clear();
 }
 
 void note_body(const Simulation& s, CutRecord& record) {
@@ -269,7 +269,7 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
   if (!look.is_last) return;
   note_askew(s, record);
   note_refusals(s, record);
-  note_swept_area(s, stage.swept, record);
+  if (s.mesh.dimension() == 3) note_swept_area(s, stage.swept, record);
   note_deviation(s, record);
   note_energy_change(s, record);
   end_stroke(stage);

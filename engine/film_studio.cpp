@@ -41,8 +41,9 @@ std::vector<TissueColours> region_colours(const SceneTissue& tissue, const Mesh&
   std::vector<TissueColours> colours(mesh.region_name.size(), colours_of(tissue.look));
   for (const SceneRegionMaterial& other : tissue.region_materials) {
     const auto region = std::ranges::find(mesh.region_name, other.region);
-    if (other.look && region != mesh.region_name.end())
-      colours[region - mesh.region_name.begin()] = colours_of(*other.look);
+    if (region != mesh.region_name.end())
+      colours[region - mesh.region_name.begin()] =
+          other.look ? colours_of(*other.look) : colours_of(tissue.look);
   }
   return colours;
 }
@@ -177,6 +178,7 @@ bool is_in_view(const FilmOrder& order, std::span<const Vec3> x) {
 
 std::vector<std::int32_t> surface_regions(const Mesh& mesh, const Surface& surface) {
   std::vector<std::int32_t> region;
+  if (mesh.region_name.size() == 1) return region;
   region.reserve(surface.element.size());
   for (const std::int32_t e : surface.element) region.push_back(mesh.element_region[e]);
   return region;

@@ -30,7 +30,7 @@ struct FilmFrame {
   double time = 0;          // [s]
   std::vector<Vec3> x, X;   // (n_nodes)
   Surface surface;
-  std::vector<std::int32_t> region;  // (n_triangles) of the mesh, behind each triangle
+  std::vector<std::int32_t> region;  // (n_triangles) behind each triangle; or empty: all 0
   std::vector<std::size_t> orders;   // which orders it is drawn for
 };
 std::vector<std::int32_t> surface_regions(const Mesh& mesh, const Surface& surface);

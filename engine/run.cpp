@@ -96,8 +96,6 @@ Ending run_frame_or_end(Simulation& s, Outputs& outputs) {
     Ending ending{.code = ExitCode::simulation, .sentence = trouble.what()};
     add_failure(failure_of([&] { write_checkpoint(s, outputs, &frame_start); }), ending);
     return ending;
-  } catch (const InputError& trouble) {  // of a body that a cut has made
-    return {.code = ExitCode::simulation, .sentence = trouble.what()};
   } catch (const SharedMachineError& failure) {
     return {.code = ExitCode::machine,
             .sentence = failure.what() + std::string("; the run ends after frame ") +

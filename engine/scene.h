@@ -48,10 +48,10 @@ struct SceneTime {
   std::int64_t n_frames() const { return frames_in(duration); }
 };
 
-// How the tissue of a region looks, linear RGB.
+// How the tissue of a region looks, linear RGB; what is not given (NaN) is the tissue's.
 struct SceneRegionLook {
-  Vec3 colour{0.42, 0.10, 0.08};
-  Vec3 cut_colour{0.62, 0.20, 0.17};
+  Vec3 colour = Vec3::Constant(SceneMaterial::absent);
+  Vec3 cut_colour = colour;
 };
 
 // Elements of this region of the mesh are made of something else.

@@ -71,11 +71,18 @@ void check_shortcuts(const Scene& scene, OptionErrors& errors) {
                "\"nodal-pressure\", mass_scaling_step");
 }
 
+void complete_look(const SceneLook& of_tissue, SceneRegionLook& look) {
+  if (!look.colour.allFinite()) look.colour = of_tissue.colour;
+  if (!look.cut_colour.allFinite()) look.cut_colour = of_tissue.cut_colour;
+}
+
 void complete_materials(SceneTissue& tissue, OptionErrors& errors) {
   complete_material("tissue.material", tissue.material, errors);
-  for (std::size_t k = 0; k < tissue.region_materials.size(); ++k)
-    complete_material(item_path("tissue.region_material", k) + ".material",
-                      tissue.region_materials[k].material, errors);
+  for (std::size_t k = 0; k < tissue.region_materials.size(); ++k) {
+    SceneRegionMaterial& other = tissue.region_materials[k];
+    complete_material(item_path("tissue.region_material", k) + ".material", other.material, errors);
+    if (other.look) complete_look(tissue.look, *other.look);
+  }
 }
 
 void check_regions(const Scene& scene, OptionErrors& errors) {

@@ -31,7 +31,7 @@ Options<SceneRegionMaterial> region_material_options() {
   r.text("region", &SceneRegionMaterial::region,
          "Region of elements of the mesh file, or of [[region]].", Need::required);
   r.table("material", &SceneRegionMaterial::material, material_options(), Need::required);
-  Options<SceneRegionLook> look("How the region looks, where not as the tissue does.");
+  Options<SceneRegionLook> look("How the region looks; a colour that is left out is the tissue's.");
   add_colours(look);
   r.table("look", &SceneRegionMaterial::look, look);
   return r;
@@ -215,8 +215,7 @@ Options<SceneCheckpoint> checkpoint_options() {
 
 Options<SceneRegion> region_options() {
   Options<SceneRegion> r(
-      "A named part of the body in its first position: the nodes in it, and for another material "
-      "the "
+      "A named part of the body in its first position: its nodes and, for another material, the "
       "elements whose middle lies in it.");
   r.text("name", &SceneRegion::name, "Name for supports, loads and materials.", Need::required);
   r.choice("shape", &SceneRegion::shape,

@@ -55,7 +55,7 @@ Json refusals_json(const CutRecord& c) {
 
 Json edits_json(const CutRecord& c) {
   return {{"stable_step_ratio", c.stable_step_ratio},
-          {"quality_min", c.figures.least_quality},
+          {"quality_min", c.least_quality},
           {"mass_change", c.mass_change},
           {"momentum_change", c.momentum_change},
           {"kinetic_energy_change_J", c.kinetic_energy_change},
@@ -91,8 +91,6 @@ Json stroke_json(const CutRecord& c) {
                  {"scene_stable_step_ratio", c.scene_step_ratio},
                  {"blade_travel_m", c.blade_travel},
                  {"edge_inside_max_m", c.deepest},
-                 {"swept_area_m2", c.swept_area},
-                 {"parted_area_m2", c.parted_area},
                  {"milliseconds", 1e3 * c.seconds},
                  {"milliseconds_worst", 1e3 * c.worst_seconds}};
   if (c.n_edits > 0) stroke.update(edits_json(c));
@@ -105,7 +103,9 @@ Json cuts_json(const Simulation& s) {
     for (const CutRecord& stroke : stage.strokes) {
       list.push_back(stroke_json(stroke));
       if (s.mesh.dimension() == 3)
-        list.back()["from_surface_to_surface"] = stroke.figures.goes_through;
+        list.back().update({{"from_surface_to_surface", stroke.figures.goes_through},
+                            {"swept_area_m2", stroke.swept_area},
+                            {"parted_area_m2", stroke.parted_area}});
     }
   return list;
 }

@@ -63,8 +63,10 @@ std::vector<SweptPlace> swept_places(const Simulation& s, BodyPositions& positio
   std::vector<Vec3> before = sweep.before;  // as the tissue sees it, which lies as at the end
   for (std::size_t i = 0; i < sweep.tissue_way.size(); ++i) before[i] += sweep.tissue_way[i];
   const Vec3 way = middle_of(sweep.after) - middle_of(before);
+  const Vec3 own_way = middle_of(sweep.after) - middle_of(sweep.before);
   const Vec3 along = (sweep.after.back() - sweep.after.front()).normalized();
-  const double across = along.cross(way).norm();
+  // Tissue that swings past a blade goes through the same places again and again.
+  const double across = std::min(along.cross(way).norm(), along.cross(own_way).norm());
   const double parts = std::ceil(across / (place_spacing * s.edge_length));
   std::vector<SweptPlace> places;
   if (!(parts > 0)) return places;

@@ -15,7 +15,8 @@ void visit(Archive& a, SweptPlace& place) {
   a(place.X, place.normal, place.area);
 }
 
-// Of a blade's way through the tissue in a frame, with the edge in the middle of equal parts of it.
+// Of a blade's way through the tissue in a frame, its own at most, with the edge in the middle of
+// equal parts of it.
 std::vector<SweptPlace> swept_places(const Simulation& s, BodyPositions& positions,
                                      const BladeSweep& sweep);
 

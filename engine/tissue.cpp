@@ -65,7 +65,7 @@ void add_node_regions(const LoadedScene& loaded, Mesh& mesh, OptionErrors& error
   for (std::size_t k = 0; k < loaded.scene.regions.size(); ++k) {
     const SceneRegion& region = loaded.scene.regions[k];
     const std::string path = item_path("region", k);
-    if (find_node_set(mesh, region.name)) {
+    if (find_node_set(mesh, region.name) || std::ranges::count(mesh.region_name, region.name) > 0) {
       errors.add(path + ".name", "the body has a region \"" + region.name + "\" already");
       continue;
     }
@@ -79,18 +79,20 @@ void add_node_regions(const LoadedScene& loaded, Mesh& mesh, OptionErrors& error
   }
 }
 
-// Of [[region]]s that materials name: the elements whose middle lies there.
+// Of [[region]]s that materials name: the elements whose middle lies there, of several the last.
 void add_element_regions(const Scene& scene, Mesh& mesh, OptionErrors& errors) {
   for (std::size_t k = 0; k < scene.tissue.region_materials.size(); ++k) {
     const std::string& name = scene.tissue.region_materials[k].region;
     const auto region = std::ranges::find(scene.regions, name, &SceneRegion::name);
-    if (region == scene.regions.end() || std::ranges::count(mesh.region_name, name) > 0) continue;
-    const auto number = static_cast<std::int32_t>(mesh.region_name.size());
-    mesh.region_name.push_back(name);
+    if (region == scene.regions.end()) continue;
+    const auto number = static_cast<std::int32_t>(std::ranges::find(mesh.region_name, name) -
+                                                  mesh.region_name.begin());
+    if (number == std::ssize(mesh.region_name)) mesh.region_name.push_back(name);
     for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
       if (is_in(*region, element_centre(mesh, e))) mesh.element_region[e] = number;
-    const bool is_empty = std::ranges::count(mesh.element_region, number) == 0;
-    if (is_empty && !find_node_set(mesh, name)->node.empty())  // else that is told
+    const NodeSet* const set = find_node_set(mesh, name);
+    const bool is_told = set == nullptr || set->node.empty();
+    if (!is_told && std::ranges::count(mesh.element_region, number) == 0)
       errors.add(item_path("tissue.region_material", k) + ".region",
                  "region \"" + name + "\" holds the middle of no element: enlarge it or take a " +
                      "finer mesh");

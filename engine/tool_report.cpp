@@ -103,9 +103,10 @@ static void note_idle_blades(Simulation& s) {
 }
 
 // Of a stroke that the run's end finds under way.
-static void note_unfinished(Simulation& s, const CutRecord& record) {
+static void note_unfinished(Simulation& s, const CutStage& stage) {
+  const CutRecord& record = stage.strokes.back();
   note_refusals(s, record);
-  if (s.mesh.dimension() == 3)
+  if (s.mesh.dimension() == 3 && stage.n_idle_frames == 0)
     note_event(s, s.state.time,
                record.tool +
                    " is still in the tissue: its cut ends half an edge to one and a half (" +
@@ -115,7 +116,7 @@ static void note_unfinished(Simulation& s, const CutRecord& record) {
 
 void note_idle_tools(Simulation& s) {
   for (const CutStage& stage : s.cuts)
-    if (stage.is_in_stroke) note_unfinished(s, stage.strokes.back());
+    if (stage.is_in_stroke) note_unfinished(s, stage);
   note_idle_blades(s);
   for (std::size_t k = 0; k < s.tools.size(); ++k)
     if (s.tools[k].kind == InstrumentKind::probe &&

@@ -49,6 +49,28 @@ TEST(Tissue, ellipsoids_hold_what_is_within_their_half_axes) {
   EXPECT_EQ(n_in_ball("[-0.04, 0.0126, 0.0126]", "[0.08, 0.0274, 0.0274]"), 16);
 }
 
+// Stiff, soft and stiff again: the last one counts where they overlap.
+TEST(Tissue, the_last_of_materials_that_name_a_region_counts) {
+  const std::string other =
+      "[[region]]\nname = \"rest\"\nlow = [0, 0, 0]\nhigh = [0.04, 0.04, 0.04]\n"
+      "[[tissue.region_material]]\nregion = \"rest\"\nmaterial = {young_modulus = 1e3}\n";
+  const auto covered = built(block_with(tumour + stiff + other));
+  EXPECT_EQ(n_in(covered->s->mesh, "tumour"), 0);
+  EXPECT_EQ(n_in(covered->s->mesh, "rest"), 64);
+  const auto again = built(block_with(tumour + stiff + other + stiff));
+  EXPECT_EQ(n_in(again->s->mesh, "tumour"), 8);
+  EXPECT_EQ(n_in(again->s->mesh, "rest"), 56);
+}
+
+TEST(Tissue, a_colour_that_a_region_leaves_out_is_the_tissue_s) {
+  const auto started = built(block_with("[tissue.look]\ncut_colour = [0.1, 0.2, 0.3]\n" + tumour +
+                                        stiff + "look = {colour = [0.5, 0.5, 0.5]}\n"));
+  const auto& look = started->s->scene.tissue.region_materials[0].look;
+  ASSERT_TRUE(look);
+  EXPECT_EQ(look->colour, Vec3(0.5, 0.5, 0.5));
+  EXPECT_EQ(look->cut_colour, Vec3(0.1, 0.2, 0.3));
+}
+
 TEST(Tissue, a_region_without_an_element_is_refused) {
   const std::string text = error_of([&] {
     built(
