@@ -63,15 +63,16 @@ void print_trial(const Cut2dTrial& trial, Cut2dMode mode) {
                  {0, mode == Cut2dMode::subdivision ? "OR" : "NR", "after", trial.statistics_after,
                   trial.best_seconds, trial.median_seconds, ""}})
           .c_str(),
-      trial.n_opened_edges, trial.n_new_nodes, trial.n_new_elements, trial.n_moved, trial.n_refused,
-      trial.step_ratio, trial.altitude_ratio, 1e3 * trial.largest_deviation);
-  for (const CutRefusal& refusal : trial.refusals)
+      trial.figures.n_opened_facets, trial.n_new_nodes, trial.n_new_elements, trial.figures.n_moved,
+      trial.figures.n_refused, trial.step_ratio, trial.altitude_ratio,
+      1e3 * trial.figures.largest_deviation);
+  for (const CutRefusal& refusal : trial.figures.refusals)
     std::printf("stays joined at %.4g,%.4g mm: %s\n", 1e3 * refusal.X.x(), 1e3 * refusal.X.y(),
                 reason_of(refusal));
 }
 
 std::string nothing_cut_text(const Cut2dTrial& trial) {
-  if (!trial.refusals.empty())
+  if (!trial.figures.refusals.empty())
     return "nothing was cut: what the path crosses stays joined, for the reasons that are told";
   const auto [low, high] = bounding_box(trial.before.X);
   char text[200];
@@ -88,7 +89,7 @@ ExitCode cut_one(const Cut2dCommand& command) {
       run_trial(mesh_of(command), paths_of(command),
                 options_of(mode_of(command.mode), command.repetitions, command.least_step_ratio));
   draw_trial(command, "", trial);
-  if (trial.n_opened_edges == 0) log_warning(nothing_cut_text(trial));
+  if (trial.figures.n_opened_facets == 0) log_warning(nothing_cut_text(trial));
   if (command.is_json)
     std::fputs(trial_json(trial, command.mode).c_str(), stdout);
   else

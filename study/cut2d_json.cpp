@@ -26,16 +26,16 @@ std::string trial_json(const Cut2dTrial& trial, const std::string& mode) {
   json["mode"] = mode;
   json["before"] = statistics_json(trial.statistics_before);
   json["after"] = statistics_json(trial.statistics_after);
-  json["n_opened_edges"] = trial.n_opened_edges;
+  json["n_opened_edges"] = trial.figures.n_opened_facets;
   json["n_new_nodes"] = trial.n_new_nodes;
   json["n_new_elements"] = trial.n_new_elements;
-  json["n_moved_nodes"] = trial.n_moved;
-  json["n_refused"] = trial.n_refused;
+  json["n_moved_nodes"] = trial.figures.n_moved;
+  json["n_refused"] = trial.figures.n_refused;
   json["refusals"] = Json::array();
-  for (const CutRefusal& refusal : trial.refusals)
+  for (const CutRefusal& refusal : trial.figures.refusals)
     json["refusals"].push_back(
         {{"X_m", {refusal.X.x(), refusal.X.y(), 0}}, {"reason", reason_of(refusal)}});
-  json["largest_deviation_m"] = trial.largest_deviation;
+  json["largest_deviation_m"] = trial.figures.largest_deviation;
   json["least_altitude_ratio"] = trial.altitude_ratio;
   json["least_step_ratio"] = trial.step_ratio;
   json["best_s"] = trial.best_seconds;

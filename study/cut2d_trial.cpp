@@ -18,14 +18,6 @@ namespace {
 
 constexpr double least_seconds = 0.25;  // of repetitions whose number is left open
 
-void add_figures(const CutFigures& figures, Cut2dTrial& trial) {
-  trial.n_opened_edges += figures.n_opened_facets;
-  trial.n_moved += figures.n_moved;
-  trial.n_refused += figures.n_refused;
-  trial.refusals.insert(trial.refusals.end(), figures.refusals.begin(), figures.refusals.end());
-  trial.largest_deviation = std::max(trial.largest_deviation, figures.largest_deviation);
-}
-
 // What of a reach does not run in slits that are there.
 PathFromSlit outside_slits(const Mesh& mesh, const Cut2dPath& reach, std::int32_t tip, double h) {
   PathFromSlit path = past_slit(mesh, reach, tip, h);
@@ -36,8 +28,7 @@ PathFromSlit outside_slits(const Mesh& mesh, const Cut2dPath& reach, std::int32_
 // Time from mesh and path to the edited mesh.
 double displace(const Cut2dOptions& options, Cut2dTrial& trial) {
   double seconds = 0;
-  trial.n_opened_edges = trial.n_moved = trial.n_refused = 0;
-  trial.refusals.clear();
+  trial.figures = {};
   trial.after = trial.before;
   CutPlaneOptions plane = options.plane;
   if (options.mode == Cut2dMode::robust)
@@ -51,7 +42,7 @@ double displace(const Cut2dOptions& options, Cut2dTrial& trial) {
       const std::vector<std::uint8_t> is_held(trial.after.X.size(), 0);
       const double start = monotonic_seconds();
       PathFromSlit from{reach, tip};
-      if (options.mode == Cut2dMode::robust && trial.n_opened_edges > 0)
+      if (options.mode == Cut2dMode::robust && trial.figures.n_opened_facets > 0)
         from = outside_slits(trial.after, reach, tip, h);
       if (from.point.size() < 2) continue;
       const PlaneCut cut = cut_plane(trial.after, from.point, from.tip, is_held, plane);
@@ -59,7 +50,7 @@ double displace(const Cut2dOptions& options, Cut2dTrial& trial) {
       seconds += monotonic_seconds() - start;
       tip = cut.tip;
       rest = cut.rest;
-      add_figures(cut.figures, trial);
+      add(cut.figures, true, trial.figures);
     }
   }
   return seconds;
@@ -77,7 +68,7 @@ double subdivide(Cut2dTrial& trial) {
   }
   int n_lips = 0;
   for (const std::uint8_t mask : trial.after.cut_facets) n_lips += std::popcount(mask);
-  trial.n_opened_edges = n_lips / 2;
+  trial.figures.n_opened_facets = n_lips / 2;
   return seconds;
 }
 

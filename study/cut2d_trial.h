@@ -19,9 +19,8 @@ struct Cut2dTrial {
   Mesh before, after;
   std::vector<Cut2dPath> paths;
   PlaneStatistics statistics_before, statistics_after;
-  int n_opened_edges = 0, n_new_nodes = 0, n_new_elements = 0, n_moved = 0, n_refused = 0;
-  std::vector<CutRefusal> refusals;             // (n_refused)
-  double largest_deviation = 0;                 // of a cut node from the path [m]
+  CutFigures figures;  // of all cuts; of subdivision the opened facets alone
+  int n_new_nodes = 0, n_new_elements = 0;
   double altitude_ratio = 0;                    // least altitude after / before
   double step_ratio = 0;                        // least_step_bound after / before
   double best_seconds = 0, median_seconds = 0;  // of all cuts, over the repetitions

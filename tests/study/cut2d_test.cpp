@@ -50,8 +50,8 @@ TEST(Cut2dTrial, sharp_bend_takes_no_edges_from_its_legs) {
   const auto edges = [](int configuration, const std::string& path) {
     const Cut2dTrial trial = run_trial(paper_mesh(configuration), {read_path(path)},
                                        options_of(Cut2dMode::robust, 1, 0));
-    EXPECT_EQ(trial.n_refused, 0) << path;
-    return trial.n_opened_edges;
+    EXPECT_EQ(trial.figures.n_refused, 0) << path;
+    return trial.figures.n_opened_facets;
   };
   const auto of_bend = [&](int configuration, const std::string& from, const std::string& bend,
                            const std::string& to) {
@@ -69,34 +69,34 @@ TEST(Cut2dTrial, thin_wedge_keeps_the_floor_and_says_where_it_stays_joined) {
   const std::vector<Cut2dPath> path = {read_path("60,8 20,30 60,20")};
   const Cut2dTrial free = run_trial(paper_mesh(2), path, options_of(Cut2dMode::robust, 1, 0));
   EXPECT_LT(free.step_ratio, 0.5);
-  EXPECT_TRUE(free.refusals.empty());
+  EXPECT_TRUE(free.figures.refusals.empty());
   const Cut2dTrial trial = run_trial(paper_mesh(2), path, options_of(Cut2dMode::robust, 1));
   EXPECT_GE(trial.step_ratio, 0.5);
-  EXPECT_GE(trial.n_opened_edges, free.n_opened_edges - 2);
-  ASSERT_EQ(trial.refusals.size(), 1);
-  EXPECT_EQ(trial.refusals[0].reason, CutRefusal::slow);
-  EXPECT_LT((trial.refusals[0].X - path[0][1]).norm(), 8 * mm);
+  EXPECT_GE(trial.figures.n_opened_facets, free.figures.n_opened_facets - 2);
+  ASSERT_EQ(trial.figures.refusals.size(), 1);
+  EXPECT_EQ(trial.figures.refusals[0].reason, CutRefusal::slow);
+  EXPECT_LT((trial.figures.refusals[0].X - path[0][1]).norm(), 8 * mm);
 }
 
 TEST(Cut2dTrial, path_that_crosses_itself_is_cut_whole) {
   const Cut2dTrial trial =
       run_trial(paper_mesh(2), {read_path("-1,12 35,12 45,18 45,26 35,31 28,26 28,-1")},
                 options_of(Cut2dMode::robust, 1));
-  EXPECT_EQ(trial.n_refused, 0);
+  EXPECT_EQ(trial.figures.n_refused, 0);
   EXPECT_EQ(trial.n_new_elements, 0);
   // Euler of three pieces: the corner, what is inside the loop, and the rest.
-  EXPECT_EQ(trial.n_new_nodes, trial.n_opened_edges + 2);
+  EXPECT_EQ(trial.n_new_nodes, trial.figures.n_opened_facets + 2);
   EXPECT_GT(trial.altitude_ratio, 0.2);
 }
 
 TEST(Cut2dTrial, several_paths_are_cut_one_after_another) {
   const std::vector<Cut2dPath> paths = {read_path("30,-1 38,41"), read_path("-1,17 71,23")};
   const Cut2dTrial trial = run_trial(paper_mesh(2), paths, options_of(Cut2dMode::robust, 1));
-  EXPECT_EQ(trial.n_refused, 0);
+  EXPECT_EQ(trial.figures.n_refused, 0);
   EXPECT_EQ(trial.n_new_elements, 0);
   // The first cut of n edges adds n + 1 nodes, the second meets it: two chains of n1 and n2 edges
   // add n1 + 1 and n2 + 1.
-  EXPECT_EQ(trial.n_new_nodes, trial.n_opened_edges + 3);
+  EXPECT_EQ(trial.n_new_nodes, trial.figures.n_opened_facets + 3);
 }
 
 // Nothing is cut twice, and nothing told as joined that is open.
@@ -105,17 +105,18 @@ TEST(Cut2dTrial, path_that_begins_or_stays_in_an_older_slit_goes_on_from_it) {
     return run_trial(paper_mesh(2), paths, options_of(Cut2dMode::robust, 1, 0));
   };
   const Cut2dPath whole = read_path("-1,20 71,20"), first = read_path("-1,20 40,20");
-  const int n_whole = trial_of({whole}).n_opened_edges, n_first = trial_of({first}).n_opened_edges;
+  const int n_whole = trial_of({whole}).figures.n_opened_facets,
+            n_first = trial_of({first}).figures.n_opened_facets;
   for (const char* rest : {"38,20 71,20", "20,20 71,20", "71,20 20,20"}) {
     const Cut2dTrial trial = trial_of({first, read_path(rest)});
-    EXPECT_NEAR(trial.n_opened_edges, n_whole, 1) << rest;
-    EXPECT_EQ(trial.n_refused, 0) << rest;
+    EXPECT_NEAR(trial.figures.n_opened_facets, n_whole, 1) << rest;
+    EXPECT_EQ(trial.figures.n_refused, 0) << rest;
   }
   EXPECT_LT(n_first, n_whole - 5);
   for (const char* again : {"-1,20 71,20", "20,20 50,20"}) {
     const Cut2dTrial trial = trial_of({whole, read_path(again)});
-    EXPECT_EQ(trial.n_opened_edges, n_whole) << again;
-    EXPECT_EQ(trial.n_refused, 0) << again;
+    EXPECT_EQ(trial.figures.n_opened_facets, n_whole) << again;
+    EXPECT_EQ(trial.figures.n_refused, 0) << again;
   }
 }
 
@@ -124,7 +125,7 @@ TEST(Cut2dTrial, repetitions_change_nothing_but_times) {
   const Cut2dTrial once = run_trial(paper_mesh(1), paths, options_of(Cut2dMode::paper, 1));
   const Cut2dTrial thrice = run_trial(paper_mesh(1), paths, options_of(Cut2dMode::paper, 3));
   EXPECT_EQ(once.after.X, thrice.after.X);
-  EXPECT_EQ(once.n_opened_edges, thrice.n_opened_edges);
+  EXPECT_EQ(once.figures.n_opened_facets, thrice.figures.n_opened_facets);
   EXPECT_GT(thrice.best_seconds, 0);
   EXPECT_LE(thrice.best_seconds, thrice.median_seconds);
 }
