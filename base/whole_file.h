@@ -14,8 +14,8 @@ std::string fault_of_file(const std::string& file);
 // hang), MachineError if reading fails.
 std::string read_whole_file(const std::string& file);
 
-// Replaces the file, but no device or pipe. Throws MachineError with path and reason; what was
-// there before is then untouched.
+// Replaces the file, of a link the one that it leads to; writes into a device or a pipe. Throws
+// MachineError with path and reason; what was there before is then untouched.
 void write_whole_file(const std::string& file, std::string_view content);
 
 }  // namespace trocar

@@ -74,10 +74,7 @@ void measure_inside(const Simulation& s, BodyPositions& positions, const BladeSw
   constexpr int n_places = 16;
   int n_inside = 0;
   for (int k = 0; k < n_places; ++k) {
-    const double t = (k + 0.5) / n_places;
-    std::vector<Vec3> edge;
-    for (std::size_t i = 0; i < sweep.before.size(); ++i)
-      edge.push_back((1 - t) * sweep.before[i] + t * sweep.after[i]);
+    const std::vector<Vec3> edge = edge_between(sweep.before, sweep.after, (k + 0.5) / n_places);
     const double inside = length_of(locate_edge(s, positions, edge));
     n_inside += inside > 0 ? 1 : 0;
     look.most_inside = std::max(look.most_inside, inside);

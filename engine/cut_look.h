@@ -39,6 +39,15 @@ inline Vec3 middle_of(const std::vector<Vec3>& edge) {
   return 0.5 * (edge.front() + edge.back());
 }
 
+// The edge at a share of its way from one place to another.
+inline std::vector<Vec3> edge_between(std::span<const Vec3> before, std::span<const Vec3> after,
+                                      double share) {
+  std::vector<Vec3> edge;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    edge.push_back((1 - share) * before[i] + share * after[i]);
+  return edge;
+}
+
 // The cutting edge, of a plane body's blade the tip alone.
 std::vector<Vec3> edge_in_body(const Simulation& s, const Tool& tool, double time);
 

@@ -222,8 +222,7 @@ void report_energies(Simulation& s, FrameRow& row) {
                "hourglass energy is " + number_text(std::round(1000 * share) / 10) +
                    " % of the stored energy: the mesh is too coarse for how the tissue bends or "
                    "for the tip that presses it; a finer one helps, or hexahedra whose hourglass "
-                   "energy is the material's "
-                   "(solver.hexahedron = \"enhanced\")");
+                   "energy is the material's (solver.hexahedron = \"enhanced\")");
   ledger.memory.largest_hourglass_share = std::max(ledger.memory.largest_hourglass_share, share);
 }
 

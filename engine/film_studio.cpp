@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "base/timers.h"
+#include "engine/tissue.h"
 #include "render/image_file.h"
 #include "render/renderer.h"
 #include "render/view.h"
@@ -38,14 +39,9 @@ std::vector<TissueColours> region_colours(const SceneTissue& tissue, const Mesh&
   const auto colours_of = [](const auto& look) {
     return TissueColours{.outer = look.colour, .cut = look.cut_colour};
   };
-  std::vector<TissueColours> colours(mesh.region_name.size(), colours_of(tissue.look));
-  for (const SceneRegionMaterial& other : tissue.region_materials) {
-    const auto region = std::ranges::find(mesh.region_name, other.region);
-    if (region != mesh.region_name.end())
-      colours[region - mesh.region_name.begin()] =
-          other.look ? colours_of(*other.look) : colours_of(tissue.look);
-  }
-  return colours;
+  return of_regions(tissue, mesh, colours_of(tissue.look), [&](const SceneRegionMaterial& other) {
+    return other.look ? colours_of(*other.look) : colours_of(tissue.look);
+  });
 }
 
 // An order and what writes it.

@@ -30,12 +30,12 @@ class CutElements {
     }
   }
   bool part(const Mesh& mesh, const std::array<Vec3, 2>& segment) const {
-    bool is_found = false;
+    std::vector<std::int32_t> near;  // some twice
     at_cells(bounding_box(segment), [&](const Cell& at) {
-      const auto found = is_found ? of_.end() : of_.find(at);
-      is_found = is_found || (found != of_.end() && is_parted(mesh, found->second, segment));
+      if (const auto found = of_.find(at); found != of_.end())
+        near.insert(near.end(), found->second.begin(), found->second.end());
     });
-    return is_found;
+    return is_parted(mesh, near, segment);
   }
 
  private:
@@ -72,10 +72,7 @@ std::vector<SweptPlace> swept_places(const Simulation& s, BodyPositions& positio
   if (!(parts > 0)) return places;
   const int n = static_cast<int>(std::min<double>(parts, most_places));
   for (int k = 0; k < n; ++k) {
-    const double share = (k + 0.5) / n;
-    std::vector<Vec3> edge;
-    for (std::size_t i = 0; i < before.size(); ++i)
-      edge.push_back((1 - share) * before[i] + share * sweep.after[i]);
+    const std::vector<Vec3> edge = edge_between(before, sweep.after, (k + 0.5) / n);
     for (const SegmentPiece& piece : locate_edge(s, positions, edge)) {
       const EdgePlace place =
           place_of(s.mesh, positions.x(), piece.middle, along, way.normalized());

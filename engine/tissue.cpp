@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/box.h"
-#include "base/check.h"
 #include "base/log.h"
 #include "base/number_text.h"
 #include "base/on_root.h"
@@ -158,13 +157,8 @@ Mesh read_tissue(const LoadedScene& loaded) {
 }  // namespace
 
 std::vector<Material> region_materials(const SceneTissue& tissue, const Mesh& mesh) {
-  std::vector<Material> materials(mesh.region_name.size(), to_material(tissue.material));
-  for (const SceneRegionMaterial& other : tissue.region_materials) {
-    const auto at = std::ranges::find(mesh.region_name, other.region);
-    CHECK(at != mesh.region_name.end());
-    materials[at - mesh.region_name.begin()] = to_material(other.material);
-  }
-  return materials;
+  return of_regions(tissue, mesh, to_material(tissue.material),
+                    [](const SceneRegionMaterial& other) { return to_material(other.material); });
 }
 
 std::string scene_path(const LoadedScene& loaded, const std::string& file) {

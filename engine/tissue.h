@@ -1,6 +1,10 @@
 // The body of a scene: read or generated on rank 0, placed, checked, and sent to every rank.
 #pragma once
 
+#include <algorithm>
+#include <vector>
+
+#include "base/check.h"
 #include "base/communicator.h"
 #include "engine/scene.h"
 #include "mesh/mesh.h"
@@ -11,7 +15,19 @@ namespace trocar {
 // node sets of [[region]].
 Mesh load_tissue(const LoadedScene& loaded, Communicator& communicator);
 
-// Of each region of the mesh; those that the scene names must be there.
+// A value of each region of the mesh: the tissue's, or what `of` makes of the region's material; of
+// several the last. Those that the scene names must be there.
+template <class Value, class Of>
+std::vector<Value> of_regions(const SceneTissue& tissue, const Mesh& mesh, const Value& of_tissue,
+                              const Of& of) {
+  std::vector<Value> values(mesh.region_name.size(), of_tissue);
+  for (const SceneRegionMaterial& other : tissue.region_materials) {
+    const auto at = std::ranges::find(mesh.region_name, other.region);
+    CHECK(at != mesh.region_name.end());
+    values[at - mesh.region_name.begin()] = of(other);
+  }
+  return values;
+}
 std::vector<Material> region_materials(const SceneTissue& tissue, const Mesh& mesh);
 
 // The path of a file that the scene names: relative ones start at the scene file's folder.
