@@ -12,9 +12,9 @@
 
 namespace trocar {
 
-// A cube whose nodes are moved by up to a tenth of a cell, so that no element is a parallelepiped;
-// tetrahedra in the order in which a tissue has them.
-inline Mesh jittered_body(Formulation formulation, int n_elements) {
+// A cube whose nodes are moved by up to a part of a cell: with a tenth no element is a
+// parallelepiped. Tetrahedra in the order in which a tissue has them.
+inline Mesh jittered_body(Formulation formulation, int n_elements, double part = .1) {
   const ElementType shape = shape_of(formulation);
   const int per_cell = shape == ElementType::tet4 ? 6 : (shape == ElementType::tri3 ? 2 : 1);
   const bool is_plane = shape == ElementType::tri3;
@@ -29,16 +29,17 @@ inline Mesh jittered_body(Formulation formulation, int n_elements) {
   for (Vec3& X : mesh.X)
     for (int j = 0; j < (is_plane ? 2 : 3); ++j) {
       seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
-      X[j] += .1 / n * (static_cast<double>(seed >> 11) * 0x1p-53 - .5) * .2;
+      X[j] += .1 / n * (static_cast<double>(seed >> 11) * 0x1p-53 - .5) * 2 * part;
     }
   return interleaved(mesh);
 }
 
 // How nodes and elements are numbered: as in a box; elements some ten places from where they were,
-// so that none stand in rows (solver/row_order.h); anyhow, as in a bad file; and that renumbered.
-enum class Numbering { box, near_box, any, renumbered };
-inline constexpr std::array<const char*, 4> numbering_name = {"box", "near box", "any",
-                                                              "renumbered"};
+// so that none stand in rows (solver/row_order.h); anyhow, as in a bad file; that renumbered; and
+// as in a box whose nodes stay in place, so that all elements are boxes along the axes.
+enum class Numbering { box, near_box, any, renumbered, aligned };
+inline constexpr std::array<const char*, 5> numbering_name = {"box", "near box", "any",
+                                                              "renumbered", "aligned box"};
 
 // For benches alone: what belongs to single elements stays behind.
 inline void exchange_elements(Mesh& mesh, std::size_t a, std::size_t b) {
@@ -47,8 +48,9 @@ inline void exchange_elements(Mesh& mesh, std::size_t a, std::size_t b) {
                    &mesh.corner_node[n * b]);
 }
 
-inline Mesh in_numbering(Numbering numbering, Mesh mesh) {
-  if (numbering == Numbering::box) return mesh;
+inline Mesh numbered_body(Numbering numbering, Formulation formulation, int n_elements) {
+  Mesh mesh = jittered_body(formulation, n_elements, numbering == Numbering::aligned ? 0 : .1);
+  if (numbering == Numbering::box || numbering == Numbering::aligned) return mesh;
   std::mt19937_64 random(1);
   const std::size_t n = mesh.element_type.size();
   const std::size_t reach = numbering == Numbering::near_box ? 16 : n;

@@ -87,11 +87,12 @@ void report_parts(int n_elements, const Measure& measure) {
   const char* separator = "";
   for (const auto& [formulation, numbering] :
        {std::pair(Formulation::hex8_one_point, Numbering::box),
+        std::pair(Formulation::hex8_one_point, Numbering::aligned),
         std::pair(Formulation::hex8_one_point, Numbering::near_box),
         std::pair(Formulation::tet4, Numbering::box), std::pair(Formulation::tet4, Numbering::any),
         std::pair(Formulation::tet4, Numbering::renumbered)})
     for (const Precision precision : precisions) {
-      const Mesh mesh = in_numbering(numbering, jittered_body(formulation, n_elements));
+      const Mesh mesh = numbered_body(numbering, formulation, n_elements);
       Body body = sheared_body(mesh, formulation, precision);
       std::array<double, n_step_parts> of = measure(parts_of_step(body));
       for (double& value : of) value /= mesh.n_elements();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "base/threads.h"
 #include "solver/flush_subnormals.h"
@@ -135,13 +136,20 @@ inline BlockTask block_task(const Model& model, const ElementBlocks& blocks,
   return task;
 }
 
-// How many blocks from `block` on, at most n, have targets that follow each other.
-inline std::int64_t n_with_targets_in_row(const ElementBlocks& blocks, std::int64_t block,
-                                          std::int64_t n) {
-  if (blocks.target_block.empty()) return n;
-  const auto has_targets = [&](std::int64_t k) { return blocks.target_block[block + k] >= 0; };
+inline bool is_aligned(const ElementBlocks& blocks, std::int64_t block) {
+  return blocks.n_aligned > 0 && is_aligned(blocks.row_break[block]);
+}
+
+// How many blocks from `block` on, at most n, make one task: their targets follow each other, and
+// all are aligned or none.
+inline std::int64_t n_of_task(const ElementBlocks& blocks, std::int64_t block, std::int64_t n) {
+  const bool has_targets = !blocks.target_block.empty();
+  if (!has_targets && (blocks.n_aligned == 0 || blocks.n_aligned == blocks.n_blocks)) return n;
+  const auto kind_of = [&](std::int64_t k) {
+    return std::pair(is_aligned(blocks, k), has_targets && blocks.target_block[k] >= 0);
+  };
   std::int64_t k = 1;
-  while (k < n && has_targets(k) == has_targets(0)) ++k;
+  while (k < n && kind_of(block + k) == kind_of(block)) ++k;
   return k;
 }
 
@@ -157,7 +165,8 @@ void for_strained_blocks(const Model& model, const ElementBlocks& blocks, const 
   const std::int64_t step = blocks_at_once(kernels);
   BlockTask task = block_task(model, blocks, kernels, state, components, first, step, stash);
   for (std::int64_t at = first; at < first + n; at += task.n_blocks) {
-    task.n_blocks = n_with_targets_in_row(blocks, at, std::min(step, first + n - at));
+    task.n_blocks = n_of_task(blocks, at, std::min(step, first + n - at));
+    task.is_aligned = components.x != nullptr && is_aligned(blocks, at);
     kernels.element.strain(task);
     body(kernels, task, at);
     advance(blocks, kernels, task.n_blocks, task);

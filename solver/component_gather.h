@@ -110,6 +110,14 @@ struct CornerLanes {
   }
 };
 
+// Of corner a; x: a component of the field.
+template <class Pack, Following following, class Real>
+[[gnu::always_inline]] inline CornerLanes<Pack, following, Real> corner_lanes(
+    const Real* x, const LaneNumbers& number, int a, int k) {
+  return {following == Following::anyhow ? x : x + number.first(a),
+          number.all + a * block_lanes<Pack>, k, number.skip};
+}
+
 // One component at a corner; of displacements in single precision the difference to the first one,
 // rounded.
 template <class Pack, class Lanes>
@@ -131,6 +139,20 @@ template <class Pack, class Lanes>
   }
 }
 
+// Edges along x, y and z of a row of boxes along the axes, from reference positions.
+template <Following following, class Pack>
+[[gnu::always_inline]] inline void load_edges(const ComponentField<float>& field, int k,
+                                              Pack (&edge)[3]) {
+  constexpr int end[3] = {1, 3, 4};  // of the edge from corner 0 on
+  for (int i = 0; i < 3; ++i) {
+    const auto corner = [&](int a) __attribute__((always_inline)) {
+      const float* const x = field.x + i * field.stride;
+      return corner_lanes<Pack, following>(x, field.number, a, k).template load_from<Pack>(0);
+    };
+    edge[i] = corner(end[i]) - corner(0);
+  }
+}
+
 // All corners, displacements or reference positions.
 template <Following following, class Pack, class Real, int n>
 [[gnu::always_inline]] inline void load_components(const ComponentField<Real>& field, int k,
@@ -139,9 +161,7 @@ template <Following following, class Pack, class Real, int n>
   // Hidden, so that the stride is not added to each corner's number instead.
   asm("" : "+r"(of[1]), "+r"(of[2]));
   const auto lanes = [&](int a, int i) __attribute__((always_inline)) {
-    return CornerLanes<Pack, following, Real>{
-        following == Following::anyhow ? of[i] : of[i] + field.number.first(a),
-        field.number.all + a * block_lanes<Pack>, k, field.number.skip};
+    return corner_lanes<Pack, following>(of[i], field.number, a, k);
   };
   const auto load_corner = [&](int a, int i) __attribute__((always_inline)) {
     x[a][i] = load_component<Pack>(lanes(a, i), lanes(0, i));

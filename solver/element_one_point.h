@@ -3,8 +3,8 @@
 // u, kept) that returns the mean gradient H and keeps what else it needs, forces(value, kept, V P,
 // f), and where something is kept, prepare(value, kept), before u is known, and
 // hourglass_energy(value, kept). Where Element::reads_positions of a pack, prepare(X, kept) instead
-// takes reference positions of the corners; values_spared_in_single and kept_added_in_single say by
-// how much the numbers of single precision differ.
+// takes reference positions of the corners (Element::Aligned: edges); values_spared_in_single and
+// kept_added_in_single say by how much the numbers of single precision differ.
 #pragma once
 
 #include "solver/block_data.h"
@@ -13,6 +13,12 @@
 #include "solver/tensor.h"
 
 namespace trocar {
+
+// What computes rows of boxes along the axes (row_order.h).
+template <class Element>
+struct AlignedOf {
+  using type = Element;
+};
 
 template <class Element>
 struct OnePoint {
@@ -31,6 +37,11 @@ struct OnePoint {
     if constexpr (requires { Element::kept_added_in_single; }) return Element::kept_added_in_single;
     return 0;
   }();
+  static constexpr bool is_aligned = [] {
+    if constexpr (requires { Element::is_aligned; }) return Element::is_aligned;
+    return false;
+  }();
+  static constexpr bool is_read(int value) requires is_aligned { return Element::is_read(value); }
   template <class Pack>
   static constexpr bool reads_positions = [] {
     if constexpr (requires { Element::template reads_positions<Pack>; })
@@ -51,6 +62,11 @@ struct OnePoint {
   template <class Pack>
   [[gnu::always_inline]] static void prepare(Pack (&X)[n_corners][3], const Stash<Pack>& stash) {
     Element::prepare(X, kept(stash));
+    asm volatile("" ::: "memory");  // likewise
+  }
+  template <class Pack>
+  [[gnu::always_inline]] static void prepare(const Pack (&edge)[3], const Stash<Pack>& stash) {
+    Element::prepare(edge, kept(stash));
     asm volatile("" ::: "memory");  // likewise
   }
 
@@ -89,6 +105,14 @@ struct OnePoint {
   [[gnu::always_inline]] static Stash<Pack> kept(const Stash<Pack>& stash) {
     return {stash.at + tensor_values * block_lanes<Pack>};
   }
+};
+
+template <class Element>
+requires requires {
+  typename Element::Aligned;
+}
+struct AlignedOf<OnePoint<Element>> {
+  using type = OnePoint<typename Element::Aligned>;
 };
 
 }  // namespace trocar

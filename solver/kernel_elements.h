@@ -40,10 +40,13 @@ template <class Pack, class Element>
 struct ElementLoops {
   static constexpr int n = Element::n_corners;
   static constexpr int lanes = block_lanes<Pack>;
+  using AlignedLoops = ElementLoops<Pack, typename AlignedOf<Element>::type>;
 
   static void strain(const BlockTask& task) {
     if constexpr (n == 8)
-      if (task.u_x != nullptr) return strain_by_component(task);
+      if (task.u_x != nullptr)
+        return task.is_aligned ? AlignedLoops::strain_by_component(task)
+                               : strain_by_component(task);
     for_elements(
         task, [&](const auto& value, const auto& stash, std::int64_t block,
                   int lane) __attribute__((always_inline)) {
@@ -67,7 +70,9 @@ struct ElementLoops {
 
   static void force(const BlockTask& task, const std::int32_t* target, void* sum) {
     RealOf<Pack>* const to = static_cast<RealOf<Pack>*>(sum);
-    if (task.sum_stride > 0) return force_by_component(task, target, to);
+    if (task.sum_stride > 0)
+      return task.is_aligned ? AlignedLoops::force_by_component(task, target, to)
+                             : force_by_component(task, target, to);
     for_elements(
         task, [&](const auto& value, const auto& stash, std::int64_t block, int lane)
                   __attribute__((always_inline)) {
@@ -97,7 +102,6 @@ struct ElementLoops {
     });
   }
 
- private:
   static void strain_by_component(const BlockTask& task) {
     for_elements(
         task, [&](const auto& value, const auto& stash, std::int64_t block,
@@ -115,6 +119,41 @@ struct ElementLoops {
             strain_of_seldom<Following::in_two_rows>(task, value, stash, block, lane);
         });
   }
+  static void force_by_component(const BlockTask& task, const std::int32_t* target,
+                                 RealOf<Pack>* sum) {
+    ComponentSums<Pack, n> sums(sum, task.sum_stride);
+    for_elements(
+        task, [&](const auto& value, const auto& stash, std::int64_t block,
+                  int lane) __attribute__((always_inline)) {
+          if (lane == 0) fetch(task, block + task.n_blocks);
+          const std::uint32_t row_break = task.row_break[block];
+          const LaneNumbers to =
+              lane_numbers<Pack, n>(target, task.row_target, block, lane, row_break);
+          if constexpr (n == 8) {
+            Pack w[3][n_hex_modes];
+            Element::force_modes(value, stash, w);
+            sums.add(
+                to, row_break, lane, [&](int i, Pack(&f)[n]) __attribute__((always_inline)) {
+                  corners_of_modes(w[i], f);
+                });
+          } else {
+            Pack of_all[n][3];
+            Element::force(value, stash, of_all);
+            sums.add(
+                to, row_break, lane, [&](int i, Pack(&f)[n]) __attribute__((always_inline)) {
+                  for (int a = 0; a < n; ++a) f[a] = of_all[a][i];
+                });
+          }
+        });
+    sums.finish();
+  }
+
+ private:
+  static constexpr bool is_aligned = [] {
+    if constexpr (requires { Element::is_aligned; }) return Element::is_aligned;
+    return false;
+  }();
+
   // By component, for elements whose displacements lie node by node.
   [[gnu::noinline]] static void load_positions(const BlockTask& task, std::int64_t block, int lane,
                                                Pack (&X)[n][3]) {
@@ -152,9 +191,15 @@ struct ElementLoops {
     };
     Pack u[n][3];
     if constexpr (reads_positions_v<Pack, Element>) {
-      load_components<following>(ComponentField<float>{task.position, task.position_stride, node()},
-                                 k, u);
-      Element::prepare(u, stash);
+      const ComponentField<float> position{task.position, task.position_stride, node()};
+      if constexpr (is_aligned) {
+        Pack edge[3];
+        load_edges<following>(position, k, edge);
+        Element::prepare(edge, stash);
+      } else {
+        load_components<following>(position, k, u);
+        Element::prepare(u, stash);
+      }
     } else if constexpr (requires { Element::prepare(value, stash); }) {
       Element::prepare(value, stash);
     }
@@ -174,34 +219,6 @@ struct ElementLoops {
       Element::force(value, stash, f);
     }
   }
-  static void force_by_component(const BlockTask& task, const std::int32_t* target,
-                                 RealOf<Pack>* sum) {
-    ComponentSums<Pack, n> sums(sum, task.sum_stride);
-    for_elements(
-        task, [&](const auto& value, const auto& stash, std::int64_t block,
-                  int lane) __attribute__((always_inline)) {
-          if (lane == 0) fetch(task, block + task.n_blocks);
-          const std::uint32_t row_break = task.row_break[block];
-          const LaneNumbers to =
-              lane_numbers<Pack, n>(target, task.row_target, block, lane, row_break);
-          if constexpr (n == 8) {
-            Pack w[3][n_hex_modes];
-            Element::force_modes(value, stash, w);
-            sums.add(
-                to, row_break, lane, [&](int i, Pack(&f)[n]) __attribute__((always_inline)) {
-                  corners_of_modes(w[i], f);
-                });
-          } else {
-            Pack of_all[n][3];
-            Element::force(value, stash, of_all);
-            sums.add(
-                to, row_break, lane, [&](int i, Pack(&f)[n]) __attribute__((always_inline)) {
-                  for (int a = 0; a < n; ++a) f[a] = of_all[a][i];
-                });
-          }
-        });
-    sums.finish();
-  }
   [[gnu::always_inline]] static BlockValues<Pack> behind_material(const BlockTask& task,
                                                                   const Group<Pack>& group) {
     return {group.value.at + task.n_material_values * lanes};
@@ -214,13 +231,17 @@ struct ElementLoops {
                                                           int lane) {
     return task.row + (block * lanes + lane) / row_lanes;
   }
-  // Asks for the constants of a block that the next task will read, of most materials all; behind
-  // the last one nothing happens.
+  // Asks for the constants of a block that the next task will read, of most materials all, two of
+  // which are the material's; behind the last one nothing happens.
   [[gnu::always_inline]] static void fetch(const BlockTask& task, std::int64_t block) {
-    constexpr int line = 64, n_lines = n_values_of<Pack, Element> + 2;
+    constexpr int line = 64, of_material = 2, n_lines = n_values_of<Pack, Element> + of_material;
     const char* const at = static_cast<const char*>(task.data) + block * task.n_values * line;
 #pragma GCC unroll 128
-    for (int k = 0; k < n_lines; ++k) __builtin_prefetch(at + k * line, 0, 3);
+    for (int k = 0; k < n_lines; ++k) {
+      if constexpr (is_aligned)
+        if (!Element::is_read(k - of_material)) continue;
+      __builtin_prefetch(at + k * line, 0, 3);
+    }
   }
   // Calls body(the element's constants, stash, block, lane) for every group.
   template <class Body>

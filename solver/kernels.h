@@ -25,6 +25,7 @@ struct BlockTask {
   const std::int32_t* corner = nullptr;      // [block][corner][lane] local node
   const std::uint32_t* row = nullptr;        // [eight lanes] of row_order.h
   const std::uint32_t* row_break = nullptr;  // [block] of node_layout.h, by component
+  bool is_aligned = false;                   // all of them, by component (row_order.h)
   // [block][corner] there: the first lane's node and its place of a ForceKernel's sum
   const std::int32_t *row_start = nullptr, *row_target = nullptr;
   const void* data = nullptr;  // [block][value][lane]: the material's, the element's

@@ -79,6 +79,7 @@ Model build_model(const Mesh& mesh, const Part& part, std::span<const Material> 
   fill_blocks(source, model);
   model.n_history = place_history(model.blocks);
   order_sums(model);
+  mark_aligned(mesh, part, model);
   take_positions(source, model);
   link_volume_averages(mesh, materials, model);
   return model;

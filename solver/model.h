@@ -56,6 +56,7 @@ struct ElementBlocks {
   std::vector<std::uint32_t> row;  // (n_blocks * lanes / row_lanes) of row_order.h
   // (n_blocks) where nodal fields lie by component, see node_layout.h; else empty
   std::vector<std::uint32_t> row_break;
+  std::int32_t n_aligned = 0;  // blocks there that are boxes along the axes
   // [block][corner] of blocks in such rows: the first lane's node, and its target (empty: its node)
   std::vector<std::int32_t> row_start, row_target;
   // [block][value][lane], see block_data.h; the one of the list's precision, the other is empty.

@@ -7,6 +7,7 @@
 #include "base/check.h"
 #include "solver/history.h"
 #include "solver/model_lists.h"
+#include "solver/node_layout.h"
 #include "solver/sum_order.h"
 #include "solver/volume_averages.h"
 
@@ -233,6 +234,7 @@ void edit_model(const ModelSource& source, const ModelEdit& edit, Model& model,
     order_sums(model);
   else
     edit_sums(owned, blocks_of(source.part, edit.touching, model), model);
+  mark_aligned(source.mesh, source.part, model);
   take_positions(source, model);
   model.averages = {};
   link_volume_averages(source.mesh, source.materials, model);

@@ -6,6 +6,7 @@
 
 #include "solver/block_ranges.h"
 #include "solver/element_setup.h"
+#include "solver/hex8_reference.h"
 #include "solver/sum_order.h"
 
 namespace trocar {
@@ -207,7 +208,40 @@ void place_windows(const std::vector<StrideNodes>& run_nodes, SumOrder& sums) {
   sums.window.push_back({at});
 }
 
+// Whether the edges xi, eta, zeta of a hexahedron lie along x, y, z, to the bit.
+bool is_aligned_box(std::span<const Vec3> X, const Part& part, const std::int32_t* node,
+                    std::int64_t lanes) {
+  const auto at = [&](int a) -> const Vec3& { return X[part.node_global[node[a * lanes]]]; };
+  const Vec3 &low = at(0), &high = at(6);
+  for (int a = 1; a < 8; ++a)
+    for (int i = 0; i < 3; ++i)
+      if (at(a)[i] != (hex_corner_xi[a][i] < 0 ? low : high)[i]) return false;
+  return true;
+}
+
+bool has_aligned_lanes(std::span<const Vec3> X, const Part& part, const ElementBlocks& blocks,
+                       std::int64_t block) {
+  const std::int32_t* const node = &blocks.corner[block * corners_of_block(blocks)];
+  for (std::int64_t lane = 0; lane < blocks.lanes; ++lane)
+    if (!is_aligned_box(X, part, node + lane, blocks.lanes)) return false;
+  return true;
+}
+
 }  // namespace
+
+void mark_aligned(const Mesh& mesh, const Part& part, Model& model) {
+  for (ElementBlocks& blocks : model.blocks) {
+    parallel_for(std::ssize(blocks.row_break), [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t block = begin; block < end; ++block) {
+        std::uint32_t& row = blocks.row_break[block];
+        row &= ~aligned_bit;
+        if (row != 0 && has_aligned_lanes(mesh.X, part, blocks, block)) row |= aligned_bit;
+      }
+    });
+    blocks.n_aligned = static_cast<std::int32_t>(
+        std::ranges::count_if(blocks.row_break, [](std::uint32_t row) { return is_aligned(row); }));
+  }
+}
 
 void lay_out_nodes(Model& model) {
   SumOrder& sums = model.sums;

@@ -15,6 +15,10 @@ namespace trocar {
 // Decides, of a model whose runs and targets are known.
 void lay_out_nodes(Model& model);
 
+// Of a model that is laid out: which blocks hold rows of boxes along the axes alone, which are
+// computed for less (element_hex8.h).
+void mark_aligned(const Mesh& mesh, const Part& part, Model& model);
+
 // Of Scratch::sum, BlockTask::sum_stride; 0: node by node.
 inline std::int64_t sum_stride(const Model& model) {
   return model.is_by_component ? component_stride(model.sums.n_places) : 0;

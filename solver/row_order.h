@@ -24,8 +24,9 @@ constexpr bool is_row(std::uint32_t row) {
 inline constexpr std::uint32_t box_row = 0x01324576;
 
 // ElementBlocks::row_break (node_layout.h): the lane, a bit for each pair of corners of box_row
-// whose places do not follow each other, and how many nodes are skipped (at most max_skip).
-inline constexpr std::uint32_t max_skip = 0xFFFF;
+// whose places do not follow each other, whether all lanes are boxes along the axes, and how many
+// nodes are skipped (at most max_skip).
+inline constexpr std::uint32_t max_skip = 0xFFFF, aligned_bit = 1U << 15;
 constexpr std::uint32_t row_break(int lane, unsigned unpaired, std::uint32_t skip) {
   return static_cast<std::uint32_t>(lane) | unpaired << 8 | skip << 16;
 }
@@ -33,7 +34,10 @@ constexpr int lane_of_break(std::uint32_t row_break) {
   return static_cast<int>(row_break & 0xFF);
 }
 constexpr unsigned unpaired_of_break(std::uint32_t row_break) {
-  return row_break >> 8 & 0xFF;
+  return row_break >> 8 & 0xF;
+}
+constexpr bool is_aligned(std::uint32_t row_break) {
+  return (row_break & aligned_bit) != 0;
 }
 constexpr int skip_of_break(std::uint32_t row_break) {
   return static_cast<int>(row_break >> 16);

@@ -14,8 +14,13 @@ using namespace trocar;
 
 namespace {
 
+Mesh straight_box(int nx, int ny, int nz) {
+  return make_box(Vec3(.1, .2, .3), Vec3(.1, .2, .3) + .01 * Vec3(nx, ny, nz), {nx, ny, nz},
+                  BoxElements::hex8);
+}
+
 Mesh jittered_box(int nx, int ny, int nz) {
-  Mesh mesh = make_box(Vec3(0, 0, 0), .01 * Vec3(nx, ny, nz), {nx, ny, nz}, BoxElements::hex8);
+  Mesh mesh = straight_box(nx, ny, nz);
   Noise noise(5);
   for (Vec3& X : mesh.X) X += .001 * Vec3(noise(), noise(), noise());
   return mesh;
@@ -66,6 +71,29 @@ constexpr Formulation hexahedra[] = {Formulation::hex8_one_point, Formulation::h
                                      Formulation::hex8_full};
 
 }  // namespace
+
+// Boxes along the axes have kernels of their own.
+TEST(NodeLayout, aligned_boxes_have_the_bits_of_any_hexahedra) {
+  for (const Formulation formulation : hexahedra)
+    for (const Precision precision : precisions)
+      for (int nx = 16; nx <= 34; nx += 3) {
+        const SolverOptions solver = with(formulation, {.precision = precision});
+        EXPECT_TRUE(have_same_bits(straight_box(nx, 5, 4), solver)) << nx;
+        EXPECT_TRUE(have_same_bits(with_disorder(straight_box(nx, 12, 9)), solver)) << nx;
+      }
+}
+
+TEST(NodeLayout, blocks_are_aligned_where_all_their_edges_lie_along_the_axes) {
+  const auto n_aligned = [](const Mesh& mesh) { return make_body(mesh).model.blocks[0].n_aligned; };
+  EXPECT_EQ(n_aligned(straight_box(24, 6, 5)), 90);
+  EXPECT_EQ(n_aligned(jittered_box(24, 6, 5)), 0);
+  Mesh mesh = straight_box(24, 6, 5);
+  mesh.X[30][1] += 1e-12;  // of the lowest layer, its second row
+  EXPECT_EQ(n_aligned(mesh), 90 - 2);
+  mesh = straight_box(24, 6, 5);
+  for (Vec3& X : mesh.X) X = Vec3(X[1], -X[0], X[2]);
+  EXPECT_EQ(n_aligned(mesh), 0);
+}
 
 // Rows of every length end anywhere in a block; those of 3 end in it more than once.
 TEST(NodeLayout, by_component_gives_the_bits_of_node_by_node) {

@@ -43,6 +43,7 @@ void put_node_by_node(Body& body) {
   model.sums.stride_nodes.clear();
   for (ElementBlocks& blocks : model.blocks) {
     blocks.row_break.clear();
+    blocks.n_aligned = 0;
     blocks.row_start.clear();
     blocks.row_target.clear();
   }

@@ -17,6 +17,7 @@ inline void expect_equal(const ElementBlocks& a, const ElementBlocks& b) {
   EXPECT_EQ(a.target_block, b.target_block);
   EXPECT_EQ(a.row, b.row);
   EXPECT_EQ(a.row_break, b.row_break);
+  EXPECT_EQ(a.n_aligned, b.n_aligned);
   EXPECT_EQ(a.row_start, b.row_start);
   EXPECT_EQ(a.row_target, b.row_target);
   EXPECT_TRUE(a.data == b.data);
