@@ -2,13 +2,9 @@
 // in turn, all that a frame does included. Without a scene: swinging blocks with a layer of thin
 // elements, with one sliver, and with nothing small. JSON to stdout.
 // bench_rates [elements, about (default 20000) | SCENE.toml] [threads]
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "base/log.h"
@@ -18,6 +14,7 @@
 #include "engine/frame.h"
 #include "mesh_write.h"
 #include "solver_multirate.h"
+#include "test_files.h"
 
 using namespace trocar;
 
@@ -63,17 +60,15 @@ void report(const std::string& name, const std::string& scene, bool is_first) {
 }
 
 void report_block(const std::string& name, const Mesh& mesh, bool is_first) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("bench_rates-" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  write_mesh(mesh, folder / "m.msh");
-  std::ofstream(folder / "s.toml")
-      << "[time]\nduration = \"1 s\"\nframe_rate = \"30 Hz\"\n"
-         "[tissue]\nmesh = \"m.msh\"\n[solver]\ngravity = [0, 0, -0.5]\n"
-         "[[region]]\nname = \"left\"\nlow = [-1, -1, -1]\n"
-         "high = [1e-3, 1, 1]\n[[support]]\nregion = \"left\"\n";
-  report(name, folder / "s.toml", is_first);
-  std::filesystem::remove_all(folder);
+  const TestFolder folder;
+  write_mesh(mesh, folder.file("m.msh"));
+  const std::string scene =
+      write_text(folder.file("s.toml"),
+                 "[time]\nduration = \"1 s\"\nframe_rate = \"30 Hz\"\n"
+                 "[tissue]\nmesh = \"m.msh\"\n[solver]\ngravity = [0, 0, -0.5]\n"
+                 "[[region]]\nname = \"left\"\nlow = [-1, -1, -1]\n"
+                 "high = [1e-3, 1, 1]\n[[support]]\nregion = \"left\"\n");
+  report(name, scene, is_first);
 }
 
 }  // namespace

@@ -127,15 +127,8 @@ static void cut_in_motion(const Stroke& stroke, double dt, TetCutter& cutter, tr
 static double limit_in_scene(trocar::Body& body) {
   const double bound = look(body).stable_step;
   if (!(bound > 0)) return 0;
-  const auto forces = [&](std::vector<double>& u, std::vector<double>& f) {
-    State state = body.state;
-    state.u = u;
-    compute_force(body.model, state, body.scratch);
-    f = body.scratch.force;
-  };
-  const HighestFrequency found = find_highest_frequency(body.model, body.part, body.state, forces,
-                                                        {.amplitude = 1e-8}, Communicator());
-  return std::max(bound, 2 / (frequency_margin * found.omega));
+  const double omega = search_frequency(body, {.amplitude = 1e-8}).omega;
+  return std::max(bound, 2 / (frequency_margin * omega));
 }
 
 static double limit_for(const Rule& rule, trocar::Body& body) {

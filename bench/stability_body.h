@@ -41,19 +41,10 @@ constexpr BoxElements both[] = {BoxElements::hex8, BoxElements::tet4_kuhn};
 
 // 2 / omega of the present deformation.
 inline double limit_of(Body& body, double tolerance = 1e-3) {
-  const auto forces = [&](std::vector<double>& u, std::vector<double>& f) {
-    State state = body.state;
-    state.u = u;
-    compute_force(body.model, state, body.scratch);
-    f = body.scratch.force;
-  };
-  const HighestFrequency found =
-      find_highest_frequency(body.model, body.part, body.state, forces,
-                             {.amplitude = search_amplitude(body.model, edge),
-                              .tolerance = tolerance,
-                              .most_iterations = 300},
-                             Communicator());
-  return 2 / found.omega;
+  return 2 / search_frequency(body, {.amplitude = search_amplitude(body.model, edge),
+                                     .tolerance = tolerance,
+                                     .most_iterations = 300})
+                 .omega;
 }
 
 inline double kinetic(const Body& body) {

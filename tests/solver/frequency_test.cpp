@@ -11,18 +11,8 @@ using namespace trocar;
 
 namespace {
 
-HighestFrequency search(Body& body, const FrequencyOptions& options) {
-  const auto forces = [&](std::vector<double>& u, std::vector<double>& f) {
-    State state = body.state;
-    state.u = u;
-    compute_force(body.model, state, body.scratch);
-    f = body.scratch.force;
-  };
-  return find_highest_frequency(body.model, body.part, body.state, forces, options, Communicator());
-}
-
 HighestFrequency search(Body& body, double tolerance = .01, int most = 100) {
-  return search(body, {.tolerance = tolerance, .most_iterations = most});
+  return search_frequency(body, {.tolerance = tolerance, .most_iterations = most});
 }
 
 Mesh cube_mesh(BoxElements elements, int n, double irregularity) {
@@ -65,8 +55,8 @@ TEST(HighestFrequency, that_is_below_what_is_of_interest_ends_the_search_early) 
     const double omega = search(body, 1e-4, 1000).omega;
     // What is above it is found as if nothing else were of interest.
     for (const double part : {.9, .95, .97, .98})
-      EXPECT_GT(search(body, {.of_interest = part * omega}).omega, part * omega);
-    const HighestFrequency early = search(body, {.of_interest = 1.2 * omega});
+      EXPECT_GT(search_frequency(body, {.of_interest = part * omega}).omega, part * omega);
+    const HighestFrequency early = search_frequency(body, {.of_interest = 1.2 * omega});
     EXPECT_TRUE(early.is_converged);
     EXPECT_LT(early.omega, 1.2 * omega);
     n_early += early.n_iterations;
@@ -110,7 +100,7 @@ TEST(HighestFrequency, of_single_precision_elements_is_within_a_percent) {
   Body body = make_body(cube_mesh(BoxElements::hex8, 4, .2),
                         {.solver = {.precision = Precision::in_single}});
   const double omega = 2 / true_limit(body, 1e-4);
-  EXPECT_NEAR(search(body, {.amplitude = 1e-4, .tolerance = .02}).omega / omega, 1, .01);
+  EXPECT_NEAR(search_frequency(body, {.amplitude = 1e-4, .tolerance = .02}).omega / omega, 1, .01);
 }
 
 }  // namespace

@@ -4,22 +4,6 @@
 
 namespace trocar {
 
-bool is_equal(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  return a == b;
-}
-
-bool is_equal(const Mesh& a, const Mesh& b) {
-  const auto same_sets = [](const NodeSet& s, const NodeSet& t) {
-    return s.name == t.name && s.node == t.node;
-  };
-  return a.X == b.X && a.element_type == b.element_type && a.corner_offset == b.corner_offset &&
-         a.corner_node == b.corner_node && a.element_region == b.element_region &&
-         a.region_name == b.region_name && a.density_factor == b.density_factor &&
-         a.cut_facets == b.cut_facets && a.split_hexahedra == b.split_hexahedra &&
-         std::equal(a.node_sets.begin(), a.node_sets.end(), b.node_sets.begin(), b.node_sets.end(),
-                    same_sets);
-}
-
 bool is_equal(const RecordedFrame& a, const RecordedFrame& b) {
   return a.frame == b.frame && a.step == b.step && a.time == b.time && a.digest == b.digest &&
          a.u == b.u && a.tool_forces == b.tool_forces;

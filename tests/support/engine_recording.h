@@ -8,12 +8,11 @@
 #include "engine/recording.h"
 #include "mesh/edit.h"
 #include "mesh/generate.h"
+#include "mesh_equal.h"
 
 namespace trocar {
 
-bool is_equal(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
-
-bool is_equal(const Mesh& a, const Mesh& b);
+using test::is_equal;
 
 bool is_equal(const RecordedFrame& a, const RecordedFrame& b);
 

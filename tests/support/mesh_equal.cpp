@@ -15,6 +15,7 @@ void expect_equal(const Mesh& a, const Mesh& b) {
   EXPECT_EQ(a.cut_facets, b.cut_facets);
   EXPECT_EQ(a.fibre, b.fibre);
   EXPECT_EQ(a.copied_node, b.copied_node);
+  EXPECT_EQ(a.hex_split_rank, b.hex_split_rank);
   EXPECT_EQ(a.split_hexahedra, b.split_hexahedra);
   ASSERT_EQ(a.node_sets.size(), b.node_sets.size());
   for (std::size_t s = 0; s < a.node_sets.size(); ++s) {
@@ -27,11 +28,11 @@ bool is_equal(const Mesh& a, const Mesh& b) {
   const auto is_same_set = [](const NodeSet& s, const NodeSet& t) {
     return s.name == t.name && s.node == t.node;
   };
-  return a.X == b.X && a.element_type == b.element_type && a.corner_node == b.corner_node &&
-         a.element_region == b.element_region && a.region_name == b.region_name &&
-         a.density_factor == b.density_factor && a.cut_facets == b.cut_facets &&
-         a.fibre == b.fibre && a.copied_node == b.copied_node &&
-         a.split_hexahedra == b.split_hexahedra &&
+  return a.X == b.X && a.element_type == b.element_type && a.corner_offset == b.corner_offset &&
+         a.corner_node == b.corner_node && a.element_region == b.element_region &&
+         a.region_name == b.region_name && a.density_factor == b.density_factor &&
+         a.cut_facets == b.cut_facets && a.fibre == b.fibre && a.copied_node == b.copied_node &&
+         a.hex_split_rank == b.hex_split_rank && a.split_hexahedra == b.split_hexahedra &&
          std::equal(a.node_sets.begin(), a.node_sets.end(), b.node_sets.begin(), b.node_sets.end(),
                     is_same_set);
 }

@@ -61,6 +61,17 @@ Watch look(Body& body) {
   return watch(body.model, body.part, body.state);
 }
 
+HighestFrequency search_frequency(Body& body, const FrequencyOptions& options) {
+  State probe = body.state;
+  const auto forces = [&](std::vector<double>& u, std::vector<double>& f) {
+    probe.u.swap(u);
+    compute_force(body.model, probe, body.scratch);
+    f = body.scratch.force;
+    probe.u.swap(u);
+  };
+  return find_highest_frequency(body.model, body.part, body.state, forces, options, Communicator());
+}
+
 void shake(std::vector<double>& values, double amount, std::uint64_t seed) {
   Noise noise(seed);
   for (double& value : values) value += amount * noise();

@@ -15,6 +15,7 @@
 #include "mesh/partition.h"
 #include "mesh_fixtures.h"
 #include "solver/element_setup.h"
+#include "solver/frequency.h"
 #include "solver/model.h"
 #include "solver/neighbours.h"
 #include "solver/simd.h"
@@ -56,6 +57,9 @@ Body make_body(Mesh mesh, BodyOptions options = {}, const std::vector<std::int32
 void put_node_by_node(Body& body);
 
 Watch look(Body& body);
+
+// Of the present deformation.
+HighestFrequency search_frequency(Body& body, const FrequencyOptions& options = {});
 
 // u = field(X) at all local nodes.
 template <class Field>
