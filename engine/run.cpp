@@ -36,7 +36,7 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 // A second signal ends this rank at once, and mpirun the others: outputs are consistent at any
 // time.
 void ask_to_stop(int) {
-  if (stop_asked.exchange(true)) std::_Exit(75);
+  if (stop_asked.exchange(true)) std::_Exit(static_cast<int>(ExitCode::stopped));
 }
 
 void listen_to_signals() {
@@ -212,6 +212,7 @@ bool run_scene(const RunOptions& options, Communicator& communicator) {
   Outputs outputs =
       open_outputs(*simulation, options.folder, echo_in(options.folder, loaded, options.scene_file),
                    checkpoint ? &*checkpoint : nullptr);
+  checkpoint.reset();  // as large as the body, and the run may be long
   RunTimes times{.setup_seconds = monotonic_seconds() - start};
 
   const bool has_begun = ending.code == ExitCode::done;
