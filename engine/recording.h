@@ -76,8 +76,10 @@ class RecordingReader {
   // stay readable.
   RecordedFrame read(std::int64_t frame);
   // The mesh as it was in this recorded frame: the first mesh with all edits up to it applied.
-  // Throws as read does.
-  Mesh mesh_at(std::int64_t frame);
+  // Valid until the next call. Throws as read does.
+  const Mesh& mesh_at(std::int64_t frame);
+  // In the mesh that mesh_at gave last.
+  std::int64_t n_edits() const;
 
  private:
   struct Database;

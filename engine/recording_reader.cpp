@@ -269,11 +269,15 @@ RecordedFrame RecordingReader::read(std::int64_t number) {
   return database_->read_frame(number, at, true);
 }
 
-Mesh RecordingReader::mesh_at(std::int64_t number) {
+const Mesh& RecordingReader::mesh_at(std::int64_t number) {
   FramePlace at;
   database_->read_frame(number, at, false);
   database_->apply_edits_up_to(at.n_edits);
   return database_->mesh;
+}
+
+std::int64_t RecordingReader::n_edits() const {
+  return database_->n_applied;
 }
 
 }  // namespace trocar
