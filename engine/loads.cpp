@@ -92,8 +92,8 @@ struct Placing {
 
   // -1 for nodes of other ranks and for none.
   std::int32_t operator()(std::int32_t node) {
-    const std::int32_t local = node < 0 ? -1 : part.node_local[node];
-    if (local < 0 || local >= part.n_owned) return -1;
+    const std::int32_t local = node < 0 ? -1 : part.owned(node);
+    if (local < 0) return -1;
     if (of_node[local] < 0) {
       of_node[local] = static_cast<std::int32_t>(loads.node.size());
       loads.node.push_back(local);

@@ -26,8 +26,8 @@ std::vector<Vec3> marker_positions(std::span<const Location> markers, const Mesh
     ExactSum3 sum;
     const std::span<const std::int32_t> corner = mesh.corners(marker.element);
     for (std::size_t a = 0; a < corner.size(); ++a) {
-      const std::int32_t local = part.node_local[corner[a]];
-      if (local < 0 || local >= part.n_owned) continue;
+      const std::int32_t local = part.owned(corner[a]);
+      if (local < 0) continue;
       add(marker.weight[a] * (mesh.X[corner[a]] + Vec3::Map(&u[3 * std::size_t(local)])), sum);
     }
     positions.push_back(sum_over_ranks(sum, communicator));

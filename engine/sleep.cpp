@@ -41,10 +41,8 @@ void disquiet_touched(Simulation& s) {
   for (const PrescribedNode& held : s.holds.prescribed) quiet[held.node] = 0;
   if (!s.contact) return;
   for (const Contact& contact : s.contact->contacts)
-    for (const std::int32_t node : contact.node) {
-      const std::int32_t local = s.part.node_local[node];
-      if (local >= 0 && local < s.model.n_owned) quiet[local] = 0;
-    }
+    for (const std::int32_t node : contact.node)
+      if (const std::int32_t local = s.part.owned(node); local >= 0) quiet[local] = 0;
 }
 
 // Each tool's force and its moment about the origin, each support's way.
