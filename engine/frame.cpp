@@ -41,8 +41,7 @@ void plan_substeps(const Simulation& s, FrameSpan& span) {
 }
 
 FrameSpan next_frame(const Simulation& s) {
-  return {.t0 = static_cast<double>(s.frame) / s.scene.time.frame_rate,
-          .t1 = static_cast<double>(s.frame + 1) / s.scene.time.frame_rate};
+  return {.t0 = s.scene.time.at(s.frame), .t1 = s.scene.time.at(s.frame + 1)};
 }
 
 // What is held otherwise moves otherwise.
@@ -52,7 +51,7 @@ void take_up_holds(Simulation& s) {
 }
 
 void grasp(Simulation& s, const FrameSpan& span) {
-  const double before = static_cast<double>(s.frame - 1) / s.scene.time.frame_rate;
+  const double before = s.scene.time.at(s.frame - 1);
   if (!will_act(s.tools, before, span.t0)) return;
   const std::vector<GraspAct> acts =
       act_graspers(s.holds, s.tools, before, span.t0, gather_state(s).x, s.fixed);

@@ -64,8 +64,7 @@ Scene without_free_keys(Scene scene) {
 }
 
 std::string time_text(const Checkpoint& checkpoint, const LoadedScene& loaded) {
-  return with_decimals(static_cast<double>(checkpoint.frame) / loaded.scene.time.frame_rate, 3) +
-         " s";
+  return with_decimals(loaded.scene.time.at(checkpoint.frame), 3) + " s";
 }
 
 void check_end(const Checkpoint& checkpoint, const LoadedScene& loaded) {

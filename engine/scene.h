@@ -37,6 +37,8 @@ struct SceneTime {
   double frame_rate = 30;  // [1/s]
   Pace pace = Pace::fast;
 
+  // When a frame ends [s].
+  double at(std::int64_t frame) const { return static_cast<double>(frame) / frame_rate; }
   // Frames in so many seconds, to the nearest.
   std::int64_t frames_in(double seconds) const {
     return std::llround(std::min(seconds * frame_rate, 1e15));

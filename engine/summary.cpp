@@ -227,8 +227,8 @@ double quantile(std::vector<double> values, double q) {
 }
 
 std::string make_summary(Simulation& s, const RunTimes& times, const std::string& trouble) {
-  const double simulated = static_cast<double>(s.frame) / s.scene.time.frame_rate;
-  const double resumed_at = static_cast<double>(s.first_frame) / s.scene.time.frame_rate;
+  const double simulated = s.scene.time.at(s.frame);
+  const double resumed_at = s.scene.time.at(s.first_frame);
   const FrameRow last = s.log.rows.empty() ? FrameRow{} : s.log.rows.back();
   Json j;
   j["scene"] = s.scene.name;
