@@ -288,7 +288,6 @@ void follow_model(Simulation& s) {
   localise_holds(s.holds, s.part);
   s.markers = follow_markers(s.scene.markers, s.mesh);
   localise_loads(s.scene.loads, s.mesh, s.surface, s.part, s.loads);
-  if (!s.cuts.empty()) s.loads.border = load_borders(s.scene.loads, s.mesh, s.surface);
   if (s.energy) localise_supports(s.scene.supports, s.mesh, s.part, s.energy->support_forces);
   // A component r of displacements strains tetrahedra by at most 4 sqrt(3) r / h, hexahedra at
   // their centre by 6 r / h, with the least altitude h.
