@@ -22,6 +22,7 @@ namespace trocar {
 enum class Pace { fast, real_time };
 enum class ShapeKind { box, ball, cylinder, rectangle, triangular_rectangle };
 enum class InstrumentKind { probe, grasper, scalpel, scissors };
+extern const std::vector<std::pair<std::string, InstrumentKind>> instrument_kinds;  // in its order
 inline bool has_blade(InstrumentKind kind) {
   return kind == InstrumentKind::scalpel || kind == InstrumentKind::scissors;
 }
