@@ -84,7 +84,10 @@ std::uint32_t crc_of_body(Simulation& s) {
   put_mesh(writer, s.mesh);
   writer.flush();
   s.mesh.hex_split_rank = std::move(ranks);
-  for (const Tool& tool : s.tools) crc = crc32c(std::as_bytes(std::span(tool.own_mesh.X)), crc);
+  for (const Tool& tool : s.tools) {
+    crc = crc32c(std::as_bytes(std::span(tool.own_mesh.X)), crc);
+    crc = crc32c(std::as_bytes(std::span(tool.own_mesh.triangle)), crc);
+  }
   return crc;
 }
 
