@@ -29,8 +29,8 @@ double measure_step(Simulation& s, double dt) {
       integrate(s.model, s.scratch, {}, dt, s.state);
       start_exchange(s.neighbours, s.state);
     }
-    elapsed = s.communicator->all_max(monotonic_seconds() -
-                                      start);  // all ranks make the same number of rounds
+    // All ranks make the same number of rounds.
+    elapsed = s.communicator->all_max(monotonic_seconds() - start);
   }
   finish_exchange(s.neighbours, s.state);
   s.state = kept;
