@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 namespace trocar {
 
@@ -81,6 +80,17 @@ void ExactSum::all_sum(std::span<ExactSum> sums, const Communicator& communicato
     std::copy_n(from, sum.limbs_.size(), sum.limbs_.begin());
     from += static_cast<std::ptrdiff_t>(sum.limbs_.size());
   }
+}
+
+std::vector<Vec3> sum_over_ranks(std::span<const ExactSum3> sums,
+                                 const Communicator& communicator) {
+  std::vector<ExactSum> all;
+  for (const ExactSum3& sum : sums) all.insert(all.end(), sum.begin(), sum.end());
+  if (!all.empty()) ExactSum::all_sum(all, communicator);
+  std::vector<Vec3> values;
+  for (std::size_t k = 0; k < all.size(); k += 3)
+    values.emplace_back(all[k].value(), all[k + 1].value(), all[k + 2].value());
+  return values;
 }
 
 }  // namespace trocar

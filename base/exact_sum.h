@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "base/communicator.h"
 #include "base/vec.h"
@@ -15,6 +16,9 @@ namespace trocar {
 class ExactSum {
  public:
   void add(double value);
+  void add(std::span<const double> values) {
+    for (const double value : values) add(value);
+  }
   // Adds every rank's sum to all. Collective.
   void all_sum(const Communicator& communicator) { communicator.all_sum(limbs_); }
   static void all_sum(std::span<ExactSum> sums, const Communicator& communicator);
@@ -28,16 +32,19 @@ class ExactSum {
   std::array<std::uint64_t, n_limbs + 1> limbs_{};
 };
 
+inline double exact_sum(std::span<const double> values) {
+  ExactSum sum;
+  sum.add(values);
+  return sum.value();
+}
+
 // One for each component of a vector.
 using ExactSum3 = std::array<ExactSum, 3>;
 
 inline void add(const Vec3& value, ExactSum3& sum) {
   for (int i = 0; i < 3; ++i) sum[i].add(value[i]);
 }
-// Collective.
-inline Vec3 sum_over_ranks(ExactSum3& sum, const Communicator& communicator) {
-  ExactSum::all_sum(sum, communicator);
-  return {sum[0].value(), sum[1].value(), sum[2].value()};
-}
+// Of each, that of all ranks, in one message for all. Collective.
+std::vector<Vec3> sum_over_ranks(std::span<const ExactSum3> sums, const Communicator& communicator);
 
 }  // namespace trocar

@@ -206,13 +206,6 @@ class Options : public OptionTable {
   static const T& of(const void* object) { return *static_cast<const T*>(object); }
 };
 
-// A file that was read: the struct and the places of its keys.
-template <class T>
-struct Located {
-  T value;
-  SourceMap where;
-};
-
 // Reads `file` (TOML) into `object` by `table`. `overrides` are "key.path=value" texts that win
 // over the file
 // ("tissue.material.density=1000 kg/m^3", "instrument[1].radius='3 mm'").
@@ -231,16 +224,6 @@ std::string echo_options(const OptionTable& table, const void* object);
 // Plain-text help, and the same as Markdown with a heading and a table for each table.
 std::string help_options(const OptionTable& table);
 std::string markdown_options(const OptionTable& table);
-
-template <class T>
-Located<T> read_options(const Options<T>& options, const std::string& file,
-                        const std::vector<std::string>& overrides = {}) {
-  Located<T> located;
-  OptionErrors errors(located.where);
-  read_options(options, file, overrides, &located.value, located.where, errors);
-  errors.throw_if_any();
-  return located;
-}
 
 }  // namespace trocar
 

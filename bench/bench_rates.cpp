@@ -44,8 +44,7 @@ void advance(Run& run) {
 void report(const std::string& name, const std::string& scene, bool is_first) {
   Communicator alone;
   Run plain = start(scene, false, alone), local = start(scene, true, alone);
-  const SceneTime& time = plain.s->scene.time;
-  for (auto n = std::llround(time.duration * time.frame_rate); n > 0; --n)
+  for (auto n = plain.s->scene.time.n_frames(); n > 0; --n)
     for (Run* run : {&plain, &local}) advance(*run);
   const MultiRate* const m = local.s->multirate.get();
   std::printf(

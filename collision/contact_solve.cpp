@@ -253,6 +253,27 @@ bool has_to_look(const std::array<Vec3, 3>& corners, double& way, ContactSet::It
   return true;
 }
 
+// On nodes, and on tools from what they have pushed and dragged.
+void sum_forces(const ContactStep& step, ContactSet& set) {
+  std::ranges::fill(set.force, Vec3::Zero());
+  for (const ContactConstraint& c : set.constraints) {
+    const Vec3 force = (c.push * c.normal + c.drag) / step.response;
+    Vec3 sum = Vec3::Zero(), point = Vec3::Zero();
+    for (std::size_t a = 0; a < 4; ++a) {
+      // Instruments pass through what is held; tissue bears on it.
+      const bool is_held = set.inverse_mass[c.place[a]].maxCoeff() == 0;
+      if (is_held && c.item >= 0) continue;
+      set.force[c.place[a]] += c.weight[a] * force;
+      sum += c.weight[a] * force;
+      point += c.weight[a] * set.x_end[c.place[a]];
+    }
+    if (c.item < 0) continue;
+    ContactSet::Item& item = set.items[c.item];
+    item.reaction_sum -= sum;
+    item.torque_sum -= point.cross(force) - tool_of(step, item).pose.translation.cross(sum);
+  }
+}
+
 }  // namespace
 
 void place_beside(const ContactStep& step, ContactSet& set) {
@@ -300,23 +321,7 @@ void solve_contacts(const ContactDetector& detector, const ContactStep& step,
     change = std::sqrt(change2);
   }
   end_tissue(step.number, set);
-  std::ranges::fill(set.force, Vec3::Zero());
-  for (const ContactConstraint& c : constraints) {
-    const Vec3 force = (c.push * c.normal + c.drag) / step.response;
-    Vec3 sum = Vec3::Zero(), point = Vec3::Zero();
-    for (std::size_t a = 0; a < 4; ++a) {
-      // Instruments pass through what is held; tissue bears on it.
-      const bool is_held = set.inverse_mass[c.place[a]].maxCoeff() == 0;
-      if (is_held && c.item >= 0) continue;
-      set.force[c.place[a]] += c.weight[a] * force;
-      sum += c.weight[a] * force;
-      point += c.weight[a] * set.x_end[c.place[a]];
-    }
-    if (c.item < 0) continue;
-    ContactSet::Item& item = set.items[c.item];
-    item.reaction_sum -= sum;
-    item.torque_sum -= point.cross(force) - tool_of(step, item).pose.translation.cross(sum);
-  }
+  sum_forces(step, set);
 }
 
 }  // namespace trocar

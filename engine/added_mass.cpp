@@ -19,10 +19,8 @@ AddedMass measure(const MassScaling& scaling, const Simulation& s) {
                   .n_nodes = static_cast<std::int32_t>(scaling.node.size()),
                   .n_clusters = scaling.n_clusters()};
   if (scaling.node.empty()) return added;
-  ExactSum more;
-  for (const double m : scaling.added) more.add(m);
-  added.mass = more.value();
-  added.share = more.value() / s.whole_mass;
+  added.mass = exact_sum(scaling.added);
+  added.share = added.mass / s.whole_mass;
   for (std::int32_t c = 0; c < scaling.n_clusters(); ++c)
     added.largest_cluster = std::max(
         added.largest_cluster, scaling.offset[static_cast<std::size_t>(c) + 1] - scaling.offset[c]);

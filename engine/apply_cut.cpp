@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
-#include <utility>
 
 #include "base/log.h"
 #include "base/sort_unique.h"
@@ -301,8 +300,7 @@ static void scatter_edited(Simulation& s, std::size_t n_kept, std::span<const st
     std::copy_n(&global.v[from], 3, &state.v[3 * local]);
   };
   for (const std::int32_t i : nodes)
-    if (const std::int32_t local = s.part.node_local[i];
-        local >= 0 && std::cmp_less(local, n_owned))
+    if (const std::int32_t local = s.part.owned(i); local >= 0)
       take(static_cast<std::size_t>(local));
   for (std::size_t local = n_kept; local < n_owned; ++local) take(local);
   start_exchange(s.neighbours, state);

@@ -33,8 +33,8 @@ void add_engaged_edge(const EngagedEdge& edge, const Mesh& mesh, const Part& par
   for (const auto& [location, length] : edge.piece) {
     const auto corner = mesh.corners(location.element);
     for (std::size_t a = 0; a < corner.size(); ++a) {
-      const std::int32_t local = part.node_local[corner[a]];
-      if (local < 0 || local >= part.n_owned) continue;
+      const std::int32_t local = part.owned(corner[a]);
+      if (local < 0) continue;
       BladeDrag::Node& node = node_of(drag, edge.tool, local);
       node.most += location.weight[a] * resistance * length;
       node.speed = direction.dot(edge.velocity);

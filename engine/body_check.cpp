@@ -86,7 +86,7 @@ void tell_late_keys(const Scene& scene, const std::string& list, const Items& it
 
 // Graspers take hold and let go at the beginning of a frame.
 void tell_late_acts(const Scene& scene) {
-  const double last = static_cast<double>(scene.time.n_frames() - 1) / scene.time.frame_rate;
+  const double last = scene.time.at(scene.time.n_frames() - 1);
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
     for (const InstrumentKey& key : scene.instruments[k].path)
       if (scene.instruments[k].kind == InstrumentKind::grasper && key.action != GraspAction::none &&

@@ -84,7 +84,10 @@ std::uint32_t crc_of_body(Simulation& s) {
   put_mesh(writer, s.mesh);
   writer.flush();
   s.mesh.hex_split_rank = std::move(ranks);
-  for (const Tool& tool : s.tools) crc = crc32c(std::as_bytes(std::span(tool.own_mesh.X)), crc);
+  for (const Tool& tool : s.tools) {
+    crc = crc32c(std::as_bytes(std::span(tool.own_mesh.X)), crc);
+    crc = crc32c(std::as_bytes(std::span(tool.own_mesh.triangle)), crc);
+  }
   return crc;
 }
 
@@ -288,7 +291,6 @@ void follow_model(Simulation& s) {
   localise_holds(s.holds, s.part);
   s.markers = follow_markers(s.scene.markers, s.mesh);
   localise_loads(s.scene.loads, s.mesh, s.surface, s.part, s.loads);
-  if (!s.cuts.empty()) s.loads.border = load_borders(s.scene.loads, s.mesh, s.surface);
   if (s.energy) localise_supports(s.scene.supports, s.mesh, s.part, s.energy->support_forces);
   // A component r of displacements strains tetrahedra by at most 4 sqrt(3) r / h, hexahedra at
   // their centre by 6 r / h, with the least altitude h.

@@ -49,25 +49,6 @@ std::string ByteReader::get_text() {
 
 namespace {
 
-// Eigen's vectors are not trivially copyable, their three doubles are.
-void put_points(ByteWriter& writer, const std::vector<Vec3>& points) {
-  writer.put(static_cast<std::uint64_t>(points.size()));
-  for (const Vec3& p : points)
-    for (int i = 0; i < 3; ++i) writer.put(p[i]);
-}
-
-Vec3 get_point(ByteReader& reader) {
-  Vec3 p;
-  for (int i = 0; i < 3; ++i) p[i] = reader.get<double>();
-  return p;
-}
-
-std::vector<Vec3> get_points(ByteReader& reader) {
-  std::vector<Vec3> points(reader.get_count(3 * sizeof(double)));
-  for (Vec3& p : points) p = get_point(reader);
-  return points;
-}
-
 // What Mesh::corners relies on.
 void check_arrays(const Mesh& mesh) {
   for (const ElementType type : mesh.element_type)
@@ -104,14 +85,14 @@ void check_copies(const Mesh& mesh) {
 }  // namespace
 
 void put_mesh(ByteWriter& writer, const Mesh& mesh) {
-  put_points(writer, mesh.X);
+  writer.put_vector(mesh.X);
   writer.put_vector(mesh.element_type);
   writer.put_vector(mesh.corner_offset);
   writer.put_vector(mesh.corner_node);
   writer.put_vector(mesh.element_region);
   writer.put_vector(mesh.density_factor);
   writer.put_vector(mesh.cut_facets);
-  put_points(writer, mesh.fibre);
+  writer.put_vector(mesh.fibre);
   writer.put(static_cast<std::uint64_t>(mesh.region_name.size()));
   for (const std::string& name : mesh.region_name) writer.put_text(name);
   writer.put(static_cast<std::uint64_t>(mesh.node_sets.size()));
@@ -142,14 +123,14 @@ std::vector<std::byte> mesh_to_bytes(const Mesh& mesh) {
 Mesh mesh_from_bytes(std::span<const std::byte> bytes) {
   ByteReader reader(bytes);
   Mesh mesh;
-  mesh.X = get_points(reader);
+  mesh.X = reader.get_vector<Vec3>();
   mesh.element_type = reader.get_vector<ElementType>();
   mesh.corner_offset = reader.get_vector<std::int32_t>();
   mesh.corner_node = reader.get_vector<std::int32_t>();
   mesh.element_region = reader.get_vector<std::int32_t>();
   mesh.density_factor = reader.get_vector<double>();
   mesh.cut_facets = reader.get_vector<std::uint8_t>();
-  mesh.fibre = get_points(reader);
+  mesh.fibre = reader.get_vector<Vec3>();
   check_arrays(mesh);
   mesh.region_name.resize(reader.get_count(8));
   for (std::string& name : mesh.region_name) name = reader.get_text();
@@ -229,7 +210,7 @@ MeshEdit edit_from_bytes(std::span<const std::byte> bytes) {
   edit.moves.resize(reader.get_count(8 + (3 + max_corners) * sizeof(double)));
   for (NodeMove& move : edit.moves) {
     move.node = reader.get<std::int32_t>();
-    move.X = get_point(reader);
+    for (int i = 0; i < 3; ++i) move.X[i] = reader.get<double>();
     move.host = reader.get<std::int32_t>();
     move.weight = reader.get<std::array<double, max_corners>>();
   }

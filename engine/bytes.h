@@ -32,8 +32,10 @@ class ByteWriter {
     static_assert(std::is_trivially_copyable_v<T>);
     put_raw(&value, sizeof value);
   }
+  // Eigen's vectors are not trivially copyable, their three doubles are.
   template <class T>
   void put_vector(const std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec3>);
     put(static_cast<std::uint64_t>(values.size()));
     put_raw(values.data(), values.size() * sizeof(T));
   }

@@ -8,6 +8,7 @@
 
 #include "collision/contact_solve.h"
 #include "collision/detector.h"
+#include "engine/frame_span.h"
 #include "engine/holds.h"
 #include "engine/surface_view.h"
 #include "engine/tool.h"
@@ -37,12 +38,6 @@ struct ContactStage {
   std::optional<HaloExchange> exchange;
   std::vector<double> positions;   // (set.node.size() * 6) that travel
   std::vector<ToolMotion> motion;  // (n_tools) at the end of the substep
-};
-
-struct FrameSpan {
-  double t0 = 0, t1 = 0;  // [s]
-  double dt = 0;          // of a substep [s]
-  std::int64_t n_substeps = 1;
 };
 
 // Finds the contacts of the frame. reach_extra: how far tissue may move towards a tool within a

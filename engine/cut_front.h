@@ -7,8 +7,8 @@
 
 #include "engine/archive_cut.h"
 #include "engine/body_positions.h"
-#include "engine/contact_stage.h"
 #include "engine/cut_stage.h"
+#include "engine/frame_span.h"
 
 namespace trocar {
 

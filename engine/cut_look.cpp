@@ -10,8 +10,8 @@ namespace trocar {
 
 namespace {
 
-constexpr int idle_frames_to_leave =
-    3;  // a blade that touches nothing for so long has left the tissue
+// A blade that touches nothing for so long has left the tissue.
+constexpr int idle_frames_to_leave = 3;
 constexpr double tip_spacing = 0.25;  // of places on the way of an end, mean edge lengths
 
 // Of points within a frame's reach of a blade.

@@ -22,8 +22,8 @@ struct CutRecord {
   std::int64_t n_askew = 0;   // edits of an edge that did not face its way
   std::int64_t n_pieces = 1;  // of the whole body after the stroke, or so far
   std::int64_t n_elements_added = 0, n_elements_dissolved = 0;
-  double stable_step_ratio =
-      1;  // least stable step after / before, of the elements around, worst edit
+  // Least stable step after / before, of the elements around, worst edit.
+  double stable_step_ratio = 1;
   double scene_step_ratio = 1;       // of the whole body, after or so far / before the stroke
   double scene_step_before = 0;      // [s]
   double least_quality = 1;          // of elements around an edit, after it
@@ -31,8 +31,8 @@ struct CutRecord {
   double momentum_change = 0;        // |P after - P before| / sum |m v| around the cut, largest
   double kinetic_energy_change = 0;  // summed [J]
   double strain_energy_change = 0;   // largest |relative| of the edited elements by an edit
-  double blade_travel = 0,
-         deepest = 0;  // of the edge's middle with some of it inside; depth of the edge inside [m]
+  double blade_travel = 0;           // of the edge's middle with some of it inside [m]
+  double deepest = 0;                // of the edge inside [m]
   // Of a stroke that has ended in a body in space, see SweptArea. [m^2]
   double swept_area = 0, parted_area = 0;
   double seconds = 0, worst_seconds = 0;  // of all frames, of the longest one

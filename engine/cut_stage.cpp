@@ -178,6 +178,15 @@ void note_swept_area(Simulation& s, std::span<const SweptPlace> swept, CutRecord
                  "deeper cut");
 }
 
+// At its end.
+void note_stroke(Simulation& s, std::span<const SweptPlace> swept, CutRecord& record) {
+  note_askew(s, record);
+  note_refusals(s, record);
+  if (s.mesh.dimension() == 3) note_swept_area(s, swept, record);
+  note_deviation(s, record);
+  note_energy_change(s, record);
+}
+
 // What the group's cutters have made, on all ranks.
 void take_over(Simulation& s, const CutGroup& group, const BladeLook& look, CutStage& stage) {
   stage.keepers = group.is_everyone() ? std::vector<int>() : group.ranks();
@@ -267,11 +276,7 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
   add_to_record(look, blade.sweep, monotonic_seconds() - start, record);
   note_body(s, record);
   if (!look.is_last) return;
-  note_askew(s, record);
-  note_refusals(s, record);
-  if (s.mesh.dimension() == 3) note_swept_area(s, stage.swept, record);
-  note_deviation(s, record);
-  note_energy_change(s, record);
+  note_stroke(s, stage.swept, record);
   end_stroke(stage);
 }
 
@@ -295,12 +300,12 @@ void prepare_cutters(Simulation& s) {
 
 // Of `root`, a number among these ranks.
 static void share_stroke(const Communicator& ranks, int root, CutStage& stage) {
-  CutStroke stroke = stage.tet.stroke();
   Saver save;
-  if (ranks.rank() == root) save(stroke);
+  if (ranks.rank() == root) save(stage.tet.stroke());
   std::vector<std::byte> bytes = save.take();
   ranks.broadcast(bytes, root);
   if (ranks.rank() == root) return;
+  CutStroke stroke;
   Loader load(bytes);
   load(stroke);
   stage.tet.set_stroke(std::move(stroke));

@@ -8,8 +8,8 @@
 
 #include "cutting/cut_plane.h"
 #include "cutting/cut_tet.h"
-#include "engine/contact_stage.h"
 #include "engine/cut_record.h"
+#include "engine/frame_span.h"
 
 namespace trocar {
 

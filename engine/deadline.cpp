@@ -6,7 +6,7 @@
 namespace trocar {
 
 double left_of_frame(const Simulation& s, double now) {
-  return s.start_seconds + static_cast<double>(s.frame) / s.scene.time.frame_rate - now;
+  return s.start_seconds + s.scene.time.at(s.frame) - now;
 }
 
 void wait_for_deadline(Simulation& s) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "base/number_text.h"
@@ -26,7 +25,7 @@ constexpr double hourglass_alarm = 0.05, balance_alarm = 0.05;
 
 double sum_over_ranks(std::span<const double> terms, const Communicator& communicator) {
   ExactSum sum;
-  for (const double term : terms) sum.add(term);
+  sum.add(terms);
   sum.all_sum(communicator);
   return sum.value();
 }
@@ -250,7 +249,7 @@ void note_balance(Simulation& s) {
   const BalanceError error = balance_error(s.log.rows);
   // What strains of 1e-9 store: roundings add up to less.
   const double wave = s.edge_length / s.rest_step;
-  const double negligible = 1e-18 * std::reduce(s.mass.begin(), s.mass.end()) * wave * wave;
+  const double negligible = 1e-18 * s.whole_mass * wave * wave;
   if (error.share <= balance_alarm || error.largest <= negligible) return;
   note_event(s, s.state.time,
              "the energies do not add up: " + short_text(100 * error.share) +

@@ -47,8 +47,8 @@ struct EnergyLedger {
   ForceWorks contact, holds, blade, loads;
   std::vector<double> earlier_contact_work;  // with the frame's earlier contact sets [J]
   double dt_mid = 0;                         // between the two velocities of the step [s]
-  std::optional<std::vector<double>>
-      start_velocity;        // (n_owned * 3) of the step that starts it all
+  // (n_owned * 3) Of the step that starts it all.
+  std::optional<std::vector<double>> start_velocity;
   double start_kinetic = 0;  // of what that step adds to it, until the frame's end [J]
   SupportForces support_forces;
 };

@@ -81,7 +81,8 @@ std::vector<FixedMask> held_components(const Simulation& s, std::span<const std:
     of_piece = static_cast<FixedMask>(of_piece | mask);
   };
   for (std::size_t node = 0; node < piece.size(); ++node) hold(node, s.fixed[node]);
-  for (const Hold& moved : s.holds.holds) hold(static_cast<std::size_t>(moved.node), 7);
+  for (const Hold& moved : s.holds.holds)
+    hold(static_cast<std::size_t>(moved.node), all_components);
   return held;
 }
 

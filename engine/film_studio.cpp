@@ -130,8 +130,8 @@ void FilmStudio::Thread::open() {
 
 void FilmStudio::Thread::draw(const FilmFrame& frame) {
   const double start = monotonic_seconds();
-  std::vector<std::pair<std::size_t, Image>>
-      drawn;  // orders with the same camera and size share a picture
+  // Orders with the same camera and size share a picture.
+  std::vector<std::pair<std::size_t, Image>> drawn;
   for (const std::size_t k : frame.orders) {
     const FilmOrder& order = films[k].order;
     auto found = std::find_if(drawn.begin(), drawn.end(), [&](const auto& d) {

@@ -41,8 +41,7 @@ void plan_substeps(const Simulation& s, FrameSpan& span) {
 }
 
 FrameSpan next_frame(const Simulation& s) {
-  return {.t0 = static_cast<double>(s.frame) / s.scene.time.frame_rate,
-          .t1 = static_cast<double>(s.frame + 1) / s.scene.time.frame_rate};
+  return {.t0 = s.scene.time.at(s.frame), .t1 = s.scene.time.at(s.frame + 1)};
 }
 
 // What is held otherwise moves otherwise.
@@ -52,7 +51,7 @@ void take_up_holds(Simulation& s) {
 }
 
 void grasp(Simulation& s, const FrameSpan& span) {
-  const double before = static_cast<double>(s.frame - 1) / s.scene.time.frame_rate;
+  const double before = s.scene.time.at(s.frame - 1);
   if (!will_act(s.tools, before, span.t0)) return;
   const std::vector<GraspAct> acts =
       act_graspers(s.holds, s.tools, before, span.t0, gather_state(s).x, s.fixed);
@@ -78,7 +77,7 @@ void detect(Simulation& s, const FrameSpan& span) {
 void resolve_contacts(Simulation& s, const FrameSpan& span, std::int64_t k) {
   ContactStage& contact = *s.contact;
   if (contact.set.node.empty()) return;
-  move_tools(s.tools, span.t0 + static_cast<double>(k + 1) * span.dt, span.dt, contact.motion);
+  move_tools(s.tools, span.time(k + 1), span.dt, contact.motion);
   predict(s.model, s.scratch, s.holds.prescribed, contact.set.local, span.dt, s.state,
           contact.u_next);
   share_positions(contact, s.mesh.X, s.state.u, *s.communicator);
@@ -123,9 +122,9 @@ void substep(Simulation& s, const FrameSpan& span, std::int64_t k) {
     const ForceScope scope(s);
     step_others(s.model, s.neighbours, s.waiting, span.dt, s.state, s.scratch);
   } else {
-    update_force(s, span.t0 + static_cast<double>(k) * span.dt);
+    update_force(s, span.time(k));
   }
-  aim_holds(s.holds, s.tools, s.mesh.X, span.t0 + static_cast<double>(k + 1) * span.dt);
+  aim_holds(s.holds, s.tools, s.mesh.X, span.time(k + 1));
   if (s.contact) {
     const PhaseScope scope(s.timers, phase_contact);
     add_drag(s.model, s.state, span.dt, s.drag, s.scratch.force);

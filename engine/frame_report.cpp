@@ -13,7 +13,7 @@ namespace {
 // Steps leave out elements that sleep: what supports of theirs bear is that of the frame's end.
 void wake_support_forces(Simulation& s, std::int64_t n_substeps) {
   if (!s.sleep || s.sleep->share == 0) return;
-  const std::vector<double> force = s.scratch.force;
+  std::vector<double> force = s.scratch.force;
   const bool has_force = s.scratch.has_force;
   std::vector<std::uint8_t> asleep = std::exchange(s.scratch.is_asleep, {});
   find_force(s.model, s.neighbours, s.state, s.scratch);
@@ -25,7 +25,7 @@ void wake_support_forces(Simulation& s, std::int64_t n_substeps) {
       forces.sum[k] = static_cast<double>(n_substeps) * s.scratch.force[component];
   }
   s.scratch.is_asleep = std::move(asleep);
-  s.scratch.force = force;
+  s.scratch.force.swap(force);
   s.scratch.has_force = has_force;
 }
 
@@ -33,21 +33,25 @@ void wake_support_forces(Simulation& s, std::int64_t n_substeps) {
 // resistance, and to each support.
 void sum_forces(Simulation& s, const FrameSpan& span, FrameRow& row) {
   std::vector<ToolLoad> loads(s.tools.size());
-  std::vector<ExactSum3> on_support(s.scene.supports.size());
+  std::vector<ExactSum3> sums(s.scene.supports.size());
   if (s.contact) sum_contact_reactions(*s.contact, span.n_substeps, loads);
-  sum_hold_reactions(s.holds, span.n_substeps, loads, on_support);
+  sum_hold_reactions(s.holds, span.n_substeps, loads, sums);
   sum_drag_reactions(s.drag, span.n_substeps, loads);
-  row.tools.resize(s.tools.size());
-  for (std::size_t k = 0; k < s.tools.size(); ++k) {
-    row.tools[k].position = s.tools[k].path.at(span.t1).translation;
-    row.tools[k].force = sum_over_ranks(loads[k].force, *s.communicator);
-    if (s.energy) row.tools[k].torque = sum_over_ranks(loads[k].torque, *s.communicator);
+  if (s.energy) {
+    wake_support_forces(s, span.n_substeps);
+    sum_support_forces(s.energy->support_forces, span.n_substeps, sums);
+  } else {
+    sums.clear();
   }
-  if (!s.energy) return;
-  wake_support_forces(s, span.n_substeps);
-  sum_support_forces(s.energy->support_forces, span.n_substeps, on_support);
-  for (ExactSum3& sum : on_support)
-    row.support_forces.push_back(sum_over_ranks(sum, *s.communicator));
+  for (const ToolLoad& load : loads) sums.insert(sums.end(), {load.force, load.torque});
+  const std::vector<Vec3> of_all = sum_over_ranks(sums, *s.communicator);
+  const auto of_tools = of_all.end() - 2 * std::ssize(s.tools);
+  row.support_forces.assign(of_all.begin(), of_tools);
+  for (std::size_t k = 0; k < s.tools.size(); ++k) {
+    row.tools.push_back(
+        {.position = s.tools[k].path.at(span.t1).translation, .force = of_tools[2 * k]});
+    if (s.energy) row.tools[k].torque = of_tools[2 * k + 1];
+  }
 }
 
 // Partner nodes lay on each other when they were cut apart: their distance is how far the wound

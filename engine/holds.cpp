@@ -120,8 +120,8 @@ void localise_holds(Holds& holds, const Part& part) {
   holds.owned.clear();
   holds.prescribed.clear();
   for (std::size_t k = 0; k < holds.holds.size(); ++k) {
-    const std::int32_t local = part.node_local[holds.holds[k].node];
-    if (local < 0 || local >= part.n_owned) continue;
+    const std::int32_t local = part.owned(holds.holds[k].node);
+    if (local < 0) continue;
     holds.owned.push_back(static_cast<std::int32_t>(k));
     holds.prescribed.push_back({.node = local});
   }

@@ -1,6 +1,7 @@
 #include "engine/loads.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/sort_unique.h"
 
@@ -92,8 +93,8 @@ struct Placing {
 
   // -1 for nodes of other ranks and for none.
   std::int32_t operator()(std::int32_t node) {
-    const std::int32_t local = node < 0 ? -1 : part.node_local[node];
-    if (local < 0 || local >= part.n_owned) return -1;
+    const std::int32_t local = node < 0 ? -1 : part.owned(node);
+    if (local < 0) return -1;
     if (of_node[local] < 0) {
       of_node[local] = static_cast<std::int32_t>(loads.node.size());
       loads.node.push_back(local);
@@ -158,10 +159,9 @@ std::vector<BorderEdge> edges_of(std::span<const LoadFace> faces) {
 }
 
 std::vector<LoadFace> faces_at(std::span<const BorderEdge> edges, const Mesh& mesh,
-                               const Surface& surface) {
+                               std::vector<LoadFace> faces) {
   std::vector<std::uint8_t> is_at(mesh.X.size(), 0);
   for (const auto& [a, b] : edges) is_at[a] = is_at[b] = 1;
-  std::vector<LoadFace> faces = all_faces(mesh, surface);
   std::erase_if(faces, [&](const LoadFace& face) {
     return std::ranges::none_of(face, [&](std::int32_t i) { return i >= 0 && is_at[i] != 0; });
   });
@@ -182,22 +182,24 @@ DisplacementPath path_of(const SceneLoad& load) {
 
 // Of faces in the mesh as it is; a quad that a cut has made two triangles of is left out with both.
 bool is_left_out(const LoadFace& face, const Mesh& mesh, const NodeSet& region) {
-  std::vector<std::int32_t> nodes;
-  for (const std::int32_t i : face)
-    if (i >= 0) nodes.push_back(mesh.uncut_node(i));
+  const std::vector<FacetNodes>& left_out = region.left_out;
+  FacetNodes nodes = face;
+  for (std::int32_t& i : nodes)
+    if (i >= 0) i = mesh.uncut_node(i);
   std::ranges::sort(nodes);
-  return std::ranges::any_of(region.left_out, [&](const FacetNodes& facet) {
-    return std::ranges::includes(facet, nodes);
+  if (std::ranges::binary_search(left_out, nodes)) return true;
+  if (nodes[0] >= 0) return false;
+  const auto quads = std::ranges::lower_bound(left_out, FacetNodes{});  // behind all with a -1
+  return std::any_of(quads, left_out.end(), [&](const FacetNodes& quad) {
+    return std::ranges::includes(quad, std::span(nodes).subspan(1));
   });
 }
 
-}  // namespace
-
-std::vector<LoadFace> loaded_faces(const Mesh& mesh, const Surface& surface,
-                                   const NodeSet& region) {
+// Of these, those in the region.
+std::vector<LoadFace> faces_in(const NodeSet& region, const Mesh& mesh,
+                               std::vector<LoadFace> faces) {
   std::vector<std::uint8_t> is_inside(mesh.X.size(), 0);
   for (const std::int32_t node : region.node) is_inside[node] = 1;
-  std::vector<LoadFace> faces = all_faces(mesh, surface);
   std::erase_if(faces, [&](const LoadFace& face) {
     return std::any_of(face.begin(), face.end(),
                        [&](std::int32_t i) { return i >= 0 && is_inside[i] == 0; });
@@ -206,21 +208,25 @@ std::vector<LoadFace> loaded_faces(const Mesh& mesh, const Surface& surface,
   return faces;
 }
 
-std::vector<BorderEdge> load_borders(std::span<const SceneLoad> scene, const Mesh& mesh,
-                                     const Surface& surface) {
-  std::vector<BorderEdge> border;
-  for (const SceneLoad& load : scene) {
-    const NodeSet& region = *find_node_set(mesh, load.region);
-    const std::vector<BorderEdge> loaded = edges_of(loaded_faces(mesh, surface, region));
-    for (const BorderEdge& edge : loaded)
-      if (count_of(loaded, edge) == 1) border.push_back(edge);
-  }
+void add_border(std::span<const LoadFace> faces, std::vector<BorderEdge>& border) {
+  const std::vector<BorderEdge> loaded = edges_of(faces);
+  for (const BorderEdge& edge : loaded)
+    if (count_of(loaded, edge) == 1) border.push_back(edge);
+}
+
+// At a wound there is no face beyond. outer: all faces.
+void leave_out_wounds(std::vector<LoadFace> outer, const Mesh& mesh,
+                      std::vector<BorderEdge>& border) {
   sort_unique(border);
-  if (border.empty()) return border;
-  // At a wound there is no face beyond.
-  const std::vector<BorderEdge> outer = edges_of(faces_at(border, mesh, surface));
-  std::erase_if(border, [&](const BorderEdge& edge) { return count_of(outer, edge) != 2; });
-  return border;
+  const std::vector<BorderEdge> edges = edges_of(faces_at(border, mesh, std::move(outer)));
+  std::erase_if(border, [&](const BorderEdge& edge) { return count_of(edges, edge) != 2; });
+}
+
+}  // namespace
+
+std::vector<LoadFace> loaded_faces(const Mesh& mesh, const Surface& surface,
+                                   const NodeSet& region) {
+  return faces_in(region, mesh, all_faces(mesh, surface));
 }
 
 void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Surface& surface,
@@ -228,14 +234,17 @@ void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Su
   loads = {};
   if (scene.empty()) return;
   Placing placing{.part = part, .loads = loads};
+  std::vector<LoadFace> outer = all_faces(mesh, surface);
   for (std::size_t k = 0; k < scene.size(); ++k) {
     loads.path.push_back(path_of(scene[k]));
     const NodeSet& region = *find_node_set(mesh, scene[k].region);
-    const std::vector<LoadFace> faces = loaded_faces(mesh, surface, region);
+    const std::vector<LoadFace> faces = faces_in(region, mesh, outer);
     const auto load = static_cast<std::int32_t>(k);
     if (scene[k].force != Vec3::Zero()) take_force(load, mesh, region, faces, placing);
     if (scene[k].pressure != 0) take_pressure(load, mesh, faces, placing);
+    add_border(faces, loads.border);
   }
+  leave_out_wounds(std::move(outer), mesh, loads.border);
   loads.force.assign(loads.node.size(), Vec3::Zero());
 }
 

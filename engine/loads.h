@@ -23,11 +23,6 @@ using LoadFace = std::array<std::int32_t, 4>;
 // The faces all of whose nodes lie in the region, in ascending order of (element, facet).
 std::vector<LoadFace> loaded_faces(const Mesh& mesh, const Surface& surface, const NodeSet& region);
 
-// Where loaded areas end on the outer surface, as a cut wants it: there a node that goes aside
-// would change what a load acts on.
-std::vector<BorderEdge> load_borders(std::span<const SceneLoad> scene, const Mesh& mesh,
-                                     const Surface& surface);
-
 struct Loads {
   // Of an owned node: the part of a load's force that acts there.
   struct Share {
@@ -49,7 +44,9 @@ struct Loads {
   std::vector<Face> faces;         // of loads with pressure
   std::vector<std::int32_t> node;  // owned, local
   std::vector<Vec3> force;         // (node.size()) of the present step [N]
-  std::vector<BorderEdge> border;  // only if something cuts
+  // Where loaded areas end on the outer surface, as a cut wants it: there a node that goes aside
+  // would change what a load acts on.
+  std::vector<BorderEdge> border;
   bool is_empty() const { return path.empty(); }
 };
 

@@ -21,18 +21,17 @@ std::vector<Location> follow_markers(std::span<const SceneMarker> markers, const
 std::vector<Vec3> marker_positions(std::span<const Location> markers, const Mesh& mesh,
                                    const Part& part, std::span<const double> u,
                                    const Communicator& communicator) {
-  std::vector<Vec3> positions;
-  for (const Location& marker : markers) {
-    ExactSum3 sum;
+  std::vector<ExactSum3> sums(markers.size());
+  for (std::size_t k = 0; k < markers.size(); ++k) {
+    const Location& marker = markers[k];
     const std::span<const std::int32_t> corner = mesh.corners(marker.element);
     for (std::size_t a = 0; a < corner.size(); ++a) {
-      const std::int32_t local = part.node_local[corner[a]];
-      if (local < 0 || local >= part.n_owned) continue;
-      add(marker.weight[a] * (mesh.X[corner[a]] + Vec3::Map(&u[3 * std::size_t(local)])), sum);
+      const std::int32_t local = part.owned(corner[a]);
+      if (local < 0) continue;
+      add(marker.weight[a] * (mesh.X[corner[a]] + Vec3::Map(&u[3 * std::size_t(local)])), sums[k]);
     }
-    positions.push_back(sum_over_ranks(sum, communicator));
   }
-  return positions;
+  return sum_over_ranks(sums, communicator);
 }
 
 }  // namespace trocar

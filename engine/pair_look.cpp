@@ -71,10 +71,6 @@ std::int64_t substeps_to_check(const Simulation& s, const FrameSpan& span, doubl
   return n;
 }
 
-double begin_of(const FrameSpan& span, std::int64_t k) {
-  return span.t0 + static_cast<double>(k) * span.dt;
-}
-
 // Those that were found before and are near still stay: what was outside then and lies inside by
 // now knows by them on which side it was. In ascending (node, corners).
 void add_pairs(std::span<const TissuePair> before, std::span<const Vec3> x, double near,
@@ -136,7 +132,7 @@ ContactBody contact_body(const Simulation& s) {
 
 void note_pair_look(Simulation& s, const FrameSpan& span, std::int64_t k) {
   PairLook& look = s.contact->look;
-  look.time = begin_of(span, k);
+  look.time = span.time(k);
   look.next_check = k;
   look.u.clear();
   look.v.clear();
@@ -150,7 +146,7 @@ void note_pair_look(Simulation& s, const FrameSpan& span, std::int64_t k) {
 bool is_pair_look_due(Simulation& s, const FrameSpan& span, std::int64_t k) {
   PairLook& look = s.contact->look;
   if (k < look.next_check) return false;
-  const double t = begin_of(span, k);
+  const double t = span.time(k);
   const Apart apart = find_apart(s, t);
   look.next_check = k + substeps_to_check(s, span, t, apart.speed);
   const bool is_past = look.time > span.t0 &&
@@ -166,7 +162,7 @@ void look_for_pairs(Simulation& s, const FrameSpan& span, std::int64_t k) {
   gather_velocities(view, s.state.v, *s.communicator);
   contact.detector.refit(view.x);
   const std::vector<TissuePair> before = contact.tissue;
-  const double rest = span.t1 - begin_of(span, k), way = rest * largest_difference(view);
+  const double rest = span.t1 - span.time(k), way = rest * largest_difference(view);
   const double most = most_approach * s.contact_reach;
   detect_tissue(contact, view, way > most ? rest * most / way : rest, s.contact_reach);
   add_pairs(before, view.x, 2 * s.contact_reach, contact.tissue);

@@ -132,8 +132,7 @@ std::unique_ptr<Patch> make_patch_of_nodes(const Simulation& s, std::span<const 
 
 double sum_of(std::initializer_list<std::span<const double>> lists) {
   ExactSum sum;
-  for (const std::span<const double> list : lists)
-    for (const double term : list) sum.add(term);
+  for (const std::span<const double> list : lists) sum.add(list);
   return sum.value();
 }
 

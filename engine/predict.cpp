@@ -29,8 +29,8 @@ double measure_step(Simulation& s, double dt) {
       integrate(s.model, s.scratch, {}, dt, s.state);
       start_exchange(s.neighbours, s.state);
     }
-    elapsed = s.communicator->all_max(monotonic_seconds() -
-                                      start);  // all ranks make the same number of rounds
+    // All ranks make the same number of rounds.
+    elapsed = s.communicator->all_max(monotonic_seconds() - start);
   }
   finish_exchange(s.neighbours, s.state);
   s.state = kept;
@@ -49,7 +49,6 @@ std::string line(const char* name, const char* format, double value) {
 
 std::string predict(Simulation& s) {
   const double program = s.communicator->all_max(static_cast<double>(peak_memory_bytes()));
-  const MeshStatistics m = mesh_statistics(s.mesh);
   const double frame = 1 / s.scene.time.frame_rate;
   const double limit = s.scene.solver.step_factor * s.watch.stable_step;
   const double n_substeps = std::ceil(frame / limit);
@@ -58,10 +57,11 @@ std::string predict(Simulation& s) {
   if (s.multirate) mine += memory_bytes(s.multirate->model, s.multirate->scratch);
   const std::uint64_t bytes = s.communicator->all_sum(mine);
   std::string text = s.scene.name + "\n";
-  text += line("nodes", "%.0f", m.n_nodes);
+  text += line("nodes", "%.0f", s.mesh.n_nodes());
   text += line("elements", "%.0f", s.mesh.n_elements());
-  text += line("body", "%.4g m on its longest side", m.box.size().maxCoeff());
-  text += line("least quality", "%.3f (mean ratio, 1 is ideal)", m.quality_min);
+  text += line("body", "%.4g m on its longest side", bounding_box(s.mesh.X).size().maxCoeff());
+  text += line("least quality", "%.3f (mean ratio, 1 is ideal)",
+               element_statistics(s.mesh).quality_min);
   text += line("stable step", "%.4g ms", 1e3 * s.watch.stable_step);
   text += line("set by element", "%.0f", s.watch.stable_element);
   if (s.added_mass)

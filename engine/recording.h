@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/frame_log.h"
 #include "mesh/edit.h"
 #include "mesh/mesh.h"
 #include "mesh/triangle_mesh.h"
@@ -24,8 +23,8 @@ struct RecordingHead {
   std::string version;  // of the program
   std::string scene;    // effective scene, TOML
   Mesh mesh;            // at time zero
-  std::vector<TriangleMesh>
-      tool_meshes;  // the user's own tool surfaces, one a tool, empty where built in
+  // The user's own tool surfaces, one a tool, empty where built in.
+  std::vector<TriangleMesh> tool_meshes;
 };
 
 struct RecordedFrame {
@@ -56,8 +55,8 @@ class RecordingWriter {
   void finish();
 
  private:
-  struct Database;
-  std::unique_ptr<Database> database_;
+  struct Tables;
+  std::unique_ptr<Tables> tables_;
 };
 
 class RecordingReader {
@@ -76,12 +75,14 @@ class RecordingReader {
   // stay readable.
   RecordedFrame read(std::int64_t frame);
   // The mesh as it was in this recorded frame: the first mesh with all edits up to it applied.
-  // Throws as read does.
-  Mesh mesh_at(std::int64_t frame);
+  // Valid until the next call. Throws as read does.
+  const Mesh& mesh_at(std::int64_t frame);
+  // In the mesh that mesh_at gave last.
+  std::int64_t n_edits() const;
 
  private:
-  struct Database;
-  std::unique_ptr<Database> database_;
+  struct Tables;
+  std::unique_ptr<Tables> tables_;
 };
 
 }  // namespace trocar

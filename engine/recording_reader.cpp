@@ -124,9 +124,9 @@ bool read_frame_row(const Statement& row, FrameRowRead& r) {
 
 }  // namespace
 
-struct RecordingReader::Database {
+struct RecordingReader::Tables {
   std::string name;
-  trocar::Database file;
+  Database file;
   RecordingHead head;
   std::vector<std::pair<std::int64_t, double>> frames;
   std::vector<std::string> damage;
@@ -134,7 +134,7 @@ struct RecordingReader::Database {
   Mesh mesh;
   std::int64_t n_applied = 0;
 
-  explicit Database(const std::string& n) : name(n), file(n, trocar::Database::Mode::read) {}
+  explicit Tables(const std::string& n) : name(n), file(n, Database::Mode::read) {}
   void read_head();
   void read_tools(std::int64_t n_tools);
   void read_frame_list();
@@ -143,7 +143,7 @@ struct RecordingReader::Database {
   void apply_edits_up_to(std::int64_t n_edits);
 };
 
-void RecordingReader::Database::read_head() {
+void RecordingReader::Tables::read_head() {
   Statement row(file, "SELECT format, version, scene, n_tools, row_crc, mesh, size, crc FROM head");
   if (!row.step()) throw InputError(name + ": is an empty recording");
   if (row.integer(0) < 1) throw InputError(name + ": damaged (it does not tell its format)");
@@ -162,7 +162,7 @@ void RecordingReader::Database::read_head() {
   read_tools(row.integer(3));
 }
 
-void RecordingReader::Database::read_tools(std::int64_t n_tools) {
+void RecordingReader::Tables::read_tools(std::int64_t n_tools) {
   Statement row(file, "SELECT number, row_crc, surface, size, crc FROM tool ORDER BY number");
   while (row.step()) {
     const std::string which =
@@ -178,7 +178,7 @@ void RecordingReader::Database::read_tools(std::int64_t n_tools) {
                      " instrument surfaces instead of " + std::to_string(n_tools));
 }
 
-void RecordingReader::Database::read_frame_list() {
+void RecordingReader::Tables::read_frame_list() {
   Statement row(file, std::string("SELECT ") + frame_columns + " FROM frame ORDER BY frame");
   FramePlace end;
   while (row.step()) {
@@ -199,7 +199,7 @@ void RecordingReader::Database::read_frame_list() {
   check_closing(end);
 }
 
-void RecordingReader::Database::check_closing(const FramePlace& end) {
+void RecordingReader::Tables::check_closing(const FramePlace& end) {
   Statement row(file, "SELECT n_frames, n_edits, row_crc FROM closing");
   if (!row.step()) return;  // the run was killed: its last frame is the end
   if (row.integer(2) != row_crc("closing", row.integer(0), row.integer(1)))
@@ -209,8 +209,8 @@ void RecordingReader::Database::check_closing(const FramePlace& end) {
                      std::to_string(end.place));
 }
 
-RecordedFrame RecordingReader::Database::read_frame(std::int64_t number, FramePlace& at,
-                                                    bool with_u) {
+RecordedFrame RecordingReader::Tables::read_frame(std::int64_t number, FramePlace& at,
+                                                  bool with_u) {
   const std::string which = name + ": frame " + std::to_string(number);
   Statement row(file, std::string("SELECT ") + frame_columns + ", u FROM frame WHERE frame = ?");
   if (!row.bind(0, number).step()) throw InputError(which + ": is not recorded");
@@ -224,7 +224,7 @@ RecordedFrame RecordingReader::Database::read_frame(std::int64_t number, FramePl
   return std::move(r.frame);
 }
 
-void RecordingReader::Database::apply_edits_up_to(std::int64_t n_edits) {
+void RecordingReader::Tables::apply_edits_up_to(std::int64_t n_edits) {
   if (n_edits < n_applied) {
     mesh = head.mesh;
     n_applied = 0;
@@ -247,33 +247,37 @@ void RecordingReader::Database::apply_edits_up_to(std::int64_t n_edits) {
 }
 
 RecordingReader::RecordingReader(const std::string& file)
-    : database_(std::make_unique<Database>(file)) {
-  database_->read_head();
-  database_->read_frame_list();
+    : tables_(std::make_unique<Tables>(file)) {
+  tables_->read_head();
+  tables_->read_frame_list();
 }
 RecordingReader::~RecordingReader() = default;
 RecordingReader::RecordingReader(RecordingReader&&) noexcept = default;
 
 const RecordingHead& RecordingReader::head() const {
-  return database_->head;
+  return tables_->head;
 }
 const std::vector<std::pair<std::int64_t, double>>& RecordingReader::frames() const {
-  return database_->frames;
+  return tables_->frames;
 }
 const std::vector<std::string>& RecordingReader::damage() const {
-  return database_->damage;
+  return tables_->damage;
 }
 
 RecordedFrame RecordingReader::read(std::int64_t number) {
   FramePlace at;
-  return database_->read_frame(number, at, true);
+  return tables_->read_frame(number, at, true);
 }
 
-Mesh RecordingReader::mesh_at(std::int64_t number) {
+const Mesh& RecordingReader::mesh_at(std::int64_t number) {
   FramePlace at;
-  database_->read_frame(number, at, false);
-  database_->apply_edits_up_to(at.n_edits);
-  return database_->mesh;
+  tables_->read_frame(number, at, false);
+  tables_->apply_edits_up_to(at.n_edits);
+  return tables_->mesh;
+}
+
+std::int64_t RecordingReader::n_edits() const {
+  return tables_->n_applied;
 }
 
 }  // namespace trocar

@@ -21,18 +21,16 @@ void bind_blob(Statement& statement, int k, const Blob& blob) {
 
 }  // namespace
 
-struct RecordingWriter::Database {
-  trocar::Database file;
+struct RecordingWriter::Tables {
+  Database file;
   FramePlace next;
   std::optional<Statement> add_edit, add_frame;
 
-  Database(const std::string& name, const RecordingHead& head)
-      : file(name, trocar::Database::Mode::create) {
+  Tables(const std::string& name, const RecordingHead& head) : file(name, Database::Mode::create) {
     write_head(head);
     prepare();
   }
-  Database(const std::string& name, std::int64_t last_frame)
-      : file(name, trocar::Database::Mode::extend) {
+  Tables(const std::string& name, std::int64_t last_frame) : file(name, Database::Mode::extend) {
     go_back_to(last_frame);
     prepare();
   }
@@ -48,7 +46,7 @@ struct RecordingWriter::Database {
   void write_frame(const RecordedFrame& frame);
 };
 
-void RecordingWriter::Database::write_head(const RecordingHead& head) {
+void RecordingWriter::Tables::write_head(const RecordingHead& head) {
   file.run(std::string("BEGIN;") + recording_tables);
   const Blob mesh = pack_blob(mesh_to_bytes(head.mesh), 1);
   const auto n_tools = static_cast<std::int64_t>(head.tool_meshes.size());
@@ -64,7 +62,7 @@ void RecordingWriter::Database::write_head(const RecordingHead& head) {
   file.run("COMMIT");
 }
 
-void RecordingWriter::Database::go_back_to(std::int64_t last_frame) {
+void RecordingWriter::Tables::go_back_to(std::int64_t last_frame) {
   if (last_frame > 0) {
     Statement row(file, "SELECT place, n_edits FROM frame WHERE frame = ?");
     if (!row.bind(0, last_frame).step())
@@ -77,7 +75,7 @@ void RecordingWriter::Database::go_back_to(std::int64_t last_frame) {
            "; DELETE FROM closing; COMMIT");
 }
 
-void RecordingWriter::Database::write_tool(std::int64_t number, const TriangleMesh& surface) {
+void RecordingWriter::Tables::write_tool(std::int64_t number, const TriangleMesh& surface) {
   const Blob packed = pack_blob(surface_to_bytes(surface), 1);
   Statement add_tool(file, "INSERT INTO tool VALUES (?, ?, ?, ?, ?)");
   add_tool.bind(0, number).bind(1, std::int64_t{row_crc("tool", number, packed.crc)});
@@ -85,7 +83,7 @@ void RecordingWriter::Database::write_tool(std::int64_t number, const TriangleMe
   add_tool.step();
 }
 
-void RecordingWriter::Database::write_edit(const MeshEdit& edit, std::int64_t frame) {
+void RecordingWriter::Tables::write_edit(const MeshEdit& edit, std::int64_t frame) {
   const Blob change = pack_blob(edit_to_bytes(edit), 1);
   const std::int64_t number = next.n_edits++;
   add_edit->bind(0, number).bind(1, frame).bind(
@@ -95,7 +93,7 @@ void RecordingWriter::Database::write_edit(const MeshEdit& edit, std::int64_t fr
   add_edit->reset();
 }
 
-void RecordingWriter::Database::write_frame(const RecordedFrame& frame) {
+void RecordingWriter::Tables::write_frame(const RecordedFrame& frame) {
   const Blob u = pack_blob(std::as_bytes(std::span(frame.u)), sizeof(double));
   const std::int64_t place = next.place++;
   add_frame->bind(0, frame.frame)
@@ -114,35 +112,35 @@ void RecordingWriter::Database::write_frame(const RecordedFrame& frame) {
 }
 
 RecordingWriter::RecordingWriter(const std::string& file, const RecordingHead& head)
-    : database_(std::make_unique<Database>(file, head)) {}
+    : tables_(std::make_unique<Tables>(file, head)) {}
 RecordingWriter::RecordingWriter(const std::string& file, std::int64_t last_frame)
-    : database_(std::make_unique<Database>(file, last_frame)) {}
+    : tables_(std::make_unique<Tables>(file, last_frame)) {}
 RecordingWriter::~RecordingWriter() = default;
 RecordingWriter::RecordingWriter(RecordingWriter&&) noexcept = default;
 
 void RecordingWriter::add(std::span<const MeshEdit> edits, const RecordedFrame& frame) {
-  Database& d = *database_;
-  d.file.run("BEGIN");
-  for (const MeshEdit& edit : edits) d.write_edit(edit, frame.frame);
-  d.write_frame(frame);
-  d.file.run("COMMIT");
+  Tables& t = *tables_;
+  t.file.run("BEGIN");
+  for (const MeshEdit& edit : edits) t.write_edit(edit, frame.frame);
+  t.write_frame(frame);
+  t.file.run("COMMIT");
 }
 
 // In WAL mode a commit reaches the disk with the next emptying of the write-ahead log.
 void RecordingWriter::sync() {
-  database_->file.run("PRAGMA wal_checkpoint(FULL)");
+  tables_->file.run("PRAGMA wal_checkpoint(FULL)");
 }
 
 void RecordingWriter::finish() {
-  Database& d = *database_;
+  Tables& t = *tables_;
   {
-    Statement close(d.file, "INSERT INTO closing VALUES (?, ?, ?)");
-    close.bind(0, d.next.place).bind(1, d.next.n_edits);
-    close.bind(2, std::int64_t{row_crc("closing", d.next.place, d.next.n_edits)}).step();
+    Statement close(t.file, "INSERT INTO closing VALUES (?, ?, ?)");
+    close.bind(0, t.next.place).bind(1, t.next.n_edits);
+    close.bind(2, std::int64_t{row_crc("closing", t.next.place, t.next.n_edits)}).step();
   }
   // Empties the write-ahead log into the file and leaves WAL mode: a finished recording is one file
   // that can be read in a read-only folder.
-  d.file.run("PRAGMA journal_mode=DELETE");
+  t.file.run("PRAGMA journal_mode=DELETE");
 }
 
 }  // namespace trocar

@@ -144,15 +144,19 @@ std::vector<Material> recorded_materials(const Scene& scene, const Mesh& mesh) {
   return is_free ? std::vector<Material>() : region_materials(scene.tissue, mesh);
 }
 
-FilmFrame film_frame(const Mesh& mesh, const RecordedFrame& frame, std::size_t orders) {
-  FilmFrame picture{.number = frame.frame,
-                    .time = frame.time,
-                    .x = present_positions(mesh.X, frame.u),
-                    .X = mesh.X,
-                    .surface = boundary_surface(mesh)};
-  picture.region = surface_regions(mesh, picture.surface);
-  for (std::size_t k = 0; k < orders; ++k) picture.orders.push_back(k);
-  return picture;
+// What all frames between two edits share.
+FilmFrame film_of(const Mesh& mesh, std::size_t orders) {
+  FilmFrame film{.X = mesh.X, .surface = boundary_surface(mesh)};
+  film.region = surface_regions(mesh, film.surface);
+  for (std::size_t k = 0; k < orders; ++k) film.orders.push_back(k);
+  return film;
+}
+
+FilmFrame film_frame(FilmFrame film, const RecordedFrame& frame) {
+  film.number = frame.frame;
+  film.time = frame.time;
+  film.x = present_positions(film.X, frame.u);
+  return film;
 }
 
 }  // namespace
@@ -172,14 +176,17 @@ void replay(const ReplayOptions& options) {
   const std::vector<Material> materials = recorded_materials(scene, head.mesh);
   const std::unique_ptr<FilmStudio> studio = open_studio(scene, head, options, frames);
   std::vector<PvdEntry> entries;
+  FilmFrame film;
   ProgressBar bar("replay");
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const RecordedFrame frame = reader.read(frames[k].first);
-    const Mesh mesh = reader.mesh_at(frames[k].first);
+    const std::int64_t n_edits = reader.n_edits();
+    const Mesh& mesh = reader.mesh_at(frames[k].first);
     check_frame(frame, mesh, options.recording);
     if (options.writes_vtu)
       entries.push_back(write_frame_vtu(mesh, frame, materials, options.folder));
-    if (studio) studio->add(film_frame(mesh, frame, n_orders(options)));
+    if (studio && (k == 0 || reader.n_edits() != n_edits)) film = film_of(mesh, n_orders(options));
+    if (studio) studio->add(film_frame(film, frame));
     bar.update(static_cast<double>(k + 1) / static_cast<double>(frames.size()),
                std::to_string(k + 1) + " frames");
   }

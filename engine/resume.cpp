@@ -64,8 +64,7 @@ Scene without_free_keys(Scene scene) {
 }
 
 std::string time_text(const Checkpoint& checkpoint, const LoadedScene& loaded) {
-  return with_decimals(static_cast<double>(checkpoint.frame) / loaded.scene.time.frame_rate, 3) +
-         " s";
+  return with_decimals(loaded.scene.time.at(checkpoint.frame), 3) + " s";
 }
 
 void check_end(const Checkpoint& checkpoint, const LoadedScene& loaded) {
@@ -103,18 +102,19 @@ void require_same_scene(const std::string& before, const LoadedScene& now) {
 Checkpoint load_checkpoint(const std::string& folder, const LoadedScene& loaded,
                            Communicator& communicator) {
   const std::string file = folder + "/" + checkpoint_name;
+  Checkpoint checkpoint;
   const std::vector<std::byte> bytes = read_on_root(communicator, [&] {
     if (!std::filesystem::exists(file))
       throw InputError("\"" + folder + "\" holds no checkpoint (" + checkpoint_name +
                        ") to resume from; start the run without --resume");
     const std::string content = read_whole_file(file);
     const auto read = std::as_bytes(std::span(content));
-    const Checkpoint checkpoint = checkpoint_from_bytes(read, file);
+    checkpoint = checkpoint_from_bytes(read, file);
     require_same_scene(checkpoint.scene, loaded);
     check_end(checkpoint, loaded);
     return std::vector<std::byte>(read.begin(), read.end());
   });
-  Checkpoint checkpoint = checkpoint_from_bytes(bytes, file);
+  if (!communicator.is_root()) checkpoint = checkpoint_from_bytes(bytes, file);
   log_info("resuming at " + time_text(checkpoint, loaded) + ", frame " +
            std::to_string(checkpoint.frame));
   return checkpoint;

@@ -36,7 +36,7 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 // A second signal ends this rank at once, and mpirun the others: outputs are consistent at any
 // time.
 void ask_to_stop(int) {
-  if (stop_asked.exchange(true)) std::_Exit(75);
+  if (stop_asked.exchange(true)) std::_Exit(static_cast<int>(ExitCode::stopped));
 }
 
 void listen_to_signals() {
@@ -53,11 +53,10 @@ bool is_stopped(const Communicator& communicator) {
 // start: of this process's first frame, on the monotonic clock.
 std::string progress_note(const Simulation& s, double start) {
   const double wall = monotonic_seconds() - start;
-  const double rate = s.scene.time.frame_rate;
-  const double done = static_cast<double>(s.frame - s.first_frame) / rate;
-  return with_decimals(static_cast<double>(s.frame) / rate, 2) + " of " +
-         with_decimals(s.scene.time.duration, 2) + " s, real-time factor " +
-         with_decimals(wall > 0 ? done / wall : 0.0, 2);
+  const SceneTime& time = s.scene.time;
+  const double done = time.at(s.frame - s.first_frame);
+  return with_decimals(time.at(s.frame), 2) + " of " + with_decimals(time.duration, 2) +
+         " s, real-time factor " + with_decimals(wall > 0 ? done / wall : 0.0, 2);
 }
 
 // How a run ended, and the sentence that says why if it did not go through.
@@ -109,7 +108,7 @@ Ending run_frames(Simulation& s, Outputs& outputs) {
   const std::int64_t n_frames = s.scene.time.n_frames();
   ProgressBar bar(s.scene.name);
   const double start = monotonic_seconds();
-  s.start_seconds = start - static_cast<double>(s.frame) / s.scene.time.frame_rate;
+  s.start_seconds = start - s.scene.time.at(s.frame);
   while (s.frame < n_frames && !is_stopped(*s.communicator)) {
     Ending ending = run_frame_or_end(s, outputs);
     if (ending.code != ExitCode::done) return ending;
@@ -212,6 +211,7 @@ bool run_scene(const RunOptions& options, Communicator& communicator) {
   Outputs outputs =
       open_outputs(*simulation, options.folder, echo_in(options.folder, loaded, options.scene_file),
                    checkpoint ? &*checkpoint : nullptr);
+  checkpoint.reset();  // as large as the body, and the run may be long
   RunTimes times{.setup_seconds = monotonic_seconds() - start};
 
   const bool has_begun = ending.code == ExitCode::done;

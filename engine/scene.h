@@ -22,6 +22,7 @@ namespace trocar {
 enum class Pace { fast, real_time };
 enum class ShapeKind { box, ball, cylinder, rectangle, triangular_rectangle };
 enum class InstrumentKind { probe, grasper, scalpel, scissors };
+extern const std::vector<std::pair<std::string, InstrumentKind>> instrument_kinds;  // in its order
 inline bool has_blade(InstrumentKind kind) {
   return kind == InstrumentKind::scalpel || kind == InstrumentKind::scissors;
 }
@@ -37,6 +38,8 @@ struct SceneTime {
   double frame_rate = 30;  // [1/s]
   Pace pace = Pace::fast;
 
+  // When a frame ends [s].
+  double at(std::int64_t frame) const { return static_cast<double>(frame) / frame_rate; }
   // Frames in so many seconds, to the nearest.
   std::int64_t frames_in(double seconds) const {
     return std::llround(std::min(seconds * frame_rate, 1e15));

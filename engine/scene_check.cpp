@@ -148,13 +148,13 @@ void check_loads(const Scene& scene, OptionErrors& errors) {
   }
 }
 
-void check_markers(const Scene& scene, OptionErrors& errors) {
+template <class Items>
+void check_names_differ(const Items& items, const std::string& list, OptionErrors& errors) {
   std::set<std::string> names;
-  for (std::size_t k = 0; k < scene.markers.size(); ++k)
-    if (!names.insert(scene.markers[k].name).second)
-      errors.add(
-          item_path("marker", k) + ".name",
-          "two markers are called \"" + scene.markers[k].name + "\": give each its own name");
+  for (std::size_t k = 0; k < items.size(); ++k)
+    if (!names.insert(items[k].name).second)
+      errors.add(item_path(list, k) + ".name",
+                 "two " + list + "s are called \"" + items[k].name + "\": give each its own name");
 }
 
 void check_key(const InstrumentKey& key, bool has_jaws, const std::string& path,
@@ -191,20 +191,16 @@ bool is_column_of_other(const Scene& scene, const std::string& name) {
 }
 
 void name_instruments(Scene& scene, OptionErrors& errors) {
-  const char* kinds[] = {"probe", "grasper", "scalpel", "scissors"};
-  std::set<std::string> names;
-  for (std::size_t k = 0; k < scene.instruments.size(); ++k) {
-    SceneInstrument& instrument = scene.instruments[k];
-    if (instrument.name.empty()) instrument.name = kinds[static_cast<int>(instrument.kind)];
-    if (!names.insert(instrument.name).second)
+  for (SceneInstrument& instrument : scene.instruments)
+    if (instrument.name.empty())
+      instrument.name = instrument_kinds[static_cast<std::size_t>(instrument.kind)].first;
+  check_names_differ(scene.instruments, "instrument", errors);
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k)
+    if (const std::string& name = scene.instruments[k].name; is_column_of_other(scene, name))
       errors.add(item_path("instrument", k) + ".name",
-                 "two instruments are called \"" + instrument.name + "\": give each its own name");
-    if (is_column_of_other(scene, instrument.name))
-      errors.add(item_path("instrument", k) + ".name",
-                 "\"" + instrument.name +
+                 "\"" + name +
                      "\" is what the metrics call a marker or a support: give the instrument "
                      "another name");
-  }
 }
 
 // Elements in single precision leave some 1e-6 of the supports' forces out of balance.
@@ -273,9 +269,9 @@ static void check_tables(LoadedScene& loaded, OptionErrors& errors) {
 static void check_tables_together(LoadedScene& loaded, OptionErrors& errors) {
   const Scene& scene = loaded.scene;
   check_shortcuts(scene, errors);
-  check_markers(scene, errors);
+  check_names_differ(scene.markers, "marker", errors);
   name_instruments(loaded.scene, errors);
-  check_cameras(scene, errors);
+  check_names_differ(scene.cameras, "camera", errors);
   check_outputs_together(scene, errors);
   check_start(scene, errors);
   check_contact(scene, errors);

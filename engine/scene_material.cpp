@@ -36,6 +36,7 @@ constexpr unsigned is_hgo = bit(MaterialModel::holzapfel_gasser_ogden);
 struct Parameter {
   const char* key;
   double SceneMaterial::*member;
+  double Material::*of_solver;
   Dimension dimension;
   Range range;
   unsigned of_models;
@@ -47,31 +48,36 @@ const std::vector<Parameter>& parameters() {
   constexpr double needed = SceneMaterial::absent;
   constexpr Range poisson{.low = -1, .high = 0.5, .is_low_open = true, .is_high_open = true};
   static const std::vector<Parameter> list = {
-      {"young_modulus", &SceneMaterial::young_modulus, dim::pressure, positive, has_young, 3000,
+      {"young_modulus", &SceneMaterial::young_modulus, &Material::young_modulus, dim::pressure,
+       positive, has_young, 3000,
        "Young's modulus E (of what is between the fibres); 3 kPa if absent. Not for mooney-rivlin, "
        "yeoh and ogden, whose constants say it."},
-      {"poisson_ratio", &SceneMaterial::poisson_ratio, dim::none, poisson, all_models, 0.45,
+      {"poisson_ratio", &SceneMaterial::poisson_ratio, &Material::poisson_ratio, dim::none, poisson,
+       all_models, 0.45,
        "Poisson's ratio nu, which gives K = 2 mu (1 + nu) / (3 (1 - 2 nu)) with the shear modulus "
        "mu at small strain; 0.45 if absent; 0.5 itself has no finite stable step."},
-      {"density", &SceneMaterial::density, dim::density, positive, all_models, 1060,
-       "Mass density rho; 1060 kg/m^3 if absent."},
-      {"c10", &SceneMaterial::c10, dim::pressure, any, bit(MaterialModel::mooney_rivlin), needed,
-       "mooney-rivlin: mu = 2 (c10 + c01)."},
-      {"c01", &SceneMaterial::c01, dim::pressure, any, bit(MaterialModel::mooney_rivlin), 0,
-       "mooney-rivlin."},
-      {"c1", &SceneMaterial::c1, dim::pressure, positive, bit(MaterialModel::yeoh), needed,
-       "yeoh: mu = 2 c1."},
-      {"c2", &SceneMaterial::c2, dim::pressure, any, bit(MaterialModel::yeoh), 0, "yeoh."},
-      {"c3", &SceneMaterial::c3, dim::pressure, any, bit(MaterialModel::yeoh), 0, "yeoh."},
-      {"eta", &SceneMaterial::eta, dim::pressure, not_negative,
+      {"density", &SceneMaterial::density, &Material::density, dim::density, positive, all_models,
+       1060, "Mass density rho; 1060 kg/m^3 if absent."},
+      {"c10", &SceneMaterial::c10, &Material::c10, dim::pressure, any,
+       bit(MaterialModel::mooney_rivlin), needed, "mooney-rivlin: mu = 2 (c10 + c01)."},
+      {"c01", &SceneMaterial::c01, &Material::c01, dim::pressure, any,
+       bit(MaterialModel::mooney_rivlin), 0, "mooney-rivlin."},
+      {"c1", &SceneMaterial::c1, &Material::c1, dim::pressure, positive, bit(MaterialModel::yeoh),
+       needed, "yeoh: mu = 2 c1."},
+      {"c2", &SceneMaterial::c2, &Material::c2, dim::pressure, any, bit(MaterialModel::yeoh), 0,
+       "yeoh."},
+      {"c3", &SceneMaterial::c3, &Material::c3, dim::pressure, any, bit(MaterialModel::yeoh), 0,
+       "yeoh."},
+      {"eta", &SceneMaterial::eta, &Material::eta, dim::pressure, not_negative,
        bit(MaterialModel::transversely_isotropic), needed,
        "transversely-isotropic: fibre modulus."},
-      {"k1", &SceneMaterial::k1, dim::pressure, not_negative, is_hgo, needed,
+      {"k1", &SceneMaterial::k1, &Material::k1, dim::pressure, not_negative, is_hgo, needed,
        "holzapfel-gasser-ogden: fibre modulus."},
-      {"k2", &SceneMaterial::k2, dim::none, positive, is_hgo, needed,
+      {"k2", &SceneMaterial::k2, &Material::k2, dim::none, positive, is_hgo, needed,
        "holzapfel-gasser-ogden: exponent."},
       {"kappa",
        &SceneMaterial::kappa,
+       &Material::kappa,
        dim::none,
        {.low = 0, .high = 1.0 / 3},
        is_hgo,
@@ -79,6 +85,7 @@ const std::vector<Parameter>& parameters() {
        "holzapfel-gasser-ogden: dispersion, 0 aligned … 1/3 isotropic."},
       {"fibre_angle",
        &SceneMaterial::fibre_angle,
+       &Material::fibre_angle,
        dim::angle,
        {.low = 0, .high = 1.5707963},
        is_hgo,
@@ -200,23 +207,9 @@ void complete_material(const std::string& path, SceneMaterial& m, OptionErrors& 
 Material to_material(const SceneMaterial& given) {
   SceneMaterial m = given;
   fill_defaults(m);
-  const auto number = [](double x, double otherwise) { return std::isnan(x) ? otherwise : x; };
-  Material material{.model = m.model,
-                    .young_modulus = number(m.young_modulus, 3000),
-                    .poisson_ratio = m.poisson_ratio,
-                    .density = m.density,
-                    .c10 = number(m.c10, 0),
-                    .c01 = number(m.c01, 0),
-                    .c1 = number(m.c1, 0),
-                    .c2 = number(m.c2, 0),
-                    .c3 = number(m.c3, 0),
-                    .eta = number(m.eta, 0),
-                    .k1 = number(m.k1, 0),
-                    .k2 = number(m.k2, 1),
-                    .kappa = number(m.kappa, 0),
-                    .fibre_angle = number(m.fibre_angle, 0),
-                    .fibre = m.fibre,
-                    .fibre_normal = m.fibre_normal};
+  Material material{.model = m.model, .fibre = m.fibre, .fibre_normal = m.fibre_normal};
+  for (const Parameter& p : parameters())
+    if (!std::isnan(m.*p.member)) material.*p.of_solver = m.*p.member;
   for (std::size_t k = 0; k < m.ogden.size() && k < material.ogden.size(); ++k)
     material.ogden[k] = {m.ogden[k].mu, m.ogden[k].alpha};
   for (const SceneProny& branch : m.prony) material.prony.push_back({branch.share, branch.time});

@@ -3,6 +3,12 @@
 
 namespace trocar {
 
+const std::vector<std::pair<std::string, InstrumentKind>> instrument_kinds = {
+    {"probe", InstrumentKind::probe},
+    {"grasper", InstrumentKind::grasper},
+    {"scalpel", InstrumentKind::scalpel},
+    {"scissors", InstrumentKind::scissors}};
+
 namespace {
 
 constexpr Range unit_range{.low = 0, .high = 1};
@@ -278,11 +284,7 @@ Options<SceneInstrument> instrument_options() {
       {{"none", GraspAction::none}, {"close", GraspAction::close}, {"open", GraspAction::open}},
       "Of a grasper or scissors: they move for 0.2 s and have closed or opened at this time.");
   Options<SceneInstrument> i("A probe, grasper, scalpel or scissors on a path.");
-  i.choice("kind", &SceneInstrument::kind,
-           {{"probe", InstrumentKind::probe},
-            {"grasper", InstrumentKind::grasper},
-            {"scalpel", InstrumentKind::scalpel},
-            {"scissors", InstrumentKind::scissors}},
+  i.choice("kind", &SceneInstrument::kind, instrument_kinds,
            "Scissors cut what is between their blades when they close.", Need::required);
   i.text("name", &SceneInstrument::name, "Name in the metrics; the kind if absent.");
   i.number("radius", &SceneInstrument::radius, dim::length, positive, "Of the tip and shaft.");

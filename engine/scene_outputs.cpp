@@ -116,14 +116,6 @@ void check_output_files(const Scene& scene, OptionErrors& errors) {
   }
 }
 
-void check_cameras(const Scene& scene, OptionErrors& errors) {
-  std::set<std::string> names;
-  for (std::size_t k = 0; k < scene.cameras.size(); ++k)
-    if (const std::string& name = scene.cameras[k].name; !names.insert(name).second)
-      errors.add(item_path("camera", k) + ".name",
-                 "two cameras are called \"" + name + "\": give each its own name");
-}
-
 void check_outputs_together(const Scene& scene, OptionErrors& errors) {
   check_files_differ(scene, errors);
   check_no_output_lies_in_a_file(scene, errors);

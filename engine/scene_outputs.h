@@ -13,7 +13,6 @@ void check_views(const Scene& scene, OptionErrors& errors);
 void check_output_files(const Scene& scene, OptionErrors& errors);
 
 // With each other.
-void check_cameras(const Scene& scene, OptionErrors& errors);
 void check_outputs_together(const Scene& scene, OptionErrors& errors);
 
 }  // namespace trocar

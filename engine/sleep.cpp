@@ -41,10 +41,8 @@ void disquiet_touched(Simulation& s) {
   for (const PrescribedNode& held : s.holds.prescribed) quiet[held.node] = 0;
   if (!s.contact) return;
   for (const Contact& contact : s.contact->contacts)
-    for (const std::int32_t node : contact.node) {
-      const std::int32_t local = s.part.node_local[node];
-      if (local >= 0 && local < s.model.n_owned) quiet[local] = 0;
-    }
+    for (const std::int32_t node : contact.node)
+      if (const std::int32_t local = s.part.owned(node); local >= 0) quiet[local] = 0;
 }
 
 // Each tool's force and its moment about the origin, each support's way.
@@ -55,7 +53,7 @@ std::vector<double> actions_on(const Simulation& s, std::span<const ToolRow> too
     add(tool.force);
     add(tool.position.cross(tool.force));
   }
-  const double time = static_cast<double>(s.frame + 1) / s.scene.time.frame_rate;
+  const double time = s.scene.time.at(s.frame + 1);
   for (const DisplacementPath& path : s.holds.paths) add(path.at(time));
   return actions;
 }
@@ -189,8 +187,8 @@ bool is_touched(const Simulation& s) {
       if (std::any_of(contact.node.begin(), contact.node.end(), sleeps)) return true;
   for (const PrescribedNode& held : s.holds.prescribed)
     if (is_asleep[held.node] != 0) return true;
-  const double rate = s.scene.time.frame_rate, frame = static_cast<double>(s.frame);
-  if (do_loads_change(s.loads, frame / rate, (frame + 1) / rate)) return true;
+  const SceneTime& time = s.scene.time;
+  if (do_loads_change(s.loads, time.at(s.frame), time.at(s.frame + 1))) return true;
   return !s.drag.node.empty() ||
          std::any_of(s.cuts.begin(), s.cuts.end(),
                      [](const CutStage& stage) { return stage.is_engaged; });
@@ -253,7 +251,7 @@ void fall_asleep(Simulation& s, std::span<const ToolRow> tools) {
     sleep.quiet_time = std::max(least_quiet_time, settling_time(s));
     show_asleep(s);
     if (sleep.quiet_time == longest_settling)
-      note_event(s, static_cast<double>(s.frame + 1) / s.scene.time.frame_rate,
+      note_event(s, s.scene.time.at(s.frame + 1),
                  "nothing falls asleep (solver.sleep): the body's slowest motion was not found");
     sleepers = find_sleepers(s);
   }

@@ -200,12 +200,6 @@ Json energies_json(const Simulation& s, const FrameRow& last) {
           {"largest_hourglass_share", s.energy->memory.largest_hourglass_share}};
 }
 
-double total_mass(const Simulation& s) {
-  ExactSum mass;
-  for (const double m : s.mass) mass.add(m);
-  return mass.value();
-}
-
 Json wound_json(const Simulation& s, const FrameRow& last) {
   double largest = 0;
   for (const FrameRow& row : s.log.rows) largest = std::max(largest, row.wound_width);
@@ -227,8 +221,8 @@ double quantile(std::vector<double> values, double q) {
 }
 
 std::string make_summary(Simulation& s, const RunTimes& times, const std::string& trouble) {
-  const double simulated = static_cast<double>(s.frame) / s.scene.time.frame_rate;
-  const double resumed_at = static_cast<double>(s.first_frame) / s.scene.time.frame_rate;
+  const double simulated = s.scene.time.at(s.frame);
+  const double resumed_at = s.scene.time.at(s.first_frame);
   const FrameRow last = s.log.rows.empty() ? FrameRow{} : s.log.rows.back();
   Json j;
   j["scene"] = s.scene.name;
@@ -244,7 +238,7 @@ std::string make_summary(Simulation& s, const RunTimes& times, const std::string
   j["precision"] = name_of(s.scene.solver.precision);
   j["simd"] = simd_name();
   j["mesh"] = mesh_json(s);
-  j["mass_kg"] = total_mass(s);
+  j["mass_kg"] = exact_sum(s.mass);
   if (s.added_mass) j["added_mass"] = added_mass_json(*s.added_mass);
   if (s.log.equilibrium.iterations > 0) j["equilibrium"] = equilibrium_json(s.log.equilibrium);
   j["duration_s"] = simulated;

@@ -11,8 +11,8 @@ void localise_supports(std::span<const SceneSupport> supports, const Mesh& mesh,
   for (std::size_t k = 0; k < supports.size(); ++k) {
     if (!supports[k].path.empty()) continue;
     for (const std::int32_t node : find_node_set(mesh, supports[k].region)->node) {
-      const std::int64_t local = part.node_local[node];
-      if (local < 0 || local >= part.n_owned) continue;
+      const std::int64_t local = part.owned(node);
+      if (local < 0) continue;
       for (const char axis : supports[k].fix) {
         const std::int64_t component = 3 * local + (axis - 'x');
         if (is_taken[component]) continue;

@@ -16,9 +16,9 @@ namespace trocar {
 struct SurfaceView {
   std::vector<Vec3> x;  // (n_nodes), valid at surface nodes; empty until somebody looks [m]
   std::vector<Vec3> v;  // the same, where tissue touches tissue; else empty [m/s]
-  std::vector<std::int32_t>
-      node;  // surface nodes by (owner, number): the order in which they arrive
-  std::vector<std::int32_t> local;  // this rank's ones, local numbers
+  // Surface nodes by (owner, number), the order in which they arrive, and local numbers of this
+  // rank's ones.
+  std::vector<std::int32_t> node, local;
 };
 
 // Round the surface's nodes.

@@ -214,8 +214,8 @@ double jaw_opening(const Tool& tool, double time) {
   double opening = 1;
   for (const InstrumentKey& key : tool.keys) {
     if (key.action == GraspAction::none || key.time - jaw_time > time) continue;
-    const double done =
-        std::min(1.0, (time - key.time + jaw_time) / jaw_time);  // the jaws meet at the key
+    // The jaws meet at the key.
+    const double done = std::min(1.0, (time - key.time + jaw_time) / jaw_time);
     opening =
         key.action == GraspAction::close ? std::min(opening, 1 - done) : std::max(opening, done);
   }

@@ -34,6 +34,10 @@ struct Part {
 
   // Place of an element in element_global, -1 if the part lacks it.
   std::int64_t place_of(std::int32_t element) const;
+  // Local number of a node that this rank owns, -1 of any other.
+  std::int32_t owned(std::int32_t node) const {
+    return node_local[node] < n_owned ? node_local[node] : -1;
+  }
   std::int32_t n_local() const { return static_cast<std::int32_t>(node_global.size()); }
 };
 Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int rank);

@@ -50,8 +50,7 @@ std::vector<BlockPlace> blocks_of(const Part& part, std::span<const std::int32_t
 std::vector<std::int32_t> owned_of(const Part& part, std::span<const std::int32_t> nodes) {
   std::vector<std::int32_t> owned;
   for (const std::int32_t node : nodes)
-    if (const std::int32_t i = part.node_local[node]; i >= 0 && i < part.n_owned)
-      owned.push_back(i);
+    if (const std::int32_t i = part.owned(node); i >= 0) owned.push_back(i);
   return owned;
 }
 

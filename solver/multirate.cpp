@@ -180,7 +180,7 @@ std::unique_ptr<MultiRate> make_multirate(const MultiRatePlan& plan, const Multi
   m.halo = make_halo(m.mesh, owner, m.part, communicator.rank());
   m.coarse_fixed = body.model.fixed;
   for (std::size_t i = 0; i < m.coarse_fixed.size(); ++i)
-    if (plan.is_fine[body.part.node_global[i]] != 0) m.coarse_fixed[i] = 7;
+    if (plan.is_fine[body.part.node_global[i]] != 0) m.coarse_fixed[i] = all_components;
   m.of_whole.assign(static_cast<std::size_t>(body.model.n_owned), -1);
   m.whole.resize(m.part.node_global.size());
   for (std::int32_t i = 0; i < m.part.n_local(); ++i) {

@@ -275,6 +275,28 @@ TEST(Checkpoint, of_another_body_is_refused) {
   EXPECT_TRUE(contains(error_of([&] { restore_checkpoint(c, *s); }), "mesh file has changed"));
 }
 
+// A pyramid whose base has one diagonal or the other.
+TEST(Checkpoint, of_an_instrument_with_other_triangles_between_the_same_points_is_refused) {
+  const TestFolder folder;
+  Communicator alone;
+  const auto with_base = [&](const std::string& base) {
+    const std::string file = write_text(
+        folder.file("tip.obj"),
+        "v -0.005 -0.005 0\nv 0.005 -0.005 0\nv 0.005 0.005 0\nv -0.005 0.005 0\nv 0 0 0.01\n"
+        "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n" +
+            base);
+    const std::string tool = "[[instrument]]\nkind = \"probe\"\nname = \"pyramid\"\nmesh = \"" +
+                             file + "\"\npath = [{ time = 0, position = [0, 0, 0.1] }]\n";
+    return build(loaded_text(resume_block_text + tool), alone);
+  };
+  const auto s = with_base("f 1 4 3\nf 1 3 2\n");
+  const Checkpoint c = take_checkpoint(*s);
+  restore_checkpoint(c, *s);
+  const auto other = with_base("f 1 4 2\nf 4 3 2\n");
+  EXPECT_EQ(other->tools.back().own_mesh.X, s->tools.back().own_mesh.X);
+  EXPECT_TRUE(contains(error_of([&] { restore_checkpoint(c, *other); }), "mesh file has changed"));
+}
+
 TEST(Checkpoint, that_gives_another_state_than_it_was_made_of_is_refused) {
   Communicator alone;
   const auto s = build(loaded_text(resume_plane_text), alone);

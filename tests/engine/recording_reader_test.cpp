@@ -38,8 +38,12 @@ TEST(RecordingReader, meshes_are_the_first_with_the_edits_up_to_the_frame_in_any
   for (std::size_t k = 0; k < 9; ++k) order.push_back(k);
   for (std::size_t k = 9; k-- > 0;) order.push_back(k);
   for (const std::size_t k : {5, 0, 8, 2, 2, 7, 1}) order.push_back(k);
-  for (const std::size_t k : order)
+  for (const std::size_t k : order) {
     EXPECT_TRUE(is_equal(reader.mesh_at(run.frames[k].frame), run.meshes[k])) << k;
+    std::int64_t n_edits = 0;
+    for (std::size_t j = 0; j <= k; ++j) n_edits += std::ssize(run.edits[j]);
+    EXPECT_EQ(reader.n_edits(), n_edits) << k;
+  }
 }
 
 // And displacements that belong to it.

@@ -4,6 +4,7 @@
 
 #include "base/digest.h"
 #include "base/log.h"
+#include "base/number_text.h"
 #include "engine/database.h"
 #include "engine_recording.h"
 #include "engine_scene.h"
@@ -70,6 +71,27 @@ TEST(Replay, shows_the_frames_of_the_chosen_time_alone) {
   replay(c.options);
   for (std::size_t k = 0; k < c.run.frames.size(); ++k)
     EXPECT_EQ(std::filesystem::exists(c.vtu(c.run.frames[k].frame)), k >= 2 && k <= 4) << k;
+}
+
+// Edits come in between: the surface is another then.
+TEST(Replay, draws_each_frame_as_it_does_alone) {
+  RunToReplay c;
+  c.options.writes_vtu = false;
+  c.options.writes_frames = true;
+  c.options.width = 160;
+  c.options.height = 120;
+  c.options.eye = {0.035, 0.02, 0.1};
+  c.options.target = {0.035, 0.02, 0};
+  replay(c.options);
+  for (const RecordedFrame& frame : c.run.frames) {
+    ReplayOptions alone = c.options;
+    alone.folder = c.folder.file("alone");
+    alone.from = alone.to = frame.time;
+    replay(alone);
+    const std::string picture = "/frames/" + with_zeros(frame.frame, 6) + ".png";
+    EXPECT_TRUE(read_text(alone.folder + picture) == read_text(c.options.folder + picture))
+        << picture;
+  }
 }
 
 TEST(Replay, says_that_no_frame_lies_in_the_chosen_time) {

@@ -51,6 +51,23 @@ Options<Instrument> instrument_options();
 
 Options<Scene> scene_options();
 
+// What was read: the struct and the places of its keys.
+template <class T>
+struct Located {
+  T value;
+  SourceMap where;
+};
+
+template <class T>
+Located<T> read_options(const Options<T>& options, const std::string& file,
+                        const std::vector<std::string>& overrides = {}) {
+  Located<T> located;
+  OptionErrors errors(located.where);
+  read_options(options, file, overrides, &located.value, located.where, errors);
+  errors.throw_if_any();
+  return located;
+}
+
 Located<Scene> read_scene(const std::string& text, const std::vector<std::string>& overrides = {});
 
 // The message of the error that reading gives, "" if there is none.
