@@ -225,10 +225,17 @@ void report_energies(Simulation& s, FrameRow& row) {
   ledger.memory.largest_hourglass_share = std::max(ledger.memory.largest_hourglass_share, share);
 }
 
-BalanceError balance_error(std::span<const FrameRow> rows) {
+// What strains that rounding makes would store, and more. [J]
+static double negligible_energy(const Simulation& s) {
+  const double strain = s.scene.solver.precision == Precision::in_single ? 1e-5 : 1e-9;
+  const double wave = s.edge_length / s.rest_step;
+  return s.whole_mass * std::pow(strain * wave, 2);
+}
+
+BalanceError balance_error(const Simulation& s) {
   BalanceError error;
   double turned_over = 0, before = 0, largest_jump = 0;
-  for (const FrameRow& row : rows) {
+  for (const FrameRow& row : s.log.rows) {
     error.largest = std::max(error.largest, std::abs(row.energy_error));
     if (const double jump = std::abs(row.energy_error - before); jump > largest_jump) {
       largest_jump = jump;
@@ -240,17 +247,15 @@ BalanceError balance_error(std::span<const FrameRow> rows) {
                             std::abs(row.works.contact), std::abs(row.works.holds),
                             std::abs(row.works.blade), std::abs(row.works.loads)});
   }
-  error.share = turned_over > 0 ? error.largest / turned_over : 0;
+  if (turned_over > 0 && error.largest > negligible_energy(s))
+    error.share = error.largest / turned_over;
   return error;
 }
 
 void note_balance(Simulation& s) {
   if (!s.energy) return;
-  const BalanceError error = balance_error(s.log.rows);
-  // What strains of 1e-9 store: roundings add up to less.
-  const double wave = s.edge_length / s.rest_step;
-  const double negligible = 1e-18 * s.whole_mass * wave * wave;
-  if (error.share <= balance_alarm || error.largest <= negligible) return;
+  const BalanceError error = balance_error(s);
+  if (error.share <= balance_alarm) return;
   note_event(s, s.state.time,
              "the energies do not add up: " + short_text(100 * error.share) +
                  " % of what was turned over is missing or too much, most of it since " +

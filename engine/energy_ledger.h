@@ -73,12 +73,13 @@ void note_velocities(Simulation& s, double dt);
 void add_work(Simulation& s);
 // Adds the frame's work of all ranks to the ledger. Collective.
 void close_frame_work(Simulation& s);
-// What the balance of energies leaves, and where it jumps most from one frame to the next.
+// What the balance of energies leaves, and where it jumps most from one frame to the next. What
+// rounding alone leaves has no share.
 struct BalanceError {
   double largest = 0, share = 0;  // [J]; of the largest energy turned over
   double time = 0;                // [s]
 };
-BalanceError balance_error(std::span<const FrameRow> rows);
+BalanceError balance_error(const Simulation& s);
 // Tells at the end of a run if that is more than 5 %.
 void note_balance(Simulation& s);
 

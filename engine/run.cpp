@@ -1,5 +1,7 @@
 #include "engine/run.h"
 
+#include <unistd.h>
+
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
@@ -36,7 +38,12 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 // A second signal ends this rank at once, and mpirun the others: outputs are consistent at any
 // time.
 void ask_to_stop(int) {
-  if (stop_asked.exchange(true)) std::_Exit(static_cast<int>(ExitCode::stopped));
+  if (!stop_asked.exchange(true)) return;
+  constexpr std::string_view why =
+      "[warning] a second signal: ended within a frame; --resume goes on from the last "
+      "checkpoint\n";
+  [[maybe_unused]] const ssize_t n = write(STDERR_FILENO, why.data(), why.size());
+  std::_Exit(static_cast<int>(ExitCode::stopped));
 }
 
 void listen_to_signals() {

@@ -110,7 +110,7 @@ struct SceneSolver {
   Vec3 gravity = Vec3::Zero();
   double mass_damping = 0;
   double hourglass = 0.15;
-  double step_factor = 0.85;  // below 0.866: see docs/stability.md
+  double step_factor = std::numeric_limits<double>::quiet_NaN();  // load_scene completes it
   StableStep stable_step = StableStep::frequency;
   double mass_scaling_step = 0;  // [s], 0: none
   double sleep = 0;              // [m], 0: never

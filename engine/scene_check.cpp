@@ -71,6 +71,13 @@ void check_shortcuts(const Scene& scene, OptionErrors& errors) {
                "\"nodal-pressure\", mass_scaling_step");
 }
 
+// Below the resonances of the scheme (docs/stability.md): that of three steps, and in plane stress,
+// where what springs back stiffens manyfold, that of four.
+void complete_solver(SceneSolver& solver) {
+  if (!std::isnan(solver.step_factor)) return;
+  solver.step_factor = solver.triangle == Formulation::tri3_plane_stress ? 0.7 : 0.85;
+}
+
 void complete_look(const SceneLook& of_tissue, SceneRegionLook& look) {
   if (!look.colour.allFinite()) look.colour = of_tissue.colour;
   if (!look.cut_colour.allFinite()) look.cut_colour = of_tissue.cut_colour;
@@ -101,6 +108,7 @@ void check_names(const Scene& scene, OptionErrors& errors) {
                     [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; }))
       errors.add(key, "a name must not have line breaks, tabs or other control characters");
   };
+  check(scene.name, "name");
   for (std::size_t k = 0; k < scene.regions.size(); ++k)
     check(scene.regions[k].name, item_path("region", k) + ".name");
   for (std::size_t k = 0; k < scene.instruments.size(); ++k)
@@ -256,6 +264,7 @@ static void check_tables(LoadedScene& loaded, OptionErrors& errors) {
   check_time(scene, errors);
   check_tissue(loaded, errors);
   complete_materials(loaded.scene.tissue, errors);
+  complete_solver(loaded.scene.solver);
   check_names(scene, errors);
   check_regions(scene, errors);
   check_supports(scene, errors);

@@ -181,7 +181,7 @@ Json least_det_F_json(const FrameLog& log) {
 
 // What the body holds at the end, the works since the start, and how well the balance closes.
 Json energies_json(const Simulation& s, const FrameRow& last) {
-  const BalanceError error = balance_error(s.log.rows);
+  const BalanceError error = balance_error(s);
   const EnergyState& e = last.energy;
   const EnergyWorks& w = last.works;
   return {{"kinetic", e.kinetic},

@@ -24,6 +24,7 @@ TEST(Signals, a_second_one_ends_a_run_at_once) {
   kill(child, SIGTERM);
   EXPECT_EQ(waitpid(child, &status, 0), child);
   EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, stopped);
+  EXPECT_NE(read_text(folder + "/first").find("ended within a frame"), std::string::npos);
 }
 
 // Waits until the program listens to the signal.
