@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/sort_unique.h"
+#include "base/timers.h"
 #include "cutting/cut_hex.h"
 #include "cutting/cut_hex_shape.h"
 #include "known_positions.h"
@@ -134,10 +135,10 @@ void run_stroke(const Stroke& stroke, TetCutter& cutter, CutBody& cut, Result& r
     for (bool is_parted = false; !is_parted; sweep.before = sweep.after) {
       CutFigures figures;
       KnownPositions positions(body.mesh, body.x, cut.boxes);
-      const double start = processor_seconds();
+      const double start = thread_seconds();
       const MeshEdit edit = cutter.advance(body.mesh, positions, body.is_held, sweep,
                                            k + 1 == stroke.n_steps, figures);
-      const double seconds = processor_seconds() - start;
+      const double seconds = thread_seconds() - start;
       result.seconds += seconds;
       result.longest_advance = std::max(result.longest_advance, seconds);
       apply(edit, figures, cut);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/timers.h"
 #include "engine/build.h"
 #include "engine/equilibrium.h"
 #include "engine/frame.h"
@@ -117,16 +118,16 @@ void run_frames(const SceneStudy& study, Simulation& s, Outcome& outcome) {
   const std::vector<SamplePoint> points = locate_samples(s.mesh, study.points);
   Outputs outputs;
   while (s.frame < study.n_frames()) {
-    const double start = processor_seconds();
+    const double start = thread_seconds();
     run_frame(s, outputs);
-    outcome.stepping_seconds += processor_seconds() - start;
+    outcome.stepping_seconds += thread_seconds() - start;
     if (is_sample_frame(s.frame, study.n_frames())) take_samples(points, s, outcome);
   }
 }
 
 Outcome solve(const SceneStudy& study, const Case& c) {
   Outcome outcome;
-  const double start = processor_seconds();
+  const double start = thread_seconds();
   const LoadedScene loaded = scene_of(study, c);
   const std::unique_ptr<Simulation> simulation = build_case(loaded, *study.communicator);
   outcome.h = mean_edge_length(simulation->mesh);
@@ -134,7 +135,7 @@ Outcome solve(const SceneStudy& study, const Case& c) {
   try {
     if (loaded.scene.start.state == StartState::equilibrium)
       start_in_equilibrium(loaded, *simulation);
-    outcome.setup_seconds = processor_seconds() - start;
+    outcome.setup_seconds = thread_seconds() - start;
     run_frames(study, *simulation, outcome);
   } catch (const SimulationError& trouble) {
     outcome.trouble = trouble.what();
