@@ -7,10 +7,6 @@
 
 namespace trocar::cut_bench {
 
-double mean_edge(const Mesh& mesh) {
-  return cutting_test::mean_edge_of(mesh);
-}
-
 static Mesh cube(BoxElements elements, int n, double amount, unsigned seed) {
   Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {n, n, n}, elements);
   if (amount > 0) jitter(mesh, amount, seed);

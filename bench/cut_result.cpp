@@ -151,7 +151,7 @@ void run_stroke(const Stroke& stroke, TetCutter& cutter, CutBody& cut, Result& r
 Result make_cut(const Mesh& mesh, const Kind& kind, std::mt19937_64& random,
                 const CutTetOptions& options) {
   const std::vector<Stroke> strokes = kind.strokes(mesh, random);
-  const double h = mean_edge(mesh);
+  const double h = mean_edge_length(mesh);
   Result result;
   subdivide_instead(mesh, kind, strokes, h, result);
   CutBody cut(mesh);

@@ -18,7 +18,6 @@
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "engine/instrument_check.h"
-#include "engine/mesh_measures.h"
 #include "engine/tissue.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/mesh_file.h"

@@ -3,9 +3,9 @@
 #include "cutting/cut_plane_reaches.h"
 #include "cutting/cut_plane_slit.h"
 #include "engine/cut_record.h"
-#include "engine/mesh_measures.h"
 #include "engine/plane_tip.h"
 #include "engine/simulation.h"
+#include "mesh/quality.h"
 
 namespace trocar {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/mesh_measures.h"
+#include "mesh/quality.h"
 
 namespace trocar {
 

@@ -64,6 +64,12 @@ Vec3 element_centre(const Mesh& mesh, std::int32_t e) {
   return sum / static_cast<double>(mesh.corners(e).size());
 }
 
+std::vector<Vec3> present_positions(std::span<const Vec3> X, std::span<const double> u) {
+  std::vector<Vec3> x(X.begin(), X.end());
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += Vec3(u[3 * i], u[3 * i + 1], u[3 * i + 2]);
+  return x;
+}
+
 double element_volume(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
   const std::span<const std::int32_t> node = mesh.corners(e);
   const auto corner = [&](std::size_t a) -> const Vec3& { return x[node[a]]; };

@@ -88,6 +88,9 @@ const NodeSet* find_node_set(const Mesh& mesh, const std::string& name);
 // Mean of the corners.
 Vec3 element_centre(const Mesh& mesh, std::int32_t e);
 
+// x = X + u for all nodes; u (n_nodes * 3). [m]
+std::vector<Vec3> present_positions(std::span<const Vec3> X, std::span<const double> u);
+
 // Volume of an element in positions x (n_nodes); the exact trilinear one for hex8, the area for
 // tri3 (corners counter-clockwise seen from z > 0). Negative if inverted. [m^3], [m^2]
 double element_volume(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x);

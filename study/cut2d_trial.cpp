@@ -9,7 +9,6 @@
 #include "cutting/cut_plane_reaches.h"
 #include "cutting/cut_plane_slit.h"
 #include "cutting/cut_plane_subdivide.h"
-#include "engine/mesh_measures.h"
 #include "mesh/quality.h"
 
 namespace trocar {

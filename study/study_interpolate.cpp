@@ -5,10 +5,10 @@
 
 #include "base/box.h"
 #include "base/check.h"
-#include "engine/mesh_measures.h"
 #include "mesh/barycentric.h"
 #include "mesh/facets.h"
 #include "mesh/hex_split.h"
+#include "mesh/quality.h"
 
 namespace trocar {
 
