@@ -59,7 +59,7 @@ RankBody make_rank(const Mesh& mesh, std::span<const std::int32_t> owner, int ra
   const std::vector<FixedMask> fixed(mesh.X.size(), 0);
   const std::vector<double> mass = mass_of(mesh, {});
   body.part = make_part(mesh, owner, rank);
-  body.halo = make_halo(mesh, owner, body.part, rank);
+  body.halo = make_halo(mesh, owner, body.part);
   body.model = build_model(mesh, body.part, materials, fixed, mass, {});
   body.scratch = make_scratch(body.model);
   return body;

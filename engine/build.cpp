@@ -242,11 +242,10 @@ std::vector<double> region_densities(std::span<const Material> materials) {
 }
 
 void rebuild_topology(Simulation& s) {
-  const int rank = s.communicator->rank();
   plan_mass_scaling(s);
   s.mass = lumped_mass(s.mesh, region_densities(s.materials), s.scene.tissue.thickness);
-  s.part = make_part(s.mesh, s.node_owner, rank);
-  s.halo = make_halo(s.mesh, s.node_owner, s.part, rank);
+  s.part = make_part(s.mesh, s.node_owner, s.communicator->rank());
+  s.halo = make_halo(s.mesh, s.node_owner, s.part);
   on_every_rank(*s.communicator, [&] {
     s.model = build_model(s.mesh, s.part, s.materials, s.fixed, s.mass, solver_options(s.scene));
   });

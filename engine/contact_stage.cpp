@@ -112,13 +112,12 @@ void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const 
   for (const Hold& hold : holds.holds) held[hold.node] = all_components;
   JoinedMasses joined;
   if (body.scaling != nullptr) joined = join_masses(body, held);
-  stage.set =
-      prepare_contacts({stage.contacts, stage.tissue}, body.node_owner, body.part, body.rank,
-                       {.mass = body.scaling != nullptr ? joined.mass : body.mass,
-                        .held = held,
-                        .cluster = joined.cluster,
-                        .share = joined.share,
-                        .yield = joined.yield});
+  stage.set = prepare_contacts({stage.contacts, stage.tissue}, body.node_owner, body.part,
+                               {.mass = body.scaling != nullptr ? joined.mass : body.mass,
+                                .held = held,
+                                .cluster = joined.cluster,
+                                .share = joined.share,
+                                .yield = joined.yield});
   stage.u_next.resize(3 * body.part.node_global.size());
   stage.exchange.emplace(stage.set.halo, 6);
   stage.positions.resize(6 * stage.set.node.size());

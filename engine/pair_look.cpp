@@ -127,7 +127,6 @@ std::vector<SunkNode> find_sunk(const Simulation& s) {
 
 ContactBody contact_body(const Simulation& s) {
   return {.part = s.part,
-          .rank = s.communicator->rank(),
           .node_owner = s.node_owner,
           .mass = s.mass,
           .fixed = s.fixed,
