@@ -1,4 +1,4 @@
-// Values in ascending order, each once.
+// Values in ascending order, each once, and their places there.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +13,14 @@ template <class T>
 void sort_unique(std::vector<T>& values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+// The same by a key (as of std::ranges): the first of those with equal ones stays.
+template <class T, class Key>
+void sort_unique_by(std::vector<T>& values, Key key) {
+  std::ranges::stable_sort(values, {}, key);
+  const auto same = std::ranges::unique(values, {}, key);
+  values.erase(same.begin(), same.end());
 }
 
 // Numbers of nodes or elements around one place mostly lie close together: then by a bit for each

@@ -188,9 +188,7 @@ static std::vector<OfElement<std::int8_t>> node_sides(const Mesh& mesh, const Cu
     sides.push_back({c[a], side});
     sides.push_back({c[b], static_cast<std::int8_t>(-side)});
   }
-  std::ranges::stable_sort(sides, {}, &OfElement<std::int8_t>::element);
-  const auto same = std::ranges::unique(sides, {}, &OfElement<std::int8_t>::element);
-  sides.erase(same.begin(), same.end());
+  sort_unique_by(sides, &OfElement<std::int8_t>::element);
   return sides;
 }
 

@@ -11,6 +11,7 @@
 #include "base/log.h"
 #include "base/number_text.h"
 #include "base/on_root.h"
+#include "base/sort_unique.h"
 #include "cutting/cut_hex.h"
 #include "engine/body_check.h"
 #include "engine/bytes.h"
@@ -51,11 +52,7 @@ void build_supports(Simulation& s) {
     for (const std::int32_t node : set->node)
       s.holds.holds.push_back({.node = node, .support = static_cast<std::int32_t>(k)});
   }
-  const auto by_node = [](const Hold& a, const Hold& b) { return a.node < b.node; };
-  std::stable_sort(s.holds.holds.begin(), s.holds.holds.end(), by_node);
-  const auto same_node = [](const Hold& a, const Hold& b) { return a.node == b.node; };
-  s.holds.holds.erase(std::unique(s.holds.holds.begin(), s.holds.holds.end(), same_node),
-                      s.holds.holds.end());
+  sort_unique_by(s.holds.holds, &Hold::node);
 }
 
 TriangleMesh load_tool_mesh(const LoadedScene& loaded, std::size_t k, Communicator& communicator) {
