@@ -47,5 +47,10 @@ inline void sort_unique(std::vector<std::int32_t>& values) {
 inline std::int32_t place_in(std::span<const std::int32_t> sorted, std::int32_t value) {
   return static_cast<std::int32_t>(std::ranges::lower_bound(sorted, value) - sorted.begin());
 }
+// Of the value; -1 if it is not among them.
+inline std::int32_t find_in(std::span<const std::int32_t> sorted, std::int32_t value) {
+  const std::int32_t place = place_in(sorted, value);
+  return place < std::ssize(sorted) && sorted[place] == value ? place : -1;
+}
 
 }  // namespace trocar

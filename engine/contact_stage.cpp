@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort_unique.h"
+
 namespace trocar {
 
 namespace {
@@ -39,12 +41,11 @@ std::vector<double> gather_impulses(const ContactSet& set, const Communicator& c
 
 void take_impulses(std::span<const double> impulses, ContactSet& set) {
   for (std::size_t k = 0; k < impulses.size(); k += per_impulse) {
-    const auto node = static_cast<std::int32_t>(impulses[k]);
-    const auto at = std::ranges::lower_bound(set.node, node);
-    if (at == set.node.end() || *at != node) continue;
-    set.impulse[at - set.node.begin()] = {.step = static_cast<std::int64_t>(impulses[k + 1]),
-                                          .push = impulses[k + 2],
-                                          .drag = Vec3::Map(&impulses[k + 3])};
+    const std::int32_t at = find_in(set.node, static_cast<std::int32_t>(impulses[k]));
+    if (at < 0) continue;
+    set.impulse[at] = {.step = static_cast<std::int64_t>(impulses[k + 1]),
+                       .push = impulses[k + 2],
+                       .drag = Vec3::Map(&impulses[k + 3])};
   }
 }
 

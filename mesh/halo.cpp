@@ -27,8 +27,7 @@ static std::vector<std::uint8_t> touched_nodes(const Mesh& mesh,
 }
 
 std::int64_t Part::place_of(std::int32_t element) const {
-  const auto at = std::lower_bound(element_global.begin(), element_global.end(), element);
-  return at != element_global.end() && *at == element ? at - element_global.begin() : -1;
+  return find_in(element_global, element);
 }
 
 Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int rank) {

@@ -52,6 +52,9 @@ TEST(SortUnique, makes_a_list_in_which_a_value_has_a_place) {
   const std::vector<std::int32_t> values = {3, 5, 9};
   for (std::int32_t k = 0; k < 3; ++k) EXPECT_EQ(place_in(values, values[std::size_t(k)]), k);
   EXPECT_EQ(place_in(values, 6), 2);
+  for (std::int32_t k = 0; k < 3; ++k) EXPECT_EQ(find_in(values, values[std::size_t(k)]), k);
+  for (const std::int32_t missing : {2, 6, 10}) EXPECT_EQ(find_in(values, missing), -1);
+  EXPECT_EQ(find_in({}, 3), -1);
 }
 
 }  // namespace
