@@ -42,16 +42,6 @@ struct KeptHex {
 
 }  // namespace
 
-static std::int32_t node_after(const Translation& t, std::int32_t s, std::int32_t c) {
-  const auto at = std::lower_bound(
-      t.edit.corners.begin(), t.edit.corners.end(), std::pair{s, c},
-      [](const CornerChange& change, const std::pair<std::int32_t, std::int32_t>& k) {
-        return std::pair{change.element, change.corner} < k;
-      });
-  const bool is_changed = at != t.edit.corners.end() && at->element == s && at->corner == c;
-  return is_changed ? at->node : t.tets.mesh.corners(s)[c];
-}
-
 static std::uint8_t cut_facets_after(const Translation& t, std::int32_t s) {
   const auto at = std::lower_bound(
       t.edit.cut_facets.begin(), t.edit.cut_facets.end(), s,
@@ -82,7 +72,7 @@ static bool join_corners(const Translation& t, std::int32_t e, KeptHex& hex) {
       const std::int32_t old = t.tets.mesh.corners(s)[c];
       const auto a = std::find(corner.begin(), corner.end(), old) - corner.begin();
       std::int32_t& node = hex.node[a];
-      const std::int32_t next = node_after(t, s, c);
+      const std::int32_t next = node_after(t.edit, t.tets.mesh, s, c);
       if (node >= 0 && node != next) return false;
       node = next;
     }
@@ -211,7 +201,7 @@ static Mesh pieces_after(const Translation& t, std::int32_t e, const KeptHex* ke
   if (kept != nullptr) add(ElementType::hex8, kept->node);
   for (std::int32_t s = t.tets.first[e]; s < t.tets.end(e) && kept == nullptr; ++s) {
     std::array<std::int32_t, 4> node{};
-    for (std::int32_t c = 0; c < 4; ++c) node[c] = node_after(t, s, c);
+    for (std::int32_t c = 0; c < 4; ++c) node[c] = node_after(t.edit, t.tets.mesh, s, c);
     add(ElementType::tet4, node);
   }
   return pieces;
