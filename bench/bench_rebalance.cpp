@@ -33,13 +33,8 @@ double best_of_ranks(const Communicator& ranks, int n_rounds, const Work& work) 
 // The last hexahedra become tetrahedra, in the last part.
 Mesh with_tets(const Mesh& hexahedra, int n_split) {
   MeshEdit edit;
-  for (std::int32_t e = hexahedra.n_elements() - n_split; e < hexahedra.n_elements(); ++e) {
-    ElementSplit split{.element = e};
-    const auto tets = hex_tets(hexahedra, e);
-    for (std::size_t t = 0; t < tets.size(); ++t)
-      for (std::size_t a = 0; a < 4; ++a) split.corner[t][a] = hexahedra.corners(e)[tets[t][a]];
-    edit.splits.push_back(split);
-  }
+  for (std::int32_t e = hexahedra.n_elements() - n_split; e < hexahedra.n_elements(); ++e)
+    edit.splits.push_back({.element = e, .corner = hex_tet_nodes(hexahedra, e)});
   Mesh mesh = hexahedra;
   apply_edit(edit, mesh);
   return mesh;

@@ -15,7 +15,7 @@ namespace trocar::cut_bench {
 // In proportion to the element's stable step.
 static double step_bound(const Mesh& mesh, std::int32_t e) {
   const auto c = mesh.corners(e);
-  if (c.size() == 4) return trocar::step_bound(mesh.X, {c[0], c[1], c[2], c[3]});
+  if (c.size() == 4) return tet_step_bound(mesh, e);
   std::array<Vec3, 8> X;
   for (std::size_t a = 0; a < 8; ++a) X[a] = mesh.X[c[a]];
   return hex_step_bound(X);

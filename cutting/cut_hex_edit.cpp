@@ -83,11 +83,11 @@ static bool join_corners(const Translation& t, std::int32_t e, KeptHex& hex) {
 static bool join_facets(const Translation& t, std::int32_t e, KeptHex& hex) {
   std::array<int, 6> n_open{};
   for (std::int32_t s = t.tets.first[e]; s < t.tets.end(e); ++s) {
-    const auto c = t.tets.mesh.corners(s);
+    const std::array<std::int32_t, 4> node = tet_nodes(t.tets.mesh, s);
     const std::uint8_t mask = cut_facets_after(t, s);
     for (int f = 0; f < 4 && mask != 0; ++f) {
       if ((mask >> f & 1) == 0) continue;
-      const int g = hex_facet_of(t.body, e, {c[0], c[1], c[2], c[3]}, f);
+      const int g = hex_facet_of(t.body, e, node, f);
       if (g < 0) return false;
       ++n_open[g];
     }
@@ -143,10 +143,8 @@ static std::vector<std::int32_t> touched_hexahedra(const Translation& t, const C
 
 static ElementSplit split_of(const Translation& t, std::int32_t e) {
   ElementSplit split{.element = e};
-  for (std::size_t k = 0; k < n_hex_tets; ++k) {
-    const auto c = t.tets.mesh.corners(t.tets.first[e] + static_cast<std::int32_t>(k));
-    std::copy(c.begin(), c.end(), split.corner[k].begin());
-  }
+  for (std::int32_t k = 0; k < n_hex_tets; ++k)
+    split.corner[k] = tet_nodes(t.tets.mesh, t.tets.first[e] + k);
   return split;
 }
 

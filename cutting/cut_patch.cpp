@@ -239,8 +239,7 @@ CutPatch make_patch(const Mesh& mesh, CutIndex& index, PresentPositions& positio
 }
 
 double tet_step_bound(const Mesh& mesh, std::int32_t e) {
-  const std::span<const std::int32_t> c = mesh.corners(e);
-  return step_bound(mesh.X, {c[0], c[1], c[2], c[3]});
+  return step_bound(mesh.X, tet_nodes(mesh, e));
 }
 
 double least_share(const std::array<Vec3, 3>& triangle, const Vec3& X) {

@@ -72,6 +72,20 @@ std::array<std::array<int, 4>, n_hex_tets> hex_tets(const Mesh& mesh, std::int32
   return tets;
 }
 
+std::array<std::int32_t, 4> tet_nodes(const Mesh& mesh, std::int32_t e,
+                                      const std::array<int, 4>& tet) {
+  const std::span<const std::int32_t> c = mesh.corners(e);
+  return {c[tet[0]], c[tet[1]], c[tet[2]], c[tet[3]]};
+}
+
+std::array<std::array<std::int32_t, 4>, n_hex_tets> hex_tet_nodes(const Mesh& mesh,
+                                                                  std::int32_t e) {
+  std::array<std::array<std::int32_t, 4>, n_hex_tets> nodes{};
+  std::ranges::transform(hex_tets(mesh, e), nodes.begin(),
+                         [&](const std::array<int, 4>& tet) { return tet_nodes(mesh, e, tet); });
+  return nodes;
+}
+
 int hex_facet_of(const Mesh& mesh, std::int32_t e, const std::array<std::int32_t, 4>& tet, int f) {
   const std::span<const std::int32_t> node = mesh.corners(e);
   const auto is_on = [&](std::int32_t i, int g) {

@@ -82,6 +82,12 @@ const char* element_type_name(ElementType type);
 void add_element(Mesh& mesh, ElementType type, std::span<const std::int32_t> corners,
                  std::int32_t region = 0);
 
+// Of a tetrahedron.
+inline std::array<std::int32_t, 4> tet_nodes(const Mesh& mesh, std::int32_t e) {
+  const std::span<const std::int32_t> c = mesh.corners(e);
+  return {c[0], c[1], c[2], c[3]};
+}
+
 // nullptr if there is none of that name.
 const NodeSet* find_node_set(const Mesh& mesh, const std::string& name);
 

@@ -30,8 +30,7 @@ std::vector<Simplex> simplices_of(const Mesh& mesh) {
       simplices.push_back(simplex);
       continue;
     }
-    for (const auto& tet : hex_tets(mesh, e))
-      simplices.push_back({c[tet[0]], c[tet[1]], c[tet[2]], c[tet[3]]});
+    for (const Simplex& simplex : hex_tet_nodes(mesh, e)) simplices.push_back(simplex);
   }
   return simplices;
 }

@@ -27,7 +27,7 @@ int n_of(const Mesh& mesh, ElementType type) {
 
 double bound_of(const Mesh& mesh, std::int32_t e) {
   const auto c = mesh.corners(e);
-  if (c.size() == 4) return step_bound(mesh.X, {c[0], c[1], c[2], c[3]});
+  if (c.size() == 4) return tet_step_bound(mesh, e);
   std::array<Vec3, 8> X;
   for (std::size_t a = 0; a < 8; ++a) X[a] = mesh.X[c[a]];
   return hex_step_bound(X);
@@ -273,10 +273,8 @@ double least_part_of_step(const Mesh& mesh) {
   double least = 1;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
     if (std::binary_search(whole.begin(), whole.end(), e)) continue;
-    const auto c = mesh.corners(e);
-    for (const auto& tet : hex_tets(mesh, e))
-      least = std::min(least, step_bound(mesh.X, {c[tet[0]], c[tet[1]], c[tet[2]], c[tet[3]]}) /
-                                  bound_of(mesh, e));
+    for (const auto& node : hex_tet_nodes(mesh, e))
+      least = std::min(least, step_bound(mesh.X, node) / bound_of(mesh, e));
   }
   return least;
 }
