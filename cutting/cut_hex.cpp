@@ -17,13 +17,8 @@ static constexpr double least_step_part = 0.15;
 // Of a tetrahedron, present over reference volume, below which it counts as nearly flat.
 static constexpr double flat_volume_ratio = 0.1;
 
-bool has_hexahedra(const Mesh& mesh) {
-  return std::find(mesh.element_type.begin(), mesh.element_type.end(), ElementType::hex8) !=
-         mesh.element_type.end();
-}
-
 bool was_hexahedral(const Mesh& mesh) {
-  return !mesh.split_hexahedra.empty() || has_hexahedra(mesh);
+  return !mesh.split_hexahedra.empty() || has_type(mesh, ElementType::hex8);
 }
 
 // Whether the triangles' common edge begins where hex_tets has it.
@@ -46,7 +41,7 @@ static double least_step_bound(const Mesh& mesh, std::int32_t e) {
 }
 
 std::vector<std::uint8_t> hex_split_ranks(const Mesh& mesh) {
-  if (!has_hexahedra(mesh)) return {};
+  if (!has_type(mesh, ElementType::hex8)) return {};
   Mesh ranked = mesh;
   ranked.hex_split_rank = diagonal_ranks(mesh);
   std::vector<std::uint8_t> rank = ranked.hex_split_rank;

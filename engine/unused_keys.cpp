@@ -17,10 +17,6 @@ struct Use {
 };
 using Uses = std::vector<Use>;
 
-bool has_type(const Mesh& mesh, ElementType type) {
-  return std::ranges::find(mesh.element_type, type) != mesh.element_type.end();
-}
-
 Uses of_solver(const Scene& scene, const Mesh& mesh) {
   const SceneSolver& s = scene.solver;
   const SceneSolver d;

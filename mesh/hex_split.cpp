@@ -111,11 +111,7 @@ static const FacetSide* find_triangle(const std::vector<FacetSide>& triangle, st
 }
 
 std::vector<SplitQuad> split_quads(const Mesh& mesh, std::span<const FacetSide> single) {
-  const auto has_type = [&](ElementType type) {
-    return std::find(mesh.element_type.begin(), mesh.element_type.end(), type) !=
-           mesh.element_type.end();
-  };
-  if (!has_type(ElementType::hex8) || !has_type(ElementType::tet4)) return {};
+  if (!has_type(mesh, ElementType::hex8) || !has_type(mesh, ElementType::tet4)) return {};
   std::vector<FacetSide> quad, triangle;
   for (const FacetSide& side : single) (side.node[0] < 0 ? triangle : quad).push_back(side);
   std::vector<SplitQuad> found;

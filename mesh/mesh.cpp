@@ -18,6 +18,10 @@ const char* element_type_name(ElementType type) {
   return name[static_cast<std::size_t>(type)];
 }
 
+bool has_type(const Mesh& mesh, ElementType type) {
+  return std::ranges::find(mesh.element_type, type) != mesh.element_type.end();
+}
+
 void add_element(Mesh& mesh, ElementType type, std::span<const std::int32_t> corners,
                  std::int32_t region) {
   CHECK_OP(static_cast<int>(corners.size()), ==, n_corners(type));

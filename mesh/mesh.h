@@ -77,6 +77,7 @@ struct Mesh {
 };
 
 const char* element_type_name(ElementType type);
+bool has_type(const Mesh& mesh, ElementType type);
 
 // Appends an element of region 0 with density factor 1.
 void add_element(Mesh& mesh, ElementType type, std::span<const std::int32_t> corners,

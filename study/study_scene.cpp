@@ -185,8 +185,7 @@ bool can_have(const SceneStudy& study, const Mesh& mesh, Formulation formulation
   if (is_refused) return false;
   if (is_plane && formulation != study.loaded.scene.solver.triangle) return false;
   if (study.has_shape()) return is_plane == (shape == ElementType::tri3);
-  return std::find(mesh.element_type.begin(), mesh.element_type.end(), shape) !=
-         mesh.element_type.end();
+  return has_type(mesh, shape);
 }
 
 void describe(const SceneStudy& study, Problem& problem) {

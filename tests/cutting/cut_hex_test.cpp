@@ -166,7 +166,7 @@ TEST(CutHex, another_cutter_goes_on_in_a_body_that_has_no_hexahedron_left) {
   EXPECT_EQ(edits_with_other_cutters(body, off_grid.cwiseProduct(Vec3(-1, 1, 1))), 2);
   EXPECT_EQ(body.mesh.n_elements(), 24);
   EXPECT_TRUE(was_hexahedral(body.mesh));
-  EXPECT_FALSE(has_hexahedra(body.mesh));
+  EXPECT_FALSE(has_type(body.mesh, ElementType::hex8));
 }
 
 // Of tetrahedra and of hexahedra. Every second edit is made by the other one.
