@@ -32,7 +32,8 @@ struct Contact {
   double gap = 0;                      // at detection; negative: penetration [m]
 };
 
-// A node inside a piece. normal: out of the piece, in the world's frame; gap < 0 [m].
+// A node inside a piece, or beside it within the margin. normal: out of the piece, in the world's
+// frame; gap: negative inside [m].
 struct NodeTouch {
   Vec3 normal = Vec3::Zero();
   double gap = 0;

@@ -74,7 +74,7 @@ static std::vector<Place> find_places(const Mesh& mesh, std::span<const Vec3> x,
 
 // The edge's ends, and points a little beyond all along their ways from the begin of the sweep to
 // its end: tissue there stays joined. An end that goes along the surface leaves none.
-static std::vector<Vec3> ways_of_ends(const BladeSweep& sweep, double h) {
+static std::vector<Vec3> ways_past_ends(const BladeSweep& sweep, double h) {
   constexpr double spacing = 0.25, most = 1000;  // over h; points
   std::vector<Vec3> points;
   const std::size_t last = sweep.after.size() - 1;
@@ -181,7 +181,7 @@ static std::vector<Place> places_at_begin(const Mesh& mesh, const CutIndex& inde
 void remember_edge(const Mesh& mesh, const CutIndex& index, std::span<const Vec3> x,
                    const BladeSweep& sweep, std::span<const std::int32_t> near, CutStroke& stroke) {
   const double margin = stroke.mean_edge;
-  add_to_rim(find_places(mesh, x, near, ways_of_ends(sweep, margin), margin), stroke);
+  add_to_rim(find_places(mesh, x, near, ways_past_ends(sweep, margin), margin), stroke);
   if (stroke.edge.empty()) add_to_rim(places_at_begin(mesh, index, x, sweep, near, margin), stroke);
   std::vector<Place> places = find_places(mesh, x, near, sweep.after, margin);
   for (std::size_t k = 0; k < std::min(places.size(), stroke.edge.size()); ++k)
