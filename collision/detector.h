@@ -70,7 +70,8 @@ class ContactDetector {
 
   // The pairs of tissue and tissue at the positions of the last detect or refit
   // (find_tissue_pairs). Not of plane meshes, which have none.
-  void detect_tissue(const TissueReach& reach, std::vector<TissuePair>& pairs) const;
+  void detect_tissue(std::span<const Vec3> ahead, double reach,
+                     std::vector<TissuePair>& pairs) const;
 
   // Of a surface node at these positions: of overlapping tissue the surface winds twice round it.
   bool lies_in_other_tissue(std::int32_t node) const;

@@ -102,8 +102,7 @@ void detect_tissue(ContactStage& stage, const SurfaceView& view, double time, do
     const auto i = static_cast<std::size_t>(node);
     stage.ahead[i] = view.x[i] + time * view.v[i];
   }
-  stage.detector.detect_tissue({.ahead = stage.ahead, .extra = reach, .depth = reach},
-                               stage.tissue);
+  stage.detector.detect_tissue(stage.ahead, reach, stage.tissue);
 }
 
 void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds) {
