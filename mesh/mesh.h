@@ -19,6 +19,10 @@ constexpr int n_corners(ElementType type) {
   return type == ElementType::tri3 ? 3 : type == ElementType::tet4 ? 4 : 8;
 }
 
+// xi, eta, zeta of a hexahedron's corners.
+inline constexpr int hex_corner_xi[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                                            {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+
 // Nodes of a facet, ascending, after as many -1 as are missing to four.
 using FacetNodes = std::array<std::int32_t, 4>;
 
