@@ -6,6 +6,7 @@
 #include "cutting/cut_hex.h"
 #include "cutting/cut_hex_shape.h"
 #include "cutting/cut_patch.h"
+#include "mesh/barycentric.h"
 #include "mesh/hex_split.h"
 #include "mesh/node_corners.h"
 
@@ -57,10 +58,7 @@ static std::array<Vec3, 2> position_after(const Translation& t, std::int32_t i) 
       std::lower_bound(t.edit.moves.begin(), t.edit.moves.end(), i,
                        [](const NodeMove& move, std::int32_t node) { return move.node < node; });
   if (at == t.edit.moves.end() || at->node != i) return {t.body.X[i], t.x[i]};
-  Vec3 x = Vec3::Zero();
-  const std::span<const std::int32_t> host = t.tets.mesh.corners(at->host);
-  for (std::size_t a = 0; a < host.size(); ++a) x += at->weight[a] * t.x[host[a]];
-  return {at->X, x};
+  return {at->X, interpolate(t.tets.mesh.corners(at->host), at->weight, t.x)};
 }
 
 // The hexahedron's corners after the edit; false if its tetrahedra don't agree about one of them.

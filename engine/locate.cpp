@@ -154,10 +154,7 @@ Location locate_nearest(const Mesh& mesh, std::span<const Vec3> x, const Vec3& p
 }
 
 Vec3 interpolate(const Mesh& mesh, const Location& location, std::span<const Vec3> field) {
-  Vec3 sum = Vec3::Zero();
-  const auto corner = mesh.corners(location.element);
-  for (std::size_t a = 0; a < corner.size(); ++a) sum += location.weight[a] * field[corner[a]];
-  return sum;
+  return interpolate(mesh.corners(location.element), location.weight, field);
 }
 
 }  // namespace trocar
