@@ -136,7 +136,7 @@ void run_stroke(const Stroke& stroke, TetCutter& cutter, CutBody& cut, Result& r
       CutFigures figures;
       KnownPositions positions(body.mesh, body.x, cut.boxes);
       const double start = thread_seconds();
-      const MeshEdit edit = cutter.advance(body.mesh, positions, body.is_held, sweep,
+      const MeshEdit edit = cutter.advance(body.mesh, positions, {body.is_held}, sweep,
                                            k + 1 == stroke.n_steps, figures);
       const double seconds = thread_seconds() - start;
       result.seconds += seconds;

@@ -78,7 +78,7 @@ static Cost cut_box(int n, double step, bool is_cold) {
     KnownPositions positions(body.mesh, body.x, box.boxes);
     if (is_cold) empty_caches();
     const double before = thread_seconds();
-    const MeshEdit edit = cutter.advance(body.mesh, positions, body.is_held,
+    const MeshEdit edit = cutter.advance(body.mesh, positions, {body.is_held},
                                          {edge(k), edge(k + 1), normal}, k + 1 == n_steps, figures);
     cost.advances.push_back(thread_seconds() - before);
     box.apply(edit);

@@ -44,7 +44,7 @@ double displace(const Cut2dOptions& options, Cut2dTrial& trial) {
       if (options.mode == Cut2dMode::robust && trial.figures.n_opened_facets > 0)
         from = outside_slits(trial.after, reach, tip, h);
       if (from.point.size() < 2) continue;
-      const PlaneCut cut = cut_plane(trial.after, from.point, from.tip, is_held, plane);
+      const PlaneCut cut = cut_plane(trial.after, from.point, from.tip, {is_held}, plane);
       apply_edit(cut.edit, trial.after);
       seconds += monotonic_seconds() - start;
       tip = cut.tip;

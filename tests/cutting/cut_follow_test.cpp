@@ -114,9 +114,8 @@ class TwoBlades {
     for (bool is_parted = false; !is_parted; sweep.before = sweep.after) {
       CutFigures figures;
       KnownPositions positions(body_.mesh, body_.x);
-      const CutterEdit edit =
-          cutters_[by].advance(body_.mesh, positions, CutConstraints{body_.is_held, body_.border},
-                               sweep, k + 1 == n_frames, figures);
+      const CutterEdit edit = cutters_[by].advance(
+          body_.mesh, positions, {body_.is_held, body_.border}, sweep, k + 1 == n_frames, figures);
       cutters_[1 - by].follow(body_.mesh, edit);
       apply(edit, figures, body_, ledger_);
       is_parted = edit.inserted.empty();

@@ -146,7 +146,7 @@ int edits_with_other_cutters(Body& body, const Vec3& normal) {
     CutFigures figures;
     KnownPositions positions(body.mesh, body.x);
     const MeshEdit again =
-        other.advance(body.mesh, positions, body.is_held, sweep, k == 24, figures);
+        other.advance(body.mesh, positions, {body.is_held}, sweep, k == 24, figures);
     const MeshEdit edit = advance(cutter, body, sweep, k == 24, ledger);
     EXPECT_TRUE(has_same_bits(edit, again)) << k;
     n_edits += edit.splits.empty() ? 0 : 1;
@@ -186,7 +186,7 @@ TEST(CutHex, a_cutter_that_follows_edits_makes_the_next_without_a_look_at_the_wh
       CutFigures figures;
       KnownPositions positions(body.mesh, body.x);
       const CutterEdit edit =
-          first.advance(body.mesh, positions, body.is_held, sweep, k == 24, figures);
+          first.advance(body.mesh, positions, {body.is_held}, sweep, k == 24, figures);
       second.follow(body.mesh, edit);
       second.set_stroke(first.stroke());
       apply(edit, figures, body, ledger);
@@ -254,7 +254,7 @@ TEST(CutHex, hexahedra_that_are_bent_stay_hexahedra_and_are_cut_once_they_are_st
       const BladeSweep sweep{blade(double(k) / n_steps), blade(double(k + 1) / n_steps), normal};
       KnownPositions positions(body.mesh, body.x);
       const MeshEdit edit =
-          cutter.advance(body.mesh, positions, body.is_held, sweep, k + 1 == n_steps, figures);
+          cutter.advance(body.mesh, positions, {body.is_held}, sweep, k + 1 == n_steps, figures);
       apply(edit, figures, body, ledger);
       refusals = figures.refusals;
       EXPECT_GT(least_volume_ratio(body), 0.02) << k;

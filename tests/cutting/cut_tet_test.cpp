@@ -217,12 +217,13 @@ CutFigures cut_through(Body& body, const std::function<void(CutStroke&)>& forget
   TetCutter cutter{CutTetOptions{.advance = 100}};
   CutFigures figures;
   KnownPositions positions(body.mesh, body.x);
-  cutter.advance(body.mesh, positions, body.is_held, {blade(0), blade(1), normal}, false, figures);
+  cutter.advance(body.mesh, positions, {body.is_held}, {blade(0), blade(1), normal}, false,
+                 figures);
   CutStroke stroke = cutter.stroke();
   forget(stroke);
   cutter.set_stroke(stroke);
   Ledger ledger;
-  const MeshEdit edit = cutter.advance(body.mesh, positions, body.is_held,
+  const MeshEdit edit = cutter.advance(body.mesh, positions, {body.is_held},
                                        {blade(1), blade(1.1), normal}, true, figures);
   apply(edit, figures, body, ledger);
   return figures;

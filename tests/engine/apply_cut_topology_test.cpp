@@ -41,7 +41,7 @@ MeshEdit next_edit(const Simulation& s, const GlobalState& global, TetCutter& cu
   }
   CutFigures figures;
   KnownPositions positions(s.mesh, global.x);
-  return cutter.advance(s.mesh, positions, held_nodes(s.holds, s.fixed), sweep, k == n_bands - 1,
+  return cutter.advance(s.mesh, positions, {held_nodes(s.holds, s.fixed)}, sweep, k == n_bands - 1,
                         figures);
 }
 
