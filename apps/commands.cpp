@@ -12,7 +12,6 @@
 #include "base/log.h"
 #include "base/threads.h"
 #include "engine/build.h"
-#include "engine/mesh_measures.h"
 #include "engine/predict.h"
 #include "engine/run_files.h"
 #include "engine/tissue_table.h"

@@ -1,4 +1,4 @@
-// Values in ascending order, each once.
+// Values in ascending order, each once, and their places there.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +13,14 @@ template <class T>
 void sort_unique(std::vector<T>& values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+// The same by a key (as of std::ranges): the first of those with equal ones stays.
+template <class T, class Key>
+void sort_unique_by(std::vector<T>& values, Key key) {
+  std::ranges::stable_sort(values, {}, key);
+  const auto same = std::ranges::unique(values, {}, key);
+  values.erase(same.begin(), same.end());
 }
 
 // Numbers of nodes or elements around one place mostly lie close together: then by a bit for each
@@ -38,6 +46,11 @@ inline void sort_unique(std::vector<std::int32_t>& values) {
 // Of the first that is not less.
 inline std::int32_t place_in(std::span<const std::int32_t> sorted, std::int32_t value) {
   return static_cast<std::int32_t>(std::ranges::lower_bound(sorted, value) - sorted.begin());
+}
+// Of the value; -1 if it is not among them.
+inline std::int32_t find_in(std::span<const std::int32_t> sorted, std::int32_t value) {
+  const std::int32_t place = place_in(sorted, value);
+  return place < std::ssize(sorted) && sorted[place] == value ? place : -1;
 }
 
 }  // namespace trocar

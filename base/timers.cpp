@@ -1,12 +1,20 @@
 // Wall seconds by phase.
 #include "base/timers.h"
 
+#include <time.h>
+
 #include <algorithm>
 
 namespace trocar {
 
 double monotonic_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double thread_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 std::size_t PhaseTimers::phase(const std::string& name) {

@@ -1,4 +1,4 @@
-// Wall seconds by phase, and the clock that deadlines are measured with.
+// Wall seconds by phase, and the clocks that deadlines and costs are measured with.
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@ namespace trocar {
 
 // Seconds of a monotonic clock.
 double monotonic_seconds();
+double thread_seconds();  // processor time of this thread [s]
 
 // Adds up wall seconds by named phase. Phases are registered once and then addressed by index.
 class PhaseTimers {

@@ -12,6 +12,13 @@ using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 using Quat = Eigen::Quaterniond;
 
+// In the order of the coordinates.
+inline bool is_before(const Vec3& a, const Vec3& b) {
+  if (a.x() != b.x()) return a.x() < b.x();
+  if (a.y() != b.y()) return a.y() < b.y();
+  return a.z() < b.z();
+}
+
 // A rigid motion: x = rotation * x_local + translation. [m]
 struct Pose {
   Quat rotation = Quat::Identity();

@@ -10,7 +10,7 @@
 #include "bench/machine.h"
 #include "bench/usage.h"
 #include "mesh/edit.h"
-#include "mesh_split.h"
+#include "mesh/hex_split.h"
 #include "solver_body.h"
 
 using namespace trocar;
@@ -34,7 +34,7 @@ double best_of_ranks(const Communicator& ranks, int n_rounds, const Work& work) 
 Mesh with_tets(const Mesh& hexahedra, int n_split) {
   MeshEdit edit;
   for (std::int32_t e = hexahedra.n_elements() - n_split; e < hexahedra.n_elements(); ++e)
-    edit.splits.push_back(split_of(hexahedra, e));
+    edit.splits.push_back({.element = e, .corner = hex_tet_nodes(hexahedra, e)});
   Mesh mesh = hexahedra;
   apply_edit(edit, mesh);
   return mesh;
@@ -54,7 +54,7 @@ RankBody make_rank(const Mesh& mesh, std::span<const std::int32_t> owner, int ra
   const std::vector<FixedMask> fixed(mesh.X.size(), 0);
   const std::vector<double> mass = mass_of(mesh, {});
   body.part = make_part(mesh, owner, rank);
-  body.halo = make_halo(mesh, owner, body.part, rank);
+  body.halo = make_halo(mesh, owner, body.part);
   body.model = build_model(mesh, body.part, materials, fixed, mass, {});
   body.scratch = make_scratch(body.model);
   return body;

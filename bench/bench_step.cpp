@@ -58,7 +58,7 @@ void report(Formulation formulation, Precision precision, int n_elements, Commun
   const std::vector<std::int32_t> owner = partition_nodes(mesh, ranks);
   Body body =
       make_body(mesh, {.solver = with(formulation, {.precision = precision})}, owner, ranks.rank());
-  const Halo halo = make_halo(mesh, owner, body.part, ranks.rank());
+  const Halo halo = make_halo(mesh, owner, body.part);
   Neighbours neighbours = make_neighbours(halo, body.model, ranks);
   displace(body, [](const Vec3& X) { return Vec3(0.05 * X.y(), 0, 0); });
   const Timing t = measure(body, neighbours, ranks);

@@ -111,7 +111,7 @@ static void cut_in_motion(const Stroke& stroke, double dt, TetCutter& cutter, tr
     const std::vector<Vec3> x = present(body);
     KnownPositions positions(body.mesh, x);
     const MeshEdit edit =
-        cutter.advance(body.mesh, positions, is_held, sweep, k + 1 == stroke.n_steps, figures);
+        cutter.advance(body.mesh, positions, {is_held}, sweep, k + 1 == stroke.n_steps, figures);
     const double energy = present_energy(body);
     apply(edit, body);
     if (!edit.is_empty()) {

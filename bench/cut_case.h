@@ -47,11 +47,6 @@ std::vector<Kind> layered_kinds();
 // Planes along a plate of plate_families.
 std::vector<Kind> plate_kinds();
 
-double mean_edge(const Mesh& mesh);
-
-// Of this thread: others may use the machine.
-double processor_seconds();
-
 // Sheared, stretched and bent; F stays within some 40 % of the identity.
 cutting_test::Deformation random_bend(std::mt19937_64& random);
 

@@ -1,6 +1,4 @@
 // The meshes that bench_cut cuts; all about 3,000 tetrahedra (512 hexahedra) but the organ.
-#include <time.h>
-
 #include <cmath>
 #include <filesystem>
 
@@ -8,16 +6,6 @@
 #include "mesh/mesh_file.h"
 
 namespace trocar::cut_bench {
-
-double mean_edge(const Mesh& mesh) {
-  return cutting_test::mean_edge_of(mesh);
-}
-
-double processor_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
 
 static Mesh cube(BoxElements elements, int n, double amount, unsigned seed) {
   Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {n, n, n}, elements);

@@ -71,18 +71,18 @@ static Stroke full_plane(const Frame& f, const Extent& extent, double h, int n_s
 
 static std::vector<Stroke> through(const Mesh& mesh, Random& random) {
   const Extent extent = extent_of(mesh);
-  return {full_plane(random_frame(extent, 0.5, random), extent, mean_edge(mesh), 1)};
+  return {full_plane(random_frame(extent, 0.5, random), extent, mean_edge_length(mesh), 1)};
 }
 
 static std::vector<Stroke> progressive(const Mesh& mesh, Random& random) {
   const Extent extent = extent_of(mesh);
-  return {full_plane(random_frame(extent, 0.5, random), extent, mean_edge(mesh), 0)};
+  return {full_plane(random_frame(extent, 0.5, random), extent, mean_edge_length(mesh), 0)};
 }
 
 static std::vector<Stroke> crossing(const Mesh& mesh, Random& random) {
   const Extent extent = extent_of(mesh);
   const Frame f = random_frame(extent, 0.15, random);
-  const double h = mean_edge(mesh);
+  const double h = mean_edge_length(mesh);
   return {full_plane(f, extent, h, 0),
           full_plane({f.origin, f.along, f.way, f.normal}, extent, h, 0),
           full_plane({f.origin, f.way, f.normal, f.along}, extent, h, 0)};
@@ -92,7 +92,7 @@ static std::vector<Stroke> crossing(const Mesh& mesh, Random& random) {
 static std::vector<Stroke> partial(const Mesh& mesh, Random& random) {
   const Extent extent = extent_of(mesh);
   const Frame f = random_frame(extent, 0.3, random);
-  const double r = extent.radius, h = mean_edge(mesh), w = 0.33 * extent.half.minCoeff();
+  const double r = extent.radius, h = mean_edge_length(mesh), w = 0.33 * extent.half.minCoeff();
   const Vec3 begin = f.origin - 1.2 * r * f.way;
   return {{cutting_test::straight_blade(begin - w * f.along, begin + w * f.along, 1.2 * r * f.way,
                                         std::max(4, int(w / h))),
@@ -102,7 +102,7 @@ static std::vector<Stroke> partial(const Mesh& mesh, Random& random) {
 // Around an axis beside the body, six edges or more away from the cut; the blade turns.
 static std::vector<Stroke> curved(const Mesh& mesh, Random& random) {
   const Extent extent = extent_of(mesh);
-  const double h = mean_edge(mesh), reach = 1.05 * extent.radius;
+  const double h = mean_edge_length(mesh), reach = 1.05 * extent.radius;
   Frame f = random_frame(extent, 0.4, random);
   const double R = std::max(6 * h, extent.radius * uniform(random, 0.8, 1.6));
   const Vec3 axis = f.origin - R * f.normal;
@@ -125,7 +125,7 @@ static std::vector<Stroke> curved(const Mesh& mesh, Random& random) {
 // Half of them askew by up to three degrees.
 static std::vector<Stroke> parallel(const Mesh& mesh, Random& random) {
   const Extent extent = extent_of(mesh);
-  const double h = mean_edge(mesh), askew = uniform(random, 0, 1) < 0.5 ? 0 : 0.05;
+  const double h = mean_edge_length(mesh), askew = uniform(random, 0, 1) < 0.5 ? 0 : 0.05;
   Frame f;
   f.normal = Vec3(askew * uniform(random, -1, 1), askew * uniform(random, -1, 1), 1).normalized();
   f.along = (Vec3::UnitY() - f.normal * f.normal.y()).normalized();
@@ -142,7 +142,7 @@ static std::vector<Stroke> in_plane(const Mesh& mesh, Random& random) {
   f.along = (Vec3::UnitY() - f.normal * f.normal.y()).normalized();
   f.way = f.normal.cross(f.along);
   f.origin = Vec3(extent.centre.x(), extent.centre.y(), uniform(random, 0.1, 0.9));
-  return {full_plane(f, extent, mean_edge(mesh), 0)};
+  return {full_plane(f, extent, mean_edge_length(mesh), 0)};
 }
 
 // Sheared, stretched and bent; F stays within some 40 % of the identity.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/sort_unique.h"
+#include "base/timers.h"
 #include "cutting/cut_hex.h"
 #include "cutting/cut_hex_shape.h"
 #include "known_positions.h"
@@ -14,7 +15,7 @@ namespace trocar::cut_bench {
 // In proportion to the element's stable step.
 static double step_bound(const Mesh& mesh, std::int32_t e) {
   const auto c = mesh.corners(e);
-  if (c.size() == 4) return trocar::step_bound(mesh.X, {c[0], c[1], c[2], c[3]});
+  if (c.size() == 4) return tet_step_bound(mesh, e);
   std::array<Vec3, 8> X;
   for (std::size_t a = 0; a < 8; ++a) X[a] = mesh.X[c[a]];
   return hex_step_bound(X);
@@ -134,10 +135,10 @@ void run_stroke(const Stroke& stroke, TetCutter& cutter, CutBody& cut, Result& r
     for (bool is_parted = false; !is_parted; sweep.before = sweep.after) {
       CutFigures figures;
       KnownPositions positions(body.mesh, body.x, cut.boxes);
-      const double start = processor_seconds();
-      const MeshEdit edit = cutter.advance(body.mesh, positions, body.is_held, sweep,
+      const double start = thread_seconds();
+      const MeshEdit edit = cutter.advance(body.mesh, positions, {body.is_held}, sweep,
                                            k + 1 == stroke.n_steps, figures);
-      const double seconds = processor_seconds() - start;
+      const double seconds = thread_seconds() - start;
       result.seconds += seconds;
       result.longest_advance = std::max(result.longest_advance, seconds);
       apply(edit, figures, cut);
@@ -150,7 +151,7 @@ void run_stroke(const Stroke& stroke, TetCutter& cutter, CutBody& cut, Result& r
 Result make_cut(const Mesh& mesh, const Kind& kind, std::mt19937_64& random,
                 const CutTetOptions& options) {
   const std::vector<Stroke> strokes = kind.strokes(mesh, random);
-  const double h = mean_edge(mesh);
+  const double h = mean_edge_length(mesh);
   Result result;
   subdivide_instead(mesh, kind, strokes, h, result);
   CutBody cut(mesh);

@@ -1,6 +1,7 @@
 // The same incision, 6 cells long and 3 deep, in ever larger boxes of unit cells.
 #include <numeric>
 
+#include "base/timers.h"
 #include "cut_case.h"
 #include "known_positions.h"
 #include "mesh/node_corners.h"
@@ -59,9 +60,9 @@ static Cost cut_box(int n, double step, bool is_cold) {
   Body& body = box.body;
   TetCutter cutter{CutTetOptions{}};
   Cost cost;
-  const double start = processor_seconds();
+  const double start = thread_seconds();
   cutter.prepare(body.mesh);
-  cost.prepare = processor_seconds() - start;
+  cost.prepare = thread_seconds() - start;
   const double middle = n / 2;
   const Vec3 begin(middle - 3.2, middle + 0.3, n - 3.1);
   const int n_steps = int(6.5 / step);
@@ -76,10 +77,10 @@ static Cost cut_box(int n, double step, bool is_cold) {
     CutFigures figures;
     KnownPositions positions(body.mesh, body.x, box.boxes);
     if (is_cold) empty_caches();
-    const double before = processor_seconds();
-    const MeshEdit edit = cutter.advance(body.mesh, positions, body.is_held,
+    const double before = thread_seconds();
+    const MeshEdit edit = cutter.advance(body.mesh, positions, {body.is_held},
                                          {edge(k), edge(k + 1), normal}, k + 1 == n_steps, figures);
-    cost.advances.push_back(processor_seconds() - before);
+    cost.advances.push_back(thread_seconds() - before);
     box.apply(edit);
   }
   return cost;

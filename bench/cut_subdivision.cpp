@@ -103,9 +103,8 @@ Subdivision subdivide(const Mesh& mesh, const std::vector<Stroke>& strokes) {
     next.X = result.mesh.X;
     std::vector<int> next_code;
     for (std::int32_t e = 0; e < result.mesh.n_elements(); ++e) {
-      const auto c = result.mesh.corners(e);
       std::vector<Tet> part;
-      split_tet(splitting, {c[0], c[1], c[2], c[3]}, part);
+      split_tet(splitting, tet_nodes(result.mesh, e), part);
       for (const Tet& tet : part) {
         add_element(next, ElementType::tet4, tet);
         const int sum = splitting.side[tet[0]] + splitting.side[tet[1]] + splitting.side[tet[2]] +

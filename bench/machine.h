@@ -2,8 +2,6 @@
 // is compared with it: others may use the machine.
 #pragma once
 
-#include <time.h>
-
 #include <algorithm>
 
 #include "base/threads.h"
@@ -13,10 +11,7 @@ namespace trocar {
 
 // One thread is timed by its processor time, several by the wall clock. [s]
 inline double bench_seconds() {
-  if (thread_count() > 1) return monotonic_seconds();
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  return thread_count() > 1 ? monotonic_seconds() : thread_seconds();
 }
 
 // Best of 7 runs of at least 20 ms.

@@ -116,10 +116,10 @@ void add_clusters(const ContactInertia& inertia, ContactSet& set) {
 }  // namespace
 
 ContactSet prepare_contacts(const FoundContacts& contacts, std::span<const std::int32_t> node_owner,
-                            const Part& part, int rank, const ContactInertia& inertia) {
+                            const Part& part, const ContactInertia& inertia) {
   ContactSet set{.node = nodes_of(contacts)};
   for (const std::int32_t i : set.node) {
-    if (node_owner[i] == rank) {
+    if (node_owner[i] == part.rank) {
       set.owned.push_back(static_cast<std::int32_t>(set.inverse_mass.size()));
       set.local.push_back(part.node_local[i]);
     }
@@ -136,8 +136,8 @@ ContactSet prepare_contacts(const FoundContacts& contacts, std::span<const std::
   set.impulse.resize(set.node.size());
   set.found_by.assign(set.node.size(), -1);
   set.move.resize(set.node.size());
-  set.halo = all_to_all(set, node_owner, rank);
-  set.is_counted_here = counts_reactions(contacts, node_owner, rank);
+  set.halo = all_to_all(set, node_owner, part.rank);
+  set.is_counted_here = counts_reactions(contacts, node_owner, part.rank);
   return set;
 }
 

@@ -116,6 +116,6 @@ struct ContactSet {
 
 // node_owner: (n_nodes) global.
 ContactSet prepare_contacts(const FoundContacts& contacts, std::span<const std::int32_t> node_owner,
-                            const Part& part, int rank, const ContactInertia& inertia);
+                            const Part& part, const ContactInertia& inertia);
 
 }  // namespace trocar

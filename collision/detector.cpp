@@ -302,10 +302,10 @@ void ContactDetector::detect(std::span<const Vec3> x, std::span<const Pose> pose
   }
 }
 
-void ContactDetector::detect_tissue(const TissueReach& reach,
+void ContactDetector::detect_tissue(std::span<const Vec3> ahead, double reach,
                                     std::vector<TissuePair>& pairs) const {
   pairs.clear();
-  if (state_->tree) find_tissue_pairs(*state_->tree, reach, pairs);
+  if (state_->tree) find_tissue_pairs(*state_->tree, ahead, reach, pairs);
 }
 
 bool ContactDetector::lies_in_other_tissue(std::int32_t node) const {

@@ -32,7 +32,8 @@ struct Contact {
   double gap = 0;                      // at detection; negative: penetration [m]
 };
 
-// A node inside a piece. normal: out of the piece, in the world's frame; gap < 0 [m].
+// A node inside a piece, or beside it within the margin. normal: out of the piece, in the world's
+// frame; gap: negative inside [m].
 struct NodeTouch {
   Vec3 normal = Vec3::Zero();
   double gap = 0;
@@ -69,7 +70,8 @@ class ContactDetector {
 
   // The pairs of tissue and tissue at the positions of the last detect or refit
   // (find_tissue_pairs). Not of plane meshes, which have none.
-  void detect_tissue(const TissueReach& reach, std::vector<TissuePair>& pairs) const;
+  void detect_tissue(std::span<const Vec3> ahead, double reach,
+                     std::vector<TissuePair>& pairs) const;
 
   // Of a surface node at these positions: of overlapping tissue the surface winds twice round it.
   bool lies_in_other_tissue(std::int32_t node) const;

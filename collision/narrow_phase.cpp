@@ -11,9 +11,8 @@ namespace trocar {
 
 namespace {
 
-constexpr double epa_agreement = 0.5;  // cos 60 degrees
-constexpr double coincidence =
-    1e-9;  // closest points nearer than this many edges have no direction
+constexpr double epa_agreement = 0.5;    // cos 60 degrees
+constexpr double coincidence = 1e-9;     // edges: closest points nearer than this have no direction
 constexpr double cast_tolerance = 1e-6;  // of a depth, in edges
 constexpr int max_cast_steps = 64;
 constexpr double at_border = 1e-6;                                // weight of a corner

@@ -65,24 +65,23 @@ bool says_more(const TissueCandidate& candidate, const TissueCandidate& than) {
   return near + candidate.handicap < far + than.handicap;
 }
 
-void find_tissue_pairs(const SurfaceTree& tree, const TissueReach& reach,
+void find_tissue_pairs(const SurfaceTree& tree, std::span<const Vec3> ahead, double reach,
                        std::vector<TissuePair>& pairs) {
   pairs.clear();
-  const std::vector<SurfaceTree::Facing> facing =
-      tree.facing(reach.ahead, reach.extra, reach.depth);
+  const std::vector<SurfaceTree::Facing> facing = tree.facing(ahead, reach, reach);
   std::vector<Candidate> of_node;
   for (std::size_t k = 0; k < facing.size();) {
     const std::int32_t node = facing[k].node;
     of_node.clear();
     for (; k < facing.size() && facing[k].node == node; ++k) {
       const std::int32_t t = facing[k].triangle;
-      of_node.push_back({{touch_tissue(tree.position(node), tree.corners(t)),
-                          reach.depth * (1 + facing[k].opposition)},
-                         node,
-                         t,
-                         facing[k].own});
+      of_node.push_back(
+          {{touch_tissue(tree.position(node), tree.corners(t)), reach * (1 + facing[k].opposition)},
+           node,
+           t,
+           facing[k].own});
     }
-    const double longest = longest_exit(tree, of_node, reach.depth);
+    const double longest = longest_exit(tree, of_node, reach);
     for (const Candidate& c : of_node)
       if (c.touch.height >= 0 || (c.touch.is_below && c.touch.distance <= longest))
         pairs.push_back({node, tree.nodes(c.triangle), c.handicap});

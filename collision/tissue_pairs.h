@@ -21,19 +21,15 @@ struct TissuePair {
   double handicap = 0;
 };
 
-struct TissueReach {
-  // (n_nodes) where the tissue's velocities take it within the frame, valid at surface nodes [m].
-  std::span<const Vec3> ahead;
-  double extra = 0;  // how much nearer tissue may come than that [m]
-  double depth = 0;  // how deep it may lie in other tissue and still find out of it [m]
-};
-
 // All pairs that may meet (SurfaceTree::facing), in ascending (node, triangle), if the node is, at
 // the tree's positions,
 // - on the triangle's outer side, or
 // - inside other tissue, and the triangle is a way out of it. The far side of a node's own thin
 //   lobe is none: a point a little behind the node, as the triangle sees it, is outside.
-void find_tissue_pairs(const SurfaceTree& tree, const TissueReach& reach,
+// ahead: (n_nodes) where the tissue's velocities take it within the frame, valid at surface nodes
+// [m]. reach: how much nearer it may come than that, and how deep it may lie in other tissue and
+// still find out of it [m].
+void find_tissue_pairs(const SurfaceTree& tree, std::span<const Vec3> ahead, double reach,
                        std::vector<TissuePair>& pairs);
 
 struct TissueTouch {

@@ -14,7 +14,7 @@ namespace trocar {
 namespace {
 
 constexpr std::size_t longest_rim = 5;  // nodes: a longer one is the end of a slit as a rule
-constexpr double least_part = 4;        // mean edges cubed
+constexpr double least_hanging = 4;     // mean edges cubed
 
 struct LipFacet {
   FacetNodes uncut;  // ascending: both lips have the same
@@ -106,7 +106,7 @@ std::vector<CutBridge> find_bridges(const Mesh& mesh, double mean_edge) {
   for (const std::int32_t e : rest.removed)
     for (const std::int32_t at : mesh.corners(e))
       for (const std::int32_t i : mesh.corners(e))
-        if (rim_of[at] >= 0 && rest.volume[rest.part[i]] > least_part * std::pow(mean_edge, 3))
+        if (rim_of[at] >= 0 && rest.volume[rest.part[i]] > least_hanging * std::pow(mean_edge, 3))
           meets.emplace_back(rim_of[at], rest.part[i]);
   sort_unique(meets);
   std::vector<CutBridge> bridges;

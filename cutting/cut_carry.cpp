@@ -20,13 +20,6 @@ static constexpr double outside_slack = 1e-9;
 // tissue that runs from the blade and comes back must not pass it uncut.
 static constexpr double reach = 3.0;
 
-static Vec3 at(const Mesh& mesh, std::int32_t e, std::span<const Vec3> X,
-               const std::array<double, 4>& b) {
-  Vec3 point = Vec3::Zero();
-  for (std::size_t a = 0; a < 4; ++a) point += b[a] * X[mesh.corners(e)[a]];
-  return point;
-}
-
 // Of the element's point next to it, as good as: what lies outside is not strained with the
 // element.
 static std::array<double, 4> inside_of(std::array<double, 4> b) {
@@ -54,8 +47,8 @@ static void try_element(const Mesh& mesh, std::span<const Vec3> x, std::int32_t 
   place.most = least;
   place.point.element = e;
   place.point.is_inside = least >= -outside_slack;
-  place.point.X = at(mesh, e, mesh.X, next);
-  place.point.beyond = place.point.x - at(mesh, e, x, next);
+  place.point.X = interpolate(mesh.corners(e), next, mesh.X);
+  place.point.beyond = place.point.x - interpolate(mesh.corners(e), next, x);
 }
 
 // The first element of `near` that holds each point, else the nearest within `margin` [m].
@@ -74,7 +67,7 @@ static std::vector<Place> find_places(const Mesh& mesh, std::span<const Vec3> x,
 
 // The edge's ends, and points a little beyond all along their ways from the begin of the sweep to
 // its end: tissue there stays joined. An end that goes along the surface leaves none.
-static std::vector<Vec3> ways_of_ends(const BladeSweep& sweep, double h) {
+static std::vector<Vec3> ways_past_ends(const BladeSweep& sweep, double h) {
   constexpr double spacing = 0.25, most = 1000;  // over h; points
   std::vector<Vec3> points;
   const std::size_t last = sweep.after.size() - 1;
@@ -181,7 +174,7 @@ static std::vector<Place> places_at_begin(const Mesh& mesh, const CutIndex& inde
 void remember_edge(const Mesh& mesh, const CutIndex& index, std::span<const Vec3> x,
                    const BladeSweep& sweep, std::span<const std::int32_t> near, CutStroke& stroke) {
   const double margin = stroke.mean_edge;
-  add_to_rim(find_places(mesh, x, near, ways_of_ends(sweep, margin), margin), stroke);
+  add_to_rim(find_places(mesh, x, near, ways_past_ends(sweep, margin), margin), stroke);
   if (stroke.edge.empty()) add_to_rim(places_at_begin(mesh, index, x, sweep, near, margin), stroke);
   std::vector<Place> places = find_places(mesh, x, near, sweep.after, margin);
   for (std::size_t k = 0; k < std::min(places.size(), stroke.edge.size()); ++k)
@@ -216,8 +209,8 @@ BladeSweep carry_edge(const Mesh& mesh, std::span<const Vec3> x, const BladeSwee
   for (std::size_t k = 0; k < way.size(); ++k) {
     const BladePoint& p = stroke.edge[k];
     if (p.element < 0) continue;
-    way[k] =
-        at(mesh, p.element, x, barycentric(mesh.corners(p.element), mesh.X, p.X)) + p.beyond - p.x;
+    const std::span<const std::int32_t> corner = mesh.corners(p.element);
+    way[k] = interpolate(corner, barycentric(corner, mesh.X, p.X), x) + p.beyond - p.x;
     inside.push_back(k);
   }
   for (std::size_t k = 0; k < way.size(); ++k) {

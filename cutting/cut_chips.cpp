@@ -88,9 +88,9 @@ static bool follow_beyond(const Tissue& t, SmallPiece& piece) {
         add_beyond(t, patch.element[e], f, piece);
   for (std::size_t k = 0; k < piece.beyond.size(); ++k) {
     const std::int32_t u = piece.beyond[k];
-    const std::span<const std::int32_t> c = t.mesh.corners(u);
-    if (!add_volume(t, t.mesh.X, {c[0], c[1], c[2], c[3]}, piece) ||
-        std::ranges::any_of(c, [&](std::int32_t i) { return is_fast(t, i); }))
+    const std::array<std::int32_t, 4> node = tet_nodes(t.mesh, u);
+    if (!add_volume(t, t.mesh.X, node, piece) ||
+        std::ranges::any_of(node, [&](std::int32_t i) { return is_fast(t, i); }))
       return false;
     for (int f = 0; f < 4; ++f)
       if (!add_beyond(t, u, f, piece)) return false;

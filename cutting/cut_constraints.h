@@ -16,8 +16,8 @@ using BorderEdge = std::array<std::int32_t, 2>;
 inline constexpr std::uint8_t may_slide = 2;
 
 struct CutConstraints {
-  std::span<const std::uint8_t> is_held;  // (n_nodes) nodes that must not be displaced: 1, grasped
-                                          // or supported, or `may_slide`
+  // (n_nodes) nodes that must not be displaced: 1, grasped or supported, or `may_slide`
+  std::span<const std::uint8_t> is_held;
   // Edges of the outer surface that bound an area of it, lower node first, ascending: nodes on them
   // move along them only. Of a plane body the nodes that bound a part of its outline, each twice.
   std::span<const BorderEdge> border = {};
@@ -25,11 +25,6 @@ struct CutConstraints {
   // (n_nodes) Of plane cuts: where nodes are in the deformed body, in which no element may be
   // inverted, either; none: as in the reference. [m]
   std::span<const Vec3> x = {};
-
-  CutConstraints(std::span<const std::uint8_t> held, std::span<const BorderEdge> lines = {},
-                 std::span<const Vec3> present = {})
-      : is_held(held), border(lines), x(present) {}
-  CutConstraints(const std::vector<std::uint8_t>& held) : is_held(held) {}
 };
 
 }  // namespace trocar

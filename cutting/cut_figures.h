@@ -39,14 +39,14 @@ struct CutFigures {
   std::int32_t n_opened_facets = 0;
   std::int32_t n_moved = 0;
   std::int32_t n_duplicated = 0;
-  std::int32_t n_refused =
-      0;  // places where no valid change was found; the tissue stays joined there
+  // places where no valid change was found; the tissue stays joined there
+  std::int32_t n_refused = 0;
   double least_quality = 1;  // mean ratio of the touched elements after the cut
-  double largest_deviation =
-      0;                      // of a cut node from the swept surface [m], reference configuration
-  double mean_deviation = 0;  // [m]
-  std::int32_t n_beside = 0;  // parted nodes that the floor under the stable step, a support or a
-                              // sharp edge keeps more than 0.1 mean edges from the swept surface
+  // of cut nodes from the swept surface, reference configuration [m]
+  double largest_deviation = 0, mean_deviation = 0;
+  // parted nodes that the floor under the stable step, a support or a sharp edge keeps more than
+  // 0.1 mean edges from the swept surface
+  std::int32_t n_beside = 0;
   // Rungs of the ladder: elements whose side was turned so that the outer surface stays a
   // 2-manifold, chips that stay with the other side, nodes that went less far than
   // their move wanted so that elements stay valid, and elements that this move had inverted.

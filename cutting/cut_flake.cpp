@@ -37,10 +37,6 @@ struct Walk {
 
 }  // namespace
 
-static bool is_before(const Vec3& a, const Vec3& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-}
-
 static bool is_lip_before(const OpenedFacet& a, const OpenedFacet& b) {
   return std::lexicographical_compare(a.X.begin(), a.X.end(), b.X.begin(), b.X.end(), is_before);
 }

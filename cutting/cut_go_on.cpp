@@ -23,9 +23,7 @@ static constexpr double along_left = 0.87, along_beside = 0.966;
 template <class T, class Key>
 static void add_each_once(const std::vector<T>& more, const Key& key, std::vector<T>& places) {
   places.insert(places.end(), more.begin(), more.end());
-  std::ranges::sort(places, {}, key);
-  const auto same = std::ranges::unique(places, {}, key);
-  places.erase(same.begin(), same.end());
+  sort_unique_by(places, key);
 }
 
 static std::array<double, 3> by_place(const Vec3& X) {

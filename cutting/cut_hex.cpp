@@ -17,20 +17,8 @@ static constexpr double least_step_part = 0.15;
 // Of a tetrahedron, present over reference volume, below which it counts as nearly flat.
 static constexpr double flat_volume_ratio = 0.1;
 
-bool has_hexahedra(const Mesh& mesh) {
-  return std::find(mesh.element_type.begin(), mesh.element_type.end(), ElementType::hex8) !=
-         mesh.element_type.end();
-}
-
 bool was_hexahedral(const Mesh& mesh) {
-  return !mesh.split_hexahedra.empty() || has_hexahedra(mesh);
-}
-
-static std::array<std::int32_t, 4> tet_nodes(const Mesh& mesh, std::int32_t e,
-                                             const std::array<int, 4>& tet) {
-  std::array<std::int32_t, 4> node{};
-  for (std::size_t a = 0; a < 4; ++a) node[a] = mesh.corners(e)[tet[a]];
-  return node;
+  return !mesh.split_hexahedra.empty() || has_type(mesh, ElementType::hex8);
 }
 
 // Whether the triangles' common edge begins where hex_tets has it.
@@ -47,13 +35,13 @@ static bool has_own_diagonal(const Mesh& mesh, const SplitQuad& quad) {
 // Of all tetrahedra of hexahedron e; not positive if one is inverted.
 static double least_step_bound(const Mesh& mesh, std::int32_t e) {
   double least = std::numeric_limits<double>::infinity();
-  for (const std::array<int, 4>& tet : hex_tets(mesh, e))
-    least = std::min(least, step_bound(mesh.X, tet_nodes(mesh, e, tet)));
+  for (const std::array<std::int32_t, 4>& node : hex_tet_nodes(mesh, e))
+    least = std::min(least, step_bound(mesh.X, node));
   return least;
 }
 
 std::vector<std::uint8_t> hex_split_ranks(const Mesh& mesh) {
-  if (!has_hexahedra(mesh)) return {};
+  if (!has_type(mesh, ElementType::hex8)) return {};
   Mesh ranked = mesh;
   ranked.hex_split_rank = diagonal_ranks(mesh);
   std::vector<std::uint8_t> rank = ranked.hex_split_rank;
@@ -89,8 +77,7 @@ std::vector<std::int32_t> whole_hexahedra(const Mesh& mesh) {
 
 static bool is_bent(const HexTets& tets, std::span<const Vec3> x, std::int32_t hex) {
   for (std::int32_t s = tets.first[hex]; s < tets.end(hex); ++s) {
-    const std::span<const std::int32_t> c = tets.mesh.corners(s);
-    const std::array<std::int32_t, 4> node{c[0], c[1], c[2], c[3]};
+    const std::array<std::int32_t, 4> node = tet_nodes(tets.mesh, s);
     if (!(six_volumes(x, node) > flat_volume_ratio * six_volumes(tets.mesh.X, node))) return true;
   }
   return false;
@@ -120,8 +107,7 @@ std::vector<std::int32_t> bent_nodes(const HexTets& tets, PresentPositions& posi
 
 static void add_as_tets(const Mesh& body, std::int32_t e, HexTets& tets) {
   tets.first[e] = tets.mesh.n_elements();
-  for (const std::array<int, 4>& tet : hex_tets(body, e)) {
-    const std::array<std::int32_t, 4> node = tet_nodes(body, e, tet);
+  for (const std::array<std::int32_t, 4>& node : hex_tet_nodes(body, e)) {
     add_element(tets.mesh, ElementType::tet4, node, body.element_region[e]);
     unsigned mask = 0;
     for (int f = 0; f < 4; ++f) {

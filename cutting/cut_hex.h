@@ -32,8 +32,7 @@ struct HexTets {
   std::int32_t end(std::int32_t e) const { return first[e] + (is_hexahedron(e) ? n_hex_tets : 1); }
 };
 
-bool has_hexahedra(const Mesh& mesh);
-// Or had some that are tetrahedra now.
+// Whether it has hexahedra, or had some that are tetrahedra now.
 bool was_hexahedral(const Mesh& mesh);
 
 // Mesh::hex_split_rank of an uncut mesh, empty where all is zero. Whole stay hexahedra of which a

@@ -6,6 +6,7 @@
 #include "cutting/cut_hex.h"
 #include "cutting/cut_hex_shape.h"
 #include "cutting/cut_patch.h"
+#include "mesh/barycentric.h"
 #include "mesh/hex_split.h"
 #include "mesh/node_corners.h"
 
@@ -42,16 +43,6 @@ struct KeptHex {
 
 }  // namespace
 
-static std::int32_t node_after(const Translation& t, std::int32_t s, std::int32_t c) {
-  const auto at = std::lower_bound(
-      t.edit.corners.begin(), t.edit.corners.end(), std::pair{s, c},
-      [](const CornerChange& change, const std::pair<std::int32_t, std::int32_t>& k) {
-        return std::pair{change.element, change.corner} < k;
-      });
-  const bool is_changed = at != t.edit.corners.end() && at->element == s && at->corner == c;
-  return is_changed ? at->node : t.tets.mesh.corners(s)[c];
-}
-
 static std::uint8_t cut_facets_after(const Translation& t, std::int32_t s) {
   const auto at = std::lower_bound(
       t.edit.cut_facets.begin(), t.edit.cut_facets.end(), s,
@@ -67,10 +58,7 @@ static std::array<Vec3, 2> position_after(const Translation& t, std::int32_t i) 
       std::lower_bound(t.edit.moves.begin(), t.edit.moves.end(), i,
                        [](const NodeMove& move, std::int32_t node) { return move.node < node; });
   if (at == t.edit.moves.end() || at->node != i) return {t.body.X[i], t.x[i]};
-  Vec3 x = Vec3::Zero();
-  const std::span<const std::int32_t> host = t.tets.mesh.corners(at->host);
-  for (std::size_t a = 0; a < host.size(); ++a) x += at->weight[a] * t.x[host[a]];
-  return {at->X, x};
+  return {at->X, interpolate(t.tets.mesh.corners(at->host), at->weight, t.x)};
 }
 
 // The hexahedron's corners after the edit; false if its tetrahedra don't agree about one of them.
@@ -82,7 +70,7 @@ static bool join_corners(const Translation& t, std::int32_t e, KeptHex& hex) {
       const std::int32_t old = t.tets.mesh.corners(s)[c];
       const auto a = std::find(corner.begin(), corner.end(), old) - corner.begin();
       std::int32_t& node = hex.node[a];
-      const std::int32_t next = node_after(t, s, c);
+      const std::int32_t next = node_after(t.edit, t.tets.mesh, s, c);
       if (node >= 0 && node != next) return false;
       node = next;
     }
@@ -93,11 +81,11 @@ static bool join_corners(const Translation& t, std::int32_t e, KeptHex& hex) {
 static bool join_facets(const Translation& t, std::int32_t e, KeptHex& hex) {
   std::array<int, 6> n_open{};
   for (std::int32_t s = t.tets.first[e]; s < t.tets.end(e); ++s) {
-    const auto c = t.tets.mesh.corners(s);
+    const std::array<std::int32_t, 4> node = tet_nodes(t.tets.mesh, s);
     const std::uint8_t mask = cut_facets_after(t, s);
     for (int f = 0; f < 4 && mask != 0; ++f) {
       if ((mask >> f & 1) == 0) continue;
-      const int g = hex_facet_of(t.body, e, {c[0], c[1], c[2], c[3]}, f);
+      const int g = hex_facet_of(t.body, e, node, f);
       if (g < 0) return false;
       ++n_open[g];
     }
@@ -153,10 +141,8 @@ static std::vector<std::int32_t> touched_hexahedra(const Translation& t, const C
 
 static ElementSplit split_of(const Translation& t, std::int32_t e) {
   ElementSplit split{.element = e};
-  for (std::size_t k = 0; k < n_hex_tets; ++k) {
-    const auto c = t.tets.mesh.corners(t.tets.first[e] + static_cast<std::int32_t>(k));
-    std::copy(c.begin(), c.end(), split.corner[k].begin());
-  }
+  for (std::int32_t k = 0; k < n_hex_tets; ++k)
+    split.corner[k] = tet_nodes(t.tets.mesh, t.tets.first[e] + k);
   return split;
 }
 
@@ -211,7 +197,7 @@ static Mesh pieces_after(const Translation& t, std::int32_t e, const KeptHex* ke
   if (kept != nullptr) add(ElementType::hex8, kept->node);
   for (std::int32_t s = t.tets.first[e]; s < t.tets.end(e) && kept == nullptr; ++s) {
     std::array<std::int32_t, 4> node{};
-    for (std::int32_t c = 0; c < 4; ++c) node[c] = node_after(t, s, c);
+    for (std::int32_t c = 0; c < 4; ++c) node[c] = node_after(t.edit, t.tets.mesh, s, c);
     add(ElementType::tet4, node);
   }
   return pieces;

@@ -35,22 +35,13 @@ double hex_step_bound(const std::array<Vec3, 8>& X) {
   return V / std::sqrt(2 * sum);
 }
 
-static constexpr std::array<std::array<double, 3>, 8> corner_xi{{{-1, -1, -1},
-                                                                 {1, -1, -1},
-                                                                 {1, 1, -1},
-                                                                 {-1, 1, -1},
-                                                                 {-1, -1, 1},
-                                                                 {1, -1, 1},
-                                                                 {1, 1, 1},
-                                                                 {-1, 1, 1}}};
-
 static double jacobian(const std::array<Vec3, 8>& X, const std::array<double, 3>& xi) {
   Mat3 J = Mat3::Zero();
   for (std::size_t a = 0; a < 8; ++a)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-      const std::array<double, 3>& c = corner_xi[a];
-      const double slope = c[k] / 8 * (1 + c[i] * xi[i]) * (1 + c[j] * xi[j]);
+      const auto& c = hex_corner_xi[a];
+      const double slope = c[k] / 8.0 * (1 + c[i] * xi[i]) * (1 + c[j] * xi[j]);
       J.col(static_cast<Eigen::Index>(k)) += slope * X[a];
     }
   return J.determinant();
@@ -60,7 +51,7 @@ double least_gauss_ratio(const std::array<Vec3, 8>& X) {
   const double centre = jacobian(X, {0, 0, 0}), g = 1 / std::sqrt(3.0);
   if (!(centre > 0)) return -1;
   double least = centre;
-  for (const std::array<double, 3>& c : corner_xi)
+  for (const auto& c : hex_corner_xi)
     least = std::min(least, jacobian(X, {g * c[0], g * c[1], g * c[2]}));
   return least / centre;
 }

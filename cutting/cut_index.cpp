@@ -95,23 +95,12 @@ static void remove_from_star(CutIndex& index, std::int32_t node, std::int32_t el
   --index.star_size[node];
 }
 
-// The node that corner c of element e has after the edit.
-static std::int32_t edited_corner(const Mesh& mesh, const MeshEdit& edit, std::int32_t e, int c) {
-  const auto before = [](const CornerChange& p, const std::array<std::int32_t, 2>& q) {
-    return p.element != q[0] ? p.element < q[0] : p.corner < q[1];
-  };
-  const auto at = std::lower_bound(edit.corners.begin(), edit.corners.end(),
-                                   std::array<std::int32_t, 2>{e, c}, before);
-  const bool is_changed = at != edit.corners.end() && at->element == e && at->corner == c;
-  return is_changed ? at->node : mesh.corners(e)[c];
-}
-
 static void add_opened_facets(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {
   for (const CutFacets& opened : edit.cut_facets)
     for (int f = 0; f < n_facets(mesh.element_type[opened.element]); ++f) {
       if ((opened.mask >> f & 1) == 0) continue;
       for (const int c : facet_corners(mesh.element_type[opened.element], f))
-        if (c >= 0) index.is_surface[edited_corner(mesh, edit, opened.element, c)] = 1;
+        if (c >= 0) index.is_surface[node_after(edit, mesh, opened.element, c)] = 1;
     }
 }
 

@@ -17,13 +17,14 @@ namespace trocar {
 struct CutLabels {
   std::vector<CutKind> kind;      // (n_elements)
   std::vector<std::int8_t> side;  // (n_elements) +1, -1; 0: takes no part
-  std::vector<std::uint8_t>
-      is_front_node;  // (n_nodes) of an element of the front: the blade is still in there, and a
-                      // node that moves could take an edge past it uncrossed
-  std::vector<std::uint8_t> is_left;    // (n_nodes) facets at these stay joined for now: of slices
-                                        // (cut_thin.h) and flakes to be decided on later
-  std::vector<std::uint8_t> is_passed;  // (n_elements) the blade has left, and went through all
-                                        // around: what it crossed there is parted
+  // (n_nodes) of an element of the front: the blade is still in there, and a node that moves could
+  // take an edge past it uncrossed
+  std::vector<std::uint8_t> is_front_node;
+  // (n_nodes) facets at these stay joined for now: of slices (cut_thin.h) and flakes to be decided
+  // on later
+  std::vector<std::uint8_t> is_left;
+  // (n_elements) the blade has left, and went through all around: what it crossed there is parted
+  std::vector<std::uint8_t> is_passed;
 };
 
 // Facets at these elements stay joined for now.

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "cutting/cut_open.h"
-
 namespace trocar {
 
 // Each trial opens the whole patch: as many as cost some milliseconds.
@@ -15,6 +13,7 @@ namespace {
 
 struct Mending {
   const CutSurroundings& around;
+  const PatchMesh& mesh;
   const CutStroke& stroke;
   CutLabels& labels;
   std::vector<std::int32_t> pinched;
@@ -47,7 +46,7 @@ static void try_change(Mending& m, const std::vector<std::int32_t>& element, Cha
   if (m.n_trials <= 0) return;
   --m.n_trials;
   turn(m.labels, element);
-  std::vector<std::int32_t> left = pinched_nodes(m.around, m.labels);
+  std::vector<std::int32_t> left = pinched_nodes(m.around, m.mesh, m.labels);
   turn(m.labels, element);
   if (left.size() < best.pinched.size()) best = {element, std::move(left)};
 }
@@ -102,10 +101,14 @@ static Change best_change(Mending& m) {
   return best;
 }
 
-std::int32_t mend_labels(const CutSurroundings& around, const CutStroke& stroke,
-                         CutLabels& labels) {
+std::int32_t mend_labels(const CutSurroundings& around, const PatchMesh& mesh,
+                         const CutStroke& stroke, CutLabels& labels) {
   const std::vector<std::int8_t> side = labels.side;
-  Mending m{around, stroke, labels, pinched_nodes(around, labels),
+  Mending m{around,
+            mesh,
+            stroke,
+            labels,
+            pinched_nodes(around, mesh, labels),
             20 + n_element_trials / std::max(1, around.patch.n_elements())};
   std::vector<std::int32_t> hopeless;  // ascending
   while (!m.pinched.empty() && m.n_trials > 0) {

@@ -3,11 +3,12 @@
 // stays a 2-manifold. What this can't mend, open_facets closes.
 #pragma once
 
-#include "cutting/cut_label.h"
+#include "cutting/cut_open.h"
 
 namespace trocar {
 
 // Changes sides of elements that have no opened facet yet; returns how many.
-std::int32_t mend_labels(const CutSurroundings& around, const CutStroke& stroke, CutLabels& labels);
+std::int32_t mend_labels(const CutSurroundings& around, const PatchMesh& mesh,
+                         const CutStroke& stroke, CutLabels& labels);
 
 }  // namespace trocar

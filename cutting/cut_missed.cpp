@@ -22,8 +22,7 @@ struct After {
   // Of a tetrahedron.
   std::array<std::int32_t, 4> corners(std::int32_t e) const {
     const CutPatch& patch = cut.around.patch;
-    const std::span<const std::int32_t> c = mesh.corners(e);
-    std::array<std::int32_t, 4> node{c[0], c[1], c[2], c[3]};
+    std::array<std::int32_t, 4> node = tet_nodes(mesh, e);
     if (const std::int32_t local = patch.local_element(e); local >= 0)
       for (std::size_t k = 0; k < 4; ++k)
         if (const std::int32_t i = cut.opening.corner[local][k]; i >= patch.n_nodes())

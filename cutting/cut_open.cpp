@@ -13,18 +13,23 @@ using EdgeEnds = std::array<std::int32_t, 2>;
 // A node of the front this near to the surface (over h) may be parted.
 static constexpr double ripe_distance = 0.1;
 
-namespace {
+static void add_edges(const std::array<std::int32_t, 3>& node, std::vector<EdgeEnds>& edge) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::int32_t a = node[k], b = node[(k + 1) % 3];
+    edge.push_back({std::min(a, b), std::max(a, b)});
+  }
+}
 
-// The patch as the structures that duplicate_nodes reads.
-struct PatchMesh {
-  Mesh mesh;
-  NodeElements around;
-  FacetNeighbours across;
-};
+static std::vector<EdgeEnds> outer_edges(const CutPatch& patch) {
+  std::vector<EdgeEnds> edge;
+  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
+    for (int f = 0; f < 4; ++f)
+      if (patch.across[e][f] < 0) add_edges(facet_nodes(patch, e, f), edge);
+  std::sort(edge.begin(), edge.end());
+  return edge;
+}
 
-}  // namespace
-
-static PatchMesh make_patch_mesh(const CutPatch& patch) {
+PatchMesh make_patch_mesh(const CutPatch& patch) {
   PatchMesh p;
   const std::size_t n = patch.element.size();
   p.mesh.X = patch.X;
@@ -40,6 +45,7 @@ static PatchMesh make_patch_mesh(const CutPatch& patch) {
   for (const auto& across : patch.across)
     p.across.neighbour.insert(p.across.neighbour.end(), across.begin(), across.end());
   p.around = {patch.star_offset, patch.star_element};
+  p.outer_edge = outer_edges(patch);
   return p;
 }
 
@@ -136,13 +142,6 @@ static bool is_link_sound(const CutPatch& patch, const Corners& corner, std::int
   });
 }
 
-static void add_edges(const std::array<std::int32_t, 3>& node, std::vector<EdgeEnds>& edge) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::int32_t a = node[k], b = node[(k + 1) % 3];
-    edge.push_back({std::min(a, b), std::max(a, b)});
-  }
-}
-
 // Number of edges of a facet where the opening ends inside the body.
 static int rim_edges(const std::array<std::int32_t, 3>& node, const std::vector<EdgeEnds>& opened,
                      const std::vector<EdgeEnds>& outer) {
@@ -156,23 +155,12 @@ static int rim_edges(const std::array<std::int32_t, 3>& node, const std::vector<
   return n;
 }
 
-static std::vector<EdgeEnds> outer_edges(const CutPatch& patch) {
-  std::vector<EdgeEnds> edge;
-  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
-    for (int f = 0; f < 4; ++f)
-      if (patch.across[e][f] < 0) add_edges(facet_nodes(patch, e, f), edge);
-  std::sort(edge.begin(), edge.end());
-  return edge;
-}
-
 // The facet at node i to close first: most at the rim, then the farthest from the surface. -1:
 // none.
 static std::ptrdiff_t facet_to_close(const CutSurroundings& around,
                                      const std::vector<TetFacet>& facet, std::int32_t i,
+                                     const std::vector<EdgeEnds>& opened,
                                      const std::vector<EdgeEnds>& outer) {
-  std::vector<EdgeEnds> opened;
-  for (const auto& [e, f] : facet) add_edges(facet_nodes(around.patch, e, f), opened);
-  std::sort(opened.begin(), opened.end());
   std::ptrdiff_t best = -1;
   std::pair<int, double> best_rank;
   for (std::size_t k = 0; k < facet.size(); ++k) {
@@ -206,14 +194,20 @@ static std::vector<std::int32_t> broken_nodes(const CutSurroundings& around,
 }
 
 // Closes one facet at each broken node; false if there was none to close.
-static bool close_facets(const CutSurroundings& around, const std::vector<std::int32_t>& broken,
-                         std::vector<TetFacet>& facet, CutOpening& opening) {
+static bool close_facets(const CutSurroundings& around, const PatchMesh& mesh,
+                         const std::vector<std::int32_t>& broken, std::vector<TetFacet>& facet,
+                         CutOpening& opening) {
   if (broken.empty()) return false;
-  const std::vector<EdgeEnds> outer = outer_edges(around.patch);
+  std::vector<EdgeEnds> opened;
+  for (const auto& [e, f] : facet) add_edges(facet_nodes(around.patch, e, f), opened);
+  std::sort(opened.begin(), opened.end());
   bool is_changed = false;
   for (const std::int32_t i : broken) {
-    const std::ptrdiff_t k = facet_to_close(around, facet, i, outer);
+    const std::ptrdiff_t k = facet_to_close(around, facet, i, opened, mesh.outer_edge);
     if (k < 0) continue;
+    std::vector<EdgeEnds> closed;
+    add_edges(facet_nodes(around.patch, facet[k][0], facet[k][1]), closed);
+    for (const EdgeEnds& edge : closed) opened.erase(std::ranges::lower_bound(opened, edge));
     opening.refused.push_back(facet[k]);
     facet.erase(facet.begin() + k);
     is_changed = true;
@@ -230,8 +224,8 @@ std::vector<std::uint8_t> unripe_nodes(const CutSurroundings& around, const CutL
   return is_unripe;
 }
 
-std::vector<std::int32_t> pinched_nodes(const CutSurroundings& around, const CutLabels& labels) {
-  const PatchMesh mesh = make_patch_mesh(around.patch);
+std::vector<std::int32_t> pinched_nodes(const CutSurroundings& around, const PatchMesh& mesh,
+                                        const CutLabels& labels) {
   CutOpening opening;
   const std::vector<TetFacet> facet = facets_between_sides(around.patch, labels, opening.refused);
   split_nodes(around.patch, mesh, facet, opening);
@@ -239,13 +233,13 @@ std::vector<std::int32_t> pinched_nodes(const CutSurroundings& around, const Cut
                       opening);
 }
 
-CutOpening open_facets(const CutSurroundings& around, const CutLabels& labels,
-                       const std::vector<std::uint8_t>& stays_whole) {
-  const PatchMesh mesh = make_patch_mesh(around.patch);
+CutOpening open_facets(const CutSurroundings& around, const PatchMesh& mesh,
+                       const CutLabels& labels, const std::vector<std::uint8_t>& stays_whole) {
   CutOpening opening;
   std::vector<TetFacet> facet = facets_between_sides(around.patch, labels, opening.refused);
   do split_nodes(around.patch, mesh, facet, opening);
-  while (close_facets(around, broken_nodes(around, facet, stays_whole, opening), facet, opening));
+  while (close_facets(around, mesh, broken_nodes(around, facet, stays_whole, opening), facet,
+                      opening));
   return opening;
 }
 

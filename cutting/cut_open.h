@@ -22,13 +22,23 @@ struct CutOpening {
   std::vector<TetFacet> refused;  // lower side of facets that must stay joined for now
 };
 
+// A patch as openings of it read it, all of them the same.
+struct PatchMesh {
+  Mesh mesh;
+  NodeElements around;
+  FacetNeighbours across;
+  std::vector<std::array<std::int32_t, 2>> outer_edge;  // of facets without a neighbour, ascending
+};
+PatchMesh make_patch_mesh(const CutPatch& patch);
+
 // Closes facets, from the rim inwards, until every node's link is one disc and no node of
 // `stays_whole` (n_nodes) is parted.
-CutOpening open_facets(const CutSurroundings& around, const CutLabels& labels,
-                       const std::vector<std::uint8_t>& stays_whole);
+CutOpening open_facets(const CutSurroundings& around, const PatchMesh& mesh,
+                       const CutLabels& labels, const std::vector<std::uint8_t>& stays_whole);
 
 // Nodes whose link would be no disc if all facets between the sides were opened, ascending.
-std::vector<std::int32_t> pinched_nodes(const CutSurroundings& around, const CutLabels& labels);
+std::vector<std::int32_t> pinched_nodes(const CutSurroundings& around, const PatchMesh& mesh,
+                                        const CutLabels& labels);
 
 // Nodes of the front that stand beside the surface: a node can only be pulled onto it before it is
 // parted.

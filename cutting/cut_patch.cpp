@@ -11,16 +11,11 @@
 
 namespace trocar {
 
-static std::int32_t find_sorted(const std::vector<std::int32_t>& sorted, std::int32_t value) {
-  const auto at = std::lower_bound(sorted.begin(), sorted.end(), value);
-  return at != sorted.end() && *at == value ? static_cast<std::int32_t>(at - sorted.begin()) : -1;
-}
-
 std::int32_t CutPatch::local_node(std::int32_t global) const {
-  return find_sorted(node, global);
+  return find_in(node, global);
 }
 std::int32_t CutPatch::local_element(std::int32_t global) const {
-  return find_sorted(element, global);
+  return find_in(element, global);
 }
 
 std::array<std::int32_t, 3> facet_nodes(const CutPatch& patch, std::int32_t e, int f) {
@@ -244,8 +239,7 @@ CutPatch make_patch(const Mesh& mesh, CutIndex& index, PresentPositions& positio
 }
 
 double tet_step_bound(const Mesh& mesh, std::int32_t e) {
-  const std::span<const std::int32_t> c = mesh.corners(e);
-  return step_bound(mesh.X, {c[0], c[1], c[2], c[3]});
+  return step_bound(mesh.X, tet_nodes(mesh, e));
 }
 
 double least_share(const std::array<Vec3, 3>& triangle, const Vec3& X) {

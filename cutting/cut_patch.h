@@ -24,14 +24,14 @@ struct CutPatch {
   std::vector<std::int32_t> element;                // global number, ascending
   std::vector<std::int32_t> node;                   // global number, ascending
   std::vector<std::array<std::int32_t, 4>> corner;  // local nodes of an element
-  std::vector<std::array<std::int32_t, 4>>
-      across;                           // local element across each facet; -1: boundary, or outside
+  // local element across each facet; -1: boundary, or outside
+  std::vector<std::array<std::int32_t, 4>> across;
   std::vector<std::uint8_t> node_ring;  // 0 for the seeds' nodes
   std::vector<std::uint8_t> is_locked;  // node that must stay where it is
-  std::vector<std::uint8_t>
-      is_joined;  // node of an element that is no tetrahedron: must stay one node
-  std::vector<std::uint8_t>
-      is_bent;             // of a bent hexahedron: must stay where and what it is for now
+  // node of an element that is no tetrahedron: must stay one node
+  std::vector<std::uint8_t> is_joined;
+  // of a bent hexahedron: must stay where and what it is for now
+  std::vector<std::uint8_t> is_bent;
   std::vector<Vec3> X, x;  // reference and present positions
   // (n_elements) of the mesh; none where it has one region.
   std::vector<std::int32_t> region;

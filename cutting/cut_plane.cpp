@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/sort_unique.h"
 #include "cutting/cut_plane_chain.h"
 #include "cutting/cut_plane_displace.h"
 #include "cutting/cut_plane_edit.h"
@@ -56,12 +57,6 @@ void check_arguments(const Mesh& mesh, std::span<const Vec3> path,
     throw InputError("the plane cut needs a mesh of triangles (tri3) only");
   CHECK_OP(path.size(), >=, std::size_t{2});
   CHECK_OP(constraints.is_held.size(), ==, mesh.X.size());
-}
-
-int local_node(const PlanePatch& patch, std::int32_t node) {
-  const auto found = std::lower_bound(patch.node.begin(), patch.node.end(), node);
-  const bool is_there = found != patch.node.end() && *found == node;
-  return is_there ? static_cast<int>(found - patch.node.begin()) : -1;
 }
 
 double smallest_altitude(const PlanePatch& patch, const std::vector<Vec2>& x) {
@@ -286,7 +281,7 @@ PlaneCut cut_plane(const Mesh& mesh, std::span<const Vec3> path, std::int32_t co
   if (point.size() < 2) return refused_at(point.front());
   const PlanePatch patch = make_patch(mesh, point, constraints, options.rings + 1);
   if (patch.element.empty()) return {};
-  const int tip = continued_tip >= 0 ? local_node(patch, continued_tip) : -1;
+  const int tip = continued_tip >= 0 ? find_in(patch.node, continued_tip) : -1;
   const SubPath whole = make_sub_path(point);
   const ClippedPath clipped = clip_to_body(patch, whole, tip);
   if (clipped.pieces.empty() && clipped.rest < 0 && clipped.left_out.empty()) return {};

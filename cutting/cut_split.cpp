@@ -45,17 +45,12 @@ static void bisect(std::span<const EdgeNode> inserted, std::int32_t first_insert
   }
 }
 
-static Tet corners_of(const Mesh& mesh, std::int32_t e) {
-  const std::span<const std::int32_t> c = mesh.corners(e);
-  return {c[0], c[1], c[2], c[3]};
-}
-
 MeshEdit split_edges(const Mesh& mesh, std::span<const std::int32_t> element,
                      std::vector<EdgeNode> inserted) {
   MeshEdit edit;
   edit.inserted = std::move(inserted);
   for (const std::int32_t e : element) {
-    const Tet tet = corners_of(mesh, e);
+    const Tet tet = tet_nodes(mesh, e);
     if (first_on_edge(edit.inserted, tet) < 0) continue;
     edit.splits.push_back({.element = e, .n_tets = 0});
     bisect(edit.inserted, mesh.n_nodes(), tet, edit.splits.back());
@@ -90,7 +85,7 @@ struct Inserted {
 static void split_hit(const Inserted& after, const ElementSplit& split, const CutHit& hit,
                       std::vector<CutHit>& hits) {
   constexpr double tolerance = 1e-9;
-  const Tet whole = corners_of(after.mesh, hit.element);
+  const Tet whole = tet_nodes(after.mesh, hit.element);
   const auto [c, d] = tet_edges[hit.edge];
   const std::int32_t a = whole[c], b = whole[d];
   const Vec3 way = after.mesh.X[b] - after.mesh.X[a];
@@ -183,14 +178,12 @@ static std::vector<OfElement<std::int8_t>> node_sides(const Mesh& mesh, const Cu
   std::vector<OfElement<std::int8_t>> sides;
   for (const CutHit& hit : stroke.hit) {
     const auto [a, b] = tet_edges[hit.edge];
-    const Tet c = corners_of(mesh, hit.element);
+    const Tet c = tet_nodes(mesh, hit.element);
     const std::int8_t side = hit.is_first_plus ? 1 : -1;
     sides.push_back({c[a], side});
     sides.push_back({c[b], static_cast<std::int8_t>(-side)});
   }
-  std::ranges::stable_sort(sides, {}, &OfElement<std::int8_t>::element);
-  const auto same = std::ranges::unique(sides, {}, &OfElement<std::int8_t>::element);
-  sides.erase(same.begin(), same.end());
+  sort_unique_by(sides, &OfElement<std::int8_t>::element);
   return sides;
 }
 
@@ -220,7 +213,7 @@ static void keep_edges(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke
   std::vector<OfElement<double>> edge;
   for (const ElementSplit& split : edit.splits)
     if (find_element(stroke.whole_edge, split.element) == nullptr)
-      edge.push_back({split.element, mean_edge(mesh, corners_of(mesh, split.element))});
+      edge.push_back({split.element, mean_edge(mesh, tet_nodes(mesh, split.element))});
   merge_elements(stroke.whole_edge, edge);
 }
 

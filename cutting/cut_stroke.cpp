@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/sort_unique.h"
 #include "cutting/cut_carry.h"
 
 namespace trocar {
@@ -40,9 +41,7 @@ bool goes_on(const CutStroke& stroke) {
 }
 
 void sort_hits(std::vector<CutHit>& hits) {
-  std::ranges::stable_sort(hits, {}, &CutHit::key);
-  const auto same = std::ranges::unique(hits, {}, &CutHit::key);
-  hits.erase(same.begin(), same.end());
+  sort_unique_by(hits, &CutHit::key);
 }
 
 std::vector<std::span<const CutHit>> hits_of(const CutStroke& stroke,

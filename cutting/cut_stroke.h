@@ -46,10 +46,10 @@ struct CutKnown {
   std::vector<CutHit> hit;                      // ascending (element, edge)
   std::vector<OfElement<std::int8_t>> side;     // +1 or -1: sides given at earlier advances
   std::vector<OfElement<std::uint8_t>> opened;  // bit f: facet f was opened by this stroke
-  std::vector<std::int32_t>
-      surface_node;  // nodes of opened facets that lie on the swept surface, ascending
-  std::vector<std::int32_t>
-      parted_node;  // nodes that this stroke gave a copy, and the copies, ascending
+  // nodes of opened facets that lie on the swept surface, ascending
+  std::vector<std::int32_t> surface_node;
+  // nodes that this stroke gave a copy, and the copies, ascending
+  std::vector<std::int32_t> parted_node;
 };
 
 // What strokes leave to others. What they know of elements around the ends of their slits: one
@@ -76,10 +76,10 @@ struct CutStroke : CutKnown {
   CutLeft left;                     // of strokes that have ended
   CutKnown beside;  // of other blades that are in a stroke, around what they have parted in it
   std::vector<std::int32_t> taken;  // elements of those that it goes on with, ascending
-  std::vector<OfElement<double>>
-      step;  // its bound (step_bound) before the blade touched it first [m]
-  std::vector<OfElement<double>>
-      whole_edge;  // of parts of elements that cuts split: the mean edge of the whole one [m]
+  // its bound (step_bound) before the blade touched it first [m]
+  std::vector<OfElement<double>> step;
+  // of parts of elements that cuts split: the mean edge of the whole one [m]
+  std::vector<OfElement<double>> whole_edge;
   std::vector<std::int32_t> made_node;   // that this stroke put on crossed edges, ascending
   std::vector<std::int32_t> fresh;       // elements crossed since the last edit, ascending
   std::vector<std::int32_t> in_slit;     // elements that it crossed in an older slit, ascending
@@ -87,8 +87,9 @@ struct CutStroke : CutKnown {
   std::vector<std::int32_t> unfinished;  // elements to look at again at the next edit, ascending
   std::vector<BladePoint> edge;          // where the blade's edge is in the tissue
   std::vector<std::int32_t> at_edge;     // elements that hold it, ascending
-  std::vector<Vec3> rim;  // where the swept surface ends inside the tissue: the edge at the begin,
-                          // the ways of its ends; reference positions [m]
+  // where the swept surface ends inside the tissue: the edge at the begin, the ways of its ends;
+  // reference positions [m]
+  std::vector<Vec3> rim;
   bool is_amid = false;  // it went on into tissue and stopped there: if it is out now, it drew back
   double mean_edge = 0;  // around the last hits [m]; 0: not known yet
   double swept = 0;  // as the tissue sees it, since the last edit; in the air before it, too [m]

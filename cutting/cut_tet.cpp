@@ -36,6 +36,8 @@ struct TetCutter::Front {
                    const BladeSweep& sweep, bool is_last, CutFigures& figures);
   MeshEdit split(const Mesh& mesh, const CutSurroundings& around,
                  const std::vector<ThinSlice>& slices, CutFigures& figures);
+  void open_between_sides(const Mesh& mesh, std::span<const std::uint8_t> is_held,
+                          const std::vector<ThinSlice>& slices, bool is_last, TetCut& cut) const;
 };
 
 TetCutter::TetCutter(const CutTetOptions& options)
@@ -142,6 +144,27 @@ MeshEdit TetCutter::Front::split(const Mesh& mesh, const CutSurroundings& around
   return edit;
 }
 
+// Gives elements their sides and opens the facets between these, such that no chip comes off.
+void TetCutter::Front::open_between_sides(const Mesh& mesh, std::span<const std::uint8_t> is_held,
+                                          const std::vector<ThinSlice>& slices, bool is_last,
+                                          TetCut& cut) const {
+  const bool is_out = is_last && has_come_out(stroke);
+  const CutSurroundings& around = cut.around;
+  const PatchMesh patch = make_patch_mesh(around.patch);
+  cut.labels = label_elements(around, stroke, is_last);
+  if (is_out) part_bridges(around, stroke, cut.labels);
+  if (is_last) cut.rungs.n_turned = mend_labels(around, patch, stroke, cut.labels);
+  if (is_out && part_bridges(around, stroke, cut.labels))
+    cut.rungs.n_turned += mend_labels(around, patch, stroke, cut.labels);
+  std::vector<std::uint8_t> stays_whole(around.patch.node.size(), 0);
+  if (!is_last) {
+    stays_whole = unripe_nodes(around, cut.labels);
+    leave_slices(around.patch, slices, cut.labels);
+  }
+  do cut.opening = open_facets(around, patch, cut.labels, stays_whole);
+  while (cut.chips.size() < most_chips && join_chip(mesh, index, is_held, stroke, is_last, cut));
+}
+
 // Cuts the tetrahedra of `mesh`.
 MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions,
                                    const CutConstraints& constraints, const BladeSweep& sweep,
@@ -153,7 +176,6 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
   TetCut cut;
   cut.around = survey(mesh, tets.mesh.X.empty() ? nullptr : &tets, index, positions, constraints,
                       stroke, is_last);
-  const bool is_out = is_last && has_come_out(stroke);
   if (cut.around.patch.n_elements() == 0) {
     if (is_last) add_refusals(missed_places(mesh, cut, stroke), figures);
     return {};
@@ -164,18 +186,7 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
     slices = thin_slices(mesh, cut.around, stroke);
   if (is_through)
     if (MeshEdit edit = split(mesh, cut.around, slices, figures); !edit.is_empty()) return edit;
-  cut.labels = label_elements(cut.around, stroke, is_last);
-  if (is_out) part_bridges(cut.around, stroke, cut.labels);
-  if (is_last) cut.rungs.n_turned = mend_labels(cut.around, stroke, cut.labels);
-  if (is_out && part_bridges(cut.around, stroke, cut.labels))
-    cut.rungs.n_turned += mend_labels(cut.around, stroke, cut.labels);
-  std::vector<std::uint8_t> stays_whole(cut.around.patch.node.size(), 0);
-  if (!is_last) stays_whole = unripe_nodes(cut.around, cut.labels);
-  if (!is_last) leave_slices(cut.around.patch, slices, cut.labels);
-  cut.opening = open_facets(cut.around, cut.labels, stays_whole);
-  while (cut.chips.size() < most_chips &&
-         join_chip(mesh, index, constraints.is_held, stroke, is_last, cut))
-    cut.opening = open_facets(cut.around, cut.labels, stays_whole);
+  open_between_sides(mesh, constraints.is_held, slices, is_last, cut);
   set_roles(cut, stroke, is_last);
   cut.X = moved_nodes(cut, options, move_limits(cut.around, stroke, options.least_step_ratio));
   cut.rungs.n_inverted = count_inverted(cut.around.patch, cut.X);

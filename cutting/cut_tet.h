@@ -25,8 +25,8 @@ enum class CutStages : std::uint8_t {
 };
 
 struct CutTetOptions {
-  double advance =
-      0.5;  // of the local mean edge length that the blade must sweep before the mesh is changed
+  // Of the local mean edge length: what the blade must sweep before the mesh is changed.
+  double advance = 0.5;
   // Floor on the ratio least stable step after / before of the tetrahedra around (element bound; a
   // cube's tetrahedra have 1/sqrt(2) of its own). What would sink below it stops on its way to the
   // blade: the cut lies beside it there.

@@ -62,10 +62,8 @@ static std::vector<std::int32_t> twins_of(const CutPatch& patch, const CutStroke
   for (std::int32_t i = 0; i < patch.n_nodes(); ++i) twin.push_back(i);
   for (const std::int32_t node : stroke.parted_node)
     if (const std::int32_t i = patch.local_node(node); i >= 0) parted.push_back(i);
-  std::ranges::stable_sort(parted, [&](std::int32_t i, std::int32_t j) {
-    const Vec3 &a = patch.X[i], &b = patch.X[j];
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-  });
+  std::ranges::stable_sort(parted, is_before,
+                           [&](std::int32_t i) -> const Vec3& { return patch.X[i]; });
   for (std::size_t begin = 0, end = 0; begin < parted.size(); begin = end) {
     while (end < parted.size() && patch.X[parted[end]] == patch.X[parted[begin]]) ++end;
     for (std::size_t k = begin; k < end; ++k) twin[parted[k]] = parted[k + 1 < end ? k + 1 : begin];

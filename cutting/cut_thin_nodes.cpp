@@ -93,9 +93,7 @@ std::vector<EdgeNode> nodes_in_slices(const Mesh& mesh, const CutSurroundings& a
   for (const ThinSlice& slice : slices)
     if (slice.V >= chip_volume * around.h * around.h * around.h)
       nodes.insert(nodes.end(), slice.crossing.begin(), slice.crossing.end());
-  std::ranges::stable_sort(nodes, {}, &EdgeNode::end);
-  const auto same = std::ranges::unique(nodes, {}, &EdgeNode::end);
-  nodes.erase(same.begin(), same.end());
+  sort_unique_by(nodes, &EdgeNode::end);
   for (EdgeNode& node : nodes) set_part(std::max(least_part, part_of(node)), node);
   keep_floor(mesh, around.patch.element, floor, nodes);
   return nodes;

@@ -44,12 +44,6 @@ static NodeTransfer find_host(const CutPatch& patch, std::int32_t i, const Vec3&
   return best;
 }
 
-static Vec3 present_position(const CutPatch& patch, const NodeTransfer& t) {
-  Vec3 x = Vec3::Zero();
-  for (std::size_t a = 0; a < 4; ++a) x += t.weight[a] * patch.x[patch.corner[t.host][a]];
-  return x;
-}
-
 // Present over reference volume of the elements around; what was inverted before is not ours to
 // judge.
 static bool is_valid(const CutPatch& patch, std::int32_t e, const std::vector<Vec3>& X,
@@ -82,7 +76,7 @@ std::vector<NodeTransfer> transfer_moves(const CutPatch& patch, std::vector<Vec3
       x[i] = patch.x[i];
       if (X[i] == patch.X[i]) continue;
       transfer.push_back(find_host(patch, i, X[i]));
-      x[i] = present_position(patch, transfer.back());
+      x[i] = interpolate(patch.corner[transfer.back().host], transfer.back().weight, patch.x);
       if (least(transfer.back().weight) < -farthest_outside) is_halved[i] = 1;
     }
     for (const std::int32_t e : elements_around(patch, transfer))

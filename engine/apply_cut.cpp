@@ -222,9 +222,8 @@ std::vector<std::int32_t> all_elements(std::int32_t n) {
 // How much larger edited elements have become.
 double scale_of(const Mesh& mesh, const EditedElements& edited, std::int32_t e,
                 std::int32_t parent) {
-  const auto at = std::ranges::lower_bound(edited.before, parent);
-  if (at == edited.before.end() || *at != parent) return 1;
-  return element_volume(mesh, e, mesh.X) / edited.volume[at - edited.before.begin()];
+  const std::int32_t at = find_in(edited.before, parent);
+  return at < 0 ? 1 : element_volume(mesh, e, mesh.X) / edited.volume[at];
 }
 
 // When the mesh is edited, while part, model and state are those before it. Collective.

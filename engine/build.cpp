@@ -11,6 +11,7 @@
 #include "base/log.h"
 #include "base/number_text.h"
 #include "base/on_root.h"
+#include "base/sort_unique.h"
 #include "cutting/cut_hex.h"
 #include "engine/body_check.h"
 #include "engine/bytes.h"
@@ -18,7 +19,6 @@
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "engine/instrument_check.h"
-#include "engine/mesh_measures.h"
 #include "engine/tissue.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/mesh_file.h"
@@ -52,11 +52,7 @@ void build_supports(Simulation& s) {
     for (const std::int32_t node : set->node)
       s.holds.holds.push_back({.node = node, .support = static_cast<std::int32_t>(k)});
   }
-  const auto by_node = [](const Hold& a, const Hold& b) { return a.node < b.node; };
-  std::stable_sort(s.holds.holds.begin(), s.holds.holds.end(), by_node);
-  const auto same_node = [](const Hold& a, const Hold& b) { return a.node == b.node; };
-  s.holds.holds.erase(std::unique(s.holds.holds.begin(), s.holds.holds.end(), same_node),
-                      s.holds.holds.end());
+  sort_unique_by(s.holds.holds, &Hold::node);
 }
 
 TriangleMesh load_tool_mesh(const LoadedScene& loaded, std::size_t k, Communicator& communicator) {
@@ -246,11 +242,10 @@ std::vector<double> region_densities(std::span<const Material> materials) {
 }
 
 void rebuild_topology(Simulation& s) {
-  const int rank = s.communicator->rank();
   plan_mass_scaling(s);
   s.mass = lumped_mass(s.mesh, region_densities(s.materials), s.scene.tissue.thickness);
-  s.part = make_part(s.mesh, s.node_owner, rank);
-  s.halo = make_halo(s.mesh, s.node_owner, s.part, rank);
+  s.part = make_part(s.mesh, s.node_owner, s.communicator->rank());
+  s.halo = make_halo(s.mesh, s.node_owner, s.part);
   on_every_rank(*s.communicator, [&] {
     s.model = build_model(s.mesh, s.part, s.materials, s.fixed, s.mass, solver_options(s.scene));
   });

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort_unique.h"
+
 namespace trocar {
 
 namespace {
@@ -39,12 +41,11 @@ std::vector<double> gather_impulses(const ContactSet& set, const Communicator& c
 
 void take_impulses(std::span<const double> impulses, ContactSet& set) {
   for (std::size_t k = 0; k < impulses.size(); k += per_impulse) {
-    const auto node = static_cast<std::int32_t>(impulses[k]);
-    const auto at = std::ranges::lower_bound(set.node, node);
-    if (at == set.node.end() || *at != node) continue;
-    set.impulse[at - set.node.begin()] = {.step = static_cast<std::int64_t>(impulses[k + 1]),
-                                          .push = impulses[k + 2],
-                                          .drag = Vec3::Map(&impulses[k + 3])};
+    const std::int32_t at = find_in(set.node, static_cast<std::int32_t>(impulses[k]));
+    if (at < 0) continue;
+    set.impulse[at] = {.step = static_cast<std::int64_t>(impulses[k + 1]),
+                       .push = impulses[k + 2],
+                       .drag = Vec3::Map(&impulses[k + 3])};
   }
 }
 
@@ -101,8 +102,7 @@ void detect_tissue(ContactStage& stage, const SurfaceView& view, double time, do
     const auto i = static_cast<std::size_t>(node);
     stage.ahead[i] = view.x[i] + time * view.v[i];
   }
-  stage.detector.detect_tissue({.ahead = stage.ahead, .extra = reach, .depth = reach},
-                               stage.tissue);
+  stage.detector.detect_tissue(stage.ahead, reach, stage.tissue);
 }
 
 void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds) {
@@ -112,13 +112,12 @@ void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const 
   for (const Hold& hold : holds.holds) held[hold.node] = all_components;
   JoinedMasses joined;
   if (body.scaling != nullptr) joined = join_masses(body, held);
-  stage.set =
-      prepare_contacts({stage.contacts, stage.tissue}, body.node_owner, body.part, body.rank,
-                       {.mass = body.scaling != nullptr ? joined.mass : body.mass,
-                        .held = held,
-                        .cluster = joined.cluster,
-                        .share = joined.share,
-                        .yield = joined.yield});
+  stage.set = prepare_contacts({stage.contacts, stage.tissue}, body.node_owner, body.part,
+                               {.mass = body.scaling != nullptr ? joined.mass : body.mass,
+                                .held = held,
+                                .cluster = joined.cluster,
+                                .share = joined.share,
+                                .yield = joined.yield});
   stage.u_next.resize(3 * body.part.node_global.size());
   stage.exchange.emplace(stage.set.halo, 6);
   stage.positions.resize(6 * stage.set.node.size());

@@ -50,7 +50,6 @@ void detect_tissue(ContactStage& stage, const SurfaceView& view, double time, do
 // Of a rank's part of the mesh; global fields (n_nodes).
 struct ContactBody {
   const Part& part;
-  int rank = 0;
   std::span<const std::int32_t> node_owner;
   std::span<const double> mass;          // [kg]
   std::span<const std::uint8_t> fixed;   // supported components

@@ -3,9 +3,9 @@
 #include "cutting/cut_plane_reaches.h"
 #include "cutting/cut_plane_slit.h"
 #include "engine/cut_record.h"
-#include "engine/mesh_measures.h"
 #include "engine/plane_tip.h"
 #include "engine/simulation.h"
+#include "mesh/quality.h"
 
 namespace trocar {
 
@@ -44,7 +44,7 @@ void cut_reach(Simulation& s, CutStage& stage, bool may_grow, double h) {
   const std::vector<std::uint8_t> is_held = held_nodes(s.holds, s.fixed);
   CutPlaneOptions options = stage.plane;
   if (may_grow && length_of(path) < 2 * plane_advance * h) options.room_ahead = plane_room;
-  const CutConstraints constraints(is_held, s.loads.border, s.cut_state.x);
+  const CutConstraints constraints{is_held, s.loads.border, s.cut_state.x};
   const PlaneCut cut = cut_plane(s.mesh, path, stage.plane_tip, constraints, options);
   if (cut.edit.is_empty() && may_grow) return;
   note_edit(s, cut.edit, cut.figures, stage.strokes.back());

@@ -2,8 +2,6 @@
 
 #include <span>
 
-#include "solver/hex8_reference.h"
-
 namespace trocar {
 
 // Derivatives of a field at the element's centre by its reference coordinates, but for a factor.

@@ -4,7 +4,6 @@
 
 #include "base/number_text.h"
 #include "engine/element_gradient.h"
-#include "engine/mesh_measures.h"
 #include "solver/material_setup.h"
 #include "solver/material_stress.h"
 

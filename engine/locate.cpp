@@ -30,19 +30,12 @@ Weights simplex_weights(std::span<const std::int32_t> corner, std::span<const Ve
   return w;
 }
 
-std::array<std::int32_t, 4> nodes_of(const std::array<int, 4>& tet,
-                                     std::span<const std::int32_t> corner) {
-  std::array<std::int32_t, 4> node{};
-  for (std::size_t a = 0; a < 4; ++a) node[a] = corner[tet[a]];
-  return node;
-}
-
 // Of the tetrahedron of the hexahedron whose least weight is largest.
 Weights hexahedron_weights(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x,
                            const Vec3& p) {
   Weights best;
   for (const std::array<int, 4>& tet : hex_tets(mesh, e)) {
-    const Weights w = simplex_weights(nodes_of(tet, mesh.corners(e)), x, p);
+    const Weights w = simplex_weights(tet_nodes(mesh, e, tet), x, p);
     if (w.least <= best.least) continue;
     best = {.least = w.least};
     for (std::size_t a = 0; a < 4; ++a) best.weight[tet[a]] = w.weight[a];
@@ -101,9 +94,8 @@ void add_stretches(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x,
     clip(corner, x, segment, stretch);
     if (stretch.begin < stretch.end) stretches.push_back(stretch);
   };
-  const std::span<const std::int32_t> corner = mesh.corners(e);
-  if (mesh.element_type[e] != ElementType::hex8) return add(corner);
-  for (const std::array<int, 4>& tet : hex_tets(mesh, e)) add(nodes_of(tet, corner));
+  if (mesh.element_type[e] != ElementType::hex8) return add(mesh.corners(e));
+  for (const std::array<std::int32_t, 4>& corner : hex_tet_nodes(mesh, e)) add(corner);
 }
 
 }  // namespace
@@ -162,10 +154,7 @@ Location locate_nearest(const Mesh& mesh, std::span<const Vec3> x, const Vec3& p
 }
 
 Vec3 interpolate(const Mesh& mesh, const Location& location, std::span<const Vec3> field) {
-  Vec3 sum = Vec3::Zero();
-  const auto corner = mesh.corners(location.element);
-  for (std::size_t a = 0; a < corner.size(); ++a) sum += location.weight[a] * field[corner[a]];
-  return sum;
+  return interpolate(mesh.corners(location.element), location.weight, field);
 }
 
 }  // namespace trocar

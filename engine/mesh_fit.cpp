@@ -5,7 +5,7 @@
 #include "base/number_text.h"
 #include "base/quoted.h"
 #include "engine/markers.h"
-#include "engine/mesh_measures.h"
+#include "mesh/quality.h"
 
 namespace trocar {
 

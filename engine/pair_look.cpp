@@ -7,6 +7,7 @@
 #include "base/box.h"
 #include "base/number_text.h"
 #include "base/options.h"
+#include "base/sort_unique.h"
 #include "collision/contact_tissue.h"
 #include "engine/energy_ledger.h"
 #include "engine/event_log.h"
@@ -75,15 +76,12 @@ std::int64_t substeps_to_check(const Simulation& s, const FrameSpan& span, doubl
 // now knows by them on which side it was. In ascending (node, corners).
 void add_pairs(std::span<const TissuePair> before, std::span<const Vec3> x, double near,
                std::vector<TissuePair>& pairs) {
-  const auto key = [](const TissuePair& p) { return std::tie(p.node, p.corner); };
   const auto at = [&](std::int32_t i) { return x[i]; };
   for (const TissuePair& p : before) {
     const Triangle triangle = {at(p.corner[0]), at(p.corner[1]), at(p.corner[2])};
     if (touch_tissue(at(p.node), triangle).distance < near) pairs.push_back(p);
   }
-  std::ranges::stable_sort(pairs, {}, key);
-  const auto twice = std::ranges::unique(pairs, {}, key);
-  pairs.erase(twice.begin(), twice.end());
+  sort_unique_by(pairs, [](const TissuePair& p) { return std::tie(p.node, p.corner); });
 }
 
 // Of velocities of the surface.
@@ -123,7 +121,6 @@ std::vector<SunkNode> find_sunk(const Simulation& s) {
 
 ContactBody contact_body(const Simulation& s) {
   return {.part = s.part,
-          .rank = s.communicator->rank(),
           .node_owner = s.node_owner,
           .mass = s.mass,
           .fixed = s.fixed,

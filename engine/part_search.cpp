@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort_unique.h"
 #include "engine/body_search.h"
 #include "engine/patch.h"
 #include "solver/frequency.h"
@@ -10,19 +11,6 @@
 namespace trocar {
 
 namespace {
-
-bool is_before(const GrownElement& a, const GrownElement& b) {
-  return a.element < b.element;
-}
-
-// Elements by their numbers, each once, although several ranks may have told of it.
-void sort_elements(std::vector<GrownElement>& grown) {
-  const auto is_same = [](const GrownElement& a, const GrownElement& b) {
-    return a.element == b.element;
-  };
-  std::stable_sort(grown.begin(), grown.end(), is_before);
-  grown.erase(std::unique(grown.begin(), grown.end(), is_same), grown.end());
-}
 
 // Of all ranks; none where a rank alone has more than `most`. Collective.
 std::vector<GrownElement> grown_elements(const Simulation& s, double growth, std::size_t most) {
@@ -37,7 +25,7 @@ std::vector<GrownElement> grown_elements(const Simulation& s, double growth, std
   std::vector<GrownElement> grown;
   for (std::size_t k = 0; k < pairs.size(); k += 2)
     grown.push_back({static_cast<std::int32_t>(pairs[k]), pairs[k + 1]});
-  sort_elements(grown);
+  sort_unique_by(grown, &GrownElement::element);  // several ranks may have told of one
   return grown;
 }
 
@@ -60,7 +48,7 @@ void follow_part(std::vector<GrownElement> part, double growth, Simulation& s) {
   take_searched(s.part, part, *s.look.stiffening);
   std::vector<GrownElement>& searched = s.look.searched;
   searched.insert(searched.begin(), part.begin(), part.end());
-  sort_elements(searched);
+  sort_unique_by(searched, &GrownElement::element);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "base/check.h"
 #include "base/exact_sum.h"
+#include "base/sort_unique.h"
 #include "engine/body_search.h"
 #include "engine/energy_ledger.h"
 #include "solver/frequency.h"
@@ -57,9 +58,8 @@ std::vector<FixedMask> fixed_in_patch(const Simulation& s, std::span<const std::
 ElementOrigins origins_in_patch(const ElementOrigins& all, const SubMesh& sub) {
   ElementOrigins own;
   for (const std::int32_t e : sub.element) {
-    const auto at = std::lower_bound(all.element.begin(), all.element.end(), e);
-    CHECK(at != all.element.end() && *at == e);
-    const auto k = static_cast<std::size_t>(at - all.element.begin());
+    const std::int32_t k = find_in(all.element, e);
+    CHECK_OP(k, >=, 0);
     own.element.push_back(static_cast<std::int32_t>(own.element.size()));
     own.parent.push_back(all.parent[k]);
     own.scale.push_back(all.scale[k]);

@@ -10,7 +10,6 @@
 #include "base/number_text.h"
 #include "engine/film_studio.h"
 #include "engine/frame_vtu.h"
-#include "engine/mesh_measures.h"
 #include "engine/output.h"
 #include "engine/recording.h"
 #include "engine/scene_outputs.h"

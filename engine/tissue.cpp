@@ -10,7 +10,6 @@
 #include "cutting/cut_hex.h"
 #include "engine/bytes.h"
 #include "engine/mesh_fit.h"
-#include "engine/mesh_measures.h"
 #include "engine/point_text.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/generate.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/mesh_measures.h"
+#include "mesh/quality.h"
 
 namespace trocar {
 
@@ -16,10 +16,6 @@ struct Use {
   const char* needs = "";  // "only … have it"
 };
 using Uses = std::vector<Use>;
-
-bool has_type(const Mesh& mesh, ElementType type) {
-  return std::ranges::find(mesh.element_type, type) != mesh.element_type.end();
-}
 
 Uses of_solver(const Scene& scene, const Mesh& mesh) {
   const SceneSolver& s = scene.solver;

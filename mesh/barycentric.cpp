@@ -17,4 +17,11 @@ std::array<double, 4> barycentric(std::span<const std::int32_t> corner, std::spa
   return weight;
 }
 
+Vec3 interpolate(std::span<const std::int32_t> corner, std::span<const double> weight,
+                 std::span<const Vec3> field) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t a = 0; a < corner.size(); ++a) sum += weight[a] * field[corner[a]];
+  return sum;
+}
+
 }  // namespace trocar

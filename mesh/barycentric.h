@@ -1,4 +1,4 @@
-// Where a point is in a tetrahedron or triangle.
+// Where a point is in a tetrahedron or triangle, and what a field has there.
 #pragma once
 
 #include <array>
@@ -14,5 +14,9 @@ namespace trocar {
 // flat.
 std::array<double, 4> barycentric(std::span<const std::int32_t> corner, std::span<const Vec3> x,
                                   const Vec3& p);
+
+// The value there of a nodal field: sum_a weight[a] field[corner a].
+Vec3 interpolate(std::span<const std::int32_t> corner, std::span<const double> weight,
+                 std::span<const Vec3> field);
 
 }  // namespace trocar

@@ -68,6 +68,14 @@ std::int32_t node_before(const SplitNumbers& numbers, const Mesh& before,
   return split->corner[numbers.place_in_whole(change.element)][corner];
 }
 
+std::int32_t node_after(const MeshEdit& edit, const Mesh& before, std::int32_t e,
+                        std::int32_t corner) {
+  const std::pair wanted(e, corner);
+  const auto key = [](const CornerChange& c) { return std::pair(c.element, c.corner); };
+  const auto at = std::ranges::lower_bound(edit.corners, wanted, {}, key);
+  return at != edit.corners.end() && key(*at) == wanted ? at->node : before.corners(e)[corner];
+}
+
 // Node `node` on an edge joins the sets of both ends; of a facet that was left out both halves are.
 static void extend_node_sets(const EdgeNode& inserted, std::int32_t node,
                              std::vector<NodeSet>& sets) {

@@ -116,6 +116,9 @@ std::uint8_t facets_of_part(std::span<const std::int32_t> whole, std::uint8_t ma
 // its splits.
 std::int32_t node_before(const SplitNumbers& numbers, const Mesh& before,
                          const CornerChange& change);
+// That a corner of an element that is not split has after the edit.
+std::int32_t node_after(const MeshEdit& edit, const Mesh& before, std::int32_t e,
+                        std::int32_t corner);
 
 void apply_edit(const MeshEdit& edit, Mesh& mesh);
 // The same change on a nodal field with `width` doubles a node (n_nodes * width -> n_new_nodes *

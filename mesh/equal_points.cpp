@@ -5,16 +5,6 @@
 
 namespace trocar {
 
-namespace {
-
-bool is_before(const Vec3& a, const Vec3& b) {
-  if (a.x() != b.x()) return a.x() < b.x();
-  if (a.y() != b.y()) return a.y() < b.y();
-  return a.z() < b.z();
-}
-
-}  // namespace
-
 std::vector<std::int32_t> first_equal(std::span<const Vec3> X) {
   std::vector<std::int32_t> order(X.size());
   std::iota(order.begin(), order.end(), 0);

@@ -81,6 +81,13 @@ void for_each_facet(const Mesh& mesh,
   }
 }
 
+std::string nodes_text(std::span<const std::int32_t> node) {
+  std::string text;
+  for (const std::int32_t i : node)
+    if (i >= 0) text.append(" ").append(std::to_string(i));
+  return text;
+}
+
 std::vector<FacetSide> single_sides(const Mesh& mesh) {
   std::vector<FacetSide> single;
   for_each_facet(mesh, [&](std::span<const FacetSide> side) {

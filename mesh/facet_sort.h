@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -25,6 +26,9 @@ struct FacetSide {
 // Calls `visit` with the sides of one facet after the other: facets by lowest node, then by the
 // others, sides by element. Corner numbers must be in range.
 void for_each_facet(const Mesh& mesh, const std::function<void(std::span<const FacetSide>)>& visit);
+
+// " 3 7 9" for messages, without -1.
+std::string nodes_text(std::span<const std::int32_t> node);
 
 // Of facets that one element has, in that order.
 std::vector<FacetSide> single_sides(const Mesh& mesh);

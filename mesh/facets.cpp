@@ -30,13 +30,6 @@ std::array<int, 4> facet_corners(ElementType type, int f) {
   return corners[static_cast<std::size_t>(type)][f];
 }
 
-static std::string nodes_text(const FacetSide& side) {
-  std::string text;
-  for (const std::int32_t i : side.node)
-    if (i >= 0) text.append(" ").append(std::to_string(i));
-  return text;
-}
-
 FacetNeighbours facet_neighbours(const Mesh& mesh) {
   FacetNeighbours result;
   result.offset.assign(1, 0);
@@ -47,7 +40,7 @@ FacetNeighbours facet_neighbours(const Mesh& mesh) {
   std::vector<FacetSide> single;
   for_each_facet(mesh, [&](std::span<const FacetSide> side) {
     if (side.size() > 2)
-      throw InputError("the facet of nodes" + nodes_text(side[0]) +
+      throw InputError("the facet of nodes" + nodes_text(side[0].node) +
                        " is shared by more than two elements: " + std::to_string(side[0].element) +
                        ", " + std::to_string(side[1].element) + ", " +
                        std::to_string(side[2].element));

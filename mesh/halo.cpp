@@ -27,8 +27,7 @@ static std::vector<std::uint8_t> touched_nodes(const Mesh& mesh,
 }
 
 std::int64_t Part::place_of(std::int32_t element) const {
-  const auto at = std::lower_bound(element_global.begin(), element_global.end(), element);
-  return at != element_global.end() && *at == element ? at - element_global.begin() : -1;
+  return find_in(element_global, element);
 }
 
 Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int rank) {
@@ -124,13 +123,14 @@ using RankNode = std::pair<std::int32_t, std::int32_t>;
 // elements: at least those of the part that have a halo node.
 static std::vector<RankNode> nodes_to_send(const Mesh& mesh, std::span<const std::int32_t> elements,
                                            std::span<const std::int32_t> node_owner,
-                                           const Part& part, int rank) {
+                                           const Part& part) {
   std::vector<RankNode> pairs;
   for (const std::int32_t e : elements)
     for (const std::int32_t other : mesh.corners(e)) {
-      if (node_owner[other] == rank) continue;
+      if (node_owner[other] == part.rank) continue;
       for (const std::int32_t own : mesh.corners(e))
-        if (node_owner[own] == rank) pairs.emplace_back(node_owner[other], part.node_local[own]);
+        if (node_owner[own] == part.rank)
+          pairs.emplace_back(node_owner[other], part.node_local[own]);
     }
   sort_unique(pairs);
   return pairs;
@@ -146,7 +146,7 @@ static std::vector<RankNode> nodes_to_receive(std::span<const std::int32_t> node
 }
 
 static Halo make_halo(const Mesh& mesh, std::span<const std::int32_t> elements,
-                      std::span<const std::int32_t> node_owner, const Part& part, int rank) {
+                      std::span<const std::int32_t> node_owner, const Part& part) {
   // Whoever sends to this rank also receives from it: an element on the border is on both sides.
   Halo halo;
   for (const auto& [other, local] : nodes_to_receive(node_owner, part)) {
@@ -155,16 +155,15 @@ static Halo make_halo(const Mesh& mesh, std::span<const std::int32_t> elements,
     halo.neighbours.back().receive.push_back(local);
   }
   auto neighbour = halo.neighbours.begin();
-  for (const auto& [other, local] : nodes_to_send(mesh, elements, node_owner, part, rank)) {
+  for (const auto& [other, local] : nodes_to_send(mesh, elements, node_owner, part)) {
     while (neighbour->rank != other) ++neighbour;
     neighbour->send.push_back(local);
   }
   return halo;
 }
 
-Halo make_halo(const Mesh& mesh, std::span<const std::int32_t> node_owner, const Part& part,
-               int rank) {
-  return make_halo(mesh, part.element_global, node_owner, part, rank);
+Halo make_halo(const Mesh& mesh, std::span<const std::int32_t> node_owner, const Part& part) {
+  return make_halo(mesh, part.element_global, node_owner, part);
 }
 
 void update_halo(const Mesh& mesh, const NodeCorners& corners,
@@ -177,7 +176,7 @@ void update_halo(const Mesh& mesh, const NodeCorners& corners,
   if (!std::ranges::all_of(elements, is_inside)) {
     const auto halo_nodes =
         std::span(part.node_global).subspan(static_cast<std::size_t>(part.n_owned));
-    halo = make_halo(mesh, elements_around(corners, halo_nodes), node_owner, part, part.rank);
+    halo = make_halo(mesh, elements_around(corners, halo_nodes), node_owner, part);
     return;
   }
   std::int32_t first = part.n_local();  // halo node, as far as they have not moved up

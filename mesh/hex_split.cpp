@@ -72,6 +72,20 @@ std::array<std::array<int, 4>, n_hex_tets> hex_tets(const Mesh& mesh, std::int32
   return tets;
 }
 
+std::array<std::int32_t, 4> tet_nodes(const Mesh& mesh, std::int32_t e,
+                                      const std::array<int, 4>& tet) {
+  const std::span<const std::int32_t> c = mesh.corners(e);
+  return {c[tet[0]], c[tet[1]], c[tet[2]], c[tet[3]]};
+}
+
+std::array<std::array<std::int32_t, 4>, n_hex_tets> hex_tet_nodes(const Mesh& mesh,
+                                                                  std::int32_t e) {
+  std::array<std::array<std::int32_t, 4>, n_hex_tets> nodes{};
+  std::ranges::transform(hex_tets(mesh, e), nodes.begin(),
+                         [&](const std::array<int, 4>& tet) { return tet_nodes(mesh, e, tet); });
+  return nodes;
+}
+
 int hex_facet_of(const Mesh& mesh, std::int32_t e, const std::array<std::int32_t, 4>& tet, int f) {
   const std::span<const std::int32_t> node = mesh.corners(e);
   const auto is_on = [&](std::int32_t i, int g) {
@@ -97,11 +111,7 @@ static const FacetSide* find_triangle(const std::vector<FacetSide>& triangle, st
 }
 
 std::vector<SplitQuad> split_quads(const Mesh& mesh, std::span<const FacetSide> single) {
-  const auto has_type = [&](ElementType type) {
-    return std::find(mesh.element_type.begin(), mesh.element_type.end(), type) !=
-           mesh.element_type.end();
-  };
-  if (!has_type(ElementType::hex8) || !has_type(ElementType::tet4)) return {};
+  if (!has_type(mesh, ElementType::hex8) || !has_type(mesh, ElementType::tet4)) return {};
   std::vector<FacetSide> quad, triangle;
   for (const FacetSide& side : single) (side.node[0] < 0 ? triangle : quad).push_back(side);
   std::vector<SplitQuad> found;

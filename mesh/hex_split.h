@@ -32,6 +32,10 @@ std::vector<std::uint8_t> diagonal_ranks(const Mesh& mesh);
 // its nodes (Dompierre et al. 1999, "How to subdivide pyramids, prisms and hexahedra into
 // tetrahedra", has the lowest number).
 std::array<std::array<int, 4>, n_hex_tets> hex_tets(const Mesh& mesh, std::int32_t e);
+// The nodes of one of them, and of all.
+std::array<std::int32_t, 4> tet_nodes(const Mesh& mesh, std::int32_t e,
+                                      const std::array<int, 4>& tet);
+std::array<std::array<std::int32_t, 4>, n_hex_tets> hex_tet_nodes(const Mesh& mesh, std::int32_t e);
 
 // The facet of hexahedron e that facet f of a tetrahedron on its nodes lies on, -1 if inside.
 int hex_facet_of(const Mesh& mesh, std::int32_t e, const std::array<std::int32_t, 4>& tet, int f);

@@ -24,7 +24,7 @@ static std::vector<std::uint8_t> boundary_nodes(const Mesh& mesh) {
   return is_boundary;
 }
 
-static std::vector<double> mean_edge_length(const Mesh& mesh) {
+static std::vector<double> mean_edges_at_nodes(const Mesh& mesh) {
   std::vector<double> sum(mesh.X.size(), 0);
   std::vector<int> n(mesh.X.size(), 0);
   for (const auto& edge : mesh_edges(mesh))
@@ -57,7 +57,7 @@ static bool is_star_sound(const Mesh& mesh, std::span<const std::int32_t> star,
 
 void jitter(Mesh& mesh, double amount, unsigned seed) {
   const std::vector<std::uint8_t> is_boundary = boundary_nodes(mesh);
-  const std::vector<double> h = mean_edge_length(mesh);
+  const std::vector<double> h = mean_edges_at_nodes(mesh);
   const NodeElements around = node_elements(mesh);
   std::vector<double> least_quality;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)

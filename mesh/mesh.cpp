@@ -18,6 +18,10 @@ const char* element_type_name(ElementType type) {
   return name[static_cast<std::size_t>(type)];
 }
 
+bool has_type(const Mesh& mesh, ElementType type) {
+  return std::ranges::find(mesh.element_type, type) != mesh.element_type.end();
+}
+
 void add_element(Mesh& mesh, ElementType type, std::span<const std::int32_t> corners,
                  std::int32_t region) {
   CHECK_OP(static_cast<int>(corners.size()), ==, n_corners(type));
@@ -62,6 +66,12 @@ Vec3 element_centre(const Mesh& mesh, std::int32_t e) {
   Vec3 sum = Vec3::Zero();
   for (const std::int32_t i : mesh.corners(e)) sum += mesh.X[i];
   return sum / static_cast<double>(mesh.corners(e).size());
+}
+
+std::vector<Vec3> present_positions(std::span<const Vec3> X, std::span<const double> u) {
+  std::vector<Vec3> x(X.begin(), X.end());
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += Vec3(u[3 * i], u[3 * i + 1], u[3 * i + 2]);
+  return x;
 }
 
 double element_volume(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {

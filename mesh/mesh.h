@@ -19,6 +19,10 @@ constexpr int n_corners(ElementType type) {
   return type == ElementType::tri3 ? 3 : type == ElementType::tet4 ? 4 : 8;
 }
 
+// xi, eta, zeta of a hexahedron's corners.
+inline constexpr int hex_corner_xi[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                                            {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+
 // Nodes of a facet, ascending, after as many -1 as are missing to four.
 using FacetNodes = std::array<std::int32_t, 4>;
 
@@ -77,16 +81,26 @@ struct Mesh {
 };
 
 const char* element_type_name(ElementType type);
+bool has_type(const Mesh& mesh, ElementType type);
 
 // Appends an element of region 0 with density factor 1.
 void add_element(Mesh& mesh, ElementType type, std::span<const std::int32_t> corners,
                  std::int32_t region = 0);
+
+// Of a tetrahedron.
+inline std::array<std::int32_t, 4> tet_nodes(const Mesh& mesh, std::int32_t e) {
+  const std::span<const std::int32_t> c = mesh.corners(e);
+  return {c[0], c[1], c[2], c[3]};
+}
 
 // nullptr if there is none of that name.
 const NodeSet* find_node_set(const Mesh& mesh, const std::string& name);
 
 // Mean of the corners.
 Vec3 element_centre(const Mesh& mesh, std::int32_t e);
+
+// x = X + u for all nodes; u (n_nodes * 3). [m]
+std::vector<Vec3> present_positions(std::span<const Vec3> X, std::span<const double> u);
 
 // Volume of an element in positions x (n_nodes); the exact trilinear one for hex8, the area for
 // tri3 (corners counter-clockwise seen from z > 0). Negative if inverted. [m^3], [m^2]

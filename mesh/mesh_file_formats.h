@@ -1,4 +1,4 @@
-// The readers and writers of the single formats, behind mesh_file.h. Each throws InputError.
+// The readers of the single formats, behind mesh_file.h. Each throws InputError.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // Entities, nodes and elements of gmsh format 4.1, ASCII and binary alike.
 #include <algorithm>
 #include <limits>
-#include <tuple>
+#include <utility>
 
 #include "mesh/mesh_file_gmsh.h"
 
@@ -35,8 +35,8 @@ static void read_entity(GmshReader& g, int dimension) {
   for (std::size_t k = 0; k < n_boundary; ++k) gmsh_int(g, "a boundary entity");
 }
 
-static bool is_before(const GmshEntity& a, const GmshEntity& b) {
-  return std::tie(a.dimension, a.tag) < std::tie(b.dimension, b.tag);
+static auto key_of(const GmshEntity& entity) {
+  return std::pair(entity.dimension, entity.tag);
 }
 
 void read_entities_4(GmshReader& g) {
@@ -47,15 +47,15 @@ void read_entities_4(GmshReader& g) {
     count = g.in.check_count(gmsh_size(g, "the number of entities"), 10, "entities");
   for (int d = 0; d < 4; ++d)
     for (std::size_t k = 0; k < n[d]; ++k) read_entity(g, d);
-  std::sort(g.entities.begin(), g.entities.end(), is_before);
+  std::ranges::sort(g.entities, {}, key_of);
   end_section(g, "$EndEntities");
 }
 
 // Groups of an entity; a file without $Entities has no groups.
 static std::int32_t group_list(const GmshReader& g, int dimension, std::int32_t tag) {
-  const GmshEntity wanted{.dimension = dimension, .tag = tag};
-  const auto found = std::lower_bound(g.entities.begin(), g.entities.end(), wanted, is_before);
-  const bool is_found = found != g.entities.end() && !is_before(wanted, *found);
+  const std::pair wanted(dimension, tag);
+  const auto found = std::ranges::lower_bound(g.entities, wanted, {}, key_of);
+  const bool is_found = found != g.entities.end() && key_of(*found) == wanted;
   return is_found ? found->group_list : 0;
 }
 

@@ -63,8 +63,7 @@ struct Halo {
   };
   std::vector<Neighbour> neighbours;  // ascending rank
 };
-Halo make_halo(const Mesh& mesh, std::span<const std::int32_t> node_owner, const Part& part,
-               int rank);
+Halo make_halo(const Mesh& mesh, std::span<const std::int32_t> node_owner, const Part& part);
 // The same after an edit that left all corners their owners, and after update_part: in time of the
 // halo's if one of the elements around the edit has a halo node, else in that of a copy.
 void update_halo(const Mesh& mesh, const NodeCorners& corners,

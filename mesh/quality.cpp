@@ -77,6 +77,19 @@ double least_altitude(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x)
          largest;
 }
 
+double mean_edge_length(const Mesh& mesh) {
+  double sum = 0;
+  const auto edges = mesh_edges(mesh);
+  for (const auto& [a, b] : edges) sum += (mesh.X[a] - mesh.X[b]).norm();
+  return sum / static_cast<double>(edges.size());
+}
+
+std::vector<std::int64_t> elements_by_region(const Mesh& mesh) {
+  std::vector<std::int64_t> n(mesh.region_name.size(), 0);
+  for (const std::int32_t region : mesh.element_region) ++n[region];
+  return n;
+}
+
 static void count_edges(const Mesh& mesh, MeshStatistics& statistics) {
   const std::vector<std::array<std::int32_t, 2>> edges = mesh_edges(mesh);
   if (edges.empty()) return;

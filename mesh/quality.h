@@ -28,6 +28,11 @@ struct ElementStatistics {
 };
 ElementStatistics element_statistics(const Mesh& mesh);
 
+// Mean length of the unique edges, in the reference configuration. [m]
+double mean_edge_length(const Mesh& mesh);
+// (n_regions) Files name regions, too, that have none.
+std::vector<std::int64_t> elements_by_region(const Mesh& mesh);
+
 // With what takes a look at all facets and edges; of meshes with broken facets, too. Pieces are
 // those of count_pieces.
 struct MeshStatistics : ElementStatistics {

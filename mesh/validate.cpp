@@ -30,13 +30,6 @@ std::string element_text(const Mesh& mesh, std::int32_t e) {
   return "element " + std::to_string(e) + " (" + element_type_name(mesh.element_type[e]) + ")";
 }
 
-std::string nodes_text(std::span<const std::int32_t> node) {
-  std::string text;
-  for (const std::int32_t i : node)
-    if (i >= 0) text.append(" ").append(std::to_string(i));
-  return text;
-}
-
 void check_count(Report& report, const char* name, std::size_t found, std::size_t expected) {
   if (found != expected)
     report.add(std::string(name) + " has " + std::to_string(found) + " entries instead of " +

@@ -1,5 +1,7 @@
 #include "solver/hex8_reference.h"
 
+#include "mesh/mesh.h"
+
 namespace trocar {
 
 namespace {

@@ -11,10 +11,6 @@ namespace trocar {
 
 using HexModes = std::array<Vec3, n_hex_modes>;
 
-// xi, eta, zeta of the corners.
-inline constexpr int hex_corner_xi[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-                                            {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
-
 // S_m,a
 int hex_mode_sign(int m, int a);
 

@@ -177,7 +177,7 @@ std::unique_ptr<MultiRate> make_multirate(const MultiRatePlan& plan, const Multi
   m.mesh = std::move(sub.mesh);
   const std::vector<std::int32_t> owner = values_of(body.node_owner, sub.node);
   m.part = make_part(m.mesh, owner, communicator.rank());
-  m.halo = make_halo(m.mesh, owner, m.part, communicator.rank());
+  m.halo = make_halo(m.mesh, owner, m.part);
   m.coarse_fixed = body.model.fixed;
   for (std::size_t i = 0; i < m.coarse_fixed.size(); ++i)
     if (plan.is_fine[body.part.node_global[i]] != 0) m.coarse_fixed[i] = all_components;

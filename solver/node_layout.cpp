@@ -6,7 +6,6 @@
 
 #include "solver/block_ranges.h"
 #include "solver/element_setup.h"
-#include "solver/hex8_reference.h"
 #include "solver/sum_order.h"
 
 namespace trocar {

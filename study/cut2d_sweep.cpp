@@ -75,7 +75,7 @@ void cut_once(const Mesh& mesh, const std::vector<Vec3>& path, const CutPlaneOpt
               Collected& all) {
   const std::vector<std::uint8_t> is_held(mesh.X.size(), 0);
   const std::clock_t start = std::clock();  // of the processor: a sweep shares the machine
-  const PlaneCut cut = cut_plane(mesh, path, -1, is_held, options);
+  const PlaneCut cut = cut_plane(mesh, path, -1, {is_held}, options);
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   if (cut.edit.is_empty()) {
     ++all.n_refused;

@@ -9,7 +9,6 @@
 #include "cutting/cut_plane_reaches.h"
 #include "cutting/cut_plane_slit.h"
 #include "cutting/cut_plane_subdivide.h"
-#include "engine/mesh_measures.h"
 #include "mesh/quality.h"
 
 namespace trocar {
@@ -45,7 +44,7 @@ double displace(const Cut2dOptions& options, Cut2dTrial& trial) {
       if (options.mode == Cut2dMode::robust && trial.figures.n_opened_facets > 0)
         from = outside_slits(trial.after, reach, tip, h);
       if (from.point.size() < 2) continue;
-      const PlaneCut cut = cut_plane(trial.after, from.point, from.tip, is_held, plane);
+      const PlaneCut cut = cut_plane(trial.after, from.point, from.tip, {is_held}, plane);
       apply_edit(cut.edit, trial.after);
       seconds += monotonic_seconds() - start;
       tip = cut.tip;

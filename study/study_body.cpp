@@ -1,7 +1,5 @@
 #include "study/study_body.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -83,12 +81,6 @@ std::int32_t nearest_node(const Mesh& mesh, const Vec3& X) {
   };
   return static_cast<std::int32_t>(std::min_element(mesh.X.begin(), mesh.X.end(), nearer) -
                                    mesh.X.begin());
-}
-
-double processor_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 }  // namespace trocar

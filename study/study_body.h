@@ -41,7 +41,4 @@ bool advance_frame(StudyBody& body, double length, double factor,
 // Number of the node nearest to X.
 std::int32_t nearest_node(const Mesh& mesh, const Vec3& X);
 
-// Processor seconds of this thread.
-double processor_seconds();
-
 }  // namespace trocar

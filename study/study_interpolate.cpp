@@ -5,10 +5,10 @@
 
 #include "base/box.h"
 #include "base/check.h"
-#include "engine/mesh_measures.h"
 #include "mesh/barycentric.h"
 #include "mesh/facets.h"
 #include "mesh/hex_split.h"
+#include "mesh/quality.h"
 
 namespace trocar {
 
@@ -30,8 +30,7 @@ std::vector<Simplex> simplices_of(const Mesh& mesh) {
       simplices.push_back(simplex);
       continue;
     }
-    for (const auto& tet : hex_tets(mesh, e))
-      simplices.push_back({c[tet[0]], c[tet[1]], c[tet[2]], c[tet[3]]});
+    for (const Simplex& simplex : hex_tet_nodes(mesh, e)) simplices.push_back(simplex);
   }
   return simplices;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/timers.h"
 #include "study/study_body.h"
 #include "study/study_problem.h"
 
@@ -36,7 +37,7 @@ void swing(const Case& c, StudyBody& body, Outcome& outcome) {
 
 Outcome solve_column(const Case& c) {
   Outcome outcome;
-  const double start = processor_seconds();
+  const double start = thread_seconds();
   outcome.h = 1. / c.n;
   StudyBody body = make_study_body(
       make_box(Vec3::Zero(), Vec3(1, column_height, 1), {c.n, 6 * c.n, c.n}, c.method.elements),
@@ -45,9 +46,9 @@ Outcome solve_column(const Case& c) {
       solver_options(c.method, c.precision));
   for (std::size_t i = 0; i < body.mesh.X.size(); ++i)
     body.state.v[3 * i] = 10 * body.mesh.X[i].y() / column_height;
-  const double ready = processor_seconds();
+  const double ready = thread_seconds();
   swing(c, body, outcome);
-  outcome.stepping_seconds = processor_seconds() - ready;
+  outcome.stepping_seconds = thread_seconds() - ready;
   outcome.setup_seconds = ready - start;
   outcome.n_elements = body.mesh.n_elements();
   outcome.n_steps = body.state.step;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/timers.h"
 #include "study/study_body.h"
 #include "study/study_problem.h"
 
@@ -63,7 +64,7 @@ void vibrate(const Case& c, StudyBody& body, Outcome& outcome) {
 
 Outcome solve_lame_mode(const Case& c) {
   Outcome outcome;
-  const double start = processor_seconds();
+  const double start = thread_seconds();
   outcome.h = a / c.n;
   StudyBody body = make_study_body(
       make_box(Vec3::Zero(), Vec3(a, a, outcome.h), {c.n, c.n, 1}, c.method.elements), outcome.h,
@@ -71,9 +72,9 @@ Outcome solve_lame_mode(const Case& c) {
       solver_options(c.method, c.precision));
   for (std::size_t i = 0; i < body.mesh.X.size(); ++i)
     Vec3::Map(&body.state.u[3 * i]) = 1e-6 * shape(body.mesh.X[i]);
-  const double ready = processor_seconds();
+  const double ready = thread_seconds();
   vibrate(c, body, outcome);
-  outcome.stepping_seconds = processor_seconds() - ready;
+  outcome.stepping_seconds = thread_seconds() - ready;
   outcome.setup_seconds = ready - start;
   outcome.n_elements = body.mesh.n_elements();
   outcome.n_steps = body.state.step;

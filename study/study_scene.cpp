@@ -9,11 +9,12 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/timers.h"
 #include "engine/build.h"
 #include "engine/equilibrium.h"
 #include "engine/frame.h"
-#include "engine/mesh_measures.h"
 #include "engine/tissue.h"
+#include "mesh/quality.h"
 #include "solver/element_setup.h"
 #include "study/study_body.h"
 #include "study/study_interpolate.h"
@@ -117,16 +118,16 @@ void run_frames(const SceneStudy& study, Simulation& s, Outcome& outcome) {
   const std::vector<SamplePoint> points = locate_samples(s.mesh, study.points);
   Outputs outputs;
   while (s.frame < study.n_frames()) {
-    const double start = processor_seconds();
+    const double start = thread_seconds();
     run_frame(s, outputs);
-    outcome.stepping_seconds += processor_seconds() - start;
+    outcome.stepping_seconds += thread_seconds() - start;
     if (is_sample_frame(s.frame, study.n_frames())) take_samples(points, s, outcome);
   }
 }
 
 Outcome solve(const SceneStudy& study, const Case& c) {
   Outcome outcome;
-  const double start = processor_seconds();
+  const double start = thread_seconds();
   const LoadedScene loaded = scene_of(study, c);
   const std::unique_ptr<Simulation> simulation = build_case(loaded, *study.communicator);
   outcome.h = mean_edge_length(simulation->mesh);
@@ -134,7 +135,7 @@ Outcome solve(const SceneStudy& study, const Case& c) {
   try {
     if (loaded.scene.start.state == StartState::equilibrium)
       start_in_equilibrium(loaded, *simulation);
-    outcome.setup_seconds = processor_seconds() - start;
+    outcome.setup_seconds = thread_seconds() - start;
     run_frames(study, *simulation, outcome);
   } catch (const SimulationError& trouble) {
     outcome.trouble = trouble.what();
@@ -184,8 +185,7 @@ bool can_have(const SceneStudy& study, const Mesh& mesh, Formulation formulation
   if (is_refused) return false;
   if (is_plane && formulation != study.loaded.scene.solver.triangle) return false;
   if (study.has_shape()) return is_plane == (shape == ElementType::tri3);
-  return std::find(mesh.element_type.begin(), mesh.element_type.end(), shape) !=
-         mesh.element_type.end();
+  return has_type(mesh, shape);
 }
 
 void describe(const SceneStudy& study, Problem& problem) {

@@ -1,5 +1,6 @@
 #include "study/study_statics.h"
 
+#include "base/timers.h"
 #include "solver/relax.h"
 
 namespace trocar {
@@ -24,17 +25,17 @@ std::vector<PrescribedNode> held_nodes(const StudyBody& body, const StaticBox& b
 Outcome relax_box(const Case& c, const StaticBox& box,
                   const std::function<double(const StudyBody&)>& value) {
   Outcome outcome;
-  const double start = processor_seconds();
+  const double start = thread_seconds();
   outcome.h = box.size[0] / box.n[0];
   StudyBody body =
       make_study_body(make_box(Vec3::Zero(), box.size, box.n, c.method.elements), outcome.h,
                       box.material, box.fixed, solver_options(c.method, c.precision));
   const std::vector<PrescribedNode> held = held_nodes(body, box);
-  const double ready = processor_seconds();
+  const double ready = thread_seconds();
   const Relaxation relaxed = relax(
       body.model, {.prescribed = held, .max_iterations = most_iterations, .tolerance = tolerance},
       body.state, body.scratch);
-  outcome.stepping_seconds = processor_seconds() - ready;
+  outcome.stepping_seconds = thread_seconds() - ready;
   outcome.setup_seconds = ready - start;
   outcome.n_elements = body.mesh.n_elements();
   outcome.n_steps = relaxed.iterations;

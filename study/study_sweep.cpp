@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/timers.h"
 #include "study/study_body.h"
 #include "study/study_text.h"
 
@@ -204,7 +205,7 @@ Study sweep(const Problem& problem, const SweepOptions& options) {
   double left = options.budget;
   for (const int n : sizes)
     for (std::size_t k = 0; k < curves.size(); ++k) {
-      const double start = processor_seconds();
+      const double start = thread_seconds();
       const auto before = last.find(k);
       const double expected =
           predicted_seconds(problem, before == last.end() ? nullptr : &before->second, n);
@@ -219,7 +220,7 @@ Study sweep(const Problem& problem, const SweepOptions& options) {
       study.runs.push_back(run_or_note(study, curves[k], n, options.repeats));
       tell(study.runs.back());
       if (seconds_of(study.runs.back().outcome) > 0) last[k] = study.runs.back();
-      left -= processor_seconds() - start;
+      left -= thread_seconds() - start;
     }
   rate(study);
   return study;

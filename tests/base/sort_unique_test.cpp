@@ -41,10 +41,20 @@ TEST(SortUnique, keeps_the_ends_of_a_full_range) {
   EXPECT_EQ(values, (std::vector<std::int32_t>{highest - 1000, highest}));
 }
 
+TEST(SortUniqueBy, keeps_the_first_of_those_with_equal_keys) {
+  using Pair = std::pair<std::int32_t, char>;
+  std::vector<Pair> values = {{3, 'a'}, {1, 'b'}, {3, 'c'}, {1, 'd'}, {2, 'e'}};
+  sort_unique_by(values, &Pair::first);
+  EXPECT_EQ(values, (std::vector<Pair>{{1, 'b'}, {2, 'e'}, {3, 'a'}}));
+}
+
 TEST(SortUnique, makes_a_list_in_which_a_value_has_a_place) {
   const std::vector<std::int32_t> values = {3, 5, 9};
   for (std::int32_t k = 0; k < 3; ++k) EXPECT_EQ(place_in(values, values[std::size_t(k)]), k);
   EXPECT_EQ(place_in(values, 6), 2);
+  for (std::int32_t k = 0; k < 3; ++k) EXPECT_EQ(find_in(values, values[std::size_t(k)]), k);
+  for (const std::int32_t missing : {2, 6, 10}) EXPECT_EQ(find_in(values, missing), -1);
+  EXPECT_EQ(find_in({}, 3), -1);
 }
 
 }  // namespace

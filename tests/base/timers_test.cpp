@@ -25,6 +25,16 @@ TEST(MonotonicSeconds, advance_with_the_wall_clock) {
   EXPECT_LE(elapsed, seconds(latest - earliest) + rounding);
 }
 
+TEST(ThreadSeconds, stand_while_the_thread_sleeps_and_advance_while_it_works) {
+  const double wall = monotonic_seconds(), start = thread_seconds();
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const double woken = thread_seconds();
+  EXPECT_LT(woken - start, 0.5 * (monotonic_seconds() - wall));
+  while (monotonic_seconds() - wall < 10 && thread_seconds() - woken < 1e-3) {
+  }
+  EXPECT_GE(thread_seconds() - woken, 1e-3);
+}
+
 TEST(PhaseTimers, add_up_by_phase_in_order_of_registration) {
   PhaseTimers timers;
   const std::size_t step = timers.phase("step");

@@ -101,7 +101,7 @@ TEST(ContactClusters, of_a_contact_set_have_the_nodes_own_inverse_masses) {
   part.node_local = {0, 1, 2, 3};
   part.n_owned = 4;
   const ContactSet set = prepare_contacts(
-      {std::span(&contact, 1)}, std::vector<std::int32_t>{0, 0, 0, 0}, part, 0,
+      {std::span(&contact, 1)}, std::vector<std::int32_t>{0, 0, 0, 0}, part,
       {.mass = mass, .held = held, .cluster = all.of, .share = share, .yield = all.yield});
   const Eigen::Matrix4d inverse = joined.inverse();
   for (int i = 0; i < 3; ++i) {

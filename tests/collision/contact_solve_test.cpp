@@ -247,8 +247,8 @@ TEST(SolveContacts, gives_every_rank_that_holds_nodes_the_same_forces) {
     std::size_t n_owned = 0;
     for (int rank = 0; rank < n_ranks; ++rank) {
       const Part part = make_part(mesh, owner, rank);
-      ContactSet set = prepare_contacts({contacts}, owner, part, rank,
-                                        {mass, std::vector<std::uint8_t>(mass.size())});
+      ContactSet set =
+          prepare_contacts({contacts}, owner, part, {mass, std::vector<std::uint8_t>(mass.size())});
       for (std::size_t k = 0; k < set.node.size(); ++k) {
         const std::int32_t i = set.node[k];
         set.x_start[k] = mesh.X[i];
@@ -277,8 +277,9 @@ TEST(SolveContacts, gives_every_rank_that_holds_nodes_the_same_forces) {
 TEST(SolveContacts, leaves_ranks_without_contact_nodes_alone) {
   ContactBench bench({Vec3(0, 0, 0), Vec3(1, 0, 0)}, {1e-4, 1e-4});
   const std::vector<Contact> contacts = {node_contact(0, Vec3::UnitZ())};
+  bench.part.rank = 1;
   const ContactSet set = prepare_contacts({contacts}, std::vector<std::int32_t>{0, 1}, bench.part,
-                                          1, {bench.mass, std::vector<std::uint8_t>(2)});
+                                          {bench.mass, std::vector<std::uint8_t>(2)});
   EXPECT_TRUE(set.items.empty());
   EXPECT_TRUE(set.halo.neighbours.empty());
 }

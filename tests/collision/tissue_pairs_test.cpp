@@ -42,10 +42,10 @@ TEST(TissueTouch, of_two_triangles_that_share_the_nearest_point_the_steeper_one_
   EXPECT_FALSE(says_more({of_steep, 0}, {of_level, 0.1}));
 }
 
-std::vector<TissuePair> pairs_of(const Mesh& mesh, double extra, double depth) {
+std::vector<TissuePair> pairs_of(const Mesh& mesh, double reach) {
   const SurfaceTree tree(boundary_surface(mesh).triangle, mesh.X);
   std::vector<TissuePair> pairs;
-  find_tissue_pairs(tree, {.ahead = mesh.X, .extra = extra, .depth = depth}, pairs);
+  find_tissue_pairs(tree, mesh.X, reach, pairs);
   return pairs;
 }
 
@@ -72,13 +72,13 @@ std::ptrdiff_t n_over_each_other(const Mesh& blocks, double gap) {
 
 TEST(TissuePairs, are_the_nodes_of_blocks_that_lie_on_each_other) {
   const Mesh mesh = two_blocks(0.001);
-  const std::vector<TissuePair> pairs = pairs_of(mesh, 0.002, 0.002);
+  const std::vector<TissuePair> pairs = pairs_of(mesh, 0.002);
   for (const TissuePair& pair : pairs) {
     const double z = mesh.X[pair.node].z();
     for (const std::int32_t i : pair.corner) EXPECT_NEAR(std::abs(mesh.X[i].z() - z), 0.001, 1e-12);
   }
   EXPECT_EQ(n_nodes_of(pairs), n_over_each_other(mesh, 0.001));
-  EXPECT_TRUE(pairs_of(two_blocks(0.003), 0.002, 0.002).empty());
+  EXPECT_TRUE(pairs_of(two_blocks(0.003), 0.002).empty());
 }
 
 TEST(TissuePairs, are_found_across_a_wider_gap_where_velocities_close_it) {
@@ -88,13 +88,13 @@ TEST(TissuePairs, are_found_across_a_wider_gap_where_velocities_close_it) {
     if (x.z() > 0.0201) x.z() -= 0.0015;
   const SurfaceTree tree(boundary_surface(mesh).triangle, mesh.X);
   std::vector<TissuePair> pairs;
-  find_tissue_pairs(tree, {.ahead = ahead, .extra = 0.002, .depth = 0.002}, pairs);
+  find_tissue_pairs(tree, ahead, 0.002, pairs);
   EXPECT_EQ(n_nodes_of(pairs), n_over_each_other(mesh, 0.003));
 }
 
 TEST(TissuePairs, of_overlapping_blocks_are_the_ways_out) {
   const Mesh mesh = two_blocks(-0.001);
-  const std::vector<TissuePair> pairs = pairs_of(mesh, 0.002, 0.002);
+  const std::vector<TissuePair> pairs = pairs_of(mesh, 0.002);
   EXPECT_GT(pairs.size(), 40u);
   for (const TissuePair& pair : pairs) {
     const bool is_lower = pair.node < 7 * 6 * 4;
@@ -108,7 +108,7 @@ TEST(TissuePairs, of_overlapping_blocks_are_the_ways_out) {
 // Both sides of a plate of 1 mm face away from each other, nearer than anything may come.
 TEST(TissuePairs, are_none_between_the_sides_of_a_thin_lobe) {
   const Mesh mesh = make_box({0, 0, 0}, {0.05, 0.03, 0.001}, {10, 6, 1}, BoxElements::tet4_kuhn);
-  EXPECT_TRUE(pairs_of(mesh, 0.004, 0.004).empty());
+  EXPECT_TRUE(pairs_of(mesh, 0.004).empty());
 }
 
 // The same plate folded to a U with a gap of 2 mm, and one whose arms overlap by 0.4 mm.
@@ -128,7 +128,7 @@ TEST(TissuePairs, of_a_folded_thin_lobe_are_across_its_fold) {
     const auto at = [&](std::int32_t i) { return plain[i]; };
     const auto is_inner = [&](std::int32_t i) { return at(i).z() > 0.0009; };
     int n_across = 0;
-    for (const TissuePair& pair : pairs_of(mesh, 0.0025, 0.0025)) {
+    for (const TissuePair& pair : pairs_of(mesh, 0.0025)) {
       const auto x = [&](std::size_t a) { return mesh.X[pair.corner[a]]; };
       const TissueTouch touch = touch_tissue(mesh.X[pair.node], {x(0), x(1), x(2)});
       const bool is_across = at(pair.node).x() * at(pair.corner[0]).x() < 1e-12 &&

@@ -25,7 +25,7 @@ TEST(CutChips, planes_that_shave_a_corner_leave_it_or_cut_off_more_than_a_chip) 
   int n_whole = 0, n_parted = 0;
   for (int k = 1; k <= 24; ++k) {  // from nothing to two cells deep
     Body body(make_box({0, 0, 0}, {1, 1, 1}, {6, 6, 6}, BoxElements::tet4_kuhn));
-    const double h = mean_edge_of(body.mesh);
+    const double h = mean_edge_length(body.mesh);
     cut(body, plane_blade(k * (2.0 / 6 / 24) * std::numbers::sqrt3 * normal, normal, 1.5), normal,
         40);
     EXPECT_EQ(fault(body), "") << k;

@@ -18,7 +18,7 @@ TEST(Remember, keeps_the_sides_of_chips_though_nothing_is_open_there) {
   KnownPositions positions(body.mesh, body.x);
   TetCut cut;
   cut.around.h = 1;
-  cut.around.patch = make_patch(body.mesh, index, positions, body.is_held, std::vector{0, 1, 2});
+  cut.around.patch = make_patch(body.mesh, index, positions, {body.is_held}, std::vector{0, 1, 2});
   const CutPatch& patch = cut.around.patch;
   cut.around.points.offset.assign(patch.node.size() + 1, 0);
   cut.labels.kind.assign(patch.element.size(), CutKind::uncut);

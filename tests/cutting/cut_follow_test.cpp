@@ -114,9 +114,8 @@ class TwoBlades {
     for (bool is_parted = false; !is_parted; sweep.before = sweep.after) {
       CutFigures figures;
       KnownPositions positions(body_.mesh, body_.x);
-      const CutterEdit edit =
-          cutters_[by].advance(body_.mesh, positions, CutConstraints{body_.is_held, body_.border},
-                               sweep, k + 1 == n_frames, figures);
+      const CutterEdit edit = cutters_[by].advance(
+          body_.mesh, positions, {body_.is_held, body_.border}, sweep, k + 1 == n_frames, figures);
       cutters_[1 - by].follow(body_.mesh, edit);
       apply(edit, figures, body_, ledger_);
       is_parted = edit.inserted.empty();
@@ -158,7 +157,7 @@ int n_parted_by_meeting(BoxElements elements, double overlap, int lag, double as
   int n = 0;
   for (const double x : {0.37, 0.44, 0.52, 0.6}) {
     Body body(make_box({0, 0, 0}, {1, 1, 1}, {9, 9, 9}, elements));
-    const double h = mean_edge_of(body.mesh), step = least_step_of(body.mesh);
+    const double h = mean_edge_length(body.mesh), step = least_step_of(body.mesh);
     TwoBlades blades(std::move(body), meeting_blades(x, overlap, aside, h));
     blades.advance_both(lag);
     EXPECT_EQ(fault(blades.body()), "");

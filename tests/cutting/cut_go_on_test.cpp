@@ -25,7 +25,7 @@ Blade stroke_at(double x, double y0, double y1) {
 // Of one blade that turns in between, or of two.
 int pieces_after_two(BoxElements elements, double x, double overlap, bool are_two_blades) {
   Body body(make_box({0, 0, 0}, {1, 1, 1}, {9, 9, 9}, elements));
-  const double half = overlap * mean_edge_of(body.mesh) / 2;
+  const double half = overlap * mean_edge_length(body.mesh) / 2;
   TetCutter first({}), other({});
   TetCutter& second = are_two_blades ? other : first;
   cut(body, stroke_at(x, -0.1, 0.5 + half), Vec3::UnitX(), 40, first);

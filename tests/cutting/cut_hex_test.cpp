@@ -27,7 +27,7 @@ int n_of(const Mesh& mesh, ElementType type) {
 
 double bound_of(const Mesh& mesh, std::int32_t e) {
   const auto c = mesh.corners(e);
-  if (c.size() == 4) return step_bound(mesh.X, {c[0], c[1], c[2], c[3]});
+  if (c.size() == 4) return tet_step_bound(mesh, e);
   std::array<Vec3, 8> X;
   for (std::size_t a = 0; a < 8; ++a) X[a] = mesh.X[c[a]];
   return hex_step_bound(X);
@@ -146,7 +146,7 @@ int edits_with_other_cutters(Body& body, const Vec3& normal) {
     CutFigures figures;
     KnownPositions positions(body.mesh, body.x);
     const MeshEdit again =
-        other.advance(body.mesh, positions, body.is_held, sweep, k == 24, figures);
+        other.advance(body.mesh, positions, {body.is_held}, sweep, k == 24, figures);
     const MeshEdit edit = advance(cutter, body, sweep, k == 24, ledger);
     EXPECT_TRUE(has_same_bits(edit, again)) << k;
     n_edits += edit.splits.empty() ? 0 : 1;
@@ -166,7 +166,7 @@ TEST(CutHex, another_cutter_goes_on_in_a_body_that_has_no_hexahedron_left) {
   EXPECT_EQ(edits_with_other_cutters(body, off_grid.cwiseProduct(Vec3(-1, 1, 1))), 2);
   EXPECT_EQ(body.mesh.n_elements(), 24);
   EXPECT_TRUE(was_hexahedral(body.mesh));
-  EXPECT_FALSE(has_hexahedra(body.mesh));
+  EXPECT_FALSE(has_type(body.mesh, ElementType::hex8));
 }
 
 // Of tetrahedra and of hexahedra. Every second edit is made by the other one.
@@ -186,7 +186,7 @@ TEST(CutHex, a_cutter_that_follows_edits_makes_the_next_without_a_look_at_the_wh
       CutFigures figures;
       KnownPositions positions(body.mesh, body.x);
       const CutterEdit edit =
-          first.advance(body.mesh, positions, body.is_held, sweep, k == 24, figures);
+          first.advance(body.mesh, positions, {body.is_held}, sweep, k == 24, figures);
       second.follow(body.mesh, edit);
       second.set_stroke(first.stroke());
       apply(edit, figures, body, ledger);
@@ -254,7 +254,7 @@ TEST(CutHex, hexahedra_that_are_bent_stay_hexahedra_and_are_cut_once_they_are_st
       const BladeSweep sweep{blade(double(k) / n_steps), blade(double(k + 1) / n_steps), normal};
       KnownPositions positions(body.mesh, body.x);
       const MeshEdit edit =
-          cutter.advance(body.mesh, positions, body.is_held, sweep, k + 1 == n_steps, figures);
+          cutter.advance(body.mesh, positions, {body.is_held}, sweep, k + 1 == n_steps, figures);
       apply(edit, figures, body, ledger);
       refusals = figures.refusals;
       EXPECT_GT(least_volume_ratio(body), 0.02) << k;
@@ -273,10 +273,8 @@ double least_part_of_step(const Mesh& mesh) {
   double least = 1;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
     if (std::binary_search(whole.begin(), whole.end(), e)) continue;
-    const auto c = mesh.corners(e);
-    for (const auto& tet : hex_tets(mesh, e))
-      least = std::min(least, step_bound(mesh.X, {c[tet[0]], c[tet[1]], c[tet[2]], c[tet[3]]}) /
-                                  bound_of(mesh, e));
+    for (const auto& node : hex_tet_nodes(mesh, e))
+      least = std::min(least, step_bound(mesh.X, node) / bound_of(mesh, e));
   }
   return least;
 }

@@ -29,7 +29,7 @@ std::ptrdiff_t places_at_whole(bool has_whole, double z, int n_expected_pieces) 
     KnownPositions positions(body.mesh, body.x);
     const BladeSweep sweep{blade(k / 25.0), blade((k + 1) / 25.0), Vec3::UnitZ()};
     const MeshEdit edit =
-        cutter.advance(body.mesh, positions, body.is_held, sweep, k == 24, figures);
+        cutter.advance(body.mesh, positions, {body.is_held}, sweep, k == 24, figures);
     apply(edit, figures, body, ledger);
     n_places += std::ranges::count_if(figures.refusals, [](const CutRefusal& place) {
       return place.reason == CutRefusal::bent && (place.X - Vec3::Constant(1.0 / 12)).norm() < 1e-9;

@@ -21,7 +21,7 @@ int facets_opened_at(Body& body, double x) {
 TEST(OlderSlits, take_in_a_blade_that_runs_closely_beside_them) {
   for (const BoxElements elements : {BoxElements::tet4_kuhn, BoxElements::tet4_five}) {
     Body body(make_box({0, 0, 0}, {1, 1, 1}, {10, 9, 9}, elements));
-    const double h = mean_edge_of(body.mesh);
+    const double h = mean_edge_length(body.mesh);
     const int first = facets_opened_at(body, 0.5);
     EXPECT_LE(facets_opened_at(body, 0.5 + 0.12 * h), first / 10);
   }
@@ -29,7 +29,7 @@ TEST(OlderSlits, take_in_a_blade_that_runs_closely_beside_them) {
 
 TEST(OlderSlits, hold_what_lies_beside_their_facets_and_along_them) {
   Body body(make_box({0, 0, 0}, {1, 1, 1}, {10, 9, 9}, BoxElements::tet4_kuhn));
-  const double h = mean_edge_of(body.mesh);
+  const double h = mean_edge_length(body.mesh);
   facets_opened_at(body, 0.5);
   std::vector<std::int32_t> all(static_cast<std::size_t>(body.mesh.n_elements()));
   std::iota(all.begin(), all.end(), 0);

@@ -73,7 +73,7 @@ TEST(CutIndex, that_was_edited_knows_no_neighbours_but_those_of_the_edited_mesh)
     std::vector<std::int32_t> seeds;
     for (std::int32_t e = k % 3; e < body.mesh.n_elements(); e += 100) seeds.push_back(e);
     KnownPositions positions(body.mesh, body.x);
-    make_patch(body.mesh, index, positions, body.is_held, seeds);
+    make_patch(body.mesh, index, positions, {body.is_held}, seeds);
   };
   const auto check = [&] {
     const FacetNeighbours expected = facet_neighbours(body.mesh);
@@ -106,7 +106,7 @@ TEST(CutIndex, gives_a_patch_of_three_rings_around_its_seeds) {
   const std::vector<std::uint8_t> is_held(mesh.X.size(), 0);
   const std::vector<std::int32_t> seeds{6 * (4 + 9 * (4 + 9 * 4))};  // in the middle cell
   KnownPositions positions(mesh, mesh.X);
-  const CutPatch patch = make_patch(mesh, index, positions, is_held, seeds);
+  const CutPatch patch = make_patch(mesh, index, positions, {is_held}, seeds);
   // Brute force: rings by passes over all elements.
   std::vector<int> ring(mesh.X.size(), 9);
   for (const std::int32_t i : mesh.corners(seeds[0])) ring[i] = 0;

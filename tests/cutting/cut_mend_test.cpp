@@ -62,6 +62,7 @@ TEST(MendLabels, takes_a_tent_down_whose_tip_pinches_the_outer_surface) {
   Body body(tent());
   ASSERT_EQ(fault(body), "");
   const CutSurroundings around = surroundings_of(body);
+  const PatchMesh mesh = make_patch_mesh(around.patch);
   CutLabels labels;
   labels.kind.assign(body.mesh.element_type.size(), CutKind::separated);
   labels.is_left.assign(body.mesh.X.size(), 0);
@@ -70,9 +71,9 @@ TEST(MendLabels, takes_a_tent_down_whose_tip_pinches_the_outer_surface) {
     const bool is_at_axis = std::ranges::find(corner, middle) != corner.end();
     labels.side.push_back(is_at_axis ? -1 : 1);
   }
-  EXPECT_EQ(pinched_nodes(around, labels), std::vector<std::int32_t>{top});
-  EXPECT_EQ(mend_labels(around, {}, labels), n_sectors);
-  EXPECT_TRUE(pinched_nodes(around, labels).empty());
+  EXPECT_EQ(pinched_nodes(around, mesh, labels), std::vector<std::int32_t>{top});
+  EXPECT_EQ(mend_labels(around, mesh, {}, labels), n_sectors);
+  EXPECT_TRUE(pinched_nodes(around, mesh, labels).empty());
   for (int k = 0; k < n_sectors; ++k) EXPECT_EQ(labels.side[std::size_t(k)], 1);
 }
 

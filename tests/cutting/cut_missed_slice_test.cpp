@@ -35,7 +35,7 @@ std::vector<CutRefusal> told_slices(Body& body, const Blade& blade, const Vec3& 
     KnownPositions positions(body.mesh, body.x);
     const BladeSweep sweep{blade(double(k) / n_steps), blade(double(k + 1) / n_steps), normal};
     const MeshEdit edit =
-        cutter.advance(body.mesh, positions, body.is_held, sweep, k + 1 == n_steps, figures);
+        cutter.advance(body.mesh, positions, {body.is_held}, sweep, k + 1 == n_steps, figures);
     apply(edit, figures, body, ledger);
     EXPECT_EQ(figures.refusals.size(), static_cast<std::size_t>(figures.n_refused));
     for (const CutRefusal& r : figures.refusals)

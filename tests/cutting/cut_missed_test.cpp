@@ -44,8 +44,8 @@ Outcome cut_along_legs(const std::vector<std::array<double, 2>>& legs) {
                              edge_at(from + (to - from) * (k + 1) / n),
                              Vec3(1, 0, -0.2).normalized()};
       KnownPositions positions(body.mesh, body.x);
-      const MeshEdit edit =
-          cutter.advance(body.mesh, positions, body.is_held, sweep, is_end && k + 1 == n, figures);
+      const MeshEdit edit = cutter.advance(body.mesh, positions, {body.is_held}, sweep,
+                                           is_end && k + 1 == n, figures);
       apply(edit, figures, body, ledger);
       outcome.refusals.insert(outcome.refusals.end(), figures.refusals.begin(),
                               figures.refusals.end());
@@ -145,7 +145,7 @@ Outcome cut_cone(BoxElements elements, const Vec3& point, double beyond) {
                            ahead.cross(edge.front() - edge.back()).normalized()};
     KnownPositions positions(body.mesh, body.x);
     const MeshEdit edit =
-        cutter.advance(body.mesh, positions, body.is_held, sweep, k + 1 == n_steps, figures);
+        cutter.advance(body.mesh, positions, {body.is_held}, sweep, k + 1 == n_steps, figures);
     apply(edit, figures, body, ledger);
     outcome.refusals.insert(outcome.refusals.end(), figures.refusals.begin(),
                             figures.refusals.end());

@@ -23,7 +23,7 @@ struct Slits {
   }
   PlaneCut go_on(const Vec3& from, const Vec3& to, int configuration) const {
     const double floor = 0.5 * least_step_bound(paper_mesh(configuration));
-    return cut_plane(mesh, std::vector<Vec3>{from, to}, tip, none_held(mesh),
+    return cut_plane(mesh, std::vector<Vec3>{from, to}, tip, {none_held(mesh)},
                      {.least_step = floor});
   }
 };

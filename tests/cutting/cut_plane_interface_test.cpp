@@ -44,7 +44,7 @@ struct RegionCount {
 // The areas of both regions change by rounding alone.
 Mesh cut_regions_and_check(const Mesh& mesh, const std::vector<Vec3>& path, RegionCount& count) {
   const double floor = plane_step_ratio * least_step_bound(mesh);
-  const PlaneCut result = cut_plane(mesh, path, -1, none_held(mesh), {.least_step = floor});
+  const PlaneCut result = cut_plane(mesh, path, -1, {none_held(mesh)}, {.least_step = floor});
   count.n_places += result.figures.n_refused;
   count.n_whole += result.figures.n_refused == 0 ? 1 : 0;
   EXPECT_TRUE(!result.edit.is_empty() || result.figures.n_refused > 0);
@@ -95,7 +95,7 @@ TEST(CutPlaneInterface, is_opened_by_a_cut_along_it) {
     const Mesh mesh = layered_plate(c);
     const double y = interface_row * row_height(mesh);
     const PlaneCut through =
-        cut_plane(mesh, std::vector<Vec3>{{-mm, y, 0}, {71 * mm, y, 0}}, -1, none_held(mesh), {});
+        cut_plane(mesh, std::vector<Vec3>{{-mm, y, 0}, {71 * mm, y, 0}}, -1, {none_held(mesh)}, {});
     EXPECT_EQ(through.figures.n_refused, 0);
     EXPECT_LT(through.figures.largest_deviation, 1e-12);
     const Mesh after = applied(through.edit, mesh);

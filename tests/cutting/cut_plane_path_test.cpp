@@ -72,7 +72,7 @@ TEST(CutPlanePath, cuts_and_refuses_nothing_beyond_the_outline_nor_near_before_i
   growing.room_ahead = 1.5;
   const auto is_cut = [&](double end) {
     const std::vector<Vec3> path = {{30 * mm, 12 * mm, 0}, {31 * mm, end * mm, 0}};
-    return !cut_plane(mesh, path, -1, is_held, growing).edit.is_empty();
+    return !cut_plane(mesh, path, -1, {is_held}, growing).edit.is_empty();
   };
   EXPECT_TRUE(is_cut(30));   // 3 h before it
   EXPECT_FALSE(is_cut(37));  // 0.9 h

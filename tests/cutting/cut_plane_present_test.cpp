@@ -52,7 +52,7 @@ TEST(CutPlanePresent, cuts_of_a_nearly_collapsed_plate_invert_nothing) {
       };
       const std::vector<Vec3> path{{within(10, 30) * mm, within(-2, 30) * mm, 0},
                                    {within(40, 60) * mm, within(10, 50) * mm, 0}};
-      const PlaneCut cut = cut_plane(mesh, path, -1, CutConstraints(none_held(mesh), {}, x), {});
+      const PlaneCut cut = cut_plane(mesh, path, -1, {none_held(mesh), {}, x}, {});
       n_opened += cut.figures.n_opened_facets;
       for (const CutRefusal& refusal : cut.figures.refusals)
         n_crushed += refusal.reason == CutRefusal::crushed ? 1 : 0;

@@ -72,7 +72,7 @@ Mesh cut_and_check(const Mesh& mesh, const std::vector<Vec3>& path, int n_closed
   is_held.resize(mesh.X.size());
   const auto start = std::chrono::steady_clock::now();
   const CutPlaneOptions options{.least_step = sample.floor * bound_from_altitudes(mesh)};
-  const PlaneCut result = cut_plane(mesh, path, -1, is_held, options);
+  const PlaneCut result = cut_plane(mesh, path, -1, {is_held}, options);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
   sample.milliseconds.push_back(time.count());
   EXPECT_EQ(result.figures.refusals.size(), static_cast<std::size_t>(result.figures.n_refused));

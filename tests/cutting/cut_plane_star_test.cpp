@@ -13,7 +13,7 @@ namespace {
 PlanePatch disturbed_patch(double share) {
   const Mesh mesh = paper_mesh(2);
   const std::vector<Vec2> path = {Vec2(-1 * mm, 35 * mm), Vec2(42 * mm, 18 * mm)};
-  PlanePatch patch = make_patch(mesh, path, none_held(mesh), 4);
+  PlanePatch patch = make_patch(mesh, path, {none_held(mesh)}, 4);
   std::mt19937 random(7);
   const auto uniform = [&] { return random() / 2147483648.0 - 1; };
   for (int e = 0; e < patch.n_elements(); ++e) {

@@ -208,7 +208,7 @@ TEST(CutPlane, held_nodes_are_never_displaced) {
     const double t = std::clamp(offset.dot(d) / d.squaredNorm(), 0.0, 1.0);
     is_held[i] = (offset - t * d).norm() > 8 * mm ? 1 : 0;
   }
-  const PlaneCut result = cut_plane(mesh, path, -1, is_held, {});
+  const PlaneCut result = cut_plane(mesh, path, -1, {is_held}, {});
   EXPECT_TRUE(validate(applied(result.edit, mesh)).empty());
   EXPECT_EQ(result.figures.n_duplicated, 6);
   for (const NodeMove& move : result.edit.moves) EXPECT_EQ(is_held[move.node], 0);
@@ -222,7 +222,7 @@ TEST(CutPlane, opens_what_lies_beside_held_nodes) {
     std::vector<std::uint8_t> is_held = none_held(mesh);
     for (std::size_t i = 0; i < mesh.X.size(); ++i)
       is_held[i] = mesh.X[i].x() > from && mesh.X[i].x() < to ? 1 : 0;
-    const PlaneCut result = cut_plane(mesh, path, -1, is_held, {});
+    const PlaneCut result = cut_plane(mesh, path, -1, {is_held}, {});
     for (const NodeMove& move : result.edit.moves) EXPECT_EQ(is_held[move.node], 0);
     EXPECT_EQ(result.figures.n_refused, 1);
     const Mesh after = applied(result.edit, mesh);
@@ -242,7 +242,7 @@ TEST(CutPlane, opens_what_lies_beside_held_nodes) {
 TEST(CutPlane, refuses_when_all_nodes_are_held) {
   const Mesh mesh = paper_mesh(1);
   const std::vector<std::uint8_t> is_held(mesh.X.size(), 1);
-  const PlaneCut result = cut_plane(mesh, paper_cut(1), -1, is_held, {});
+  const PlaneCut result = cut_plane(mesh, paper_cut(1), -1, {is_held}, {});
   EXPECT_TRUE(result.edit.is_empty());
   EXPECT_EQ(result.figures.n_refused, 1);
   EXPECT_EQ(result.tip, -1);

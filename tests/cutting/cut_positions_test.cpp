@@ -60,7 +60,7 @@ TEST(PresentPositions, of_nodes_around_the_blade_are_all_that_a_cut_looks_at) {
       AskedPositions positions(body);
       CutFigures figures;
       const MeshEdit local =
-          asking.advance(body.mesh, positions, body.is_held, sweep, k + 1 == n_steps, figures);
+          asking.advance(body.mesh, positions, {body.is_held}, sweep, k + 1 == n_steps, figures);
       if (k + 1 < n_steps) most_asked = std::max(most_asked, positions.n_asked());
       const MeshEdit edit = advance(cutter, body, sweep, k + 1 == n_steps, ledger);
       EXPECT_EQ(local.duplicate_parent, edit.duplicate_parent);

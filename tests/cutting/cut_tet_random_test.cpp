@@ -72,7 +72,7 @@ Figures run(const std::string& name, int n_pieces_expected, const Stroke& stroke
   std::mt19937 random(7);
   for (int k = 0; k < n_random_bodies; ++k) {
     Body body(mesh_of(k));
-    const double h = mean_edge_of(body.mesh), step = least_step_of(body.mesh);
+    const double h = mean_edge_length(body.mesh), step = least_step_of(body.mesh);
     const double mass_before = total_mass(body.mesh);
     const Ledger ledger = stroke(body, random_plane(random), h);
     EXPECT_EQ(fault(body), "") << name << " " << k;

@@ -62,7 +62,7 @@ TEST(TetCutter, makes_lips_that_lie_on_the_swept_surface) {
   Body body(slab());
   cut(body, incision(), across, 25);
   const Vec3 begin(0.03, 0.022, 0);
-  const double h = mean_edge_of(body.mesh);
+  const double h = mean_edge_length(body.mesh);
   std::vector<std::uint8_t> is_lip(body.mesh.X.size(), 0);
   const Surface surface = boundary_surface(body.mesh);
   for (std::size_t t = 0; t < surface.triangle.size(); ++t)
@@ -103,7 +103,7 @@ TEST(TetCutter, leaves_elements_beyond_three_rings_as_they_were) {
   Body body(slab());
   const Mesh before = body.mesh;
   cut(body, incision(), across, 25);
-  const double h = mean_edge_of(before);
+  const double h = mean_edge_length(before);
   int n_far = 0;
   for (std::int32_t e = 0; e < before.n_elements(); ++e) {
     Vec3 centre = Vec3::Zero();
@@ -217,12 +217,13 @@ CutFigures cut_through(Body& body, const std::function<void(CutStroke&)>& forget
   TetCutter cutter{CutTetOptions{.advance = 100}};
   CutFigures figures;
   KnownPositions positions(body.mesh, body.x);
-  cutter.advance(body.mesh, positions, body.is_held, {blade(0), blade(1), normal}, false, figures);
+  cutter.advance(body.mesh, positions, {body.is_held}, {blade(0), blade(1), normal}, false,
+                 figures);
   CutStroke stroke = cutter.stroke();
   forget(stroke);
   cutter.set_stroke(stroke);
   Ledger ledger;
-  const MeshEdit edit = cutter.advance(body.mesh, positions, body.is_held,
+  const MeshEdit edit = cutter.advance(body.mesh, positions, {body.is_held},
                                        {blade(1), blade(1.1), normal}, true, figures);
   apply(edit, figures, body, ledger);
   return figures;

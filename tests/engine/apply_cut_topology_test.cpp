@@ -41,7 +41,7 @@ MeshEdit next_edit(const Simulation& s, const GlobalState& global, TetCutter& cu
   }
   CutFigures figures;
   KnownPositions positions(s.mesh, global.x);
-  return cutter.advance(s.mesh, positions, held_nodes(s.holds, s.fixed), sweep, k == n_bands - 1,
+  return cutter.advance(s.mesh, positions, {held_nodes(s.holds, s.fixed)}, sweep, k == n_bands - 1,
                         figures);
 }
 
@@ -292,7 +292,7 @@ TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
     std::vector<Model> models;
     for (int rank = 0; rank < 3; ++rank) {
       parts.push_back(make_part(s.mesh, owner, rank));
-      halos.push_back(make_halo(s.mesh, owner, parts.back(), rank));
+      halos.push_back(make_halo(s.mesh, owner, parts.back()));
       models.push_back(
           build_model(s.mesh, parts.back(), s.materials, s.fixed, s.mass, solver_options(s.scene)));
     }
@@ -312,7 +312,7 @@ TEST(Topology, of_each_rank_after_an_edit_is_that_of_the_edited_mesh) {
       n_edits += is_local ? 1 : 0;
       for (std::size_t rank = 0; rank < 3; ++rank) {
         const Part part = make_part(s.mesh, owner, static_cast<int>(rank));
-        const Halo halo = make_halo(s.mesh, owner, part, static_cast<int>(rank));
+        const Halo halo = make_halo(s.mesh, owner, part);
         const Model model =
             build_model(s.mesh, part, s.materials, s.fixed, s.mass, solver_options(s.scene));
         if (is_local) {

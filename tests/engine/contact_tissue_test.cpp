@@ -185,7 +185,7 @@ int n_deep_in_folded_strip(bool has_contact) {
   refresh_surface(s);
   const SurfaceTree tree(s.surface.triangle, s.view.x);
   std::vector<TissuePair> pairs;
-  find_tissue_pairs(tree, {.ahead = s.view.x, .extra = 0.003, .depth = 0.003}, pairs);
+  find_tissue_pairs(tree, s.view.x, 0.003, pairs);
   std::set<std::int32_t> deep;
   for (const TissuePair& pair : pairs) {
     const auto x = [&](std::int32_t i) { return s.view.x[i]; };

@@ -19,6 +19,7 @@ TEST(Barycentric, weights_give_the_point_and_sum_to_one) {
       Vec3 sum = Vec3::Zero();
       for (std::size_t a = 0; a < corner.size(); ++a) sum += weight[a] * nodes[corner[a]];
       EXPECT_LT((sum - p).norm(), 1e-14);
+      EXPECT_EQ(interpolate(corner, weight, nodes), sum);
       EXPECT_NEAR(weight[0] + weight[1] + weight[2] + weight[3], 1, 1e-14);
       if (corner.size() == 3) {
         EXPECT_EQ(weight[3], 0);

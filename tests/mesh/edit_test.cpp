@@ -40,6 +40,15 @@ TEST(MeshEdit, leaves_a_sound_mesh_of_the_same_volume) {
   EXPECT_NEAR(total_volume(box.mesh), V, 1e-14);  // 384 terms of 1/384
 }
 
+TEST(MeshEdit, tells_the_node_that_each_corner_has_afterwards) {
+  MovedAndOpenedBox box;
+  const Mesh before = box.mesh;
+  apply_edit(box.edit, box.mesh);
+  for (std::int32_t e = 0; e < before.n_elements(); ++e)
+    for (std::int32_t c = 0; c < std::ssize(before.corners(e)); ++c)
+      EXPECT_EQ(node_after(box.edit, before, e, c), box.mesh.corners(e)[c]);
+}
+
 TEST(MeshEdit, opens_a_slit_that_keeps_one_piece_and_a_spherical_surface) {
   MovedAndOpenedBox box;
   apply_edit(box.edit, box.mesh);

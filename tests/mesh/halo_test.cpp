@@ -19,7 +19,7 @@ static Ranks make_ranks(const Mesh& mesh, int n_ranks) {
   ranks.owner = partition_nodes(mesh, n_ranks);
   for (int rank = 0; rank < n_ranks; ++rank) {
     ranks.part.push_back(make_part(mesh, ranks.owner, rank));
-    ranks.halo.push_back(make_halo(mesh, ranks.owner, ranks.part.back(), rank));
+    ranks.halo.push_back(make_halo(mesh, ranks.owner, ranks.part.back()));
   }
   return ranks;
 }

@@ -77,7 +77,7 @@ static Mirrored make_mirrored(Formulation tet4) {
   std::vector<std::int32_t> owner;
   for (const Vec3& X : mesh.X) owner.push_back(X.x() < .06 ? 0 : 1);
   Mirrored m{.body = make_body(mesh, {.solver = {.tet4 = tet4}}, owner, 0)};
-  m.halo = make_halo(mesh, owner, m.body.part, 0);
+  m.halo = make_halo(mesh, owner, m.body.part);
   EXPECT_EQ(m.halo.neighbours.size(), 1U);
   m.halo.neighbours[0].rank = 0;
   EXPECT_EQ(m.halo.neighbours[0].send.size(), m.halo.neighbours[0].receive.size());

@@ -33,7 +33,7 @@ ContactBench::ContactBench(std::vector<Vec3> X_, std::vector<double> mass_)
 void ContactBench::prepare(const std::vector<Contact>& contacts, std::vector<std::uint8_t> held,
                            const std::vector<TissuePair>& tissue) {
   held.resize(mass.size());
-  set = prepare_contacts({contacts, tissue}, std::vector<std::int32_t>(mass.size(), 0), part, 0,
+  set = prepare_contacts({contacts, tissue}, std::vector<std::int32_t>(mass.size(), 0), part,
                          {.mass = mass, .held = held});
 }
 

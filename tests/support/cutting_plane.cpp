@@ -10,7 +10,7 @@ std::vector<std::uint8_t> none_held(const Mesh& mesh) {
 
 PlaneCut cut(const Mesh& mesh, const std::vector<Vec3>& path, std::int32_t tip, bool is_robust) {
   const CutPlaneOptions options = is_robust ? CutPlaneOptions{} : published_options();
-  return cut_plane(mesh, path, tip, none_held(mesh), options);
+  return cut_plane(mesh, path, tip, {none_held(mesh)}, options);
 }
 
 Mesh applied(const MeshEdit& edit, Mesh mesh) {

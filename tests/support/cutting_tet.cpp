@@ -129,13 +129,6 @@ double least_step_of(const Mesh& mesh) {
   return least;
 }
 
-double mean_edge_of(const Mesh& mesh) {
-  double sum = 0;
-  const auto edges = mesh_edges(mesh);
-  for (const auto& [a, b] : edges) sum += (mesh.X[a] - mesh.X[b]).norm();
-  return sum / double(edges.size());
-}
-
 Mesh irregular(Mesh mesh, double amount, unsigned seed) {
   std::mt19937_64 random(seed);
   for (Vec3& X : mesh.X)

@@ -93,8 +93,6 @@ std::vector<double> region_volumes(const Mesh& mesh);
 // In proportion to the least element bound of the stable step.
 double least_step_of(const Mesh& mesh);
 
-double mean_edge_of(const Mesh& mesh);
-
 // Its nodes by up to `amount` off their places in each direction, those of the surface, too [m].
 Mesh irregular(Mesh mesh, double amount, unsigned seed);
 

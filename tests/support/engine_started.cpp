@@ -44,7 +44,7 @@ MeshEdit cut_across(const Simulation& s, const GlobalState& global, CutFigures& 
   }
   TetCutter cutter{CutTetOptions{}};
   KnownPositions positions(s.mesh, global.x);
-  return cutter.advance(s.mesh, positions, held_nodes(s.holds, s.fixed), sweep, true, figures);
+  return cutter.advance(s.mesh, positions, {held_nodes(s.holds, s.fixed)}, sweep, true, figures);
 }
 
 }  // namespace trocar

@@ -9,11 +9,7 @@
 namespace trocar {
 
 inline ElementSplit split_of(const Mesh& mesh, std::int32_t e) {
-  ElementSplit split{.element = e};
-  const auto tets = hex_tets(mesh, e);
-  for (std::size_t k = 0; k < tets.size(); ++k)
-    for (std::size_t a = 0; a < 4; ++a) split.corner[k][a] = mesh.corners(e)[tets[k][a]];
-  return split;
+  return {.element = e, .corner = hex_tet_nodes(mesh, e)};
 }
 
 inline std::vector<ElementSplit> splits_of(const Mesh& mesh,

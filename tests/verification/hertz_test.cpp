@@ -72,7 +72,7 @@ struct Indentation {
       return std::any_of(c.node.begin(), c.node.end(),
                          [&](std::int32_t i) { return body.mesh.X[i].z() < -1e-9; });
     });
-    set = prepare_contacts({contacts}, std::vector<std::int32_t>(mass.size(), 0), body.part, 0,
+    set = prepare_contacts({contacts}, std::vector<std::int32_t>(mass.size(), 0), body.part,
                            {.mass = mass, .held = body.model.fixed});
   }
   // Before relax_step, whose prediction it makes.

@@ -32,14 +32,8 @@ Body mixed_patch(const IsTet& is_tet) {
   Mesh mesh =
       make_box(Vec3::Zero(), Vec3::Constant(side), {n_cells, n_cells, n_cells}, BoxElements::hex8);
   MeshEdit edit;
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    if (!is_tet(e)) continue;
-    edit.splits.push_back({.element = e});
-    const auto tets = hex_tets(mesh, e);
-    for (std::size_t k = 0; k < tets.size(); ++k)
-      for (std::size_t a = 0; a < 4; ++a)
-        edit.splits.back().corner[k][a] = mesh.corners(e)[tets[k][a]];
-  }
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    if (is_tet(e)) edit.splits.push_back({.element = e, .corner = hex_tet_nodes(mesh, e)});
   apply_edit(edit, mesh);
   BodyOptions options{.materials = {{MaterialModel::neo_hookean, 3000, .4, 1000}}};
   for (const Vec3& X : mesh.X)
