@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <cmath>
 #include <utility>
 
+#include "base/check.h"
+#include "base/disjoint_sets.h"
 #include "base/sort_unique.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/facets.h"
@@ -13,61 +15,74 @@ namespace trocar {
 
 namespace {
 
-constexpr std::size_t longest_rim = 5;  // nodes: a longer one is the end of a slit as a rule
-constexpr double least_hanging = 4;     // mean edges cubed
+constexpr std::int32_t longest_rim = 5;  // nodes
+constexpr double least_hanging = 4;      // mean edges cubed
+constexpr double strip = 4;              // mean edges from rim to rim
 
-struct LipFacet {
-  FacetNodes uncut;  // ascending: both lips have the same
-  FacetNodes node;
+using LipNodes = std::array<std::int32_t, 3>;
+
+struct LipTriangle {
+  LipNodes uncut;  // ascending: both lips have the same
+  LipNodes node;
 };
 
-std::vector<LipFacet> lip_facets(const Mesh& mesh) {
-  std::vector<LipFacet> facets;
+// Of opened facets, quads by any three of their corners: tetrahedra may lie across.
+std::vector<LipTriangle> lip_triangles(const Mesh& mesh) {
+  std::vector<LipTriangle> triangles;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
     for (int f = 0; mesh.cut_facets[e] >> f != 0; ++f) {
       if ((mesh.cut_facets[e] >> f & 1) == 0) continue;
-      LipFacet facet;
-      facet.uncut.fill(-1);
-      facet.node.fill(-1);
       const std::array<int, 4> corner = facet_corners(mesh.element_type[e], f);
-      for (std::size_t k = 0; k < 4; ++k)
-        if (corner[k] >= 0) {
-          facet.node[k] = mesh.corners(e)[corner[k]];
-          facet.uncut[k] = mesh.uncut_node(facet.node[k]);
+      for (std::size_t without = corner[3] < 0 ? 3 : 0; without < 4; ++without) {
+        LipTriangle lip;
+        for (std::size_t k = 0; k < 3; ++k) {
+          lip.node[k] = mesh.corners(e)[corner[k < without ? k : k + 1]];
+          lip.uncut[k] = mesh.uncut_node(lip.node[k]);
         }
-      std::ranges::sort(facet.uncut);
-      facets.push_back(facet);
+        std::ranges::sort(lip.uncut);
+        triangles.push_back(lip);
+      }
     }
-  std::ranges::sort(facets, {}, &LipFacet::uncut);
-  return facets;
+  std::ranges::sort(triangles, {}, &LipTriangle::uncut);
+  return triangles;
 }
 
-// Nodes that the lips of a facet share, with those of facets beside it.
-std::vector<std::vector<std::int32_t>> find_rims(const Mesh& mesh) {
-  const std::vector<LipFacet> facets = lip_facets(mesh);
+// Nodes that both lips of a facet share, and the rim of each: those of one facet are beside each
+// other.
+struct Rims {
+  std::vector<std::int32_t> node;  // ascending
+  std::vector<std::int32_t> of;    // (node.size()) position of the rim's first node
+};
+
+Rims find_rims(const Mesh& mesh) {
+  const std::vector<LipTriangle> lips = lip_triangles(mesh);
   std::vector<std::array<std::int32_t, 2>> beside;
-  for (std::size_t k = 1; k < facets.size(); ++k) {
-    if (facets[k].uncut != facets[k - 1].uncut) continue;
+  for (std::size_t k = 1; k < lips.size(); ++k) {
+    if (lips[k].uncut != lips[k - 1].uncut) continue;
     std::int32_t first = -1;
-    for (const std::int32_t i : facets[k].node) {
-      if (i < 0 || std::ranges::find(facets[k - 1].node, i) == facets[k - 1].node.end()) continue;
+    for (const std::int32_t i : lips[k].node) {
+      if (std::ranges::find(lips[k - 1].node, i) == lips[k - 1].node.end()) continue;
       if (first < 0) first = i;
       beside.push_back({first, i});
     }
   }
-  std::vector<std::int32_t> node;
-  for (const auto& [a, b] : beside) node.push_back(b);
-  sort_unique(node);
-  std::vector<std::size_t> group(node.size());
-  std::iota(group.begin(), group.end(), 0);
-  for (const auto& [a, b] : beside) {
-    const std::size_t from = group[place_in(node, a)], to = group[place_in(node, b)];
-    if (from != to) std::ranges::replace(group, std::max(from, to), std::min(from, to));
-  }
-  std::vector<std::vector<std::int32_t>> rims(node.size());
-  for (std::size_t k = 0; k < node.size(); ++k) rims[group[k]].push_back(node[k]);
-  std::erase_if(rims, [](const auto& rim) { return rim.empty(); });
+  Rims rims;
+  for (const auto& [a, b] : beside) rims.node.push_back(b);
+  sort_unique(rims.node);
+  DisjointSets sets(rims.node.size());
+  for (const auto& [a, b] : beside) sets.join(place_in(rims.node, a), place_in(rims.node, b));
+  rims.of = std::move(sets).roots();
   return rims;
+}
+
+// (n_nodes) The short rim that a node is of, -1: none.
+std::vector<std::int32_t> short_rims(const Mesh& mesh) {
+  const Rims rims = find_rims(mesh);
+  std::vector<std::int32_t> n_nodes(rims.node.size()), rim_of(mesh.X.size(), -1);
+  for (const std::int32_t rim : rims.of) ++n_nodes[rim];
+  for (std::size_t k = 0; k < rims.node.size(); ++k)
+    if (n_nodes[rims.of[k]] <= longest_rim) rim_of[rims.node[k]] = rims.of[k];
+  return rim_of;
 }
 
 // The body without the elements at rims.
@@ -92,32 +107,55 @@ Rest without_rims(const Mesh& mesh, const std::vector<std::int32_t>& rim_of) {
   return rest;
 }
 
+// An element at a rim that meets a large part of the rest.
+struct Meeting {
+  std::int32_t rim = 0, part = 0;
+  auto operator<=>(const Meeting&) const = default;
+};
+
+std::vector<Meeting> find_meetings(const Mesh& mesh, const std::vector<std::int32_t>& rim_of,
+                                   const Rest& rest, double least_volume) {
+  std::vector<Meeting> meetings;
+  for (const std::int32_t e : rest.removed)
+    for (const std::int32_t at : mesh.corners(e)) {
+      if (rim_of[at] < 0) continue;
+      for (const std::int32_t i : mesh.corners(e))
+        if (rest.volume[rest.part[i]] > least_volume)
+          meetings.push_back({rim_of[at], rest.part[i]});
+    }
+  sort_unique(meetings);
+  return meetings;
+}
+
+Vec3 middle_of_rim(const Mesh& mesh, const std::vector<std::int32_t>& rim_of, std::int32_t rim) {
+  Vec3 sum = Vec3::Zero();
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
+    if (rim_of[i] == rim) sum += mesh.X[i];
+  return sum / static_cast<double>(std::ranges::count(rim_of, rim));
+}
+
 }  // namespace
 
 std::vector<CutBridge> find_bridges(const Mesh& mesh, double mean_edge) {
-  std::vector<std::vector<std::int32_t>> rims = find_rims(mesh);
-  std::erase_if(rims, [](const auto& rim) { return rim.size() > longest_rim; });
-  if (rims.empty()) return {};
-  std::vector<std::int32_t> rim_of(mesh.X.size(), -1);
-  for (std::size_t r = 0; r < rims.size(); ++r)
-    for (const std::int32_t i : rims[r]) rim_of[i] = static_cast<std::int32_t>(r);
+  CHECK_OP(mesh.dimension(), ==, 3);
+  const std::vector<std::int32_t> rim_of = short_rims(mesh);
+  if (std::ranges::all_of(rim_of, [](std::int32_t rim) { return rim < 0; })) return {};
   const Rest rest = without_rims(mesh, rim_of);
-  std::vector<std::pair<std::int32_t, std::int32_t>> meets;  // a rim and a large part
-  for (const std::int32_t e : rest.removed)
-    for (const std::int32_t at : mesh.corners(e))
-      for (const std::int32_t i : mesh.corners(e))
-        if (rim_of[at] >= 0 && rest.volume[rest.part[i]] > least_hanging * std::pow(mean_edge, 3))
-          meets.emplace_back(rim_of[at], rest.part[i]);
-  sort_unique(meets);
+  const std::vector<Meeting> meetings =
+      find_meetings(mesh, rim_of, rest, least_hanging * std::pow(mean_edge, 3));
   std::vector<CutBridge> bridges;
-  for (std::size_t k = 0, next = 0; k < meets.size(); k = next) {
-    CutBridge bridge{.volume = rest.volume[meets[k].second]};
-    for (next = k; next < meets.size() && meets[next].first == meets[k].first; ++next)
-      bridge.volume = std::min(bridge.volume, rest.volume[meets[next].second]);
-    if (next - k < 2) continue;
-    const std::vector<std::int32_t>& rim = rims[meets[k].first];
-    for (const std::int32_t i : rim) bridge.X += mesh.X[i] / static_cast<double>(rim.size());
-    bridges.push_back(bridge);
+  for (auto first = meetings.begin(), next = first; first != meetings.end(); first = next) {
+    next = std::ranges::upper_bound(first, meetings.end(), first->rim, {}, &Meeting::rim);
+    if (next - first < 2) continue;  // the rest hangs together around the rim
+    const auto volume_of = [&](const Meeting& m) { return rest.volume[m.part]; };
+    const CutBridge bridge{
+        .X = middle_of_rim(mesh, rim_of, first->rim),
+        .volume = volume_of(*std::ranges::min_element(first, next, {}, volume_of))};
+    // A strip between two rims is one.
+    if (std::ranges::none_of(bridges, [&](const CutBridge& other) {
+          return (other.X - bridge.X).norm() < strip * mean_edge;
+        }))
+      bridges.push_back(bridge);
   }
   return bridges;
 }

@@ -13,9 +13,9 @@ struct CutBridge {
   double volume = 0;      // of the smallest part that hangs there [m^3]
 };
 
-// Short stretches of a rim (where the two lips of opened facets meet) whose elements alone join
-// parts of more than a few mean edges cubed. mean_edge [m]. In time of the mesh if there is a short
-// rim, else of the cuts'.
+// Short rims (of at most five nodes, where the two lips of opened facets meet) whose elements alone
+// join parts of more than a few mean edges cubed, one of those a few edges apart. Of bodies in
+// space; mean_edge [m].
 std::vector<CutBridge> find_bridges(const Mesh& mesh, double mean_edge);
 
 }  // namespace trocar

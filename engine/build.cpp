@@ -304,6 +304,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   s.scene = loaded.scene;
   for (std::size_t k = 0; k < n_phases; ++k) s.timers.phase(phase_names[k]);
   s.mesh = load_tissue(loaded, communicator);
+  s.scene.solver.step_factor = step_factor_of(s.scene.solver, s.mesh);
   s.materials = region_materials(s.scene.tissue, s.mesh);
   s.node_owner = partition_nodes(s.mesh, communicator);
   s.edge_length = mean_edge_length(s.mesh);

@@ -7,12 +7,10 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "base/sort_unique.h"
-#include "cutting/cut_bridge.h"
 #include "engine/cut_along_tip.h"
 #include "engine/cut_look.h"
 #include "engine/event_log.h"
 #include "engine/frame_watch.h"
-#include "engine/point_text.h"
 #include "engine/simulation.h"
 #include "engine/tissue_way.h"
 #include "engine/tool_report.h"
@@ -180,32 +178,11 @@ void note_swept_area(Simulation& s, std::span<const SweptPlace> swept, CutRecord
                  "deeper cut");
 }
 
-// Strokes around a piece that do not quite meet leave it hanging where nothing else is amiss.
-void note_bridges(Simulation& s, std::span<const SweptPlace> swept, const CutRecord& record) {
-  constexpr double beside = 2;  // edges
-  if (record.n_edits == 0) return;
-  for (const CutBridge& bridge : find_bridges(s.mesh, s.edge_length)) {
-    const auto is_beside = [&](const auto& place) {
-      return (place.X - bridge.X).norm() < beside * s.edge_length;
-    };
-    if (std::ranges::none_of(swept, is_beside)) continue;
-    if (std::ranges::any_of(record.figures.refusals, is_beside)) continue;
-    note_event(s, record.end,
-               record.tool + " leaves a part of " + short_text(1e6 * bridge.volume) +
-                   " cm^3 that hangs by few elements at " + point_text(bridge.X) +
-                   " m of the undeformed body: a stroke through there frees it; strokes that "
-                   "cross by more than an edge leave no such place");
-  }
-}
-
 // At its end.
 void note_stroke(Simulation& s, std::span<const SweptPlace> swept, CutRecord& record) {
   note_askew(s, record);
   note_refusals(s, record);
-  if (s.mesh.dimension() == 3) {
-    note_swept_area(s, swept, record);
-    note_bridges(s, swept, record);
-  }
+  if (s.mesh.dimension() == 3) note_swept_area(s, swept, record);
   note_deviation(s, record);
   note_energy_change(s, record);
 }

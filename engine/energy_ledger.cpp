@@ -228,8 +228,10 @@ void report_energies(Simulation& s, FrameRow& row) {
 // What strains that rounding makes would store, and more. [J]
 static double negligible_energy(const Simulation& s) {
   const double strain = s.scene.solver.precision == Precision::in_single ? 1e-5 : 1e-9;
-  const double wave = s.edge_length / s.rest_step;
-  return s.whole_mass * std::pow(strain * wave, 2);
+  double stiffest = 0;  // speed of pressure waves squared
+  for (const Material& m : s.materials)
+    stiffest = std::max(stiffest, (lame_lambda(m) + 2 * lame_mu(m)) / m.density);
+  return s.whole_mass * strain * strain * stiffest;
 }
 
 BalanceError balance_error(const Simulation& s) {

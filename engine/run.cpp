@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -41,7 +42,7 @@ void ask_to_stop(int) {
   if (!stop_asked.exchange(true)) return;
   constexpr std::string_view why =
       "[warning] a second signal: ended within a frame; --resume goes on from the last "
-      "checkpoint\n";
+      "checkpoint, if any\n";
   [[maybe_unused]] const ssize_t n = write(STDERR_FILENO, why.data(), why.size());
   std::_Exit(static_cast<int>(ExitCode::stopped));
 }
@@ -224,7 +225,7 @@ bool run_scene(const RunOptions& options, Communicator& communicator) {
   const bool has_begun = ending.code == ExitCode::done;
   if (has_begun) ending = run_frames(*simulation, outputs);
   if (ending.code == ExitCode::done) {
-    note_idle_tools(*simulation);
+    note_tools_at_end(*simulation);
     note_balance(*simulation);
   }
   times.loop_seconds = monotonic_seconds() - start - times.setup_seconds;

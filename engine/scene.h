@@ -38,7 +38,7 @@ struct SceneTime {
   double frame_rate = 30;  // [1/s]
   Pace pace = Pace::fast;
 
-  // When a frame ends [s].
+  // When a frame begins, and how long so many take. [s]
   double at(std::int64_t frame) const { return static_cast<double>(frame) / frame_rate; }
   // Frames in so many seconds, to the nearest.
   std::int64_t frames_in(double seconds) const {
@@ -110,7 +110,7 @@ struct SceneSolver {
   Vec3 gravity = Vec3::Zero();
   double mass_damping = 0;
   double hourglass = 0.15;
-  double step_factor = std::numeric_limits<double>::quiet_NaN();  // load_scene completes it
+  double step_factor = std::numeric_limits<double>::quiet_NaN();  // not given: step_factor_of
   StableStep stable_step = StableStep::frequency;
   double mass_scaling_step = 0;  // [s], 0: none
   double sleep = 0;              // [m], 0: never
@@ -245,6 +245,9 @@ struct Scene {
 bool has_blades(const Scene& scene);
 // Whether anything of the scene is written to a table of metrics.
 bool has_metrics(const Scene& scene);
+// The one given, or what keeps below resonances of the scheme (docs/stability.md): that of three
+// steps, and in plane stress, where what springs back stiffens manyfold, that of four.
+double step_factor_of(const SceneSolver& solver, const Mesh& mesh);
 // The first one for "", null if there is none.
 const SceneCamera* find_camera(const Scene& scene, const std::string& name);
 

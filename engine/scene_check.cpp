@@ -71,13 +71,6 @@ void check_shortcuts(const Scene& scene, OptionErrors& errors) {
                "\"nodal-pressure\", mass_scaling_step");
 }
 
-// Below the resonances of the scheme (docs/stability.md): that of three steps, and in plane stress,
-// where what springs back stiffens manyfold, that of four.
-void complete_solver(SceneSolver& solver) {
-  if (!std::isnan(solver.step_factor)) return;
-  solver.step_factor = solver.triangle == Formulation::tri3_plane_stress ? 0.7 : 0.85;
-}
-
 void complete_look(const SceneLook& of_tissue, SceneRegionLook& look) {
   if (!look.colour.allFinite()) look.colour = of_tissue.colour;
   if (!look.cut_colour.allFinite()) look.cut_colour = of_tissue.cut_colour;
@@ -252,6 +245,13 @@ bool has_metrics(const Scene& scene) {
                      [](const SceneOutput& output) { return output.kind == OutputKind::metrics; });
 }
 
+double step_factor_of(const SceneSolver& solver, const Mesh& mesh) {
+  if (!std::isnan(solver.step_factor)) return solver.step_factor;
+  const bool is_plane_stress =
+      mesh.dimension() == 2 && solver.triangle == Formulation::tri3_plane_stress;
+  return is_plane_stress ? 0.7 : 0.85;
+}
+
 const SceneCamera* find_camera(const Scene& scene, const std::string& name) {
   const auto found = std::ranges::find_if(
       scene.cameras, [&](const SceneCamera& c) { return name.empty() || c.name == name; });
@@ -264,7 +264,6 @@ static void check_tables(LoadedScene& loaded, OptionErrors& errors) {
   check_time(scene, errors);
   check_tissue(loaded, errors);
   complete_materials(loaded.scene.tissue, errors);
-  complete_solver(loaded.scene.solver);
   check_names(scene, errors);
   check_regions(scene, errors);
   check_supports(scene, errors);

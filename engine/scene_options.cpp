@@ -293,7 +293,8 @@ Options<SceneInstrument> instrument_options() {
            "From the tip to the end of the shaft; at least twice a scalpel's blade_length.");
   i.number("blade_length", &SceneInstrument::blade_length, dim::length, positive,
            "Of a scalpel's straight edge, from the tip up, behind which the blade is 0.28 times as "
-           "wide: along a narrow curve a long one presses the lips apart; of scissors, from tip to "
+           "wide, and 0.1 mm thick: along a narrow curve a long one presses the lips apart; of "
+           "scissors, from tip to "
            "pivot: open, "
            "each stands 0.3 rad off the shaft, and what lies beside them is not cut.");
   i.number("grip_radius", &SceneInstrument::grip_radius, dim::length, positive,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "cutting/cut_bridge.h"
 #include "engine/event_log.h"
 #include "engine/point_text.h"
 
@@ -114,10 +115,22 @@ static void note_unfinished(Simulation& s, const CutStage& stage) {
                    " mm) behind it, and what it has left joined is told once it is drawn out");
 }
 
-void note_idle_tools(Simulation& s) {
+// Strokes around a piece that do not quite meet leave it hanging where nothing else is amiss.
+static void note_bridges(Simulation& s) {
+  if (s.cuts.empty() || s.mesh.dimension() == 2) return;
+  for (const CutBridge& bridge : find_bridges(s.mesh, s.edge_length))
+    note_event(s, s.state.time,
+               "a part of " + short_text(1e6 * bridge.volume) +
+                   " cm^3 hangs by few elements between cuts, at " + point_text(bridge.X) +
+                   " m of the undeformed body: a stroke through there would free it; strokes that "
+                   "cross by more than an edge leave no such place");
+}
+
+void note_tools_at_end(Simulation& s) {
   for (const CutStage& stage : s.cuts)
     if (stage.is_in_stroke) note_unfinished(s, stage);
   note_idle_blades(s);
+  note_bridges(s);
   for (std::size_t k = 0; k < s.tools.size(); ++k)
     if (s.tools[k].kind == InstrumentKind::probe &&
         std::all_of(s.log.rows.begin(), s.log.rows.end(),

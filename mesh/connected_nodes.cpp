@@ -1,32 +1,22 @@
-// Disjoint sets with path halving; a root is the lowest node of its set.
 #include "mesh/connected_nodes.h"
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "mesh/equal_points.h"
 
 namespace trocar {
 
-static std::int32_t root_of(std::vector<std::int32_t>& above, std::int32_t node) {
-  while (above[node] != node) node = above[node] = above[above[node]];
-  return node;
-}
-
 std::vector<std::int32_t> connected_nodes(const Mesh& mesh,
                                           std::span<const std::int32_t> elements) {
-  std::vector<std::int32_t> above(mesh.X.size());
-  std::iota(above.begin(), above.end(), 0);
+  DisjointSets pieces(mesh.X.size());
   for (const std::int32_t e : elements) {
     const std::span<const std::int32_t> corner = mesh.corners(e);
-    for (const std::int32_t node : corner.subspan(1)) {
-      const std::int32_t a = root_of(above, corner[0]), b = root_of(above, node);
-      above[std::max(a, b)] = std::min(a, b);
-    }
+    for (const std::int32_t node : corner.subspan(1)) pieces.join(corner[0], node);
   }
-  for (std::int32_t node = 0; node < mesh.n_nodes(); ++node) above[node] = root_of(above, node);
-  return above;
+  return std::move(pieces).roots();
 }
 
 std::vector<std::int32_t> connected_nodes(const Mesh& mesh) {

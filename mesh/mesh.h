@@ -87,7 +87,7 @@ bool has_type(const Mesh& mesh, ElementType type);
 void add_element(Mesh& mesh, ElementType type, std::span<const std::int32_t> corners,
                  std::int32_t region = 0);
 
-// Of a tetrahedron.
+// The nodes of a tetrahedron.
 inline std::array<std::int32_t, 4> tet_nodes(const Mesh& mesh, std::int32_t e) {
   const std::span<const std::int32_t> c = mesh.corners(e);
   return {c[0], c[1], c[2], c[3]};

@@ -37,11 +37,9 @@ struct OnePoint {
     if constexpr (requires { Element::kept_added_in_single; }) return Element::kept_added_in_single;
     return 0;
   }();
-  static constexpr bool is_aligned = [] {
-    if constexpr (requires { Element::is_aligned; }) return Element::is_aligned;
-    return false;
-  }();
-  static constexpr bool is_read(int value) requires is_aligned { return Element::is_read(value); }
+  // Of an aligned one: whether its kernels read a value.
+  static constexpr bool is_read(int value) requires requires { Element::is_read(0); }
+  { return Element::is_read(value); }
   template <class Pack>
   static constexpr bool reads_positions = [] {
     if constexpr (requires { Element::template reads_positions<Pack>; })

@@ -149,10 +149,7 @@ struct ElementLoops {
   }
 
  private:
-  static constexpr bool is_aligned = [] {
-    if constexpr (requires { Element::is_aligned; }) return Element::is_aligned;
-    return false;
-  }();
+  static constexpr bool is_aligned = requires { Element::is_read(0); };
 
   // By component, for elements whose displacements lie node by node.
   [[gnu::noinline]] static void load_positions(const BlockTask& task, std::int64_t block, int lane,

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <random>
 
+#include "base/timers.h"
 #include "cutting/cut_plane_paper.h"
 #include "engine/summary.h"
 #include "mesh/edit.h"
@@ -74,9 +74,9 @@ struct Collected {
 void cut_once(const Mesh& mesh, const std::vector<Vec3>& path, const CutPlaneOptions& options,
               Collected& all) {
   const std::vector<std::uint8_t> is_held(mesh.X.size(), 0);
-  const std::clock_t start = std::clock();  // of the processor: a sweep shares the machine
+  const double start = thread_seconds();  // a sweep shares the machine
   const PlaneCut cut = cut_plane(mesh, path, -1, {is_held}, options);
-  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  const double seconds = thread_seconds() - start;
   if (cut.edit.is_empty()) {
     ++all.n_refused;
     return;

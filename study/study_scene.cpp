@@ -194,7 +194,6 @@ void describe(const SceneStudy& study, Problem& problem) {
   problem.quantity = "greatest distance of a surface point from where the finest run has it";
   problem.unit = "m";
   problem.simulated_seconds = scene.time.duration;
-  problem.factors = {scene.solver.step_factor};
   problem.size_meaning =
       study.has_shape() ? "cells along the direction with most" : "mesh files, coarse to fine";
   if (study.has_shape()) return;
@@ -247,6 +246,7 @@ Problem problem_of_scene(const SceneStudyOptions& options, Communicator& communi
   if (study->has_shape() && study->loaded.scene.tissue.shape->elements != BoxElements::hex8)
     coarsest.method.elements = BoxElements::tet4_kuhn;
   const Mesh mesh = load_tissue(scene_of(*study, coarsest), communicator);
+  problem.factors = {step_factor_of(study->loaded.scene.solver, mesh)};
   study->points = surface_points(mesh, most_sample_points);
   for (const Method& method : methods())
     if (can_have(*study, mesh, method.formulation)) problem.methods.push_back(method);

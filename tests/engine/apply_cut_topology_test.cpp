@@ -269,7 +269,7 @@ TEST(Topology, of_an_edit_changes_the_ledger_by_what_the_whole_body_gains) {
 
 bool is_inside(const Part& part, const Mesh& mesh, std::span<const std::int32_t> elements) {
   return !elements.empty() && std::ranges::all_of(nodes_of(mesh, elements), [&](std::int32_t i) {
-    return part.node_local[i] >= 0 && part.node_local[i] < part.n_owned;
+    return part.owned(i) >= 0;
   });
 }
 

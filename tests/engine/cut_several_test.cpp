@@ -1,10 +1,13 @@
 // Pieces that several strokes cut free together.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "engine/cut_stage.h"
 #include "engine/simulation.h"
+#include "engine/tool_report.h"
 #include "engine_plate.h"
 #include "engine_started.h"
 
@@ -39,6 +42,54 @@ TEST(CutSeveral, four_strokes_of_a_scalpel_free_the_piece_between_them) {
   Simulation& s = *started->s;
   while (s.frame < 63) run_frame(s, started->outputs);
   EXPECT_EQ(s.n_pieces, 2);
+}
+
+// A square of 30 mm out of the middle of a plate, turned by 0.3, by four scalpels that go a cell
+// beyond its corners; in mm and s.
+std::string square_text(const std::string& elements) {
+  constexpr double cell = 60.0 / 16, half = 15, angle = 0.3, top = 3 * cell + 10;
+  std::string text =
+      "[time]\nduration = 2.1\nframe_rate = 60\n[tissue.shape]\nkind = \"box\"\nelements = \"" +
+      elements +
+      "\"\nlow = [-0.03, -0.03, 0]\nhigh = [0.03, 0.03, 0.01125]\ncells = [16, 16, 3]\n"
+      "[tissue.material]\nyoung_modulus = 10000\npoisson_ratio = 0.4\ndensity = 1000\n"
+      "[solver]\nmass_damping = 30\n";
+  for (const char* side : {"x-", "x+", "y-", "y+"})
+    text += std::string("[[support]]\nregion = \"") + side + "\"\n";
+  for (int k = 0; k < 4; ++k) {
+    const double turn = angle + k * 1.5707963267948966, c = std::cos(turn), n = std::sin(turn);
+    const double along = half + cell, start = 0.52 * k;
+    const Vec3 from(-c * along + n * half, -n * along - c * half, 0),
+        to(c * along + n * half, n * along - c * half, 0);
+    const std::string forward =
+        "[" + std::to_string(c) + ", " + std::to_string(n) + ", 0], stop = true";
+    text +=
+        "[[instrument]]\nkind = \"scalpel\"\nname = \"s" + std::to_string(k) +
+        "\"\nblade_length = 0.03\npath = [\n" +
+        facing((k > 0 ? key(0, from.x(), from.y(), top) : "") +
+                   key(start, from.x(), from.y(), top) + key(start + 0.1, from.x(), from.y(), -4) +
+                   key(start + 0.4, to.x(), to.y(), -4) + key(start + 0.5, to.x(), to.y(), top),
+               forward) +
+        "]\n";
+  }
+  return text;
+}
+
+// What strokes around it leave hanging at a corner, without a place where the blade missed tissue.
+TEST(CutSeveral, tells_of_a_part_that_hangs_by_few_elements) {
+  int n_told = 0;
+  for (const std::string elements : {"hex8", "tet4-kuhn", "tet4-five"}) {
+    const auto started = built(square_text(elements));
+    Simulation& s = *started->s;
+    while (s.frame < 126) run_frame(s, started->outputs);
+    note_tools_at_end(s);
+    const bool is_told = std::ranges::any_of(s.log.events, [](const std::string& event) {
+      return event.find("hangs by few elements between cuts, at") != std::string::npos;
+    });
+    EXPECT_NE(s.n_pieces == 2, is_told) << elements;
+    n_told += is_told ? 1 : 0;
+  }
+  EXPECT_GT(n_told, 0);
 }
 
 // Along y, from its side of the block on, to 3 mm beyond the middle and out upwards.

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "engine_scene.h"
+#include "mesh/generate.h"
 
 namespace trocar {
 namespace {
@@ -346,6 +347,19 @@ TEST(SceneCheck, points_at_the_key_that_is_wrong) {
   expect_place(
       instrument_text("probe") + "name = \"a\"\n" + instrument_text("probe") + "name = \"a\"\n",
       "12:8 instrument[1].name");
+}
+
+TEST(SceneCheck, step_factor_is_the_one_given_or_the_body_s) {
+  const Mesh plane = make_rectangle(1, 1, 2, 2),
+             box = make_box(Vec3::Zero(), Vec3::Ones(), {1, 1, 1}, BoxElements::hex8);
+  const auto factor = [](const std::string& keys, const Mesh& mesh) {
+    return step_factor_of(load_scene_text(scene_text("[solver]\n" + keys)).solver, mesh);
+  };
+  const std::string stress = "triangle = \"plane-stress\"\n";
+  EXPECT_EQ(factor("", plane), 0.85);
+  EXPECT_EQ(factor(stress, plane), 0.7);
+  EXPECT_EQ(factor(stress, box), 0.85);
+  EXPECT_EQ(factor(stress + "step_factor = 0.8\n", plane), 0.8);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ std::vector<std::string> events_of_blade(const std::string& from, const std::str
       from + pose + ", { time = 0.05, position = [" + to + pose + "]\n");
   Simulation& s = *started->s;
   while (s.frame < 5) run_frame(s, started->outputs);
-  note_idle_tools(s);
+  note_tools_at_end(s);
   return s.log.events;
 }
 
@@ -70,7 +70,7 @@ TEST(IdleTools, are_told_of_strokes_that_cut_nothing_beside_others_that_did) {
         through + (is_both ? away + shallow : "") + "]\n");
     Simulation& s = *started->s;
     while (s.frame < 20) run_frame(s, started->outputs);
-    note_idle_tools(s);
+    note_tools_at_end(s);
     const auto told = std::ranges::find_if(s.log.events, [](const std::string& event) {
       return contains(event,
                       "scalpel has cut nothing in 1 of its 2 strokes, first in that of 0.3 s");

@@ -72,19 +72,26 @@ constexpr Formulation hexahedra[] = {Formulation::hex8_one_point, Formulation::h
 
 }  // namespace
 
+static std::int32_t n_aligned(const Mesh& mesh) {
+  return make_body(mesh).model.blocks[0].n_aligned;
+}
+
 // Boxes along the axes have kernels of their own.
 TEST(NodeLayout, aligned_boxes_have_the_bits_of_any_hexahedra) {
   for (const Formulation formulation : hexahedra)
     for (const Precision precision : precisions)
       for (int nx = 16; nx <= 34; nx += 3) {
         const SolverOptions solver = with(formulation, {.precision = precision});
-        EXPECT_TRUE(have_same_bits(straight_box(nx, 5, 4), solver)) << nx;
-        EXPECT_TRUE(have_same_bits(with_disorder(straight_box(nx, 12, 9)), solver)) << nx;
+        const Mesh straight = straight_box(nx, 5, 4), some = with_disorder(straight_box(nx, 12, 9));
+        EXPECT_TRUE(have_same_bits(straight, solver)) << nx;
+        EXPECT_TRUE(have_same_bits(some, solver)) << nx;
+        EXPECT_GT(n_aligned(straight), 0);
+        EXPECT_GT(n_aligned(some), 0);
+        EXPECT_LT(n_aligned(some), make_body(some).model.blocks[0].n_blocks);
       }
 }
 
 TEST(NodeLayout, blocks_are_aligned_where_all_their_edges_lie_along_the_axes) {
-  const auto n_aligned = [](const Mesh& mesh) { return make_body(mesh).model.blocks[0].n_aligned; };
   EXPECT_EQ(n_aligned(straight_box(24, 6, 5)), 90);
   EXPECT_EQ(n_aligned(jittered_box(24, 6, 5)), 0);
   Mesh mesh = straight_box(24, 6, 5);
@@ -119,6 +126,7 @@ TEST(NodeLayout, by_component_gives_the_bits_of_node_by_node_on_several_threads)
     for (const int n_threads : {2, 3}) {
       set_thread_count(n_threads);
       EXPECT_TRUE(have_same_bits(jittered_box(20, 20, 12), {.precision = precision}));
+      EXPECT_TRUE(have_same_bits(straight_box(20, 20, 12), {.precision = precision}));
     }
   set_thread_count(1);
 }
@@ -141,15 +149,15 @@ TEST(NodeLayout, strides_take_all_nodes_of_their_rows) {
 
 // A window holds 4096 nodes here and the box 18,081; in threads' halves too.
 TEST(NodeLayout, windows_that_begin_anew_keep_the_bits) {
-  const Mesh mesh = jittered_box(20, 6, 122);
-  for (const int n_threads : {1, 2}) {
-    set_thread_count(n_threads);
-    for (const Precision precision : precisions) {
-      EXPECT_TRUE(have_same_bits(mesh, {.precision = precision}));
-      EXPECT_LT(make_body(mesh, {.solver = {.precision = precision}}).scratch.u_by_component.size(),
-                3 * mesh.X.size());
+  for (const Mesh& mesh : {jittered_box(20, 6, 122), straight_box(20, 6, 122)})
+    for (const int n_threads : {1, 2}) {
+      set_thread_count(n_threads);
+      for (const Precision precision : precisions) {
+        EXPECT_TRUE(have_same_bits(mesh, {.precision = precision}));
+        const Body body = make_body(mesh, {.solver = {.precision = precision}});
+        EXPECT_LT(body.scratch.u_by_component.size(), 3 * mesh.X.size());
+      }
     }
-  }
   set_thread_count(1);
 }
 
