@@ -173,7 +173,7 @@ void build_instruments(const LoadedScene& loaded, Simulation& s) {
 // heeded between frames only.
 void check_slow_element(const LoadedScene& loaded, const Simulation& s) {
   constexpr double many_substeps = 20000, too_many_substeps = 1e6;
-  const double n = 1 / (s.scene.time.frame_rate * s.scene.solver.step_factor * s.watch.stable_step);
+  const double n = 1 / (s.scene.time.frame_rate * s.step_factor * s.watch.stable_step);
   if (n < many_substeps) return;
   const std::string sentence =
       "a frame needs " + short_text(n) + " steps, because element " +
@@ -304,7 +304,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   s.scene = loaded.scene;
   for (std::size_t k = 0; k < n_phases; ++k) s.timers.phase(phase_names[k]);
   s.mesh = load_tissue(loaded, communicator);
-  s.scene.solver.step_factor = step_factor_of(s.scene.solver, s.mesh);
+  s.step_factor = step_factor_of(s.scene.solver, s.mesh);
   s.materials = region_materials(s.scene.tissue, s.mesh);
   s.node_owner = partition_nodes(s.mesh, communicator);
   s.edge_length = mean_edge_length(s.mesh);

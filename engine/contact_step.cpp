@@ -106,7 +106,7 @@ double stable_step_with_contact(Simulation& s, const FrameSpan& span) {
   const PhaseScope scope(s.timers, phase_watch);
   const std::vector<Tilt> tilts = find_tilts(s.contact->detector, span.n_substeps, s.contact->set);
   const double of_contact = s.communicator->all_max(tilt_frequency2(tilts, s.contact->set));
-  const double room = most_of_limit / s.scene.solver.step_factor;
+  const double room = most_of_limit / s.step_factor;
   const double sum = room * stable / std::sqrt(1 + of_contact * stable * stable / 4);
   if (sum >= stable || !can_search_part(s)) return std::min(stable, sum);
   const double found = room * search_around(s, tilts_of_all(s, tilts), stable / room,

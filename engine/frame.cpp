@@ -35,7 +35,7 @@ constexpr double step_rise = 1e-4;
 void plan_substeps(const Simulation& s, FrameSpan& span) {
   const double length = 1 / s.scene.time.frame_rate;
   const double stable = std::min(s.watch.stable_step, s.held_step);
-  const double dt = s.scene.solver.step_factor * s.step_scale * step_share(s) * stable;
+  const double dt = s.step_factor * s.step_scale * step_share(s) * stable;
   span.n_substeps = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / dt)));
   span.dt = length / static_cast<double>(span.n_substeps);
 }
@@ -214,9 +214,8 @@ std::string find_first_inverted(Simulation& s) {
 // it at the end, elements had swung up by a third of the body's energy. So the step must leave half
 // of what step_factor keeps off the limit. Bounds of single elements are below the limit anyway.
 bool was_stable(const Simulation& s, const FrameSpan& span) {
-  const SceneSolver& solver = s.scene.solver;
-  const bool is_limit = solver.stable_step == StableStep::frequency;
-  const double most = is_limit ? 0.5 * (1 + solver.step_factor) : 1;
+  const bool is_limit = s.scene.solver.stable_step == StableStep::frequency;
+  const double most = is_limit ? 0.5 * (1 + s.step_factor) : 1;
   return span.dt <= most * step_share(s) * s.watch.stable_step;
 }
 

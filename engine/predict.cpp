@@ -50,7 +50,7 @@ std::string line(const char* name, const char* format, double value) {
 std::string predict(Simulation& s) {
   const double program = s.communicator->all_max(static_cast<double>(peak_memory_bytes()));
   const double frame = 1 / s.scene.time.frame_rate;
-  const double limit = s.scene.solver.step_factor * s.watch.stable_step;
+  const double limit = s.step_factor * s.watch.stable_step;
   const double n_substeps = std::ceil(frame / limit);
   const double step_seconds = measure_step(s, frame / n_substeps);
   std::uint64_t mine = memory_bytes(s.model, s.scratch);

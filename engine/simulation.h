@@ -133,6 +133,7 @@ struct Simulation : RankBody {
   std::unique_ptr<MultiRate> multirate;      // of it, if it saves work
   bool has_local_steps = false;              // in this frame
   std::optional<Sleep> sleep;                // only if the scene asks for it
+  double step_factor = 0.85;                 // of the scene: step_factor_of
   double step_scale = 1;                     // halved by each roll-back, then rises slowly
   // The stable step falls at once and rises slowly (step_rise in frame.cpp). [s]
   double held_step = std::numeric_limits<double>::infinity();

@@ -150,7 +150,7 @@ double share_by_sum(const Simulation& s, std::int64_t n_substeps) {
   const double omega2 =
       tilt_frequency2(find_tilts(contact.detector, n_substeps, contact.set), contact.set);
   const double step = s.watch.stable_step;
-  return 0.98 / s.scene.solver.step_factor / std::sqrt(1 + omega2 * step * step / 4);
+  return 0.98 / s.step_factor / std::sqrt(1 + omega2 * step * step / 4);
 }
 
 // A probe without friction, at rest from 0.7 s on: the contact point of a triangle runs towards

@@ -47,7 +47,7 @@ TEST(Frame, with_contact_allocates_by_frames_and_not_by_steps) {
   const auto few = built(pressed_text), many = built(pressed_text);
   for (int k = 0; k < 8; ++k)
     for (Started* started : {few.get(), many.get()}) run_frame(*started->s, started->outputs);
-  many->s->scene.solver.step_factor /= 2;
+  many->s->step_factor /= 2;
   const std::int64_t of_few = allocations_of_frame(*few), of_many = allocations_of_frame(*many);
   EXPECT_EQ(of_many, of_few);
   EXPECT_GT(many->s->log.rows.back().n_substeps, 3 * few->s->log.rows.back().n_substeps / 2);
@@ -136,7 +136,7 @@ TEST(Frame, is_done_again_where_its_step_comes_near_the_limit) {
   const auto started = swinging_block({"time.frame_rate=10"});
   Simulation& s = *started->s;
   run_frame(s, started->outputs);
-  s.scene.solver.step_factor = 0.9;                 // as was asked for, so that 0.95 is the most
+  s.step_factor = 0.9;                              // as was asked for, so that 0.95 is the most
   s.held_step = s.watch.stable_step *= 0.96 / 0.9;  // more than the tissue has
   run_frame(s, started->outputs);
   ASSERT_GE(s.log.n_roll_backs, 1);
@@ -162,7 +162,7 @@ TEST(Frame, takes_a_shorter_step_at_once_and_a_longer_one_slowly) {
   const auto started = swinging_block();
   Simulation& s = *started->s;
   s.held_step = 0.6 * s.watch.stable_step;  // of frames before
-  const double held = s.held_step, factor = s.scene.solver.step_factor;
+  const double held = s.held_step, factor = s.step_factor;
   run_frame(s, started->outputs);
   EXPECT_LE(s.log.rows.back().dt, factor * held);
   // A ten-thousandth of the frame's 1/40 s, if the tissue allows that much.
