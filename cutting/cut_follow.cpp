@@ -50,8 +50,7 @@ void follow_opening(const Mesh& mesh, const MeshEdit& edit, const CutKnown& alon
     return std::ranges::binary_search(parted, node);
   };
   const auto is_opened = [&](std::int32_t e) {
-    const auto at = std::ranges::lower_bound(edit.cut_facets, e, {}, &CutFacets::element);
-    return at != edit.cut_facets.end() && at->element == e && at->mask != mesh.cut_facets[e];
+    return cut_facets_after(edit, mesh, e) != mesh.cut_facets[e];
   };
   const auto is_gone = [&](const CutHit& hit) {
     const std::array<int, 2>& end = tet_edges[hit.edge];

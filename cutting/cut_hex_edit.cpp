@@ -43,13 +43,6 @@ struct KeptHex {
 
 }  // namespace
 
-static std::uint8_t cut_facets_after(const Translation& t, std::int32_t s) {
-  const auto at = std::lower_bound(
-      t.edit.cut_facets.begin(), t.edit.cut_facets.end(), s,
-      [](const CutFacets& change, std::int32_t element) { return change.element < element; });
-  return at != t.edit.cut_facets.end() && at->element == s ? at->mask : t.tets.mesh.cut_facets[s];
-}
-
 // Reference and present position of a node after the edit; a copy lies where its parent does.
 static std::array<Vec3, 2> position_after(const Translation& t, std::int32_t i) {
   const std::int32_t n = t.body.n_nodes();
@@ -82,7 +75,7 @@ static bool join_facets(const Translation& t, std::int32_t e, KeptHex& hex) {
   std::array<int, 6> n_open{};
   for (std::int32_t s = t.tets.first[e]; s < t.tets.end(e); ++s) {
     const std::array<std::int32_t, 4> node = tet_nodes(t.tets.mesh, s);
-    const std::uint8_t mask = cut_facets_after(t, s);
+    const std::uint8_t mask = cut_facets_after(t.edit, t.tets.mesh, s);
     for (int f = 0; f < 4 && mask != 0; ++f) {
       if ((mask >> f & 1) == 0) continue;
       const int g = hex_facet_of(t.body, e, node, f);

@@ -285,7 +285,11 @@ void follow_model(Simulation& s) {
   s.rest_step = s.communicator->all_min(s.least_element_step.value());
   localise_holds(s.holds, s.part);
   s.markers = follow_markers(s.scene.markers, s.mesh);
-  localise_loads(s.scene.loads, s.mesh, s.surface, s.part, s.loads);
+  if (!s.scene.loads.empty()) {
+    const std::vector<LoadFace> outer = loadable_faces(s.mesh, s.surface);
+    localise_loads(s.scene.loads, s.mesh, outer, s.part, s.loads);
+    if (!s.cuts.empty()) s.loads.border = load_borders(s.scene.loads, s.mesh, outer);
+  }
   if (s.energy) localise_supports(s.scene.supports, s.mesh, s.part, s.energy->support_forces);
   // A component r of displacements strains tetrahedra by at most 4 sqrt(3) r / h, hexahedra at
   // their centre by 6 r / h, with the least altitude h.

@@ -37,10 +37,6 @@ std::vector<LoadFace> outer_faces(const Surface& surface) {
   return faces;
 }
 
-std::vector<LoadFace> all_faces(const Mesh& mesh, const Surface& surface) {
-  return mesh.dimension() == 2 ? outer_edges(mesh) : outer_faces(surface);
-}
-
 // Each node's part of the face, outward and as long as its area [m^2]: the integral of the node's
 // shape function times the normal. Equal parts of a face that is no parallelogram would turn the
 // body. x(node) is a position.
@@ -214,27 +210,34 @@ void add_border(std::span<const LoadFace> faces, std::vector<BorderEdge>& border
     if (count_of(loaded, edge) == 1) border.push_back(edge);
 }
 
-// At a wound there is no face beyond. outer: all faces.
-void leave_out_wounds(std::vector<LoadFace> outer, const Mesh& mesh,
-                      std::vector<BorderEdge>& border) {
-  sort_unique(border);
-  const std::vector<BorderEdge> edges = edges_of(faces_at(border, mesh, std::move(outer)));
-  std::erase_if(border, [&](const BorderEdge& edge) { return count_of(edges, edge) != 2; });
-}
-
 }  // namespace
+
+std::vector<LoadFace> loadable_faces(const Mesh& mesh, const Surface& surface) {
+  return mesh.dimension() == 2 ? outer_edges(mesh) : outer_faces(surface);
+}
 
 std::vector<LoadFace> loaded_faces(const Mesh& mesh, const Surface& surface,
                                    const NodeSet& region) {
-  return faces_in(region, mesh, all_faces(mesh, surface));
+  return faces_in(region, mesh, loadable_faces(mesh, surface));
 }
 
-void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Surface& surface,
-                    const Part& part, Loads& loads) {
+std::vector<BorderEdge> load_borders(std::span<const SceneLoad> scene, const Mesh& mesh,
+                                     const std::vector<LoadFace>& outer) {
+  std::vector<BorderEdge> border;
+  for (const SceneLoad& load : scene)
+    add_border(faces_in(*find_node_set(mesh, load.region), mesh, outer), border);
+  sort_unique(border);
+  if (border.empty()) return border;
+  // At a wound there is no face beyond.
+  const std::vector<BorderEdge> edges = edges_of(faces_at(border, mesh, outer));
+  std::erase_if(border, [&](const BorderEdge& edge) { return count_of(edges, edge) != 2; });
+  return border;
+}
+
+void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh,
+                    const std::vector<LoadFace>& outer, const Part& part, Loads& loads) {
   loads = {};
-  if (scene.empty()) return;
   Placing placing{.part = part, .loads = loads};
-  std::vector<LoadFace> outer = all_faces(mesh, surface);
   for (std::size_t k = 0; k < scene.size(); ++k) {
     loads.path.push_back(path_of(scene[k]));
     const NodeSet& region = *find_node_set(mesh, scene[k].region);
@@ -242,9 +245,7 @@ void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Su
     const auto load = static_cast<std::int32_t>(k);
     if (scene[k].force != Vec3::Zero()) take_force(load, mesh, region, faces, placing);
     if (scene[k].pressure != 0) take_pressure(load, mesh, faces, placing);
-    add_border(faces, loads.border);
   }
-  leave_out_wounds(std::move(outer), mesh, loads.border);
   loads.force.assign(loads.node.size(), Vec3::Zero());
 }
 

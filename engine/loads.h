@@ -20,7 +20,9 @@ namespace trocar {
 // Nodes of a face of the surface, outward; two of a plane body, -1 fills up.
 using LoadFace = std::array<std::int32_t, 4>;
 
-// The faces all of whose nodes lie in the region, in ascending order of (element, facet).
+// All that a load may act on: of the uncut surface, in ascending order of (element, facet).
+std::vector<LoadFace> loadable_faces(const Mesh& mesh, const Surface& surface);
+// Those all of whose nodes lie in the region.
 std::vector<LoadFace> loaded_faces(const Mesh& mesh, const Surface& surface, const NodeSet& region);
 
 struct Loads {
@@ -44,15 +46,17 @@ struct Loads {
   std::vector<Face> faces;         // of loads with pressure
   std::vector<std::int32_t> node;  // owned, local
   std::vector<Vec3> force;         // (node.size()) of the present step [N]
-  // Where loaded areas end on the outer surface, as a cut wants it: there a node that goes aside
-  // would change what a load acts on.
-  std::vector<BorderEdge> border;
+  std::vector<BorderEdge> border;  // only if something cuts
   bool is_empty() const { return path.empty(); }
 };
 
-// After a change of part or topology.
-void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const Surface& surface,
-                    const Part& part, Loads& loads);
+// After a change of part or topology; outer: loadable_faces.
+void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh,
+                    const std::vector<LoadFace>& outer, const Part& part, Loads& loads);
+// Where loaded areas end on the outer surface, as a cut wants it: there a node that goes aside
+// would change what a load acts on.
+std::vector<BorderEdge> load_borders(std::span<const SceneLoad> scene, const Mesh& mesh,
+                                     const std::vector<LoadFace>& outer);
 // Whether any is another at some time from t0 to t1.
 bool do_loads_change(const Loads& loads, double t0, double t1);
 // What acts at a time [s] on the body with displacements u (n_local * 3); thickness at rest [m].

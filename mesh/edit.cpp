@@ -2,6 +2,7 @@
 #include "mesh/edit.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/check.h"
 #include "mesh/hex_split.h"
@@ -74,6 +75,11 @@ std::int32_t node_after(const MeshEdit& edit, const Mesh& before, std::int32_t e
   const auto key = [](const CornerChange& c) { return std::pair(c.element, c.corner); };
   const auto at = std::ranges::lower_bound(edit.corners, wanted, {}, key);
   return at != edit.corners.end() && key(*at) == wanted ? at->node : before.corners(e)[corner];
+}
+
+std::uint8_t cut_facets_after(const MeshEdit& edit, const Mesh& before, std::int32_t e) {
+  const auto at = std::ranges::lower_bound(edit.cut_facets, e, {}, &CutFacets::element);
+  return at != edit.cut_facets.end() && at->element == e ? at->mask : before.cut_facets[e];
 }
 
 // Node `node` on an edge joins the sets of both ends; of a facet that was left out both halves are.

@@ -119,6 +119,8 @@ std::int32_t node_before(const SplitNumbers& numbers, const Mesh& before,
 // That a corner of an element that is not split has after the edit.
 std::int32_t node_after(const MeshEdit& edit, const Mesh& before, std::int32_t e,
                         std::int32_t corner);
+// Mesh::cut_facets of such an element after the edit.
+std::uint8_t cut_facets_after(const MeshEdit& edit, const Mesh& before, std::int32_t e);
 
 void apply_edit(const MeshEdit& edit, Mesh& mesh);
 // The same change on a nodal field with `width` doubles a node (n_nodes * width -> n_new_nodes *

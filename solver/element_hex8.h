@@ -203,7 +203,6 @@ struct OnePointHex8 {
 template <class HourglassType>
 struct AlignedHex8 {
   using Any = OnePointHex8<HourglassType>;
-  using Aligned = AlignedHex8;
   static constexpr Formulation formulation = Any::formulation;
   static constexpr int n_corners = Any::n_corners, n_values = Any::n_values, n_kept = Any::n_kept;
   static constexpr int values_spared_in_single = Any::values_spared_in_single;

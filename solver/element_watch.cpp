@@ -65,15 +65,11 @@ struct ElementWatch::Lanes {
 };
 
 void ElementWatch::begin_with(const Model& model, const State& state, std::int32_t element) {
-  const auto begin = part_.element_global.begin();
-  const auto at = std::lower_bound(begin, part_.element_global.end(), element);
-  const auto local = static_cast<std::int32_t>(at - begin);
   for (const ElementBlocks& blocks : model.blocks) {
-    const std::span list(blocks.element_local.data(), static_cast<std::size_t>(blocks.n_elements));
-    const auto lane = std::lower_bound(list.begin(), list.end(), local);
-    if (lane == list.end() || *lane != local) continue;
+    const std::int32_t lane = lane_of(blocks, part_.place_of(element));
+    if (lane < 0) continue;
     for_strained_blocks(
-        model, blocks, state, (lane - list.begin()) / blocks.lanes, 1,
+        model, blocks, state, lane / blocks.lanes, 1,
         [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
           look(model, blocks, kernels, task, block, first_);
         });

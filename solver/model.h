@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/aligned_vector.h"
+#include "base/sort_unique.h"
 #include "mesh/partition.h"
 #include "solver/block_data.h"
 #include "solver/formulation.h"
@@ -146,6 +147,14 @@ struct MassClusters {
   std::vector<double> total;               // (n_clusters) sum of d [kg]
   std::vector<std::int32_t> of_node;       // (n_owned) cluster or -1; empty without clusters
 };
+
+// The lane of an element (position in Part::element_global), counted through all blocks of a list;
+// -1 if it is of another one.
+inline std::int32_t lane_of(const ElementBlocks& blocks, std::int64_t element) {
+  const std::span lanes(blocks.element_local);
+  return find_in(lanes.first(static_cast<std::size_t>(blocks.n_elements)),
+                 static_cast<std::int32_t>(element));
+}
 
 struct Model {
   std::int32_t n_local = 0, n_owned = 0;

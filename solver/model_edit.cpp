@@ -22,10 +22,7 @@ struct Place {
 };
 Place place_of(std::int32_t k, const Model& model) {
   for (std::size_t list = 0; list < model.blocks.size(); ++list) {
-    const ElementBlocks& blocks = model.blocks[list];
-    const auto end = blocks.element_local.begin() + blocks.n_elements;
-    const auto at = std::lower_bound(blocks.element_local.begin(), end, k);
-    if (at != end && *at == k) return {list, at - blocks.element_local.begin()};
+    if (const std::int32_t lane = lane_of(model.blocks[list], k); lane >= 0) return {list, lane};
   }
   CHECK(false);
   return {0, 0};

@@ -1,6 +1,5 @@
 #include "solver/thickness.h"
 
-#include <algorithm>
 #include <array>
 
 #include "solver/block_ranges.h"
@@ -23,10 +22,8 @@ double thickness_stretch(const Model& model, const State& state, std::int32_t el
   double stretch = 1;
   for (const ElementBlocks& blocks : model.blocks) {
     if (blocks.formulation != Formulation::tri3_plane_stress) continue;
-    const auto end = blocks.element_local.begin() + blocks.n_elements;
-    const auto at = std::lower_bound(blocks.element_local.begin(), end, element);
-    if (at == end || *at != element) continue;
-    const std::int64_t place = at - blocks.element_local.begin(), lane = place % blocks.lanes;
+    const std::int64_t place = lane_of(blocks, element), lane = place % blocks.lanes;
+    if (place < 0) continue;
     for_strained_blocks(model, blocks, state, place / blocks.lanes, 1,
                         [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t) {
                           const double area = blocks.precision == Precision::in_single

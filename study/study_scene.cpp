@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/sort_unique.h"
 #include "base/timers.h"
 #include "engine/build.h"
 #include "engine/equilibrium.h"
@@ -165,8 +166,7 @@ std::vector<int> sizes_of(const SceneStudy& study, const std::vector<int>& wante
     const int n = most_cells(shape), least = std::ranges::max(least_cells(shape.kind));
     sizes = wanted.empty() ? std::vector<int>{std::max(least, n / 4), std::max(least, n / 2), n}
                            : wanted;
-    std::sort(sizes.begin(), sizes.end());
-    sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
+    sort_unique(sizes);
   } else {
     for (int k = 1; k <= std::max(1, static_cast<int>(study.meshes.size())); ++k)
       sizes.push_back(k);
