@@ -34,7 +34,7 @@ const char* const examples_study =
     "\nexamples:\n"
     "  trocar study --list\n"
     "  trocar study indentation --sizes 4,8,16 --target '1 %'\n"
-    "  trocar study bending-column --elements hex8 --precision single --step-factor 0.5,0.9\n"
+    "  trocar study bending-column --elements hex8 --precision single --step-factor 0.5,0.85\n"
     "  trocar study scene.toml --sizes 5,10,20 --target '1 mm' --budget 60\n"
     "  trocar study scene.toml --meshes coarse.msh,middle.msh,fine.msh --set time.duration='1 s'\n"
     "  trocar study --all --docs docs\n";

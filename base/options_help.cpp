@@ -1,6 +1,7 @@
 // Help on options, as aligned text and as Markdown; both say the same.
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "base/options.h"
 
@@ -57,14 +58,42 @@ void append_aligned(const std::vector<Row>& rows, const std::string& indent, std
   }
 }
 
+bool is_same(const std::vector<OptionEntry>& a, const std::vector<OptionEntry>& b) {
+  return value_rows(a) == value_rows(b) &&
+         std::ranges::equal(a, b, [](const OptionEntry& one, const OptionEntry& other) {
+           return one.key == other.key && is_same(one.below, other.below);
+         });
+}
+
+// Tables on the way down the help. One as long as this that comes again points to the first.
+class ShownTables {
+ public:
+  // Header of the one before it with the same keys, else "".
+  std::string shown_as(const std::string& head, const OptionEntry& entry) {
+    constexpr std::size_t is_long = 6;
+    if (entry.below.size() < is_long) return "";
+    for (const auto& [earlier, below] : shown_)
+      if (is_same(*below, entry.below)) return earlier;
+    shown_.emplace_back(head, &entry.below);
+    return "";
+  }
+
+ private:
+  std::vector<std::pair<std::string, const std::vector<OptionEntry>*>> shown_;
+};
+
 void append_help(const std::vector<OptionEntry>& entries, const std::string& path,
-                 const std::string& indent, std::string& text) {
+                 const std::string& indent, ShownTables& shown, std::string& text) {
   append_aligned(value_rows(entries), indent, text);
   for (const OptionEntry& entry : entries) {
     if (!entry.is_table) continue;
-    text.append("\n").append(indent).append(header(path, entry)).append("  ");
+    const std::string head = header(path, entry), as = shown.shown_as(head, entry);
+    text.append("\n").append(indent).append(head).append("  ");
     text.append(table_doc(entry)).append("\n");
-    append_help(entry.below, path_below(path, entry), indent + "  ", text);
+    if (as.empty())
+      append_help(entry.below, path_below(path, entry), indent + "  ", shown, text);
+    else
+      text.append(indent).append("  The keys of ").append(as).append(".\n");
   }
 }
 
@@ -76,7 +105,7 @@ std::string cell(const std::string& text) {
 }
 
 void append_markdown(const std::vector<OptionEntry>& entries, const std::string& path,
-                     std::string& text) {
+                     ShownTables& shown, std::string& text) {
   const std::vector<Row> rows = value_rows(entries);
   if (!rows.empty()) text.append("\n| key | type | default | meaning |\n|---|---|---|---|\n");
   for (const Row& row : rows) {
@@ -85,9 +114,13 @@ void append_markdown(const std::vector<OptionEntry>& entries, const std::string&
   }
   for (const OptionEntry& entry : entries) {
     if (!entry.is_table) continue;
-    text.append("\n## `").append(header(path, entry)).append("`\n\n");
+    const std::string head = header(path, entry), as = shown.shown_as(head, entry);
+    text.append("\n## `").append(head).append("`\n\n");
     text.append(table_doc(entry)).append("\n");
-    append_markdown(entry.below, path_below(path, entry), text);
+    if (as.empty())
+      append_markdown(entry.below, path_below(path, entry), shown, text);
+    else
+      text.append("\nThe keys of `").append(as).append("`.\n");
   }
 }
 
@@ -96,14 +129,16 @@ void append_markdown(const std::vector<OptionEntry>& entries, const std::string&
 std::string help_options(const OptionTable& table) {
   std::string text = table.doc();
   text.append("\n\n");
-  append_help(table.entries(), "", "  ", text);
+  ShownTables shown;
+  append_help(table.entries(), "", "  ", shown, text);
   return text;
 }
 
 std::string markdown_options(const OptionTable& table) {
   std::string text = table.doc();
   text.append("\n");
-  append_markdown(table.entries(), "", text);
+  ShownTables shown;
+  append_markdown(table.entries(), "", shown, text);
   return text;
 }
 

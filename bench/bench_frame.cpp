@@ -37,11 +37,7 @@ double seconds_of(const Body& body) {
 }
 
 void run_steps(Simulation& s, std::int64_t n, double dt) {
-  for (std::int64_t k = 0; k < n; ++k) {
-    step_others(s.model, s.neighbours, {}, dt, s.state, s.scratch);
-    step_waiting(s.model, {}, {}, dt, s.state, s.scratch);
-    start_exchange(s.neighbours, s.state);
-  }
+  for (std::int64_t k = 0; k < n; ++k) step_alone(s, dt);
   finish_exchange(s.neighbours, s.state);
 }
 

@@ -275,6 +275,18 @@ void recover_step_scale(Simulation& s, const FrameSpan& span) {
 
 }  // namespace
 
+void step_alone(Simulation& s, double dt) {
+  if (moves_at_once(s)) {
+    step_others(s.model, s.neighbours, {}, dt, s.state, s.scratch);
+    step_waiting(s.model, {}, {}, dt, s.state, s.scratch);
+  } else {
+    find_force(s.model, s.neighbours, s.state, s.scratch);
+    refine_forces(s, dt);
+    integrate(s.model, s.scratch, {}, dt, s.state);
+  }
+  start_exchange(s.neighbours, s.state);
+}
+
 void run_frame(Simulation& s, Outputs& outputs) {
   const double start = monotonic_seconds();
   grasp(s, next_frame(s));

@@ -11,4 +11,7 @@ namespace trocar {
 // good frame, unless it was a cut that led to trouble.
 void run_frame(Simulation& s, Outputs& outputs);
 
+// A step of the tissue alone, to be timed: supports rest, nothing touches it. Collective.
+void step_alone(Simulation& s, double dt);
+
 }  // namespace trocar

@@ -6,7 +6,7 @@
 #include "base/heap.h"
 #include "base/threads.h"
 #include "base/timers.h"
-#include "engine/frame_force.h"
+#include "engine/frame.h"
 #include "engine/simulation.h"
 #include "mesh/quality.h"
 #include "solver/step.h"
@@ -23,12 +23,7 @@ double measure_step(Simulation& s, double dt) {
   int n = 0;
   double elapsed = 0;
   while (elapsed < 0.25) {
-    for (int k = 0; k < 20; ++k, ++n) {
-      find_force(s.model, s.neighbours, s.state, s.scratch);
-      refine_forces(s, dt);
-      integrate(s.model, s.scratch, {}, dt, s.state);
-      start_exchange(s.neighbours, s.state);
-    }
+    for (int k = 0; k < 20; ++k, ++n) step_alone(s, dt);
     // All ranks make the same number of rounds.
     elapsed = s.communicator->all_max(monotonic_seconds() - start);
   }
@@ -77,8 +72,8 @@ std::string predict(Simulation& s) {
       line("memory", "%.1f MB for model and scratch, all ranks", static_cast<double>(bytes) / 1e6);
   text += line("program's memory", "%.0f MB to build and watch the body, on the rank that has most",
                program / 1e6);
-  text +=
-      line("ranks x threads", "%.0f", static_cast<double>(s.communicator->size()) * thread_count());
+  text += line("ranks", "%.0f", s.communicator->size()) +
+          line("threads a rank", "%.0f", thread_count());
   text += line("real-time factor", "%.2f predicted for the steps alone",
                frame / (n_substeps * step_seconds));
   return text;

@@ -71,7 +71,7 @@ Problem problem_bending_column() {
           .sizes = {2, 4, 8, 12},
           .size_meaning = "cells over the width of 1 m (even)",
           .methods = solid_methods(),
-          .factors = {.5, .9},
+          .factors = {.5, .85},
           .solve = solve_column};
 }
 

@@ -97,7 +97,7 @@ Problem problem_lame_mode() {
           .size_meaning = "cells over the edge of 40 mm, one over the thickness",
           .growth = 3,
           .methods = solid_methods(),
-          .factors = {.5, .9},
+          .factors = {.5, .85},
           .solve = solve_lame_mode};
 }
 

@@ -61,5 +61,38 @@ TEST(Markdown, has_the_same_number_of_cells_in_every_row) {
   EXPECT_EQ(n_rows, 6 * 2 + 15);
 }
 
+struct Box {
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero(), turn = Vec3::Zero();
+  double scale = 1, density = 1000;
+  bool is_open = false;
+};
+struct Boxes {
+  Box first, second{.density = 2000}, third;
+};
+
+TEST(Help, points_to_a_long_table_that_it_has_shown) {
+  Options<Box> box("A box.");
+  box.vector("low", &Box::low, dim::length, any, "One corner.");
+  box.vector("high", &Box::high, dim::length, any, "The other.");
+  box.vector("turn", &Box::turn, dim::none, any, "Its axis.");
+  box.number("scale", &Box::scale, dim::none, positive, "Its size.");
+  box.number("density", &Box::density, dim::density, positive, "Mass per volume.");
+  box.boolean("is_open", &Box::is_open, "Whether it has a lid.");
+  Options<Boxes> boxes("Boxes.");
+  boxes.table("first", &Boxes::first, box, "One.");
+  boxes.table("second", &Boxes::second, box, "Another, of another default.");
+  boxes.table("third", &Boxes::third, box, "One more.");
+  const std::string help = help_options(boxes), markdown = markdown_options(boxes);
+  expect_part(help, "\n  [third]  One more. (table)\n    The keys of [first].\n");
+  expect_part(markdown, "## `[third]`\n\nOne more. (table)\n\nThe keys of `[first]`.\n");
+  const auto count = [](const std::string& text, const std::string& part) {
+    int n = 0;
+    for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++n;
+    return n;
+  };
+  EXPECT_EQ(count(help, "Whether it has a lid."), 2) << help;
+  EXPECT_EQ(count(markdown, "Whether it has a lid."), 2) << markdown;
+}
+
 }  // namespace
 }  // namespace trocar
