@@ -1,4 +1,4 @@
-// The three kinds of trouble that are not our mistake, each with the exit code that main gives it.
+// Trouble that is not our mistake, each kind with the exit code that main gives it.
 #pragma once
 
 #include <stdexcept>

@@ -102,7 +102,8 @@ double largest_size(std::span<const double> x) {
 double reproducible_dot(std::span<const double> a, std::span<const double> b, std::int64_t n,
                         double most, const Communicator& communicator) {
   CHECK_OP(a.size(), ==, b.size());
-  if (!std::isfinite(most)) return std::numeric_limits<double>::quiet_NaN();
+  if (!std::isfinite(static_cast<double>(n) * most))
+    return std::numeric_limits<double>::quiet_NaN();
   if (most == 0) return 0;
   const double coarse = rounder(n, most);
   const Quanta quanta{

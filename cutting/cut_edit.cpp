@@ -116,8 +116,9 @@ CutFigures make_figures(const TetCut& cut, bool is_last) {
     const double distance = surface_distance(cut.around, i, cut.X[i]);
     figures.largest_deviation = std::max(figures.largest_deviation, distance);
     figures.n_beside += distance > beside_distance * cut.around.h ? 1 : 0;
-    figures.mean_deviation += distance / static_cast<double>(parent.size());
+    figures.deviation_sum += distance;
   }
+  figures.n_on_cut = figures.n_duplicated;
   figures.n_turned = cut.rungs.n_turned;
   figures.n_chips = static_cast<std::int32_t>(cut.chips.size());
   figures.n_pulled_back = cut.rungs.n_pulled_back;

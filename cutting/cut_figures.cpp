@@ -32,9 +32,6 @@ void add(const CutFigures& of, bool has_edit, CutFigures& sum) {
   sum.n_beside += of.n_beside;
   sum.refusals.insert(sum.refusals.end(), of.refusals.begin(), of.refusals.end());
   if (!has_edit) return;
-  const double n_old = sum.n_moved, n_new = of.n_moved;
-  if (n_old + n_new > 0)
-    sum.mean_deviation = (sum.mean_deviation * n_old + of.mean_deviation * n_new) / (n_old + n_new);
   sum.n_moved += of.n_moved;
   sum.n_duplicated += of.n_duplicated;
   sum.n_opened_facets += of.n_opened_facets;
@@ -47,6 +44,8 @@ void add(const CutFigures& of, bool has_edit, CutFigures& sum) {
   sum.n_converted += of.n_converted;
   sum.n_kept_hexahedra += of.n_kept_hexahedra;
   sum.largest_deviation = std::max(sum.largest_deviation, of.largest_deviation);
+  sum.deviation_sum += of.deviation_sum;
+  sum.n_on_cut += of.n_on_cut;
   sum.mean_edge = of.mean_edge;
 }
 

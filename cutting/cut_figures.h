@@ -43,7 +43,8 @@ struct CutFigures {
   std::int32_t n_refused = 0;
   double least_quality = 1;  // mean ratio of the touched elements after the cut
   // of cut nodes from the swept surface, reference configuration [m]
-  double largest_deviation = 0, mean_deviation = 0;
+  double largest_deviation = 0, deviation_sum = 0;
+  std::int32_t n_on_cut = 0;  // nodes of deviation_sum
   // parted nodes that the floor under the stable step, a support or a sharp edge keeps more than
   // 0.1 mean edges from the swept surface
   std::int32_t n_beside = 0;
@@ -56,6 +57,8 @@ struct CutFigures {
   std::int32_t n_inserted = 0;        // nodes put on crossed edges of tissue too thin for its own
   std::vector<CutRefusal> refusals;   // (n_refused)
   double mean_edge = 0;               // mean edge length around the cut [m]
+
+  double mean_deviation() const { return n_on_cut > 0 ? deviation_sum / n_on_cut : 0; }  // [m]
 };
 
 // Those of a stroke's next step to the sum of the ones before; without an edit only what the blade

@@ -132,18 +132,15 @@ void add_density(const Mesh& mesh, const PlanePatch& after, MeshEdit& edit) {
 
 void measure_deviation(const PlanePatch& patch, std::span<const CutChain> chains,
                        CutFigures& figures) {
-  double sum = 0;
-  int n = 0;
   for (const CutChain& chain : chains) {
     figures.n_opened_facets += chain.n_segments();
     for (const int i : chain.node) {
       const double deviation = distance_to(chain.asked, patch.x[i]);
       figures.largest_deviation = std::max(figures.largest_deviation, deviation);
-      sum += deviation;
-      ++n;
+      figures.deviation_sum += deviation;
+      ++figures.n_on_cut;
     }
   }
-  figures.mean_deviation = n > 0 ? sum / n : 0;
 }
 
 }  // namespace

@@ -150,10 +150,10 @@ void note_energy_change(Simulation& s, const CutRecord& record) {
 // A floor under the stable step, supports and sharp edges keep nodes off the blade's way.
 void note_deviation(Simulation& s, const CutRecord& record) {
   constexpr double far = 0.25;  // edges
-  if (record.figures.mean_deviation > far * record.figures.mean_edge)
+  if (record.figures.mean_deviation() > far * record.figures.mean_edge)
     note_event(
         s, record.end,
-        record.tool + "'s cut lies " + short_text(1e3 * record.figures.mean_deviation) +
+        record.tool + "'s cut lies " + short_text(1e3 * record.figures.mean_deviation()) +
             " mm beside its way in the mean, of edges of " +
             short_text(1e3 * record.figures.mean_edge) +
             " mm (deviation_mean_m): a lower cutting.least_step_ratio or a finer mesh helps");

@@ -61,7 +61,7 @@ Json edits_json(const CutRecord& c) {
           {"kinetic_energy_change_J", c.kinetic_energy_change},
           {"strain_energy_change", c.strain_energy_change},
           {"deviation_max_m", c.figures.largest_deviation},
-          {"deviation_mean_m", c.figures.mean_deviation},
+          {"deviation_mean_m", c.figures.mean_deviation()},
           {"edge_mean_m", c.figures.mean_edge}};
 }
 

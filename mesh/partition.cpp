@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/on_root.h"
 #include "mesh/facets.h"
 #include "mesh/partition_work.h"
 
@@ -184,30 +185,16 @@ std::vector<std::int32_t> partition_nodes(const Mesh& mesh, int n_parts) {
   return least_work(mesh, owners, n_parts);
 }
 
-// What rank 0 found wrong, so that the others don't wait for its broadcast.
-static std::string try_partition(const Mesh& mesh, int n_parts, std::vector<std::int32_t>& owner) {
-  try {
-    owner = partition_nodes(mesh, n_parts);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return {};
-}
-
 std::vector<std::int32_t> partition_nodes(const Mesh& mesh, Communicator& communicator) {
   // The user's mistake is seen by every rank alike.
   if (communicator.size() == 1 || mesh.n_nodes() < communicator.size())
     return partition_nodes(mesh, communicator.size());
-  std::vector<std::int32_t> owner;
-  std::string trouble;
-  if (communicator.is_root()) trouble = try_partition(mesh, communicator.size(), owner);
-  trouble = communicator.first_text(trouble);
-  if (!trouble.empty()) throw MachineError(trouble);
-
-  std::vector<std::byte> bytes(owner.size() * sizeof(std::int32_t));
-  if (!owner.empty()) std::memcpy(bytes.data(), owner.data(), bytes.size());
-  communicator.broadcast(bytes);
-  owner.resize(mesh.X.size());
+  const std::vector<std::byte> bytes = read_on_root(communicator, [&] {
+    const std::vector<std::int32_t> owner = partition_nodes(mesh, communicator.size());
+    const std::span<const std::byte> all = std::as_bytes(std::span(owner));
+    return std::vector<std::byte>(all.begin(), all.end());
+  });
+  std::vector<std::int32_t> owner(mesh.X.size());
   std::memcpy(owner.data(), bytes.data(), bytes.size());
   return owner;
 }

@@ -55,8 +55,10 @@ void skip_numbers(FileReader& in, std::int64_t n_tuples, std::size_t width, std:
 
 void skip_bits(FileReader& in, std::int64_t n_tuples, std::size_t width) {
   if (!in.is_binary) return skip_numbers(in, n_tuples, width, 2);
-  const std::size_t n = in.check_count(n_tuples / 8, std::max<std::size_t>(1, width), "bits") * 8 +
-                        static_cast<std::size_t>(n_tuples % 8);
+  // Rounded towards what is negative, which is refused.
+  const std::int64_t n_eights = n_tuples >> 3, n_beside = n_tuples & 7;
+  const std::size_t n = in.check_count(n_eights, std::max<std::size_t>(1, width), "bits") * 8 +
+                        static_cast<std::size_t>(n_beside);
   in.take((n * width + 7) / 8, "an array");
 }
 

@@ -234,6 +234,7 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
     const double largest_K = apply_stiffness(s, next, x);
     ++found.n_iterations;
     T.diagonal.push_back(s.dot(x, next.x, largest * largest_K));
+    if (!std::isfinite(T.diagonal.back())) return found;
     go_on(s, T.diagonal.back(), x, T.beside.empty() ? 0 : T.beside.back(), last, next);
     take_ritz_value(T, next.length, found);
     found.is_converged =

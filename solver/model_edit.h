@@ -1,7 +1,8 @@
 // A model after an edit: the numbers of edited elements and nodes are made anew, the others stay or
 // go with their elements. What is left in proportion to the model is the order of sums, whole
 // numbers only (nodes are copied and rows searched on one thread of one rank, elements passed
-// else), positions in single precision, and copies of the lists from which hexahedra were split.
+// else), positions in single precision, which blocks lie along the axes, the lanes that averaged
+// volume changes link, and copies of the lists from which hexahedra were split.
 #pragma once
 
 #include <cstdint>

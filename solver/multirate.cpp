@@ -63,11 +63,12 @@ std::vector<std::int32_t> nodes_below(double step, const Mesh& mesh,
 }
 
 // What the elements' own force needs: no loads, and masses that nobody asks for.
-void build_body(const MultiRateBody& body, MultiRate& m, Communicator& communicator) {
+void build_body(const MultiRateBody& body, const Mesh& own, MultiRate& m,
+                Communicator& communicator) {
   SolverOptions options = body.model.options;
   options.gravity = Vec3::Zero();
-  const auto n = m.mesh.X.size();
-  m.model = build_model(m.mesh, m.part, body.materials, std::vector<FixedMask>(n),
+  const auto n = own.X.size();
+  m.model = build_model(own, m.part, body.materials, std::vector<FixedMask>(n),
                         std::vector<double>(n, 1.0), options);
   m.state = make_state(m.model);
   m.scratch = make_scratch(m.model);
@@ -81,8 +82,10 @@ void build_body(const MultiRateBody& body, MultiRate& m, Communicator& communica
 
 // u on all local nodes, what moves in this step.
 void begin(const MultiRateStep& step, MultiRate& m) {
-  for (std::size_t i = 0; i < m.whole.size(); ++i)
-    std::copy_n(&step.state.u[3 * static_cast<std::size_t>(m.whole[i])], 3, &m.state.u[3 * i]);
+  parallel_for_nodes(std::ssize(m.whole), [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+      std::copy_n(&step.state.u[3 * std::int64_t{m.whole[i]}], 3, &m.state.u[3 * i]);
+  });
   for (std::size_t i = 0; i < m.moves.size(); ++i)
     m.moves[i] =
         m.is_fine[i] == 0 ? FixedMask{0} : static_cast<FixedMask>(~step.model.fixed[m.whole[i]]);
@@ -121,10 +124,14 @@ void move_fine_nodes(const MultiRateStep& step, MultiRate& m) {
 
 void give_force(const MultiRateStep& step, const MultiRate& m, Scratch& scratch) {
   const double scale = 2 / (step.dt * step.dt);
-  for (std::int64_t i = 0; i < m.part.n_owned; ++i)
-    for (std::int64_t j = 0; j < 3; ++j)
-      scratch.force[3 * std::int64_t{m.whole[i]} + j] =
-          inertia_of(step.model)[m.whole[i]] * (scale * m.z[3 * i + j]);
+  const std::vector<double>& inertia = inertia_of(step.model);
+  parallel_for_nodes(m.part.n_owned, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      const std::int64_t w = m.whole[i];
+      for (std::int64_t j = 0; j < 3; ++j)
+        scratch.force[3 * w + j] = inertia[w] * (scale * m.z[3 * i + j]);
+    }
+  });
 }
 
 }  // namespace
@@ -173,11 +180,10 @@ std::unique_ptr<MultiRate> make_multirate(const MultiRatePlan& plan, const Multi
   MultiRate& m = *multirate;
   m.steps = local_steps(plan.n_substeps);
   m.share = static_cast<double>(plan.element.size()) / body.mesh.n_elements();
-  SubMesh sub = make_sub_mesh(body.mesh, plan.element);
-  m.mesh = std::move(sub.mesh);
+  const SubMesh sub = make_sub_mesh(body.mesh, plan.element);
   const std::vector<std::int32_t> owner = values_of(body.node_owner, sub.node);
-  m.part = make_part(m.mesh, owner, communicator.rank());
-  m.halo = make_halo(m.mesh, owner, m.part);
+  m.part = make_part(sub.mesh, owner, communicator.rank());
+  m.halo = make_halo(sub.mesh, owner, m.part);
   m.coarse_fixed = body.model.fixed;
   for (std::size_t i = 0; i < m.coarse_fixed.size(); ++i)
     if (plan.is_fine[body.part.node_global[i]] != 0) m.coarse_fixed[i] = all_components;
@@ -190,7 +196,7 @@ std::unique_ptr<MultiRate> make_multirate(const MultiRatePlan& plan, const Multi
     m.of_whole[m.whole[i]] = i;
     m.is_fine.push_back(plan.is_fine[global]);
   }
-  if (m.part.n_owned > 0) build_body(body, m, communicator);
+  if (m.part.n_owned > 0) build_body(body, sub.mesh, m, communicator);
   return multirate;
 }
 

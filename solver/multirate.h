@@ -53,7 +53,6 @@ MultiRatePlan plan_multirate(const Mesh& mesh, const NodeCorners& corners,
 struct MultiRate : RankBody {
   LocalSteps steps;
   double share = 0;                     // of all elements
-  Mesh mesh;                            // on every rank
   std::vector<std::int32_t> whole;      // (n_local) local number in the whole body
   std::vector<std::int32_t> of_whole;   // (n_owned of the whole body) local number here or -1
   std::vector<std::uint8_t> is_fine;    // (n_owned)

@@ -212,7 +212,8 @@ Relaxation relax(const Model& model, const RelaxTask& task, State& state, Scratc
     add_load(model, task, share, scratch);
     const bool is_look = r.result.iterations % look_interval == 0;
     relax_step(model, scratch, *neighbours.communicator, r, state);
-    r.result.is_converged = is_look && share == 1 && r.result.residual <= task.tolerance;
+    r.result.is_converged =
+        r.result.is_finite && is_look && share == 1 && r.result.residual <= task.tolerance;
     r.result.is_stopped = is_look && is_stopped(task, *neighbours.communicator);
     if (r.result.is_converged || !r.result.is_finite || r.result.is_stopped) break;
   }

@@ -247,23 +247,27 @@ void find_viscous_force(const Model& model, State& state, Scratch& scratch) {
 }
 
 std::size_t memory_bytes(const Model& model, const Scratch& scratch) {
-  const auto bytes = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
-  std::size_t sum =
-      bytes(model.mass) + bytes(model.inertia) + bytes(model.fixed) + bytes(model.position) +
-      bytes(model.sums.node) + bytes(model.sums.stride_first) + bytes(model.sums.shared_node) +
-      bytes(model.sums.place_node) + bytes(model.sums.halo_block) + bytes(model.element_step) +
-      bytes(model.averages.offset) + bytes(model.averages.lane) + bytes(model.averages.stiffness) +
-      bytes(scratch.volume_change) + bytes(scratch.sum) + bytes(scratch.sum_single) +
-      bytes(scratch.u_by_component) + bytes(scratch.force);
-  for (const ElementBlocks& blocks : model.blocks)
-    sum += bytes(blocks.element_local) + bytes(blocks.corner) + bytes(blocks.target) +
-           bytes(blocks.target_block) + bytes(blocks.row) + bytes(blocks.row_break) +
-           bytes(blocks.row_start) + bytes(blocks.row_target) + bytes(blocks.data) +
-           bytes(blocks.data_single);
+  const auto bytes = [](const auto&... values) {
+    return (... + (values.capacity() * sizeof(values[0])));
+  };
+  const SumOrder& sums = model.sums;
   const MassClusters& clusters = model.clusters;
-  sum += bytes(clusters.offset) + bytes(clusters.node) + bytes(clusters.added) +
-         bytes(clusters.total) + bytes(clusters.of_node) + bytes(scratch.given) +
-         bytes(scratch.cluster_sums);
+  const VolumeAverages& averages = model.averages;
+  std::size_t sum =
+      bytes(model.mass, model.inertia, model.fixed, model.position, model.element_step) +
+      bytes(sums.run_block, sums.run_stride, sums.halo_block, sums.node, sums.stride_first) +
+      bytes(sums.shared_node, sums.place_node, sums.slot_first, sums.place_block) +
+      bytes(sums.stride_nodes, sums.window) +
+      bytes(clusters.offset, clusters.node, clusters.added, clusters.total, clusters.of_node) +
+      bytes(averages.offset, averages.lane, averages.share, averages.stiffness) +
+      bytes(scratch.sum, scratch.sum_single, scratch.u_by_component, scratch.volume_change) +
+      bytes(scratch.force, scratch.swept, scratch.viscous_work, scratch.viscous_force) +
+      bytes(scratch.middle, scratch.cluster_work, scratch.given, scratch.cluster_sums) +
+      bytes(scratch.uncoupled, scratch.viscous, scratch.is_asleep);
+  for (const ElementBlocks& blocks : model.blocks)
+    sum += bytes(blocks.element_local, blocks.corner, blocks.target, blocks.target_block) +
+           bytes(blocks.row, blocks.row_break, blocks.row_start, blocks.row_target) +
+           bytes(blocks.data, blocks.data_single);
   return sum;
 }
 

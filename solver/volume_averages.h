@@ -6,8 +6,7 @@
 
 namespace trocar {
 
-// Fills model.averages and the fields of model.blocks, which hold their constants. Throws
-// InputError if a region's material has no separate volumetric part.
+// Fills model.averages and the fields of model.blocks, which hold their constants.
 void link_volume_averages(const Mesh& mesh, std::span<const Material> materials, Model& model);
 
 }  // namespace trocar

@@ -1,5 +1,5 @@
-// What is looked at once a frame: the stable step of the deformed elements, inversion, non-finite
-// values, energies.
+// A look at a whole body: the stable step of the deformed elements, inversion, non-finite values,
+// energies. A frame's look goes along with its forces (element_watch.h).
 #pragma once
 
 #include <cstdint>

@@ -114,5 +114,12 @@ TEST(ReproducibleDot, of_nothing_is_zero_and_of_infinities_not_a_number) {
     }
 }
 
+// Each product is finite, as many as there are may not be.
+TEST(ReproducibleDot, of_what_may_sum_beyond_all_numbers_is_not_a_number) {
+  const std::vector<double> a(1000, 1e153);
+  EXPECT_TRUE(std::isnan(dot(a, a)));
+  EXPECT_NEAR(dot({1e153}, {1e153}) / 1e306, 1, 1e-15);
+}
+
 }  // namespace
 }  // namespace trocar

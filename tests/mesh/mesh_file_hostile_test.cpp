@@ -171,6 +171,14 @@ TEST(HostileMeshFile, huge_counts_are_refused_before_memory_is_taken) {
   EXPECT_LT(peak_memory() - before, 64L << 20);  // the promise: 4 times the file + 64 MB
 }
 
+TEST(HostileMeshFile, fewer_bits_than_none_are_refused) {
+  const TestFolder folder;
+  const std::string file =
+      folder.file("x.vtk", vtk_head("5.1", "BINARY") + "FIELD a 1\nb 1 -1 bit\n");
+  const std::string error = error_of([&] { read_mesh(file, 1); });
+  EXPECT_NE(error.find("bits"), std::string::npos) << error;
+}
+
 TEST(HostileMeshFile, a_pipe_is_refused_instead_of_waited_for) {
   const TestFolder folder;
   const std::string file = folder.file("pipe.msh");

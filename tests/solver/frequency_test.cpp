@@ -83,6 +83,20 @@ TEST(HighestFrequency, of_a_block_of_cubes_is_the_known_one) {
   }
 }
 
+TEST(HighestFrequency, is_not_found_of_forces_that_are_not_finite) {
+  Body body = make_body(cube_mesh(BoxElements::hex8, 2, 0), {});
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), 1e300}) {
+    const auto forces = [&](const std::vector<double>&, std::vector<double>& force) {
+      force.assign(body.scratch.force.size(), bad);
+      force[3] = -bad;
+    };
+    std::vector<double> at_rest(body.scratch.force.size(), 0.0);
+    const HighestFrequency found = find_highest_frequency(body.model, body.part, body.state, forces,
+                                                          {.force = at_rest}, Communicator());
+    EXPECT_FALSE(found.is_converged) << bad;
+  }
+}
+
 TEST(HighestFrequency, leaves_supported_components_out) {
   const Mesh mesh = cube_mesh(BoxElements::tet4_kuhn, 2, .2);
   Body body = make_body(mesh, {.fixed = std::vector<FixedMask>(mesh.X.size(), 5)});  // x and z

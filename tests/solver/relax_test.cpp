@@ -154,7 +154,11 @@ TEST(Relax, says_so_when_values_are_not_finite) {
   Body body = clamped_block(BoxElements::tet4_kuhn, Material{});
   std::vector<double> load = random_load(body, 1e-4);
   load.back() = std::numeric_limits<double>::infinity();
-  const Relaxation result = relax(body.model, {.load = load}, body.state, body.scratch);
-  EXPECT_FALSE(result.is_finite);
-  EXPECT_FALSE(result.is_converged);
+  for (const std::int64_t n_ramp : {std::int64_t{0}, RelaxTask{}.ramp_iterations}) {
+    const RelaxTask task{.load = load, .ramp_iterations = n_ramp};
+    const Relaxation result = relax(body.model, task, body.state, body.scratch);
+    EXPECT_FALSE(result.is_finite) << n_ramp;
+    EXPECT_FALSE(result.is_converged) << n_ramp;
+    body.state = make_state(body.model);
+  }
 }

@@ -42,7 +42,7 @@ void apply(const MeshEdit& edit, const CutFigures& figures, Body& body, Ledger& 
     body.is_held.push_back(held);
   }
   ++ledger.n_edits;
-  ledger.deviation_sum += figures.mean_deviation * figures.n_duplicated;
+  ledger.deviation_sum += figures.deviation_sum;
 }
 
 CutterEdit advance(TetCutter& cutter, Body& body, const BladeSweep& sweep, bool is_last,
