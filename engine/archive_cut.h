@@ -57,9 +57,9 @@ void visit(Archive& a, CutRefusal& r) {
 template <class Archive>
 void visit(Archive& a, CutFigures& f) {
   a(f.goes_through, f.is_in_slit, f.n_opened_facets, f.n_moved, f.n_duplicated, f.n_refused,
-    f.least_quality, f.largest_deviation, f.deviation_sum, f.n_on_cut, f.n_beside, f.n_turned, f.n_chips,
-    f.n_pulled_back, f.n_inverted, f.n_converted, f.n_kept_hexahedra, f.n_inserted, f.refusals,
-    f.mean_edge);
+    f.least_quality, f.largest_deviation, f.deviation_sum, f.n_on_cut, f.n_beside, f.n_turned,
+    f.n_chips, f.n_pulled_back, f.n_inverted, f.n_converted, f.n_kept_hexahedra, f.n_inserted,
+    f.refusals, f.mean_edge);
 }
 template <class Archive>
 void visit(Archive& a, Location& l) {
