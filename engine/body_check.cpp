@@ -30,10 +30,11 @@ bool can_move(const Simulation& s, const SceneLoad& load, const NodeSet& region)
 }
 
 void check_loads(const Simulation& s, OptionErrors& errors) {
+  const LoadedAreas areas = find_loaded_areas(s.scene.loads, s.mesh, s.surface);
   for (std::size_t k = 0; k < s.scene.loads.size(); ++k) {
     const SceneLoad& load = s.scene.loads[k];
     const NodeSet& region = *find_node_set(s.mesh, load.region);
-    if (load.pressure != 0 && loaded_faces(s.mesh, s.surface, region).empty())
+    if (load.pressure != 0 && areas.of_load[k].empty())
       errors.add(item_path("load", k) + ".region",
                  "no face of the surface lies in region \"" + load.region +
                      "\" with all its nodes: nothing for the pressure to act on");

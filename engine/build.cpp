@@ -72,14 +72,11 @@ TriangleMesh load_tool_mesh(const LoadedScene& loaded, std::size_t k, Communicat
   return surface_from_bytes(bytes, instrument.mesh);
 }
 
-// Without the ranks of nodes, which follow from the rest: older checkpoints have none.
-std::uint32_t crc_of_body(Simulation& s) {
-  std::vector<std::uint8_t> ranks = std::exchange(s.mesh.hex_split_rank, {});
+std::uint32_t crc_of_body(const Simulation& s) {
   std::uint32_t crc = 0;
   ByteWriter writer([&](std::span<const std::byte> bytes) { crc = crc32c(bytes, crc); });
   put_mesh(writer, s.mesh);
   writer.flush();
-  s.mesh.hex_split_rank = std::move(ranks);
   for (const Tool& tool : s.tools) {
     crc = crc32c(std::as_bytes(std::span(tool.own_mesh.X)), crc);
     crc = crc32c(std::as_bytes(std::span(tool.own_mesh.triangle)), crc);
@@ -164,6 +161,7 @@ void build_instruments(const LoadedScene& loaded, Simulation& s) {
                    .has_tissue = has_tissue});
   s.contact->motion.resize(s.tools.size());
   s.contact_reach = 0.5 * edge;
+  warn_of_short_tools(s.scene);
   warn_of_hasty_jaws(s.scene);
   tell_of_bulges(s.tools, edge);
   build_cuts(s);
@@ -284,11 +282,11 @@ void find_pieces(Simulation& s) {
 void follow_model(Simulation& s) {
   s.rest_step = s.communicator->all_min(s.least_element_step.value());
   localise_holds(s.holds, s.part);
-  s.markers = follow_markers(s.scene.markers, s.mesh);
+  if (has_metrics(s.scene)) s.markers = follow_markers(s.scene.markers, s.mesh);
   if (!s.scene.loads.empty()) {
-    const std::vector<LoadFace> outer = loadable_faces(s.mesh, s.surface);
-    localise_loads(s.scene.loads, s.mesh, outer, s.part, s.loads);
-    if (!s.cuts.empty()) s.loads.border = load_borders(s.scene.loads, s.mesh, outer);
+    const LoadedAreas areas = find_loaded_areas(s.scene.loads, s.mesh, s.surface);
+    localise_loads(s.scene.loads, s.mesh, areas, s.part, s.loads);
+    if (!s.cuts.empty()) s.loads.border = load_borders(areas, s.mesh);
   }
   if (s.energy) localise_supports(s.scene.supports, s.mesh, s.part, s.energy->support_forces);
   // A component r of displacements strains tetrahedra by at most 4 sqrt(3) r / h, hexahedra at

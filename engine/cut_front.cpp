@@ -162,11 +162,11 @@ CutFront find_front(const Simulation& s, const FrameSpan& span, const CutStage& 
 
 }  // namespace
 
-void prepare_drag(Simulation& s, const FrameSpan& span) {
+void prepare_drag(Simulation& s, const FrameSpan& span, double travel) {
   s.drag.node.clear();
   if (s.scene.cutting.resistance == 0) return;
   const PhaseScope scope(s.timers, phase_cut);
-  const double reach = s.edge_length + largest_speed(s) * (span.t1 - span.t0);
+  const double reach = s.edge_length + travel;
   std::optional<double> way;
   for (CutStage& stage : s.cuts) {
     stage.beside.reset();

@@ -27,7 +27,8 @@ void visit(Archive& a, CutFront& front) {
   a(front.piece, front.tissue_velocity, front.is_near);
 }
 
-// Takes down which nodes blades drag along in the frame. Collective.
-void prepare_drag(Simulation& s, const FrameSpan& span);
+// Takes down which nodes blades drag along in the frame, in which no node makes a longer way than
+// `travel` [m]. Collective.
+void prepare_drag(Simulation& s, const FrameSpan& span, double travel);
 
 }  // namespace trocar

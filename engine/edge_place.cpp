@@ -19,6 +19,16 @@ static Mat3 axes_of(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
   return corner.size() == 8 ? Mat3(axes / 4) : axes;
 }
 
+// By Newton's way: every machine gives the same bits, which std::cbrt does not promise.
+static double cube_root(double x) {
+  if (!(x > 0)) return 0;
+  int exponent = 0;
+  std::frexp(x, &exponent);
+  double root = std::ldexp(1.0, exponent / 3);  // within a factor of 1.6
+  for (int k = 0; k < 6; ++k) root = (2 * root + x / (root * root)) / 3;
+  return root;
+}
+
 EdgePlace place_of(const Mesh& mesh, std::span<const Vec3> x, const Location& at, const Vec3& along,
                    const Vec3& ahead) {
   const Mat3 dX = axes_of(mesh, at.element, mesh.X);
@@ -27,7 +37,7 @@ EdgePlace place_of(const Mesh& mesh, std::span<const Vec3> x, const Location& at
   return {.X = interpolate(mesh, at, mesh.X),
           .along = (back * along).normalized(),
           .ahead = (back * ahead).normalized(),
-          .size = mesh.dimension() == 2 ? std::sqrt(volume) : std::cbrt(volume)};
+          .size = mesh.dimension() == 2 ? std::sqrt(volume) : cube_root(volume)};
 }
 
 }  // namespace trocar

@@ -59,13 +59,13 @@ void grasp(Simulation& s, const FrameSpan& span) {
   for (const GraspAct& act : acts) note_grasp(s, span.t0, act);
 }
 
-void detect(Simulation& s, const FrameSpan& span) {
+// travel: the longest way that a node makes within the frame at its present speed. [m]
+void detect(Simulation& s, const FrameSpan& span, double travel) {
   const PhaseScope scope(s.timers, phase_detect);
   const double time = span.t1 - span.t0;
   // Supports and graspers that set out within the frame take tissue along.
   const double moved = largest_travel(s.holds, s.tools, span.t0, span.t1);
-  detect_contacts(*s.contact, s.tools, s.holds, s.view, span,
-                  s.contact_reach + largest_speed(s) * time + moved);
+  detect_contacts(*s.contact, s.tools, s.holds, s.view, span, s.contact_reach + travel + moved);
   if (s.contact->has_tissue) {
     gather_velocities(s.view, s.state.v, *s.communicator);
     detect_tissue(*s.contact, s.view, time, s.contact_reach);
@@ -162,11 +162,15 @@ void look_again_for_pairs(Simulation& s, const FrameSpan& span, std::int64_t k) 
 
 FrameSpan begin_substeps(Simulation& s) {
   FrameSpan span = next_frame(s);
-  if (s.contact) detect(s, span);
+  double travel = 0;
+  if (s.contact) {
+    travel = largest_speed(s) * (span.t1 - span.t0);
+    detect(s, span, travel);
+  }
   choose_local_steps(s, span.t0);
   plan_substeps(s, span);
   if (s.contact && s.contact->has_tissue) note_pair_look(s, span, 0);
-  if (!s.cuts.empty()) prepare_drag(s, span);
+  if (!s.cuts.empty()) prepare_drag(s, span, travel);
   if (s.sleep) wake_touched(s);
   list_waiting(s);
   if (s.energy) begin_frame_work(s);
@@ -252,7 +256,7 @@ FrameSpan step_safely(Simulation& s) {
 // Tissue that pulls at jaws with more than they hold slips out of them.
 void let_slip(Simulation& s, const FrameSpan& span, const FrameRow& row) {
   for (std::size_t k = 0; k < s.tools.size(); ++k) {
-    const double most = s.tools[k].grip_force, pull = row.tools[k].force.norm();
+    const double most = s.tools[k].grip_force, pull = row.tools[k].pull.norm();
     if (most == 0 || pull <= most) continue;
     const int n = release(s.holds, static_cast<std::int32_t>(k));
     if (n == 0) continue;

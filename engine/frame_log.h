@@ -15,6 +15,7 @@ struct ToolRow {
   Vec3 position = Vec3::Zero();  // of the tip [m]
   Vec3 force = Vec3::Zero();     // of the tissue on the tool, mean over the frame [N]
   Vec3 torque = Vec3::Zero();    // and about the tip; with metrics [N m]
+  Vec3 pull = Vec3::Zero();      // of what it holds alone; no checkpoint has it [N]
 };
 
 // Energy that a body holds. [J]

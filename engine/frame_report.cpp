@@ -13,8 +13,6 @@ namespace {
 // Steps leave out elements that sleep: what supports of theirs bear is that of the frame's end.
 void wake_support_forces(Simulation& s, std::int64_t n_substeps) {
   if (!s.sleep || s.sleep->share == 0) return;
-  std::vector<double> force = s.scratch.force;
-  const bool has_force = s.scratch.has_force;
   std::vector<std::uint8_t> asleep = std::exchange(s.scratch.is_asleep, {});
   find_force(s.model, s.neighbours, s.state, s.scratch);
   add_loads(s.loads, 1, s.scratch.force);
@@ -25,8 +23,6 @@ void wake_support_forces(Simulation& s, std::int64_t n_substeps) {
       forces.sum[k] = static_cast<double>(n_substeps) * s.scratch.force[component];
   }
   s.scratch.is_asleep = std::move(asleep);
-  s.scratch.force.swap(force);
-  s.scratch.has_force = has_force;
 }
 
 // Mean over the frame of what the tissue does to each tool, by contact, held nodes and the blade's
@@ -43,14 +39,16 @@ void sum_forces(Simulation& s, const FrameSpan& span, FrameRow& row) {
   } else {
     sums.clear();
   }
-  for (const ToolLoad& load : loads) sums.insert(sums.end(), {load.force, load.torque});
+  for (const ToolLoad& load : loads) sums.insert(sums.end(), {load.force, load.torque, load.pull});
   const std::vector<Vec3> of_all = sum_over_ranks(sums, *s.communicator);
-  const auto of_tools = of_all.end() - 2 * std::ssize(s.tools);
+  const auto of_tools = of_all.end() - 3 * std::ssize(s.tools);
   row.support_forces.assign(of_all.begin(), of_tools);
   for (std::size_t k = 0; k < s.tools.size(); ++k) {
-    row.tools.push_back(
-        {.position = s.tools[k].path.at(span.t1).translation, .force = of_tools[2 * k]});
-    if (s.energy) row.tools[k].torque = of_tools[2 * k + 1];
+    const auto of_tool = of_tools + 3 * static_cast<std::ptrdiff_t>(k);
+    row.tools.push_back({.position = s.tools[k].path.at(span.t1).translation,
+                         .force = of_tool[0],
+                         .pull = of_tool[2]});
+    if (s.energy) row.tools[k].torque = of_tool[1];
   }
 }
 

@@ -187,10 +187,13 @@ void sum_hold_reactions(Holds& holds, std::int64_t n_substeps, std::span<ToolLoa
     const Vec3 mean = holds.reaction_sum[k] / static_cast<double>(n_substeps);
     holds.reaction_sum[k] = Vec3::Zero();
     // The tissue pulls back on what holds it.
-    if (hold.tool >= 0)
-      add(-mean, mean.cross(holds.poses[hold.tool].rotation * hold.offset), on_tool[hold.tool]);
-    else
+    if (hold.tool >= 0) {
+      ToolLoad& load = on_tool[hold.tool];
+      add(-mean, mean.cross(holds.poses[hold.tool].rotation * hold.offset), load);
+      add(-mean, load.pull);
+    } else {
       add(-mean, on_support[hold.support]);
+    }
   }
 }
 

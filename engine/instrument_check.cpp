@@ -65,6 +65,17 @@ double depth_of_axes(const Simulation& s, const Tool& tool) {
 
 }  // namespace
 
+void warn_of_short_tools(const Scene& scene) {
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k) {
+    const SceneInstrument& instrument = scene.instruments[k];
+    const double least = least_length(instrument);
+    if (instrument.length < least)
+      log_warning(item_path("instrument", k) + ".length: \"" + instrument.name + "\" is made " +
+                  short_text(least) + " m long, not " + short_text(instrument.length) +
+                  " m: its shaft would end short of what it carries");
+  }
+}
+
 void warn_of_hasty_jaws(const Scene& scene) {
   constexpr double rounding = 1e-9;
   for (std::size_t k = 0; k < scene.instruments.size(); ++k) {

@@ -15,6 +15,8 @@ namespace trocar {
 void check_instruments_outside(const LoadedScene& loaded, double allowed, const std::string& what,
                                Simulation& s);
 
+// Warns of instruments that are made longer than the scene says (least_length).
+void warn_of_short_tools(const Scene& scene);
 // Warns of jaws that have to turn round before they have closed or opened.
 void warn_of_hasty_jaws(const Scene& scene);
 

@@ -191,17 +191,21 @@ bool is_left_out(const LoadFace& face, const Mesh& mesh, const NodeSet& region) 
   });
 }
 
+std::vector<LoadFace> loadable_faces(const Mesh& mesh, const Surface& surface) {
+  return mesh.dimension() == 2 ? outer_edges(mesh) : outer_faces(surface);
+}
+
 // Of these, those in the region.
 std::vector<LoadFace> faces_in(const NodeSet& region, const Mesh& mesh,
-                               std::vector<LoadFace> faces) {
+                               std::span<const LoadFace> faces) {
   std::vector<std::uint8_t> is_inside(mesh.X.size(), 0);
   for (const std::int32_t node : region.node) is_inside[node] = 1;
-  std::erase_if(faces, [&](const LoadFace& face) {
-    return std::any_of(face.begin(), face.end(),
-                       [&](std::int32_t i) { return i >= 0 && is_inside[i] == 0; });
+  std::vector<LoadFace> found;
+  std::ranges::copy_if(faces, std::back_inserter(found), [&](const LoadFace& face) {
+    return std::ranges::all_of(face, [&](std::int32_t i) { return i < 0 || is_inside[i] != 0; }) &&
+           !is_left_out(face, mesh, region);
   });
-  std::erase_if(faces, [&](const LoadFace& face) { return is_left_out(face, mesh, region); });
-  return faces;
+  return found;
 }
 
 void add_border(std::span<const LoadFace> faces, std::vector<BorderEdge>& border) {
@@ -212,36 +216,33 @@ void add_border(std::span<const LoadFace> faces, std::vector<BorderEdge>& border
 
 }  // namespace
 
-std::vector<LoadFace> loadable_faces(const Mesh& mesh, const Surface& surface) {
-  return mesh.dimension() == 2 ? outer_edges(mesh) : outer_faces(surface);
-}
-
-std::vector<LoadFace> loaded_faces(const Mesh& mesh, const Surface& surface,
-                                   const NodeSet& region) {
-  return faces_in(region, mesh, loadable_faces(mesh, surface));
-}
-
-std::vector<BorderEdge> load_borders(std::span<const SceneLoad> scene, const Mesh& mesh,
-                                     const std::vector<LoadFace>& outer) {
-  std::vector<BorderEdge> border;
+LoadedAreas find_loaded_areas(std::span<const SceneLoad> scene, const Mesh& mesh,
+                              const Surface& surface) {
+  LoadedAreas areas{.outer = loadable_faces(mesh, surface)};
   for (const SceneLoad& load : scene)
-    add_border(faces_in(*find_node_set(mesh, load.region), mesh, outer), border);
+    areas.of_load.push_back(faces_in(*find_node_set(mesh, load.region), mesh, areas.outer));
+  return areas;
+}
+
+std::vector<BorderEdge> load_borders(const LoadedAreas& areas, const Mesh& mesh) {
+  std::vector<BorderEdge> border;
+  for (const std::vector<LoadFace>& faces : areas.of_load) add_border(faces, border);
   sort_unique(border);
   if (border.empty()) return border;
   // At a wound there is no face beyond.
-  const std::vector<BorderEdge> edges = edges_of(faces_at(border, mesh, outer));
+  const std::vector<BorderEdge> edges = edges_of(faces_at(border, mesh, areas.outer));
   std::erase_if(border, [&](const BorderEdge& edge) { return count_of(edges, edge) != 2; });
   return border;
 }
 
-void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh,
-                    const std::vector<LoadFace>& outer, const Part& part, Loads& loads) {
+void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const LoadedAreas& areas,
+                    const Part& part, Loads& loads) {
   loads = {};
   Placing placing{.part = part, .loads = loads};
   for (std::size_t k = 0; k < scene.size(); ++k) {
     loads.path.push_back(path_of(scene[k]));
     const NodeSet& region = *find_node_set(mesh, scene[k].region);
-    const std::vector<LoadFace> faces = faces_in(region, mesh, outer);
+    const std::vector<LoadFace>& faces = areas.of_load[k];
     const auto load = static_cast<std::int32_t>(k);
     if (scene[k].force != Vec3::Zero()) take_force(load, mesh, region, faces, placing);
     if (scene[k].pressure != 0) take_pressure(load, mesh, faces, placing);

@@ -20,11 +20,6 @@ namespace trocar {
 // Nodes of a face of the surface, outward; two of a plane body, -1 fills up.
 using LoadFace = std::array<std::int32_t, 4>;
 
-// All that a load may act on: of the uncut surface, in ascending order of (element, facet).
-std::vector<LoadFace> loadable_faces(const Mesh& mesh, const Surface& surface);
-// Those all of whose nodes lie in the region.
-std::vector<LoadFace> loaded_faces(const Mesh& mesh, const Surface& surface, const NodeSet& region);
-
 struct Loads {
   // Of an owned node: the part of a load's force that acts there.
   struct Share {
@@ -50,13 +45,20 @@ struct Loads {
   bool is_empty() const { return path.empty(); }
 };
 
-// After a change of part or topology; outer: loadable_faces.
-void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh,
-                    const std::vector<LoadFace>& outer, const Part& part, Loads& loads);
+// Faces of the uncut surface, in ascending order of (element, facet): all that a load may act on,
+// and for each load those whose nodes all lie in its region.
+struct LoadedAreas {
+  std::vector<LoadFace> outer;
+  std::vector<std::vector<LoadFace>> of_load;
+};
+LoadedAreas find_loaded_areas(std::span<const SceneLoad> scene, const Mesh& mesh,
+                              const Surface& surface);
+// After a change of part or topology.
+void localise_loads(std::span<const SceneLoad> scene, const Mesh& mesh, const LoadedAreas& areas,
+                    const Part& part, Loads& loads);
 // Where loaded areas end on the outer surface, as a cut wants it: there a node that goes aside
 // would change what a load acts on.
-std::vector<BorderEdge> load_borders(std::span<const SceneLoad> scene, const Mesh& mesh,
-                                     const std::vector<LoadFace>& outer);
+std::vector<BorderEdge> load_borders(const LoadedAreas& areas, const Mesh& mesh);
 // Whether any is another at some time from t0 to t1.
 bool do_loads_change(const Loads& loads, double t0, double t1);
 // What acts at a time [s] on the body with displacements u (n_local * 3); thickness at rest [m].

@@ -21,7 +21,6 @@ std::string go_back(Simulation& s, const FrameSpan& span, const Watch& failed,
                           " roll-backs with smaller steps did not help: " + suspect.cure + " may");
   }
   ++s.log.n_roll_backs;
-  forget_hold_reactions(s.holds);
   s.look.is_done = false;  // it was of a state that is gone
   s.look.displacements.reset();
   return "rolled back: " + trouble;

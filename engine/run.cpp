@@ -96,12 +96,16 @@ std::string failure_of(const Write& write) {
 // Outputs that can't be written end the run without a checkpoint, which would count them as
 // written.
 Ending run_frame_or_end(Simulation& s, Outputs& outputs) {
-  const FrameStart frame_start = start_of_frame(s);
+  std::optional<FrameStart> frame_start;  // what a checkpoint would go back to
+  if (s.scene.checkpoint.every > 0) frame_start = start_of_frame(s);
   try {
     run_frame(s, outputs);
   } catch (const SimulationError& trouble) {
     Ending ending{.code = ExitCode::simulation, .sentence = trouble.what()};
-    add_failure(failure_of([&] { write_checkpoint(s, outputs, &frame_start); }), ending);
+    add_failure(failure_of([&] {
+                  if (frame_start) write_checkpoint(s, outputs, &*frame_start);
+                }),
+                ending);
     return ending;
   } catch (const SharedMachineError& failure) {
     return {.code = ExitCode::machine,

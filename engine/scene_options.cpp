@@ -289,8 +289,10 @@ Options<SceneInstrument> instrument_options() {
            "Scissors cut what is between their blades when they close.", Need::required);
   i.text("name", &SceneInstrument::name, "Name in the metrics; the kind if absent.");
   i.number("radius", &SceneInstrument::radius, dim::length, positive, "Of the tip and shaft.");
-  i.number("length", &SceneInstrument::length, dim::length, positive,
-           "From the tip to the end of the shaft; at least twice a scalpel's blade_length.");
+  i.number(
+      "length", &SceneInstrument::length, dim::length, positive,
+      "From the tip to the end of the shaft; at least 4 radius behind a grasper's jaws of 22 mm "
+      "or scissors' blades, and twice a scalpel's blade_length.");
   i.number("blade_length", &SceneInstrument::blade_length, dim::length, positive,
            "Of a scalpel's straight edge, from the tip up, behind which the blade is 0.28 times as "
            "wide, and 0.1 mm thick: along a narrow curve a long one presses the lips apart; of "

@@ -42,7 +42,6 @@ Relaxation relax_pulled(Simulation& s, int axis, std::span<const PrescribedNode>
                                   .neighbours = &s.neighbours},
                                  state, s.scratch);
   s.model.options.gravity = gravity;
-  s.scratch.has_force = false;
   return found;
 }
 

@@ -19,20 +19,6 @@ constexpr double caught_share = 0.5;
 
 constexpr double grasper_jaw = 0.022;  // [m]
 
-// From the tip: a shaft that ended short of its blade or jaws would lie across them.
-double least_length(const SceneInstrument& s) {
-  switch (s.kind) {
-    case InstrumentKind::scalpel:
-      return 2 * s.blade_length;
-    case InstrumentKind::scissors:
-      return s.blade_length + 4 * s.radius;
-    case InstrumentKind::grasper:
-      return grasper_jaw + 4 * s.radius;
-    default:
-      return 4 * s.radius;
-  }
-}
-
 ConvexPiece shaft_piece(double from, double to, double radius) {
   return {.points = {Vec3(0, 0, from), Vec3(0, 0, to)}, .radius = radius};
 }
@@ -181,7 +167,7 @@ void use_mesh(Tool& tool, const TriangleMesh& mesh) {
   tool.shape.pieces.resize(first_working_piece);
   tool.shape.pieces.push_back({.points = with_thickness(mesh.X), .radius = 0});
   tool.open_end = no_piece;
-  tool.closed_begin = tool.kind == InstrumentKind::grasper ? first_working_piece : no_piece;
+  tool.closed_begin = first_working_piece;
   tool.caught = std::numeric_limits<double>::infinity();
   tool.parts = {{.surface = mesh, .jaw = 0}};
   tool.own_mesh = mesh;
@@ -196,6 +182,19 @@ Box box_round(const ToolShape& shape) {
 }
 
 }  // namespace
+
+double least_length(const SceneInstrument& s) {
+  switch (s.kind) {
+    case InstrumentKind::scalpel:
+      return 2 * s.blade_length;
+    case InstrumentKind::scissors:
+      return s.blade_length + 4 * s.radius;
+    case InstrumentKind::grasper:
+      return grasper_jaw + 4 * s.radius;
+    default:
+      return 4 * s.radius;
+  }
+}
 
 Tool make_tool(const SceneInstrument& instrument, const TriangleMesh& mesh, double edge_spacing) {
   SceneInstrument s = instrument;

@@ -48,8 +48,10 @@ struct Tool {
 // pieces before it belong to the shaft.
 inline constexpr int first_working_piece = 1;
 
-// mesh: a surface of the user's for the tip, empty for the built-in one. edge_spacing: distance of
-// the points of a cutting edge [m].
+// Of the instrument [m]: a shaft that ended short of its blade or jaws would lie across them.
+double least_length(const SceneInstrument& instrument);
+// At least as long. mesh: a surface of the user's for the tip, empty for the built-in one.
+// edge_spacing: distance of the points of a cutting edge [m].
 Tool make_tool(const SceneInstrument& instrument, const TriangleMesh& mesh, double edge_spacing);
 
 // Jaws take this time to close or to open. [s]

@@ -125,23 +125,6 @@ TEST(Checkpoint, of_each_frame_of_a_plane_cut_leads_to_the_next_one) {
   EXPECT_GT(checkpoint_from_bytes(checkpoints.back(), "c").duplicate_node.size(), 2u);
 }
 
-TEST(Checkpoint, of_an_older_program_that_gave_nodes_no_ranks_is_taken) {
-  const LoadedScene scene = loaded_text(
-      time_table("1 s") + "[tissue.shape]\nkind = \"ball\"\nradius = 0.02\ncells = [6, 6, 6]\n" +
-      tissue_of_kpa(6) +
-      "[[instrument]]\nkind = \"scalpel\"\npath = [{ time = 0, position = [0, 0, 1] }]\n");
-  Communicator alone;
-  const auto s = build(scene, alone);
-  Checkpoint c = take_checkpoint(*s);
-  EXPECT_FALSE(c.mesh->hex_split_rank.empty());
-  Mesh older = *c.mesh;
-  older.hex_split_rank.clear();
-  c.mesh = std::make_shared<const Mesh>(older);
-  c.body_crc = crc32c(mesh_to_bytes(older));
-  restore_checkpoint(c, *s);
-  EXPECT_TRUE(s->mesh.hex_split_rank.empty());
-}
-
 TEST(Checkpoint, of_a_frame_that_failed_behind_its_cut_is_not_written) {
   const auto c = built(resume_block_text);
   Simulation& s = *c->s;

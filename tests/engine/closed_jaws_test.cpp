@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
+#include "box_file.h"
 #include "engine_started.h"
 #include "larger_or_nan.h"
+#include "test_files.h"
 
 namespace trocar {
 namespace {
@@ -44,6 +47,18 @@ TEST(ClosedJaws, push_what_they_meet_at_the_usual_step_as_at_a_quarter_of_it) {
       EXPECT_GT(fine, 0.1);
       EXPECT_NEAR(usual, fine, 0.02 * fine);
     }
+}
+
+// Closed in the air and pressed 4 mm deep, with a surface of the user's.
+TEST(ClosedJaws, of_a_surface_of_the_users_push_with_its_hull) {
+  const TestFolder folder;
+  write_box(folder.file("jaws.obj"), Vec3(-0.004, -0.003, 0), Vec3(0.004, 0.003, 0.02));
+  const std::string mesh = "\"\nmesh = \"" + folder.file("jaws.obj");  // behind the kind
+  std::vector<double> force;
+  for (const char* kind : {"grasper", "scissors"})
+    force.push_back(press_closed(kind + mesh, 4, 0.85));
+  EXPECT_GT(force[0], 0.1);
+  EXPECT_EQ(force[1], force[0]);
 }
 
 // A grasper comes to rest on the block, waits, closes and waits.

@@ -1,6 +1,8 @@
 // Graspers that pull harder than they grip.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "engine_split.h"
@@ -54,6 +56,46 @@ TEST(GripForce, is_without_bound_if_absent) {
   for (int frame = 0; frame < 27; ++frame) run_frame(*bar->s, bar->outputs);
   EXPECT_GT(bar->s->log.rows.back().tools[0].force.norm(), 0.36);
   EXPECT_GT(bar->s->log.rows.back().n_held, 3);
+}
+
+// A grasper that lies along a block holds a little of it, and leans on the rest. grip: in newton,
+// 0: any. The largest force of all and the largest pull of what it holds; 0 once it has slipped.
+struct LeaningGrip {
+  double force = 0, pull = 0;
+  std::size_t n_held = 0;
+};
+LeaningGrip leaning_grip(double grip) {
+  const auto block = built(
+      "[time]\nduration = 10\n[tissue.shape]\nkind = \"box\"\nlow = [-0.03, -0.012, 0]\n"
+      "high = [0.03, 0.012, 0.02]\ncells = [15, 6, 5]\n[tissue.material]\n"
+      "young_modulus = 5000\n[solver]\nmass_damping = 30\n[[support]]\nregion = \"z-\"\n"
+      "[[instrument]]\nkind = \"grasper\"\ngrip_radius = 0.0055\ngrip_force = " +
+      std::to_string(grip) +
+      "\npath = [{ time = 0, position = [-0.028, 0, 0.0235], direction = [-1, 0, 0], forward = [0, "
+      "1, 0] }, "
+      "{ time = 0.3, position = [-0.028, 0, 0.0235], direction = [-1, 0, 0], forward = [0, 1, 0], "
+      "action = \"close\" }, { time = 0.8, position = [-0.028, 0, 0.0205], "
+      "direction = [-1, 0, 0], forward = [0, 1, 0] }]\n");
+  Simulation& s = *block->s;
+  LeaningGrip most;
+  while (s.frame < 30) {
+    run_frame(s, block->outputs);
+    const ToolRow& tool = s.log.rows.back().tools[0];
+    most.force = larger_or_nan(most.force, tool.force.norm());
+    most.pull = larger_or_nan(most.pull, tool.pull.norm());
+  }
+  most.n_held = s.holds.holds.size();
+  return most;
+}
+
+TEST(GripForce, is_not_that_of_what_the_grasper_leans_on) {
+  const LeaningGrip any = leaning_grip(0);
+  std::printf("%zu nodes pull with %.4f N, all with %.4f N\n", any.n_held, any.pull, any.force);
+  ASSERT_GT(any.n_held, 0U);
+  ASSERT_GT(any.force, 1.5 * any.pull);
+  const double between = std::sqrt(any.force * any.pull);
+  EXPECT_EQ(leaning_grip(between).n_held, any.n_held);
+  EXPECT_EQ(leaning_grip(0.7 * any.pull).n_held, 0U);
 }
 
 // A block from low_x to 20 mm that a grasper at its plane x = 0 takes by the top and lifts by 4 mm.

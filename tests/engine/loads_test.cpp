@@ -31,6 +31,11 @@ const std::string soft = "young_modulus = 6000\npoisson_ratio = 0.4\n";
 const std::string foot_of_plate = "[[support]]\nregion = \"x+\"\n";
 const std::string foot = "[[support]]\nregion = \"z-\"\n";
 
+// Faces that the first load acts on.
+std::vector<LoadFace> loaded_faces(const Simulation& s) {
+  return find_loaded_areas(s.scene.loads, s.mesh, s.surface).of_load[0];
+}
+
 Vec3 total(const Loads& loads) {
   Vec3 sum = Vec3::Zero();
   for (const Vec3& force : loads.force) sum += force;
@@ -105,7 +110,8 @@ TEST(Loads, of_a_force_on_a_face_that_is_not_convex_are_all_of_it) {
   for (Vec3& X : s.mesh.X)
     if ((X - Vec3(0.02, 0.02, 0.05)).norm() < 1e-9)
       X -= Vec3(0.008, 0.0055, 0);  // of a cell of 10 x 6.7 mm
-  localise_loads(s.scene.loads, s.mesh, loadable_faces(s.mesh, s.surface), s.part, s.loads);
+  localise_loads(s.scene.loads, s.mesh, find_loaded_areas(s.scene.loads, s.mesh, s.surface), s.part,
+                 s.loads);
   find_loads(s.scene.loads, s.mesh, s.part, 1, 0, s.state.u, s.loads);
   EXPECT_LT((total(s.loads) - Vec3(0.1, 0.2, 0.3)).norm(), 1e-12);
 }
@@ -219,14 +225,12 @@ TEST(Loads, stay_on_their_side_after_a_cut) {
                          "[[load]]\nregion = \"x-\"\nforce = [0, \"0.1 N\", 0]\n"
                          "[[load]]\nregion = \"x-\"\npressure = \"10 Pa\"\n");
   Simulation& s = *bar->s;
-  const NodeSet& side = *find_node_set(s.mesh, "x-");
-  const std::size_t n_faces = loaded_faces(s.mesh, s.surface, side).size(),
-                    n_nodes = s.loads.node.size();
+  const std::size_t n_faces = loaded_faces(s).size(), n_nodes = s.loads.node.size();
   GlobalState global = gather_state(s);
   CutFigures figures;
   CutRecord record;
   apply_cut(s, cut_across(s, global, figures), global, record);
-  EXPECT_EQ(loaded_faces(s.mesh, s.surface, *find_node_set(s.mesh, "x-")).size(), n_faces);
+  EXPECT_EQ(loaded_faces(s).size(), n_faces);
   EXPECT_GT(s.loads.node.size(), n_nodes);
   find_loads(s.scene.loads, s.mesh, s.part, 1, 0, s.state.u, s.loads);
   EXPECT_LT((total(s.loads) - Vec3(10 * 0.02 * 0.05, 0.1, 0)).norm(), 1e-9);
@@ -242,12 +246,9 @@ TEST(Loads, stay_what_they_are_where_a_cut_puts_nodes_on_edges) {
                              region + "\"\nforce = [0, \"0.1 N\", 0]\n[[load]]\nregion = \"" +
                              region + "\"\npressure = \"10 Pa\"\n" + plate_blade);
     Simulation& s = *plate->s;
-    const auto faces = [&] {
-      return loaded_faces(s.mesh, s.surface, *find_node_set(s.mesh, region));
-    };
     const auto area = [&] {
       double sum = 0;
-      for (const LoadFace& face : faces()) {
+      for (const LoadFace& face : loaded_faces(s)) {
         const auto X = [&](std::size_t k) { return s.mesh.X[face[k]]; };
         sum += 0.5 * (X(1) - X(0)).cross(X(2) - X(0)).norm();
       }
@@ -257,12 +258,12 @@ TEST(Loads, stay_what_they_are_where_a_cut_puts_nodes_on_edges) {
       find_loads(s.scene.loads, s.mesh, s.part, 1, 0, s.state.u, s.loads);
       return total(s.loads);
     };
-    const std::size_t n_before = faces().size();
+    const std::size_t n_before = loaded_faces(s).size();
     const double area_before = area();
     const Vec3 before = loads();
     ASSERT_GT(split_plate(s).n_inserted, 300);
     EXPECT_EQ(s.n_pieces, 2) << region;
-    EXPECT_GT(faces().size(), n_before) << region;
+    EXPECT_GT(loaded_faces(s).size(), n_before) << region;
     EXPECT_NEAR(area(), area_before, 1e-12 * area_before) << region;
     EXPECT_LT((loads() - before).norm(), 1e-12) << region;
   }
@@ -314,7 +315,7 @@ TEST(Loads, act_on_the_facets_of_a_surface_in_the_file_alone) {
                            "[[load]]\nregion = \"strips\"\npressure = 100\n"
                            "[[load]]\nregion = \"strips\"\nforce = [0.3, 0, 0]\n");
   Simulation& s = *cubes->s;
-  EXPECT_EQ(loaded_faces(s.mesh, s.surface, *find_node_set(s.mesh, "strips")).size(), 2U);
+  EXPECT_EQ(loaded_faces(s).size(), 2U);
   find_loads(s.scene.loads, s.mesh, s.part, 1, 0, s.state.u, s.loads);
   EXPECT_LT((total(s.loads) - Vec3(0.3, 0, -100 * 2e-4)).norm(), 1e-12);
   for (std::size_t k = 0; k < s.loads.node.size(); ++k)  // a quarter of a face each
@@ -357,11 +358,10 @@ TEST(Loads, are_refused_with_their_place) {
             std::string::npos);
 }
 
-// Of the faces that the first load acts on, in the reference.
+// Of these faces, in the reference.
 double loaded_area(const Simulation& s) {
-  const NodeSet& region = *find_node_set(s.mesh, s.scene.loads[0].region);
   double area = 0;
-  for (const LoadFace& face : loaded_faces(s.mesh, s.surface, region)) {
+  for (const LoadFace& face : loaded_faces(s)) {
     const auto X = [&](int k) { return s.mesh.X[std::size_t(face[std::size_t(k)])]; };
     area += 0.5 * (X(1) - X(0)).cross(X(2) - X(0)).norm();
     if (face[3] >= 0) area += 0.5 * (X(2) - X(0)).cross(X(3) - X(0)).norm();
