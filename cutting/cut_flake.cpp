@@ -3,6 +3,7 @@
 #include "cutting/cut_flake.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "cutting/cut_patch.h"
 
@@ -29,7 +30,7 @@ struct Walk {
   const Mesh& mesh;
   const CutIndex& index;
   const CutStroke& stroke;
-  std::vector<OpenedFacet> lip;                  // sorted
+  std::optional<std::vector<OpenedFacet>> lip;   // sorted; once one has been met
   std::vector<OfElement<std::uint8_t>> visited;  // bit c: corner c
   std::vector<Met> met;                          // the nearest first
   std::ptrdiff_t now = -1;
@@ -71,19 +72,16 @@ std::int32_t element_across(const Mesh& mesh, const CutIndex& index, std::int32_
 }
 
 // The element across facet f before this stroke; -1: none.
-static std::int32_t element_before(const Walk& walk, std::int32_t e, int f) {
+static std::int32_t element_before(Walk& walk, std::int32_t e, int f) {
   const std::uint8_t* opened = find_element(walk.stroke.opened, e);
   if (opened == nullptr || (*opened >> f & 1) == 0)
     return element_across(walk.mesh, walk.index, e, f);
+  if (!walk.lip) walk.lip = lips(walk.mesh, walk.stroke);
   const auto [first, last] =
-      std::equal_range(walk.lip.begin(), walk.lip.end(), lip_of(walk.mesh, e, f), is_lip_before);
+      std::equal_range(walk.lip->begin(), walk.lip->end(), lip_of(walk.mesh, e, f), is_lip_before);
   const auto other =
       std::find_if(first, last, [&](const OpenedFacet& lip) { return lip.element != e; });
   return other == last ? -1 : other->element;
-}
-
-static std::span<const CutHit> hits_in(const Walk& walk, std::int32_t e) {
-  return hits_of(walk.stroke, {&e, 1}).front();
 }
 
 // Nodes that this stroke put on its surface lie on neither side.
@@ -97,7 +95,7 @@ static void visit(Walk& walk, std::int32_t e, std::size_t c) {
 }
 
 static void go_on(Walk& walk, std::int32_t e, std::size_t c) {
-  const std::span<const CutHit> hits = hits_in(walk, e);
+  const std::span<const CutHit> hits = hits_of(walk.stroke, e);
   const auto is_crossed = [&](std::size_t edge) {
     return std::ranges::find(hits, static_cast<std::int32_t>(edge), &CutHit::edge) != hits.end();
   };
@@ -117,7 +115,7 @@ static void go_on(Walk& walk, std::int32_t e, std::size_t c) {
 // Begins at corners that crossed edges put on that side.
 static void begin(Walk& walk, const std::vector<std::int32_t>& piece, int side) {
   for (const std::int32_t e : piece)
-    for (const CutHit& hit : hits_in(walk, e)) {
+    for (const CutHit& hit : hits_of(walk.stroke, e)) {
       const auto& [a, b] = tet_edges[hit.edge];
       visit(walk, e, static_cast<std::size_t>(hit.is_first_plus == (side > 0) ? a : b));
     }
@@ -136,7 +134,7 @@ static std::vector<std::int32_t> nodes_back(const Walk& walk) {
 Flake find_flake(const Mesh& mesh, const CutIndex& index, const CutStroke& stroke,
                  const std::vector<std::int32_t>& piece, int side,
                  const std::vector<OfElement<std::int8_t>>& given) {
-  Walk walk{mesh, index, stroke, lips(mesh, stroke), {}, {}};
+  Walk walk{mesh, index, stroke, {}, {}, {}};
   begin(walk, piece, side);
   for (walk.now = 0; walk.now < std::ssize(walk.met); ++walk.now) {
     const auto [e, c, before] = walk.met[walk.now];

@@ -99,7 +99,7 @@ std::vector<CutRefusal> missed_slices(const Mesh& mesh, const CutSurroundings& a
   std::vector<CutRefusal> places;
   for (const auto& [first, area, held_area] : stretch) {
     if (first < 0 || area < least_stretch_area * around.h * around.h) continue;
-    const Vec3& X = hits_of(stroke, {&patch.element[first], 1})[0].front().X;
+    const Vec3& X = hits_of(stroke, patch.element[first]).front().X;
     places.push_back({X, 2 * held_area > area ? CutRefusal::slice_held : CutRefusal::slice, area});
   }
   return places;

@@ -44,6 +44,10 @@ void sort_hits(std::vector<CutHit>& hits) {
   sort_unique_by(hits, &CutHit::key);
 }
 
+std::span<const CutHit> hits_of(const CutStroke& stroke, std::int32_t element) {
+  return std::ranges::equal_range(stroke.hit, element, {}, &CutHit::element);
+}
+
 std::vector<std::span<const CutHit>> hits_of(const CutStroke& stroke,
                                              std::span<const std::int32_t> element) {
   std::vector<std::span<const CutHit>> hits(element.size());

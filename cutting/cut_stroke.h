@@ -130,7 +130,8 @@ void merge_elements(std::vector<OfElement<T>>& values, const std::vector<OfEleme
 // Ascending (element, edge), the first of those with the same.
 void sort_hits(std::vector<CutHit>& hits);
 
-// The crossings of elements' edges; elements ascending.
+// The crossings of an element's edges; of many, ascending.
+std::span<const CutHit> hits_of(const CutStroke& stroke, std::int32_t element);
 std::vector<std::span<const CutHit>> hits_of(const CutStroke& stroke,
                                              std::span<const std::int32_t> element);
 

@@ -127,7 +127,7 @@ double restore_strain_energy(std::span<const std::int32_t> nodes, double wanted,
   double W = strain_energy(body);
   if (std::abs(W - wanted) <= tolerance) return W - wanted;
   const double least_J = least_J_ratio * watch(body.model, body.part, body.state).least_J;
-  std::vector<double> stiffness = make_relaxer(body.model, {}).mass;
+  std::vector<double> stiffness = relaxation_mass(body.model);
   for (double& k : stiffness) k *= 4;  // of the highest frequency 2 / step, step 1
   for (int round = 0; round < most_rounds && std::abs(W - wanted) > tolerance; ++round) {
     const double before = W;

@@ -18,23 +18,6 @@ namespace {
 constexpr std::int64_t look_interval = 20;
 constexpr double step_margin = 0.95;
 
-// K <= sum_e omega_e^2 M_e and omega_e = 2 / step_e, so that with m / step^2 of the stiffest
-// element at each node no frequency exceeds 2.
-std::vector<double> scaled_mass(const Model& model) {
-  std::vector<double> least(model.mass.size(), 0.0);
-  for (const ElementBlocks& blocks : model.blocks) {
-    const std::int64_t n_corners = std::ssize(blocks.corner) / std::ssize(blocks.element_local);
-    for (std::int64_t k = 0; k < std::ssize(blocks.corner); ++k) {
-      const std::int64_t lane = k / (n_corners * blocks.lanes) * blocks.lanes + k % blocks.lanes;
-      const std::int32_t node = blocks.corner[k];
-      const double step = model.element_step[blocks.element_local[lane]];
-      if (node < model.n_owned) least[node] = std::max(least[node], 1 / (step * step));
-    }
-  }
-  for (std::size_t i = 0; i < least.size(); ++i) least[i] *= inertia_of(model)[i];
-  return least;
-}
-
 // Greatest growth of an element's omega^2 in the present deformation; NaN where one is broken.
 // Lanes behind the last element mean nothing.
 double greatest_stiffening(const Model& model, const State& state) {
@@ -164,9 +147,26 @@ bool is_stopped(const RelaxTask& task, const Communicator& communicator) {
 
 }  // namespace
 
+// K <= sum_e omega_e^2 M_e and omega_e = 2 / step_e, so that with m / step^2 of the stiffest
+// element at each node no frequency exceeds 2.
+std::vector<double> relaxation_mass(const Model& model) {
+  std::vector<double> least(model.mass.size(), 0.0);
+  for (const ElementBlocks& blocks : model.blocks) {
+    const std::int64_t n_corners = std::ssize(blocks.corner) / std::ssize(blocks.element_local);
+    for (std::int64_t k = 0; k < std::ssize(blocks.corner); ++k) {
+      const std::int64_t lane = k / (n_corners * blocks.lanes) * blocks.lanes + k % blocks.lanes;
+      const std::int32_t node = blocks.corner[k];
+      const double step = model.element_step[blocks.element_local[lane]];
+      if (node < model.n_owned) least[node] = std::max(least[node], 1 / (step * step));
+    }
+  }
+  for (std::size_t i = 0; i < least.size(); ++i) least[i] *= inertia_of(model)[i];
+  return least;
+}
+
 Relaxer make_relaxer(const Model& model, std::span<const PrescribedNode> prescribed) {
   Relaxer r;
-  r.mass = scaled_mass(model);
+  r.mass = relaxation_mass(model);
   r.by_mass.resize(3 * r.mass.size());
   for (std::size_t k = 0; k < r.by_mass.size(); ++k)
     r.by_mass[k] = (model.fixed[k / 3] >> k % 3 & 1) == 0 ? 1 / r.mass[k / 3] : 0;

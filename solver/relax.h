@@ -50,9 +50,12 @@ struct Relaxation {
 // for any number of ranks and threads. Collective.
 Relaxation relax(const Model& model, const RelaxTask& task, State& state, Scratch& scratch);
 
+// (n_owned) masses for which a step of 1 is the limit at rest, of an iteration without time.
+std::vector<double> relaxation_mass(const Model& model);
+
 // The same iteration by iteration, for a caller that adds forces of its own (contact).
 struct Relaxer {
-  std::vector<double> mass;          // (n_owned) such that a step of 1 is the limit at rest
+  std::vector<double> mass;          // relaxation_mass
   std::vector<double> by_mass;       // (n_owned * 3) one over it; 0 where the component is held
   std::vector<double> force_before;  // (n_owned * 3) of the iteration before, kept for a look
   double damping = 0, step = 0;      // c, dt
