@@ -40,24 +40,32 @@ struct Arguments {
 CutStages stages_named(const std::string& name) {
   if (name == "springs") return CutStages::springs;
   if (name == "springs_then_barrier") return CutStages::springs_then_barrier;
-  return CutStages::barrier;
+  if (name == "barrier") return CutStages::barrier;
+  throw InputError("there are no stages " + name);
+}
+
+double number_of(const std::string& name, const char* value) {
+  char* end = nullptr;
+  const double number = std::strtod(value, &end);
+  if (end == value || *end != 0) throw InputError(name + " takes a number, not " + value);
+  return number;
 }
 
 bool read_number(const std::string& name, const char* value, Arguments& a) {
   if (name == "--count")
-    a.count = std::atoi(value);
+    a.count = int(number_of(name, value));
   else if (name == "--advances")
-    a.advances = std::atoi(value);
+    a.advances = int(number_of(name, value));
   else if (name == "--cuts")
-    a.cuts = std::atoi(value);
+    a.cuts = int(number_of(name, value));
   else if (name == "--after")
-    a.after = std::atoi(value);
+    a.after = int(number_of(name, value));
   else if (name == "--steps")
-    a.steps = std::atoi(value);
+    a.steps = int(number_of(name, value));
   else if (name == "--minutes")
-    a.minutes = std::atof(value);
+    a.minutes = number_of(name, value);
   else if (name == "--seed")
-    a.seed = unsigned(std::atoi(value));
+    a.seed = unsigned(number_of(name, value));
   else
     return false;
   return true;
@@ -67,7 +75,7 @@ bool read_name(const std::string& name, const char* value, Arguments& a) {
   if (name == "--stages")
     a.options.stages = stages_named(value);
   else if (name == "--split")
-    a.options.split_step_ratio = std::stod(value);
+    a.options.split_step_ratio = number_of(name, value);
   else if (name == "--family")
     a.family = value;
   else if (name == "--kind")
@@ -138,6 +146,30 @@ Row run(const Family& family, Kind kind, const Arguments& a) {
   return row;
 }
 
+// Throws InputError; stdout without a name.
+std::FILE* opened(const std::string& name) {
+  std::FILE* file = name.empty() ? stdout : std::fopen(name.c_str(), "w");
+  if (file == nullptr) throw InputError("can't write " + name);
+  return file;
+}
+
+void print_rows(const Arguments& a) {
+  std::FILE *table = opened(a.markdown), *json = opened(a.json);
+  std::vector<Row> rows;
+  const Cuts cuts = asked_cuts(a);
+  print_head(table);
+  for (const Family& family : cuts.families)
+    for (const Kind& kind : cuts.kinds) {
+      if (!is_asked_for(family, kind, a)) continue;
+      rows.push_back(run(family, kind, a));
+      print_row(rows.back(), table);
+    }
+  if (rows.empty()) throw InputError("there is no family or no kind of that name");
+  if (json != stdout) print_json(rows, json);
+  for (std::FILE* file : {table, json})
+    if (file != stdout) std::fclose(file);
+}
+
 int run_all(int argc, char** argv) {
   if (argc >= 2 && std::string(argv[1]) == "scaling") {
     std::vector<int> cells;
@@ -149,21 +181,7 @@ int run_all(int argc, char** argv) {
   const Arguments a = read_arguments(argc, argv);
   if (a.cuts > 0) return print_long_run({a.seed, a.cuts, a.minutes}, stdout) ? 0 : 1;
   if (a.after > 0) return print_after({a.seed, a.after, a.steps, a.family}, stdout) ? 0 : 1;
-  std::FILE* table = a.markdown.empty() ? stdout : std::fopen(a.markdown.c_str(), "w");
-  print_head(table);
-  std::vector<Row> rows;
-  const Cuts cuts = asked_cuts(a);
-  for (const Family& family : cuts.families)
-    for (const Kind& kind : cuts.kinds) {
-      if (!is_asked_for(family, kind, a)) continue;
-      rows.push_back(run(family, kind, a));
-      print_row(rows.back(), table);
-    }
-  if (table != stdout) std::fclose(table);
-  if (a.json.empty()) return 0;
-  std::FILE* json = std::fopen(a.json.c_str(), "w");
-  print_json(rows, json);
-  std::fclose(json);
+  print_rows(a);
   return 0;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "bench/step_parts.h"
+#include "bench/usage.h"
 
 using namespace trocar;
 
@@ -45,11 +46,10 @@ double stops_between_marks(const Body& body) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  constexpr const char* usage = "bench_instructions [elements (4096)] [instruction set (auto)]";
+  if (const int code = answer_options(argc, argv, usage); code >= 0) return code;
   const int n_elements = argc > 1 ? std::atoi(argv[1]) : 4096;
-  if (n_elements < 1) {
-    std::fprintf(stderr, "bench_instructions [elements] [instruction set]\n");
-    return 2;
-  }
+  if (n_elements < 1) return print_usage(usage, stderr);
   if (argc > 2) select_simd(argv[2]);
   const double of_marks = stops_between_marks([] {});
   std::printf("{\"simd\": \"%s\", \"parts\": [", simd_name());

@@ -13,6 +13,7 @@
 
 #include "bench/jittered_body.h"
 #include "bench/machine.h"
+#include "bench/usage.h"
 #include "solver_body.h"
 
 using namespace trocar;
@@ -136,18 +137,17 @@ void report_all(int n_elements, const std::string& material, const Machine& mach
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::string usage =
+      "bench_kernels [elements (8000)] [material (neo-hookean), or all] [threads (1)]; materials:";
+  for (const char* name : model_names) usage += std::string(" ") + name;
+  if (const int code = answer_options(argc, argv, usage.c_str()); code >= 0) return code;
   const int n_elements = argc > 1 ? std::atoi(argv[1]) : 8000;
   const std::string material = argc > 2 ? argv[2] : "neo-hookean";
   set_thread_count(argc > 3 ? std::atoi(argv[3]) : 1);
   const bool is_known =
       material == "all" ||
       std::find(std::begin(model_names), std::end(model_names), material) != std::end(model_names);
-  if (n_elements < 1 || thread_count() < 1 || !is_known) {
-    std::fprintf(stderr, "bench_kernels [elements] [material, or all] [threads]; materials:");
-    for (const char* name : model_names) std::fprintf(stderr, " %s", name);
-    std::fprintf(stderr, "\n");
-    return 2;
-  }
+  if (n_elements < 1 || thread_count() < 1 || !is_known) return print_usage(usage.c_str(), stderr);
   const Machine machine{peak_gflops(), triad_gbytes()};
   std::printf("{\"threads\": %d, \"peak_gflops\": %.1f, \"triad_gbytes\": %.1f, \"steps\": [",
               thread_count(), machine.gflops, machine.gbytes);

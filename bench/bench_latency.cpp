@@ -9,6 +9,7 @@
 #include "base/communicator.h"
 #include "bench/machine.h"
 #include "bench/scaling_model.h"
+#include "bench/usage.h"
 #include "solver/frequency.h"
 #include "solver_body.h"
 
@@ -18,28 +19,21 @@ namespace {
 
 const Material tissue{.young_modulus = 3000, .poisson_ratio = .45, .density = 1000};
 
-// Of the slowest rank, best of some rounds; clock() [s].
-template <class Body>
-double best_of_ranks(const Communicator& ranks, int n, double (*clock)(), const Body& body) {
-  double best = 1e300;
-  for (int round = 0; round < 25; ++round) {
-    ranks.barrier();
-    const double start = clock();
-    for (int k = 0; k < n; ++k) body();
-    best = std::min(best, ranks.all_max(clock() - start) / n);
-  }
-  return best;
-}
+constexpr int n_rounds = 25;
 
 // Both ranks send so many bytes to each other.
 double exchange_seconds(Communicator& ranks, std::size_t n_bytes) {
   std::vector<double> receive(n_bytes / sizeof(double));
-  return best_of_ranks(ranks, n_bytes > 100000 ? 20 : 1000, monotonic_seconds, [&] {
-    const ExchangeMessage messages[] = {
-        {1 - ranks.rank(), ranks.room_to_send(receive.size()), receive}};
-    ranks.start_exchange(messages);
-    ranks.finish_exchange();
+  const int n = n_bytes > 100000 ? 20 : 1000;
+  const double best = best_of_ranks(ranks, n_rounds, [&] {
+    for (int k = 0; k < n; ++k) {
+      const ExchangeMessage messages[] = {
+          {1 - ranks.rank(), ranks.room_to_send(receive.size()), receive}};
+      ranks.start_exchange(messages);
+      ranks.finish_exchange();
+    }
   });
+  return best / n;
 }
 
 // Prints the times by size; the line through the smallest and the largest gives the parameters.
@@ -58,12 +52,15 @@ void measure_network(Communicator& ranks, ScalingParameters& m) {
   m.bandwidth = static_cast<double>(largest - smallest) / (last - first);
 }
 
-// Of processor time, while the other rank does the same.
-double seconds_of_step(const Communicator& ranks, int n, int n_rounds) {
+// Of processor time, while the other rank does the same; of a cube of n x n x n elements.
+double seconds_of_step(const Communicator& ranks, int n, int n_steps) {
   Body body = make_body(make_box(Vec3(0, 0, 0), Vec3(.1, .1, .1), {n, n, n}, BoxElements::hex8),
                         {.materials = {tissue}});
   displace(body, [](const Vec3& X) { return Vec3(0.05 * X.y(), 0, 0); });
-  return best_of_ranks(ranks, n_rounds, bench_seconds, [&] { step_freely(body, 1e-9); });
+  const auto run = [&] {
+    for (int k = 0; k < n_steps; ++k) step_freely(body, 1e-9);
+  };
+  return best_of_ranks(ranks, n_rounds, run, bench_seconds) / n_steps;
 }
 
 // Stable step of a cube of elements over their edge, as the watch finds it, and the collectives
@@ -133,12 +130,11 @@ void print_predictions(const ScalingParameters& m) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  constexpr const char* usage = "mpirun -np 2 bench_latency [latency in us] [10^9 bytes/s]";
+  if (const int code = answer_options(argc, argv, usage); code >= 0) return code;
   MpiSession session(&argc, &argv);
   Communicator& ranks = session.world();
-  if (ranks.size() != 2) {
-    std::fprintf(stderr, "mpirun -np 2 bench_latency [latency in us] [10^9 bytes/s]\n");
-    return 2;
-  }
+  if (ranks.size() != 2) return ranks.is_root() ? print_usage(usage, stderr) : 2;
   set_thread_count(1);
   ScalingParameters m;
   measure_network(ranks, m);

@@ -4,15 +4,15 @@
 
 #include "bench/machine.h"
 #include "bench/step_parts.h"
+#include "bench/usage.h"
 
 using namespace trocar;
 
 int main(int argc, char** argv) {
+  constexpr const char* usage = "bench_parts [elements (8000)] [instruction set (auto)]";
+  if (const int code = answer_options(argc, argv, usage); code >= 0) return code;
   const int n_elements = argc > 1 ? std::atoi(argv[1]) : 8000;
-  if (n_elements < 1) {
-    std::fprintf(stderr, "bench_parts [elements] [instruction set]\n");
-    return 2;
-  }
+  if (n_elements < 1) return print_usage(usage, stderr);
   select_simd(argc > 2 ? argv[2] : "auto");
   std::printf("{\"simd\": \"%s\", \"peak_gflops\": %.1f, \"parts\": [", simd_name(), peak_gflops());
   report_parts(n_elements, [](const auto& parts) {

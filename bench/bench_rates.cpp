@@ -9,6 +9,7 @@
 
 #include "base/log.h"
 #include "bench/machine.h"
+#include "bench/usage.h"
 #include "engine/build.h"
 #include "engine/equilibrium.h"
 #include "engine/frame.h"
@@ -73,15 +74,14 @@ void report_block(const std::string& name, const Mesh& mesh, bool is_first) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  constexpr const char* usage = "bench_rates [elements (20000) | SCENE.toml] [threads (1)]";
+  if (const int code = answer_options(argc, argv, usage); code >= 0) return code;
   start_log(0, true);
   const std::string what = argc > 1 ? argv[1] : "20000";
   set_thread_count(argc > 2 ? std::atoi(argv[2]) : 1);
   const bool is_scene = what.ends_with(".toml");
   const double n_elements = is_scene ? 1 : std::atof(what.c_str());
-  if (!(n_elements >= 1)) {
-    std::fprintf(stderr, "bench_rates [elements | SCENE.toml] [threads]\n");
-    return 2;
-  }
+  if (!(n_elements >= 1)) return print_usage(usage, stderr);
   std::printf("{\"threads\": %d, \"peak_gflops\": %.1f, \"triad_gbytes\": %.1f, \"scenes\": [",
               thread_count(), peak_gflops(), triad_gbytes());
   const auto finer = [&](double of_one) {

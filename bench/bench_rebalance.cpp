@@ -11,24 +11,12 @@
 #include "bench/usage.h"
 #include "mesh/edit.h"
 #include "mesh/hex_split.h"
+#include "solver/rank_body.h"
 #include "solver_body.h"
 
 using namespace trocar;
 
 namespace {
-
-// Seconds of the slowest rank, best of some rounds.
-template <class Work>
-double best_of_ranks(const Communicator& ranks, int n_rounds, const Work& work) {
-  double best = 1e300;
-  for (int round = 0; round < n_rounds; ++round) {
-    ranks.barrier();
-    const double start = monotonic_seconds();
-    work();
-    best = std::min(best, ranks.all_max(monotonic_seconds() - start));
-  }
-  return best;
-}
 
 // The last hexahedra become tetrahedra, in the last part.
 Mesh with_tets(const Mesh& hexahedra, int n_split) {
@@ -40,14 +28,7 @@ Mesh with_tets(const Mesh& hexahedra, int n_split) {
   return mesh;
 }
 
-// A rank's part of a body, as an edit makes it anew.
-struct RankBody {
-  Part part;
-  Halo halo;
-  Model model;
-  Scratch scratch;
-};
-
+// Without what its steps need.
 RankBody make_rank(const Mesh& mesh, std::span<const std::int32_t> owner, int rank) {
   RankBody body;
   const std::vector<Material> materials(1);
@@ -62,23 +43,21 @@ RankBody make_rank(const Mesh& mesh, std::span<const std::int32_t> owner, int ra
 
 // Of a step with these parts and with those, in turn.
 std::array<double, 2> step_seconds(std::array<RankBody*, 2> bodies, Communicator& ranks) {
-  std::array<State, 2> states;
-  std::array<Neighbours, 2> neighbours;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const RankBody& body = *bodies[k];
-    states[k] = make_state(body.model);
-    shake(states[k].u, 1e-5, 1);
-    neighbours[k] = make_neighbours(body.halo, body.model, ranks);
+  for (RankBody* body : bodies) {
+    body->state = make_state(body->model);
+    shake(body->state.u, 1e-5, 1);
+    body->neighbours = make_neighbours(body->halo, body->model, ranks);
   }
   constexpr int n = 5, n_rounds = 500;
   std::array<double, 2> best = {1e300, 1e300};
   for (int round = 0; round < n_rounds; ++round)
     for (std::size_t k = 0; k < 2; ++k) {
+      RankBody& body = *bodies[k];
       const double seconds = best_of_ranks(ranks, 1, [&] {
         for (int step = 0; step < n; ++step) {
-          start_exchange(neighbours[k], states[k]);
-          find_force(bodies[k]->model, neighbours[k], states[k], bodies[k]->scratch);
-          integrate(bodies[k]->model, bodies[k]->scratch, {}, 1e-9, states[k]);
+          start_exchange(body.neighbours, body.state);
+          find_force(body.model, body.neighbours, body.state, body.scratch);
+          integrate(body.model, body.scratch, {}, 1e-9, body.state);
         }
       });
       best[k] = std::min(best[k], seconds / n);

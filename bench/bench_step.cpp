@@ -8,9 +8,9 @@
 #include <cstdlib>
 
 #include "base/communicator.h"
+#include "bench/jittered_body.h"
 #include "bench/machine.h"
-#include "mesh/renumber.h"
-#include "solver_body.h"
+#include "bench/usage.h"
 
 using namespace trocar;
 
@@ -19,14 +19,6 @@ namespace {
 struct Timing {
   double step = 0, waited = 0;  // of a step [s]
 };
-
-Mesh make_cube(Formulation formulation, int n_elements) {
-  const bool is_hex = shape_of(formulation) == ElementType::hex8;
-  const int n =
-      std::max(1, static_cast<int>(std::lround(std::cbrt(n_elements / (is_hex ? 1 : 6)))));
-  return interleaved(make_box(Vec3(0, 0, 0), Vec3(.1, .1, .1), {n, n, n},
-                              is_hex ? BoxElements::hex8 : BoxElements::tet4_kuhn));
-}
 
 void run_steps(Body& body, Neighbours& neighbours, int n) {
   for (int k = 0; k < n; ++k) {
@@ -54,7 +46,7 @@ Timing measure(Body& body, Neighbours& neighbours, const Communicator& ranks) {
 
 void report(Formulation formulation, Precision precision, int n_elements, Communicator& ranks,
             bool is_first) {
-  const Mesh mesh = make_cube(formulation, n_elements);
+  const Mesh mesh = jittered_body(formulation, n_elements, 0);
   const std::vector<std::int32_t> owner = partition_nodes(mesh, ranks);
   Body body =
       make_body(mesh, {.solver = with(formulation, {.precision = precision})}, owner, ranks.rank());
@@ -88,14 +80,14 @@ double of_all_ranks(const Communicator& ranks, double (*measured)()) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  constexpr const char* usage =
+      "[mpirun -np RANKS] bench_step [elements (100000)] [threads of a rank (1)]";
+  if (const int code = answer_options(argc, argv, usage); code >= 0) return code;
   MpiSession session(&argc, &argv);
   Communicator& ranks = session.world();
   const int n_elements = argc > 1 ? std::atoi(argv[1]) : 100000;
   const int n_threads = argc > 2 ? std::atoi(argv[2]) : 1;
-  if (n_elements < 1 || n_threads < 1) {
-    if (ranks.is_root()) std::fprintf(stderr, "bench_step [elements] [threads of a rank]\n");
-    return 2;
-  }
+  if (n_elements < 1 || n_threads < 1) return ranks.is_root() ? print_usage(usage, stderr) : 2;
   set_thread_count(n_threads);
   const double peak = of_all_ranks(ranks, peak_gflops), triad = of_all_ranks(ranks, triad_gbytes);
   if (ranks.is_root())

@@ -1,6 +1,7 @@
 // What explicit time integration does after a cut: bodies that move are cut, and stepped on.
 #include <map>
 
+#include "base/error.h"
 #include "cut_case.h"
 #include "engine/apply_cut.h"
 #include "known_positions.h"
@@ -280,6 +281,7 @@ bool print_after(const AfterRun& run, std::FILE* file) {
                    1 + after.uncut[r]);
     }
   }
+  if (of_family.empty()) throw InputError("none of these cuts is of family " + run.family);
   print_head(run.n_steps, file);
   for (const auto& [name, cuts] : of_family) print_family(name, cuts, file);
   return is_sound;

@@ -65,7 +65,7 @@ bool print_long_run(const LongRun& run, std::FILE* file);
 
 // Random cuts of bent bodies in free motion; then `n_steps` steps of central differences at 0.9 of
 // the elements' bound that the cut left, and at a scene's default. Prints limits and energies by
-// family; false if one blew up.
+// family; false if one blew up. Throws InputError if no cut is of the family.
 struct AfterRun {
   unsigned seed = 1;
   int n_cuts = 200, n_steps = 10000;

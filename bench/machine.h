@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/communicator.h"
 #include "base/threads.h"
 #include "base/timers.h"
 
@@ -28,6 +29,20 @@ double best_seconds(const Body& body) {
       elapsed = bench_seconds() - start;
     }
     best = std::min(best, elapsed / n);
+  }
+  return best;
+}
+
+// Of the slowest rank, best of some rounds; clock() [s].
+template <class Work>
+double best_of_ranks(const Communicator& ranks, int n_rounds, const Work& work,
+                     double (*clock)() = monotonic_seconds) {
+  double best = 1e300;
+  for (int round = 0; round < n_rounds; ++round) {
+    ranks.barrier();
+    const double start = clock();
+    work();
+    best = std::min(best, ranks.all_max(clock() - start));
   }
   return best;
 }

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <set>
 
+#include "bench/usage.h"
+
 using namespace trocar;
 
 static constexpr const char* introduction = R"(# Stability, stress-tested
@@ -45,6 +47,9 @@ static std::set<std::string> recorded_as_broken(const std::string& file) {
 }
 
 int main(int argc, char** argv) {
+  constexpr const char* usage =
+      "stability [share of the full step counts (1)] [--markdown FILE] [--recorded FILE]";
+  if (is_help_asked(argc, argv)) return print_usage(usage, stdout);
   double scale = 1;
   std::string file, recorded;
   for (int k = 1; k < argc; ++k) {
@@ -55,12 +60,7 @@ int main(int argc, char** argv) {
     else
       scale = std::atof(argv[k]);
   }
-  if (!(scale > 0)) {
-    std::fprintf(stderr,
-                 "usage: stability [share of the full step counts] [--markdown FILE] "
-                 "[--recorded FILE]\n");
-    return 2;
-  }
+  if (!(scale > 0)) return print_usage(usage, stderr);
   std::string table = "| configuration | promise | measured | |\n|---|---|---|---|\n";
   std::printf("%s", table.c_str());
   const std::set<std::string> known = recorded_as_broken(recorded);

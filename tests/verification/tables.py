@@ -1,5 +1,9 @@
 #!/usr/bin/env python3
-"""tables.py RECORD PAGE: renews the tables of PAGE, which stand between marker comments."""
+"""tables.py RECORD PAGE [--part]: renews the tables of PAGE, which stand between marker comments.
+
+A problem's table becomes what was recorded of it; with --part, what was recorded takes the place
+of the rows of the same quantity and mesh, and the others stay.
+"""
 import json
 import re
 import shutil
@@ -27,7 +31,15 @@ def between(page, name):
     return page.split(f"<!-- {name} -->")[1].split(f"<!-- end of {name} -->")[0]
 
 
-def problem_table(figures, page):
+def merged(table, newer):
+    """Two tables of one head: rows by their first two cells, in the order of the older one."""
+    rows = {}
+    for line in (table + "\n" + newer).strip().split("\n"):
+        rows[tuple(line.split(" | ")[:2])] = line
+    return "\n".join(rows.values())
+
+
+def problem_table(figures, page, is_part):
     """One heading a problem, in the order of their numbers; problems without figures stay as they
     stand on the page."""
     sections = {}
@@ -40,7 +52,8 @@ def problem_table(figures, page):
     for name, group in problems.items():
         head = ["| quantity | mesh | reference | source | Trocar | error | order |",
                 "|---|---|---|---|---|---|---|"]
-        sections[name] = "\n".join(head + [row(figure) for figure in group])
+        table = "\n".join(head + [row(figure) for figure in group])
+        sections[name] = merged(sections.get(name, ""), table) if is_part else table
     def number(name):
         match = re.match(r"V(\d+)", name)
         return int(match[1]) if match else 1000
@@ -55,15 +68,17 @@ def put(page, name, text):
 
 
 def main():
-    record, page_file = sys.argv[1], Path(sys.argv[2])
+    record, page_file, is_part = sys.argv[1], Path(sys.argv[2]), "--part" in sys.argv[3:]
     figures = [json.loads(line) for line in open(record, encoding="utf-8")]
     page = page_file.read_text(encoding="utf-8")
     page = put(page, "problems",
-               problem_table([f for f in figures if f["problem"] != "Beside CalculiX"], page))
+               problem_table([f for f in figures if f["problem"] != "Beside CalculiX"], page,
+                             is_part))
     if any(f["problem"] == "Beside CalculiX" for f in figures) and shutil.which("ccx"):
         table = subprocess.run([sys.executable, compare, record], check=True, capture_output=True,
                                text=True).stdout
-        page = put(page, "calculix", table)
+        page = put(page, "calculix",
+                   merged(between(page, "calculix"), table) if is_part else table)
     page_file.write_text(page, encoding="utf-8")
 
 
