@@ -64,8 +64,8 @@ double seconds_of_step(const Communicator& ranks, int n, int n_steps) {
 }
 
 // Stable step of a cube of elements over their edge, as the watch finds it, and the collectives
-// that this takes in a frame; some more are for forces, contact and outputs. A search in every
-// frame is on the safe side (body_search.h).
+// that this takes in a frame; some more are for forces, contact and outputs. A body is searched in
+// every thirtieth frame or so (docs/architecture-measured.md), and looked at in each.
 void measure_frame(ScalingParameters& m) {
   constexpr int n = 12;
   Body body =
@@ -86,19 +86,20 @@ void measure_frame(ScalingParameters& m) {
   };
   const HighestFrequency found =
       find_highest_frequency(body.model, body.part, body.state, force_of, options, alone);
-  m.collectives = static_cast<double>(alone.traffic().n_collectives) + 15;
-  m.searches = n_forces + 2;  // and the watch, which looks at all elements
+  constexpr double frames_of_search = 30;
+  m.collectives = static_cast<double>(alone.traffic().n_collectives) / frames_of_search + 15;
+  m.looks = n_forces / frames_of_search + 1;
   m.step_per_edge = .85 * 2 / (frequency_margin * found.omega) / (m.side / n);
 }
 
 void print_parameters(const ScalingParameters& m) {
   std::printf(
       "],\n\"parameters\": {\"latency_us\": %.3f, \"gbytes_per_second\": %.2f, "
-      "\"element_step_ns\": %.2f, \"step_overhead_us\": %.2f, \"collectives_per_frame\": %.0f, "
-      "\"searches_per_frame\": %.0f, "
+      "\"element_step_ns\": %.2f, \"element_step_of_large_parts_ns\": %.2f, "
+      "\"step_overhead_us\": %.2f, \"collectives_per_frame\": %.1f, \"looks_per_frame\": %.1f, "
       "\"stable_step_per_edge_s_per_m\": %.4f, \"body_m\": %.2f, \"bytes_per_node\": %.0f},\n",
-      1e6 * m.latency, 1e-9 * m.bandwidth, 1e9 * m.element_step, 1e6 * m.step_overhead,
-      m.collectives, m.searches, m.step_per_edge, m.side, m.bytes_per_node);
+      1e6 * m.latency, 1e-9 * m.bandwidth, 1e9 * m.small_element_step, 1e9 * m.large_element_step,
+      1e6 * m.step_overhead, m.collectives, m.looks, m.step_per_edge, m.side, m.bytes_per_node);
 }
 
 void print_predictions(const ScalingParameters& m) {
@@ -142,9 +143,16 @@ int main(int argc, char** argv) {
     m.latency = 1e-6 * std::atof(argv[1]);
     m.bandwidth = 1e9 * std::atof(argv[2]);
   }
-  const double small = seconds_of_step(ranks, 4, 500), large = seconds_of_step(ranks, 40, 4);
-  m.element_step = (large - small) / (40 * 40 * 40 - 4 * 4 * 4);
-  m.step_overhead = std::max(0.0, small - 4 * 4 * 4 * m.element_step);
+  constexpr int tiny_edge = 4;
+  constexpr double n_tiny = tiny_edge * tiny_edge * tiny_edge;
+  const auto seconds_of = [&](int edge, int n_steps) {
+    return seconds_of_step(ranks, edge, n_steps);
+  };
+  const double tiny = seconds_of(tiny_edge, 500), small = seconds_of(small_part_edge, 20),
+               large = seconds_of(large_part_edge, 4);
+  m.small_element_step = (small - tiny) / (std::pow(small_part_edge, 3) - n_tiny);
+  m.step_overhead = std::max(0.0, tiny - n_tiny * m.small_element_step);
+  m.large_element_step = (large - m.step_overhead) / std::pow(large_part_edge, 3);
   measure_frame(m);
   if (!ranks.is_root()) return 0;
   print_parameters(m);

@@ -9,12 +9,13 @@
 namespace trocar {
 
 struct ScalingParameters {
-  double latency = 0;        // of a message, with packing and waiting [s]
-  double bandwidth = 0;      // [bytes/s]
-  double element_step = 0;   // of one rank [s]
+  double latency = 0;    // of a message, with packing and waiting [s]
+  double bandwidth = 0;  // [bytes/s]
+  // Of an element in a part that a core's own cache holds, and in one that it does not. [s]
+  double small_element_step = 0, large_element_step = 0;
   double step_overhead = 0;  // of a rank's step, whatever its size [s]
   double collectives = 0;    // of a frame
-  double searches = 0;       // force evaluations of a frame for its stable step
+  double looks = 0;          // force evaluations of a frame for its stable step
   double step_per_edge = 0;  // stable step over the edge of an element [s/m]
   double side = .1;          // of the body [m]
   double bytes_per_node = 24;
@@ -48,8 +49,19 @@ inline double bytes_of_rank(const ScalingPoint& p, const ScalingParameters& m) {
   return m.bytes_per_node * (std::pow(n + extra, 3) - std::pow(n, 3));
 }
 
+// Elements of the parts of which both are measured.
+constexpr int small_part_edge = 20, large_part_edge = 40;
+
+// In between by the logarithm of the size.
+inline double element_step(double elements, const ScalingParameters& m) {
+  const double small = std::pow(small_part_edge, 3), large = std::pow(large_part_edge, 3);
+  const double share = std::clamp(std::log(elements / small) / std::log(large / small), 0., 1.);
+  return m.small_element_step + share * (m.large_element_step - m.small_element_step);
+}
+
 inline double step_seconds(const ScalingPoint& p, const ScalingParameters& m) {
-  return m.step_overhead + m.element_step * elements_of_rank(p) +
+  const double elements = elements_of_rank(p);
+  return m.step_overhead + element_step(elements, m) * elements +
          m.latency * neighbours_of_rank(p) + bytes_of_rank(p, m) / m.bandwidth;
 }
 
@@ -60,7 +72,7 @@ inline double steps_of_frame(const ScalingPoint& p, const ScalingParameters& m, 
 
 // A reduction goes up and down a binary tree.
 inline double frame_seconds(const ScalingPoint& p, const ScalingParameters& m, double rate) {
-  return (steps_of_frame(p, m, rate) + m.searches) * step_seconds(p, m) +
+  return (steps_of_frame(p, m, rate) + m.looks) * step_seconds(p, m) +
          m.collectives * 2 * std::ceil(std::log2(p.ranks)) * m.latency;
 }
 
