@@ -31,7 +31,7 @@ function(layer folder)
   file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder} ${root}/${folder} SYMBOLIC)
   list(TRANSFORM headers PREPEND ${root}/)
 
-  add_library(${folder} STATIC ${sources} ${CMAKE_SOURCE_DIR}/cmake/empty.cpp)
+  add_library(${folder} STATIC ${sources})
   target_sources(${folder} PUBLIC FILE_SET HEADERS BASE_DIRS ${root} FILES ${headers})
   set_target_properties(${folder} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
   target_compile_options(${folder} PRIVATE ${TROCAR_WARNINGS})

@@ -1,7 +1,5 @@
 # The one program.
-if(EXISTS ${CMAKE_SOURCE_DIR}/apps/main.cpp)
-  add_executable(trocar apps/main.cpp)
-  target_compile_options(trocar PRIVATE ${TROCAR_WARNINGS})
-  target_link_libraries(trocar PRIVATE apps)
-  set_target_properties(trocar PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
-endif()
+add_executable(trocar apps/main.cpp)
+target_compile_options(trocar PRIVATE ${TROCAR_WARNINGS})
+target_link_libraries(trocar PRIVATE apps)
+set_target_properties(trocar PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})

@@ -36,29 +36,35 @@ std::string test_folder(const std::string& name) {
   return folder;
 }
 
-Finished run_words(std::vector<std::string> words, const std::string& folder, int seconds) {
-  std::vector<std::string> all = {"timeout", "-k", "5", std::to_string(seconds)};
-  all.insert(all.end(), words.begin(), words.end());
+pid_t start(std::vector<std::string> words, const std::string& out, const std::string& err) {
   std::vector<char*> argv;
-  for (std::string& word : all) argv.push_back(word.data());
+  for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&files, 1, (folder + "/stdout").c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_addopen(&files, 2, (folder + "/stderr").c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  pid_t child = 0;
-  Finished finished;
-  if (posix_spawnp(&child, "timeout", &files, nullptr, argv.data(), environ) == 0) {
-    int status = 0;
-    waitpid(child, &status, 0);
-    finished.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
+  constexpr int append = O_WRONLY | O_CREAT | O_APPEND;
+  posix_spawn_file_actions_addopen(&files, 1, out.c_str(), append, 0644);
+  posix_spawn_file_actions_addopen(&files, 2, err.c_str(), append, 0644);
+  pid_t child = -1;
+  const int trouble = posix_spawnp(&child, words[0].c_str(), &files, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&files);
-  finished.out = read_text(folder + "/stdout");
-  finished.err = read_text(folder + "/stderr");
+  EXPECT_EQ(trouble, 0) << words[0];
+  return trouble == 0 ? child : -1;
+}
+
+Finished run_words(std::vector<std::string> words, const std::string& folder, int seconds) {
+  std::vector<std::string> all = {"timeout", "-k", "5", std::to_string(seconds)};
+  all.insert(all.end(), words.begin(), words.end());
+  const std::string out = folder + "/stdout", err = folder + "/stderr";
+  for (const std::string& file : {out, err}) std::filesystem::remove(file);
+  const pid_t child = start(std::move(all), out, err);
+  Finished finished;
+  int status = 0;
+  if (child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status))
+    finished.exit_code = WEXITSTATUS(status);
+  finished.out = read_text(out);
+  finished.err = read_text(err);
   return finished;
 }
 

@@ -1,18 +1,22 @@
 // Starts the program as a user would and keeps what it says.
 #pragma once
 
+#include <sys/types.h>
+
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "test_files.h"
 
-extern char** environ;
-
 namespace trocar {
 
 // A folder of its own for a test, empty at the beginning and gone with the process.
 std::string test_folder(const std::string& name);
+
+// Starts `words`, without a shell, and lets them run on; what they say goes to the ends of two
+// files, or of one.
+pid_t start(std::vector<std::string> words, const std::string& out, const std::string& err);
 
 struct Finished {
   int exit_code = -1;  // -1: killed by a signal
