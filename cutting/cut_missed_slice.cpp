@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "cutting/cut_slice.h"
 
 namespace trocar {
@@ -71,16 +71,10 @@ static std::vector<SliceFacet> slice_facets(const Mesh& mesh, const CutSurroundi
 // For each node, one that all nodes of its stretch share.
 static std::vector<std::int32_t> joined_by(const std::vector<SliceFacet>& facet,
                                            std::int32_t n_nodes) {
-  std::vector<std::int32_t> root(static_cast<std::size_t>(n_nodes));
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](std::int32_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
+  DisjointSets sets(static_cast<std::size_t>(n_nodes));
   for (const SliceFacet& f : facet)
-    for (const std::int32_t i : f.node) root[find(i)] = find(f.node[0]);
-  for (std::int32_t i = 0; i < n_nodes; ++i) root[i] = find(i);
-  return root;
+    for (const std::int32_t i : f.node) sets.join(i, f.node[0]);
+  return std::move(sets).roots();
 }
 
 std::vector<CutRefusal> missed_slices(const Mesh& mesh, const CutSurroundings& around,

@@ -155,17 +155,6 @@ std::uint8_t facets_of_part(std::span<const std::int32_t> whole, std::uint8_t ma
   return static_cast<std::uint8_t>(facets);
 }
 
-// Bits of the facets of tetrahedron `tet` (nodes) that lie on marked facets of hexahedron e.
-static std::uint8_t facets_of_hex(const Mesh& mesh, std::int32_t e,
-                                  const std::array<std::int32_t, 4>& tet) {
-  unsigned mask = 0;
-  for (int f = 0; f < 4 && mesh.cut_facets[e] != 0; ++f) {
-    const int g = hex_facet_of(mesh, e, tet, f);
-    if (g >= 0 && (mesh.cut_facets[e] >> g & 1) != 0) mask |= 1U << f;
-  }
-  return static_cast<std::uint8_t>(mask);
-}
-
 // A hexahedron leaves room for the corners of two tetrahedra.
 static void split_corners(const ElementSplit& split, Mesh& mesh) {
   const std::int32_t own = mesh.corner_offset[split.element],
@@ -195,7 +184,7 @@ static void split_element(const MeshEdit& edit, const ElementSplit& split, Mesh&
   CHECK(is_hex || mesh.element_type[e] == ElementType::tet4);
   std::vector<std::uint8_t> cut_facets;
   for (const std::array<std::int32_t, 4>& tet : split.tets())
-    cut_facets.push_back(is_hex ? facets_of_hex(mesh, e, tet)
+    cut_facets.push_back(is_hex ? cut_facets_in_hex(mesh, e, tet)
                                 : facets_of_part(mesh.corners(e), mesh.cut_facets[e], edit.inserted,
                                                  first_inserted, tet));
   if (is_hex) mesh.split_hexahedra.push_back({e, n_before});
