@@ -15,7 +15,7 @@ namespace {
 const char* const examples_run =
     "\nexamples:\n"
     "  trocar run configs/liver_incision.toml -o out/liver\n"
-    "  mpirun -np 4 trocar run scene.toml --threads 2\n"
+    "  mpirun -np 4 --map-by slot:PE=2 --bind-to core trocar run scene.toml --threads 2\n"
     "  trocar run configs/liver_incision.toml -o out/liver --resume      after it was stopped or "
     "killed\n"
     "  trocar run scene.toml --set time.duration='2 s' --set tissue.material.young_modulus='5 "

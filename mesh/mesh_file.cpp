@@ -72,7 +72,7 @@ RawMesh read_raw_mesh(const std::string& file) {
   if (is_surface(format)) {
     const TriangleMesh surface = merge_vertices(file, read_triangles(format, in));
     in.fail_file("this file holds only a surface (" + std::to_string(surface.triangle.size()) +
-                 " triangles): make a volume mesh of it, e.g. with gmsh -3, or use it as an "
+                 " triangles): make a volume mesh of it (docs/howto.md says how), or use it as an "
                  "instrument");
   }
   return read_cells(format, in);

@@ -70,8 +70,9 @@ int element_dimension(const RawMesh& raw) {
   }
   std::string count = std::to_string(n_triangle) + " triangles";
   if (n_quadrangle > 0) count += ", " + std::to_string(n_quadrangle) + " quadrangles";
-  throw InputError(raw.file + ": this file holds only a surface (" + count +
-                   "): make a volume mesh of it, e.g. with gmsh -3, or use it as an instrument");
+  throw InputError(
+      raw.file + ": this file holds only a surface (" + count +
+      "): make a volume mesh of it (docs/howto.md says how), or use it as an instrument");
 }
 
 // Keeps the nodes of elements, in the order of the file. New number of each node, -1 if dropped.

@@ -87,8 +87,8 @@ TEST(MeshFile, a_surface_file_is_no_volume_mesh_but_an_instrument) {
   const std::string file = folder.file("a.stl", stl_binary());
   EXPECT_EQ(error_of([&] { read_mesh(file, 1); }),
             file +
-                ": this file holds only a surface (4 triangles): make a volume mesh of it, e.g. "
-                "with gmsh -3, or use it as an instrument");
+                ": this file holds only a surface (4 triangles): make a volume mesh of it "
+                "(docs/howto.md says how), or use it as an instrument");
   EXPECT_EQ(read_triangle_mesh(file, 1).triangle.size(), 4U);
 }
 

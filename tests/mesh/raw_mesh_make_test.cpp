@@ -112,8 +112,8 @@ TEST(MakeMesh, a_surface_in_space_is_refused) {
   add_cell(raw, CellKind::triangle, Corners{0, 1, 2}, 1, 0);
   add_cell(raw, CellKind::triangle, Corners{4, 5, 6}, 2, 0);
   EXPECT_EQ(error_of([&] { make_mesh(raw, 1); }),
-            "f: this file holds only a surface (2 triangles): make a volume mesh of it, e.g. with "
-            "gmsh -3, or use it as an instrument");
+            "f: this file holds only a surface (2 triangles): make a volume mesh of it "
+            "(docs/howto.md says how), or use it as an instrument");
 }
 
 TEST(MakeMesh, a_fibre_without_direction_is_refused) {
