@@ -115,7 +115,7 @@ void add_study(CLI::App& app, CommandLine& line) {
   study->add_option("subject", s.subject, "Built-in problem (--list) or scene file (TOML)");
   study->add_option("-o,--output", s.folder, "Folder for everything that is written")
       ->capture_default_str();
-  study->add_flag("--list", s.list, "Print the built-in problems");
+  CLI::Option* list = study->add_flag("--list", s.list, "Print the built-in problems");
   study->add_flag("--all", s.all, "All built-in problems");
   study->add_option("--docs", s.docs, "With --all: folder for accuracy.md and images/");
   study->add_option("--sizes", s.sweep.sizes, "Cells along an edge: 4,8,16")
@@ -142,6 +142,8 @@ void add_study(CLI::App& app, CommandLine& line) {
       ->check(CLI::Range(1e-3, 1e9));
   study->add_option("--set", s.overrides, "Change a key of the scene; may be repeated")
       ->allow_extra_args(false);
+  for (CLI::Option* other : study->get_options())
+    if (other != list && other != study->get_help_ptr()) list->excludes(other);
   add_kernel_options(*study, line.machine);
   study->footer(examples_study);
   study->callback([&] { line.command = Command::study; });
@@ -225,10 +227,14 @@ void add_replay(CLI::App& app, CommandLine& line) {
   replay->add_option("recording", r.recording, "Recording (.trocar)")->required();
   add_quiet(*replay, line.machine);
   replay->add_option("-o,--output", r.folder, "Folder")->capture_default_str();
-  replay->add_option("--video", r.video, "Write a film of this name");
-  replay->add_flag("--frames", r.writes_frames, "Write PNG files into frames/");
-  replay->add_flag("--vtu", r.writes_vtu, "Write VTU files and recording.pvd");
-  replay->add_flag("--list", r.is_list, "Print frames, times and state digests");
+  CLI::Option* video = replay->add_option("--video", r.video, "Write a film of this name");
+  CLI::Option* frames =
+      replay->add_flag("--frames", r.writes_frames, "Write PNG files into frames/");
+  CLI::Option* vtu = replay->add_flag("--vtu", r.writes_vtu, "Write VTU files and recording.pvd");
+  replay->add_flag("--list", r.is_list, "Print frames, times and state digests")
+      ->excludes(video)
+      ->excludes(frames)
+      ->excludes(vtu);
   replay->add_option("--from", r.from, "First time [s]");
   replay->add_option("--to", r.to, "Last time [s]");
   replay->add_option("--camera", r.camera, "Camera of the scene; the first if absent");
@@ -302,9 +308,7 @@ std::string complaint(const CLI::App& app, const std::string& trouble, int argc,
     return trouble + "\nrun \"trocar " + word + " --help\" for what there is";
   const std::string end = "\nrun \"trocar --help\" for what there is";
   if (word.empty() || word[0] == '-') return trouble + end;
-  const std::string nearest = nearest_name(word, known);
-  return "there is no sub-command " + in_quotes(word) +
-         (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") + end;
+  return "there is no sub-command " + in_quotes(word) + names_hint(word, known) + end;
 }
 
 // The rank that mpirun gave this process, before MPI is started: only rank 0 prints.
