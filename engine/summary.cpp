@@ -11,6 +11,7 @@
 #include "engine/state_digest.h"
 #include "engine/version.h"
 #include "mesh/quality.h"
+#include "solver/element_setup.h"
 #include "solver/step.h"
 
 namespace trocar {
@@ -29,13 +30,13 @@ Json traffic_json(const Traffic& t) {
 Json mesh_json(const Simulation& s) {
   const ElementStatistics m = element_statistics(s.mesh);
   const SceneSolver& solver = s.scene.solver;
-  const Formulation of_type[n_element_types] = {solver.triangle, solver.tetrahedron,
-                                                solver.hexahedron};
   Json elements, formulations;
   for (int type = 0; type < n_element_types; ++type)
     if (const auto n = m.n_elements_by_type[type]; n > 0) {
-      elements[element_type_name(static_cast<ElementType>(type))] = n;
-      formulations.push_back(name_of(of_type[type]));
+      const auto shape = static_cast<ElementType>(type);
+      elements[element_type_name(shape)] = n;
+      formulations.push_back(
+          name_of(of_shape(shape, solver.triangle, solver.tetrahedron, solver.hexahedron)));
     }
   return {{"nodes", s.mesh.n_nodes()},
           {"elements", elements},

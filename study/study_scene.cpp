@@ -78,8 +78,8 @@ LoadedScene scene_of(const SceneStudy& study, const Case& c) {
   solver.step_factor = c.step_factor;
   solver.sleep = c.sleep;
   solver.precision = c.precision;
-  Formulation* const of_shape[] = {&solver.triangle, &solver.tetrahedron, &solver.hexahedron};
-  *of_shape[static_cast<int>(shape_of(c.method.formulation))] = c.method.formulation;
+  of_shape(shape_of(c.method.formulation), solver.triangle, solver.tetrahedron, solver.hexahedron) =
+      c.method.formulation;
   if (!study.has_shape()) {
     if (!study.meshes.empty()) tissue.mesh = study.meshes[c.n - 1];
     return loaded;

@@ -68,7 +68,7 @@ Outcome solve_repeatedly(const Problem& problem, const Case& c, int repeats) {
 
 Run run_of(const Problem& problem, const CurveCases& curve, int n) {
   return {.method = curve.method.name,
-          .precision = precision_name(curve.precision),
+          .precision = name_of(curve.precision),
           .size = problem.size_label ? problem.size_label(n) : "n = " + std::to_string(n),
           .step_factor = problem.is_static() ? 0 : curve.step_factor,
           .sleep = curve.sleep,
@@ -211,8 +211,8 @@ Study sweep(const Problem& problem, const SweepOptions& options) {
           predicted_seconds(problem, before == last.end() ? nullptr : &before->second, n);
       if (expected > left || left <= 0) {
         study.notes.push_back(
-            std::string(curves[k].method.name) + " " + precision_name(curves[k].precision) +
-            ", size " + std::to_string(n) + " left out: about " + significant(expected, 2) +
+            std::string(curves[k].method.name) + " " + name_of(curves[k].precision) + ", size " +
+            std::to_string(n) + " left out: about " + significant(expected, 2) +
             " s, of the budget " + significant(std::max(left, 0.), 2) + " s are left");
         log_info(study.notes.back());
         continue;
