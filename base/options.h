@@ -219,6 +219,12 @@ void read_options(const OptionTable& table, const std::string& file,
 // messages.
 void read_options_text(const OptionTable& table, const std::string& text, const std::string& name,
                        const std::vector<std::string>& overrides, void* object, SourceMap& where);
+// One effective value with the whole path of its key: "instrument[1].path[0].time".
+struct OptionText {
+  std::string key, value;
+};
+// All of them, the values of each table before the tables below it, as echo_options has them.
+std::vector<OptionText> flat_options(const OptionTable& table, const void* object);
 // All effective values as TOML that reads back to the same struct.
 std::string echo_options(const OptionTable& table, const void* object);
 // Plain-text help, and the same as Markdown with a heading and a table for each table.
