@@ -51,21 +51,9 @@ bool has_scene_options(const StudyOptions& options) {
   return !options.meshes.empty() || !options.sleeps.empty() || !options.overrides.empty();
 }
 
-void check_sizes(const StudyOptions& options, const Problem& problem) {
-  if (has_scene_options(options) && !problem.is_scene())
-    throw InputError("--meshes, --sleep and --set belong to scenes, not to " + problem.name);
-  if (problem.name != "bending-column") return;
-  for (const int n : options.sweep.sizes)
-    if (n % 2 != 0)
-      throw InputError(
-          "--sizes: bending-column looks at the middle of its top, where only even "
-          "numbers of cells have a node; got " +
-          std::to_string(n));
-}
-
 // Before the runs, which take minutes. A scene's result is a length, known after its finest run.
 void check_target(const StudyOptions& options, const Problem& problem) {
-  if (!options.target.empty() && !problem.is_scene())
+  if (!options.target.empty() && !problem.is_scene)
     require_fits(read_target(options.target), problem);
 }
 
@@ -127,7 +115,8 @@ ExitCode command_study(const StudyOptions& options, Communicator& communicator) 
     throw InputError("study: name a problem (trocar study --list), a scene file, or --all");
   } else {
     const Problem problem = find_problem(options, communicator);
-    check_sizes(options, problem);
+    if (has_scene_options(options) && !problem.is_scene)
+      throw InputError("--meshes, --sleep and --set belong to scenes, not to " + problem.name);
     check_target(options, problem);
     report(options, sweep(problem, options.sweep));
   }

@@ -35,6 +35,18 @@ std::vector<Method> wanted_methods(const Problem& problem, const SweepOptions& o
   return wanted;
 }
 
+// Coarse ones first.
+std::vector<int> wanted_sizes(const Problem& problem, const SweepOptions& options) {
+  std::vector<int> sizes = options.sizes.empty() ? problem.sizes : options.sizes;
+  for (const int n : sizes)
+    if (n % problem.size_multiple != 0)
+      throw InputError("--sizes: " + problem.name + " takes multiples of " +
+                       std::to_string(problem.size_multiple) + ", " + problem.size_meaning +
+                       "; got " + std::to_string(n));
+  std::sort(sizes.begin(), sizes.end());
+  return sizes;
+}
+
 std::vector<CurveCases> curves_of(const Problem& problem, const SweepOptions& options) {
   std::vector<Precision> precisions;
   for (const std::string& name : options.precisions) precisions.push_back(precision_named(name));
@@ -103,7 +115,9 @@ Run run_or_note(const Study& study, const CurveCases& curve, int n, int repeats)
 // What the curve's last run says about the next size; 0 if there is none.
 double predicted_seconds(const Problem& problem, const Run* before, int n) {
   if (before == nullptr) return 0;
-  return seconds_of(before->outcome) * std::pow(static_cast<double>(n) / before->n, problem.growth);
+  const double ratio = problem.edges.empty() ? static_cast<double>(n) / before->n
+                                             : problem.edges[before->n - 1] / problem.edges[n - 1];
+  return seconds_of(before->outcome) * std::pow(ratio, problem.growth);
 }
 
 void tell(const Run& run) {
@@ -182,7 +196,7 @@ void note_sleep(Study& study) {
 
 void rate(Study& study) {
   const Problem& problem = study.problem;
-  if (problem.is_scene()) {
+  if (problem.is_scene) {
     rate_scene(study);
     note_sleep(study);
   } else {
@@ -198,8 +212,7 @@ void rate(Study& study) {
 
 Study sweep(const Problem& problem, const SweepOptions& options) {
   Study study{.problem = problem};
-  std::vector<int> sizes = options.sizes.empty() ? problem.sizes : options.sizes;
-  std::sort(sizes.begin(), sizes.end());
+  const std::vector<int> sizes = wanted_sizes(problem, options);
   const std::vector<CurveCases> curves = curves_of(problem, options);
   std::map<std::size_t, Run> last;  // of each curve
   double left = options.budget;
