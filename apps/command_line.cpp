@@ -251,8 +251,8 @@ void add_replay(CLI::App& app, CommandLine& line) {
 }
 
 void add_others(CLI::App& app, CommandLine& line) {
-  CLI::App* mesh = app.add_subcommand(
-      "mesh", "Sizes, quality, stable step and every broken invariant of a mesh file");
+  CLI::App* mesh =
+      app.add_subcommand("mesh", "Sizes, quality, stable step and what is wrong with a mesh file");
   mesh->add_option("file", line.mesh_file, "Mesh (.msh, .vtk, .vtu) or surface (.stl, .obj)")
       ->required();
   mesh->add_option("--scale", line.mesh_scale, "Length of one unit of the file")
