@@ -139,9 +139,7 @@ std::vector<double> read_numbers(const OptionNode&, const Dimension&, std::size_
 std::vector<int> read_integers(const OptionNode&, std::size_t n, const Range&);
 std::size_t read_choice(const OptionNode&, const std::vector<std::string>& names);
 
-// TOML texts of values. A number reads back to the same bits; one that is not finite has the text
-// "".
-std::string number_text(double value);
+// TOML texts of values, numbers as number_text has them.
 // Of an item of a list in the scene: "support[2]".
 std::string item_path(const std::string& list, std::size_t number);
 std::string numbers_text(std::span<const double> values);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/options.h"
+#include "base/number_text.h"
 #include "base/quoted.h"
 
 namespace trocar {

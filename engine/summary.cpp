@@ -7,6 +7,7 @@
 #include "base/digest.h"
 #include "base/exact_sum.h"
 #include "base/heap.h"
+#include "base/quantile.h"
 #include "base/threads.h"
 #include "engine/state_digest.h"
 #include "engine/version.h"
@@ -210,16 +211,6 @@ Json wound_json(const Simulation& s, const FrameRow& last) {
 }
 
 }  // namespace
-
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  // Nearest rank: the least value that at least q n of the n values do not exceed. q n may lie a
-  // rounding error above a whole number.
-  const auto rank =
-      static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size()) - 1e-9));
-  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
-}
 
 std::string make_summary(Simulation& s, const RunTimes& times, const std::string& trouble) {
   const double simulated = s.scene.time.at(s.frame);

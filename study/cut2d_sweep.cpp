@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
+#include "base/quantile.h"
 #include "base/timers.h"
 #include "cutting/cut_plane_paper.h"
-#include "engine/summary.h"
 #include "mesh/edit.h"
 #include "mesh/quality.h"
 #include "study/cut2d_trial.h"
