@@ -115,7 +115,7 @@ void add_study(CLI::App& app, CommandLine& line) {
   study->add_option("subject", s.subject, "Built-in problem (--list) or scene file (TOML)");
   study->add_option("-o,--output", s.folder, "Folder for everything that is written")
       ->capture_default_str();
-  CLI::Option* list = study->add_flag("--list", s.list, "Print the built-in problems");
+  study->add_flag("--list", s.list, "Print the built-in problems");
   study->add_flag("--all", s.all, "All built-in problems");
   study->add_option("--docs", s.docs, "With --all: folder for accuracy.md and images/");
   study->add_option("--sizes", s.sweep.sizes, "Cells along an edge: 4,8,16")
@@ -142,11 +142,15 @@ void add_study(CLI::App& app, CommandLine& line) {
       ->check(CLI::Range(1e-3, 1e9));
   study->add_option("--set", s.overrides, "Change a key of the scene; may be repeated")
       ->allow_extra_args(false);
-  for (CLI::Option* other : study->get_options())
-    if (other != list && other != study->get_help_ptr()) list->excludes(other);
+  const std::vector<CLI::Option*> own = study->get_options();
   add_kernel_options(*study, line.machine);
   study->footer(examples_study);
-  study->callback([&] { line.command = Command::study; });
+  study->callback([&line, own] {
+    const auto is_given = [](const CLI::Option* option) { return option->count() > 0; };
+    if (line.study.list && std::ranges::count_if(own, is_given) > 1)
+      throw CLI::ValidationError("--list", "goes alone");
+    line.command = Command::study;
+  });
 }
 
 void add_cut2d_figures(CLI::App& cut2d, Cut2dCommand& c) {
