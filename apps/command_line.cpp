@@ -142,9 +142,15 @@ void add_study(CLI::App& app, CommandLine& line) {
       ->check(CLI::Range(1e-3, 1e9));
   study->add_option("--set", s.overrides, "Change a key of the scene; may be repeated")
       ->allow_extra_args(false);
+  const std::vector<CLI::Option*> own = study->get_options();
   add_kernel_options(*study, line.machine);
   study->footer(examples_study);
-  study->callback([&] { line.command = Command::study; });
+  study->callback([&line, own] {
+    const auto is_given = [](const CLI::Option* option) { return option->count() > 0; };
+    if (line.study.list && std::ranges::count_if(own, is_given) > 1)
+      throw CLI::ValidationError("--list", "goes alone");
+    line.command = Command::study;
+  });
 }
 
 void add_cut2d_figures(CLI::App& cut2d, Cut2dCommand& c) {
@@ -225,10 +231,14 @@ void add_replay(CLI::App& app, CommandLine& line) {
   replay->add_option("recording", r.recording, "Recording (.trocar)")->required();
   add_quiet(*replay, line.machine);
   replay->add_option("-o,--output", r.folder, "Folder")->capture_default_str();
-  replay->add_option("--video", r.video, "Write a film of this name");
-  replay->add_flag("--frames", r.writes_frames, "Write PNG files into frames/");
-  replay->add_flag("--vtu", r.writes_vtu, "Write VTU files and recording.pvd");
-  replay->add_flag("--list", r.is_list, "Print frames, times and state digests");
+  CLI::Option* video = replay->add_option("--video", r.video, "Write a film of this name");
+  CLI::Option* frames =
+      replay->add_flag("--frames", r.writes_frames, "Write PNG files into frames/");
+  CLI::Option* vtu = replay->add_flag("--vtu", r.writes_vtu, "Write VTU files and recording.pvd");
+  replay->add_flag("--list", r.is_list, "Print frames, times and state digests")
+      ->excludes(video)
+      ->excludes(frames)
+      ->excludes(vtu);
   replay->add_option("--from", r.from, "First time [s]");
   replay->add_option("--to", r.to, "Last time [s]");
   replay->add_option("--camera", r.camera, "Camera of the scene; the first if absent");
@@ -245,8 +255,8 @@ void add_replay(CLI::App& app, CommandLine& line) {
 }
 
 void add_others(CLI::App& app, CommandLine& line) {
-  CLI::App* mesh = app.add_subcommand(
-      "mesh", "Sizes, quality, stable step and every broken invariant of a mesh file");
+  CLI::App* mesh =
+      app.add_subcommand("mesh", "Sizes, quality, stable step and what is wrong with a mesh file");
   mesh->add_option("file", line.mesh_file, "Mesh (.msh, .vtk, .vtu) or surface (.stl, .obj)")
       ->required();
   mesh->add_option("--scale", line.mesh_scale, "Length of one unit of the file")
@@ -302,9 +312,7 @@ std::string complaint(const CLI::App& app, const std::string& trouble, int argc,
     return trouble + "\nrun \"trocar " + word + " --help\" for what there is";
   const std::string end = "\nrun \"trocar --help\" for what there is";
   if (word.empty() || word[0] == '-') return trouble + end;
-  const std::string nearest = nearest_name(word, known);
-  return "there is no sub-command " + in_quotes(word) +
-         (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") + end;
+  return "there is no sub-command " + in_quotes(word) + names_hint(word, known) + end;
 }
 
 // The rank that mpirun gave this process, before MPI is started: only rank 0 prints.

@@ -43,29 +43,17 @@ Problem find_problem(const StudyOptions& options, Communicator& communicator) {
                             communicator);
   if (std::filesystem::path(options.subject).has_extension())
     throw InputError(options.subject + ": there is no file of this name");
-  const std::string nearest = nearest_name(options.subject, known);
   throw InputError(in_quotes(options.subject) + " is neither a scene file nor a built-in problem" +
-                   (nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?") +
-                   " (trocar study --list)");
+                   names_hint(options.subject, known));
 }
 
-void check_sizes(const StudyOptions& options, const Problem& problem) {
-  const bool has_subject_options =
-      !options.meshes.empty() || !options.sleeps.empty() || !options.overrides.empty();
-  if (has_subject_options && !problem.is_scene())
-    throw InputError("--meshes, --sleep and --set belong to scenes, not to " + problem.name);
-  if (problem.name != "bending-column") return;
-  for (const int n : options.sweep.sizes)
-    if (n % 2 != 0)
-      throw InputError(
-          "--sizes: bending-column looks at the middle of its top, where only even "
-          "numbers of cells have a node; got " +
-          std::to_string(n));
+bool has_scene_options(const StudyOptions& options) {
+  return !options.meshes.empty() || !options.sleeps.empty() || !options.overrides.empty();
 }
 
 // Before the runs, which take minutes. A scene's result is a length, known after its finest run.
 void check_target(const StudyOptions& options, const Problem& problem) {
-  if (!options.target.empty() && !problem.is_scene())
+  if (!options.target.empty() && !problem.is_scene)
     require_fits(read_target(options.target), problem);
 }
 
@@ -102,9 +90,12 @@ void study_all(const StudyOptions& options) {
 }
 
 void check_combination(const StudyOptions& options) {
-  if (!options.subject.empty() && (options.all || options.list))
-    throw InputError("study: " + in_quotes(options.subject) +
-                     " and --all or --list exclude each other");
+  if (!options.subject.empty() && options.all)
+    throw InputError("study: " + in_quotes(options.subject) + " and --all exclude each other");
+  if (options.all && has_scene_options(options))
+    throw InputError("study: --meshes, --sleep and --set belong to scenes, not to --all");
+  if (options.all && !options.sweep.sizes.empty())
+    throw InputError("--sizes: what n counts differs between the problems of --all");
   if (!options.docs.empty() && !options.all) throw InputError("study: --docs belongs to --all");
 }
 
@@ -119,14 +110,13 @@ ExitCode command_study(const StudyOptions& options, Communicator& communicator) 
   if (options.list) {
     print_list();
   } else if (options.all) {
-    if (!options.sweep.sizes.empty())
-      throw InputError("--sizes: what n counts differs between the problems of --all");
     study_all(options);
   } else if (options.subject.empty()) {
     throw InputError("study: name a problem (trocar study --list), a scene file, or --all");
   } else {
     const Problem problem = find_problem(options, communicator);
-    check_sizes(options, problem);
+    if (has_scene_options(options) && !problem.is_scene)
+      throw InputError("--meshes, --sleep and --set belong to scenes, not to " + problem.name);
     check_target(options, problem);
     report(options, sweep(problem, options.sweep));
   }

@@ -22,7 +22,8 @@ void use_machine(const MachineOptions& machine, const Communicator& communicator
 ExitCode command_run(const RunOptions& options, Communicator& communicator);
 ExitCode command_check(const RunOptions& options, Communicator& communicator);
 ExitCode command_replay(const ReplayOptions& options);
-// Sizes, quality, stable step with the default material, every broken invariant.
+// Sizes, quality, stable step with the default material; all broken invariants of a mesh that can
+// be read (flat, inverted and doubled corners can not: the first one is told).
 ExitCode command_mesh(const std::string& file, const std::string& scale);
 ExitCode command_doctor(const Communicator& communicator);
 // All keys of a scene file; as Markdown for docs/scene.md.

@@ -139,9 +139,7 @@ std::vector<double> read_numbers(const OptionNode&, const Dimension&, std::size_
 std::vector<int> read_integers(const OptionNode&, std::size_t n, const Range&);
 std::size_t read_choice(const OptionNode&, const std::vector<std::string>& names);
 
-// TOML texts of values. A number reads back to the same bits; one that is not finite has the text
-// "".
-std::string number_text(double value);
+// TOML texts of values, numbers as number_text has them.
 // Of an item of a list in the scene: "support[2]".
 std::string item_path(const std::string& list, std::size_t number);
 std::string numbers_text(std::span<const double> values);
@@ -219,6 +217,12 @@ void read_options(const OptionTable& table, const std::string& file,
 // messages.
 void read_options_text(const OptionTable& table, const std::string& text, const std::string& name,
                        const std::vector<std::string>& overrides, void* object, SourceMap& where);
+// One effective value with the whole path of its key: "instrument[1].path[0].time".
+struct OptionText {
+  std::string key, value;
+};
+// All of them, the values of each table before the tables below it, as echo_options has them.
+std::vector<OptionText> flat_options(const OptionTable& table, const void* object);
 // All effective values as TOML that reads back to the same struct.
 std::string echo_options(const OptionTable& table, const void* object);
 // Plain-text help, and the same as Markdown with a heading and a table for each table.

@@ -1,4 +1,6 @@
 // The effective options as TOML: what a run really used, readable by the same program.
+#include <utility>
+
 #include "base/options.h"
 
 namespace trocar {
@@ -39,6 +41,27 @@ std::string echo_options(const OptionTable& table, const void* object) {
   std::string text;
   echo_table(table.entries(), object, "", text);
   return text;
+}
+
+static void add_flat(const std::vector<OptionEntry>& entries, const void* object,
+                     const std::string& path, std::vector<OptionText>& all) {
+  for (const OptionEntry& entry : entries)
+    if (std::string value = entry.is_table ? "" : entry.value_text(object); !value.empty())
+      all.push_back({path + entry.key, std::move(value)});
+  for (const OptionEntry& entry : entries) {
+    if (!entry.is_table) continue;
+    const std::vector<const void*> below = entry.objects_below(object);
+    for (std::size_t k = 0; k < below.size(); ++k) {
+      const std::string key = path + entry.key;
+      add_flat(entry.below, below[k], (entry.is_list ? item_path(key, k) : key) + ".", all);
+    }
+  }
+}
+
+std::vector<OptionText> flat_options(const OptionTable& table, const void* object) {
+  std::vector<OptionText> all;
+  add_flat(table.entries(), object, "", all);
+  return all;
 }
 
 }  // namespace trocar

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/check.h"
+#include "base/number_text.h"
 #include "base/options.h"
 
 namespace trocar {

@@ -1,29 +1,11 @@
 // Values and what is allowed as text: TOML for the echo, sentences for messages and help.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
-#include "base/check.h"
 #include "base/options.h"
 #include "base/quoted.h"
 
 namespace trocar {
-
-// Shortest decimal that reads back to the same bits.
-static std::string shortest_text(double value) {
-  char buffer[32];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
-  CHECK(result.ec == std::errc());
-  return {buffer, result.ptr};
-}
-
-std::string number_text(double value) {
-  if (!std::isfinite(value)) return "";
-  std::string text = shortest_text(value);
-  // Without a point or an exponent TOML reads an integer, and -0 would lose its sign.
-  if (text.find_first_of(".e") == std::string::npos) text.append(".0");
-  return text;
-}
 
 template <class Value, class Text>
 static std::string list_text(std::span<const Value> values, const Text& text_of) {

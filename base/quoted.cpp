@@ -46,6 +46,12 @@ static std::size_t distance_to(std::string_view name, const std::string& allowed
   return name.size() >= 3 && allowed.starts_with(name) ? 1 : edit_distance(name, allowed);
 }
 
+std::string csv_quoted(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char letter : text) quoted.append(letter == '"' ? 2 : 1, letter);
+  return quoted + "\"";
+}
+
 std::string in_small_letters(std::string_view text) {
   std::string small(text);
   for (char& c : small) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;

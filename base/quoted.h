@@ -10,6 +10,9 @@ namespace trocar {
 // In double quotes, at most 60 bytes (cut with … between characters), control characters as "?".
 std::string in_quotes(std::string_view text);
 
+// A cell of a CSV file as RFC 4180 quotes it.
+std::string csv_quoted(std::string_view text);
+
 // Letters of ASCII only.
 std::string in_small_letters(std::string_view text);
 

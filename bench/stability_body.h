@@ -33,9 +33,6 @@ inline Mesh block(BoxElements elements, int n, double irregularity) {
 inline const char* name_of(BoxElements elements) {
   return elements == BoxElements::hex8 ? "hex8" : "tet4";
 }
-inline const char* name_of(Precision precision) {
-  return precision == Precision::in_single ? "single" : "double";
-}
 
 constexpr BoxElements both[] = {BoxElements::hex8, BoxElements::tet4_kuhn};
 

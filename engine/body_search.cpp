@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/number_text.h"
-#include "base/options.h"
 #include "engine/event_log.h"
 #include "engine/part_search.h"
 #include "solver/step.h"

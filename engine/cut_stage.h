@@ -42,7 +42,7 @@ struct CutStage : CutProgress {
   // As tissue_velocity, of a frame that began with tissue at or near the blade. [m/s]
   std::optional<Vec3> beside;
   // How far around the blade the owners of nodes cut with it, mean longest sides of elements: what
-  // a cut looks at beyond that has to be asked of all ranks.
+  // a cut looks at beyond that has to be asked of all ranks (a test has others).
   double margin = 2;
   CutPlaneOptions plane;
 };

@@ -46,7 +46,7 @@ class FilmStudio {
   void add(FilmFrame frame);
   void finish();
   double seconds() const;        // of drawing, so far
-  std::int64_t n_drawn() const;  // pictures, so far; orders may share one
+  std::int64_t n_drawn() const;  // pictures, so far; orders may share one. For tests
 
  private:
   struct Thread;

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/number_text.h"
-#include "base/options.h"
 #include "engine/checkpoint_output.h"
 #include "engine/contact_step.h"
 #include "engine/cut_front.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "base/number_text.h"
-#include "base/options.h"
 #include "engine/body_search.h"
 #include "engine/frame_force.h"
 #include "solver/element_watch.h"

@@ -6,7 +6,6 @@
 #include <mutex>
 
 #include "base/number_text.h"
-#include "base/options.h"
 #include "base/threads.h"
 #include "engine/element_gradient.h"
 #include "engine/event_log.h"

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/options.h"
+#include "base/number_text.h"
+#include "base/quoted.h"
 
 namespace trocar {
 
@@ -12,11 +13,7 @@ namespace {
 
 // A column's name as RFC 4180 has it: quoted where it holds a comma, a quote or a line break.
 std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char letter : text)
-    quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-  return quoted + "\"";
+  return text.find_first_of(",\"\r\n") == std::string::npos ? text : csv_quoted(text);
 }
 
 std::string text_of(double value) {

@@ -6,7 +6,6 @@
 
 #include "base/box.h"
 #include "base/number_text.h"
-#include "base/options.h"
 #include "base/sort_unique.h"
 #include "collision/contact_tissue.h"
 #include "engine/energy_ledger.h"

@@ -31,7 +31,7 @@ struct PatchState {
   GlobalState& global;
   std::span<const double> history = {};
   const ElementOrigins* origins = nullptr;
-  int n_rings = patch_rings;
+  int n_rings = patch_rings;  // a test shows what others give
 };
 std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
                                   const PatchState& state);

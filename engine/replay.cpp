@@ -73,25 +73,21 @@ void check_recording_stays(const ReplayOptions& options) {
 }
 
 std::vector<FilmOrder> orders_of(const Scene& scene, const ReplayOptions& options, double rate) {
-  FilmOrder order{.camera = camera_of(scene, options),
-                  .width = options.width,
-                  .height = options.height,
-                  .frame_rate = rate};
   std::vector<FilmOrder> orders;
-  if (!options.video.empty()) {
-    order.kind = OutputKind::video;
-    order.file = video_file(options);
-    orders.push_back(order);
-  }
-  if (options.writes_frames) {
-    order.kind = OutputKind::frames;
-    order.file = options.folder + "/frames";
-    orders.push_back(order);
-  }
+  const auto add = [&](OutputKind kind, const std::string& file) {
+    orders.push_back({.kind = kind,
+                      .file = file,
+                      .camera = camera_of(scene, options),
+                      .width = options.width,
+                      .height = options.height,
+                      .frame_rate = rate});
+  };
+  if (!options.video.empty()) add(OutputKind::video, video_file(options));
+  if (options.writes_frames) add(OutputKind::frames, options.folder + "/frames");
   return orders;
 }
 
-// Frames of the recording in [from, to] and their mean rate.
+// Frames of the recording in [from, to].
 std::vector<std::pair<std::int64_t, double>> chosen_frames(const RecordingReader& reader,
                                                            const ReplayOptions& options) {
   std::vector<std::pair<std::int64_t, double>> chosen;
@@ -113,10 +109,6 @@ void check_frame(const RecordedFrame& frame, const Mesh& mesh, const std::string
                      " nodes");
 }
 
-std::size_t n_orders(const ReplayOptions& options) {
-  return (options.video.empty() ? 0u : 1u) + (options.writes_frames ? 1u : 0u);
-}
-
 Scene recorded_scene(const RecordingReader& reader, const ReplayOptions& options) {
   Scene scene;
   SourceMap where;
@@ -124,16 +116,10 @@ Scene recorded_scene(const RecordingReader& reader, const ReplayOptions& options
   return scene;
 }
 
-// The picture thread for what is asked for, null for none.
-std::unique_ptr<FilmStudio> open_studio(
-    const Scene& scene, const RecordingHead& head, const ReplayOptions& options,
-    const std::vector<std::pair<std::int64_t, double>>& frames) {
-  if (n_orders(options) == 0) return nullptr;
+double frame_rate_of(const Scene& scene,
+                     const std::vector<std::pair<std::int64_t, double>>& frames) {
   const double span = frames.back().second - frames.front().second;
-  const double rate =
-      span > 0 ? static_cast<double>(frames.size() - 1) / span : scene.time.frame_rate;
-  return std::make_unique<FilmStudio>(orders_of(scene, options, rate), scene.tissue, head.mesh,
-                                      recorded_tools(scene, head));
+  return span > 0 ? static_cast<double>(frames.size() - 1) / span : scene.time.frame_rate;
 }
 
 // None of a plane body whose thickness is free: its strain across is not recorded.
@@ -173,7 +159,11 @@ void replay(const ReplayOptions& options) {
   const RecordingHead& head = reader.head();
   const Scene scene = recorded_scene(reader, options);
   const std::vector<Material> materials = recorded_materials(scene, head.mesh);
-  const std::unique_ptr<FilmStudio> studio = open_studio(scene, head, options, frames);
+  const std::vector<FilmOrder> orders = orders_of(scene, options, frame_rate_of(scene, frames));
+  std::unique_ptr<FilmStudio> studio;  // the picture thread for what is asked for
+  if (!orders.empty())
+    studio =
+        std::make_unique<FilmStudio>(orders, scene.tissue, head.mesh, recorded_tools(scene, head));
   std::vector<PvdEntry> entries;
   FilmFrame film;
   ProgressBar bar("replay");
@@ -184,7 +174,7 @@ void replay(const ReplayOptions& options) {
     check_frame(frame, mesh, options.recording);
     if (options.writes_vtu)
       entries.push_back(write_frame_vtu(mesh, frame, materials, options.folder));
-    if (studio && (k == 0 || reader.n_edits() != n_edits)) film = film_of(mesh, n_orders(options));
+    if (studio && (k == 0 || reader.n_edits() != n_edits)) film = film_of(mesh, orders.size());
     if (studio) studio->add(film_frame(film, frame));
     bar.update(static_cast<double>(k + 1) / static_cast<double>(frames.size()),
                std::to_string(k + 1) + " frames");

@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
-#include "base/options.h"
 #include "engine/event_log.h"
 #include "engine/local_steps.h"
 #include "engine/suspect.h"

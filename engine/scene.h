@@ -261,5 +261,9 @@ struct LoadedScene {
   std::string folder;  // of the scene file; relative mesh paths start here
 };
 LoadedScene load_scene(const std::string& file, const std::vector<std::string>& overrides);
+// The path of a file that the scene names: relative ones start at the scene file's folder.
+inline std::string scene_path(const LoadedScene& loaded, const std::string& file) {
+  return file.starts_with('/') ? file : loaded.folder + file;
+}
 
 }  // namespace trocar

@@ -7,10 +7,12 @@
 #include "base/digest.h"
 #include "base/exact_sum.h"
 #include "base/heap.h"
+#include "base/quantile.h"
 #include "base/threads.h"
 #include "engine/state_digest.h"
 #include "engine/version.h"
 #include "mesh/quality.h"
+#include "solver/element_setup.h"
 #include "solver/step.h"
 
 namespace trocar {
@@ -29,13 +31,13 @@ Json traffic_json(const Traffic& t) {
 Json mesh_json(const Simulation& s) {
   const ElementStatistics m = element_statistics(s.mesh);
   const SceneSolver& solver = s.scene.solver;
-  const Formulation of_type[n_element_types] = {solver.triangle, solver.tetrahedron,
-                                                solver.hexahedron};
   Json elements, formulations;
   for (int type = 0; type < n_element_types; ++type)
     if (const auto n = m.n_elements_by_type[type]; n > 0) {
-      elements[element_type_name(static_cast<ElementType>(type))] = n;
-      formulations.push_back(name_of(of_type[type]));
+      const auto shape = static_cast<ElementType>(type);
+      elements[element_type_name(shape)] = n;
+      formulations.push_back(
+          name_of(of_shape(shape, solver.triangle, solver.tetrahedron, solver.hexahedron)));
     }
   return {{"nodes", s.mesh.n_nodes()},
           {"elements", elements},
@@ -209,16 +211,6 @@ Json wound_json(const Simulation& s, const FrameRow& last) {
 }
 
 }  // namespace
-
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  // Nearest rank: the least value that at least q n of the n values do not exceed. q n may lie a
-  // rounding error above a whole number.
-  const auto rank =
-      static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size()) - 1e-9));
-  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
-}
 
 std::string make_summary(Simulation& s, const RunTimes& times, const std::string& trouble) {
   const double simulated = s.scene.time.at(s.frame);

@@ -18,7 +18,4 @@ struct RunTimes {
 // rank except for times. trouble: the sentence that ended the run early, "" if it went through.
 std::string make_summary(Simulation& s, const RunTimes& times, const std::string& trouble);
 
-// Quantile q in [0, 1] of values (nearest rank); 0 if empty.
-double quantile(std::vector<double> values, double q);
-
 }  // namespace trocar

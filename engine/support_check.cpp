@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/log.h"
+#include "engine/support_forces.h"
 
 namespace trocar {
 
@@ -44,24 +45,13 @@ bool move_alike(const SceneSupport& a, const SceneSupport& b, int axis) {
                     });
 }
 
-void take(std::int32_t support, std::int32_t& holder) {
-  if (holder == nobody) holder = support;
-}
-
 Holders find_holders(const Scene& scene, const Mesh& mesh) {
-  Holders holders{.at_rest = std::vector<std::int32_t>(3 * mesh.X.size(), nobody),
+  Holders holders{.at_rest = holders_at_rest(scene.supports, mesh),
                   .moving = std::vector<std::int32_t>(mesh.X.size(), nobody)};
   for (std::size_t k = 0; k < scene.supports.size(); ++k) {
-    const SceneSupport& support = scene.supports[k];
-    const auto number = static_cast<std::int32_t>(k);
-    for (const std::int32_t node : find_node_set(mesh, support.region)->node) {
-      const auto i = static_cast<std::size_t>(node);
-      if (!support.path.empty())
-        take(number, holders.moving[i]);
-      else
-        for (const char axis : support.fix)
-          take(number, holders.at_rest[3 * i + static_cast<std::size_t>(axis - 'x')]);
-    }
+    if (scene.supports[k].path.empty()) continue;
+    for (const std::int32_t node : find_node_set(mesh, scene.supports[k].region)->node)
+      if (holders.moving[node] == nobody) holders.moving[node] = static_cast<std::int32_t>(k);
   }
   return holders;
 }

@@ -4,23 +4,26 @@
 
 namespace trocar {
 
+std::vector<std::int32_t> holders_at_rest(std::span<const SceneSupport> supports,
+                                          const Mesh& mesh) {
+  std::vector<std::int32_t> holder(3 * mesh.X.size(), -1);
+  for (std::size_t k = 0; k < supports.size(); ++k) {
+    if (!supports[k].path.empty()) continue;
+    for (const std::int32_t node : find_node_set(mesh, supports[k].region)->node)
+      for (const char axis : supports[k].fix)
+        if (std::int32_t& at = holder[3 * std::int64_t{node} + (axis - 'x')]; at < 0)
+          at = static_cast<std::int32_t>(k);
+  }
+  return holder;
+}
+
 void localise_supports(std::span<const SceneSupport> supports, const Mesh& mesh, const Part& part,
                        SupportForces& forces) {
   forces.of_rank.clear();
-  std::vector<bool> is_taken(3 * static_cast<std::size_t>(part.n_owned));
-  for (std::size_t k = 0; k < supports.size(); ++k) {
-    if (!supports[k].path.empty()) continue;
-    for (const std::int32_t node : find_node_set(mesh, supports[k].region)->node) {
-      const std::int64_t local = part.owned(node);
-      if (local < 0) continue;
-      for (const char axis : supports[k].fix) {
-        const std::int64_t component = 3 * local + (axis - 'x');
-        if (is_taken[component]) continue;
-        is_taken[component] = true;
-        forces.of_rank.push_back({.support = static_cast<std::int32_t>(k), .component = component});
-      }
-    }
-  }
+  const std::vector<std::int32_t> holder = holders_at_rest(supports, mesh);
+  for (std::int64_t c = 0; c < 3 * std::int64_t{part.n_owned}; ++c)
+    if (const std::int32_t k = holder[3 * std::int64_t{part.node_global[c / 3]} + c % 3]; k >= 0)
+      forces.of_rank.push_back({.support = k, .component = c});
   forces.sum.assign(forces.of_rank.size(), 0.0);
 }
 

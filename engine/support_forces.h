@@ -25,6 +25,8 @@ struct SupportForces {
   std::vector<double> sum;  // (of_rank.size()) over the substeps of this frame [N]
 };
 
+// Of each component of a node (n_nodes * 3) the first support at rest that fixes it, -1: none.
+std::vector<std::int32_t> holders_at_rest(std::span<const SceneSupport> supports, const Mesh& mesh);
 // After a change of part or topology.
 void localise_supports(std::span<const SceneSupport> supports, const Mesh& mesh, const Part& part,
                        SupportForces& forces);

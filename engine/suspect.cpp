@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/number_text.h"
-#include "base/options.h"
 #include "collision/narrow_phase.h"
 #include "engine/point_text.h"
 

@@ -160,10 +160,6 @@ std::vector<Material> region_materials(const SceneTissue& tissue, const Mesh& me
                     [](const SceneRegionMaterial& other) { return to_material(other.material); });
 }
 
-std::string scene_path(const LoadedScene& loaded, const std::string& file) {
-  return file.starts_with('/') ? file : loaded.folder + file;
-}
-
 void warn_of_size(const std::string& file, const std::string& key, std::span<const Vec3> X) {
   constexpr double smallest = 5e-4, largest = 3;  // [m]
   const double longest = bounding_box(X).size().maxCoeff();

@@ -30,9 +30,6 @@ std::vector<Value> of_regions(const SceneTissue& tissue, const Mesh& mesh, const
 }
 std::vector<Material> region_materials(const SceneTissue& tissue, const Mesh& mesh);
 
-// The path of a file that the scene names: relative ones start at the scene file's folder.
-std::string scene_path(const LoadedScene& loaded, const std::string& file);
-
 // Warns if a body or an instrument of these points, read from a file, is far from the size of one:
 // the file has another unit, as a rule, than `key` of the scene says.
 void warn_of_size(const std::string& file, const std::string& key, std::span<const Vec3> X);

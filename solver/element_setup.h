@@ -21,6 +21,13 @@ constexpr ElementType shape_of(Formulation formulation) {
   return shape[static_cast<int>(formulation)];
 }
 
+// Of what there is one for each shape, that of `shape`.
+template <class T>
+T& of_shape(ElementType shape, T& tri3, T& tet4, T& hex8) {
+  T* const of[] = {&tri3, &tet4, &hex8};
+  return *of[static_cast<int>(shape)];
+}
+
 struct ElementInput {
   std::span<const Vec3> X;    // (n_corners) [m]
   double lambda = 0, mu = 0;  // [Pa]

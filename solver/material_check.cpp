@@ -41,13 +41,16 @@ std::string misfit_of(const Material& material, Formulation formulation, Precisi
 
 void check_materials(const Mesh& mesh, std::span<const Material> materials,
                      const SolverOptions& options) {
-  const Formulation of_type[n_element_types] = {options.tri3, options.tet4, options.hex8};
   const std::vector<bool> has = types_of_regions(mesh, materials.size());
   for (std::size_t r = 0; r < materials.size(); ++r) {
     check(mesh, r, fault_of(materials[r]).sentence);
     for (std::size_t k = 0; k < n_element_types; ++k)
       if (has[r * n_element_types + k])
-        check(mesh, r, misfit_of(materials[r], of_type[k], options.precision));
+        check(mesh, r,
+              misfit_of(
+                  materials[r],
+                  of_shape(static_cast<ElementType>(k), options.tri3, options.tet4, options.hex8),
+                  options.precision));
   }
 }
 

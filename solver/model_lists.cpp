@@ -16,8 +16,8 @@ namespace trocar {
 namespace {
 
 Formulation formulation_of(const ModelSource& source, std::int32_t e) {
-  const Formulation of_shape[] = {source.options.tri3, source.options.tet4, source.options.hex8};
-  return of_shape[static_cast<int>(source.mesh.element_type[e])];
+  const SolverOptions& options = source.options;
+  return of_shape(source.mesh.element_type[e], options.tri3, options.tet4, options.hex8);
 }
 
 std::size_t key_of(std::int32_t region, Formulation formulation) {

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <random>
 
+#include "base/quantile.h"
 #include "base/timers.h"
 #include "cutting/cut_plane_paper.h"
-#include "engine/summary.h"
 #include "mesh/edit.h"
 #include "mesh/quality.h"
 #include "study/cut2d_trial.h"
@@ -44,18 +43,6 @@ std::vector<Vec3> random_path(Random& random, double top) {
   return path;
 }
 
-// omega^2 <= c^2 sum_a 1 / h_a^2 = c^2 S / (4 A^2) for a triangle of constant strain.
-double step_bound(const Mesh& mesh) {
-  double least = std::numeric_limits<double>::max();
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
-    double S = 0;
-    for (int a = 0; a < 3; ++a)
-      S += (mesh.X[mesh.corners(e)[a]] - mesh.X[mesh.corners(e)[(a + 1) % 3]]).squaredNorm();
-    least = std::min(least, 2 * element_volume(mesh, e, mesh.X) / std::sqrt(S));
-  }
-  return least;
-}
-
 double area_sigma(const Mesh& before, const Mesh& after) {
   double squares = 0;
   for (std::int32_t e = 0; e < before.n_elements(); ++e) {
@@ -84,7 +71,7 @@ void cut_once(const Mesh& mesh, const std::vector<Vec3>& path, const CutPlaneOpt
   Mesh after = mesh;
   apply_edit(cut.edit, after);
   all.seconds.push_back(seconds);
-  all.ratio.push_back(step_bound(after) / step_bound(mesh));
+  all.ratio.push_back(least_step_bound(after) / least_step_bound(mesh));
   all.sigma += area_sigma(mesh, after);
 }
 

@@ -4,36 +4,17 @@
 #include <cmath>
 
 #include "base/communicator.h"
-#include "solver/frequency.h"
+#include "engine/body_search.h"
 #include "solver/watch.h"
 
 namespace trocar {
 
 namespace {
 
-HighestFrequency search(StudyBody& body) {
-  State probe = body.state;
-  Scratch scratch = make_scratch(body.model);
-  FrequencyOptions options;
-  options.amplitude = search_amplitude(body.model, body.h);
-  const Communicator alone;
-  Neighbours none;
-  return find_highest_frequency(
-      body.model, body.part, body.state,
-      [&](std::vector<double>& u, std::vector<double>& force) {
-        probe.u.swap(u);
-        find_force(body.model, none, probe, scratch);
-        force = scratch.force;
-        probe.u.swap(u);
-      },
-      options, alone);
-}
-
 void run_steps(StudyBody& body, std::int64_t n, double dt,
                const std::function<void(double dt)>& after_step) {
-  Neighbours none;
   for (std::int64_t k = 0; k < n; ++k) {
-    find_force(body.model, none, body.state, body.scratch);
+    find_force(body.model, body.neighbours, body.state, body.scratch);
     integrate(body.model, body.scratch, {}, dt, body.state);
     after_step(dt);
   }
@@ -61,9 +42,8 @@ StudyBody make_study_body(Mesh mesh, double h, const Material& material,
 double stable_step(StudyBody& body) {
   const Watch seen = watch(body.model, body.part, body.state);
   if (!seen.is_finite || !(seen.least_J > 0)) return 0;
-  const HighestFrequency found = search(body);
-  return found.is_converged ? std::max(seen.stable_step, 2 / (frequency_margin * found.omega))
-                            : seen.stable_step;
+  const double amplitude = search_amplitude(body.model, body.h);
+  return std::max(seen.stable_step, search_step(body, amplitude, Communicator()));
 }
 
 bool advance_frame(StudyBody& body, double length, double factor,

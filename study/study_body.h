@@ -6,21 +6,15 @@
 #include <vector>
 
 #include "mesh/mesh.h"
-#include "mesh/partition.h"
-#include "solver/model.h"
-#include "solver/neighbours.h"
+#include "solver/rank_body.h"
 #include "solver/step.h"
 
 namespace trocar {
 
-struct StudyBody {
+struct StudyBody : RankBody {
   Mesh mesh;
   std::vector<double> mass;  // (n_nodes) [kg]
-  Part part;
-  Model model;
-  State state;
-  Scratch scratch;
-  double h = 0;  // edge of a cell [m]
+  double h = 0;              // edge of a cell [m]
 };
 
 // `fixed` tells the supported components of the node at X; empty: none.

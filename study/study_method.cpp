@@ -21,12 +21,6 @@ constexpr Method all_methods[] = {
     {"tri3-plane-stress", Formulation::tri3_plane_stress},
 };
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 }  // namespace
 
 std::span<const Method> methods() {
@@ -39,9 +33,7 @@ const Method& method_named(const std::string& name) {
     if (name == method.name) return method;
     known.emplace_back(method.name);
   }
-  const std::string nearest = nearest_name(name, known);
-  throw InputError("--elements: there is no " + in_quotes(name) + ", only " + listed(known) +
-                   (nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?"));
+  throw InputError("--elements: there is no " + in_quotes(name) + names_hint(name, known));
 }
 
 Precision precision_named(const std::string& name) {
@@ -50,15 +42,11 @@ Precision precision_named(const std::string& name) {
   throw InputError("--precision: " + in_quotes(name) + " is neither double nor single");
 }
 
-const char* precision_name(Precision precision) {
-  return precision == Precision::in_single ? "single" : "double";
-}
-
 SolverOptions solver_options(const Method& method, Precision precision) {
   SolverOptions options;
   options.precision = precision;
-  Formulation* const of_shape[] = {&options.tri3, &options.tet4, &options.hex8};
-  *of_shape[static_cast<int>(shape_of(method.formulation))] = method.formulation;
+  of_shape(shape_of(method.formulation), options.tri3, options.tet4, options.hex8) =
+      method.formulation;
   return options;
 }
 

@@ -21,7 +21,6 @@ std::span<const Method> methods();
 const Method& method_named(const std::string& name);
 // "double", "single"; throws InputError.
 Precision precision_named(const std::string& name);
-const char* precision_name(Precision precision);
 
 // With the method's shape computed by its formulation.
 SolverOptions solver_options(const Method& method, Precision precision);

@@ -95,7 +95,7 @@ struct ErrorScale {
 
 ErrorScale error_scale(const Problem& problem) {
   if (problem.length == 0) return {"error of the " + problem.quantity + " [%]", .01};
-  return {(problem.is_scene() ? "greatest surface error" : "error of the " + problem.quantity) +
+  return {(problem.is_scene ? "greatest surface error" : "error of the " + problem.quantity) +
               std::string(" [mm]"),
           1e-3 / problem.length};
 }
@@ -226,7 +226,7 @@ std::string subtitle(const Problem& problem) {
   const std::string own = problem.length > 0 ? length_text(problem.reference_error * problem.length)
                                              : percent_text(problem.reference_error);
   std::string text = problem.size_meaning.empty() ? "" : "n: " + problem.size_meaning + ". ";
-  if (problem.is_scene()) return text + "Reference: the finest run, own error about " + own + ".";
+  if (problem.is_scene) return text + "Reference: the finest run, own error about " + own + ".";
   text += "Reference: " + significant(problem.reference, 5) + " " + problem.unit + ", " +
           problem.source;
   return text + (problem.reference_error > 0 ? ", own error " + own + "." : ".");

@@ -36,11 +36,14 @@ struct Problem {
   double reference = 0;                          // [unit]
   double reference_error = 0;                    // relative
   std::string source;                            // of the reference
+  bool is_scene = false;                         // compared with its own finest run
   double simulated_seconds = 0;                  // 0: static
   double length = 0;                             // of a relative error of 1 [m]; 0: not a length
   std::vector<int> sizes;                        // of the default sweep
   std::string size_meaning;                      // "cells over the half width"
-  double growth = 4;                             // cost ~ n^growth
+  int size_multiple = 1;                         // sizes are multiples of this
+  double growth = 4;                             // cost ~ n^growth, edges^-growth
+  std::vector<double> edges;                     // of mesh files 1, 2, … [m]; empty: ~ 1 / n
   std::vector<Method> methods;                   // that can compute it
   std::vector<double> factors;                   // of the default sweep
   std::vector<double> sleeps = {0};              // scenes: solver.sleep [m]
@@ -48,7 +51,6 @@ struct Problem {
   std::function<Outcome(const Case&)> solve;
 
   bool is_static() const { return simulated_seconds == 0; }
-  bool is_scene() const { return source.empty(); }
 };
 
 // The built-in problems, one file each.

@@ -70,6 +70,7 @@ Problem problem_bending_column() {
           .length = 2.9955,
           .sizes = {2, 4, 8, 12},
           .size_meaning = "cells over the width of 1 m (even)",
+          .size_multiple = 2,  // else no node lies in the middle of the top
           .methods = solid_methods(),
           .factors = {.5, .85},
           .solve = solve_column};

@@ -1,5 +1,6 @@
 // Free vibration of a square prism in a mode of Lame, u = (cos sin, -sin cos)(pi x/a, pi y/a): its
 // frequency sqrt 2 pi c_s / a is exact for any Poisson ratio, and all faces are free of traction.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -78,7 +79,7 @@ Outcome solve_lame_mode(const Case& c) {
   outcome.setup_seconds = ready - start;
   outcome.n_elements = body.mesh.n_elements();
   outcome.n_steps = body.state.step;
-  outcome.dt = body.state.time / static_cast<double>(body.state.step);
+  outcome.dt = body.state.time / static_cast<double>(std::max<std::int64_t>(body.state.step, 1));
   return outcome;
 }
 

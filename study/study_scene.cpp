@@ -78,8 +78,8 @@ LoadedScene scene_of(const SceneStudy& study, const Case& c) {
   solver.step_factor = c.step_factor;
   solver.sleep = c.sleep;
   solver.precision = c.precision;
-  Formulation* const of_shape[] = {&solver.triangle, &solver.tetrahedron, &solver.hexahedron};
-  *of_shape[static_cast<int>(shape_of(c.method.formulation))] = c.method.formulation;
+  of_shape(shape_of(c.method.formulation), solver.triangle, solver.tetrahedron, solver.hexahedron) =
+      c.method.formulation;
   if (!study.has_shape()) {
     if (!study.meshes.empty()) tissue.mesh = study.meshes[c.n - 1];
     return loaded;
@@ -211,7 +211,6 @@ SceneStudy load_study(const SceneStudyOptions& options, Communicator& communicat
   study.loaded.scene.markers.clear();
   study.loaded.scene.checkpoint.every = 0;
   study.loaded.scene.time.pace = Pace::fast;
-  if (study.n_frames() < 1) throw InputError("the scene has no frame to compare");
   if (study.has_shape() && !options.meshes.empty())
     throw InputError("--meshes: the scene generates its body; use --sizes");
   if (!study.has_shape() && !options.sizes.empty())
@@ -221,23 +220,27 @@ SceneStudy load_study(const SceneStudyOptions& options, Communicator& communicat
   return study;
 }
 
-// The finest mesh is what all runs are compared with.
-void sort_meshes(SceneStudy& study, Communicator& communicator) {
+// The finest mesh is what all runs are compared with. Returns the mean edges. [m]
+std::vector<double> sort_meshes(SceneStudy& study, Communicator& communicator) {
   std::vector<std::pair<double, std::string>> by_edge;
   for (int n = 1; n <= static_cast<int>(study.meshes.size()); ++n) {
     const Mesh mesh = load_tissue(scene_of(study, {.n = n}), communicator);
     by_edge.emplace_back(mean_edge_length(mesh), study.meshes[n - 1]);
   }
   std::ranges::stable_sort(by_edge, std::ranges::greater(), &std::pair<double, std::string>::first);
-  for (std::size_t k = 0; k < by_edge.size(); ++k) study.meshes[k] = by_edge[k].second;
+  std::vector<double> edges;
+  for (std::size_t k = 0; k < by_edge.size(); ++k) {
+    edges.push_back(by_edge[k].first);
+    study.meshes[k] = by_edge[k].second;
+  }
+  return edges;
 }
 
 }  // namespace
 
 Problem problem_of_scene(const SceneStudyOptions& options, Communicator& communicator) {
   const auto study = std::make_shared<SceneStudy>(load_study(options, communicator));
-  sort_meshes(*study, communicator);
-  Problem problem;
+  Problem problem{.is_scene = true, .edges = sort_meshes(*study, communicator)};
   problem.name = std::filesystem::path(options.scene_file).stem().string();
   describe(*study, problem);
   problem.sizes = sizes_of(*study, options.sizes);
@@ -246,6 +249,7 @@ Problem problem_of_scene(const SceneStudyOptions& options, Communicator& communi
   if (study->has_shape() && study->loaded.scene.tissue.shape->elements != BoxElements::hex8)
     coarsest.method.elements = BoxElements::tet4_kuhn;
   const Mesh mesh = load_tissue(scene_of(*study, coarsest), communicator);
+  problem.growth = mesh.dimension() + 1;
   problem.factors = {step_factor_of(study->loaded.scene.solver, mesh)};
   study->points = surface_points(mesh, most_sample_points);
   for (const Method& method : methods())

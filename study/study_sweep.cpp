@@ -35,6 +35,18 @@ std::vector<Method> wanted_methods(const Problem& problem, const SweepOptions& o
   return wanted;
 }
 
+// Coarse ones first.
+std::vector<int> wanted_sizes(const Problem& problem, const SweepOptions& options) {
+  std::vector<int> sizes = options.sizes.empty() ? problem.sizes : options.sizes;
+  for (const int n : sizes)
+    if (n % problem.size_multiple != 0)
+      throw InputError("--sizes: " + problem.name + " takes multiples of " +
+                       std::to_string(problem.size_multiple) + ", " + problem.size_meaning +
+                       "; got " + std::to_string(n));
+  std::sort(sizes.begin(), sizes.end());
+  return sizes;
+}
+
 std::vector<CurveCases> curves_of(const Problem& problem, const SweepOptions& options) {
   std::vector<Precision> precisions;
   for (const std::string& name : options.precisions) precisions.push_back(precision_named(name));
@@ -68,7 +80,7 @@ Outcome solve_repeatedly(const Problem& problem, const Case& c, int repeats) {
 
 Run run_of(const Problem& problem, const CurveCases& curve, int n) {
   return {.method = curve.method.name,
-          .precision = precision_name(curve.precision),
+          .precision = name_of(curve.precision),
           .size = problem.size_label ? problem.size_label(n) : "n = " + std::to_string(n),
           .step_factor = problem.is_static() ? 0 : curve.step_factor,
           .sleep = curve.sleep,
@@ -103,7 +115,9 @@ Run run_or_note(const Study& study, const CurveCases& curve, int n, int repeats)
 // What the curve's last run says about the next size; 0 if there is none.
 double predicted_seconds(const Problem& problem, const Run* before, int n) {
   if (before == nullptr) return 0;
-  return seconds_of(before->outcome) * std::pow(static_cast<double>(n) / before->n, problem.growth);
+  const double ratio = problem.edges.empty() ? static_cast<double>(n) / before->n
+                                             : problem.edges[before->n - 1] / problem.edges[n - 1];
+  return seconds_of(before->outcome) * std::pow(ratio, problem.growth);
 }
 
 void tell(const Run& run) {
@@ -182,7 +196,7 @@ void note_sleep(Study& study) {
 
 void rate(Study& study) {
   const Problem& problem = study.problem;
-  if (problem.is_scene()) {
+  if (problem.is_scene) {
     rate_scene(study);
     note_sleep(study);
   } else {
@@ -198,8 +212,7 @@ void rate(Study& study) {
 
 Study sweep(const Problem& problem, const SweepOptions& options) {
   Study study{.problem = problem};
-  std::vector<int> sizes = options.sizes.empty() ? problem.sizes : options.sizes;
-  std::sort(sizes.begin(), sizes.end());
+  const std::vector<int> sizes = wanted_sizes(problem, options);
   const std::vector<CurveCases> curves = curves_of(problem, options);
   std::map<std::size_t, Run> last;  // of each curve
   double left = options.budget;
@@ -211,8 +224,8 @@ Study sweep(const Problem& problem, const SweepOptions& options) {
           predicted_seconds(problem, before == last.end() ? nullptr : &before->second, n);
       if (expected > left || left <= 0) {
         study.notes.push_back(
-            std::string(curves[k].method.name) + " " + precision_name(curves[k].precision) +
-            ", size " + std::to_string(n) + " left out: about " + significant(expected, 2) +
+            std::string(curves[k].method.name) + " " + name_of(curves[k].precision) + ", size " +
+            std::to_string(n) + " left out: about " + significant(expected, 2) +
             " s, of the budget " + significant(std::max(left, 0.), 2) + " s are left");
         log_info(study.notes.back());
         continue;

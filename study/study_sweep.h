@@ -15,7 +15,7 @@ struct SweepOptions {
   std::vector<std::string> precisions;  // empty: both
   std::vector<double> step_factors;     // empty: the problem's; unused where nothing moves in time
   double budget = std::numeric_limits<double>::infinity();  // [s] of processor time
-  int repeats = 3;                                          // of runs below short_run
+  int repeats = 3;                                          // of runs below short_run; tests take 1
 };
 
 inline constexpr double short_run = 0.3;  // [s]

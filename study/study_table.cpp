@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/quoted.h"
 #include "engine/version.h"
 
 namespace trocar {
@@ -17,12 +18,12 @@ Json row_of(const Study& study, const Run& run) {
   const Outcome& o = run.outcome;
   const bool is_good = is_sound(run), is_static = study.problem.is_static();
   const auto if_good = [&](const Json& value) { return is_good ? value : Json(); };
-  const bool has_value = is_good && !study.problem.is_scene();
+  const bool has_value = is_good && !study.problem.is_scene;
   Json row;
   row["elements"] = run.method;
   row["precision"] = run.precision;
   row["step_factor"] = is_static ? Json() : Json(run.step_factor);
-  row["sleep_m"] = study.problem.is_scene() ? Json(run.sleep) : Json();
+  row["sleep_m"] = study.problem.is_scene ? Json(run.sleep) : Json();
   row["size"] = run.size;
   row["h_m"] = o.h;
   row["dt_s"] = is_static ? Json() : Json(o.dt);
@@ -46,11 +47,7 @@ Json row_of(const Study& study, const Run& run) {
 
 std::string csv_cell(const Json& value) {
   if (value.is_null()) return "";
-  if (!value.is_string()) return value.dump();
-  std::string text = "\"";
-  for (const char c : value.get<std::string>())
-    text += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return text + "\"";
+  return value.is_string() ? csv_quoted(value.get<std::string>()) : value.dump();
 }
 
 Json head_of(const Problem& problem) {
@@ -60,7 +57,7 @@ Json head_of(const Problem& problem) {
           {"unit", problem.unit},
           {"reference", problem.reference},
           {"reference_relative_error", problem.reference_error},
-          {"reference_source", problem.is_scene() ? "finest run of the sweep" : problem.source},
+          {"reference_source", problem.is_scene ? "finest run of the sweep" : problem.source},
           {"simulated_s", problem.simulated_seconds},
           {"size_meaning", problem.size_meaning}};
 }

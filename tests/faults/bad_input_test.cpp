@@ -227,11 +227,20 @@ TEST(Help, that_can_not_be_printed_is_an_error_of_the_machine) {
   }
 }
 
-TEST(BadInput, a_study_refuses_what_it_would_ignore) {
+TEST(BadInput, study_and_replay_refuse_what_they_would_ignore) {
   const std::string folder = test_folder("study");
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"study", "--all", "indentation"},
+        {"study", "--all", "--meshes", "a.msh"},
+        {"study", "--all", "--sleep", "0"},
+        {"study", "--all", "--set", "time.duration=1"},
         {"study", "--list", "indentation"},
+        {"study", "--list", "--all"},
+        {"study", "--list", "--sizes", "4"},
+        {"study", "--list", "-o", folder},
+        {"replay", "r.trocar", "--list", "--video", "x.mp4"},
+        {"replay", "r.trocar", "--list", "--frames"},
+        {"replay", "r.trocar", "--list", "--vtu"},
         {"study", "indentation", "--docs", folder}}) {
     const Finished run = run_trocar(words, folder);
     EXPECT_EQ(run.exit_code, input_wrong) << run.out;

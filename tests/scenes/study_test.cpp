@@ -43,7 +43,7 @@ TEST(Study, what_does_not_exist_is_named_with_the_nearest_that_does) {
   const std::string folder = test_folder("study-wrong");
   const Finished wrong = run_trocar({"study", "indentatoin"}, folder);
   EXPECT_EQ(wrong.exit_code, 2);
-  EXPECT_NE(wrong.err.find("did you mean \"indentation\"?"), std::string::npos) << wrong.err;
+  EXPECT_NE(wrong.err.find("the nearest is \"indentation\""), std::string::npos) << wrong.err;
   EXPECT_EQ(run_trocar({"study"}, folder).exit_code, 2);
   const Finished absent = run_trocar({"study", "absent.toml"}, folder);
   EXPECT_EQ(absent.exit_code, 2);

@@ -117,6 +117,7 @@ TEST(StudyScene, in_a_plane_computes_the_scene_s_own_stress_or_strain) {
   for (const char* name : {"plane-stress", "plane-strain"}) {
     const Problem problem = problem_of_scene(
         {.scene_file = scene, .overrides = {std::string("solver.triangle='") + name + "'"}}, alone);
+    EXPECT_EQ(problem.growth, 3);  // cells and steps
     ASSERT_EQ(problem.methods.size(), 1u);
     EXPECT_EQ(problem.methods[0].formulation == Formulation::tri3_plane_stress,
               std::string(name) == "plane-stress");
@@ -137,6 +138,8 @@ TEST(StudyScene, mesh_files_take_the_place_of_cells) {
       problem_of_scene({.scene_file = folder.file("scene.toml", text), .meshes = meshes}, alone);
   const Study study = sweep(problem, {.elements = {"tet4"}, .precisions = {"double"}});
   ASSERT_EQ(study.runs.size(), 2u);
+  ASSERT_EQ(problem.edges.size(), 2u);
+  EXPECT_NEAR(problem.edges[0], 2 * problem.edges[1], 1e-12);  // each cell became eight
   EXPECT_EQ(study.runs[0].size, "box1");
   EXPECT_TRUE(study.runs[1].is_reference);
   EXPECT_EQ(study.runs[1].outcome.n_elements, 6 * 16);
@@ -176,6 +179,10 @@ TEST(StudyScene, sizes_for_a_mesh_file_and_meshes_for_a_generated_body_are_refus
   Communicator alone;
   const std::string scene = folder.file("scene.toml", std::string(hanging_box) + shape);
   EXPECT_THROW(problem_of_scene({.scene_file = scene, .meshes = {"a.msh"}}, alone), InputError);
+  const std::string of_file = std::string(hanging_box) + "[tissue]\nmesh = \"box.msh\"\n";
+  EXPECT_THROW(
+      problem_of_scene({.scene_file = folder.file("m.toml", of_file), .sizes = {4}}, alone),
+      InputError);
 }
 
 }  // namespace

@@ -101,6 +101,22 @@ TEST(StudySweep, sizes_that_the_budget_does_not_hold_are_left_out_and_named) {
   EXPECT_NE(study.notes[0].find("hex8 double, size 4096"), std::string::npos) << study.notes[0];
 }
 
+TEST(StudySweep, the_budget_of_mesh_files_goes_by_their_edges_and_not_by_their_numbers) {
+  // By the numbers 2 would take 2^4 times the microsecond of 1, by the edges 1e12 times.
+  Problem problem = made_up_problem(0);
+  problem.edges = {.1, .1e-3};
+  const Study study = sweep(
+      problem, {.sizes = {1, 2}, .elements = {"hex8"}, .precisions = {"double"}, .budget = 5});
+  ASSERT_EQ(study.runs.size(), 1U);
+  EXPECT_EQ(study.runs[0].n, 1);
+}
+
+TEST(StudySweep, sizes_that_the_problem_can_not_have_are_refused) {
+  Problem problem = made_up_problem(0);
+  problem.size_multiple = 2;
+  EXPECT_THROW(sweep(problem, {.sizes = {4, 3}}), InputError);
+}
+
 TEST(StudySweep, elements_and_precisions_that_do_not_exist_are_refused) {
   EXPECT_THROW(sweep(made_up_problem(0), {.elements = {"hex9"}}), InputError);
   EXPECT_THROW(sweep(made_up_problem(0), {.elements = {"tri3"}}), InputError);
@@ -110,7 +126,7 @@ TEST(StudySweep, elements_and_precisions_that_do_not_exist_are_refused) {
 // As a scene: displacements (1 + h, 0, 0) of one point, first order.
 TEST(StudySweep, a_scenes_reference_is_its_finest_run_with_the_error_that_refinement_shows) {
   Problem problem = made_up_problem(0);
-  problem.source.clear();
+  problem.is_scene = true;
   problem.solve = [](const Case& c) {
     Outcome outcome = solve_made_up(c);
     outcome.samples = {Vec3(1 + outcome.h, 0, 0)};
@@ -128,7 +144,7 @@ TEST(StudySweep, a_scenes_reference_is_its_finest_run_with_the_error_that_refine
 
 TEST(StudySweep, a_scene_in_which_nothing_moves_is_refused) {
   Problem problem = made_up_problem(0);
-  problem.source.clear();
+  problem.is_scene = true;
   problem.solve = [](const Case& c) {
     Outcome outcome = solve_made_up(c);
     outcome.samples = {Vec3::Zero()};
@@ -139,7 +155,7 @@ TEST(StudySweep, a_scene_in_which_nothing_moves_is_refused) {
 
 TEST(StudySweep, the_reference_of_a_scene_is_not_the_method_that_is_still_moving) {
   Problem problem = made_up_problem(0);
-  problem.source.clear();
+  problem.is_scene = true;
   problem.solve = [](const Case& c) {
     Outcome outcome = solve_made_up(c);
     const bool is_slow = std::string(c.method.name) == "tet4";

@@ -159,9 +159,7 @@ std::vector<Formulation> all_formulations() {
 }
 
 SolverOptions with(Formulation formulation, SolverOptions options) {
-  if (shape_of(formulation) == ElementType::tri3) options.tri3 = formulation;
-  if (shape_of(formulation) == ElementType::tet4) options.tet4 = formulation;
-  if (shape_of(formulation) == ElementType::hex8) options.hex8 = formulation;
+  of_shape(shape_of(formulation), options.tri3, options.tet4, options.hex8) = formulation;
   return options;
 }
 

@@ -1,4 +1,4 @@
-#include "engine/summary.h"
+#include "base/quantile.h"
 
 #include <gtest/gtest.h>
 
