@@ -139,9 +139,9 @@ std::vector<double> read_numbers(const OptionNode&, const Dimension&, std::size_
 std::vector<int> read_integers(const OptionNode&, std::size_t n, const Range&);
 std::size_t read_choice(const OptionNode&, const std::vector<std::string>& names);
 
-// TOML texts of values, numbers as number_text has them.
-// Of an item of a list in the scene: "support[2]".
+// Path of an item of a list in the scene: "support[2]".
 std::string item_path(const std::string& list, std::size_t number);
+// TOML texts of values, numbers as number_text has them.
 std::string numbers_text(std::span<const double> values);
 std::string integers_text(std::span<const int> values);
 std::string quoted_text(const std::string& value);
