@@ -24,7 +24,7 @@ static double cube_root(double x) {
   if (!(x > 0)) return 0;
   int exponent = 0;
   std::frexp(x, &exponent);
-  double root = std::ldexp(1.0, exponent / 3);  // within a factor of 1.6
+  double root = std::ldexp(1.0, exponent / 3);  // within a factor of 2
   for (int k = 0; k < 6; ++k) root = (2 * root + x / (root * root)) / 3;
   return root;
 }
