@@ -109,12 +109,7 @@ static void add_as_tets(const Mesh& body, std::int32_t e, HexTets& tets) {
   tets.first[e] = tets.mesh.n_elements();
   for (const std::array<std::int32_t, 4>& node : hex_tet_nodes(body, e)) {
     add_element(tets.mesh, ElementType::tet4, node, body.element_region[e]);
-    unsigned mask = 0;
-    for (int f = 0; f < 4; ++f) {
-      const int g = hex_facet_of(body, e, node, f);
-      if (g >= 0 && (body.cut_facets[e] >> g & 1) != 0) mask |= 1U << f;
-    }
-    tets.mesh.cut_facets.back() = static_cast<std::uint8_t>(mask);
+    tets.mesh.cut_facets.back() = facets_of_hex(body, e, node);
     tets.source.push_back(e);
   }
 }

@@ -52,7 +52,7 @@ void add_nodal_energies(const RankBody& body, std::vector<double>& kinetic,
     kinetic.push_back(0.5 * m * v2 + half_dt * vf);
     gravity.push_back(-m * gu);
   }
-  add_cluster_kinetic(body.model, body.state.v, kinetic);
+  add_cluster_squares(body.model, body.state.v, 0.5, kinetic);
 }
 
 // What viscous forces do in the half step from where works stand to the end of the last one.
@@ -151,7 +151,7 @@ static std::vector<double> kinetic_of_start(const Simulation& s) {
   std::vector<double> kinetic;
   for (std::size_t i = 0; 3 * i < v.size(); ++i)
     kinetic.push_back(0.5 * s.model.mass[i] * Eigen::Map<const Vec3>(&v[3 * i]).squaredNorm());
-  add_cluster_kinetic(s.model, v, kinetic);
+  add_cluster_squares(s.model, v, 0.5, kinetic);
   return kinetic;
 }
 

@@ -155,17 +155,6 @@ std::uint8_t facets_of_part(std::span<const std::int32_t> whole, std::uint8_t ma
   return static_cast<std::uint8_t>(facets);
 }
 
-// Bits of the facets of tetrahedron `tet` (nodes) that lie on marked facets of hexahedron e.
-static std::uint8_t facets_of_hex(const Mesh& mesh, std::int32_t e,
-                                  const std::array<std::int32_t, 4>& tet) {
-  unsigned mask = 0;
-  for (int f = 0; f < 4 && mesh.cut_facets[e] != 0; ++f) {
-    const int g = hex_facet_of(mesh, e, tet, f);
-    if (g >= 0 && (mesh.cut_facets[e] >> g & 1) != 0) mask |= 1U << f;
-  }
-  return static_cast<std::uint8_t>(mask);
-}
-
 // A hexahedron leaves room for the corners of two tetrahedra.
 static void split_corners(const ElementSplit& split, Mesh& mesh) {
   const std::int32_t own = mesh.corner_offset[split.element],

@@ -100,6 +100,16 @@ int hex_facet_of(const Mesh& mesh, std::int32_t e, const std::array<std::int32_t
   return -1;
 }
 
+std::uint8_t facets_of_hex(const Mesh& mesh, std::int32_t e,
+                           const std::array<std::int32_t, 4>& tet) {
+  unsigned mask = 0;
+  for (int f = 0; f < 4 && mesh.cut_facets[e] != 0; ++f) {
+    const int g = hex_facet_of(mesh, e, tet, f);
+    if (g >= 0 && (mesh.cut_facets[e] >> g & 1) != 0) mask |= 1U << f;
+  }
+  return static_cast<std::uint8_t>(mask);
+}
+
 static const FacetSide* find_triangle(const std::vector<FacetSide>& triangle, std::int32_t a,
                                       std::int32_t b, std::int32_t c) {
   std::array<std::int32_t, 4> node{-1, a, b, c};

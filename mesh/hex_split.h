@@ -39,6 +39,9 @@ std::array<std::array<std::int32_t, 4>, n_hex_tets> hex_tet_nodes(const Mesh& me
 
 // The facet of hexahedron e that facet f of a tetrahedron on its nodes lies on, -1 if inside.
 int hex_facet_of(const Mesh& mesh, std::int32_t e, const std::array<std::int32_t, 4>& tet, int f);
+// Bits of the facets of such a tetrahedron that lie on opened facets of the hexahedron.
+std::uint8_t facets_of_hex(const Mesh& mesh, std::int32_t e,
+                           const std::array<std::int32_t, 4>& tet);
 
 // A quad that two triangles on the same four nodes cover from the other side.
 struct SplitQuad {

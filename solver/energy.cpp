@@ -16,7 +16,7 @@ void take_kinetic(const Model& model, const State& state, std::vector<double>& k
     const double* v = state.v.data() + 3 * i;
     kinetic[i] = 0.5 * model.mass[i] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   }
-  add_cluster_kinetic(model, state.v, kinetic);
+  add_cluster_squares(model, state.v, 0.5, kinetic);
 }
 
 // Of the ranks that compute an element, one counts it: the owner of its lowest global node.

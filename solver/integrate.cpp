@@ -131,19 +131,6 @@ void end_step(const Model& model, std::span<const PrescribedNode> prescribed, do
   ++state.step;
 }
 
-// alpha v·M v dt_m of what clusters have more than mass.
-void add_cluster_damping(const Model& model, const Coefficients& c, Scratch& scratch) {
-  const MassClusters& clusters = model.clusters;
-  const double scale = model.options.mass_damping * c.dt_m;
-  const auto v_of = [&](std::int64_t i) { return Vec3::Map(&scratch.middle[3 * i]); };
-  for (std::size_t cluster = 0; cluster < clusters.total.size(); ++cluster) {
-    const Vec3 mean = cluster_mean(clusters, cluster, v_of);
-    for (std::int32_t k = clusters.offset[cluster]; k < clusters.offset[cluster + 1]; ++k)
-      scratch.cluster_work[clusters.node[k]] +=
-          scale * clusters.added[k] * (v_of(clusters.node[k]) - mean).squaredNorm();
-  }
-}
-
 }  // namespace
 
 void predict(const Model& model, Scratch& scratch, std::span<const PrescribedNode> prescribed,
@@ -175,7 +162,9 @@ void integrate(const Model& model, Scratch& scratch, std::span<PrescribedNode> p
   couple_clusters(model, c, dt, state, prescribed, scratch);
   for (PrescribedNode& node : prescribed) add_reaction(model, c, dt, state, scratch, node);
   integrate_nodes(model, c, dt, scratch, state);
-  if (!scratch.cluster_work.empty()) add_cluster_damping(model, c, scratch);
+  if (!scratch.cluster_work.empty())  // alpha v·M v dt_m of what clusters have more than mass
+    add_cluster_squares(model, scratch.middle, model.options.mass_damping * c.dt_m,
+                        scratch.cluster_work);
   end_step(model, prescribed, dt, state, scratch);
 }
 

@@ -4,6 +4,15 @@ namespace trocar {
 
 namespace {
 
+// sum d x / s of the cluster over x(local node).
+template <class Field>
+Vec3 cluster_mean(const MassClusters& clusters, std::size_t c, const Field& x) {
+  Vec3 sum = Vec3::Zero();
+  for (std::int32_t k = clusters.offset[c]; k < clusters.offset[c + 1]; ++k)
+    sum += clusters.added[k] * x(clusters.node[k]);
+  return sum / clusters.total[c];
+}
+
 // Both sides of the equation for c, of one cluster or all of them, x y z each.
 struct Sides {
   std::span<double> force, mass;
@@ -68,14 +77,15 @@ void subtract_cluster_means(const Model& model, std::span<const double> x, std::
   }
 }
 
-void add_cluster_kinetic(const Model& model, std::span<const double> v, std::span<double> kinetic) {
+void add_cluster_squares(const Model& model, std::span<const double> v, double scale,
+                         std::span<double> sums) {
   const MassClusters& clusters = model.clusters;
   for (std::size_t c = 0; c < clusters.total.size(); ++c) {
     const auto v_of = [&](std::int64_t i) { return Vec3::Map(&v[3 * i]); };
     const Vec3 mean = cluster_mean(clusters, c, v_of);
     for (std::int32_t k = clusters.offset[c]; k < clusters.offset[c + 1]; ++k)
-      kinetic[clusters.node[k]] +=
-          0.5 * clusters.added[k] * (v_of(clusters.node[k]) - mean).squaredNorm();
+      sums[clusters.node[k]] +=
+          scale * clusters.added[k] * (v_of(clusters.node[k]) - mean).squaredNorm();
   }
 }
 

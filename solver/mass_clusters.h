@@ -19,16 +19,8 @@ void add_cluster_force(const Model& model, std::span<const GivenAcceleration> gi
 // From Mx = diag(m + d) x to M x, (n_owned * 3); x may be longer.
 void subtract_cluster_means(const Model& model, std::span<const double> x, std::span<double> Mx);
 
-// To kinetic energies m |v|^2 / 2 of owned nodes: d |v - mean v|^2 / 2.
-void add_cluster_kinetic(const Model& model, std::span<const double> v, std::span<double> kinetic);
-
-// sum d x / s of the cluster over x(local node).
-template <class Field>
-Vec3 cluster_mean(const MassClusters& clusters, std::size_t c, const Field& x) {
-  Vec3 sum = Vec3::Zero();
-  for (std::int32_t k = clusters.offset[c]; k < clusters.offset[c + 1]; ++k)
-    sum += clusters.added[k] * x(clusters.node[k]);
-  return sum / clusters.total[c];
-}
+// scale d |v - mean v|^2 to sums of owned nodes, what they have more than scale m |v|^2.
+void add_cluster_squares(const Model& model, std::span<const double> v, double scale,
+                         std::span<double> sums);
 
 }  // namespace trocar

@@ -189,7 +189,7 @@ TEST(MassScaling, has_kinetic_energy_in_the_sense_of_its_matrix) {
   std::vector<double> kinetic(body.mass.size());
   for (std::size_t k = 0; k < Mv.size(); ++k)
     kinetic[k / 3] += .5 * body.model.mass[k / 3] * body.state.v[k] * body.state.v[k];
-  add_cluster_kinetic(body.model, body.state.v, kinetic);
+  add_cluster_squares(body.model, body.state.v, 0.5, kinetic);
   const double expected = .5 * std::inner_product(Mv.begin(), Mv.end(), body.state.v.begin(), 0.);
   EXPECT_NEAR(sum(kinetic), expected, 1e-13 * expected);
 }
