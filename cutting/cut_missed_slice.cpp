@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "cutting/cut_slice.h"
 
 namespace trocar {
@@ -68,29 +68,16 @@ static std::vector<SliceFacet> slice_facets(const Mesh& mesh, const CutSurroundi
   return facet;
 }
 
-// For each node, one that all nodes of its stretch share.
-static std::vector<std::int32_t> joined_by(const std::vector<SliceFacet>& facet,
-                                           std::int32_t n_nodes) {
-  std::vector<std::int32_t> root(static_cast<std::size_t>(n_nodes));
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](std::int32_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  for (const SliceFacet& f : facet)
-    for (const std::int32_t i : f.node) root[find(i)] = find(f.node[0]);
-  for (std::int32_t i = 0; i < n_nodes; ++i) root[i] = find(i);
-  return root;
-}
-
 std::vector<CutRefusal> missed_slices(const Mesh& mesh, const CutSurroundings& around,
                                       const CutStroke& stroke) {
   const CutPatch& patch = around.patch;
   const std::vector<SliceFacet> facet = slice_facets(mesh, around, stroke);
-  const std::vector<std::int32_t> root = joined_by(facet, patch.n_nodes());
-  std::vector<Stretch> stretch(root.size());
+  DisjointSets joined(patch.node.size());
+  for (const SliceFacet& f : facet)
+    for (const std::int32_t i : f.node) joined.join(f.node[0], i);
+  std::vector<Stretch> stretch(patch.node.size());
   for (const auto& [e, node, area] : facet) {
-    Stretch& s = stretch[root[node[0]]];
+    Stretch& s = stretch[joined.root(node[0])];
     if (s.first < 0) s.first = e;
     s.area += area;
     if (std::ranges::all_of(node, [&](std::int32_t i) { return is_held(patch, i); }))
