@@ -20,23 +20,16 @@ static std::vector<std::int32_t> moved_elements(const TetCut& cut) {
   return elements_around(cut.around.patch, cut.transfer);
 }
 
-// Scales the density of the touched elements of each region so that their mass is what it was.
 static std::vector<DensityChange> density_changes(const Mesh& mesh, const TetCut& cut) {
   const CutPatch& patch = cut.around.patch;
-  const std::vector<std::int32_t> element = moved_elements(cut);
-  std::vector<double> before(mesh.region_name.size(), 0), after = before;
-  for (const std::int32_t e : element) {
-    const std::int32_t global = patch.element[e], region = mesh.element_region[global];
-    before[region] += mesh.density_factor[global] * six_volumes(patch.X, patch.corner[e]);
-    after[region] += mesh.density_factor[global] * six_volumes(cut.X, patch.corner[e]);
+  std::vector<Reshaped> reshaped;
+  for (const std::int32_t e : moved_elements(cut)) {
+    const std::int32_t global = patch.element[e];
+    reshaped.push_back({global, mesh.element_region[global], mesh.density_factor[global],
+                        six_volumes(patch.X, patch.corner[e]),
+                        six_volumes(cut.X, patch.corner[e])});
   }
-  std::vector<DensityChange> change;
-  for (const std::int32_t e : element) {
-    const std::int32_t global = patch.element[e], region = mesh.element_region[global];
-    if (before[region] == after[region]) continue;
-    change.push_back({global, mesh.density_factor[global] * (before[region] / after[region])});
-  }
-  return change;
+  return keep_masses(reshaped, mesh.region_name.size());
 }
 
 // Facets that are apart after the edit, by global element.
@@ -78,11 +71,12 @@ static double least_quality(const TetCut& cut) {
   for (const CornerChange& change : cut.opening.duplication.corners)
     element.push_back(change.element);
   sort_unique(element);
-  Mesh mesh;
-  for (const std::int32_t e : element) add_element(mesh, ElementType::tet4, patch.corner[e]);
   double least = 1;
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-    least = std::min(least, element_quality(mesh, e, cut.X));
+  for (const std::int32_t e : element) {
+    const auto& [a, b, c, d] = patch.corner[e];
+    const std::array<Vec3, 4> X = {cut.X[a], cut.X[b], cut.X[c], cut.X[d]};
+    least = std::min(least, element_quality(ElementType::tet4, X));
+  }
   return least;
 }
 

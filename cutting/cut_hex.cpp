@@ -47,11 +47,10 @@ std::vector<std::uint8_t> hex_split_ranks(const Mesh& mesh) {
   std::vector<std::uint8_t> rank = ranked.hex_split_rank;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
     if (mesh.element_type[e] != ElementType::hex8) continue;
-    const std::span<const std::int32_t> node = mesh.corners(e);
-    std::array<Vec3, 8> X;
-    for (std::size_t a = 0; a < 8; ++a) X[a] = mesh.X[node[a]];
-    if (least_step_bound(ranked, e) >= least_step_part * hex_step_bound(X)) continue;
-    for (const std::int32_t i : node) rank[i] |= whole_bit;
+    if (least_step_bound(ranked, e) >=
+        least_step_part * hex_step_bound(corner_positions(mesh, e, mesh.X)))
+      continue;
+    for (const std::int32_t i : mesh.corners(e)) rank[i] |= whole_bit;
   }
   if (std::ranges::count(rank, 0) == std::ssize(rank)) rank.clear();
   return rank;

@@ -176,16 +176,14 @@ static void take_over_tetrahedra(const Translation& t, MeshEdit& edit) {
             [](const auto& a, const auto& b) { return a.element < b.element; });
 }
 
-// What an element of the body is after the edit, with nodes of its own: itself or its tetrahedra.
-static Mesh pieces_after(const Translation& t, std::int32_t e, const KeptHex* kept) {
-  Mesh pieces;
+// Of what an element of the body is after the edit: itself or its tetrahedra.
+static std::vector<double> volumes_after(const Translation& t, std::int32_t e,
+                                         const KeptHex* kept) {
+  std::vector<double> volumes;
   const auto add = [&](ElementType type, std::span<const std::int32_t> node) {
-    std::array<std::int32_t, max_corners> corner{};
-    for (std::size_t a = 0; a < node.size(); ++a) {
-      corner[a] = pieces.n_nodes();
-      pieces.X.push_back(position_after(t, node[a])[0]);
-    }
-    add_element(pieces, type, std::span(corner).first(node.size()));
+    std::vector<Vec3> X;
+    for (const std::int32_t i : node) X.push_back(position_after(t, i)[0]);
+    volumes.push_back(element_volume(type, X));
   };
   if (kept != nullptr) add(ElementType::hex8, kept->node);
   for (std::int32_t s = t.tets.first[e]; s < t.tets.end(e) && kept == nullptr; ++s) {
@@ -193,7 +191,7 @@ static Mesh pieces_after(const Translation& t, std::int32_t e, const KeptHex* ke
     for (std::int32_t c = 0; c < 4; ++c) node[c] = node_after(t.edit, t.tets.mesh, s, c);
     add(ElementType::tet4, node);
   }
-  return pieces;
+  return volumes;
 }
 
 // Of hexahedra that stay, ascending.
@@ -205,30 +203,23 @@ static const KeptHex* find_kept(const KeptHexahedra& kept, std::int32_t e) {
   return at != kept.end() && at->first == e ? &at->second : nullptr;
 }
 
-// Scales the density of the elements that changed shape or kind, region by region.
+// Of the elements that changed shape or kind.
 static std::vector<DensityChange> density_changes(const Translation& t, const CutIndex& index,
                                                   const KeptHexahedra& kept) {
   std::vector<std::int32_t> changed = moved_elements(t, index);
   for (const ElementSplit& split : t.splits) changed.push_back(split.element);
   sort_unique(changed);
-  std::vector<double> mass_before(t.body.region_name.size(), 0), mass_after = mass_before;
-  std::vector<std::pair<std::int32_t, std::int32_t>> child;  // e or its part, e
+  std::vector<Reshaped> reshaped;
   for (const std::int32_t e : changed) {
-    const std::int32_t region = t.body.element_region[e];
-    mass_before[region] += t.body.density_factor[e] * element_volume(t.body, e, t.body.X);
-    const Mesh pieces = pieces_after(t, e, find_kept(kept, e));
-    for (std::int32_t k = 0; k < pieces.n_elements(); ++k) {
-      child.emplace_back(t.numbers.part(e, k), e);
-      mass_after[region] += t.body.density_factor[e] * element_volume(pieces, k, pieces.X);
+    double before = element_volume(t.body, e, t.body.X);
+    std::int32_t k = 0;
+    for (const double after : volumes_after(t, e, find_kept(kept, e))) {
+      reshaped.push_back({t.numbers.part(e, k++), t.body.element_region[e],
+                          t.body.density_factor[e], before, after});
+      before = 0;
     }
   }
-  std::vector<DensityChange> change;
-  for (const auto& [number, e] : child) {
-    const std::int32_t region = t.body.element_region[e];
-    if (mass_before[region] != mass_after[region])
-      change.push_back(
-          {number, t.body.density_factor[e] * (mass_before[region] / mass_after[region])});
-  }
+  std::vector<DensityChange> change = keep_masses(reshaped, t.body.region_name.size());
   std::ranges::sort(change, {}, &DensityChange::element);
   return change;
 }

@@ -3,32 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "mesh/mesh.h"
 
 namespace trocar {
 
-static double volume(const std::array<Vec3, 8>& X) {
-  static const Mesh unit = [] {
-    Mesh mesh;
-    std::array<std::int32_t, 8> corner{};
-    std::iota(corner.begin(), corner.end(), 0);
-    add_element(mesh, ElementType::hex8, corner);
-    return mesh;
-  }();
-  return element_volume(unit, 0, X);
-}
-
 // V is linear in each coordinate of each corner, so a difference over any length is the derivative.
 double hex_step_bound(const std::array<Vec3, 8>& X) {
-  const double V = volume(X), length = (X[6] - X[0]).norm();
+  const double V = element_volume(ElementType::hex8, X), length = (X[6] - X[0]).norm();
   double sum = 0;
   std::array<Vec3, 8> moved = X;
   for (std::size_t a = 0; a < 8; ++a)
     for (Eigen::Index k = 0; k < 3; ++k) {
       moved[a][k] += length;
-      const double slope = (volume(moved) - V) / length;
+      const double slope = (element_volume(ElementType::hex8, moved) - V) / length;
       sum += slope * slope;
       moved[a] = X[a];
     }

@@ -68,23 +68,16 @@ static std::vector<SliceFacet> slice_facets(const Mesh& mesh, const CutSurroundi
   return facet;
 }
 
-// For each node, one that all nodes of its stretch share.
-static std::vector<std::int32_t> joined_by(const std::vector<SliceFacet>& facet,
-                                           std::int32_t n_nodes) {
-  DisjointSets sets(static_cast<std::size_t>(n_nodes));
-  for (const SliceFacet& f : facet)
-    for (const std::int32_t i : f.node) sets.join(i, f.node[0]);
-  return std::move(sets).roots();
-}
-
 std::vector<CutRefusal> missed_slices(const Mesh& mesh, const CutSurroundings& around,
                                       const CutStroke& stroke) {
   const CutPatch& patch = around.patch;
   const std::vector<SliceFacet> facet = slice_facets(mesh, around, stroke);
-  const std::vector<std::int32_t> root = joined_by(facet, patch.n_nodes());
-  std::vector<Stretch> stretch(root.size());
+  DisjointSets joined(patch.node.size());
+  for (const SliceFacet& f : facet)
+    for (const std::int32_t i : f.node) joined.join(f.node[0], i);
+  std::vector<Stretch> stretch(patch.node.size());
   for (const auto& [e, node, area] : facet) {
-    Stretch& s = stretch[root[node[0]]];
+    Stretch& s = stretch[joined.root(node[0])];
     if (s.first < 0) s.first = e;
     s.area += area;
     if (std::ranges::all_of(node, [&](std::int32_t i) { return is_held(patch, i); }))

@@ -109,25 +109,13 @@ void add_masks(const Mesh& mesh, const PlanePatch& patch, MeshEdit& edit) {
   }
 }
 
-// Per region: mass (up to density) of the patch before and after.
 void add_density(const Mesh& mesh, const PlanePatch& after, MeshEdit& edit) {
-  std::vector<double> sum_before(mesh.region_name.size(), 0), sum_after = sum_before;
-  std::vector<std::uint8_t> is_changed(after.element.size(), 0);
-  for (int e = 0; e < after.n_elements(); ++e) {
-    const double factor = mesh.density_factor[after.element[e]], A = area(after, e);
-    is_changed[e] = A != after.area[e] ? 1 : 0;
-    if (is_changed[e] == 0) continue;
-    sum_before[after.region[e]] += factor * after.area[e];
-    sum_after[after.region[e]] += factor * A;
-  }
-  for (int e = 0; e < after.n_elements(); ++e) {
-    const int r = after.region[e];
-    if (is_changed[e] == 0 ||
-        std::abs(sum_before[r] - sum_after[r]) <= mass_tolerance * sum_before[r])
-      continue;
-    const double ratio = sum_before[r] / sum_after[r];
-    edit.density.push_back({after.element[e], mesh.density_factor[after.element[e]] * ratio});
-  }
+  std::vector<Reshaped> reshaped;
+  for (int e = 0; e < after.n_elements(); ++e)
+    if (const double A = area(after, e); A != after.area[e])
+      reshaped.push_back({after.element[e], after.region[e], mesh.density_factor[after.element[e]],
+                          after.area[e], A});
+  edit.density = keep_masses(reshaped, mesh.region_name.size(), mass_tolerance);
 }
 
 void measure_deviation(const PlanePatch& patch, std::span<const CutChain> chains,

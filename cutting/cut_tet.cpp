@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/check.h"
 #include "base/error.h"
@@ -30,7 +31,10 @@ struct TetCutter::Front {
   CutTetOptions options;
   CutStroke stroke;
   CutIndex index;
-  HexTets tets;  // only of a body that has or had hexahedra
+  std::optional<HexTets> tets;  // of a body that has or had hexahedra
+
+  // The mesh that the cut sees.
+  const Mesh& seen(const Mesh& body) const { return tets ? tets->mesh : body; }
 
   MeshEdit advance(const Mesh& mesh, PresentPositions& positions, const CutConstraints& constraints,
                    const BladeSweep& sweep, bool is_last, CutFigures& figures);
@@ -174,15 +178,15 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
 
   if (is_last) drop_covered_rim(stroke);
   TetCut cut;
-  cut.around = survey(mesh, tets.mesh.X.empty() ? nullptr : &tets, index, positions, constraints,
-                      stroke, is_last);
+  cut.around =
+      survey(mesh, tets ? &*tets : nullptr, index, positions, constraints, stroke, is_last);
   if (cut.around.patch.n_elements() == 0) {
     if (is_last) add_refusals(missed_places(mesh, cut, stroke), figures);
     return {};
   }
   const bool is_through = is_last && has_gone_through(stroke);
   std::vector<ThinSlice> slices;
-  if (options.split_step_ratio > 0 && tets.mesh.X.empty() && (!is_last || is_through))
+  if (options.split_step_ratio > 0 && !tets && (!is_last || is_through))
     slices = thin_slices(mesh, cut.around, stroke);
   if (is_through)
     if (MeshEdit edit = split(mesh, cut.around, slices, figures); !edit.is_empty()) return edit;
@@ -205,18 +209,19 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
 void TetCutter::prepare(const Mesh& mesh) {
   Front& f = *front_;
   if (is_index_of(f.index, mesh) || !was_hexahedral(mesh)) {  // none if it is the index of `mesh`
-    f.tets = {};
+    f.tets.reset();
     return update_index(mesh, f.index);
   }
-  update_hex_tets(mesh, f.tets);
-  update_index(f.tets.mesh, f.index);
+  if (!f.tets) f.tets.emplace();
+  update_hex_tets(mesh, *f.tets);
+  update_index(f.tets->mesh, f.index);
 }
 
 bool TetCutter::meets(const Mesh& mesh, PresentPositions& positions, const BladeSweep& sweep) {
   prepare(mesh);
   Front& f = *front_;
   CutStroke passing;
-  add_hits(f.tets.mesh.X.empty() ? mesh : f.tets.mesh, f.index, positions, sweep, passing);
+  add_hits(f.seen(mesh), f.index, positions, sweep, passing);
   return !passing.hit.empty();
 }
 
@@ -225,9 +230,9 @@ bool TetCutter::has_crossed_ahead(const Mesh& mesh, std::int32_t element, const 
   constexpr double least_cosine = 0.5;
   const Front& f = *front_;
   std::int32_t first = element, end = element + 1;
-  if (!f.tets.mesh.X.empty() && are_tets_of(f.tets, mesh)) {
-    first = f.tets.first[element];
-    end = f.tets.end(element);
+  if (f.tets && are_tets_of(*f.tets, mesh)) {
+    first = f.tets->first[element];
+    end = f.tets->end(element);
   }
   const auto is_one_ahead = [&](const std::vector<CutHit>& hits) {
     auto hit = std::ranges::lower_bound(hits, first, {}, &CutHit::element);
@@ -240,8 +245,7 @@ bool TetCutter::has_crossed_ahead(const Mesh& mesh, std::int32_t element, const 
 
 bool TetCutter::is_prepared(const Mesh& mesh) const {
   const Front& f = *front_;
-  if (f.tets.mesh.X.empty()) return is_index_of(f.index, mesh);
-  return are_tets_of(f.tets, mesh) && is_index_of(f.index, f.tets.mesh);
+  return (!f.tets || are_tets_of(*f.tets, mesh)) && is_index_of(f.index, f.seen(mesh));
 }
 
 void TetCutter::follow(const Mesh& mesh, const CutterEdit& edit) {
@@ -251,14 +255,14 @@ void TetCutter::follow(const Mesh& mesh, const CutterEdit& edit) {
   else if (edit.tets.is_empty())
     follow_opening(mesh, edit, edit.along, f.stroke);
   if (!is_prepared(mesh)) return;
-  if (f.tets.mesh.X.empty()) {
+  if (!f.tets) {
     keep_steps_around(mesh, f.index, edit, f.stroke);
     return edit_index(mesh, edit, f.index);
   }
-  keep_steps_around(f.tets.mesh, f.index, edit.tets, f.stroke);
-  follow_opening(f.tets.mesh, edit.tets, edit.along, f.stroke);
-  edit_index(f.tets.mesh, edit.tets, f.index);
-  edit_hex_tets(edit.splits, edit.tets, f.tets);
+  keep_steps_around(f.tets->mesh, f.index, edit.tets, f.stroke);
+  follow_opening(f.tets->mesh, edit.tets, edit.along, f.stroke);
+  edit_index(f.tets->mesh, edit.tets, f.index);
+  edit_hex_tets(edit.splits, edit.tets, *f.tets);
 }
 
 CutterEdit TetCutter::advance(const Mesh& mesh, PresentPositions& positions,
@@ -268,8 +272,7 @@ CutterEdit TetCutter::advance(const Mesh& mesh, PresentPositions& positions,
   figures = {};
   prepare(mesh);
   Front& f = *front_;
-  const bool has_tets = !f.tets.mesh.X.empty();
-  const Mesh& tets = has_tets ? f.tets.mesh : mesh;
+  const Mesh& tets = f.seen(mesh);
   MeshEdit edit = f.advance(tets, positions, constraints, sweep, is_last, figures);
   if (is_last && edit.inserted.empty()) forget_uncrossed(tets, f.stroke);
   figures.goes_through = is_last && has_gone_through(f.stroke);
@@ -277,8 +280,8 @@ CutterEdit TetCutter::advance(const Mesh& mesh, PresentPositions& positions,
   CutKnown along;
   if (!edit.is_empty() && edit.inserted.empty())
     along = known_around(edit, tets.n_nodes(), f.index, f.stroke);
-  if (!has_tets || edit.is_empty()) return {std::move(edit), {}, std::move(along)};
-  MeshEdit of_body = edit_of_body(mesh, positions, f.index, edit, f.tets, figures);
+  if (!f.tets || edit.is_empty()) return {std::move(edit), {}, std::move(along)};
+  MeshEdit of_body = edit_of_body(mesh, positions, f.index, edit, *f.tets, figures);
   return {std::move(of_body), std::move(edit), std::move(along)};
 }
 

@@ -2,6 +2,7 @@
 #include "mesh/edit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/check.h"
@@ -12,6 +13,22 @@ namespace trocar {
 Vec3 position_of(const Mesh& before, const EdgeNode& node) {
   const Vec3& X0 = before.X[node.end[0]];
   return X0 + node.s * (before.X[node.end[1]] - X0);
+}
+
+std::vector<DensityChange> keep_masses(std::span<const Reshaped> elements, std::size_t n_regions,
+                                       double tolerance) {
+  std::vector<double> before(n_regions, 0), after = before;
+  for (const Reshaped& e : elements) {
+    before[e.region] += e.factor * e.before;
+    after[e.region] += e.factor * e.after;
+  }
+  std::vector<DensityChange> changes;
+  for (const Reshaped& e : elements) {
+    const double had = before[e.region], has = after[e.region];
+    if (!(std::abs(had - has) <= tolerance * had))
+      changes.push_back({e.element, e.factor * (had / has)});
+  }
+  return changes;
 }
 
 std::int32_t n_added(std::span<const ElementSplit> splits) {

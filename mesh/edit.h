@@ -61,6 +61,17 @@ struct ElementSplit {
   }
 };
 
+// An element, or a part of one, that an edit gives another shape.
+struct Reshaped {
+  std::int32_t element = 0, region = 0;
+  double factor = 1;             // Mesh::density_factor
+  double before = 0, after = 0;  // volume, in any unit; the first part has all of that before
+};
+// With them the elements of a region have the mass that they had; none where it differs by no more
+// than `tolerance` of it.
+std::vector<DensityChange> keep_masses(std::span<const Reshaped> elements, std::size_t n_regions,
+                                       double tolerance = 0);
+
 // Applied in the order of its members. The k-th inserted node becomes node n_nodes + k; all
 // elements around its edge are split, none of them a hexahedron. Duplicates follow: each copies its
 // parent (after moving). Corners, cut_facets and density are of elements after the splits, hosts of

@@ -52,7 +52,7 @@ static double tetrahedron_volume(const Vec3& a, const Vec3& b, const Vec3& c, co
 
 // Exact integral of det(dx/dxi) of the trilinear map (Grandy 1997, "Efficient computation of volume
 // of hexahedral cells", UCRL-ID-128886, eq. 9).
-static double hexahedron_volume(const std::array<Vec3, 8>& x) {
+static double hexahedron_volume(std::span<const Vec3> x) {
   const auto triple = [](const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)); };
   const Vec3 x70 = x[7] - x[0], x61 = x[6] - x[1], x63 = x[6] - x[3];
   const Vec3 x50 = x[5] - x[0], x20 = x[2] - x[0], x64 = x[6] - x[4];
@@ -74,20 +74,29 @@ std::vector<Vec3> present_positions(std::span<const Vec3> X, std::span<const dou
   return x;
 }
 
-double element_volume(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
+std::array<Vec3, max_corners> corner_positions(const Mesh& mesh, std::int32_t e,
+                                               std::span<const Vec3> x) {
   const std::span<const std::int32_t> node = mesh.corners(e);
-  const auto corner = [&](std::size_t a) -> const Vec3& { return x[node[a]]; };
-  switch (mesh.element_type[e]) {
+  std::array<Vec3, max_corners> corner;
+  corner.fill(Vec3::Zero());
+  for (std::size_t a = 0; a < node.size(); ++a) corner[a] = x[node[a]];
+  return corner;
+}
+
+double element_volume(ElementType type, std::span<const Vec3> x) {
+  switch (type) {
     case ElementType::tri3:
-      return triangle_area(corner(0), corner(1), corner(2));
+      return triangle_area(x[0], x[1], x[2]);
     case ElementType::tet4:
-      return tetrahedron_volume(corner(0), corner(1), corner(2), corner(3));
+      return tetrahedron_volume(x[0], x[1], x[2], x[3]);
     case ElementType::hex8:
       break;
   }
-  std::array<Vec3, 8> X;
-  for (std::size_t a = 0; a < 8; ++a) X[a] = corner(a);
-  return hexahedron_volume(X);
+  return hexahedron_volume(x);
+}
+
+double element_volume(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
+  return element_volume(mesh.element_type[e], corner_positions(mesh, e, x));
 }
 
 std::vector<double> lumped_mass(const Mesh& mesh, std::span<const double> density,

@@ -102,8 +102,14 @@ Vec3 element_centre(const Mesh& mesh, std::int32_t e);
 // x = X + u for all nodes; u (n_nodes * 3). [m]
 std::vector<Vec3> present_positions(std::span<const Vec3> X, std::span<const double> u);
 
-// Volume of an element in positions x (n_nodes); the exact trilinear one for hex8, the area for
-// tri3 (corners counter-clockwise seen from z > 0). Negative if inverted. [m^3], [m^2]
+// x (n_nodes) of an element's corners, in the first places.
+std::array<Vec3, max_corners> corner_positions(const Mesh& mesh, std::int32_t e,
+                                               std::span<const Vec3> x);
+
+// Volume of an element with its corners at x (n_corners, or more), or in positions x (n_nodes); the
+// exact trilinear one for hex8, the area for tri3 (corners counter-clockwise seen from z > 0).
+// Negative if inverted. [m^3], [m^2]
+double element_volume(ElementType type, std::span<const Vec3> x);
 double element_volume(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x);
 
 // Sum of density * factor * volume (* thickness for tri3) of an element, spread equally on its

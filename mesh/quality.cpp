@@ -25,36 +25,37 @@ static double signed_two_thirds_power(double x) {
   return x > 0 ? root * root : -root * root;
 }
 
-static double sum_of_squared_edges(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
-  const std::span<const std::int32_t> node = mesh.corners(e);
+static double sum_of_squared_edges(ElementType type, std::span<const Vec3> x) {
   double sum = 0;
-  for (const auto& [a, b] : edge_corners(mesh.element_type[e]))
-    sum += (x[node[b]] - x[node[a]]).squaredNorm();
+  for (const auto& [a, b] : edge_corners(type)) sum += (x[b] - x[a]).squaredNorm();
   return sum;
 }
 
 // min_a 3 det(A_a)^(2/3) / |A_a|^2, columns of A_a are the three edges at corner a (Knupp 2001).
-static double hexahedron_quality(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
+static double hexahedron_quality(std::span<const Vec3> x) {
   // The three neighbours of each corner, right-handed.
   static constexpr int neighbour[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
                                           {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
-  const std::span<const std::int32_t> node = mesh.corners(e);
   double quality = 1;
   for (int a = 0; a < 8; ++a) {
     Mat3 A;
-    for (int k = 0; k < 3; ++k) A.col(k) = x[node[neighbour[a][k]]] - x[node[a]];
+    for (int k = 0; k < 3; ++k) A.col(k) = x[neighbour[a][k]] - x[a];
     const double det = A.col(0).dot(A.col(1).cross(A.col(2)));
     quality = std::min(quality, 3 * signed_two_thirds_power(det) / A.squaredNorm());
   }
   return quality;
 }
 
-double element_quality(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
-  if (mesh.element_type[e] == ElementType::hex8) return hexahedron_quality(mesh, e, x);
-  const double V = element_volume(mesh, e, x);
-  const double sum_l2 = sum_of_squared_edges(mesh, e, x);
-  if (mesh.element_type[e] == ElementType::tri3) return 4 * std::sqrt(3.0) * V / sum_l2;
+double element_quality(ElementType type, std::span<const Vec3> x) {
+  if (type == ElementType::hex8) return hexahedron_quality(x);
+  const double V = element_volume(type, x);
+  const double sum_l2 = sum_of_squared_edges(type, x);
+  if (type == ElementType::tri3) return 4 * std::sqrt(3.0) * V / sum_l2;
   return 12 * signed_two_thirds_power(3 * V) / sum_l2;
+}
+
+double element_quality(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x) {
+  return element_quality(mesh.element_type[e], corner_positions(mesh, e, x));
 }
 
 // Half the cross product of the diagonals: exact for flat faces.

@@ -15,6 +15,7 @@ namespace trocar {
 // Mean-ratio quality in (0, 1], 1 for the ideal shape, <= 0 if inverted. tet4: 12 (3V)^(2/3) / sum
 // l^2; tri3: 4 sqrt(3) A / sum l^2; hex8: least over the 8 corners of the mean ratio of the
 // corner's tetrahedron (Knupp 2001), scaled to 1 for a cube.
+double element_quality(ElementType type, std::span<const Vec3> x);  // (n_corners, or more)
 double element_quality(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x);
 
 // Least altitude of tri3 and tet4; for hex8 V / largest face area. [m]
