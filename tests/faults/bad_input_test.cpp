@@ -109,10 +109,8 @@ TEST(BadInput, a_truncated_mesh_is_refused) {
 
 TEST(BadInput, a_mesh_with_an_inverted_element_names_the_element) {
   const std::string folder = test_folder("inverted");
-  std::ofstream(folder + "/bad.msh")
-      << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 "
-         "0.3 0.3 -1\n$EndNodes\n"
-         "$Elements\n2\n1 4 2 1 1 1 2 3 4\n2 4 2 1 1 1 2 3 5\n$EndElements\n";
+  write_tetrahedra(folder + "/bad.msh", {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "0.3 0.3 -1"},
+                   {"1 2 3 4", "1 2 3 5"});
   const std::string scene =
       changed_config(folder, "liver_incision.toml", "meshes/liver.msh", "bad.msh");
   expect_refusal(scene, folder, input_wrong, "inverted");
@@ -120,10 +118,9 @@ TEST(BadInput, a_mesh_with_an_inverted_element_names_the_element) {
 
 TEST(BadInput, a_mesh_with_a_sliver_that_would_take_for_ever_is_refused_with_its_element) {
   const std::string folder = test_folder("sliver");
-  std::ofstream(folder + "/sliver.msh")
-      << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0.3 0.3 "
-         "1e-8\n5 0.3 0.3 -1\n$EndNodes\n"
-         "$Elements\n2\n1 4 2 1 1 1 2 3 4\n2 4 2 1 1 1 3 2 5\n$EndElements\n";
+  write_tetrahedra(folder + "/sliver.msh",
+                   {"0 0 0", "1 0 0", "0 1 0", "0.3 0.3 1e-8", "0.3 0.3 -1"},
+                   {"1 2 3 4", "1 3 2 5"});
   const std::string scene = folder + "/scene.toml";
   std::ofstream(scene) << "[time]\nduration = \"1 s\"\n[tissue]\nmesh = \"sliver.msh\"\nscale = "
                           "\"10 mm\"\n";

@@ -243,10 +243,8 @@ TEST(Pictures, are_drawn_for_a_running_scene) {
 
 TEST(Commands, mesh_tells_every_fault_and_fails) {
   const std::string folder = test_folder("fault");
-  std::ofstream(folder + "/three.msh")
-      << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
-         "5 0 0 -1\n6 1 1 1\n$EndNodes\n$Elements\n4\n1 4 2 1 1 1 2 3 4\n2 4 2 1 1 2 1 3 5\n"
-         "3 4 2 1 1 1 2 3 6\n4 4 2 1 1 1 2 3 6\n$EndElements\n";
+  write_tetrahedra(folder + "/three.msh", {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "0 0 -1", "1 1 1"},
+                   {"1 2 3 4", "2 1 3 5", "1 2 3 6", "1 2 3 6"});
   const Finished mesh = run_trocar({"mesh", folder + "/three.msh"}, folder);
   EXPECT_EQ(mesh.exit_code, 2) << mesh.err;
   EXPECT_NE(mesh.out.find("FAULT             elements 2 and 3 have the same corners"),

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <fstream>
 
 namespace trocar {
 
@@ -93,6 +94,17 @@ nlohmann::json read_summary(const std::string& folder) {
 
 std::string config(const std::string& name) {
   return std::string(TROCAR_SOURCE_DIR) + "/configs/" + name;
+}
+
+void write_tetrahedra(const std::string& file, const std::vector<std::string>& nodes,
+                      const std::vector<std::string>& corners) {
+  std::ofstream out(file);
+  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << nodes.size() << '\n';
+  for (std::size_t k = 0; k < nodes.size(); ++k) out << k + 1 << ' ' << nodes[k] << '\n';
+  out << "$EndNodes\n$Elements\n" << corners.size() << '\n';
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    out << k + 1 << " 4 2 1 1 " << corners[k] << '\n';
+  out << "$EndElements\n";
 }
 
 }  // namespace trocar

@@ -40,4 +40,8 @@ nlohmann::json read_summary(const std::string& folder);
 
 std::string config(const std::string& name);
 
+// A gmsh file of tetrahedra: nodes "x y z", corners "1 2 3 4" by the nodes' numbers from 1 on.
+void write_tetrahedra(const std::string& file, const std::vector<std::string>& nodes,
+                      const std::vector<std::string>& corners);
+
 }  // namespace trocar
