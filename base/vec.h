@@ -19,6 +19,11 @@ inline bool is_before(const Vec3& a, const Vec3& b) {
   return a.z() < b.z();
 }
 
+// Of the cross product, the component along z.
+inline double cross_z(const Vec3& a, const Vec3& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 // A rigid motion: x = rotation * x_local + translation. [m]
 struct Pose {
   Quat rotation = Quat::Identity();

@@ -8,10 +8,6 @@ namespace trocar {
 
 namespace {
 
-TrianglePoint at_weights(const Triangle& x, double w0, double w1, double w2) {
-  return {.point = w0 * x[0] + w1 * x[1] + w2 * x[2], .weight = {w0, w1, w2}};
-}
-
 // For a triangle without area, whose face has no region of its own.
 TrianglePoint closest_point_on_edges(const Vec3& p, const Triangle& x) {
   TrianglePoint best;
@@ -36,35 +32,39 @@ double unit_clamp(double t) {
 
 }  // namespace
 
+TrianglePoint with_weights(const Triangle& x, const std::array<double, 3>& w) {
+  return {.point = w[0] * x[0] + w[1] * x[1] + w[2] * x[2], .weight = w};
+}
+
 TrianglePoint closest_point_triangle(const Vec3& p, const Triangle& x) {
   const Vec3 ab = x[1] - x[0], ac = x[2] - x[0];
   const Vec3 ap = p - x[0], bp = p - x[1], cp = p - x[2];
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return at_weights(x, 1, 0, 0);
+  if (d1 <= 0 && d2 <= 0) return with_weights(x, {1, 0, 0});
   const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return at_weights(x, 0, 1, 0);
+  if (d3 >= 0 && d4 <= d3) return with_weights(x, {0, 1, 0});
   const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return at_weights(x, 0, 0, 1);
+  if (d6 >= 0 && d5 <= d6) return with_weights(x, {0, 0, 1});
   const double vc = d1 * d4 - d3 * d2;
   if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3) {
     const double v = d1 / (d1 - d3);
-    return at_weights(x, 1 - v, v, 0);
+    return with_weights(x, {1 - v, v, 0});
   }
   const double vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 > d6) {
     const double w = d2 / (d2 - d6);
-    return at_weights(x, 1 - w, 0, w);
+    return with_weights(x, {1 - w, 0, w});
   }
   const double va = d3 * d6 - d5 * d4;
   const double to_c = d4 - d3, to_b = d5 - d6;
   if (va <= 0 && to_c >= 0 && to_b >= 0 && to_c + to_b > 0) {
     const double w = to_c / (to_c + to_b);
-    return at_weights(x, 0, 1 - w, w);
+    return with_weights(x, {0, 1 - w, w});
   }
   const double sum = va + vb + vc;
   if (!(va > 0 && vb > 0 && vc > 0)) return closest_point_on_edges(p, x);
   // 1 less the others may be -1e-17, which contact would take for a lever without end.
-  return at_weights(x, va / sum, vb / sum, vc / sum);
+  return with_weights(x, {va / sum, vb / sum, vc / sum});
 }
 
 SegmentPair closest_points_segments(const Segment& first, const Segment& second) {

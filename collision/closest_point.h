@@ -17,6 +17,7 @@ struct TrianglePoint {
   Vec3 point = Vec3::Zero();
   std::array<double, 3> weight{};
 };
+TrianglePoint with_weights(const Triangle& triangle, const std::array<double, 3>& weight);
 TrianglePoint closest_point_triangle(const Vec3& p, const Triangle& triangle);
 
 // s and t in [0, 1] along the two segments.

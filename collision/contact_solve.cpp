@@ -96,8 +96,7 @@ void add_point(const ManifoldPoint& touch, const ContactStep& step, const Releas
                       .weight = {w[0], w[1], w[2], 0},
                       .normal = tool.pose.rotation * touch.normal};
   const Vec3 arm = tool.pose.rotation * touch.point;
-  Vec3 x = Vec3::Zero();
-  for (std::size_t a = 0; a < 3; ++a) x += c.weight[a] * set.x_end[c.place[a]];
+  const Vec3 x = with_weights({set.x_end[i], set.x_end[j], set.x_end[l]}, w).point;
   const double gap = c.normal.dot(x - (arm + tool.pose.translation));
   if (gap >= 0 || is_kept_by_corners(set, c, -gap)) return;
   add_constraint(gap, release.most * leeway_of(release.detector, item, c.normal, set),

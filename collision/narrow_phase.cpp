@@ -36,11 +36,6 @@ double longest_edge(const Triangle& x) {
       {(x[1] - x[0]).squaredNorm(), (x[2] - x[1]).squaredNorm(), (x[0] - x[2]).squaredNorm()}));
 }
 
-TrianglePoint same_weights(const TrianglePoint& q, const Triangle& x) {
-  const auto& w = q.weight;
-  return {.point = w[0] * x[0] + w[1] * x[1] + w[2] * x[2], .weight = w};
-}
-
 // Where Bullet fails it succeeds for the triangle a few hundredths of a micrometre beside.
 std::optional<HullPair> closest_to_hull(const HullShape& hull, const Facet& facet) {
   for (const double nudge : nudges) {
@@ -48,7 +43,7 @@ std::optional<HullPair> closest_to_hull(const HullShape& hull, const Facet& face
     for (Vec3& corner : x) corner += nudge * facet.edge * facet.n;
     std::optional<HullPair> pair = hull.closest(x);
     if (!pair) continue;
-    pair->on_triangle = same_weights(pair->on_triangle, facet.x);
+    pair->on_triangle = with_weights(facet.x, pair->on_triangle.weight);
     return pair;
   }
   return std::nullopt;
@@ -115,7 +110,8 @@ std::optional<Below> deepest_of_hull(const PieceCore& core, const Facet& facet) 
     if (pair->distance <= 2 * tolerance) {
       const bool is_across = closing < epa_agreement && core.least_flatness == 0;
       if (is_across && is_at_border(pair->on_triangle)) return std::nullopt;
-      return Below{.core = pair->on_hull, .tissue = same_weights(pair->on_triangle, facet.x)};
+      return Below{.core = pair->on_hull,
+                   .tissue = with_weights(facet.x, pair->on_triangle.weight)};
     }
     closing = -facet.n.dot(pair->normal);
     if (closing <= coincidence) return std::nullopt;  // it passes beside the hull

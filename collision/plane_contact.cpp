@@ -13,10 +13,6 @@ namespace {
 
 constexpr double at_end = 1e-6;  // of an edge, over its length
 
-double cross_z(const Vec3& a, const Vec3& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 Vec3 in_plane(const Vec3& p) {
   return {p.x(), p.y(), 0};
 }
@@ -29,10 +25,7 @@ Vec3 edge_normal(const Segment& edge) {
 
 // Convex hull in the plane, counter-clockwise (Andrew's monotone chain).
 std::vector<Vec3> convex_polygon(std::vector<Vec3> points) {
-  const auto before = [](const Vec3& a, const Vec3& b) {
-    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-  };
-  std::sort(points.begin(), points.end(), before);
+  std::sort(points.begin(), points.end(), is_before);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
   std::vector<Vec3> polygon;

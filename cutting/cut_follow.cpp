@@ -18,9 +18,7 @@ void keep_steps(const Mesh& mesh, std::span<const std::int32_t> element, CutStro
 
 void keep_steps_around(const Mesh& mesh, const CutIndex& index, const MeshEdit& edit,
                        CutStroke& stroke) {
-  std::vector<std::int32_t> moved;
-  for (const NodeMove& move : edit.moves) moved.push_back(move.node);
-  keep_steps(mesh, elements_around(index, moved), stroke);
+  keep_steps(mesh, elements_around(index, moved_nodes(edit)), stroke);
 }
 
 // Whether the other blade passed along the crossing's surface there.

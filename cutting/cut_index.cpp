@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/digest.h"
 #include "base/sort_unique.h"
 #include "cutting/cut_patch.h"
 #include "mesh/facets.h"
@@ -15,19 +16,13 @@ bool is_index_of(const CutIndex& index, const Mesh& mesh) {
          (index.corner_node == nullptr || index.corner_node == mesh.corner_node.data());
 }
 
-// A number for the facet, whatever the order of its nodes (mixed as in splitmix64).
+// A number for the facet, whatever the order of its nodes.
 static std::uint64_t facet_key(std::span<const std::int32_t> corner, const std::array<int, 4>& f) {
   std::array<std::int32_t, 4> node{-1, -1, -1, -1};
   for (std::size_t k = 0; k < 4; ++k)
     if (f[k] >= 0) node[k] = corner[f[k]];
   std::sort(node.begin(), node.end());
-  std::uint64_t key = 0;
-  for (const std::int32_t i : node) {
-    key = (key ^ static_cast<std::uint32_t>(i)) * 0x9E3779B97F4A7C15ULL;
-    key = (key ^ (key >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    key ^= key >> 27;
-  }
-  return key;
+  return digest_item(0, node);
 }
 
 // At an inner node every facet comes twice, so that the keys of the facets around it cancel. (Ten

@@ -114,16 +114,15 @@ void add_crossing(Search& search, Edge edge, double s) {
     }
 }
 
-// Ends of the edge count as left of a segment when they lie on it, for all edges alike.
 void find_crossings(Search& search, const Edge& edge) {
   const PlanePatch& patch = search.patch;
   const SubPath& path = search.path;
   const Vec2 &a = patch.X[edge[0]], &b = patch.X[edge[1]];
   for (std::size_t k = 0; k + 1 < path.point.size(); ++k) {
-    const Vec2 &p = path.point[k], d = path.point[k + 1] - p;
-    if ((cross(d, a - p) >= 0) == (cross(d, b - p) >= 0)) continue;
-    const double t = cross(b - a, a - p) / cross(b - a, d);
-    if (t >= 0 && t < 1) add_crossing(search, edge, path.s[k] + t * (path.s[k + 1] - path.s[k]));
+    const std::optional<double> t =
+        pass_between(path.point[k], path.point[k + 1] - path.point[k], a, b);
+    if (t && *t >= 0 && *t < 1)
+      add_crossing(search, edge, path.s[k] + *t * (path.s[k + 1] - path.s[k]));
   }
 }
 
@@ -222,9 +221,7 @@ double free_end(const Search& search, double s, double limit) {
 int region_at(const PlanePatch& patch, const Vec2& p) {
   for (int e = 0; e < patch.n_elements(); ++e) {
     const auto& [a, b, c] = patch.corner[e];
-    const Vec2 &A = patch.X[a], &B = patch.X[b], &C = patch.X[c];
-    if (std::min({cross(B - A, p - A), cross(C - B, p - B), cross(A - C, p - C)}) >= 0)
-      return patch.region[e];
+    if (is_in_triangle(patch.X[a], patch.X[b], patch.X[c], p, 0)) return patch.region[e];
   }
   return -1;
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -56,6 +57,13 @@ PlanePatch make_patch(const Mesh& mesh, std::span<const Vec2> path,
 
 inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
+}
+// Where the line from p along d passes between a and b, over d. Ends count as left of the line when
+// they lie on it, for all edges alike.
+inline std::optional<double> pass_between(const Vec2& p, const Vec2& d, const Vec2& a,
+                                          const Vec2& b) {
+  if ((cross(d, a - p) >= 0) == (cross(d, b - p) >= 0)) return std::nullopt;
+  return cross(b - a, a - p) / cross(b - a, d);
 }
 inline double triangle_area(const Vec2& a, const Vec2& b, const Vec2& c) {
   return 0.5 * cross(b - a, c - a);

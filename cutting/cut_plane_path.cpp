@@ -40,18 +40,16 @@ bool is_inside(const PlanePatch& patch, const Vec2& p) {
   return false;
 }
 
-// Ends of the edge count as left of the segment when they lie on it, for all edges alike.
 void cross_segment(const PlanePatch& patch, const SubPath& path, std::size_t k, PatchFacet facet,
                    PathCrossings& crossings) {
   const Vec2& a = patch.X[patch.corner[facet.element][(facet.facet + 1) % 3]];
   const Vec2& b = patch.X[patch.corner[facet.element][(facet.facet + 2) % 3]];
   const Vec2 &p = path.point[k], d = path.point[k + 1] - p;
-  if ((cross(d, a - p) >= 0) == (cross(d, b - p) >= 0)) return;
-  const double turn = cross(b - a, d);  // the inside is to the left of a -> b
-  const double t = cross(b - a, a - p) / turn;
-  if (t < -1e-9 || t > 1 + 1e-9) return;
-  const PathCrossing crossing{path.s[k] + t * (path.s[k + 1] - path.s[k]), facet};
-  (turn > 0 ? crossings.enter : crossings.leave).push_back(crossing);
+  const std::optional<double> t = pass_between(p, d, a, b);
+  if (!t || *t < -1e-9 || *t > 1 + 1e-9) return;
+  const PathCrossing crossing{path.s[k] + *t * (path.s[k + 1] - path.s[k]), facet};
+  const bool enters = cross(b - a, d) > 0;  // the inside is to the left of a -> b
+  (enters ? crossings.enter : crossings.leave).push_back(crossing);
 }
 
 PathCrossings find_crossings(const PlanePatch& patch, const SubPath& path, int tip) {

@@ -6,14 +6,10 @@ namespace {
 
 constexpr double sharpest = 0.5;  // cosine of the bend at which a new reach begins
 
-double turn(const Vec3& a, const Vec3& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 // Whether the segments a b and c d cross.
 bool do_cross(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const auto parts = [](const Vec3& from, const Vec3& to, const Vec3& p, const Vec3& q) {
-    return (turn(to - from, p - from) > 0) != (turn(to - from, q - from) > 0);
+    return (cross_z(to - from, p - from) > 0) != (cross_z(to - from, q - from) > 0);
   };
   return parts(a, b, c, d) && parts(c, d, a, b);
 }

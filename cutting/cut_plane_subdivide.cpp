@@ -18,10 +18,7 @@ constexpr double off_corner = 1e-6;  // of an edge: a cut point never coincides 
 struct Line {
   Vec3 from, along;
 
-  double side(const Vec3& X) const {
-    const Vec3 d = X - from;
-    return along.x() * d.y() - along.y() * d.x();
-  }
+  double side(const Vec3& X) const { return cross_z(along, X - from); }
   double s(const Vec3& X) const { return along.dot(X - from) / along.squaredNorm(); }
 };
 

@@ -92,8 +92,8 @@ static void check_arguments(const Mesh& mesh, std::span<const Vec3> x,
     throw InputError("a blade's band cuts tetrahedra and hexahedra, and this mesh is plane");
 }
 
-static std::vector<Vec3> moved_nodes(const TetCut& cut, const CutTetOptions& options,
-                                     const MoveLimits& limits) {
+static std::vector<Vec3> moved_positions(const TetCut& cut, const CutTetOptions& options,
+                                         const MoveLimits& limits) {
   std::vector<Vec3> X = cut.around.patch.X;
   if (options.stages == CutStages::springs)
     homogenise_nodes(cut.around, cut.role, -std::numeric_limits<double>::infinity(), X);
@@ -192,7 +192,7 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
     if (MeshEdit edit = split(mesh, cut.around, slices, figures); !edit.is_empty()) return edit;
   open_between_sides(mesh, constraints.is_held, slices, is_last, cut);
   set_roles(cut, stroke, is_last);
-  cut.X = moved_nodes(cut, options, move_limits(cut.around, stroke, options.least_step_ratio));
+  cut.X = moved_positions(cut, options, move_limits(cut.around, stroke, options.least_step_ratio));
   cut.rungs.n_inverted = count_inverted(cut.around.patch, cut.X);
   const std::vector<Vec3> wanted = cut.X;
   cut.transfer = transfer_moves(cut.around.patch, cut.X);

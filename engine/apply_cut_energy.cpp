@@ -93,8 +93,7 @@ double strain_energy(RankBody& body) {
 }
 
 std::vector<std::int32_t> adjustable_nodes(const Simulation& s, const MeshEdit& edit) {
-  std::vector<std::int32_t> nodes;
-  for (const NodeMove& move : edit.moves) nodes.push_back(move.node);
+  std::vector<std::int32_t> nodes = moved_nodes(edit);
   for (const ElementSplit& split : edit.splits)
     nodes.insert(nodes.end(), s.mesh.corners(split.element).begin(),
                  s.mesh.corners(split.element).end());

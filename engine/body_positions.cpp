@@ -10,7 +10,7 @@ namespace {
 
 constexpr double rounding = 1e-6;  // edges: elements hold points that lie on their faces
 
-// Of this rank's nodes, as largest_way.
+// Largest component of the ways of this rank's nodes from the boxes' positions. [m]
 double largest_own_way(const Simulation& s) {
   double most = 0;
   for (std::int32_t local = 0; local < s.part.n_owned; ++local) {

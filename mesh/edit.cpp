@@ -31,6 +31,12 @@ std::vector<DensityChange> keep_masses(std::span<const Reshaped> elements, std::
   return changes;
 }
 
+std::vector<std::int32_t> moved_nodes(const MeshEdit& edit) {
+  std::vector<std::int32_t> nodes;
+  for (const NodeMove& move : edit.moves) nodes.push_back(move.node);
+  return nodes;
+}
+
 std::int32_t n_added(std::span<const ElementSplit> splits) {
   std::int32_t n = 0;
   for (const ElementSplit& split : splits) n += split.n_tets - 1;

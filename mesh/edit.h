@@ -133,6 +133,8 @@ std::int32_t node_after(const MeshEdit& edit, const Mesh& before, std::int32_t e
 // Mesh::cut_facets of such an element after the edit.
 std::uint8_t cut_facets_after(const MeshEdit& edit, const Mesh& before, std::int32_t e);
 
+std::vector<std::int32_t> moved_nodes(const MeshEdit& edit);  // ascending
+
 void apply_edit(const MeshEdit& edit, Mesh& mesh);
 // The same change on a nodal field with `width` doubles a node (n_nodes * width -> n_new_nodes *
 // width); `before` is the mesh before the edit.

@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "base/check.h"
-#include "base/components.h"
 #include "base/sort_unique.h"
 
 namespace trocar {
@@ -116,11 +115,6 @@ void update_element_boxes(const Mesh& mesh, std::span<const Vec3> x, const Boxes
     changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
     for (const std::int32_t k : changed) fit_parent(static_cast<std::size_t>(k), boxes);
   }
-}
-
-double largest_way(std::span<const Vec3> x, const ElementBoxes& boxes) {
-  CHECK_OP(boxes.x.size(), ==, x.size());
-  return (components(x) - components(boxes.x)).abs().maxCoeff();
 }
 
 bool are_outrun(const ElementBoxes& boxes, double way) {

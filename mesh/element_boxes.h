@@ -40,9 +40,8 @@ struct BoxesEdit {
 void update_element_boxes(const Mesh& mesh, std::span<const Vec3> x, const BoxesEdit& edit,
                           ElementBoxes& boxes);
 
-// Largest component of the ways of nodes between the boxes' positions and x. [m]
-double largest_way(std::span<const Vec3> x, const ElementBoxes& boxes);
-// Whether nodes have moved so far since the boxes were fitted that they had better be fitted anew.
+// Whether the largest component of the ways of nodes from the boxes' positions [m] is so large that
+// the boxes had better be fitted anew.
 bool are_outrun(const ElementBoxes& boxes, double way);
 void fit_element_boxes(const Mesh& mesh, std::span<const Vec3> x, ElementBoxes& boxes);
 

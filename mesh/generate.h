@@ -38,8 +38,4 @@ Mesh make_triangular_rectangle(double width, int n, int rows);
 Mesh make_graded_rectangle(const Vec2& size, std::span<const int> n_row_nodes, double grade_x,
                            double grade_y);
 
-// Moves interior nodes by up to `amount` of the local edge length (deterministic in `seed`); never
-// inverts.
-void jitter(Mesh& mesh, double amount, unsigned seed);
-
 }  // namespace trocar

@@ -42,8 +42,7 @@ const NodeSet* find_node_set(const Mesh& mesh, const std::string& name) {
 
 // Signed: positive if the corners run counter-clockwise seen from z > 0.
 static double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 u = b - a, v = c - a;
-  return 0.5 * (u.x() * v.y() - u.y() * v.x());
+  return 0.5 * cross_z(b - a, c - a);
 }
 
 static double tetrahedron_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {

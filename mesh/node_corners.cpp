@@ -96,9 +96,7 @@ std::vector<std::int32_t> elements_around(const Mesh& mesh, std::span<const std:
 std::vector<std::int32_t> edited_elements(const Mesh& mesh, const NodeCorners& before,
                                           const MeshEdit& edit) {
   const SplitNumbers numbers(edit.splits, mesh.n_elements());
-  std::vector<std::int32_t> moved;
-  for (const NodeMove& move : edit.moves) moved.push_back(move.node);
-  std::vector<std::int32_t> elements = elements_around(before, moved);
+  std::vector<std::int32_t> elements = elements_around(before, moved_nodes(edit));
   for (const ElementSplit& split : edit.splits) elements.push_back(split.element);
   for (const CornerChange& change : edit.corners) elements.push_back(numbers.whole(change.element));
   for (const DensityChange& change : edit.density)

@@ -58,6 +58,17 @@ void add_cell(RawMesh& raw, CellKind kind, std::span<const std::int32_t> corners
 // Where cell_group holds physical tags themselves (0: none), makes group lists of them.
 void make_group_lists(RawMesh& raw);
 
+// Calls f(cell, corners) for each cell of the dimension.
+template <class F>
+void for_cells(const RawMesh& raw, int dimension, const F& f) {
+  const std::int32_t* corner = raw.cell_corner.data();
+  for (std::int32_t c = 0; c < raw.n_cells(); ++c) {
+    const auto n = static_cast<std::size_t>(n_cell_corners(raw.cell_kind[c]));
+    if (cell_dimension(raw.cell_kind[c]) == dimension) f(c, std::span(corner, n));
+    corner += n;
+  }
+}
+
 // The volume (or plane) mesh of it, positions times `scale`. Throws InputError naming the element.
 Mesh make_mesh(RawMesh raw, double scale);
 // Its triangles and quadrangles, the latter as two triangles; vertices not merged. Throws

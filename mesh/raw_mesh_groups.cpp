@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/quoted.h"
 #include "base/sort_unique.h"
-#include "mesh/facets.h"
+#include "mesh/facet_sort.h"
 
 namespace trocar {
 
@@ -152,17 +152,14 @@ std::vector<NodeSet> make_node_sets(const RawMesh& raw, int dimension,
   std::vector<NodeSet> sets(groups.name.size());
   for (std::size_t s = 0; s < sets.size(); ++s) sets[s].name = std::move(groups.name[s]);
 
-  const std::int32_t* corner = raw.cell_corner.data();
-  for (std::int32_t c = 0; c < raw.n_cells(); ++c) {
-    const int n = n_cell_corners(raw.cell_kind[c]), d = cell_dimension(raw.cell_kind[c]);
-    if (d < dimension)
+  for (int d = 0; d < dimension; ++d)
+    for_cells(raw, d, [&](std::int32_t c, std::span<const std::int32_t> corners) {
       for (const std::int32_t tag : raw.groups(raw.cell_group[c])) {
         std::vector<std::int32_t>& node = sets[group_number(groups, {d, tag})].node;
-        for (int a = 0; a < n; ++a)
-          if (new_node[corner[a]] >= 0) node.push_back(new_node[corner[a]]);
+        for (const std::int32_t i : corners)
+          if (new_node[i] >= 0) node.push_back(new_node[i]);
       }
-    corner += n;
-  }
+    });
   for (NodeSet& set : sets) {
     sort_unique(set.node);
     set.node.shrink_to_fit();
@@ -170,71 +167,42 @@ std::vector<NodeSet> make_node_sets(const RawMesh& raw, int dimension,
   return sets;
 }
 
-// Of the nodes with these local numbers, -1 where there is none, ascending.
-template <class NodeOf>
-static FacetNodes ascending_facet(const NodeOf& node_of) {
-  FacetNodes nodes{};
-  for (std::size_t a = 0; a < nodes.size(); ++a) nodes[a] = node_of(a);
-  std::ranges::sort(nodes);
-  return nodes;
-}
-
 // Of each set those in the file, ascending.
 static std::vector<std::vector<FacetNodes>> facets_of_sets(const RawMesh& raw, int dimension,
                                                            std::span<const std::int32_t> new_node) {
   const GroupNumbers groups = number_groups(raw, 0, dimension - 1);
   std::vector<std::vector<FacetNodes>> facets(groups.name.size());
-  const std::int32_t* corner = raw.cell_corner.data();
-  for (std::int32_t c = 0; c < raw.n_cells(); ++c) {
-    const int n = n_cell_corners(raw.cell_kind[c]), d = cell_dimension(raw.cell_kind[c]);
-    if (d == dimension - 1) {
-      const FacetNodes nodes = ascending_facet([&](std::size_t a) {
-        return a < static_cast<std::size_t>(n) ? new_node[corner[a]] : -1;
-      });
-      for (const std::int32_t tag : raw.groups(raw.cell_group[c]))
-        facets[group_number(groups, {d, tag})].push_back(nodes);
-    }
-    corner += n;
-  }
+  const int d = dimension - 1;
+  for_cells(raw, d, [&](std::int32_t c, std::span<const std::int32_t> corners) {
+    FacetNodes nodes{-1, -1, -1, -1};
+    for (std::size_t a = 0; a < corners.size(); ++a) nodes[a] = new_node[corners[a]];
+    std::ranges::sort(nodes);
+    for (const std::int32_t tag : raw.groups(raw.cell_group[c]))
+      facets[group_number(groups, {d, tag})].push_back(nodes);
+  });
   for (std::vector<FacetNodes>& of_set : facets) sort_unique(of_set);
   return facets;
 }
 
-// Outer facets all of whose nodes are in the set, ascending.
-static std::vector<FacetNodes> outer_facets_within(const NodeSet& set, const NodeElements& around,
-                                                   const Mesh& mesh) {
-  std::vector<std::int32_t> elements;
-  for (const std::int32_t node : set.node)
-    elements.insert(elements.end(), around.of(node).begin(), around.of(node).end());
-  sort_unique(elements);
+// Of the outer facets those all of whose nodes are in the set, ascending.
+static std::vector<FacetNodes> facets_within(const NodeSet& set, std::span<const FacetSide> outer) {
+  const auto is_in = [&](std::int32_t i) {
+    return i < 0 || std::ranges::binary_search(set.node, i);
+  };
   std::vector<FacetNodes> facets;
-  for (const std::int32_t e : elements)
-    for (int f = 0; f < n_facets(mesh.element_type[e]); ++f) {
-      const std::array<int, 4> corner = facet_corners(mesh.element_type[e], f);
-      const FacetNodes nodes = ascending_facet(
-          [&](std::size_t a) { return corner[a] >= 0 ? mesh.corners(e)[corner[a]] : -1; });
-      const auto is_in = [&](std::int32_t i) {
-        return i < 0 || std::ranges::binary_search(set.node, i);
-      };
-      if (std::ranges::all_of(nodes, is_in)) facets.push_back(nodes);
-    }
-  std::ranges::sort(facets);
-  std::vector<FacetNodes> outer;  // those that come once
-  for (std::size_t k = 0, next = 0; k < facets.size(); k = next) {
-    while (next < facets.size() && facets[next] == facets[k]) ++next;
-    if (next == k + 1) outer.push_back(facets[k]);
-  }
-  return outer;
+  for (const FacetSide& side : outer)
+    if (std::ranges::all_of(side.node, is_in)) facets.push_back(side.node);
+  return facets;
 }
 
 void leave_out_facets(const RawMesh& raw, int dimension, std::span<const std::int32_t> new_node,
                       Mesh& mesh) {
   const std::vector<std::vector<FacetNodes>> facets = facets_of_sets(raw, dimension, new_node);
   if (std::ranges::all_of(facets, [](const auto& of_set) { return of_set.empty(); })) return;
-  const NodeElements around = node_elements(mesh);
+  const std::vector<FacetSide> outer_sides = single_sides(mesh);
   for (std::size_t s = 0; s < facets.size(); ++s) {
     if (facets[s].empty()) continue;
-    const std::vector<FacetNodes> outer = outer_facets_within(mesh.node_sets[s], around, mesh);
+    const std::vector<FacetNodes> outer = facets_within(mesh.node_sets[s], outer_sides);
     std::vector<FacetNodes> others;
     std::ranges::set_difference(outer, facets[s], std::back_inserter(others));
     // Facets of another shape, halves of quads say, tell nothing.

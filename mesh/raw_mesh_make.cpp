@@ -22,17 +22,6 @@ std::array<std::int64_t, 6> count_kinds(const RawMesh& raw) {
   return n;
 }
 
-// Calls f(cell, corners) for each cell of the dimension.
-template <class F>
-void for_cells(const RawMesh& raw, int dimension, const F& f) {
-  const std::int32_t* corner = raw.cell_corner.data();
-  for (std::int32_t c = 0; c < raw.n_cells(); ++c) {
-    const auto n = static_cast<std::size_t>(n_cell_corners(raw.cell_kind[c]));
-    if (cell_dimension(raw.cell_kind[c]) == dimension) f(c, std::span(corner, n));
-    corner += n;
-  }
-}
-
 // All in one plane z = const, up to the rounding of whoever wrote the file.
 bool is_plane(const RawMesh& raw) {
   Box box;

@@ -7,16 +7,15 @@ namespace trocar {
 TriangleMesh make_surface(const RawMesh& raw) {
   TriangleMesh mesh;
   mesh.X = raw.X;
-  const std::int32_t* corner = raw.cell_corner.data();
-  for (std::int32_t c = 0; c < raw.n_cells(); ++c) {
-    if (cell_dimension(raw.cell_kind[c]) == 3)
-      throw InputError(raw.file + ": holds volume elements (the first is " + raw.tag_word + " " +
-                       std::to_string(raw.cell_tag[c]) +
-                       "); save only its surface, e.g. as STL or OBJ");
-    const int n = n_cell_corners(raw.cell_kind[c]);
-    for (int a = 2; a < n; ++a) mesh.triangle.push_back({corner[0], corner[a - 1], corner[a]});
-    corner += n;
-  }
+  for_cells(raw, 3, [&](std::int32_t c, std::span<const std::int32_t>) {
+    throw InputError(raw.file + ": holds volume elements (the first is " + raw.tag_word + " " +
+                     std::to_string(raw.cell_tag[c]) +
+                     "); save only its surface, e.g. as STL or OBJ");
+  });
+  for_cells(raw, 2, [&](std::int32_t, std::span<const std::int32_t> corner) {
+    for (std::size_t a = 2; a < corner.size(); ++a)
+      mesh.triangle.push_back({corner[0], corner[a - 1], corner[a]});
+  });
   return mesh;
 }
 

@@ -34,15 +34,11 @@ Vec3 read_point(const std::string& text) {
           mm * read_number(text.substr(comma + 1), text), 0};
 }
 
-double turn(const Vec3& a, const Vec3& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 // Centre of the circle through a, b and c.
 Vec3 circle_centre(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 p = b - a, q = c - a;
   const Vec3 d = q * p.squaredNorm() - p * q.squaredNorm();
-  return a + Vec3(d.y(), -d.x(), 0) / (2 * turn(p, q));
+  return a + Vec3(d.y(), -d.x(), 0) / (2 * cross_z(p, q));
 }
 
 // Appends the arc from the last point to `to`, halved `depth` times by square roots alone. `sense`
@@ -78,7 +74,7 @@ Cut2dPath read_arc(const std::string& text) {
   if (three.size() != 3 || three[0] == three[2])
     throw InputError("an arc goes through three different points, not " + in_quotes(text));
   const Vec3 p = three[1] - three[0], q = three[2] - three[1];
-  const double sense = turn(p, q);
+  const double sense = cross_z(p, q);
   if (std::abs(sense) < straight * p.norm() * q.norm()) return three;
   const Vec3 centre = circle_centre(three[0], three[1], three[2]);
   Cut2dPath path = {three[0]};

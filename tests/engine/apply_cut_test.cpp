@@ -15,6 +15,7 @@
 #include "largest.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/quality.h"
+#include "mesh_fixtures.h"
 #include "solver/frequency.h"
 #include "solver/history.h"
 #include "solver/step.h"

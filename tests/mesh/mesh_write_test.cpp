@@ -6,6 +6,7 @@
 #include "mesh/generate.h"
 #include "mesh/mesh_file.h"
 #include "mesh_equal.h"
+#include "mesh_fixtures.h"
 #include "test_files.h"
 
 namespace trocar::test {

@@ -8,6 +8,7 @@
 #include "mesh/mesh_file.h"
 #include "mesh/vtu_data.h"
 #include "mesh_equal.h"
+#include "mesh_fixtures.h"
 #include "mesh_sample_files.h"
 #include "test_files.h"
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mesh/generate.h"
+#include "mesh_fixtures.h"
 
 namespace trocar {
 namespace {

@@ -4,6 +4,7 @@
 #include "cutting/cut_positions.h"
 #include "mesh/element_boxes.h"
 #include "mesh/node_corners.h"
+#include "mesh_fixtures.h"
 
 namespace trocar {
 

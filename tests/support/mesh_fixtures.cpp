@@ -70,6 +70,13 @@ std::vector<NamedMesh> all_meshes() {
   return meshes;
 }
 
+double largest_way(std::span<const Vec3> x, const ElementBoxes& boxes) {
+  double most = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    most = std::max(most, (x[i] - boxes.x.at(i)).cwiseAbs().maxCoeff());
+  return most;
+}
+
 double total_volume(const Mesh& mesh) {
   double sum = 0;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) sum += element_volume(mesh, e, mesh.X);

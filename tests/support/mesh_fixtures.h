@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/element_boxes.h"
 #include "mesh/facets.h"
 #include "mesh/generate.h"
 #include "mesh/mesh.h"
@@ -37,6 +38,13 @@ std::vector<NamedMesh> volume_meshes();
 std::vector<NamedMesh> plane_meshes();
 
 std::vector<NamedMesh> all_meshes();
+
+// Moves interior nodes by up to `amount` of the local edge length (deterministic in `seed`); never
+// inverts.
+void jitter(Mesh& mesh, double amount, unsigned seed);
+
+// Largest component of the ways of nodes between the boxes' positions and x. [m]
+double largest_way(std::span<const Vec3> x, const ElementBoxes& boxes);
 
 double total_volume(const Mesh& mesh);
 

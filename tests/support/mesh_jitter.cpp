@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <random>
 
-#include "mesh/facets.h"
-#include "mesh/generate.h"
+#include "mesh/facet_sort.h"
 #include "mesh/quality.h"
+#include "mesh_fixtures.h"
 
 namespace trocar {
 
@@ -14,13 +14,9 @@ static constexpr int max_halvings = 8;
 
 static std::vector<std::uint8_t> boundary_nodes(const Mesh& mesh) {
   std::vector<std::uint8_t> is_boundary(mesh.X.size(), 0);
-  const FacetNeighbours across = facet_neighbours(mesh);
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-    for (int f = 0; f < n_facets(mesh.element_type[e]); ++f) {
-      if (across.of(e, f) >= 0) continue;
-      for (const int corner : facet_corners(mesh.element_type[e], f))
-        if (corner >= 0) is_boundary[mesh.corners(e)[corner]] = 1;
-    }
+  for (const FacetSide& side : single_sides(mesh))
+    for (const std::int32_t i : side.node)
+      if (i >= 0) is_boundary[i] = 1;
   return is_boundary;
 }
 
@@ -63,11 +59,12 @@ void jitter(Mesh& mesh, double amount, unsigned seed) {
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
     least_quality.push_back(kept_quality * element_quality(mesh, e, mesh.X));
 
+  const int dimension = mesh.dimension();
   std::mt19937_64 generator(seed);
   for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) {
     if (is_boundary[i] != 0) continue;
     const Vec3 X = mesh.X[i];
-    Vec3 move = amount * h[i] * random_direction(generator, mesh.dimension());
+    Vec3 move = amount * h[i] * random_direction(generator, dimension);
     for (int k = 0; k <= max_halvings; ++k, move /= 2) {
       mesh.X[i] = X + move;
       if (is_star_sound(mesh, around.of(i), least_quality)) break;
