@@ -97,6 +97,13 @@ void FileReader::expect_word(std::string_view expected) {
   at_ += found.size();
 }
 
+void FileReader::begin_binary(bool swaps) {
+  if (!is_at_line_end()) fail("nothing may stand before the binary data in its line");
+  line();
+  is_binary = true;
+  swaps_bytes = swaps;
+}
+
 std::string_view FileReader::take(std::size_t n, const char* what) {
   begin_ = at_;
   if (n > n_left())

@@ -44,6 +44,8 @@ class FileReader {
   // Binary. swaps_bytes: numbers are stored in the other byte order than this machine's.
   bool is_binary = false;
   bool swaps_bytes = false;
+  // From the next line on; refuses anything before the end of this one.
+  void begin_binary(bool swaps);
   std::string_view take(std::size_t n, const char* what);
   template <class T>
   T raw(const char* what) {

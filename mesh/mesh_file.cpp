@@ -6,6 +6,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/quoted.h"
 #include "base/whole_file.h"
 #include "mesh/mesh_file_formats.h"
 
@@ -16,10 +17,7 @@ namespace {
 enum class Format { gmsh, legacy_vtk, vtu, stl, obj, unknown };
 
 bool has_ending(const std::string& file, std::string_view ending) {
-  if (file.size() < ending.size()) return false;
-  const auto is_equal = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; };
-  return std::equal(file.end() - static_cast<std::ptrdiff_t>(ending.size()), file.end(),
-                    ending.begin(), is_equal);
+  return in_small_letters(file).ends_with(ending);
 }
 
 Format format_by_ending(const std::string& file) {

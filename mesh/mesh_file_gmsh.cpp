@@ -11,10 +11,7 @@
 namespace trocar {
 
 void begin_data(GmshReader& g) {
-  if (!g.is_binary) return;
-  if (!g.in.is_at_line_end()) g.in.fail("nothing may stand before the binary data in its line");
-  g.in.line();
-  g.in.is_binary = true;
+  if (g.is_binary) g.in.begin_binary(false);
 }
 
 void end_section(GmshReader& g, std::string_view end) {

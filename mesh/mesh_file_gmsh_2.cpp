@@ -17,15 +17,9 @@ void read_nodes_2(GmshReader& g, std::string_view end) {
   finish_nodes(g);
 }
 
-static void reserve_cells(GmshReader& g, std::size_t n) {
-  g.mesh.cell_kind.reserve(n);
-  g.mesh.cell_tag.reserve(n);
-  g.mesh.cell_group.reserve(n);
-}
-
 void read_elements_1(GmshReader& g) {
   const std::size_t n = g.in.check_count(g.in.integer("the number of elements"), 12, "elements");
-  reserve_cells(g, n);
+  reserve_cells(g.mesh, n);
   for (std::size_t e = 0; e < n; ++e) {
     const std::int64_t tag = g.in.integer("an element number");
     const CellKind kind = gmsh_cell_kind(g, g.in.integer("an element type"), tag);
@@ -85,7 +79,7 @@ void read_elements_2(GmshReader& g) {
   const std::int64_t count = g.in.integer("the number of elements");
   begin_data(g);
   const std::size_t n = g.in.check_count(count, 8, "elements");
-  reserve_cells(g, n);
+  reserve_cells(g.mesh, n);
   if (g.in.is_binary)
     read_binary_elements(g, n);
   else

@@ -133,9 +133,7 @@ static CellKind block_kind(GmshReader& g, std::int64_t type, std::size_t n) {
 
 void read_elements_4(GmshReader& g) {
   const Head head = read_head(g, g.is_binary ? 16 : 4, "elements");
-  g.mesh.cell_kind.reserve(head.n);
-  g.mesh.cell_tag.reserve(head.n);
-  g.mesh.cell_group.reserve(head.n);
+  reserve_cells(g.mesh, head.n);
   for (std::size_t b = 0; b < head.n_blocks; ++b) {
     const int dimension = block_dimension(g);
     const std::int32_t groups = group_list(g, dimension, entity_tag(g));

@@ -26,6 +26,12 @@ const char* cell_kind_name(CellKind kind) {
   return name[static_cast<std::size_t>(kind)];
 }
 
+void reserve_cells(RawMesh& raw, std::size_t n) {
+  raw.cell_kind.reserve(n);
+  raw.cell_tag.reserve(n);
+  raw.cell_group.reserve(n);
+}
+
 void add_cell(RawMesh& raw, CellKind kind, std::span<const std::int32_t> corners, std::int64_t tag,
               std::int32_t group) {
   constexpr std::size_t limit = std::numeric_limits<std::int32_t>::max();

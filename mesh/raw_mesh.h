@@ -55,6 +55,7 @@ struct RawMesh {
 // Throws InputError if the numbers of the mesh would not fit 32 bits.
 void add_cell(RawMesh& raw, CellKind kind, std::span<const std::int32_t> corners, std::int64_t tag,
               std::int32_t group);
+void reserve_cells(RawMesh& raw, std::size_t n);
 // Where cell_group holds physical tags themselves (0: none), makes group lists of them.
 void make_group_lists(RawMesh& raw);
 

@@ -177,9 +177,7 @@ void name_regions(RawMesh& raw) {
 void add_vtk_cells(const FileReader& in, const VtkCells& cells, RawMesh& raw) {
   check_offsets(in, cells);
   const std::size_t n = cells.type.size();
-  raw.cell_kind.reserve(n);
-  raw.cell_tag.reserve(n);
-  raw.cell_group.reserve(n);
+  reserve_cells(raw, n);
   raw.cell_corner.reserve(cells.connectivity.size());
   std::array<std::int32_t, max_corners> corner{};
   for (std::size_t c = 0; c < n; ++c) {

@@ -137,11 +137,7 @@ VtkNumber read_number_type(FileReader& in) {
 }
 
 void begin_data(FileReader& in, bool is_binary) {
-  if (!is_binary) return;
-  if (!in.is_at_line_end()) in.fail("nothing may stand before the binary data in its line");
-  in.line();
-  in.is_binary = true;
-  in.swaps_bytes = std::endian::native == std::endian::little;
+  if (is_binary) in.begin_binary(std::endian::native == std::endian::little);
 }
 
 void skip_metadata(FileReader& in) {
