@@ -267,7 +267,9 @@ std::string Communicator::first_text(const std::string& text) const {
   ++traffic_.n_collectives;
   if (!handle_) return text;
   int first = text.empty() ? size_ : rank_;
-  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, handle_->group);
+  std::vector<MPI_Request> request(1);
+  MPI_Iallreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, handle_->group, request.data());
+  wait_politely(request);  // some may be at work
   if (first == size_) return "";
   const auto* own = reinterpret_cast<const std::byte*>(text.data());
   std::vector<std::byte> bytes(own, own + text.size());

@@ -130,7 +130,7 @@ void multiply(Unit& product, const Unit& unit, int exponent) {
   product.dimension.metre += exponent * unit.dimension.metre;
   product.dimension.kilogram += exponent * unit.dimension.kilogram;
   product.dimension.second += exponent * unit.dimension.second;
-  product.dimension.is_angle |= unit.dimension.is_angle;
+  product.dimension.radian += exponent * unit.dimension.radian;
   product.power += exponent * unit.power;
   for (int i = 0; i < std::abs(exponent); ++i) {
     product.factor *= exponent > 0 ? unit.factor : unit.divisor;
@@ -268,10 +268,11 @@ static void append_power(std::string& text, const char* symbol, int exponent) {
 std::string si_unit(const Dimension& dimension) {
   if (dimension == dim::pressure) return "Pa";
   if (dimension == dim::force) return "N";
-  std::string above = dimension.is_angle ? "rad" : "";
-  std::string below;
-  const std::pair<const char*, int> powers[] = {
-      {"kg", dimension.kilogram}, {"m", dimension.metre}, {"s", dimension.second}};
+  std::string above, below;
+  const std::pair<const char*, int> powers[] = {{"rad", dimension.radian},
+                                                {"kg", dimension.kilogram},
+                                                {"m", dimension.metre},
+                                                {"s", dimension.second}};
   for (const auto& [symbol, exponent] : powers) {
     if (exponent > 0) append_power(above, symbol, exponent);
     if (exponent >= 0) continue;

@@ -7,13 +7,12 @@
 
 namespace trocar {
 
-// Exponents of metre, kilogram, second; angles are plain numbers in radians but know that they are
-// angles.
+// Exponents. Radians are plain numbers that know that they are angles.
 struct Dimension {
   int metre = 0;
   int kilogram = 0;
   int second = 0;
-  bool is_angle = false;
+  int radian = 0;
   bool operator==(const Dimension&) const = default;
 };
 
@@ -28,7 +27,7 @@ inline constexpr Dimension pressure{.metre = -1, .kilogram = 1, .second = -2};
 inline constexpr Dimension force{.metre = 1, .kilogram = 1, .second = -2};
 inline constexpr Dimension velocity{.metre = 1, .second = -1};
 inline constexpr Dimension acceleration{.metre = 1, .second = -2};
-inline constexpr Dimension angle{.is_angle = true};
+inline constexpr Dimension angle{.radian = 1};
 }  // namespace dim
 
 // Value in SI. Throws std::invalid_argument with a sentence that says what is wrong and which units

@@ -5,12 +5,12 @@
 #include <iterator>
 #include <numeric>
 
-#include "base/log.h"
 #include "base/sort_unique.h"
 #include "engine/apply_cut_energy.h"
 #include "engine/apply_cut_momentum.h"
 #include "engine/apply_cut_topology.h"
 #include "engine/frame_watch.h"
+#include "engine/owners.h"
 #include "engine/patch.h"
 #include "mesh/quality.h"
 
@@ -97,22 +97,6 @@ void inherit_by_new_nodes(Simulation& s, const MeshEdit& edit, std::int32_t n_be
     s.duplicate_parent.push_back(parent);
     s.duplicate_node.push_back(first + static_cast<std::int32_t>(d));
   }
-}
-
-// Hexahedra that became tetrahedra take longer: beyond this, owners are chosen anew. Choosing takes
-// as long as 30 to 70 steps. It pays after 300 to 640 steps at an imbalance of 1.16, at 1.05 after
-// 740 and more, or never (docs/scaling.md).
-constexpr double tolerated_imbalance = 1.1;
-
-// Returns whether owners changed.
-bool rebalance(Simulation& s) {
-  if (s.communicator->size() == 1) return false;
-  const double now = imbalance(s.mesh, s.node_owner, s.communicator->size());
-  if (now <= tolerated_imbalance) return false;
-  s.node_owner = partition_nodes(s.mesh, *s.communicator);
-  log_info("after a cut the busiest rank has " + std::to_string(std::lround(100 * (now - 1))) +
-           " % more work than the mean: parts are chosen anew");
-  return true;
 }
 
 // mesh: after the edit.

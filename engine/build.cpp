@@ -19,6 +19,7 @@
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "engine/instrument_check.h"
+#include "engine/owners.h"
 #include "engine/tissue.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/mesh_file.h"
@@ -308,7 +309,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   s.mesh = load_tissue(loaded, communicator);
   s.step_factor = step_factor_of(s.scene.solver, s.mesh);
   s.materials = region_materials(s.scene.tissue, s.mesh);
-  s.node_owner = partition_nodes(s.mesh, communicator);
+  choose_owners(s);
   s.edge_length = mean_edge_length(s.mesh);
   build_supports(s);
   OptionErrors errors(loaded.where);

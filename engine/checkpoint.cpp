@@ -9,6 +9,7 @@
 #include "base/log.h"
 #include "engine/body_search.h"
 #include "engine/frame_report.h"
+#include "engine/owners.h"
 #include "engine/state_digest.h"
 #include "engine/version.h"
 #include "solver/history.h"
@@ -129,7 +130,7 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   s.mesh = *c.mesh;
   s.corners = {};
   s.fixed = c.fixed;
-  s.node_owner = partition_nodes(s.mesh, *s.communicator);
+  choose_owners(s);
   s.duplicate_parent = c.duplicate_parent;
   s.duplicate_node = c.duplicate_node;
   s.holds.holds = c.holds;

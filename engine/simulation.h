@@ -107,6 +107,7 @@ struct Simulation : RankBody {
   double whole_mass = 0;                 // of the uncut body [kg]
   std::vector<FixedMask> fixed;          // (n_nodes)
   std::vector<std::int32_t> node_owner;  // (n_nodes)
+  double chosen_imbalance = 1;           // see imbalance(), when they were chosen
   Surface surface;
   // Pairs of partner nodes, over all cuts, that have not come into two pieces.
   std::vector<std::int32_t> duplicate_parent, duplicate_node;

@@ -18,7 +18,8 @@ namespace trocar {
 std::vector<std::int32_t> partition_nodes(const Mesh& mesh, Communicator& communicator);
 // The same for any number of parts, by this process alone; each part gets at least one node.
 std::vector<std::int32_t> partition_nodes(const Mesh& mesh, int n_parts);
-// Work of the part that has most over the mean of all: what a step takes longer than it had to.
+// Work of the elements at its nodes, of the part that has most over the mean of all. Elements of
+// several parts are shared by their corners, though each part computes them.
 double imbalance(const Mesh& mesh, std::span<const std::int32_t> node_owner, int n_parts);
 // A node on an edge gets the owner of the edge's lower end, a duplicate stays with its parent's.
 void apply_edit_to_owners(const MeshEdit& edit, std::vector<std::int32_t>& node_owner);

@@ -86,6 +86,8 @@ TEST(Quantity, of_a_wrong_dimension_says_what_it_is_and_which_units_fit) {
             "\"3 s\" is a time, but a length is needed; units that fit: m, cm, mm, um");
   expect_in_message("3 mm", dim::angle, "is a length, but an angle is needed");
   expect_in_message("3 rad", dim::none, "is an angle, but a plain number is needed");
+  expect_in_message("2 1/deg", dim::angle, "is a quantity in 1/rad, but an angle is needed");
+  expect_in_message("3 rad^2", dim::angle, "is a quantity in rad^2, but an angle is needed");
   expect_in_message("3 kPa", {.metre = 2, .second = -1},
                     "is a pressure, but a quantity in m^2/s is needed");
 }
