@@ -103,6 +103,7 @@ Checkpoint take_checkpoint(Simulation& s) {
                .step = s.state.step,
                .step_scale = s.step_scale,
                .held_step = s.held_step,
+               .held_by_contact = s.held_by_contact,
                .watch = s.watch,
                .holds = s.holds.holds,
                .is_open = s.holds.is_open,
@@ -151,6 +152,7 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   prepare_cutters(s);
   s.step_scale = c.step_scale;
   s.held_step = c.held_step;
+  s.held_by_contact = c.held_by_contact;
   s.watch = c.watch;
   static_cast<RunTally&>(s.log) = c.tally;
   s.log.rows = *c.rows;

@@ -40,7 +40,7 @@ struct Checkpoint {
   std::vector<double> u, v;                                    // (n_nodes * 3) [m], [m/s]
   double time = 0, last_dt = 0;
   std::int64_t step = 0;
-  double step_scale = 1, held_step = 0;
+  double step_scale = 1, held_step = 0, held_by_contact = 0;
   Watch watch;
   std::vector<Hold> holds;
   std::vector<std::uint8_t> is_open;  // (n_tools)

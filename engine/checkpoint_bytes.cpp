@@ -12,7 +12,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 31;
+constexpr std::uint32_t checkpoint_format = 32;
 
 static void visit(Saver& a, std::shared_ptr<const Mesh>& mesh) {
   a.writer().put(std::uint64_t{n_bytes_of(*mesh)});
@@ -99,10 +99,10 @@ static void visit(Archive& a, OutputMark& m) {
 template <class Archive>
 static void visit(Archive& a, Checkpoint& c) {
   a(c.version, c.simd, c.scene, c.body_crc, c.frame, c.digest, c.mesh, c.fixed, c.duplicate_parent,
-    c.duplicate_node, c.time, c.last_dt, c.step, c.step_scale, c.held_step, c.watch, c.holds,
-    c.is_open, c.cuts, c.tally, c.history, c.history_time, c.searches, c.looked_at,
-    c.has_stiffening, c.has_local_steps, c.sleep, c.quiet_range, c.has_energies, c.energy,
-    c.outputs);
+    c.duplicate_node, c.time, c.last_dt, c.step, c.step_scale, c.held_step, c.held_by_contact,
+    c.watch, c.holds, c.is_open, c.cuts, c.tally, c.history, c.history_time, c.searches,
+    c.looked_at, c.has_stiffening, c.has_local_steps, c.sleep, c.quiet_range, c.has_energies,
+    c.energy, c.outputs);
 }
 
 static void put_blob(ByteWriter& writer, const Blob& blob) {

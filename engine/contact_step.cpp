@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/sort_unique.h"
 #include "collision/contact_tilt.h"
@@ -100,18 +101,20 @@ std::size_t elements_worth(const Simulation& s, const FrameSpan& span, double lo
 
 }  // namespace
 
-double stable_step_with_contact(Simulation& s, const FrameSpan& span) {
+double step_limit_of_contact(Simulation& s, const FrameSpan& span) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  if (!s.contact) return none;
   const double stable = step_share(s) * s.watch.stable_step;
-  if (!s.contact) return stable;
   const PhaseScope scope(s.timers, phase_watch);
   const std::vector<Tilt> tilts = find_tilts(s.contact->detector, span.n_substeps, s.contact->set);
   const double of_contact = s.communicator->all_max(tilt_frequency2(tilts, s.contact->set));
   const double room = most_of_limit / s.step_factor;
   const double sum = room * stable / std::sqrt(1 + of_contact * stable * stable / 4);
-  if (sum >= stable || !can_search_part(s)) return std::min(stable, sum);
+  if (sum >= stable) return none;
+  if (!can_search_part(s)) return sum;
   const double found = room * search_around(s, tilts_of_all(s, tilts), stable / room,
                                             elements_worth(s, span, stable / sum - 1));
-  return std::min(stable, std::max(sum, found));
+  return found >= stable ? none : std::max(sum, found);
 }
 
 }  // namespace trocar

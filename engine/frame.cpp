@@ -31,10 +31,15 @@ namespace {
 // a step.
 constexpr double step_rise = 1e-4;
 
+// What step_factor and step_scale are parts of.
+double stable_step_of_frame(const Simulation& s) {
+  const double of_tissue = step_share(s) * std::min(s.watch.stable_step, s.held_step);
+  return std::min(of_tissue, s.held_by_contact);
+}
+
 void plan_substeps(const Simulation& s, FrameSpan& span) {
   const double length = 1 / s.scene.time.frame_rate;
-  const double stable = std::min(s.watch.stable_step, s.held_step);
-  const double dt = s.step_factor * s.step_scale * step_share(s) * stable;
+  const double dt = s.step_factor * s.step_scale * stable_step_of_frame(s);
   span.n_substeps = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / dt)));
   span.dt = length / static_cast<double>(span.n_substeps);
 }
@@ -267,10 +272,17 @@ void let_slip(Simulation& s, const FrameSpan& span, const FrameRow& row) {
   }
 }
 
+// What the next frames' steps follow from. before: the tissue's stable step at the frame's start.
+void hold_step(Simulation& s, const FrameSpan& span, double before) {
+  const double rise = step_rise / s.scene.time.frame_rate;
+  s.held_step = std::min(s.watch.stable_step, before + rise);
+  s.held_by_contact = std::min(step_limit_of_contact(s, span), s.held_by_contact + rise);
+}
+
 // What roll-backs have taken from the step comes back as slowly as the stable step rises.
 void recover_step_scale(Simulation& s, const FrameSpan& span) {
   if (s.step_scale == 1) return;
-  s.step_scale += step_rise * (span.t1 - span.t0) / s.held_step;
+  s.step_scale += step_rise * (span.t1 - span.t0) / stable_step_of_frame(s);
   if (s.step_scale < 1) return;
   s.step_scale = 1;
   note_event(s, span.t1, "the step is whole again");
@@ -293,11 +305,9 @@ void step_alone(Simulation& s, double dt) {
 void run_frame(Simulation& s, Outputs& outputs) {
   const double start = monotonic_seconds();
   grasp(s, next_frame(s));
-  const double held_step = std::min(s.watch.stable_step, s.held_step);
+  const double stable_before = std::min(s.watch.stable_step, s.held_step);
   const FrameSpan span = step_safely(s);
-  // What the next frame's step follows from.
-  s.held_step = std::min(stable_step_with_contact(s, span) / step_share(s),
-                         held_step + step_rise / s.scene.time.frame_rate);
+  hold_step(s, span, stable_before);
   recover_step_scale(s, span);
   // What the substeps have done, before a cut changes what touches and holds the body.
   if (s.energy) close_frame_work(s);

@@ -136,8 +136,9 @@ struct Simulation : RankBody {
   std::optional<Sleep> sleep;                // only if the scene asks for it
   double step_factor = 0.85;                 // of the scene: step_factor_of
   double step_scale = 1;                     // halved by each roll-back, then rises slowly
-  // The stable step falls at once and rises slowly (step_rise in frame.cpp). [s]
-  double held_step = std::numeric_limits<double>::infinity();
+  // The stable step falls at once and rises slowly (step_rise in frame.cpp): that of the tissue, and
+  // what contact leaves, whether small elements take local steps or not. [s]
+  double held_step = std::numeric_limits<double>::infinity(), held_by_contact = held_step;
   Watch watch;  // of the last frame, over all ranks
   ElementLook look;
   State frame_start;                               // where a frame goes back to

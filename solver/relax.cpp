@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include "base/check.h"
 #include "base/reproducible_dot.h"
@@ -18,22 +19,29 @@ namespace {
 constexpr std::int64_t look_interval = 20;
 constexpr double step_margin = 0.95;
 
-// Greatest growth of an element's omega^2 in the present deformation; NaN where one is broken.
-// Lanes behind the last element mean nothing.
+// Greatest growth of an element's omega^2 over that in the undeformed element; NaN where one is
+// broken. Lanes behind the last element mean nothing.
 double greatest_stiffening(const Model& model, const State& state) {
   double most = 1;
-  for (const ElementBlocks& blocks : model.blocks) {
+  std::mutex mutex;
+  const auto take = [](double value, double& greatest) {
+    if (value > greatest || std::isnan(value)) greatest = value;
+  };
+  const auto look = [&](const ElementBlocks& blocks, const BlockKernels& kernels,
+                        const BlockTask& task, std::int64_t first) {
     std::array<double, stash_blocks * lanes_of_block<float>> none{}, J{}, stiffening{};
-    for_strained_blocks(
-        model, blocks, state, 0, blocks.n_blocks,
-        [&](const BlockKernels& kernels, const BlockTask& task, std::int64_t block) {
-          kernels.law.watch(task, {none.data()}, J.data(), stiffening.data());
-          const std::int64_t n = std::min<std::int64_t>(task.n_blocks * blocks.lanes,
-                                                        blocks.n_elements - block * blocks.lanes);
-          for (std::int64_t lane = 0; lane < n; ++lane)
-            if (!(stiffening[lane] <= most)) most = stiffening[lane];
-        });
-  }
+    kernels.law.watch(task, {none.data()}, J.data(), stiffening.data());
+    const std::int64_t n =
+        std::min(task.n_blocks * blocks.lanes, blocks.n_elements - first * blocks.lanes);
+    double of_task = 1;
+    for (std::int64_t lane = 0; lane < n; ++lane)
+      take(stiffening[lane] / blocks.stiffening_at_rest, of_task);
+    const std::scoped_lock lock(mutex);
+    take(of_task, most);
+  };
+  parallel_for(count_blocks(model), [&](std::int64_t begin, std::int64_t end) {
+    for_strained_block_range(model, state, begin, end, look);
+  });
   return most;
 }
 

@@ -227,11 +227,13 @@ TEST(Checkpoint, keeps_a_step_that_is_still_rising) {
   const auto s = build(scene, alone), t = build(scene, alone);
   Outputs outputs;
   s->held_step = 0.5 * s->watch.stable_step;
+  s->held_by_contact = 0.4 * s->watch.stable_step;
   restore_checkpoint(take_checkpoint(*s), *t);
   run_frame(*s, outputs);
   run_frame(*t, outputs);
   EXPECT_EQ(bytes_of(*t), bytes_of(*s));
   EXPECT_EQ(t->held_step, s->held_step);
+  EXPECT_EQ(t->held_by_contact, s->held_by_contact);
   EXPECT_LT(t->held_step, t->watch.stable_step);
 }
 

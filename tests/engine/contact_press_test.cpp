@@ -156,21 +156,25 @@ double share_by_sum(const Simulation& s, std::int64_t n_substeps) {
 // A probe without friction, at rest from 0.7 s on: the contact point of a triangle runs towards
 // where the triangle tilts up, which is a stiffness of its own, F R / h^2, as large as the tissue's
 // E h here.
-Rested rest_on(const Rest& by, double step_factor) {
+std::unique_ptr<Started> block_under(const Rest& by, double step_factor) {
   const std::string text =
       "[time]\nduration = 10\nframe_rate = 60\n[tissue.shape]\nkind = \"box\"\n"
       "low = [-0.025, -0.02, 0]\nhigh = [0.025, 0.02, 0.02]\n"
       "[tissue.material]\nyoung_modulus = 5000\n[solver]\nmass_damping = 40\n"
       "[[support]]\nregion = \"z-\"\n[contact]\nfriction = 0\n[[instrument]]\n"
       "kind = \"probe\"\n";
-  const auto block = built(text + "radius = " + by.radius +
-                               "\npath = [{ time = 0.05, position = [0, 0, 0.021] }, "
-                               "{ time = 0.7, position = [0, 0, " +
-                               by.end + "] }]\n",
-                           {"tissue.shape.cells=" + std::string(by.cells),
-                            "tissue.shape.elements=" + std::string(by.elements),
-                            "tissue.material.poisson_ratio=" + std::string(by.poisson_ratio),
-                            "solver.step_factor=" + std::to_string(step_factor)});
+  return built(text + "radius = " + by.radius +
+                   "\npath = [{ time = 0.05, position = [0, 0, 0.021] }, "
+                   "{ time = 0.7, position = [0, 0, " +
+                   by.end + "] }]\n",
+               {"tissue.shape.cells=" + std::string(by.cells),
+                "tissue.shape.elements=" + std::string(by.elements),
+                "tissue.material.poisson_ratio=" + std::string(by.poisson_ratio),
+                "solver.step_factor=" + std::to_string(step_factor)});
+}
+
+Rested rest_on(const Rest& by, double step_factor) {
+  const auto block = block_under(by, step_factor);
   Simulation& s = *block->s;
   open_energy_ledger(s);
   for (int frame = 0; frame < 60; ++frame) run_frame(s, block->outputs);
@@ -178,12 +182,12 @@ Rested rest_on(const Rest& by, double step_factor) {
   return {.force = row.tools[0].force.z(),
           .kinetic = row.energy.kinetic,
           .contact_work = row.works.contact,
-          .step_share = s.held_step / s.watch.stable_step,
+          .step_share = std::min(s.held_step, s.held_by_contact) / s.watch.stable_step,
           .sum_share = share_by_sum(s, row.n_substeps)};
 }
 
 // Looked at where velocities take the triangles, the first probe chattered for ever at the usual
-// step: 0.244 N in place of 0.275. The second one does so without stable_step_with_contact:
+// step: 0.244 N in place of 0.275. The second one does so without step_limit_of_contact:
 // 6.8e-6 J.
 TEST(ContactOfAPress, of_a_probe_at_rest_comes_to_rest) {
   for (const Rest& by : {Rest{"0.006", "0.016", "[12, 10, 6]", "0.4"},
@@ -210,6 +214,21 @@ TEST(ContactOfAPress, takes_from_the_step_what_tissue_and_contact_have_together)
   EXPECT_GE(tets.step_share, tets.sum_share);
   EXPECT_LT(hexes.sum_share, 0.9);
   EXPECT_GT(hexes.step_share, 1.1 * hexes.sum_share);
+}
+
+// Elements that take no local steps for a frame shorten its step, and leave contact's limit alone.
+TEST(ContactOfAPress, limits_the_step_apart_from_elements_without_local_steps) {
+  const auto block = block_under({"0.01", "0.012", "[18, 15, 9]", "0.1"}, 0.85);
+  Simulation& s = *block->s;
+  while (s.frame < 60) run_frame(s, block->outputs);
+  const double dt = s.log.rows.back().dt;
+  ASSERT_LT(s.held_by_contact, 0.6 * s.watch.stable_step);
+  s.look.of_small = 0.25;  // as if small elements were touched
+  run_frame(s, block->outputs);
+  EXPECT_LT(s.log.rows.back().dt, 0.6 * dt);
+  s.look.of_small = 1;
+  run_frame(s, block->outputs);
+  EXPECT_NEAR(s.log.rows.back().dt, dt, 0.02 * dt);
 }
 
 // Along z, at the end, of a probe that presses a block by 5 mm at its middle y = 0. The tetrahedra
