@@ -48,9 +48,10 @@ double step_with_local_steps(Simulation& s, double step_without) {
   s.model.fixed.swap(s.multirate->coarse_fixed);
   const double coarse = search_step(s);
   s.model.fixed.swap(s.multirate->coarse_fixed);
+  if (coarse == 0) return 0;
   const double step = std::min(coarse, step_without * m.steps.limit / 2);
   const double cost = 1 + static_cast<double>(m.steps.gain.size()) * m.share;
-  if (s.look.is_done || step > least_local_gain * cost * step_without) return step;
+  if (s.log.searches.n_of_body > 1 || step > least_local_gain * cost * step_without) return step;
   s.multirate.reset();
   note_event(s, s.state.time,
              "no local steps (solver.multirate): they would take " +

@@ -138,7 +138,6 @@ void build_cuts(Simulation& s) {
   }
   if (s.cuts.empty()) return;
   warn_of_whole_hexahedra(s);
-  leave_room_in_mesh(s.mesh);
   prepare_cutters(s);
 }
 
@@ -192,12 +191,6 @@ std::vector<double> least_altitudes(const Simulation& s) {
   return altitude;
 }
 
-// Looks at the whole mesh, so that the first frame with a blade in the tissue need not.
-void prepare_first_cut(Simulation& s) {
-  s.corners = node_corners(s.mesh);
-  s.boxes = make_element_boxes(s.mesh, s.mesh.X);
-}
-
 // So that no edit moves all that is known of the nodes and elements.
 void leave_room_for_edits(Simulation& s) {
   const std::size_t n = s.mesh.X.size();
@@ -242,6 +235,7 @@ std::vector<double> region_densities(std::span<const Material> materials) {
 
 void rebuild_topology(Simulation& s) {
   plan_mass_scaling(s);
+  note_balance(s);
   s.mass = lumped_mass(s.mesh, region_densities(s.materials), s.scene.tissue.thickness);
   s.part = make_part(s.mesh, s.node_owner, s.communicator->rank());
   s.halo = make_halo(s.mesh, s.node_owner, s.part);
@@ -265,6 +259,14 @@ void rebuild_topology(Simulation& s) {
   if (s.contact) s.view.x = s.mesh.X;  // until they are gathered
   s.boxes = {};
   follow_model(s);
+}
+
+void prepare_for_cuts(Simulation& s) {
+  if (s.cuts.empty()) return;
+  s.corners = node_corners(s.mesh);
+  s.boxes = make_element_boxes(s.mesh, s.mesh.X);
+  leave_room_in_mesh(s.mesh);
+  leave_room_for_edits(s);
 }
 
 void find_pieces(Simulation& s) {
@@ -319,7 +321,6 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
   build_topology(loaded, s);
   check_body(s, errors);
   errors.throw_if_any();
-  if (!s.cuts.empty()) prepare_first_cut(s);
   s.state = make_state(s.model);
   if (s.contact) refresh_surface(s);
   watch_state(s);
@@ -329,7 +330,7 @@ std::unique_ptr<Simulation> build(const LoadedScene& loaded, Communicator& commu
                               "the body at time 0: let it begin outside", s);
   s.log.least_stable_step = s.log.largest_stable_step = s.watch.stable_step;
   if (has_metrics(s.scene)) open_energy_ledger(s);
-  if (!s.cuts.empty()) leave_room_for_edits(s);
+  prepare_for_cuts(s);
   s.scratch.has_force = false;  // nodes may be moved before the first frame
   return simulation;
 }

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "engine/body_search.h"
+#include "engine/build.h"
 #include "engine/frame_report.h"
 #include "engine/owners.h"
 #include "engine/state_digest.h"
@@ -159,6 +160,7 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
   s.frame = s.first_frame = c.frame;
   restore_searches(c, s);
   if (s.contact) refresh_surface(s);
+  prepare_for_cuts(s);
   if (state_digest(s) != c.digest)
     throw InputError("the checkpoint does not give the state that it was made of: its digest is " +
                      digest_text(state_digest(s)) + " instead of " + digest_text(c.digest));

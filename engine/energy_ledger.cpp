@@ -10,6 +10,7 @@
 #include "base/options.h"
 #include "engine/event_log.h"
 #include "engine/frame_force.h"
+#include "engine/frame_watch.h"
 #include "engine/simulation.h"
 #include "solver/mass_clusters.h"
 #include "solver/step.h"
@@ -87,7 +88,10 @@ static void refine_last_forces(Simulation& s) {
 }
 
 EnergyState mechanical_energy(Simulation& s) {
-  if (!s.scratch.has_force) compute_force(s.model, s.state, s.scratch);
+  if (!s.scratch.has_force) {
+    compute_force(s.model, s.state, s.scratch);
+    s.scratch.has_force = keeps_forces(s);
+  }
   find_viscous_force(s.model, s.state, s.scratch);
   if (s.multirate && s.has_local_steps) refine_last_forces(s);
   EnergyTerms terms;

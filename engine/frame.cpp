@@ -57,8 +57,9 @@ void take_up_holds(Simulation& s) {
 void grasp(Simulation& s, const FrameSpan& span) {
   const double before = s.scene.time.at(s.frame - 1);
   if (!will_act(s.tools, before, span.t0)) return;
-  const std::vector<GraspAct> acts =
-      act_graspers(s.holds, s.tools, before, span.t0, gather_state(s).x, s.fixed);
+  std::vector<Vec3> x;
+  if (will_grasp(s.tools, before, span.t0)) x = gather_state(s).x;
+  const std::vector<GraspAct> acts = act_graspers(s.holds, s.tools, before, span.t0, x, s.fixed);
   if (!acts.empty()) take_up_holds(s);
   for (const GraspAct& act : acts) note_grasp(s, span.t0, act);
 }

@@ -82,6 +82,7 @@ void refresh_surface(Simulation& s) {
 }
 
 FrameRow report_forces(Simulation& s, const FrameSpan& span) {
+  const PhaseScope scope(s.timers, phase_watch);
   FrameRow row{.frame = s.frame + 1,
                .step = s.state.step,
                .n_substeps = span.n_substeps,
@@ -97,6 +98,7 @@ FrameRow report_forces(Simulation& s, const FrameSpan& span) {
 }
 
 void report_state(Simulation& s, FrameRow& row) {
+  const PhaseScope scope(s.timers, phase_watch);
   row.stable_step = s.watch.stable_step;
   row.least_J = s.watch.least_J;
   if (s.sleep) row.asleep = s.sleep->share;

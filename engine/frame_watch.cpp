@@ -43,12 +43,6 @@ void take_least(Simulation& s, Watch w) {
   s.watch = w;
 }
 
-// Whether those of a frame's end are those of the next one's first step: sleeping elements have
-// none, histories keep their time, and averages at nodes are exchanged in every step.
-bool keeps_forces(const Simulation& s) {
-  return !s.sleep && s.model.averages.n_fields == 0 && !is_viscous(s.materials);
-}
-
 void find_watched_force(Simulation& s, ElementWatch& elements) {
   const ForceScope scope(s);
   for (const std::int32_t e : s.look.decisive)
@@ -99,6 +93,10 @@ bool watch_motion(Simulation& s) {
 }
 
 }  // namespace
+
+bool keeps_forces(const Simulation& s) {
+  return !s.sleep && s.model.averages.n_fields == 0 && !is_viscous(s.materials);
+}
 
 double largest_speed(const Simulation& s) {
   double most = 0;

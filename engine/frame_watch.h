@@ -21,6 +21,9 @@ inline constexpr double unseen_strain = 2e-3;
 // the present displacement. Elements are looked at while the forces of the next step are computed.
 // Collective.
 void watch_state(Simulation& s);
+// Whether forces of a frame's end are those of the next one's first step: sleeping elements have
+// none, histories keep their time, and averages at nodes are exchanged in every step.
+bool keeps_forces(const Simulation& s);
 // Of all nodes of all ranks. Collective. [m/s]
 double largest_speed(const Simulation& s);
 // Sets s.watch to whether all is finite now and which element is the most compressed, and keeps no

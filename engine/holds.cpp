@@ -79,10 +79,14 @@ int release(Holds& holds, std::int32_t tool) {
 }
 
 bool will_act(std::span<const Tool> tools, double t0, double t1) {
-  for (const Tool& tool : tools)
-    for (const InstrumentKey& key : tool.keys)
-      if (acts_within(key, t0, t1)) return true;
-  return false;
+  return !acts_in_turn(tools, t0, t1).empty();
+}
+
+bool will_grasp(std::span<const Tool> tools, double t0, double t1) {
+  return std::ranges::any_of(acts_in_turn(tools, t0, t1), [&](const auto& act) {
+    const auto& [key, number] = act;
+    return key.action == GraspAction::close && tools[number].kind == InstrumentKind::grasper;
+  });
 }
 
 double grip_travel(const Tool& tool, double t0, double t1) {

@@ -49,11 +49,13 @@ struct GraspAct {
                        // infinity if there is none [m]
 };
 // Closes and opens graspers and scissors whose key time lies in (t0, t1]; x (n_nodes) all present
-// positions. Nodes within the grip radius of the tip that nothing else holds are taken, in the
-// components that no support holds. Returns what graspers did, one after the other.
+// positions, unless no grasper closes (will_grasp). Nodes within the grip radius of the tip that
+// nothing else holds are taken, in the components that no support holds. Returns what graspers did,
+// one after the other.
 std::vector<GraspAct> act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,
                                    std::span<const Vec3> x, std::span<const std::uint8_t> fixed);
 bool will_act(std::span<const Tool> tools, double t0, double t1);
+bool will_grasp(std::span<const Tool> tools, double t0, double t1);
 // The longest way in [t0, t1] of anything within the grip radius of the tip. [m]
 double grip_travel(const Tool& tool, double t0, double t1);
 // The longest way in [t0, t1] of what moves as it is told: of supports, and of all within the grip

@@ -107,6 +107,8 @@ Ending run_frame_or_end(Simulation& s, Outputs& outputs) {
                 }),
                 ending);
     return ending;
+  } catch (const InputError& trouble) {  // of a mesh that the run has made
+    return {.code = ExitCode::simulation, .sentence = trouble.what()};
   } catch (const SharedMachineError& failure) {
     return {.code = ExitCode::machine,
             .sentence = failure.what() + std::string("; the run ends after frame ") +

@@ -107,7 +107,7 @@ struct Simulation : RankBody {
   double whole_mass = 0;                 // of the uncut body [kg]
   std::vector<FixedMask> fixed;          // (n_nodes)
   std::vector<std::int32_t> node_owner;  // (n_nodes)
-  double chosen_imbalance = 1;           // see imbalance(), when they were chosen
+  double chosen_imbalance = 0;           // imbalance() when they were chosen; 0: not noted yet
   Surface surface;
   // Pairs of partner nodes, over all cuts, that have not come into two pieces.
   std::vector<std::int32_t> duplicate_parent, duplicate_node;
@@ -136,8 +136,8 @@ struct Simulation : RankBody {
   std::optional<Sleep> sleep;                // only if the scene asks for it
   double step_factor = 0.85;                 // of the scene: step_factor_of
   double step_scale = 1;                     // halved by each roll-back, then rises slowly
-  // The stable step falls at once and rises slowly (step_rise in frame.cpp): that of the tissue, and
-  // what contact leaves, whether small elements take local steps or not. [s]
+  // The stable step falls at once and rises slowly (step_rise in frame.cpp): that of the tissue,
+  // and what contact leaves, whether small elements take local steps or not. [s]
   double held_step = std::numeric_limits<double>::infinity(), held_by_contact = held_step;
   Watch watch;  // of the last frame, over all ranks
   ElementLook look;

@@ -239,6 +239,7 @@ void show_asleep(Simulation& s) {
 }
 
 void fall_asleep(Simulation& s, std::span<const ToolRow> tools) {
+  const PhaseScope scope(s.timers, phase_watch);
   Sleep& sleep = *s.sleep;
   const std::vector<double> actions = actions_on(s, tools);
   note_actions(actions, static_cast<std::size_t>(frames_to_sleep(s)), sleep.range);

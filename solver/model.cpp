@@ -12,6 +12,7 @@
 #include "solver/material_setup.h"
 #include "solver/model_lists.h"
 #include "solver/node_layout.h"
+#include "solver/prefetch.h"
 #include "solver/sum_order.h"
 #include "solver/volume_averages.h"
 
@@ -155,6 +156,7 @@ void fit_scratch(const Model& model, Scratch& scratch) {
   scratch.has_force = false;
   if (scratch.keeps_works) keep_works(model, scratch);
   scratch.viscous.resize(model.blocks.size());
+  scratch.is_beyond_cache = is_beyond_cache(model, scratch);
 }
 
 }  // namespace trocar

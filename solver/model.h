@@ -263,6 +263,7 @@ struct Scratch {
   // Of held nodes in clusters, and room for sums of clusters; used by integrate.
   std::vector<GivenAcceleration> given;
   std::vector<double> cluster_sums;
+  bool is_beyond_cache = false;      // see prefetch.h
   std::vector<double> uncoupled;     // force, while predict couples clusters
   std::vector<ViscousStep> viscous;  // (block lists) of the step that is being computed
   bool is_elastic = false;           // leaves relaxation out and the history alone

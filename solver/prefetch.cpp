@@ -40,13 +40,14 @@ NodeRange RunPrefetch::Share::take(std::int64_t n_blocks) {
   return {next - n, next};
 }
 
+bool is_beyond_cache(const Model& model, const Scratch& scratch) {
+  const std::size_t of_state = 2 * 3 * sizeof(double) * static_cast<std::size_t>(model.n_local);
+  return memory_bytes(model, scratch) + of_state > cached_bytes;
+}
+
 RunPrefetch::RunPrefetch(const Model& model, std::int64_t run, const State& state,
                          const Scratch& scratch)
-    : model_(model),
-      state_(state),
-      scratch_(scratch),
-      run_(run),
-      is_on_(memory_bytes(model, scratch) + 2 * sizeof(double) * state.u.size() > cached_bytes) {}
+    : model_(model), state_(state), scratch_(scratch), run_(run), is_on_(scratch.is_beyond_cache) {}
 
 void RunPrefetch::start(std::int32_t stride) {
   if (!is_on_) return;

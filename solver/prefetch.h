@@ -8,6 +8,9 @@
 
 namespace trocar {
 
+// Whether no cache holds what a step reads and writes.
+bool is_beyond_cache(const Model& model, const Scratch& scratch);
+
 class RunPrefetch {
  public:
   RunPrefetch(const Model& model, std::int64_t run, const State& state, const Scratch& scratch);

@@ -82,7 +82,7 @@ const char* simd_name();
 // Picks it: "auto" or one of the names. Throws InputError if the machine lacks it. Call before the
 // first step.
 void select_simd(const std::string& name);
-// Bytes that model and scratch hold, for predictions.
+// Bytes that model and scratch hold.
 std::size_t memory_bytes(const Model& model, const Scratch& scratch);
 
 }  // namespace trocar

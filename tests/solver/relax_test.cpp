@@ -112,8 +112,8 @@ TEST(Relax, needs_about_as_many_iterations_as_the_ratio_of_frequencies_says) {
   EXPECT_LT(static_cast<double>(result.iterations), 4 * ideal);
 }
 
-// Their stiffness is part of each element's own bound already: a fourth of the step is lost where it
-// counts twice.
+// Their stiffness is part of each element's own bound already: a fourth of the step is lost where
+// it counts twice.
 TEST(Relax, takes_stiff_fibres_into_account_once) {
   const auto iterations = [](double k1) {
     Material skin = material_of(MaterialModel::holzapfel_gasser_ogden, 2e5, 2e6);
