@@ -236,7 +236,8 @@ TakenUp restore_energies(Simulation& s, const Before& before, std::span<const st
   const double surplus = restore_strain_energy(
       before.adjustable, before.strain, tolerance, s.mesh,
       *make_strained_patch(s, before.edit, before.edited.after, nodes, global), global);
-  restore_motion(nodes, before.adjustable, s.mass, before.motion, global, record);
+  restore_motion({nodes, before.adjustable, s.mass, s.fixed, s.holds.holds}, before.motion, global,
+                 record);
   const double energy =
       before.is_energy_local ? energy_around(s, true, nodes, global) - before.energy : 0;
   TakenUp around = take_up_around(s, before.adjustable, surplus, tolerance, global, record);

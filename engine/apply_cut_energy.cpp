@@ -168,7 +168,7 @@ TakenUp take_up_around(Simulation& s, std::span<const std::int32_t> nodes, doubl
     const Motion motion = motion_about_centre(taken.nodes, s.mass, global);
     const double wanted = strain_energy(*patch) - taken.surplus;
     taken.surplus = restore_strain_energy(movable, wanted, tolerance, s.mesh, *patch, global);
-    restore_motion(taken.nodes, movable, s.mass, motion, global, record);
+    restore_motion({taken.nodes, movable, s.mass, s.fixed, s.holds.holds}, motion, global, record);
     taken.energy += energy() - before;
   }
   return taken;

@@ -29,10 +29,18 @@ Motion motion_about_centre(std::span<const std::int32_t> nodes, std::span<const 
 void add_kinetic_energy(std::span<const std::int32_t> nodes, std::span<const double> mass,
                         double energy, GlobalState& state, CutRecord& record);
 
-// Momentum and angular momentum of `nodes` become what they were, and so does the kinetic energy,
-// as far as the motion of `adjustable` allows it.
-void restore_motion(std::span<const std::int32_t> nodes, std::span<const std::int32_t> adjustable,
-                    std::span<const double> mass, const Motion& before, GlobalState& state,
+// Nodes around an edit, ascending, and what moves them: a step gives supported and held ones the
+// velocity of what holds them.
+struct EditedNodes {
+  std::span<const std::int32_t> node, adjustable;
+  std::span<const double> mass;      // (n_nodes) [kg]
+  std::span<const FixedMask> fixed;  // (n_nodes)
+  std::span<const Hold> holds;
+};
+
+// Momentum and angular momentum of all become what they were, by those that are free to move, and
+// so does the kinetic energy, as far as the motion of `adjustable` allows it.
+void restore_motion(const EditedNodes& nodes, const Motion& before, GlobalState& state,
                     CutRecord& record);
 
 }  // namespace trocar

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numeric>
 #include <random>
 
@@ -12,6 +13,8 @@ namespace {
 struct Swarm {
   std::vector<std::int32_t> nodes = std::vector<std::int32_t>(20);
   std::vector<double> mass;
+  std::vector<FixedMask> fixed = std::vector<FixedMask>(nodes.size(), 0);
+  std::vector<Hold> holds;
   GlobalState state;
   Swarm() {
     std::iota(nodes.begin(), nodes.end(), 0);
@@ -25,6 +28,7 @@ struct Swarm {
       state.v.insert(state.v.end(), v.begin(), v.end());
     }
   }
+  EditedNodes edited() const { return {nodes, nodes, mass, fixed, holds}; }
   Motion motion(const Vec3& about) const { return motion_of(nodes, mass, state, about); }
   // Some nodes lose or win mass and speed, as those that a cut copies do.
   void disturb() {
@@ -44,13 +48,36 @@ TEST(ApplyCutMomentum, restored_motion_has_the_momenta_and_the_energy_of_before)
   ASSERT_GT((disturbed.momentum - before.momentum).norm(), 1e-3 * before.scale);
   ASSERT_GT((disturbed.angular - before.angular).norm(), 1e-3 * before.angular.norm());
   CutRecord record;
-  restore_motion(swarm.nodes, swarm.nodes, swarm.mass, before, swarm.state, record);
+  restore_motion(swarm.edited(), before, swarm.state, record);
   const Motion after = swarm.motion(before.centre);
   EXPECT_LT((after.momentum - before.momentum).norm(), 1e-14 * before.scale);
   EXPECT_LT((after.angular - before.angular).norm(), 1e-13 * before.angular.norm());
   EXPECT_NEAR(after.kinetic, before.kinetic, 1e-12 * before.kinetic);
   EXPECT_LT(record.momentum_change, 1e-14);
   EXPECT_NEAR(record.kinetic_energy_change, 0, 1e-12 * before.kinetic);
+}
+
+// What supports and graspers hold would drop an increment in the next step.
+TEST(ApplyCutMomentum, is_restored_by_nodes_that_are_free_to_move) {
+  Swarm swarm;
+  for (std::size_t i = 4; i < 16; ++i) swarm.fixed[i] = i < 10 ? all_components : 4;
+  swarm.holds.push_back({.node = 17});
+  const Motion before = motion_about_centre(swarm.nodes, swarm.mass, swarm.state);
+  swarm.disturb();
+  const std::vector<double> v = swarm.state.v;
+  CutRecord record;
+  EditedNodes nodes = swarm.edited();
+  const std::array<std::int32_t, 4> free{0, 1, 2, 3};
+  nodes.adjustable = free;
+  restore_motion(nodes, before, swarm.state, record);
+  const Motion after = swarm.motion(before.centre);
+  EXPECT_LT((after.momentum - before.momentum).norm(), 1e-14 * before.scale);
+  EXPECT_LT((after.angular - before.angular).norm(), 1e-13 * before.angular.norm());
+  for (std::size_t i = 0; i < swarm.nodes.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool is_held = i == 17 || (swarm.fixed[i] >> k & 1) != 0;
+      EXPECT_EQ(swarm.state.v[3 * i + k] == v[3 * i + k], is_held) << i << " " << k;
+    }
 }
 
 TEST(ApplyCutMomentum, added_energy_leaves_momenta_and_is_bounded) {
