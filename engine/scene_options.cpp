@@ -307,7 +307,8 @@ Options<SceneInstrument> instrument_options() {
   i.text("mesh", &SceneInstrument::mesh,
          "Surface (.stl, .obj) of the tip instead of the built-in shape; its origin is the tip, "
          "its +z the shaft, which stays (`length`). Tissue feels its convex hull, of a flat one as "
-         "of a plate of 0.05 mm.");
+         "of a plate of 0.05 mm; of a scalpel, whose edge stays on the z axis and looks along +x, "
+         "its flat sides; of open scissors the built-in blades.");
   i.number("scale", &SceneInstrument::scale, dim::length, positive,
            "Length of one unit of that file.");
   i.list("path", &SceneInstrument::path, key,

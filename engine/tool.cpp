@@ -19,8 +19,8 @@ constexpr double caught_share = 0.5;
 
 constexpr double grasper_jaw = 0.022;  // [m]
 
-ConvexPiece shaft_piece(double from, double to, double radius) {
-  return {.points = {Vec3(0, 0, from), Vec3(0, 0, to)}, .radius = radius};
+ConvexPiece shaft_piece(double from, double to, double radius, double x = 0) {
+  return {.points = {Vec3(x, 0, from), Vec3(x, 0, to)}, .radius = radius};
 }
 
 void add_part(Tool& tool, TriangleMesh surface, int jaw = 0) {
@@ -47,10 +47,10 @@ void make_scalpel(Tool& tool, const SceneInstrument& s, double edge_spacing) {
   ConvexPiece blade{.least_flatness = 0.9, .deepest = 0.3e-3, .has_edge = true};
   for (const Vec3& corner : outline)
     for (const double y : {-half, half}) blade.points.push_back(corner + Vec3(0, y, 0));
-  tool.shape.pieces = {shaft_piece(1.3 * length, s.length, s.radius), blade};
+  const double x = -0.5 * width;
+  tool.shape.pieces = {shaft_piece(1.3 * length, s.length, s.radius, x), blade};
   add_part(tool, make_plate_surface({outline[0], outline[3], outline[2], outline[1]}, Vec3::UnitY(),
                                     shown));
-  const double x = -0.5 * width;
   add_part(tool, make_cone_surface(Vec3(x, 0, 0.95 * length), Vec3(x, 0, 1.5 * length), neck,
                                    s.radius, round_faces));
   add_part(tool, make_cone_surface(Vec3(x, 0, 1.5 * length), Vec3(x, 0, s.length), s.radius,
@@ -161,15 +161,29 @@ std::vector<Vec3> with_thickness(std::vector<Vec3> points) {
   return points;
 }
 
-// The user's surface replaces the working piece: its hull touches, its triangles show. It has no
-// jaws that open.
+// The user's surface replaces the working piece: its hull touches, a scalpel's as its blade does,
+// and its triangles show. It has no jaws that open: between those of scissors there is room for
+// tissue, so that the hull touches in place of the closed ones alone.
 void use_mesh(Tool& tool, const TriangleMesh& mesh) {
-  tool.shape.pieces.resize(first_working_piece);
-  tool.shape.pieces.push_back({.points = with_thickness(mesh.X), .radius = 0});
-  tool.open_end = no_piece;
-  tool.closed_begin = first_working_piece;
+  std::vector<ConvexPiece>& pieces = tool.shape.pieces;
+  ConvexPiece hull = pieces[first_working_piece];
+  hull.points = with_thickness(mesh.X);
+  hull.radius = 0;
+  if (tool.kind == InstrumentKind::scissors) {
+    hull.least_flatness = 0;
+    hull.deepest = std::numeric_limits<double>::infinity();
+    pieces.resize(tool.closed_begin);
+  } else {
+    pieces.resize(first_working_piece);
+    tool.open_end = no_piece;
+    tool.closed_begin = first_working_piece;
+  }
+  pieces.push_back(std::move(hull));
   tool.caught = std::numeric_limits<double>::infinity();
-  tool.parts = {{.surface = mesh, .jaw = 0}};
+  const auto& shaft = pieces[0];
+  tool.parts.clear();
+  add_part(tool, mesh);
+  add_part(tool, make_capsule_surface(shaft.points[0], shaft.points[1], shaft.radius, round_faces));
   tool.own_mesh = mesh;
 }
 

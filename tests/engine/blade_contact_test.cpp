@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "box_file.h"
 #include "engine/equilibrium.h"
 #include "engine_started.h"
 #include "mesh/connected_nodes.h"
@@ -19,7 +20,7 @@ struct OnBlade {
 };
 
 // A stiff block is parted 20 mm deep in its plane of symmetry, without resistance against the edge.
-OnBlade cut_in_the_middle(double friction) {
+OnBlade cut_in_the_middle(double friction, const std::string& of_blade = "") {
   const auto block = built(
       "[time]\nduration = 10\nframe_rate = 60\n[tissue.shape]\nkind = \"box\"\nelements = "
       "\"hex8\"\n"
@@ -28,8 +29,10 @@ OnBlade cut_in_the_middle(double friction) {
       "friction = " +
       std::to_string(friction) +
       "\n[[support]]\nregion = \"z-\"\n[[support]]\nregion = \"y-\"\n[[support]]\nregion = \"y+\"\n"
-      "[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.04\npath = [{ time = 0.1, position = "
-      "[-0.06, 0, 0.02] }, { time = 1.1, position = [0.06, 0, 0.02] }]\n");
+      "[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.04\n" +
+      of_blade +
+      "path = [{ time = 0.1, position = [-0.06, 0, 0.02] }, { time = 1.1, position = "
+      "[0.06, 0, 0.02] }]\n");
   constexpr int n_frames = 68;
   OnBlade force;
   for (int frame = 0; frame < n_frames; ++frame) {
@@ -55,6 +58,16 @@ TEST(ContactOfABlade, does_not_push_the_front_of_its_wound_aside) {
   std::printf("with friction: aside %.2g N in the mean, along %.2g N\n", rough.aside, rough.along);
   EXPECT_LT(std::abs(rough.aside), 1e-3);
   EXPECT_GE(rough.along, 0);
+}
+
+// As a hull that touches with its edge, too, it would plough through the block.
+TEST(ContactOfABlade, of_a_surface_of_the_users_cuts_as_the_built_in_one_does) {
+  const TestFolder folder;
+  write_box(folder.file("blade.obj"), Vec3(-0.011, -0.00005, 0), Vec3(0, 0.00005, 0.04));
+  const OnBlade force = cut_in_the_middle(0, "mesh = \"" + folder.file("blade.obj") + "\"\n");
+  EXPECT_LT(std::abs(force.aside), 1e-3);
+  EXPECT_LT(force.most_aside, 0.02);
+  EXPECT_LT(std::abs(force.along), 1e-3);
 }
 
 // Its faces lie within 26 degrees of the flanks: these pressed on what the blade was about to cut,

@@ -50,6 +50,29 @@ TEST(Tool, the_shaft_begins_behind_blade_and_jaws_and_leads_away_from_them) {
   }
 }
 
+// What touches is in the picture, and open scissors have room between their blades.
+TEST(Tool, with_a_surface_of_the_users_keeps_its_shaft) {
+  for (const InstrumentKind kind : {InstrumentKind::probe, InstrumentKind::grasper,
+                                    InstrumentKind::scalpel, InstrumentKind::scissors}) {
+    const Tool built_in = make_tool(instrument_of(kind), {}, 1e-3);
+    const TriangleMesh mesh = make_box_surface(Vec3(-2e-3, -1e-3, 0), Vec3(0, 1e-3, 1e-2));
+    const Tool tool = make_tool(instrument_of(kind), mesh, 1e-3);
+    const ConvexPiece& shaft = tool.shape.pieces[0];
+    EXPECT_EQ(shaft.points, built_in.shape.pieces[0].points);
+    ASSERT_EQ(tool.parts.size(), 2U);
+    const Vec3 middle = 0.5 * (shaft.points[0] + shaft.points[1]);
+    double farthest = 0;
+    for (const Vec3& x : tool.parts[1].surface.X)
+      farthest = std::max(farthest, (x - middle).norm());
+    EXPECT_NEAR(farthest, 0.5 * (shaft.points[1] - shaft.points[0]).norm() + shaft.radius, 1e-9);
+    const bool is_open_apart = kind == InstrumentKind::scissors;
+    const std::size_t n_open = is_open_apart ? built_in.open_end : first_working_piece + 1;
+    EXPECT_EQ(std::min(tool.open_end, tool.shape.pieces.size()), n_open);
+    EXPECT_EQ(tool.shape.pieces.back().points.size(), mesh.X.size());
+    EXPECT_EQ(tool.shape.pieces.back().has_edge, kind == InstrumentKind::scalpel);
+  }
+}
+
 TEST(Tool, the_tip_of_a_probe_is_a_ball_that_touches_the_origin) {
   const SceneInstrument probe = instrument_of(InstrumentKind::probe);
   const Tool tool = make_tool(probe, {}, 1e-3);
