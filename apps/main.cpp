@@ -2,6 +2,7 @@
 // trouble into exit codes.
 #include <cstdio>
 #include <exception>
+#include <new>
 
 #include "apps/command_line.h"
 #include "base/communicator.h"
@@ -45,7 +46,13 @@ int main(int argc, char** argv) {
   } catch (const SharedMachineError& trouble) {
     code = ExitCode::machine;
     log_error(trouble.what());
-  } catch (const std::exception& trouble) {  // this rank alone may know of it
+  } catch (const std::bad_alloc&) {  // this rank alone may know of it, or of what else there is
+    std::fprintf(stderr,
+                 "trocar: error: rank %d is out of memory: take a coarser mesh, "
+                 "solver.precision = \"single\", or more hosts\n",
+                 rank);
+    abort_all_ranks(static_cast<int>(ExitCode::machine));
+  } catch (const std::exception& trouble) {
     std::fprintf(stderr, "trocar: error: %s\n", trouble.what());
     abort_all_ranks(static_cast<int>(ExitCode::machine));
   }

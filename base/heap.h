@@ -1,4 +1,4 @@
-// How the program's memory is kept, and how much it was.
+// How the program's memory is kept, how much it was and may become.
 #pragma once
 
 #include <cstdint>
@@ -12,5 +12,11 @@ void keep_freed_memory();
 
 // The most memory that the process has had at a time: its resident set, libraries and all.
 std::int64_t peak_memory_bytes();
+
+// What the machine can still give, and its control group (version 2) of this process; infinite
+// where neither is known. [bytes]
+double memory_of_host();
+// What limits of this process (ulimit) leave it; infinite without any. [bytes]
+double memory_of_process();
 
 }  // namespace trocar

@@ -9,6 +9,7 @@
 #include "base/on_root.h"
 #include "cutting/cut_hex.h"
 #include "engine/bytes.h"
+#include "engine/memory_need.h"
 #include "engine/mesh_fit.h"
 #include "engine/point_text.h"
 #include "mesh/connected_nodes.h"
@@ -169,8 +170,12 @@ void warn_of_size(const std::string& file, const std::string& key, std::span<con
 }
 
 Mesh load_tissue(const LoadedScene& loaded, Communicator& communicator) {
+  const Scene& scene = loaded.scene;
+  if (scene.tissue.shape) check_memory(size_of(*scene.tissue.shape), scene.solver, communicator);
   const auto bytes = read_on_root(communicator, [&] { return mesh_to_bytes(read_tissue(loaded)); });
-  return mesh_from_bytes(bytes);
+  Mesh mesh = mesh_from_bytes(bytes);
+  if (!scene.tissue.shape) check_memory(size_of(mesh), scene.solver, communicator);
+  return mesh;
 }
 
 }  // namespace trocar

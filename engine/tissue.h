@@ -11,7 +11,8 @@
 
 namespace trocar {
 
-// Collective; InputErrors of rank 0 are thrown on every rank. The mesh is validated and has all
+// Collective; InputErrors of rank 0 are thrown on every rank, and so is a SharedMachineError if
+// memory would not do. The mesh is validated and has all
 // node sets of [[region]].
 Mesh load_tissue(const LoadedScene& loaded, Communicator& communicator);
 
