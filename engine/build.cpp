@@ -13,8 +13,8 @@
 #include "base/on_root.h"
 #include "base/sort_unique.h"
 #include "cutting/cut_hex.h"
+#include "engine/archive.h"
 #include "engine/body_check.h"
-#include "engine/bytes.h"
 #include "engine/equilibrium.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
@@ -75,9 +75,9 @@ TriangleMesh load_tool_mesh(const LoadedScene& loaded, std::size_t k, Communicat
 
 std::uint32_t crc_of_body(const Simulation& s) {
   std::uint32_t crc = 0;
-  ByteWriter writer([&](std::span<const std::byte> bytes) { crc = crc32c(bytes, crc); });
-  put_mesh(writer, s.mesh);
-  writer.flush();
+  Saver save([&](std::span<const std::byte> bytes) { crc = crc32c(bytes, crc); });
+  put_mesh(save, s.mesh);
+  save.writer().flush();
   for (const Tool& tool : s.tools) {
     crc = crc32c(std::as_bytes(std::span(tool.own_mesh.X)), crc);
     crc = crc32c(std::as_bytes(std::span(tool.own_mesh.triangle)), crc);

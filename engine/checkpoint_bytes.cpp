@@ -15,8 +15,8 @@ constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', '
 constexpr std::uint32_t checkpoint_format = 31;
 
 static void visit(Saver& a, std::shared_ptr<const Mesh>& mesh) {
-  a.writer().put(std::uint64_t{n_bytes_of(*mesh)});
-  put_mesh(a.writer(), *mesh);
+  a(std::uint64_t{n_bytes_of(*mesh)});
+  put_mesh(a, *mesh);
 }
 static void visit(Loader& a, std::shared_ptr<const Mesh>& mesh) {
   std::vector<std::byte> bytes;
