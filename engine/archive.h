@@ -48,6 +48,10 @@ class Saver {
       for (T& value : values) put(value);
     }
   }
+  template <class T, std::size_t n>
+  requires(!is_plain<T>) void put(std::array<T, n>& values) {
+    for (T& value : values) put(value);
+  }
   template <class T>
   void put(T& value) {
     if constexpr (is_plain<T>)
@@ -87,6 +91,10 @@ class Loader {
       values.resize(reader_.get_count(least_bytes<T>()));
       for (T& value : values) get(value);
     }
+  }
+  template <class T, std::size_t n>
+  requires(!is_plain<T>) void get(std::array<T, n>& values) {
+    for (T& value : values) get(value);
   }
   template <class T>
   void get(T& value) {

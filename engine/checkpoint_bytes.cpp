@@ -6,6 +6,7 @@
 #include "engine/archive_cut.h"
 #include "engine/blob.h"
 #include "engine/checkpoint.h"
+#include "engine/part_search.h"
 #include "engine/swept_area.h"
 #include "mesh/quality.h"
 
@@ -78,10 +79,6 @@ template <class Archive>
 static void visit(Archive& a, RunTally& t) {
   a(t.equilibrium, t.n_roll_backs, t.n_deadlines_missed, t.searches, t.least_J, t.least_J_element,
     t.least_stable_step, t.largest_stable_step, t.events);
-}
-template <class Archive>
-static void visit(Archive& a, GrownElement& e) {
-  a(e.element, e.stiffening);
 }
 template <class Archive>
 static void visit(Archive& a, SearchMemory& m) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/sort_unique.h"
+#include "engine/gather_items.h"
 
 namespace trocar {
 
@@ -23,30 +24,29 @@ bool is_held(const Holds& holds, const Contact& contact) {
   });
 }
 
-// From which the next step's solution begins, of this step: 6 numbers a node.
-constexpr std::size_t per_impulse = 6;
+// From which the next step's solution begins, of this step.
+struct NodeImpulse {
+  std::int32_t node = -1;
+  ContactSet::TissueImpulse impulse;
+};
 
-std::vector<double> gather_impulses(const ContactSet& set, const Communicator& communicator) {
-  std::vector<double> mine;
-  for (const std::int32_t place : set.owned) {
-    const auto i = static_cast<std::size_t>(place);
-    const ContactSet::TissueImpulse& impulse = set.impulse[i];
-    if (impulse.step < 0) continue;
-    const Vec3& drag = impulse.drag;
-    mine.insert(mine.end(), {static_cast<double>(set.node[i]), static_cast<double>(impulse.step),
-                             impulse.push, drag.x(), drag.y(), drag.z()});
-  }
-  return communicator.all_gather(mine);
+template <class Archive>
+void visit(Archive& a, NodeImpulse& i) {
+  a(i.node, i.impulse.step, i.impulse.push, i.impulse.drag);
 }
 
-void take_impulses(std::span<const double> impulses, ContactSet& set) {
-  for (std::size_t k = 0; k < impulses.size(); k += per_impulse) {
-    const std::int32_t at = find_in(set.node, static_cast<std::int32_t>(impulses[k]));
-    if (at < 0) continue;
-    set.impulse[at] = {.step = static_cast<std::int64_t>(impulses[k + 1]),
-                       .push = impulses[k + 2],
-                       .drag = Vec3::Map(&impulses[k + 3])};
-  }
+std::vector<NodeImpulse> gather_impulses(const ContactSet& set, const Communicator& communicator) {
+  std::vector<NodeImpulse> mine;
+  for (const std::int32_t place : set.owned)
+    if (const auto& impulse = set.impulse[place]; impulse.step >= 0)
+      mine.push_back({set.node[place], impulse});
+  return all_gather_items(communicator, mine);
+}
+
+void take_impulses(std::span<const NodeImpulse> impulses, ContactSet& set) {
+  for (const NodeImpulse& of_node : impulses)
+    if (const std::int32_t at = find_in(set.node, of_node.node); at >= 0)
+      set.impulse[at] = of_node.impulse;
 }
 
 // M of solver/mass_scaling.h against forces, for ContactInertia: of a cluster with D = m + d the
@@ -126,7 +126,7 @@ void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const 
 void renew_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds,
                           const Communicator& communicator) {
   const std::vector<ContactSet::Item> before = std::move(stage.set.items);
-  const std::vector<double> impulses = gather_impulses(stage.set, communicator);
+  const std::vector<NodeImpulse> impulses = gather_impulses(stage.set, communicator);
   prepare_frame_contacts(stage, body, holds);
   // Ranks that had no nodes before know nothing of what tools have felt: they don't report it.
   for (std::size_t k = 0; k < std::min(before.size(), stage.set.items.size()); ++k) {

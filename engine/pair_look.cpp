@@ -10,6 +10,7 @@
 #include "collision/contact_tissue.h"
 #include "engine/energy_ledger.h"
 #include "engine/event_log.h"
+#include "engine/gather_items.h"
 #include "engine/point_text.h"
 
 namespace trocar {
@@ -97,21 +98,20 @@ struct SunkNode {
   std::int32_t node = -1;
 };
 
+template <class Archive>
+void visit(Archive& a, SunkNode& n) {
+  a(n.depth, n.node);
+}
+
 // Nodes that contact has found in other tissue and that lie there deeper than contact_reach now, of
 // all ranks, deepest first.
 std::vector<SunkNode> find_sunk(const Simulation& s) {
   const ContactSet& set = s.contact->set;
   const std::vector<double> depth = depths_in_tissue(set, s.view.x);
-  std::vector<double> mine;
-  for (const std::int32_t place : set.owned) {
-    const auto i = static_cast<std::size_t>(place);
-    if (depth[i] > s.contact_reach)
-      mine.insert(mine.end(), {depth[i], static_cast<double>(set.node[i])});
-  }
-  const std::vector<double> all = s.communicator->all_gather(mine);
-  std::vector<SunkNode> sunk;
-  for (std::size_t k = 0; k < all.size(); k += 2)
-    sunk.push_back({.depth = all[k], .node = static_cast<std::int32_t>(all[k + 1])});
+  std::vector<SunkNode> mine;
+  for (const std::int32_t place : set.owned)
+    if (depth[place] > s.contact_reach) mine.push_back({depth[place], set.node[place]});
+  std::vector<SunkNode> sunk = all_gather_items(*s.communicator, mine);
   std::ranges::sort(sunk, {}, [](const SunkNode& n) { return std::pair(-n.depth, n.node); });
   return sunk;
 }
