@@ -20,6 +20,7 @@
 #include "engine/frame_watch.h"
 #include "engine/instrument_check.h"
 #include "engine/owners.h"
+#include "engine/pair_look.h"
 #include "engine/tissue.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/mesh_file.h"
@@ -294,6 +295,7 @@ void follow_model(Simulation& s) {
   // their centre by 6 r / h, with the least altitude h.
   s.look = {.reach = unseen_strain / 7 * s.communicator->all_min(s.least_altitude.value())};
   if (!s.contact) return;
+  join_masses(*s.contact, contact_body(s));
   if (s.mesh.dimension() == 3)
     s.contact->detector.set_closed_surface(s.surface);
   else

@@ -49,33 +49,43 @@ void take_impulses(std::span<const NodeImpulse> impulses, ContactSet& set) {
       set.impulse[at] = of_node.impulse;
 }
 
-// M of solver/mass_scaling.h against forces, for ContactInertia: of a cluster with D = m + d the
-// share of a node is d / D, and its yield 1 / (sum_free d m/D + sum_held d).
-struct JoinedMasses {
-  std::vector<double> mass, share;
-  std::vector<std::int32_t> cluster;
-  std::vector<Vec3> yield;
-};
-
-JoinedMasses join_masses(const ContactBody& body, std::span<const FixedMask> held) {
+// (n_clusters) 1 / (sum_free d m/D + sum_held d)
+std::vector<Vec3> find_yields(const ContactBody& body, std::span<const FixedMask> held) {
   const MassScaling& scaling = *body.scaling;
-  JoinedMasses joined{.mass = {body.mass.begin(), body.mass.end()},
-                      .share = std::vector<double>(body.mass.size()),
-                      .cluster = std::vector<std::int32_t>(body.mass.size(), -1),
-                      .yield = {}};
+  std::vector<Vec3> yields;
   for (std::int32_t c = 0; c < scaling.n_clusters(); ++c) {
     Vec3 whole = Vec3::Zero();
     for (std::int32_t k = scaling.offset[c]; k < scaling.offset[c + 1]; ++k) {
       const std::int32_t i = scaling.node[k];
       const double m = body.mass[i], d = scaling.added[k];
-      joined.mass[i] = m + d;
-      joined.share[i] = d / (m + d);
-      joined.cluster[i] = c;
       for (int j = 0; j < 3; ++j) whole[j] += (held[i] >> j & 1) != 0 ? d : d * m / (m + d);
     }
-    joined.yield.push_back(whole.cwiseInverse());
+    yields.push_back(whole.cwiseInverse());
   }
-  return joined;
+  return yields;
+}
+
+// Once a frame, if there are contacts.
+void find_held(ContactStage& stage, const ContactBody& body, const Holds& holds) {
+  stage.held.assign(body.fixed.begin(), body.fixed.end());
+  for (const Hold& hold : holds.holds) stage.held[hold.node] = all_components;
+  if (body.scaling != nullptr) stage.yield = find_yields(body, stage.held);
+}
+
+void prepare_set(ContactStage& stage, const ContactBody& body, const Holds& holds) {
+  stage.set = {};
+  if (stage.contacts.empty() && stage.tissue.empty()) return;
+  if (stage.held.empty()) find_held(stage, body, holds);
+  const JoinedMasses& joined = stage.joined;
+  stage.set = prepare_contacts({stage.contacts, stage.tissue}, body.node_owner, body.part,
+                               {.mass = body.scaling != nullptr ? joined.mass : body.mass,
+                                .held = stage.held,
+                                .cluster = joined.cluster,
+                                .share = joined.share,
+                                .yield = stage.yield});
+  stage.u_next.resize(3 * body.part.node_global.size());
+  stage.exchange.emplace(stage.set.halo, 6);
+  stage.positions.resize(6 * stage.set.node.size());
 }
 
 }  // namespace
@@ -105,29 +115,33 @@ void detect_tissue(ContactStage& stage, const SurfaceView& view, double time, do
   stage.detector.detect_tissue(stage.ahead, reach, stage.tissue);
 }
 
+void join_masses(ContactStage& stage, const ContactBody& body) {
+  if (body.scaling == nullptr) return;
+  const MassScaling& scaling = *body.scaling;
+  JoinedMasses& joined = stage.joined;
+  joined.mass.assign(body.mass.begin(), body.mass.end());
+  joined.share.assign(body.mass.size(), 0.0);
+  joined.cluster.assign(body.mass.size(), -1);
+  for (std::int32_t c = 0; c < scaling.n_clusters(); ++c)
+    for (std::int32_t k = scaling.offset[c]; k < scaling.offset[c + 1]; ++k) {
+      const std::int32_t i = scaling.node[k];
+      const double m = body.mass[i], d = scaling.added[k];
+      joined.mass[i] = m + d;
+      joined.share[i] = d / (m + d);
+      joined.cluster[i] = c;
+    }
+}
+
 void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds) {
-  stage.set = {};
-  if (stage.contacts.empty() && stage.tissue.empty()) return;
-  std::vector<FixedMask> held(body.fixed.begin(), body.fixed.end());
-  for (const Hold& hold : holds.holds) held[hold.node] = all_components;
-  JoinedMasses joined;
-  if (body.scaling != nullptr) joined = join_masses(body, held);
-  stage.set = prepare_contacts({stage.contacts, stage.tissue}, body.node_owner, body.part,
-                               {.mass = body.scaling != nullptr ? joined.mass : body.mass,
-                                .held = held,
-                                .cluster = joined.cluster,
-                                .share = joined.share,
-                                .yield = joined.yield});
-  stage.u_next.resize(3 * body.part.node_global.size());
-  stage.exchange.emplace(stage.set.halo, 6);
-  stage.positions.resize(6 * stage.set.node.size());
+  stage.held.clear();
+  prepare_set(stage, body, holds);
 }
 
 void renew_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds,
                           const Communicator& communicator) {
   const std::vector<ContactSet::Item> before = std::move(stage.set.items);
   const std::vector<NodeImpulse> impulses = gather_impulses(stage.set, communicator);
-  prepare_frame_contacts(stage, body, holds);
+  prepare_set(stage, body, holds);
   // Ranks that had no nodes before know nothing of what tools have felt: they don't report it.
   for (std::size_t k = 0; k < std::min(before.size(), stage.set.items.size()); ++k) {
     stage.set.items[k].reaction_sum = before[k].reaction_sum;

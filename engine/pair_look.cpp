@@ -91,6 +91,11 @@ double largest_difference(const SurfaceView& view) {
   return speed.size().norm();
 }
 
+void swap_views(Simulation& s) {
+  std::swap(s.view.x, s.contact->look.view_x);
+  std::swap(s.view.v, s.contact->look.view_v);
+}
+
 constexpr const char* sunk_in = "tissue has sunk into other tissue";
 
 struct SunkNode {
@@ -153,7 +158,9 @@ bool is_pair_look_due(Simulation& s, const FrameSpan& span, std::int64_t k) {
 void look_for_pairs(Simulation& s, const FrameSpan& span, std::int64_t k) {
   ContactStage& contact = *s.contact;
   const std::int64_t next_check = contact.look.next_check;
-  SurfaceView view = s.view;  // that of the frame's beginning is needed if it is repeated
+  SurfaceView& view = s.view;
+  contact.look.view_x.resize(view.x.size(), Vec3::Zero());
+  swap_views(s);  // that of the frame's beginning is needed if it is repeated
   gather_surface(view, s.mesh.X, s.state.u, *s.communicator);
   gather_velocities(view, s.state.v, *s.communicator);
   contact.detector.refit(view.x);
@@ -166,6 +173,7 @@ void look_for_pairs(Simulation& s, const FrameSpan& span, std::int64_t k) {
   if (s.energy) begin_contact_work(s);
   note_pair_look(s, span, k);
   contact.look.next_check = next_check;
+  swap_views(s);
 }
 
 void watch_sunk_tissue(Simulation& s, double time) {
