@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,14 @@ void sort_unique_by(std::vector<T>& values, Key key) {
   std::ranges::stable_sort(values, {}, key);
   const auto same = std::ranges::unique(values, {}, key);
   values.erase(same.begin(), same.end());
+}
+
+// All that are in one or both; ascending, as they are.
+inline std::vector<std::int32_t> united(std::span<const std::int32_t> a,
+                                        std::span<const std::int32_t> b) {
+  std::vector<std::int32_t> all;
+  std::ranges::set_union(a, b, std::back_inserter(all));
+  return all;
 }
 
 // Numbers of nodes or elements around one place mostly lie close together: then by a bit for each

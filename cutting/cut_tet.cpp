@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "base/check.h"
-#include "base/error.h"
 #include "cutting/cut_chips.h"
 #include "cutting/cut_edit.h"
 #include "cutting/cut_follow.h"
@@ -88,8 +87,7 @@ static void check_arguments(const Mesh& mesh, std::span<const Vec3> x,
   CHECK_OP(constraints.is_held.size(), ==, mesh.X.size());
   CHECK_OP(sweep.before.size(), ==, sweep.after.size());
   CHECK_OP(sweep.before.size(), >=, 2U);
-  if (mesh.dimension() == 2)
-    throw InputError("a blade's band cuts tetrahedra and hexahedra, and this mesh is plane");
+  CHECK_OP(mesh.dimension(), ==, 3);
 }
 
 static std::vector<Vec3> moved_positions(const TetCut& cut, const CutTetOptions& options,

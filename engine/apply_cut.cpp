@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
 
 #include "base/sort_unique.h"
@@ -32,12 +31,6 @@ double mass_of(std::span<const std::int32_t> nodes, std::span<const double> mass
   ExactSum sum;
   for (const std::int32_t i : nodes) sum.add(mass[i]);
   return sum.value();
-}
-
-std::vector<std::int32_t> united(std::span<const std::int32_t> a, std::span<const std::int32_t> b) {
-  std::vector<std::int32_t> all;
-  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
-  return all;
 }
 
 // Elements that an edit touches, before and after it: a hexahedron may have become tetrahedra.
@@ -268,30 +261,6 @@ void add_to_record(const Simulation& s, const Before& before, std::span<const st
 }
 
 }  // namespace
-
-// scatter_state where the first `n_kept` owned nodes kept their numbers, and all but `nodes` of
-// these what they are. Collective among neighbours.
-static void scatter_edited(Simulation& s, std::size_t n_kept, std::span<const std::int32_t> nodes,
-                           const GlobalState& global) {
-  s.scratch.has_force = false;  // on ranks that have nothing of the edit, too: all exchange alike
-  State& state = s.state;
-  state.u.resize(3 * s.part.node_global.size());
-  state.v.resize(3 * s.part.node_global.size());
-  const auto n_owned = static_cast<std::size_t>(s.part.n_owned);
-  const auto take = [&](std::size_t local) {
-    const auto from = 3 * static_cast<std::size_t>(s.part.node_global[local]);
-    std::copy_n(&global.u[from], 3, &state.u[3 * local]);
-    std::copy_n(&global.v[from], 3, &state.v[3 * local]);
-  };
-  for (const std::int32_t i : nodes)
-    if (const std::int32_t local = s.part.owned(i); local >= 0)
-      take(static_cast<std::size_t>(local));
-  for (std::size_t local = n_kept; local < n_owned; ++local) take(local);
-  start_exchange(s.neighbours, state);
-  finish_exchange(s.neighbours, state);
-  const auto n_fields = static_cast<std::size_t>(s.model.averages.n_fields);
-  state.theta.assign(s.part.node_global.size() * n_fields, 0.0);
-}
 
 void apply_cut(Simulation& s, const MeshEdit& edit, GlobalState& global, CutRecord& record) {
   if (s.corners.first.empty()) s.corners = node_corners(s.mesh);

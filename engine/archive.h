@@ -18,6 +18,12 @@ inline constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 template <class T, std::size_t n>
 inline constexpr bool is_plain<std::array<T, n>> = is_plain<T>;
 
+// A vector of them goes as it lies in memory: no byte between members.
+template <class T>
+inline constexpr bool is_dense = is_plain<T> || std::is_same_v<T, Vec3> ||
+                                 (std::is_trivially_copyable_v<T> &&
+                                  std::has_unique_object_representations_v<T>);
+
 class Saver {
  public:
   Saver() = default;
@@ -35,12 +41,16 @@ class Saver {
   void put(Vec3& v) { (*this)(v[0], v[1], v[2]); }
   template <class T>
   void put(std::vector<T>& values) {
-    if constexpr (is_plain<T>) {
+    if constexpr (is_dense<T>) {
       writer_.put_vector(values);
     } else {
       writer_.put(static_cast<std::uint64_t>(values.size()));
       for (T& value : values) put(value);
     }
+  }
+  template <class T, std::size_t n>
+  requires(!is_plain<T>) void put(std::array<T, n>& values) {
+    for (T& value : values) put(value);
   }
   template <class T>
   void put(T& value) {
@@ -51,6 +61,14 @@ class Saver {
   }
   ByteWriter writer_;
 };
+
+// Bytes of a value whose lists are empty: no other one has less.
+template <class T>
+std::size_t least_bytes() {
+  Saver save;
+  save(T{});
+  return save.take().size();
+}
 
 // Throws InputError where the bytes end early.
 class Loader {
@@ -67,12 +85,16 @@ class Loader {
   void get(Vec3& v) { (*this)(v[0], v[1], v[2]); }
   template <class T>
   void get(std::vector<T>& values) {
-    if constexpr (is_plain<T>) {
+    if constexpr (is_dense<T>) {
       values = reader_.get_vector<T>();
     } else {
-      values.resize(reader_.get_count(1));
+      values.resize(reader_.get_count(least_bytes<T>()));
       for (T& value : values) get(value);
     }
+  }
+  template <class T, std::size_t n>
+  requires(!is_plain<T>) void get(std::array<T, n>& values) {
+    for (T& value : values) get(value);
   }
   template <class T>
   void get(T& value) {

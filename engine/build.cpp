@@ -13,13 +13,14 @@
 #include "base/on_root.h"
 #include "base/sort_unique.h"
 #include "cutting/cut_hex.h"
+#include "engine/archive.h"
 #include "engine/body_check.h"
-#include "engine/bytes.h"
 #include "engine/equilibrium.h"
 #include "engine/frame_report.h"
 #include "engine/frame_watch.h"
 #include "engine/instrument_check.h"
 #include "engine/owners.h"
+#include "engine/pair_look.h"
 #include "engine/tissue.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/mesh_file.h"
@@ -75,9 +76,9 @@ TriangleMesh load_tool_mesh(const LoadedScene& loaded, std::size_t k, Communicat
 
 std::uint32_t crc_of_body(const Simulation& s) {
   std::uint32_t crc = 0;
-  ByteWriter writer([&](std::span<const std::byte> bytes) { crc = crc32c(bytes, crc); });
-  put_mesh(writer, s.mesh);
-  writer.flush();
+  Saver save([&](std::span<const std::byte> bytes) { crc = crc32c(bytes, crc); });
+  put_mesh(save, s.mesh);
+  save.writer().flush();
   for (const Tool& tool : s.tools) {
     crc = crc32c(std::as_bytes(std::span(tool.own_mesh.X)), crc);
     crc = crc32c(std::as_bytes(std::span(tool.own_mesh.triangle)), crc);
@@ -296,6 +297,7 @@ void follow_model(Simulation& s) {
   // their centre by 6 r / h, with the least altitude h.
   s.look = {.reach = unseen_strain / 7 * s.communicator->all_min(s.least_altitude.value())};
   if (!s.contact) return;
+  join_masses(*s.contact, contact_body(s));
   if (s.mesh.dimension() == 3)
     s.contact->detector.set_closed_surface(s.surface);
   else

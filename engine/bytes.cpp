@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "engine/archive.h"
 
 namespace trocar {
 
@@ -84,65 +85,61 @@ void check_copies(const Mesh& mesh) {
 
 }  // namespace
 
-void put_mesh(ByteWriter& writer, const Mesh& mesh) {
-  writer.put_vector(mesh.X);
-  writer.put_vector(mesh.element_type);
-  writer.put_vector(mesh.corner_offset);
-  writer.put_vector(mesh.corner_node);
-  writer.put_vector(mesh.element_region);
-  writer.put_vector(mesh.density_factor);
-  writer.put_vector(mesh.cut_facets);
-  writer.put_vector(mesh.fibre);
-  writer.put(static_cast<std::uint64_t>(mesh.region_name.size()));
-  for (const std::string& name : mesh.region_name) writer.put_text(name);
-  writer.put(static_cast<std::uint64_t>(mesh.node_sets.size()));
-  for (const NodeSet& set : mesh.node_sets) {
-    writer.put_text(set.name);
-    writer.put_vector(set.node);
-    writer.put_vector(set.left_out);
-  }
-  writer.put_vector(mesh.copied_node);
-  writer.put_vector(mesh.hex_split_rank);
-  writer.put_vector(mesh.split_hexahedra);
+template <class Archive>
+static void visit(Archive& a, NodeSet& set) {
+  a(set.name, set.node, set.left_out);
+}
+template <class Archive>
+static void visit_members(Archive& a, Mesh& m) {
+  a(m.X, m.element_type, m.corner_offset, m.corner_node, m.element_region, m.density_factor,
+    m.cut_facets, m.fibre, m.region_name, m.node_sets, m.copied_node, m.hex_split_rank,
+    m.split_hexahedra);
+}
+template <class Archive>
+static void visit(Archive& a, EdgeNode& node) {
+  a(node.end, node.s);
+}
+template <class Archive>
+static void visit(Archive& a, NodeMove& move) {
+  a(move.node, move.X, move.host, move.weight);
+}
+template <class Archive>
+static void visit(Archive& a, CutFacets& change) {
+  a(change.element, change.mask);
+}
+template <class Archive>
+static void visit(Archive& a, DensityChange& change) {
+  a(change.element, change.factor);
+}
+template <class Archive>
+static void visit_members(Archive& a, MeshEdit& edit) {
+  a(edit.inserted, edit.splits, edit.moves, edit.duplicate_parent, edit.corners, edit.cut_facets,
+    edit.density);
+}
+
+void put_mesh(Saver& save, const Mesh& mesh) {
+  visit_members(save, const_cast<Mesh&>(mesh));  // which a Saver doesn't change
 }
 
 std::size_t n_bytes_of(const Mesh& mesh) {
   std::size_t n = 0;
-  ByteWriter writer([&](std::span<const std::byte> bytes) { n += bytes.size(); });
-  put_mesh(writer, mesh);
-  writer.flush();
+  Saver save([&](std::span<const std::byte> bytes) { n += bytes.size(); });
+  put_mesh(save, mesh);
+  save.writer().flush();
   return n;
 }
 
 std::vector<std::byte> mesh_to_bytes(const Mesh& mesh) {
-  ByteWriter writer;
-  put_mesh(writer, mesh);
-  return writer.take();
+  Saver save;
+  put_mesh(save, mesh);
+  return save.take();
 }
 
 Mesh mesh_from_bytes(std::span<const std::byte> bytes) {
-  ByteReader reader(bytes);
+  Loader load(bytes);
   Mesh mesh;
-  mesh.X = reader.get_vector<Vec3>();
-  mesh.element_type = reader.get_vector<ElementType>();
-  mesh.corner_offset = reader.get_vector<std::int32_t>();
-  mesh.corner_node = reader.get_vector<std::int32_t>();
-  mesh.element_region = reader.get_vector<std::int32_t>();
-  mesh.density_factor = reader.get_vector<double>();
-  mesh.cut_facets = reader.get_vector<std::uint8_t>();
-  mesh.fibre = reader.get_vector<Vec3>();
+  visit_members(load, mesh);
   check_arrays(mesh);
-  mesh.region_name.resize(reader.get_count(8));
-  for (std::string& name : mesh.region_name) name = reader.get_text();
-  mesh.node_sets.resize(reader.get_count(24));
-  for (NodeSet& set : mesh.node_sets) {
-    set.name = reader.get_text();
-    set.node = reader.get_vector<std::int32_t>();
-    set.left_out = reader.get_vector<FacetNodes>();
-  }
-  mesh.copied_node = reader.get_vector<std::int32_t>();
-  mesh.hex_split_rank = reader.get_vector<std::uint8_t>();
-  mesh.split_hexahedra = reader.get_vector<SplitHexahedron>();
   check_copies(mesh);
   return mesh;
 }
@@ -168,64 +165,15 @@ TriangleMesh surface_from_bytes(std::span<const std::byte> bytes, const std::str
 }
 
 std::vector<std::byte> edit_to_bytes(const MeshEdit& edit) {
-  ByteWriter writer;
-  writer.put(static_cast<std::uint64_t>(edit.inserted.size()));
-  for (const EdgeNode& node : edit.inserted) {
-    writer.put(node.end);
-    writer.put(node.s);
-  }
-  writer.put_vector(edit.splits);
-  writer.put(static_cast<std::uint64_t>(edit.moves.size()));
-  for (const NodeMove& move : edit.moves) {
-    writer.put(move.node);
-    for (int i = 0; i < 3; ++i) writer.put(move.X[i]);
-    writer.put(move.host);
-    writer.put(move.weight);
-  }
-  writer.put_vector(edit.duplicate_parent);
-  writer.put_vector(edit.corners);
-  // Member by member: padding bytes would differ from run to run.
-  writer.put(static_cast<std::uint64_t>(edit.cut_facets.size()));
-  for (const CutFacets& change : edit.cut_facets) {
-    writer.put(change.element);
-    writer.put(change.mask);
-  }
-  writer.put(static_cast<std::uint64_t>(edit.density.size()));
-  for (const DensityChange& change : edit.density) {
-    writer.put(change.element);
-    writer.put(change.factor);
-  }
-  return writer.take();
+  Saver save;
+  visit_members(save, const_cast<MeshEdit&>(edit));
+  return save.take();
 }
 
 MeshEdit edit_from_bytes(std::span<const std::byte> bytes) {
-  ByteReader reader(bytes);
+  Loader load(bytes);
   MeshEdit edit;
-  edit.inserted.resize(reader.get_count(16));
-  for (EdgeNode& node : edit.inserted) {
-    node.end = reader.get<std::array<std::int32_t, 2>>();
-    node.s = reader.get<double>();
-  }
-  edit.splits = reader.get_vector<ElementSplit>();
-  edit.moves.resize(reader.get_count(8 + (3 + max_corners) * sizeof(double)));
-  for (NodeMove& move : edit.moves) {
-    move.node = reader.get<std::int32_t>();
-    for (int i = 0; i < 3; ++i) move.X[i] = reader.get<double>();
-    move.host = reader.get<std::int32_t>();
-    move.weight = reader.get<std::array<double, max_corners>>();
-  }
-  edit.duplicate_parent = reader.get_vector<std::int32_t>();
-  edit.corners = reader.get_vector<CornerChange>();
-  edit.cut_facets.resize(reader.get_count(5));
-  for (CutFacets& change : edit.cut_facets) {
-    change.element = reader.get<std::int32_t>();
-    change.mask = reader.get<std::uint8_t>();
-  }
-  edit.density.resize(reader.get_count(12));
-  for (DensityChange& change : edit.density) {
-    change.element = reader.get<std::int32_t>();
-    change.factor = reader.get<double>();
-  }
+  visit_members(load, edit);
   return edit;
 }
 

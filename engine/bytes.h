@@ -73,7 +73,8 @@ class ByteReader {
   std::span<const std::byte> bytes_;
 };
 
-void put_mesh(ByteWriter& writer, const Mesh& mesh);
+class Saver;  // archive.h
+void put_mesh(Saver& save, const Mesh& mesh);
 std::size_t n_bytes_of(const Mesh& mesh);
 std::vector<std::byte> mesh_to_bytes(const Mesh& mesh);
 Mesh mesh_from_bytes(std::span<const std::byte> bytes);

@@ -37,12 +37,7 @@ std::vector<double> gather_owned(const Simulation& s, std::span<const double> ow
 
 // Back again; empty if the field is.
 std::vector<double> of_owned(std::span<const double> field, const Part& part) {
-  std::vector<double> mine;
-  for (std::int32_t i = 0; i < part.n_owned && !field.empty(); ++i) {
-    const auto at = field.subspan(3 * static_cast<std::size_t>(part.node_global[i]), 3);
-    mine.insert(mine.end(), at.begin(), at.end());
-  }
-  return mine;
+  return field.empty() ? std::vector<double>() : scatter_field(part, 3, field, part.n_owned);
 }
 
 void check_fit(const Checkpoint& c, const Simulation& s) {

@@ -6,6 +6,7 @@
 #include "engine/archive_cut.h"
 #include "engine/blob.h"
 #include "engine/checkpoint.h"
+#include "engine/part_search.h"
 #include "engine/swept_area.h"
 #include "mesh/quality.h"
 
@@ -15,8 +16,8 @@ constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', '
 constexpr std::uint32_t checkpoint_format = 32;
 
 static void visit(Saver& a, std::shared_ptr<const Mesh>& mesh) {
-  a.writer().put(std::uint64_t{n_bytes_of(*mesh)});
-  put_mesh(a.writer(), *mesh);
+  a(std::uint64_t{n_bytes_of(*mesh)});
+  put_mesh(a, *mesh);
 }
 static void visit(Loader& a, std::shared_ptr<const Mesh>& mesh) {
   std::vector<std::byte> bytes;
@@ -78,10 +79,6 @@ template <class Archive>
 static void visit(Archive& a, RunTally& t) {
   a(t.equilibrium, t.n_roll_backs, t.n_deadlines_missed, t.searches, t.least_J, t.least_J_element,
     t.least_stable_step, t.largest_stable_step, t.events);
-}
-template <class Archive>
-static void visit(Archive& a, GrownElement& e) {
-  a(e.element, e.stiffening);
 }
 template <class Archive>
 static void visit(Archive& a, SearchMemory& m) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/sort_unique.h"
+#include "engine/gather_items.h"
 
 namespace trocar {
 
@@ -23,59 +24,68 @@ bool is_held(const Holds& holds, const Contact& contact) {
   });
 }
 
-// From which the next step's solution begins, of this step: 6 numbers a node.
-constexpr std::size_t per_impulse = 6;
-
-std::vector<double> gather_impulses(const ContactSet& set, const Communicator& communicator) {
-  std::vector<double> mine;
-  for (const std::int32_t place : set.owned) {
-    const auto i = static_cast<std::size_t>(place);
-    const ContactSet::TissueImpulse& impulse = set.impulse[i];
-    if (impulse.step < 0) continue;
-    const Vec3& drag = impulse.drag;
-    mine.insert(mine.end(), {static_cast<double>(set.node[i]), static_cast<double>(impulse.step),
-                             impulse.push, drag.x(), drag.y(), drag.z()});
-  }
-  return communicator.all_gather(mine);
-}
-
-void take_impulses(std::span<const double> impulses, ContactSet& set) {
-  for (std::size_t k = 0; k < impulses.size(); k += per_impulse) {
-    const std::int32_t at = find_in(set.node, static_cast<std::int32_t>(impulses[k]));
-    if (at < 0) continue;
-    set.impulse[at] = {.step = static_cast<std::int64_t>(impulses[k + 1]),
-                       .push = impulses[k + 2],
-                       .drag = Vec3::Map(&impulses[k + 3])};
-  }
-}
-
-// M of solver/mass_scaling.h against forces, for ContactInertia: of a cluster with D = m + d the
-// share of a node is d / D, and its yield 1 / (sum_free d m/D + sum_held d).
-struct JoinedMasses {
-  std::vector<double> mass, share;
-  std::vector<std::int32_t> cluster;
-  std::vector<Vec3> yield;
+// From which the next step's solution begins, of this step.
+struct NodeImpulse {
+  std::int32_t node = -1;
+  ContactSet::TissueImpulse impulse;
 };
 
-JoinedMasses join_masses(const ContactBody& body, std::span<const FixedMask> held) {
+template <class Archive>
+void visit(Archive& a, NodeImpulse& i) {
+  a(i.node, i.impulse.step, i.impulse.push, i.impulse.drag);
+}
+
+std::vector<NodeImpulse> gather_impulses(const ContactSet& set, const Communicator& communicator) {
+  std::vector<NodeImpulse> mine;
+  for (const std::int32_t place : set.owned)
+    if (const auto& impulse = set.impulse[place]; impulse.step >= 0)
+      mine.push_back({set.node[place], impulse});
+  return all_gather_items(communicator, mine);
+}
+
+void take_impulses(std::span<const NodeImpulse> impulses, ContactSet& set) {
+  for (const NodeImpulse& of_node : impulses)
+    if (const std::int32_t at = find_in(set.node, of_node.node); at >= 0)
+      set.impulse[at] = of_node.impulse;
+}
+
+// (n_clusters) 1 / (sum_free d m/D + sum_held d)
+std::vector<Vec3> find_yields(const ContactBody& body, std::span<const FixedMask> held) {
   const MassScaling& scaling = *body.scaling;
-  JoinedMasses joined{.mass = {body.mass.begin(), body.mass.end()},
-                      .share = std::vector<double>(body.mass.size()),
-                      .cluster = std::vector<std::int32_t>(body.mass.size(), -1),
-                      .yield = {}};
+  std::vector<Vec3> yields;
   for (std::int32_t c = 0; c < scaling.n_clusters(); ++c) {
     Vec3 whole = Vec3::Zero();
     for (std::int32_t k = scaling.offset[c]; k < scaling.offset[c + 1]; ++k) {
       const std::int32_t i = scaling.node[k];
       const double m = body.mass[i], d = scaling.added[k];
-      joined.mass[i] = m + d;
-      joined.share[i] = d / (m + d);
-      joined.cluster[i] = c;
       for (int j = 0; j < 3; ++j) whole[j] += (held[i] >> j & 1) != 0 ? d : d * m / (m + d);
     }
-    joined.yield.push_back(whole.cwiseInverse());
+    yields.push_back(whole.cwiseInverse());
   }
-  return joined;
+  return yields;
+}
+
+// Once a frame, if there are contacts.
+void find_held(ContactStage& stage, const ContactBody& body, const Holds& holds) {
+  stage.held.assign(body.fixed.begin(), body.fixed.end());
+  for (const Hold& hold : holds.holds) stage.held[hold.node] = all_components;
+  if (body.scaling != nullptr) stage.yield = find_yields(body, stage.held);
+}
+
+void prepare_set(ContactStage& stage, const ContactBody& body, const Holds& holds) {
+  stage.set = {};
+  if (stage.contacts.empty() && stage.tissue.empty()) return;
+  if (stage.held.empty()) find_held(stage, body, holds);
+  const JoinedMasses& joined = stage.joined;
+  stage.set = prepare_contacts({stage.contacts, stage.tissue}, body.node_owner, body.part,
+                               {.mass = body.scaling != nullptr ? joined.mass : body.mass,
+                                .held = stage.held,
+                                .cluster = joined.cluster,
+                                .share = joined.share,
+                                .yield = stage.yield});
+  stage.u_next.resize(3 * body.part.node_global.size());
+  stage.exchange.emplace(stage.set.halo, 6);
+  stage.positions.resize(6 * stage.set.node.size());
 }
 
 }  // namespace
@@ -105,29 +115,33 @@ void detect_tissue(ContactStage& stage, const SurfaceView& view, double time, do
   stage.detector.detect_tissue(stage.ahead, reach, stage.tissue);
 }
 
+void join_masses(ContactStage& stage, const ContactBody& body) {
+  if (body.scaling == nullptr) return;
+  const MassScaling& scaling = *body.scaling;
+  JoinedMasses& joined = stage.joined;
+  joined.mass.assign(body.mass.begin(), body.mass.end());
+  joined.share.assign(body.mass.size(), 0.0);
+  joined.cluster.assign(body.mass.size(), -1);
+  for (std::int32_t c = 0; c < scaling.n_clusters(); ++c)
+    for (std::int32_t k = scaling.offset[c]; k < scaling.offset[c + 1]; ++k) {
+      const std::int32_t i = scaling.node[k];
+      const double m = body.mass[i], d = scaling.added[k];
+      joined.mass[i] = m + d;
+      joined.share[i] = d / (m + d);
+      joined.cluster[i] = c;
+    }
+}
+
 void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds) {
-  stage.set = {};
-  if (stage.contacts.empty() && stage.tissue.empty()) return;
-  std::vector<FixedMask> held(body.fixed.begin(), body.fixed.end());
-  for (const Hold& hold : holds.holds) held[hold.node] = all_components;
-  JoinedMasses joined;
-  if (body.scaling != nullptr) joined = join_masses(body, held);
-  stage.set = prepare_contacts({stage.contacts, stage.tissue}, body.node_owner, body.part,
-                               {.mass = body.scaling != nullptr ? joined.mass : body.mass,
-                                .held = held,
-                                .cluster = joined.cluster,
-                                .share = joined.share,
-                                .yield = joined.yield});
-  stage.u_next.resize(3 * body.part.node_global.size());
-  stage.exchange.emplace(stage.set.halo, 6);
-  stage.positions.resize(6 * stage.set.node.size());
+  stage.held.clear();
+  prepare_set(stage, body, holds);
 }
 
 void renew_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds,
                           const Communicator& communicator) {
   const std::vector<ContactSet::Item> before = std::move(stage.set.items);
-  const std::vector<double> impulses = gather_impulses(stage.set, communicator);
-  prepare_frame_contacts(stage, body, holds);
+  const std::vector<NodeImpulse> impulses = gather_impulses(stage.set, communicator);
+  prepare_set(stage, body, holds);
   // Ranks that had no nodes before know nothing of what tools have felt: they don't report it.
   for (std::size_t k = 0; k < std::min(before.size(), stage.set.items.size()); ++k) {
     stage.set.items[k].reaction_sum = before[k].reaction_sum;

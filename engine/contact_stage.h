@@ -23,6 +23,15 @@ struct PairLook {
   double time = 0;              // [s]
   std::vector<double> u, v;     // (n * 3) there [m], [m/s]
   std::int64_t next_check = 0;  // substep of the frame
+  // (n_nodes) Of SurfaceView: that of the frame's beginning, during a look within the frame.
+  std::vector<Vec3> view_x, view_v;
+};
+
+// M of solver/mass_scaling.h against forces, for ContactInertia: of a cluster with D = m + d the
+// share of a node is d / D. Empty where no masses are scaled.
+struct JoinedMasses {
+  std::vector<double> mass, share;    // (n_nodes)
+  std::vector<std::int32_t> cluster;  // (n_nodes)
 };
 
 struct ContactStage {
@@ -33,8 +42,11 @@ struct ContactStage {
   std::vector<TissuePair> tissue;  // the same of tissue and tissue
   std::vector<Vec3> ahead;         // (n_nodes) surface nodes at the end of the frame, if free [m]
   PairLook look;
-  ContactSet set;              // those that this rank works on
-  std::vector<double> u_next;  // (n_local * 3) of its owned nodes, without contact [m]
+  JoinedMasses joined;
+  std::vector<FixedMask> held;  // (n_nodes) in this frame; empty until there are contacts
+  std::vector<Vec3> yield;      // (n_clusters) of ContactInertia, with `held`
+  ContactSet set;               // those that this rank works on
+  std::vector<double> u_next;   // (n_local * 3) of its owned nodes, without contact [m]
   std::optional<HaloExchange> exchange;
   std::vector<double> positions;   // (set.node.size() * 6) that travel
   std::vector<ToolMotion> motion;  // (n_tools) at the end of the substep
@@ -55,6 +67,8 @@ struct ContactBody {
   std::span<const std::uint8_t> fixed;   // supported components
   const MassScaling* scaling = nullptr;  // null: no masses are scaled
 };
+// Where masses are scaled: after build and each edit, before frames are prepared.
+void join_masses(ContactStage& stage, const ContactBody& body);
 // What graspers and supports hold, in the components in which they do, doesn't yield to contact.
 void prepare_frame_contacts(ContactStage& stage, const ContactBody& body, const Holds& holds);
 // The same after another look for tissue within the frame.

@@ -7,11 +7,17 @@
 #include "base/sort_unique.h"
 #include "collision/contact_tilt.h"
 #include "engine/body_search.h"
+#include "engine/gather_items.h"
 #include "engine/local_steps.h"
 #include "engine/part_search.h"
 #include "engine/patch.h"
 
 namespace trocar {
+
+template <class Archive>
+static void visit(Archive& a, Tilt& tilt) {
+  a(tilt.place, tilt.edge, tilt.normal, tilt.turn);
+}
 
 namespace {
 
@@ -20,39 +26,11 @@ namespace {
 // modes of hexahedra don't tilt their faces.
 constexpr double most_of_limit = 0.98;
 
-// A tilt as numbers that travel: places are those of the mesh.
-constexpr std::size_t n_numbers = 16;
-
-std::vector<double> as_numbers(const ContactSet& set, std::span<const Tilt> tilts) {
-  std::vector<double> numbers;
-  for (const Tilt& tilt : tilts) {
-    for (const std::int32_t place : tilt.place) numbers.push_back(set.node[place]);
-    for (const Vec3& edge : tilt.edge) numbers.insert(numbers.end(), edge.begin(), edge.end());
-    numbers.insert(numbers.end(), tilt.normal.begin(), tilt.normal.end());
-    numbers.push_back(tilt.turn);
-  }
-  return numbers;
-}
-
-Tilt tilt_of(std::span<const double> numbers) {
-  Tilt tilt;
-  for (std::size_t a = 0; a < 3; ++a) {
-    tilt.place[a] = static_cast<std::int32_t>(numbers[a]);
-    tilt.edge[a] = Vec3::Map(&numbers[3 + 3 * a]);
-  }
-  tilt.normal = Vec3::Map(&numbers[12]);
-  tilt.turn = numbers[15];
-  return tilt;
-}
-
-// On every rank. Collective.
-std::vector<Tilt> tilts_of_all(const Simulation& s, std::span<const Tilt> mine) {
-  const ContactSet& set = s.contact->set;
-  const std::vector<double> numbers = s.communicator->all_gather(as_numbers(set, mine));
-  std::vector<Tilt> tilts;
-  for (std::size_t k = 0; k < numbers.size(); k += n_numbers)
-    tilts.push_back(tilt_of({&numbers[k], n_numbers}));
-  return tilts;
+// On every rank; places are those of the mesh. Collective.
+std::vector<Tilt> tilts_of_all(const Simulation& s, std::vector<Tilt> mine) {
+  for (Tilt& tilt : mine)
+    for (std::int32_t& place : tilt.place) place = s.contact->set.node[place];
+  return all_gather_items(*s.communicator, mine);
 }
 
 std::vector<std::int32_t> corners_of(std::span<const Tilt> tilts) {

@@ -9,21 +9,17 @@ namespace trocar {
 
 namespace {
 
-// What the group says to all: nodes to be found by all, or, with none, how its work ended.
+// What the group says to all: nodes to be found by all, or, with none, what its work has found.
 struct Word {
   std::vector<std::int32_t> nodes;
-  CutGroup::Outcome outcome;
+  std::vector<std::byte> found;
 };
 
 }  // namespace
 
 template <class Archive>
-static void visit(Archive& a, CutGroup::Outcome& outcome) {
-  a(outcome.kind, outcome.trouble, outcome.found);
-}
-template <class Archive>
 static void visit(Archive& a, Word& word) {
-  a(word.nodes, word.outcome);
+  a(word.nodes, word.found);
 }
 
 static std::vector<std::byte> bytes_of(Word word) {
@@ -54,13 +50,13 @@ void CutGroup::find(std::span<const std::int32_t> nodes) const {
   const bool is_ours = std::ranges::all_of(
       asked, [&](std::int32_t i) { return std::ranges::binary_search(ranks_, s_.node_owner[i]); });
   if (is_ours) return find_nodes(s_, asked, *members_, known);
-  std::vector<std::byte> bytes = bytes_of({.nodes = asked, .outcome = {}});
+  std::vector<std::byte> bytes = bytes_of({.nodes = asked, .found = {}});
   say(bytes);
   find_nodes(s_, asked, *s_.communicator, known);
 }
 
-void CutGroup::tell(Outcome outcome) const {
-  std::vector<std::byte> bytes = bytes_of({.nodes = {}, .outcome = std::move(outcome)});
+void CutGroup::tell(std::vector<std::byte> found) const {
+  std::vector<std::byte> bytes = bytes_of({.nodes = {}, .found = std::move(found)});
   say(bytes);
   forget_state(s_.mesh.X.size(), s_.cut_state);
 }
@@ -75,10 +71,7 @@ std::vector<std::byte> CutGroup::hear() const {
     if (!word.nodes.empty()) motion_at(s_, word.nodes, *s_.communicator);
   } while (!word.nodes.empty());
   forget_state(s_.mesh.X.size(), s_.cut_state);
-  Outcome& outcome = word.outcome;
-  if (outcome.kind == Outcome::Kind::input_error) throw InputError(outcome.trouble);
-  if (outcome.kind == Outcome::Kind::simulation_error) throw SimulationError(outcome.trouble);
-  return std::move(outcome.found);
+  return std::move(word.found);
 }
 
 }  // namespace trocar

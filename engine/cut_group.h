@@ -6,10 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "base/error.h"
 #include "engine/archive.h"
 #include "engine/simulation.h"
 
@@ -28,15 +26,9 @@ class CutGroup {
   // others.
   void find(std::span<const std::int32_t> nodes) const;
 
-  // How the work ended: all of the group tell it and all others hear it, who until then answer what
-  // the group asks for, and throw its error if it has one. No rank knows of any node from then on.
-  struct Outcome {
-    enum class Kind : std::uint8_t { done, input_error, simulation_error };
-    Kind kind = Kind::done;
-    std::string trouble;
-    std::vector<std::byte> found;
-  };
-  void tell(Outcome outcome) const;
+  // What the work has found: all of the group tell it and all others hear it, who until then answer
+  // what the group asks for. No rank knows of any node from then on.
+  void tell(std::vector<std::byte> found) const;
   std::vector<std::byte> hear() const;
 
  private:
@@ -47,30 +39,22 @@ class CutGroup {
   const Communicator* members_;  // null on other ranks
 };
 
-// What `work` finds on the group's ranks, on all ranks, which throw its errors alike. Collective.
+// What `work`, which throws no error of input or simulation, finds on the group's ranks, on all
+// ranks. Collective.
 template <class Found, class Work>
 Found found_by(const CutGroup& group, const Work& work) {
-  using Kind = CutGroup::Outcome::Kind;
   if (group.is_everyone()) return work();
-  Found found;
   if (!group.has_this_rank()) {
     const std::vector<std::byte> bytes = group.hear();
+    Found found;
     Loader load(bytes);
     load(found);
     return found;
   }
-  try {
-    found = work();
-  } catch (const InputError& trouble) {
-    group.tell({.kind = Kind::input_error, .trouble = trouble.what(), .found = {}});
-    throw;
-  } catch (const SimulationError& trouble) {
-    group.tell({.kind = Kind::simulation_error, .trouble = trouble.what(), .found = {}});
-    throw;
-  }
+  Found found = work();
   Saver save;
   save(found);
-  group.tell({.found = save.take()});
+  group.tell(save.take());
   return found;
 }
 

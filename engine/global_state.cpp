@@ -101,14 +101,31 @@ void scatter_state(Simulation& s, const GlobalState& global) {
   state.last_dt = s.state.last_dt;
   state.step = s.state.step;
   state.history_time = s.state.history_time;
-  for (std::size_t i = 0; i < s.part.node_global.size(); ++i) {
-    const auto g = static_cast<std::size_t>(s.part.node_global[i]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      state.u[3 * i + k] = global.u[3 * g + k];
-      state.v[3 * i + k] = global.v[3 * g + k];
-    }
-  }
+  state.u = scatter_field(s.part, 3, global.u, s.part.n_local());
+  state.v = scatter_field(s.part, 3, global.v, s.part.n_local());
   s.state = std::move(state);
+}
+
+void scatter_edited(Simulation& s, std::size_t n_kept, std::span<const std::int32_t> nodes,
+                    const GlobalState& global) {
+  s.scratch.has_force = false;  // on ranks that have nothing of the edit, too: all exchange alike
+  State& state = s.state;
+  state.u.resize(3 * s.part.node_global.size());
+  state.v.resize(3 * s.part.node_global.size());
+  const auto n_owned = static_cast<std::size_t>(s.part.n_owned);
+  const auto take = [&](std::size_t local) {
+    const auto from = 3 * static_cast<std::size_t>(s.part.node_global[local]);
+    std::copy_n(&global.u[from], 3, &state.u[3 * local]);
+    std::copy_n(&global.v[from], 3, &state.v[3 * local]);
+  };
+  for (const std::int32_t i : nodes)
+    if (const std::int32_t local = s.part.owned(i); local >= 0)
+      take(static_cast<std::size_t>(local));
+  for (std::size_t local = n_kept; local < n_owned; ++local) take(local);
+  start_exchange(s.neighbours, state);
+  finish_exchange(s.neighbours, state);
+  const auto n_fields = static_cast<std::size_t>(s.model.averages.n_fields);
+  state.theta.assign(s.part.node_global.size() * n_fields, 0.0);
 }
 
 }  // namespace trocar

@@ -31,6 +31,10 @@ void find_nodes(const Simulation& s, std::span<const std::int32_t> nodes, const 
 void find_all_nodes(Simulation& s, GlobalState& global);
 // This rank's part of it, of all nodes; time, step and last dt stay.
 void scatter_state(Simulation& s, const GlobalState& global);
+// The same after an edit: the first n_kept owned nodes keep their numbers, and all but `nodes` of
+// them what they have. Collective among neighbours.
+void scatter_edited(Simulation& s, std::size_t n_kept, std::span<const std::int32_t> nodes,
+                    const GlobalState& global);
 
 // (nodes * 6) displacements and velocities, on these ranks, which own all the nodes. Collective
 // among them.

@@ -57,7 +57,8 @@ Outputs open_outputs(Simulation& s, const std::string& folder, const std::string
 void write_outputs(Simulation& s, Outputs& outputs, const FrameRow& row);
 // Waits for encoders and closes files. Throws MachineError on rank 0.
 void finish_outputs(Outputs& outputs);
-// True if anything of the next frame looks at surface positions.
+// True if what is told of frame s.frame, which is just done, or contact in the next one looks at
+// surface positions.
 bool needs_surface(const Simulation& s, const Outputs& outputs);
 
 }  // namespace trocar

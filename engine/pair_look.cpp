@@ -10,6 +10,7 @@
 #include "collision/contact_tissue.h"
 #include "engine/energy_ledger.h"
 #include "engine/event_log.h"
+#include "engine/gather_items.h"
 #include "engine/point_text.h"
 
 namespace trocar {
@@ -90,6 +91,11 @@ double largest_difference(const SurfaceView& view) {
   return speed.size().norm();
 }
 
+void swap_views(Simulation& s) {
+  std::swap(s.view.x, s.contact->look.view_x);
+  std::swap(s.view.v, s.contact->look.view_v);
+}
+
 constexpr const char* sunk_in = "tissue has sunk into other tissue";
 
 struct SunkNode {
@@ -97,21 +103,20 @@ struct SunkNode {
   std::int32_t node = -1;
 };
 
+template <class Archive>
+void visit(Archive& a, SunkNode& n) {
+  a(n.depth, n.node);
+}
+
 // Nodes that contact has found in other tissue and that lie there deeper than contact_reach now, of
 // all ranks, deepest first.
 std::vector<SunkNode> find_sunk(const Simulation& s) {
   const ContactSet& set = s.contact->set;
   const std::vector<double> depth = depths_in_tissue(set, s.view.x);
-  std::vector<double> mine;
-  for (const std::int32_t place : set.owned) {
-    const auto i = static_cast<std::size_t>(place);
-    if (depth[i] > s.contact_reach)
-      mine.insert(mine.end(), {depth[i], static_cast<double>(set.node[i])});
-  }
-  const std::vector<double> all = s.communicator->all_gather(mine);
-  std::vector<SunkNode> sunk;
-  for (std::size_t k = 0; k < all.size(); k += 2)
-    sunk.push_back({.depth = all[k], .node = static_cast<std::int32_t>(all[k + 1])});
+  std::vector<SunkNode> mine;
+  for (const std::int32_t place : set.owned)
+    if (depth[place] > s.contact_reach) mine.push_back({depth[place], set.node[place]});
+  std::vector<SunkNode> sunk = all_gather_items(*s.communicator, mine);
   std::ranges::sort(sunk, {}, [](const SunkNode& n) { return std::pair(-n.depth, n.node); });
   return sunk;
 }
@@ -153,7 +158,9 @@ bool is_pair_look_due(Simulation& s, const FrameSpan& span, std::int64_t k) {
 void look_for_pairs(Simulation& s, const FrameSpan& span, std::int64_t k) {
   ContactStage& contact = *s.contact;
   const std::int64_t next_check = contact.look.next_check;
-  SurfaceView view = s.view;  // that of the frame's beginning is needed if it is repeated
+  SurfaceView& view = s.view;
+  contact.look.view_x.resize(view.x.size(), Vec3::Zero());
+  swap_views(s);  // that of the frame's beginning is needed if it is repeated
   gather_surface(view, s.mesh.X, s.state.u, *s.communicator);
   gather_velocities(view, s.state.v, *s.communicator);
   contact.detector.refit(view.x);
@@ -166,6 +173,7 @@ void look_for_pairs(Simulation& s, const FrameSpan& span, std::int64_t k) {
   if (s.energy) begin_contact_work(s);
   note_pair_look(s, span, k);
   contact.look.next_check = next_check;
+  swap_views(s);
 }
 
 void watch_sunk_tissue(Simulation& s, double time) {

@@ -5,6 +5,7 @@
 
 #include "base/sort_unique.h"
 #include "engine/body_search.h"
+#include "engine/gather_items.h"
 #include "engine/patch.h"
 #include "solver/frequency.h"
 
@@ -18,13 +19,7 @@ std::vector<GrownElement> grown_elements(const Simulation& s, double growth, std
       find_grown(s.model, s.part, s.state, *s.look.stiffening, growth, most);
   if (s.communicator->all_max(static_cast<double>(mine.size())) > static_cast<double>(most))
     return {};
-  std::vector<double> pairs;
-  for (const auto& [element, stiffening] : mine)
-    pairs.insert(pairs.end(), {static_cast<double>(element), stiffening});
-  pairs = s.communicator->all_gather(pairs);
-  std::vector<GrownElement> grown;
-  for (std::size_t k = 0; k < pairs.size(); k += 2)
-    grown.push_back({static_cast<std::int32_t>(pairs[k]), pairs[k + 1]});
+  std::vector<GrownElement> grown = all_gather_items(*s.communicator, mine);
   sort_unique_by(grown, &GrownElement::element);  // several ranks may have told of one
   return grown;
 }

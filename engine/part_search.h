@@ -19,6 +19,11 @@ inline constexpr double least_growth_of_part = 1.0125;
 inline constexpr double largest_part = 1.0 / 8;
 inline constexpr std::int64_t most_steps_of_parts = 1000;
 
+template <class Archive>
+void visit(Archive& a, GrownElement& e) {
+  a(e.element, e.stiffening);
+}
+
 // A part has neither history nor nodes that sleep, take substeps or have scaled masses.
 bool can_search_part(const Simulation& s);
 // Growth of the body's omega^2 since the last search of the whole body where its elements have

@@ -1,7 +1,6 @@
 #include "engine/patch.h"
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -24,9 +23,9 @@ std::vector<std::int32_t> elements_around(const Simulation& s,
                                  : elements_around(s.corners, nodes);
 }
 
-std::vector<std::int32_t> with_rings(const Simulation& s, std::vector<std::int32_t> nodes,
-                                     int n_rings) {
-  for (int ring = 0; ring < n_rings; ++ring) nodes = nodes_of(s.mesh, elements_around(s, nodes));
+std::vector<std::int32_t> with_rings(const Simulation& s, std::vector<std::int32_t> nodes) {
+  for (int ring = 0; ring < patch_rings; ++ring)
+    nodes = nodes_of(s.mesh, elements_around(s, nodes));
   return nodes;
 }
 
@@ -36,11 +35,8 @@ MassScaling take_in_clusters(const Simulation& s, SubMesh& sub) {
   for (;;) {
     MassScaling scaling =
         find_mass_scaling(sub.mesh, s.materials, s.model.options, s.scene.solver.mass_scaling_step);
-    const std::vector<std::int32_t> around =
-        elements_around(s, values_of<std::int32_t>(sub.node, scaling.node));
-    std::vector<std::int32_t> grown;
-    std::set_union(sub.element.begin(), sub.element.end(), around.begin(), around.end(),
-                   std::back_inserter(grown));
+    const std::vector<std::int32_t> grown =
+        united(sub.element, elements_around(s, values_of<std::int32_t>(sub.node, scaling.node)));
     if (grown.size() == sub.element.size()) return scaling;
     sub = make_sub_mesh(s.mesh, grown);
   }
@@ -148,7 +144,7 @@ std::vector<std::int32_t> elements_of_forces(const Simulation& s,
 
 std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
                                   const PatchState& state) {
-  return make_patch_of_nodes(s, with_rings(s, nodes_of(s.mesh, edited), state.n_rings), state);
+  return make_patch_of_nodes(s, with_rings(s, nodes_of(s.mesh, edited)), state);
 }
 
 std::unique_ptr<Patch> make_present_patch(const Simulation& s,
@@ -161,7 +157,7 @@ std::unique_ptr<Patch> make_present_patch_around(const Simulation& s,
                                                  std::span<const std::int32_t> nodes,
                                                  std::size_t most) {
   std::unique_ptr<Patch> patch =
-      make_patch_of_nodes(s, with_rings(s, {nodes.begin(), nodes.end()}, patch_rings), most);
+      make_patch_of_nodes(s, with_rings(s, {nodes.begin(), nodes.end()}), most);
   if (patch) set_present(s, *patch);
   return patch;
 }
@@ -169,7 +165,7 @@ std::unique_ptr<Patch> make_present_patch_around(const Simulation& s,
 std::vector<std::int32_t> elements_of_patch(const Simulation& s,
                                             std::span<const std::int32_t> nodes) {
   std::vector<std::int32_t> elements =
-      elements_of_forces(s, with_rings(s, {nodes.begin(), nodes.end()}, patch_rings));
+      elements_of_forces(s, with_rings(s, {nodes.begin(), nodes.end()}));
   if (!s.mass_scaling) return elements;
   SubMesh sub = make_sub_mesh(s.mesh, elements);
   take_in_clusters(s, sub);

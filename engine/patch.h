@@ -21,7 +21,7 @@ struct Patch : RankBody {
 };
 
 // Rings of nodes around the changed elements that move in a patch; patch_test.cpp prints
-// what others give.
+// what more give.
 inline constexpr int patch_rings = 1;
 
 // After the edit: the state of nodes, which gets those of the patch (all of these collective),
@@ -31,7 +31,6 @@ struct PatchState {
   GlobalState& global;
   std::span<const double> history = {};
   const ElementOrigins* origins = nullptr;
-  int n_rings = patch_rings;  // a test shows what others give
 };
 std::unique_ptr<Patch> make_patch(const Simulation& s, std::span<const std::int32_t> edited,
                                   const PatchState& state);

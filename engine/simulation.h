@@ -117,7 +117,7 @@ struct Simulation : RankBody {
   Holds holds;  // grasped nodes and moving supports
   Loads loads;
   std::vector<Location> markers;
-  std::unique_ptr<ContactStage> contact;  // only with instruments
+  std::unique_ptr<ContactStage> contact;  // only with instruments or contact.tissue
   std::vector<CutStage> cuts;             // one an instrument that cuts
   BladeDrag drag;                         // of this frame
   WaitingNodes waiting;                   // in this frame: those of contacts, holds and drag

@@ -91,8 +91,7 @@ void for_lanes(const Model& model, const Body& body) {
     const std::int64_t n =
         std::ssize(blocks.corner) / (std::int64_t{blocks.n_blocks} * blocks.lanes);
     for (std::int64_t lane = 0; lane < blocks.n_elements; ++lane)
-      body(blocks.corner.data() + lane / blocks.lanes * n * blocks.lanes + lane % blocks.lanes,
-           blocks.lanes, n);
+      body(blocks.corner.data() + first_of_lane(lane, blocks.lanes, n), blocks.lanes, n);
   }
 }
 

@@ -297,4 +297,14 @@ std::vector<double> gather_field(const Part& part, int width, std::span<const do
   return communicator.is_root() ? field_of(records, part, width) : std::vector<double>();
 }
 
+std::vector<double> scatter_field(const Part& part, int width, std::span<const double> field,
+                                  std::int32_t n) {
+  const auto n_values = static_cast<std::size_t>(width);
+  std::vector<double> local(static_cast<std::size_t>(n) * n_values);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
+    std::copy_n(&field[static_cast<std::size_t>(part.node_global[i]) * n_values], n_values,
+                &local[i * n_values]);
+  return local;
+}
+
 }  // namespace trocar

@@ -107,5 +107,8 @@ std::vector<double> all_gather_field(const Part& part, int width, std::span<cons
 // ... and on the root, empty elsewhere. Both collective.
 std::vector<double> gather_field(const Part& part, int width, std::span<const double> local,
                                  const Communicator& communicator);
+// Back again, of the first n local nodes: (n * width).
+std::vector<double> scatter_field(const Part& part, int width, std::span<const double> field,
+                                  std::int32_t n);
 
 }  // namespace trocar

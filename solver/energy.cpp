@@ -1,8 +1,7 @@
-// Energies of nodes and elements, one by one.
+// Strain energies of nodes and elements, one by one.
 #include <algorithm>
 
 #include "solver/block_ranges.h"
-#include "solver/mass_clusters.h"
 #include "solver/simd.h"
 #include "solver/watch.h"
 
@@ -10,20 +9,11 @@ namespace trocar {
 
 namespace {
 
-void take_kinetic(const Model& model, const State& state, std::vector<double>& kinetic) {
-  kinetic.resize(static_cast<std::size_t>(model.n_owned));
-  for (std::int64_t i = 0; i < model.n_owned; ++i) {
-    const double* v = state.v.data() + 3 * i;
-    kinetic[i] = 0.5 * model.mass[i] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  }
-  add_cluster_squares(model, state.v, 0.5, kinetic);
-}
-
 // Of the ranks that compute an element, one counts it: the owner of its lowest global node.
 bool is_counted_here(const Model& model, const Part& part, const ElementBlocks& blocks,
                      std::int64_t lane) {
   const std::int64_t n = std::ssize(blocks.corner) / (std::int64_t{blocks.n_blocks} * blocks.lanes);
-  const std::int64_t first = lane / blocks.lanes * n * blocks.lanes + lane % blocks.lanes;
+  const std::int64_t first = first_of_lane(lane, blocks.lanes, n);
   std::int32_t lowest = blocks.corner[first];
   for (std::int64_t a = 1; a < n; ++a) {
     const std::int32_t node = blocks.corner[first + a * blocks.lanes];
@@ -66,7 +56,6 @@ void take_volumetric(const Model& model, const State& state, std::vector<double>
 }  // namespace
 
 void energy_terms(const Model& model, const Part& part, const State& state, EnergyTerms& terms) {
-  take_kinetic(model, state, terms.kinetic);
   take_volumetric(model, state, terms.volumetric);
   terms.strain.clear();
   terms.hourglass.clear();

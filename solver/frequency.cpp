@@ -22,6 +22,7 @@ double larger_or_bad(double a, double b) {
 }
 
 constexpr std::int64_t piece = 512;  // components
+constexpr int least_iterations = 2;
 
 // Vectors are (n_owned * 3).
 struct Search {
@@ -239,7 +240,7 @@ HighestFrequency find_highest_frequency(const Model& model, const Part& part, co
     take_ritz_value(T, next.length, found);
     found.is_converged =
         next.length == 0 ||
-        (found.n_iterations >= options.least_iterations && found.residual <= options.tolerance) ||
+        (found.n_iterations >= least_iterations && found.residual <= options.tolerance) ||
         is_below_interest(found, options);
     T.beside.push_back(next.length);
     last.swap(x);

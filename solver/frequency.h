@@ -21,7 +21,7 @@ double search_amplitude(const Model& model, double edge);
 struct FrequencyOptions {
   double amplitude = 1e-9;  // see search_amplitude [m]
   double tolerance = 0.01;  // residual that ends the search
-  int least_iterations = 2, most_iterations = 100;
+  int most_iterations = 100;
   // A search that is clearly below this ends: nobody needs to know by how much. [1/s]
   double of_interest = 0;
   std::span<const double> force = {};  // of the state, if known [N]

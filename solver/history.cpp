@@ -81,9 +81,8 @@ static void for_histories(const Model& model, const Part& part,
       at = find_from(at, end, local);
       if (at == end || *at != local) continue;
       const std::int64_t lane = at - blocks.element_local.begin();
-      body(k,
-           blocks.first_history + lane / blocks.lanes * width * blocks.lanes + lane % blocks.lanes,
-           widths, blocks.lanes);
+      body(k, blocks.first_history + first_of_lane(lane, blocks.lanes, width), widths,
+           blocks.lanes);
     }
   }
 }

@@ -88,8 +88,23 @@ struct LawKernels {
   WatchKernel watch;
 };
 
+// Hourglass forces that relax with the isochoric stress (hourglass_history.h). While the strain is
+// in the stash: history ([number][lane]) to the present, in place of the hourglass displacements
+// those that make the relaxed forces, and to `balance` ([9][lane], of the list's precision) the
+// stress that is missing then.
+using HourglassRelaxKernel = void (*)(const BlockTask& task, const ViscousStep& step,
+                                      double* history, void* balance);
+// V P += balance, as soon as the stress is in the stash.
+using HourglassBalanceKernel = void (*)(const BlockTask& task, const void* balance);
+struct HourglassKernels {
+  // Of elements without hourglass forces null. By whether the law is that of small strain.
+  HourglassRelaxKernel relax[2][n_formulations];
+  HourglassBalanceKernel balance;
+};
+
 struct KernelsOfPrecision {
   ElementKernels element[n_formulations];
+  HourglassKernels hourglass;
   LawKernels law[n_law_kinds][n_material_models];
 };
 

@@ -4,12 +4,12 @@
 
 namespace trocar::TROCAR_ISA {
 
-HourglassKernels make_hourglass_kernels(Precision precision);
+void fill_hourglass(Kernels& kernels);
 
-HourglassKernels make_hourglass_kernels(Precision precision) {
+void fill_hourglass(Kernels& kernels) {
   using Elements = TypeList<ElementHex8, ElementHex8Enhanced>;
-  return precision == Precision::in_single ? hourglass_kernels<PackOf<float, singles>>(Elements{})
-                                           : hourglass_kernels<PackOf<double, doubles>>(Elements{});
+  kernels.of[0].hourglass = hourglass_kernels<PackOf<double, doubles>>(Elements{});
+  kernels.of[1].hourglass = hourglass_kernels<PackOf<float, singles>>(Elements{});
 }
 
 }  // namespace trocar::TROCAR_ISA

@@ -9,6 +9,7 @@ namespace trocar::TROCAR_ISA {
 
 void fill_nodes(Kernels& kernels);
 void fill_elements(Kernels& kernels);
+void fill_hourglass(Kernels& kernels);
 void fill_laws_local(Kernels& kernels);
 void fill_laws_plane_stress(Kernels& kernels);
 void fill_laws_averaged_pressure(Kernels& kernels);
@@ -22,8 +23,8 @@ static void fill_counts(Kernels& kernels, TypeList<Materials...>) {
 Kernels make_kernels() {
   Kernels kernels{};
   fill_counts(kernels, MaterialList{});
-  for (auto* const fill : {fill_nodes, fill_elements, fill_laws_local, fill_laws_plane_stress,
-                           fill_laws_averaged_pressure})
+  for (auto* const fill : {fill_nodes, fill_elements, fill_hourglass, fill_laws_local,
+                           fill_laws_plane_stress, fill_laws_averaged_pressure})
     fill(kernels);
   return kernels;
 }

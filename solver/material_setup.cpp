@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "solver/material_list.h"
+#include "solver/law_of_material.h"
 #include "solver/viscous_step.h"
 
 namespace trocar {
@@ -66,21 +66,6 @@ void fill_holzapfel(const Material& material, double volume, const Vec3& fibre,
     value[M::value_family + 4 * k] = material.k1 * volume;
     put(family[k], M::value_family + 4 * k + 1, value);
   }
-}
-
-template <class... Materials>
-double stiffening_of_model(const Material& material, TypeList<Materials...>) {
-  std::array<double, std::size_t{max_material_values} * block_lanes<double>> number{};
-  std::array<double, max_material_values> value{};
-  fill_material(material, 1, unit_fibre(material), value);
-  for (std::size_t k = 0; k < value.size(); ++k) number[k * block_lanes<double>] = value[k];
-  const BlockValues<double> values{number.data()};
-  double result = 1;
-  ((Materials::model == material.model
-        ? static_cast<void>(result = Materials::stiffening(Tensor<double>{}, values))
-        : static_cast<void>(0)),
-   ...);
-  return result;
 }
 
 bool is_positive(double x) {
@@ -174,7 +159,12 @@ MaterialFault fault_of(const Material& material) {
 }
 
 double stiffening_at_rest(const Material& material) {
-  return stiffening_of_model(material, MaterialList{});
+  double result = 1;
+  with_law_of(material, unit_fibre(material),
+              [&]<class Law>(std::type_identity<Law>, const auto& values) {
+                result = Law::stiffening(Tensor<double>{}, values);
+              });
+  return result;
 }
 
 }  // namespace trocar

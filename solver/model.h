@@ -156,6 +156,12 @@ inline std::int32_t lane_of(const ElementBlocks& blocks, std::int64_t element) {
                  static_cast<std::int32_t>(element));
 }
 
+// Where a lane's numbers begin in an array [block][number][lane] of n numbers a lane; the next ones
+// follow at a distance of `lanes`.
+constexpr std::int64_t first_of_lane(std::int64_t lane, std::int64_t lanes, std::int64_t n) {
+  return lane / lanes * lanes * n + lane % lanes;
+}
+
 struct Model {
   std::int32_t n_local = 0, n_owned = 0;
   std::vector<double> mass;     // (n_owned) what gravity acts on [kg]

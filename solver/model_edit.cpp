@@ -114,7 +114,7 @@ std::int64_t n_of_lane(const Numbers& numbers, const ElementBlocks& list) {
 template <class T>
 void copy_lanes(const T* from, std::int64_t n, std::span<const std::int64_t> before,
                 std::int64_t lanes, T* to) {
-  const auto first = [&](std::int64_t lane) { return lane / lanes * lanes * n + lane % lanes; };
+  const auto first = [&](std::int64_t lane) { return first_of_lane(lane, lanes, n); };
   std::int64_t n_together = 1;
   for (std::int64_t lane = 0; lane < std::ssize(before); lane += n_together, n_together = 1) {
     const std::int64_t source = before[lane];

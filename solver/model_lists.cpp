@@ -37,8 +37,7 @@ void fill_values(const ModelSource& source, std::int32_t e, const ElementConstan
   fill_material(source.material(e), element.volume, fibre_of_element(source, e), value);
   std::copy_n(element.value.begin(), kernels.n_values - kernels.n_material_values,
               value.begin() + kernels.n_material_values);
-  const std::int64_t first =
-      lane / blocks.lanes * kernels.n_values * blocks.lanes + lane % blocks.lanes;
+  const std::int64_t first = first_of_lane(lane, blocks.lanes, kernels.n_values);
   for (std::int64_t k = 0; k < kernels.n_values; ++k) {
     const double x = value[k];
     if (blocks.precision == Precision::in_single)
@@ -102,12 +101,12 @@ double resting_step(const ElementConstants& constants, double stiffening) {
 }
 
 void fill_corners(const ModelSource& source, std::int64_t lane, ElementBlocks& blocks) {
-  const std::int64_t block = lane / blocks.lanes, l = lane % blocks.lanes;
   const std::int32_t e = source.part.element_global[blocks.element_local[lane]];
   const std::span<const std::int32_t> node = source.mesh.corners(e);
   const auto n = static_cast<std::int64_t>(node.size());
+  const std::int64_t first = first_of_lane(lane, blocks.lanes, n);
   for (std::int64_t a = 0; a < n; ++a)
-    blocks.corner[(block * n + a) * blocks.lanes + l] = source.part.node_local[node[a]];
+    blocks.corner[first + a * blocks.lanes] = source.part.node_local[node[a]];
 }
 
 void fill_lane(const ModelSource& source, std::int64_t lane, ElementBlocks& blocks,

@@ -114,8 +114,6 @@ double ramp(const RelaxTask& task, std::int64_t iteration) {
 }
 
 void add_load(const Model& model, const RelaxTask& task, double share, Scratch& scratch) {
-  if (!task.load.empty())
-    for (std::size_t k = 0; k < task.load.size(); ++k) scratch.force[k] += share * task.load[k];
   if (task.add_load) task.add_load(share, scratch.force);
   if (share == 1) return;
   for (std::size_t i = 0; i < model.mass.size(); ++i)
@@ -206,7 +204,6 @@ void relax_step(const Model& model, const Scratch& scratch, Communicator& commun
 }
 
 Relaxation relax(const Model& model, const RelaxTask& task, State& state, Scratch& scratch) {
-  CHECK(task.load.empty() || task.load.size() == scratch.force.size());
   Communicator alone;
   Neighbours none{.communicator = &alone};
   Neighbours& neighbours = task.neighbours != nullptr ? *task.neighbours : none;

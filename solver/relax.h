@@ -17,8 +17,7 @@
 namespace trocar {
 
 struct RelaxTask {
-  std::span<const double> load;  // (n_owned * 3) dead load [N], or empty
-  // Adds a share of what else acts on the present u to a force (n_owned * 3); or empty.
+  // Adds a share of the loads on the present u to a force (n_owned * 3) [N]; or empty.
   std::function<void(double share, std::span<double> force)> add_load;
   std::span<const PrescribedNode> prescribed;  // where held nodes go; other members unused
   // Loads, gravity and held nodes come on smoothly over the first ones; 0: at once.

@@ -2,6 +2,7 @@
 
 #include "solver/history.h"
 #include "solver/hourglass_history.h"
+#include "solver/simd.h"
 
 namespace trocar {
 
@@ -23,7 +24,8 @@ void put_viscous_stress(const ElementBlocks& blocks, const BlockKernels& kernels
                         const BlockTask& task, const ViscousStep& step, double* history) {
   if (!has_hourglass_forces(blocks.formulation))
     return kernels.law.viscous_stress(task, step, history);
-  const HourglassKernels& hourglass = active_hourglass_kernels(blocks.precision);
+  const HourglassKernels& hourglass =
+      active_kernels().of[static_cast<int>(blocks.precision)].hourglass;
   const bool is_small_strain = blocks.material == MaterialModel::linear;
   const auto relax = hourglass.relax[is_small_strain][static_cast<int>(blocks.formulation)];
   const std::int64_t of_points = task.n_points * history_of_point(step.n_branches) * blocks.lanes;

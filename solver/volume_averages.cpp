@@ -51,7 +51,7 @@ void set_shares(std::span<const Material> materials, std::span<const std::int32_
 
 double stiffness_of(const ElementBlocks& blocks, int n_values, std::int64_t lane) {
   const std::int64_t at =
-      (lane / blocks.lanes * n_values + value_K_V) * blocks.lanes + lane % blocks.lanes;
+      first_of_lane(lane, blocks.lanes, n_values) + std::int64_t{value_K_V} * blocks.lanes;
   return blocks.precision == Precision::in_single ? static_cast<double>(blocks.data_single[at])
                                                   : blocks.data[at];
 }
@@ -65,9 +65,9 @@ void for_owned_corners(const Model& model, const Body& body) {
     if (!averages_volume(blocks) || lane >= blocks.n_elements) return;
     const BlockKernels kernels = kernels_for(active_kernels(), blocks);
     const std::int64_t n_corners = kernels.element.n_corners;
+    const std::int64_t first = first_of_lane(lane, blocks.lanes, n_corners);
     for (std::int64_t a = 0; a < n_corners; ++a) {
-      const std::int64_t row = lane / blocks.lanes * n_corners + a;
-      const std::int64_t node = blocks.corner[row * blocks.lanes + lane % blocks.lanes];
+      const std::int64_t node = blocks.corner[first + a * blocks.lanes];
       if (node < model.n_owned)
         body(node * model.averages.n_fields + blocks.field, blocks.first_lane + lane,
              stiffness_of(blocks, kernels.n_values, lane));

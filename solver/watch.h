@@ -41,9 +41,8 @@ std::vector<GrownElement> find_grown(const Model& model, const Part& part, const
 // Global number of the first owned node with a value that is not finite or too large, -1 if none.
 std::int32_t first_bad_node(const Model& model, const Part& part, const State& state);
 
-// Energies of single items, so that engine can add them exactly in any order. [J]
+// Strain energies of single items, so that engine can add them exactly in any order. [J]
 struct EnergyTerms {
-  std::vector<double> kinetic;    // of owned nodes, 1/2 m v.v
   std::vector<double> strain;     // of elements whose lowest global node is owned here
   std::vector<double> hourglass;  // of the same elements, in the same order
   // Of owned nodes: strain energy of averaged volume changes (element_tet4_nodal_pressure.h), which

@@ -57,5 +57,12 @@ TEST(SortUnique, makes_a_list_in_which_a_value_has_a_place) {
   EXPECT_EQ(find_in({}, 3), -1);
 }
 
+TEST(United, has_all_that_are_in_one_or_both_once) {
+  EXPECT_EQ(united(std::vector<std::int32_t>{1, 4, 6}, std::vector<std::int32_t>{2, 4, 9}),
+            (std::vector<std::int32_t>{1, 2, 4, 6, 9}));
+  EXPECT_EQ(united({}, std::vector<std::int32_t>{3}), std::vector<std::int32_t>{3});
+  EXPECT_TRUE(united({}, {}).empty());
+}
+
 }  // namespace
 }  // namespace trocar

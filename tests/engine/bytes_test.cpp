@@ -135,6 +135,12 @@ TEST(Bytes, cut_off_anywhere_are_refused) {
     EXPECT_THROW(edit_from_bytes(std::span(edit_bytes).first(n)), InputError) << n;
 }
 
+TEST(Bytes, of_moves_that_can_not_follow_are_refused_before_memory_is_asked_for) {
+  std::vector<std::byte> bytes = edit_to_bytes({});  // seven counts, moves are the third
+  bytes[2 * sizeof(std::uint64_t)] = std::byte{2};   // more than four counts fill
+  EXPECT_TRUE(contains(error_of([&] { edit_from_bytes(bytes); }), "2 items announced"));
+}
+
 // No checksum protects these bytes (they may come from any program): whatever they say, the reader
 // gives a mesh or refuses, and asks for no more memory than the bytes can fill.
 TEST(Bytes, with_any_byte_changed_give_a_mesh_or_are_refused) {

@@ -12,12 +12,17 @@
 #include "engine/bytes.h"
 #include "engine/checkpoint_file.h"
 #include "engine/checkpoint_output.h"
+#include "engine/equilibrium.h"
+#include "engine/event_log.h"
 #include "engine/frame.h"
 #include "engine/output.h"
 #include "engine_checkpoint.h"
 #include "engine_resume.h"
 #include "engine_split.h"
 #include "engine_started.h"
+#include "mesh_fixtures.h"
+#include "mesh_write.h"
+#include "scene_parts.h"
 
 namespace trocar {
 namespace {
@@ -250,6 +255,80 @@ TEST(Checkpoint, of_a_frame_that_failed_is_that_of_its_beginning) {
   s->scene.solver.gravity = Vec3(0, 0, -9.81);
   const Checkpoint after = take_checkpoint_of_start(*s, start);
   EXPECT_EQ(checkpoint_to_bytes(without_wall_times(after)), before);
+}
+
+// A bar that sleeps on a table until a grasper closes on its end, in the 45th frame.
+const std::string grasped_bar = time_table("3 s") + tissue_of_kpa(6) + solver_table("-9.81", 30) +
+                                R"([start]
+state = "equilibrium"
+[checkpoint]
+every = 0
+[tissue.shape]
+kind = "box"
+low = ["-60 mm", "-10 mm", "0 mm"]
+high = ["60 mm", "10 mm", "20 mm"]
+cells = [24, 4, 4]
+[[support]]
+region = "z-"
+)" + instrument("grasper", "radius = \"2 mm\"\ngrip_radius = \"18 mm\"", R"(
+  { time = 0, position = ["72 mm", 0, "10 mm"], forward = [0, 1, 0], action = "open" },
+  { time = "1.49 s", position = ["72 mm", 0, "10 mm"], forward = [0, 1, 0], action = "close" },
+)");
+
+TEST(Checkpoint, of_a_frame_that_woke_what_slept_and_failed_is_that_of_its_beginning) {
+  const auto run = built(grasped_bar, {"solver.sleep='0.1 mm'"});
+  Simulation& s = *run->s;
+  start_in_equilibrium(run->loaded, s);
+  while (s.frame < 44) run_frame(s, run->outputs);
+  ASSERT_EQ(s.sleep->share, 1);
+  const std::vector<std::byte> before = bytes_of(s);
+  const FrameStart start = start_of_frame(s);
+  s.model.options.gravity = Vec3(0, 0, -1e300);  // no step is small enough
+  EXPECT_THROW(run_frame(s, run->outputs), SimulationError);
+  EXPECT_EQ(s.sleep->share, 0);
+  EXPECT_EQ(checkpoint_to_bytes(without_wall_times(take_checkpoint_of_start(s, start))), before);
+}
+
+// Hung at its left side, with thin elements at 5 mm.
+std::unique_ptr<Started> asleep_with_local_steps() {
+  const TestFolder folder;
+  write_mesh(with_thin_layer(BoxElements::hex8, 2), folder.file("m.msh"));
+  auto run = built(time_table("3 s") + "[checkpoint]\nevery = 0\n" + tissue_of_kpa(6) +
+                       solver_table("-2", 20) + held_left + "[start]\nstate = \"equilibrium\"\n",
+                   {"tissue.mesh='" + folder.file("m.msh") + "'", "solver.multirate=true",
+                    "solver.sleep='1 mm'"});
+  start_in_equilibrium(run->loaded, *run->s);
+  while (run->s->sleep->share < 1 && run->s->frame < 60) run_frame(*run->s, run->outputs);
+  return run;
+}
+
+// All that a frame may change before it fails: it wakes, is rolled back, searches the body anew and
+// finds that local steps don't pay.
+TEST(Checkpoint, of_a_frame_that_failed_has_nothing_that_the_frame_changed) {
+  const auto run = asleep_with_local_steps();
+  Simulation& s = *run->s;
+  ASSERT_EQ(s.sleep->share, 1);
+  ASSERT_TRUE(s.multirate);
+  const std::vector<std::byte> before = bytes_of(s);
+  const FrameStart start = start_of_frame(s);
+  using Change = void (*)(Simulation&);
+  for (const auto& [name, change] : std::vector<std::pair<const char*, Change>>{
+           {"sleep", [](Simulation& t) { wake_all(t); }},
+           {"watch", [](Simulation& t) { t.watch.stable_step /= 2; }},
+           {"step scale", [](Simulation& t) { t.step_scale /= 2; }},
+           {"roll-backs", [](Simulation& t) { ++t.log.n_roll_backs; }},
+           {"events", [](Simulation& t) { note_event(t, 0, "rolled back"); }},
+           {"search", [](Simulation& t) { ++t.log.searches.n_of_body; }},
+           {"search of a part", [](Simulation& t) { ++t.log.searches.n_of_parts; }},
+           {"look", [](Simulation& t) { t.look.of_small /= 2; }},
+           {"holds", [](Simulation& t) { t.holds.holds.push_back({.node = 1}); }},
+           {"local steps", [](Simulation& t) { t.multirate.reset(); }}}) {
+    const std::vector<std::byte> unchanged = bytes_of(s);
+    change(s);
+    EXPECT_NE(bytes_of(s), unchanged) << name;
+    EXPECT_EQ(checkpoint_to_bytes(without_wall_times(take_checkpoint_of_start(s, start))), before)
+        << name;
+  }
 }
 
 TEST(Checkpoint, of_another_body_is_refused) {

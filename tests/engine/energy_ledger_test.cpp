@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "engine/checkpoint.h"
 #include "engine_started.h"
@@ -55,6 +56,16 @@ region = "z+"
 path = [{ time = 0.00, displacement = [0.000, 0, 0] }, { time = 0.05, displacement = [0.001, 0, 0] },
         { time = 0.10, displacement = [0.001, 0, 0] }, { time = 0.15, displacement = [0.000, 0, 0] }]
 )" + metrics_table;
+}
+
+TEST(EnergyLedger, kinetic_energy_is_that_of_the_lumped_masses) {
+  const auto started = built(shear_text("hex8"));
+  Simulation& s = *started->s;
+  for (std::size_t k = 0; k < s.state.v.size(); k += 3) s.state.v[k] = 2;
+  std::vector<double> kinetic, gravity;
+  add_nodal_energies(s, kinetic, gravity);
+  const double mass = s.materials[0].density * 1e-6;  // of 1 cm^3
+  EXPECT_NEAR(std::accumulate(kinetic.begin(), kinetic.end(), 0.0), 0.5 * mass * 4, 1e-15);
 }
 
 TEST(EnergyLedger, viscous_work_of_simple_shear_is_the_closed_form) {

@@ -61,14 +61,15 @@ std::vector<std::int32_t> edited_nodes(const std::vector<Vec3>& X_before, const 
   return edited;
 }
 
-// The body as it is, around these nodes, in n_rings.
+// The body as it is, around these nodes, in n_rings, patch_rings at least.
 std::unique_ptr<Patch> patch_of(Simulation& s, std::span<const std::int32_t> edited, int n_rings) {
   GlobalState global = gather_state(s);
   const std::vector<double> history = copy_history(s.model, s.part, s.state);
   const ElementOrigins origins = unedited_elements(s.mesh.n_elements());
-  return make_patch(
-      s, elements_around(s.corners, edited),
-      {.global = global, .history = history, .origins = &origins, .n_rings = n_rings});
+  std::vector<std::int32_t> elements = elements_around(s.corners, edited);
+  for (int ring = patch_rings; ring < n_rings; ++ring)
+    elements = elements_around(s.corners, nodes_of(s.mesh, elements));
+  return make_patch(s, elements, {.global = global, .history = history, .origins = &origins});
 }
 
 // Bent, and shaken by `noise` [m]; watched.
@@ -103,7 +104,7 @@ bool cut_at_rest(Simulation& s) {
 void expect_modes_in_patch(Simulation& s, const std::vector<Vec3>& X_before, double before) {
   const double h = search_amplitude(s.model, s.edge_length), after = highest_frequency(s, h, 1e-3);
   const std::vector<std::int32_t> edited = edited_nodes(X_before, s.mesh);
-  for (int n_rings = 0; n_rings <= 2; ++n_rings) {
+  for (int n_rings = patch_rings; n_rings <= 3; ++n_rings) {
     const auto patch = patch_of(s, edited, n_rings);
     const double omega = highest_frequency(*patch, h, 1e-3);
     std::printf("%d rings: %d of %d elements, %.4f of the body's, before %.4f\n", n_rings,

@@ -13,7 +13,6 @@
 #include "engine/frame.h"
 #include "engine/state_digest.h"
 #include "engine_checkpoint.h"
-#include "error_of.h"
 #include "scene_parts.h"
 #include "solver/step.h"
 #include "test_files.h"
@@ -157,17 +156,6 @@ TEST(CutGroup, finds_all_nodes_and_tells_all_ranks) {
     EXPECT_EQ(x, expected);
     EXPECT_EQ(s.cut_state.known.empty(), !group.is_everyone());
   }
-}
-
-TEST(CutGroup, throws_the_errors_of_its_ranks_on_all) {
-  const auto running = built_on(*world, bar("tet4-five", at_one_end));
-  const CutGroup group(*running->s, {1, 2});
-  const auto throws = [&](const auto& error) {
-    return found_by<std::vector<int>>(group, [&]() -> std::vector<int> { throw error; });
-  };
-  EXPECT_EQ(error_of([&] { throws(InputError("no blade")); }), "no blade");
-  EXPECT_EQ(error_of<SimulationError>([&] { throws(SimulationError("torn")); }), "torn");
-  EXPECT_EQ(found_by<std::vector<int>>(group, [] { return std::vector{7}; }), std::vector{7});
 }
 
 TEST(CutOnRanks, is_made_by_those_around_the_blade_alone) {

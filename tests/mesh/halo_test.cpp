@@ -146,3 +146,19 @@ TEST(GatherField, alone_gives_the_field_in_global_order) {
   EXPECT_EQ(all_gather_field(ranks.part[0], 3, field, alone), field);
   EXPECT_EQ(gather_field(ranks.part[0], 3, field, alone), field);
 }
+
+TEST(ScatterField, gives_each_rank_the_values_of_its_nodes) {
+  const Mesh mesh = make_rectangle(1, 1, 4, 4);
+  const Ranks ranks = make_ranks(mesh, 2);
+  std::vector<double> field(2 * mesh.X.size());
+  for (std::size_t k = 0; k < field.size(); ++k) field[k] = static_cast<double>(k) / 3;
+  for (const Part& part : ranks.part)
+    for (const std::int32_t n : {part.n_owned, part.n_local()}) {
+      const std::vector<double> local = scatter_field(part, 2, field, n);
+      ASSERT_EQ(std::ssize(local), 2 * n);
+      for (std::size_t k = 0; k < local.size(); ++k) {
+        const auto node = static_cast<std::size_t>(part.node_global[k / 2]);
+        EXPECT_EQ(local[k], field[2 * node + k % 2]);
+      }
+    }
+}

@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "dead_load.h"
 #include "solver_algebra.h"
 #include "solver_stiffness.h"
 
@@ -40,8 +41,8 @@ TEST(Relax, a_linear_body_comes_to_the_solution_of_its_stiffness_equations) {
       f[k] = 0;
     }
     const Eigen::VectorXd expected = solution(K, f);
-    const Relaxation result =
-        relax(body.model, {.load = load, .tolerance = 1e-10}, body.state, body.scratch);
+    const Relaxation result = relax(body.model, {.add_load = dead_load(load), .tolerance = 1e-10},
+                                    body.state, body.scratch);
     EXPECT_TRUE(result.is_converged);
     const Eigen::Map<const Eigen::VectorXd> u(body.state.u.data(), K.rows());
     // Rounding of forces (1e-16 of K u_max) and of the differences that made K.
@@ -102,8 +103,8 @@ TEST(Relax, needs_about_as_many_iterations_as_the_ratio_of_frequencies_says) {
     for (std::size_t k = 2; k < f.size(); k += 3) f[k] = -1e-5 * body.mesh.X[k / 3].x();
     return f;
   }();
-  const Relaxation result =
-      relax(body.model, {.load = load, .ramp_iterations = 0}, body.state, body.scratch);
+  const Relaxation result = relax(body.model, {.add_load = dead_load(load), .ramp_iterations = 0},
+                                  body.state, body.scratch);
   EXPECT_TRUE(result.is_converged);
   // First bending mode of a cantilever of length / height 2: about .13 c_E h / L^2 * 2 pi = 1 / L
   // times .41 c_E; the step covers .6 of a cell, L / 6, at c_d.
@@ -138,7 +139,7 @@ TEST(Relax, finds_the_long_term_state_of_a_viscoelastic_body_and_leaves_it_at_re
   const auto relaxed = [](const Material& material) {
     Body body = clamped_block(BoxElements::tet4_kuhn, material);
     const std::vector<double> load = random_load(body, 1e-4);
-    const RelaxTask task{.load = load, .tolerance = 1e-10};
+    const RelaxTask task{.add_load = dead_load(load), .tolerance = 1e-10};
     EXPECT_TRUE(relax(body.model, task, body.state, body.scratch).is_converged);
     return body;
   };
@@ -160,7 +161,8 @@ TEST(Relax, gives_the_same_bits_with_any_number_of_threads) {
     set_thread_count(n_threads);
     Body body = clamped_block(BoxElements::hex8, Material{}, 6);
     const std::vector<double> load = random_load(body, 1e-4);
-    relax(body.model, {.load = load, .max_iterations = 300}, body.state, body.scratch);
+    relax(body.model, {.add_load = dead_load(load), .max_iterations = 300}, body.state,
+          body.scratch);
     set_thread_count(1);
     return body.state.u;
   };
@@ -175,7 +177,7 @@ TEST(Relax, says_so_when_values_are_not_finite) {
   std::vector<double> load = random_load(body, 1e-4);
   load.back() = std::numeric_limits<double>::infinity();
   for (const std::int64_t n_ramp : {std::int64_t{0}, RelaxTask{}.ramp_iterations}) {
-    const RelaxTask task{.load = load, .ramp_iterations = n_ramp};
+    const RelaxTask task{.add_load = dead_load(load), .ramp_iterations = n_ramp};
     const Relaxation result = relax(body.model, task, body.state, body.scratch);
     EXPECT_FALSE(result.is_finite) << n_ramp;
     EXPECT_FALSE(result.is_converged) << n_ramp;

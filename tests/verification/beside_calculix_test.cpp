@@ -1,5 +1,6 @@
 // Problems that CalculiX 2.20 computes on the same meshes with the same elements and materials:
 // calculix/compare.py writes its decks and printed the references (seven digits).
+#include "dead_load.h"
 #include "verification_dynamics.h"
 #include "verification_figure.h"
 
@@ -31,7 +32,7 @@ TEST(BesideCalculiX, the_small_deflection_of_a_cantilever_of_tetrahedra_is_the_s
                                         .material = {MaterialModel::linear, 3000, .3, 1000},
                                         .fixed = clamp_start});
   const std::vector<double> load = end_load(body, size, n, {0, 0, -1e-4});
-  settle(body, {.load = load, .ramp_iterations = 0, .tolerance = 1e-8});
+  settle(body, {.add_load = dead_load(load), .ramp_iterations = 0, .tolerance = 1e-8});
   check_figure({"Beside CalculiX", "C1 small cantilever, tip u_z [m]",
                 "C3D4 / " + mesh_name(tet_plain, n), displacement_at(body, {.1, .01, .01}).z(),
                 -.0004354194, 1e-6, calculix});
@@ -123,7 +124,7 @@ TEST(BesideCalculiX, cooks_membrane_of_plane_strain_triangles_bends_the_same) {
     const bool is_end = X.y() < 44 + 1e-9 || X.y() > 60 - 1e-9;
     return Vec3(0, X.x() < 48 - 1e-9 ? 0 : 100 * thickness / n / (is_end ? 2 : 1), 0);
   });
-  settle(body, {.load = load, .ramp_iterations = 0, .tolerance = 1e-8});
+  settle(body, {.add_load = dead_load(load), .ramp_iterations = 0, .tolerance = 1e-8});
   check_figure({"Beside CalculiX", "C5 Cook's membrane, plane strain, u_y", "CPE3 / tri3 16 x 16",
                 displacement_at(body, {48, 52, 0}).y(), 27.21616, 1e-6, calculix});
 }

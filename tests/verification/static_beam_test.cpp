@@ -1,6 +1,7 @@
 // V14, V15, V16, V18: slender and twisted bodies under gravity, end loads and turned ends.
 #include <numbers>
 
+#include "dead_load.h"
 #include "verification_clamped_edge.h"
 #include "verification_dynamics.h"
 #include "verification_figure.h"
@@ -83,7 +84,7 @@ TEST(V15Elastica, a_tip_load_bends_the_beam_into_the_elastica) {
       const Vec3 size(Elastica::L, Elastica::h, e.width());
       return Vec3(0, -P * face_share(X, size, {20 * e.n, e.n, 1}, 0), 0);
     });
-    settle(body, {.load = load, .ramp_iterations = 4000, .tolerance = 1e-5});
+    settle(body, {.add_load = dead_load(load), .ramp_iterations = 4000, .tolerance = 1e-5});
     check_tip(body, "P L^2/EI = " + std::to_string(int(k)), w, u);
   }
 }

@@ -1,5 +1,6 @@
 // V11, V12, V13: blocks that are stretched, squeezed and indented, against an implicit mixed solver
 // of high order (numerics 2).
+#include "dead_load.h"
 #include "verification_dynamics.h"
 #include "verification_figure.h"
 #include "verification_statics.h"
@@ -170,7 +171,7 @@ static double block_settlement(const Variant& variant, int n, double r) {
     const double share = is_loaded ? face_share(X, patch, {n / 2, 1, n / 2}, 1) : 0;
     return Vec3(0, -4 * r * .25 * share, 0);
   });
-  settle(body, {.load = load, .ramp_iterations = 4000, .tolerance = 1e-5});
+  settle(body, {.add_load = dead_load(load), .ramp_iterations = 4000, .tolerance = 1e-5});
   return -displacement_at(body, {0, 1, 0}).y();
 }
 

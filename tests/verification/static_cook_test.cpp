@@ -1,5 +1,6 @@
 // V10, Cook's membrane in plane strain and plane stress: corners (0,0) (48,44) (48,60) (0,44), left
 // edge clamped, uniform shear traction on the right one; displacement of its middle (48,52).
+#include "dead_load.h"
 #include "verification_figure.h"
 #include "verification_statics.h"
 
@@ -34,7 +35,7 @@ static Vec3 cook_middle(int n, Formulation formulation, const Material& material
     const bool is_end = X.y() < 44 + 1e-9 || X.y() > 60 - 1e-9;
     return Vec3(0, force * thickness / layers / n / (is_end ? 2 : 1), 0);
   });
-  settle(body, {.load = load, .ramp_iterations = 4000, .tolerance = 1e-5});
+  settle(body, {.add_load = dead_load(load), .ramp_iterations = 4000, .tolerance = 1e-5});
   return displacement_at(body, {48, 52, 0});
 }
 
