@@ -69,6 +69,11 @@ void add_machine_options(CLI::App& app, MachineOptions& machine) {
                  "Threads a rank; 0: the cores that it may use, divided among the ranks that share "
                  "them")
       ->check(CLI::Range(0, 1024));
+  app.add_option("--patience", machine.patience,
+                 "Seconds after which a run ends that waits for a rank of the same host which is "
+                 "stopped (SIGSTOP, a debugger)")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
   add_kernel_options(app, machine);
 }
 

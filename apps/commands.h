@@ -15,6 +15,7 @@ struct MachineOptions {
   int threads = 0;  // 0: cores of this host / ranks on it
   std::string simd = "auto";
   bool is_quiet = false;
+  int patience = 60;  // with a rank of this host that is stopped [s]
 };
 
 void use_machine(const MachineOptions& machine, const Communicator& communicator);

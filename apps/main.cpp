@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
   MpiSession session(&argc, &argv);
   const int rank = session.world().rank();
   start_log(rank, line.machine.is_quiet);
-  const PeerWatch watch(session.world());
+  const PeerWatch watch(session.world(), line.machine.patience);
   try {
     code = run_command(line, session.world());
     if (!was_printed()) throw MachineError(not_printed);

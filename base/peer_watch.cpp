@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -58,6 +59,25 @@ bool has_ended(const pollfd& process) {
   return process.fd >= 0 && (process.revents & POLLIN) != 0;
 }
 
+// By a signal or a debugger.
+bool is_suspended(long pid) {
+  std::ifstream in("/proc/" + std::to_string(pid) + "/stat");
+  std::string text;
+  std::getline(in, text);
+  const std::size_t name_end = text.rfind(')');  // the name before it may hold anything
+  return name_end != std::string::npos && name_end + 2 < text.size() &&
+         (text[name_end + 2] == 'T' || text[name_end + 2] == 't');
+}
+
+void tell_of_suspended(const Peer& peer, int seconds) {
+  std::fprintf(stderr,
+               "trocar: error: rank %d (process %ld on %s) has been stopped for %d s (SIGSTOP, a "
+               "debugger), while the others wait for it: the run ends. --resume goes on from the "
+               "last checkpoint, if there is one; --patience says how long to wait\n",
+               peer.rank, peer.pid, peer.host.c_str(), seconds);
+  std::fflush(stderr);
+}
+
 void tell(const Peer& peer) {
   std::fprintf(
       stderr,
@@ -71,8 +91,10 @@ void tell(const Peer& peer) {
 }  // namespace
 
 struct PeerWatch::Thread {
-  std::vector<Peer> peers;  // without this rank
+  std::vector<Peer> peers;             // without this rank
+  std::vector<int> seconds_suspended;  // (n_peers) in a row, of those in which this rank ran
   int rank = 0;
+  int patience = 0;             // [s]
   std::vector<pollfd> process;  // (n_peers + 1) and what stops the watch
   std::thread thread;
 
@@ -86,12 +108,26 @@ struct PeerWatch::Thread {
   bool is_stopped() const { return process.back().revents != 0; }
   bool is_lowest_left() const {
     for (std::size_t k = 0; k < peers.size(); ++k)
-      if (peers[k].rank < rank && !has_ended(process[k])) return false;
+      if (peers[k].rank < rank && !has_ended(process[k]) && seconds_suspended[k] == 0) return false;
     return true;
   }
   bool has_lost_one() const { return std::any_of(process.begin(), process.end() - 1, has_ended); }
+  // The peer that has been for too long, -1: none. After a second.
+  int find_suspended() {
+    for (std::size_t k = 0; k < peers.size(); ++k) {
+      seconds_suspended[k] = is_suspended(peers[k].pid) ? seconds_suspended[k] + 1 : 0;
+      if (seconds_suspended[k] >= patience) return static_cast<int>(k);
+    }
+    return -1;
+  }
   void run() {
-    while (!is_stopped() && !has_lost_one()) poll(process.data(), process.size(), -1);
+    while (!is_stopped() && !has_lost_one()) {
+      if (poll(process.data(), process.size(), 1000) != 0) continue;
+      const int k = find_suspended();
+      if (k < 0) continue;
+      if (is_lowest_left()) tell_of_suspended(peers[k], patience);
+      std::_Exit(static_cast<int>(ExitCode::machine));
+    }
     if (is_stopped()) return;
     poll(&process.back(), 1, patience);
     if (is_stopped()) return;
@@ -103,10 +139,11 @@ struct PeerWatch::Thread {
   }
 };
 
-PeerWatch::PeerWatch(const Communicator& communicator) {
+PeerWatch::PeerWatch(const Communicator& communicator, int patience_seconds) {
   if (communicator.size() == 1) return;
   auto watch = std::make_unique<Thread>();
   watch->rank = communicator.rank();
+  watch->patience = patience_seconds;
   for (Peer& peer : peers_of(communicator)) {
     if (peer.rank == communicator.rank()) continue;
     const auto fd = static_cast<int>(syscall(SYS_pidfd_open, peer.pid, 0));
@@ -114,6 +151,7 @@ PeerWatch::PeerWatch(const Communicator& communicator) {
     watch->peers.push_back(std::move(peer));
   }
   if (watch->peers.empty()) return;
+  watch->seconds_suspended.assign(watch->peers.size(), 0);
   const int stop = eventfd(0, EFD_CLOEXEC);
   if (stop < 0) return;  // no descriptor left: a watch that could not be stopped
   watch->process.push_back({.fd = stop, .events = POLLIN, .revents = 0});

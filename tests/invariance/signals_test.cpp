@@ -91,5 +91,49 @@ TEST(Signals, that_kill_one_rank_are_told_by_the_other) {
   }
 }
 
+pid_t start_two_ranks(const std::string& folder) {
+  const pid_t mpirun =
+      start(mpirun_words(2, TROCAR_PROGRAM,
+                         {"run", config("block_hex.toml"), "-q", "--patience", "2", "-o",
+                          folder + "/out", "--set", "output=[]", "--set", "time.duration=0.5"}),
+            folder);
+  wait_for(folder + "/out/scene.toml");
+  return mpirun;
+}
+
+int exit_code_of(pid_t process) {
+  int status = 0;
+  waitpid(process, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+// The others would wait for ever.
+TEST(Signals, that_stop_one_rank_are_told_by_the_other_and_end_the_run) {
+  for (const std::size_t which : {0, 1}) {
+    const std::string folder = test_folder("stopped-rank");
+    const pid_t mpirun = start_two_ranks(folder);
+    const std::vector<pid_t> ranks = children_of(mpirun);
+    ASSERT_EQ(ranks.size(), 2U);
+    kill(ranks[which], SIGSTOP);
+    EXPECT_EQ(exit_code_of(mpirun), 4);
+    const std::string told = read_text(folder + "/first"),
+                      who = "rank " + std::to_string(which) + " (process " +
+                            std::to_string(ranks[which]) + " on ";
+    EXPECT_NE(told.find(who), std::string::npos) << told;
+    EXPECT_NE(told.find("has been stopped for 2 s"), std::string::npos) << told;
+  }
+}
+
+TEST(Signals, that_stop_all_ranks_for_a_while_change_nothing) {
+  const std::string folder = test_folder("suspended");
+  const pid_t mpirun = start_two_ranks(folder);
+  const std::vector<pid_t> ranks = children_of(mpirun);
+  ASSERT_EQ(ranks.size(), 2U);
+  for (const pid_t rank : ranks) kill(rank, SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::seconds(4));
+  for (const pid_t rank : ranks) kill(rank, SIGCONT);
+  EXPECT_EQ(exit_code_of(mpirun), 0) << read_text(folder + "/first");
+}
+
 }  // namespace
 }  // namespace trocar
