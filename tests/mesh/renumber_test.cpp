@@ -14,6 +14,7 @@
 #include "mesh/generate.h"
 #include "mesh/quality.h"
 #include "mesh_equal.h"
+#include "mesh_joined.h"
 
 namespace trocar {
 namespace {
@@ -175,16 +176,12 @@ TEST(Renumber, interleaves_tetrahedra_that_share_nodes) {
 }
 
 TEST(Renumber, takes_pieces_one_after_the_other) {
-  Mesh mesh = body(BoxElements::tet4_kuhn);
-  const std::int32_t n = mesh.n_nodes();
-  const Mesh one = mesh;
-  for (const Vec3& X : one.X) mesh.X.push_back(X + Vec3(10, 0, 0));
-  for (std::int32_t e = 0; e < one.n_elements(); ++e) {
-    std::array<std::int32_t, 4> corner{};
-    for (int a = 0; a < 4; ++a) corner[std::size_t(a)] = one.corners(e)[std::size_t(a)] + n;
-    add_element(mesh, ElementType::tet4, corner);
-    mesh.fibre.emplace_back(1, 0, 0);
-  }
+  const Mesh one = body(BoxElements::tet4_kuhn);
+  const std::int32_t n = one.n_nodes();
+  Mesh far = one;
+  for (Vec3& X : far.X) X.x() += 10;
+  Mesh mesh = joined(one, far);
+  mesh.fibre.resize(mesh.element_type.size(), Vec3(1, 0, 0));
   const Mesh near = renumbered(mesh);
   for (std::int32_t i = 0; i < 2 * n; ++i)
     EXPECT_EQ(near.X[std::size_t(i)].x() < 5, (near.X[0].x() < 5) == (i < n));
