@@ -270,7 +270,6 @@ void Renderer::Gl::read_back(Image& image) {
 
 Renderer::Renderer(int width, int height) : gl_(std::make_unique<Gl>(width, height)) {}
 Renderer::~Renderer() = default;
-Renderer::Renderer(Renderer&&) noexcept = default;
 
 void Renderer::draw(const SceneView& scene, Image& image) {
   Gl& g = *gl_;
