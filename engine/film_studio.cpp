@@ -110,15 +110,15 @@ struct FilmStudio::Thread {
 
 SceneView FilmStudio::Thread::view_of(const FilmFrame& frame, const FilmOrder& order) const {
   SceneView view{.camera = to_camera(order.camera)};
-  view.tissues.push_back({.x = frame.x,
-                          .X = frame.X,
-                          .triangle = frame.surface.triangle,
-                          .is_cut = frame.surface.is_cut,
-                          .region = frame.region,
-                          .is_quad_half = frame.surface.is_quad_half,
-                          .look = look,
-                          .is_two_sided = is_plane,
-                          .has_edges = has_edges});
+  view.tissue = {.x = frame.x,
+                 .X = frame.X,
+                 .triangle = frame.surface.triangle,
+                 .is_cut = frame.surface.is_cut,
+                 .region = frame.region,
+                 .is_quad_half = frame.surface.is_quad_half,
+                 .look = look,
+                 .is_two_sided = is_plane,
+                 .has_edges = has_edges};
   for (const Tool& tool : tools)
     for (const ToolPart& part : tool.parts)
       view.instruments.push_back(

@@ -56,7 +56,7 @@ struct InstrumentView {
 
 struct SceneView {
   Camera camera;
-  std::vector<TissueView> tissues;
+  TissueView tissue;  // without triangles: none is seen
   std::vector<InstrumentView> instruments;
   std::string caption;  // drawn small in the lower left corner, empty: none
 };
