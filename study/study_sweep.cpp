@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/quantile.h"
 #include "base/timers.h"
 #include "study/study_body.h"
 #include "study/study_text.h"
@@ -72,9 +73,8 @@ Outcome solve_repeatedly(const Problem& problem, const Case& c, int repeats) {
   if (outcome.stepping_seconds > short_run) return outcome;
   std::vector<double> seconds = {outcome.stepping_seconds};
   for (int k = 1; k < repeats; ++k) seconds.push_back(problem.solve(c).stepping_seconds);
-  std::sort(seconds.begin(), seconds.end());
-  outcome.stepping_seconds = seconds[seconds.size() / 2];
-  if (seconds.size() > 1) outcome.least_stepping_seconds = seconds.front();
+  outcome.stepping_seconds = quantile(seconds, 0.5);
+  if (seconds.size() > 1) outcome.least_stepping_seconds = quantile(seconds, 0);
   return outcome;
 }
 
