@@ -144,29 +144,19 @@ ExitCode sweep_parameters(const Cut2dCommand& command) {
   return ExitCode::done;
 }
 
-void check_combination(const Cut2dCommand& command) {
+// What the pairs of options that the command line refuses leave to be said.
+void check_mesh(const Cut2dCommand& command) {
   const bool has_mesh = command.configuration > 0 || !command.mesh_file.empty();
-  if (command.configuration > 0 && !command.mesh_file.empty())
-    throw InputError("cut2d: --config and --mesh exclude each other");
-  const bool has_own = command.is_table || command.is_sweep;
-  if (command.is_table && command.is_sweep)
-    throw InputError("cut2d: --table1 and --sweep exclude each other");
-  if (has_own && (has_mesh || !command.paths.empty() || !command.arcs.empty()))
-    throw InputError("cut2d: --table1 and --sweep bring their own meshes and cuts");
   if (!command.mesh_scale.empty() && command.mesh_file.empty())
     throw InputError("cut2d: --scale belongs to --mesh: the paper's meshes have their own size");
-  if (!has_own && !has_mesh)
+  if (!command.is_table && !command.is_sweep && !has_mesh)
     throw InputError("cut2d: name a mesh with --config or --mesh, or ask for --table1 or --sweep");
-  if (!command.is_sweep && !command.docs_folder.empty())
-    throw InputError("cut2d: --docs belongs to --sweep");
-  if (!command.is_table && !command.markdown_file.empty())
-    throw InputError("cut2d: --markdown belongs to --table1");
 }
 
 }  // namespace
 
 ExitCode command_cut2d(const Cut2dCommand& command) {
-  check_combination(command);
+  check_mesh(command);
   if (command.is_sweep) return sweep_parameters(command);
   return command.is_table ? print_table(command) : cut_one(command);
 }

@@ -187,12 +187,16 @@ void add_cut2d_figures(CLI::App& cut2d, Cut2dCommand& c) {
 
 // What would have no effect is refused.
 void pair_cut2d_options(CLI::App& cut2d) {
-  for (const char* own : {"--mode", "--least-step-ratio"})
-    for (const char* table : {"--table1", "--sweep"})
-      cut2d.get_option(own)->excludes(cut2d.get_option(table));
-  for (const char* figure : {"--svg", "--json", "--repeat"})
-    cut2d.get_option(figure)->excludes(cut2d.get_option("--sweep"));
-  cut2d.get_option("--cuts")->needs(cut2d.get_option("--sweep"));
+  CLI::Option* const table = cut2d.get_option("--table1");
+  CLI::Option* const sweep = cut2d.get_option("--sweep");
+  // They bring their own meshes and cuts.
+  for (const char* own : {"--config", "--mesh", "--path", "--arc", "--mode", "--least-step-ratio"})
+    cut2d.get_option(own)->excludes(table)->excludes(sweep);
+  for (const char* figure : {"--svg", "--json", "--repeat", "--table1"})
+    cut2d.get_option(figure)->excludes(sweep);
+  for (const char* of_sweep : {"--cuts", "--docs"}) cut2d.get_option(of_sweep)->needs(sweep);
+  cut2d.get_option("--markdown")->needs(table);
+  cut2d.get_option("--config")->excludes(cut2d.get_option("--mesh"));
 }
 
 void add_cut2d(CLI::App& app, CommandLine& line) {

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/host.h"
 #include "base/log.h"
+#include "base/on_root.h"
 #include "base/threads.h"
 #include "engine/build.h"
 #include "engine/predict.h"
@@ -37,14 +38,7 @@ int ranks_on_cores(const Communicator& communicator) {
 // One set for all ranks, as elements at a border are computed on both sides. Collective; throws
 // InputError on every rank.
 void select_simd_alike(const std::string& name, const Communicator& communicator) {
-  std::string refusal;
-  try {
-    select_simd(name);
-  } catch (const InputError& trouble) {
-    refusal = trouble.what();
-  }
-  refusal = communicator.first_text(refusal);
-  if (!refusal.empty()) throw InputError(refusal);
+  on_every_rank(communicator, [&] { select_simd(name); });
   const auto mine = static_cast<double>(active_simd());
   const double least = communicator.all_min(mine);
   if (least != communicator.all_max(mine))

@@ -15,9 +15,8 @@ using namespace trocar;
 namespace {
 
 SceneView scene_of(const testing::Sheet& sheet) {
-  TissueView tissue = testing::view_of(sheet);
   Camera camera{.eye = Vec3(0, -.12, .1), .has_endoscope_mask = true};
-  return {.camera = camera, .tissues = {tissue}, .instruments = {}, .caption = ""};
+  return {.camera = camera, .tissue = testing::view_of(sheet), .instruments = {}, .caption = ""};
 }
 
 void report(int n, int width, int height, bool is_first) {

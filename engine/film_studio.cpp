@@ -20,7 +20,7 @@ namespace trocar {
 
 namespace {
 
-constexpr std::size_t queue_length = 2;
+constexpr std::size_t queue_length = 2, pictures_in_flight = 4;
 
 Camera to_camera(const SceneCamera& c) {
   return {.eye = c.eye,
@@ -44,11 +44,16 @@ std::vector<TissueColours> region_colours(const SceneTissue& tissue, const Mesh&
   });
 }
 
+struct PictureFile {
+  Image image;
+  std::string file;
+};
+
 // An order and what writes it.
 struct Film {
   FilmOrder order;
   std::unique_ptr<VideoWriter> video;
-  std::unique_ptr<PngQueue> pngs;
+  std::unique_ptr<WorkQueue<PictureFile>> pictures;
   ContactSheet sheet;
 
   void open() {
@@ -57,12 +62,13 @@ struct Film {
           std::make_unique<VideoWriter>(order.file, order.width, order.height, order.frame_rate);
     if (order.kind == OutputKind::frames) {
       std::filesystem::create_directories(order.file);
-      pngs = std::make_unique<PngQueue>();
+      pictures = std::make_unique<WorkQueue<PictureFile>>(
+          pictures_in_flight, [](PictureFile& picture) { write_png(picture.image, picture.file); });
     }
   }
   void add(const Image& image, std::int64_t number, double time) {
     if (video) video->add(image);
-    if (pngs) pngs->add(image, order.file + "/" + with_zeros(number, 6) + ".png");
+    if (pictures) pictures->add({image, order.file + "/" + with_zeros(number, 6) + ".png"});
     if (order.kind == OutputKind::contact_sheet) {
       sheet.images.push_back(image);
       sheet.captions.push_back(time_text(time));
@@ -70,7 +76,7 @@ struct Film {
   }
   void finish() {
     if (video) video->finish();
-    if (pngs) pngs->finish();
+    if (pictures) pictures->finish();
     if (order.kind == OutputKind::contact_sheet && !sheet.images.empty())
       write_png(draw_contact_sheet(sheet), order.file);
   }
@@ -104,15 +110,15 @@ struct FilmStudio::Thread {
 
 SceneView FilmStudio::Thread::view_of(const FilmFrame& frame, const FilmOrder& order) const {
   SceneView view{.camera = to_camera(order.camera)};
-  view.tissues.push_back({.x = frame.x,
-                          .X = frame.X,
-                          .triangle = frame.surface.triangle,
-                          .is_cut = frame.surface.is_cut,
-                          .region = frame.region,
-                          .is_quad_half = frame.surface.is_quad_half,
-                          .look = look,
-                          .is_two_sided = is_plane,
-                          .has_edges = has_edges});
+  view.tissue = {.x = frame.x,
+                 .X = frame.X,
+                 .triangle = frame.surface.triangle,
+                 .is_cut = frame.surface.is_cut,
+                 .region = frame.region,
+                 .is_quad_half = frame.surface.is_quad_half,
+                 .look = look,
+                 .is_two_sided = is_plane,
+                 .has_edges = has_edges};
   for (const Tool& tool : tools)
     for (const ToolPart& part : tool.parts)
       view.instruments.push_back(
@@ -124,7 +130,7 @@ void FilmStudio::Thread::open() {
   for (Film& film : films) {
     film.open();
     const std::pair<int, int> size(film.order.width, film.order.height);
-    if (!renderers.contains(size)) renderers.emplace(size, Renderer(size.first, size.second));
+    renderers.try_emplace(size, size.first, size.second);
   }
 }
 

@@ -33,6 +33,7 @@ struct NodeSet {
   // Of a surface in a mesh file: what does not belong to it although all its nodes do, outer facets
   // of the uncut mesh, ascending.
   std::vector<FacetNodes> left_out;
+  bool operator==(const NodeSet&) const = default;
 };
 
 // A hexahedron that a cut has made tetrahedra of: the first has its number, the others have those
@@ -78,6 +79,7 @@ struct Mesh {
     const std::int32_t first_made = n_nodes() - static_cast<std::int32_t>(copied_node.size());
     return i < first_made ? i : copied_node[i - first_made];
   }
+  bool operator==(const Mesh&) const = default;
 };
 
 const char* element_type_name(ElementType type);

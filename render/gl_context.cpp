@@ -93,7 +93,6 @@ void find_drawing(const Osmesa& o, GlFunctions& gl) {
   o.find(gl.Clear, "glClear");
   o.find(gl.ClearColor, "glClearColor");
   o.find(gl.DepthFunc, "glDepthFunc");
-  o.find(gl.DepthMask, "glDepthMask");
   o.find(gl.Disable, "glDisable");
   o.find(gl.DrawArrays, "glDrawArrays");
   o.find(gl.DrawBuffer, "glDrawBuffer");

@@ -1,7 +1,7 @@
 #include "render/gl_light.h"
 
 #include "render/shader_light.h"
-#include "render/shader_tissue.h"
+#include "render/shader_surface.h"
 
 namespace trocar {
 

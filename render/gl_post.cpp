@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "render/gl_light.h"
-#include "render/shader_instrument.h"
 #include "render/shader_post.h"
+#include "render/shader_screen.h"
 #include "render/shader_shade.h"
 
 namespace trocar {
@@ -51,7 +51,6 @@ void GlPost::find_shade(GLuint depth, GLuint shadow_map, const View& view) const
   bind_texture(gl_, 0, GL_TEXTURE_2D, depth);
   bind_texture(gl_, 1, GL_TEXTURE_2D, shadow_map);
   use_with_view(shade_program_, view);
-  shade_program_.set("depth", 0.0);
   shade_program_.set("depth_map", 0);
   shade_program_.set("shadow_map", 1);
   shade_program_.set("reach", occlusion_reach * view.distance);
@@ -60,7 +59,6 @@ void GlPost::find_shade(GLuint depth, GLuint shadow_map, const View& view) const
   bind_middle(gl_, blurred_, view.visible_part);
   bind_texture(gl_, 0, GL_TEXTURE_2D, shade_.colour);
   blur_program_.use();
-  blur_program_.set("depth", 0.0);
   blur_program_.set("shade", 0);
   fill_screen();
   gl_.Enable(GL_DEPTH_TEST);
@@ -68,7 +66,6 @@ void GlPost::find_shade(GLuint depth, GLuint shadow_map, const View& view) const
 
 void GlPost::find_glow(const GlTarget& picture) const {
   glow_program_.use();
-  glow_program_.set("depth", 0.0);
   glow_program_.set("picture", 0);
   glow_program_.set("is_first", 1.0);
   glow_program_.set("spacing", 1.0 / glow_.width, 0.0);
@@ -94,7 +91,6 @@ void GlPost::run(const GlTarget& picture, const View& view, bool has_endoscope_m
   bind_texture(gl_, 1, GL_TEXTURE_2D, blurred_.colour);
   bind_texture(gl_, 2, GL_TEXTURE_2D, glow_.colour);
   composite_program_.use();
-  composite_program_.set("depth", 0.0);
   composite_program_.set("picture", 0);
   composite_program_.set("shade", 1);
   composite_program_.set("glow", 2);

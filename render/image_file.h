@@ -10,7 +10,7 @@
 
 namespace trocar {
 
-// Throws MachineError with path and reason.
+// As write_whole_file does, with its MachineError.
 void write_png(const Image& image, const std::string& file);
 
 // What is wrong with the name of a film's file, whose ending players choose by; "" if nothing.
@@ -24,27 +24,12 @@ class VideoWriter {
  public:
   VideoWriter(const std::string& file, int width, int height, double frame_rate);
   ~VideoWriter();
-  VideoWriter(VideoWriter&&) noexcept;
   void add(Image image);  // blocks while the queue is full
   void finish();          // waits for ffmpeg; call before the destructor to see errors
 
  private:
   struct Pipe;
   std::unique_ptr<Pipe> pipe_;
-};
-
-// Writes PNG files in a thread of its own.
-class PngQueue {
- public:
-  PngQueue();
-  ~PngQueue();
-  PngQueue(PngQueue&&) noexcept;
-  void add(Image image, std::string file);
-  void finish();
-
- private:
-  struct Queue;
-  std::unique_ptr<Queue> queue_;
 };
 
 // `columns` x rows of pictures scaled down to `tile_width`, with a caption each.

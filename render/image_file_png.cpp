@@ -1,28 +1,23 @@
-// PNG files: libpng at its fastest useful setting (level 1, filter SUB), complete or not there at
-// all.
+// PNG files: libpng at its fastest useful setting (level 1, filter SUB), into memory first, so that
+// a file is complete or not there at all.
 #include <png.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
+#include <cstdlib>
 #include <memory>
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/whole_file.h"
 #include "render/image_file.h"
 
 namespace trocar {
 
 namespace {
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
+struct FreeBytes {
+  void operator()(char* bytes) const { std::free(bytes); }
 };
-
-MachineError png_error_for(const std::string& file, const std::string& reason) {
-  return MachineError("can't write the picture " + file + ": " + reason);
-}
 
 void keep_message(png_structp png, png_const_charp message) {
   std::snprintf(static_cast<char*>(png_get_error_ptr(png)), 200, "%s", message);
@@ -60,17 +55,19 @@ bool encode(const Image& image, std::FILE* out, char (&reason)[200]) {
 void write_png(const Image& image, const std::string& file) {
   CHECK(image.width > 0 && image.height > 0);
   CHECK_OP(image.rgb.size(), ==, std::size_t{3} * image.width * image.height);
-  const std::string part = file + ".part";
-  std::unique_ptr<std::FILE, CloseFile> out(std::fopen(part.c_str(), "wbe"));
-  if (!out) throw png_error_for(file, std::strerror(errno));
+  char* bytes = nullptr;
+  std::size_t n_bytes = 0;
   char reason[200] = "out of memory";
-  errno = 0;
-  bool is_written = encode(image, out.get(), reason);
-  if (std::fclose(out.release()) != 0) is_written = false;
-  if (is_written && std::rename(part.c_str(), file.c_str()) == 0) return;
-  const std::string why = errno != 0 ? std::strerror(errno) : reason;
-  unlink(part.c_str());
-  throw png_error_for(file, why);
+  std::FILE* const out = open_memstream(&bytes, &n_bytes);
+  bool is_encoded = out != nullptr && encode(image, out, reason);
+  if (out != nullptr && std::fclose(out) != 0) is_encoded = false;
+  const std::unique_ptr<char, FreeBytes> owner(bytes);
+  try {
+    if (!is_encoded) throw MachineError(file + ": " + reason);
+    write_whole_file(file, {bytes, n_bytes});
+  } catch (const MachineError& error) {
+    throw MachineError(std::string("can't write the picture ") + error.what());
+  }
 }
 
 }  // namespace trocar

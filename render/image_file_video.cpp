@@ -165,17 +165,14 @@ VideoWriter::VideoWriter(const std::string& file, int width, int height, double 
 }
 
 VideoWriter::~VideoWriter() = default;
-VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
 
 void VideoWriter::add(Image image) {
-  CHECK(pipe_);
   CHECK_OP(image.width, ==, pipe_->width);
   CHECK_OP(image.height, ==, pipe_->height);
   pipe_->work.add(std::move(image));
 }
 
 void VideoWriter::finish() {
-  CHECK(pipe_);
   pipe_->work.finish();
   pipe_->with_file_name([&] { pipe_->encoder.finish(); });
 }

@@ -56,7 +56,7 @@ struct InstrumentView {
 
 struct SceneView {
   Camera camera;
-  std::vector<TissueView> tissues;
+  TissueView tissue;  // without triangles: none is seen
   std::vector<InstrumentView> instruments;
   std::string caption;  // drawn small in the lower left corner, empty: none
 };
@@ -73,7 +73,6 @@ class Renderer {
   // loaded or lacks memory.
   Renderer(int width, int height);
   ~Renderer();
-  Renderer(Renderer&&) noexcept;
   // Smooth vertex normals within a smooth sheet, split where outer surface and cut face meet. The
   // picture is the same for any number of threads.
   void draw(const SceneView& scene, Image& image);

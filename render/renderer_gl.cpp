@@ -11,6 +11,8 @@
 #include "render/gl_post.h"
 #include "render/renderer.h"
 #include "render/shader_instrument.h"
+#include "render/shader_screen.h"
+#include "render/shader_surface.h"
 #include "render/shader_tissue.h"
 #include "render/surface_mesh.h"
 #include "render/tissue_pattern.h"
@@ -101,18 +103,19 @@ struct Renderer::Gl {
   GlProgram depth_only, tissue, instrument, background, enlarged;
   GlTarget samples, picture, shadow, cavity;
   GLuint field = 0, bump = 0;
-  std::vector<GlMesh> meshes;  // tissues, then instruments; kept from frame to frame
+  std::vector<GlMesh> meshes;  // tissue, then instruments; kept from frame to frame
   std::vector<std::uint8_t> rgba;
   PhaseTimers timers;
 
   Gl(int w, int h);
   void fill_meshes(const SceneView& scene);
-  void fill(std::size_t k, const SurfaceMesh& surface);
+  template <class Make>
+  void fill(std::size_t k, const Make& make);
   void find_shade(const View& view, std::size_t n_meshes) const;
   void draw_depths(const GlTarget& target, double part, const Mat4f& projection,
                    std::size_t n_meshes) const;
   void draw_picture(const SceneView& scene, const View& view) const;
-  void draw_tissues(const SceneView& scene) const;
+  void draw_tissue(const TissueView& view) const;
   void draw_instruments(const SceneView& scene) const;
   void draw_cavity(const SceneView& scene, const View& view) const;
   void use_with_light(const GlProgram& program, const View& view) const;
@@ -149,25 +152,23 @@ Renderer::Gl::Gl(int w, int h)
   current_while_made.reset();
 }
 
-void Renderer::Gl::fill(std::size_t k, const SurfaceMesh& surface) {
+template <class Make>
+void Renderer::Gl::fill(std::size_t k, const Make& make) {
   if (k == meshes.size()) meshes.push_back(make_gl_mesh(gl));
+  SurfaceMesh surface;
+  {
+    PhaseScope scope(timers, normals_phase);
+    surface = make();
+  }
   PhaseScope scope(timers, upload_phase);
   upload(gl, meshes[k], surface);
 }
 
 void Renderer::Gl::fill_meshes(const SceneView& scene) {
-  std::size_t k = 0;
-  for (const TissueView& view : scene.tissues) {
-    SurfaceMesh surface;
-    {
-      PhaseScope scope(timers, normals_phase);
-      surface = tissue_mesh(view, scene.camera.eye);
-    }
-    fill(k++, surface);
-  }
-  for (const InstrumentView& view : scene.instruments) {
-    CHECK(view.shape);
-    fill(k++, instrument_mesh(view));
+  fill(0, [&] { return tissue_mesh(scene.tissue, scene.camera.eye); });
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k) {
+    CHECK(scene.instruments[k].shape);
+    fill(1 + k, [&] { return instrument_mesh(scene.instruments[k]); });
   }
 }
 
@@ -201,22 +202,19 @@ void Renderer::Gl::use_with_light(const GlProgram& program, const View& view) co
   program.set("bump", 2);
 }
 
-void Renderer::Gl::draw_tissues(const SceneView& scene) const {
-  for (std::size_t k = 0; k < scene.tissues.size(); ++k) {
-    const TissueView& view = scene.tissues[k];
-    tissue.set("wetness", view.look.wetness);
-    tissue.set("texture_size", view.look.texture_size);
-    tissue.set("has_edges", view.has_edges ? 1.0 : 0.0);
-    if (!view.is_two_sided) gl.Enable(GL_CULL_FACE);
-    trocar::draw(gl, meshes[k]);
-    gl.Disable(GL_CULL_FACE);
-  }
+void Renderer::Gl::draw_tissue(const TissueView& view) const {
+  tissue.set("wetness", view.look.wetness);
+  tissue.set("texture_size", view.look.texture_size);
+  tissue.set("has_edges", view.has_edges ? 1.0 : 0.0);
+  if (!view.is_two_sided) gl.Enable(GL_CULL_FACE);
+  trocar::draw(gl, meshes[0]);
+  gl.Disable(GL_CULL_FACE);
 }
 
 void Renderer::Gl::draw_instruments(const SceneView& scene) const {
   for (std::size_t k = 0; k < scene.instruments.size(); ++k) {
     instrument.set("colour", scene.instruments[k].colour);
-    trocar::draw(gl, meshes[scene.tissues.size() + k]);
+    trocar::draw(gl, meshes[1 + k]);
   }
 }
 
@@ -224,7 +222,6 @@ void Renderer::Gl::draw_cavity(const SceneView& scene, const View& view) const {
   gl.Disable(GL_DEPTH_TEST);
   bind_target(gl, cavity);
   use_with_light(background, view);
-  background.set("depth", 0.0);
   background.set("target", scene.camera.target);
   post.fill_screen();
   gl.Enable(GL_DEPTH_TEST);
@@ -242,7 +239,7 @@ void Renderer::Gl::draw_picture(const SceneView& scene, const View& view) const 
   use_with_light(instrument, view);
   draw_instruments(scene);
   use_with_light(tissue, view);
-  draw_tissues(scene);
+  draw_tissue(scene.tissue);
   bind_texture(gl, 0, GL_TEXTURE_2D, cavity.colour);
   enlarged.use();
   enlarged.set("depth", 0.999999);
@@ -270,7 +267,6 @@ void Renderer::Gl::read_back(Image& image) {
 
 Renderer::Renderer(int width, int height) : gl_(std::make_unique<Gl>(width, height)) {}
 Renderer::~Renderer() = default;
-Renderer::Renderer(Renderer&&) noexcept = default;
 
 void Renderer::draw(const SceneView& scene, Image& image) {
   Gl& g = *gl_;
@@ -279,7 +275,7 @@ void Renderer::draw(const SceneView& scene, Image& image) {
   g.fill_meshes(scene);
   {
     PhaseScope scope(g.timers, shade_phase);
-    g.find_shade(view, scene.tissues.size() + scene.instruments.size());
+    g.find_shade(view, 1 + scene.instruments.size());
     g.gl.Finish();
   }
   {

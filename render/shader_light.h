@@ -9,7 +9,6 @@ namespace trocar {
 inline constexpr const char* shader_light = R"glsl(
 uniform vec3 eye, lamp, forward, right, up;
 uniform float distance_scale;       // from the eye to its target
-uniform float is_endoscope;
 uniform sampler2D shade_map;
 out vec4 out_colour;
 
@@ -44,7 +43,6 @@ float lamp_strength(vec3 x) {
 
 // Microfacet reflection (GGX, Walter 2007; Schlick's Fresnel; Smith's visibility by
 // Hammon 2017), times n.l.
-
 float glint(vec3 n, vec3 v, vec3 l, float roughness, float f0) {
   vec3 h = normalize(v + l);
   float a = roughness * roughness, a2 = a * a;

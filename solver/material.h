@@ -15,6 +15,7 @@ namespace trocar {
 struct PronyBranch {
   double share = 0;  // g of G(t) / G(0) = 1 - sum g (1 - exp(-t / tau)), > 0
   double time = 1;   // tau [s], > 0
+  bool operator==(const PronyBranch&) const = default;
 };
 
 struct OgdenTerm {

@@ -95,8 +95,6 @@ Cut2dSample sample_cuts(const CutPlaneOptions& options, int n_cuts_a_mesh) {
     Random random;
     for (int k = 0; k < n_cuts_a_mesh; ++k) cut_once(mesh, random_path(random, top), options, all);
   }
-  std::sort(all.ratio.begin(), all.ratio.end());
-  std::sort(all.seconds.begin(), all.seconds.end());
   const auto n_valid = static_cast<double>(all.ratio.size());
   return {.n_cuts = 4 * n_cuts_a_mesh,
           .n_refused = all.n_refused,

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/quantile.h"
 #include "base/timers.h"
 #include "cutting/cut_plane_reaches.h"
 #include "cutting/cut_plane_slit.h"
@@ -103,9 +104,8 @@ Cut2dTrial run_trial(const Mesh& mesh, const std::vector<Cut2dPath>& paths,
     seconds.push_back(options.mode == Cut2dMode::subdivision ? subdivide(trial)
                                                              : displace(options, trial));
   } while (is_more_to_do(options.repetitions, seconds.size(), start));
-  std::sort(seconds.begin(), seconds.end());
-  trial.best_seconds = seconds.front();
-  trial.median_seconds = seconds[seconds.size() / 2];
+  trial.best_seconds = quantile(seconds, 0);
+  trial.median_seconds = quantile(seconds, 0.5);
   trial.statistics_before = plane_statistics(mesh);
   trial.statistics_after = plane_statistics(trial.after);
   trial.n_new_nodes = trial.after.n_nodes() - mesh.n_nodes();

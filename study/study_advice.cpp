@@ -50,7 +50,7 @@ std::string cost_text(const Study& study, const Run& run) {
 }
 
 std::string run_text(const Study& study, const Target& target, const Run& run) {
-  std::string text = method_text(run) + ", " + run.size + " (h = " + length_text(run.outcome.h);
+  std::string text = case_text(run) + " (h = " + length_text(run.outcome.h);
   if (run.outcome.dt > 0) text += ", dt = " + seconds_text(run.outcome.dt);
   return text + "): " + (run.is_at_reference ? "at most " : "") +
          error_text(target, error_as(run, target)) + " for " + cost_text(study, run);

@@ -165,7 +165,7 @@ std::string draw_limits(const Study& study, const Panel& panel, const Axes& axes
 }
 
 std::string point_title(const Study& study, const Run& run) {
-  return method_text(run) + ", " + run.size + ": error " + percent_text(run.error) +
+  return case_text(run) + ": error " + percent_text(run.error) +
          (study.problem.length > 0 ? ", " + length_text(run.error_length) : "") + ", " +
          seconds_text(run.outcome.stepping_seconds) + ", h = " + length_text(run.outcome.h) +
          (run.outcome.dt > 0 ? ", dt = " + seconds_text(run.outcome.dt) : "");

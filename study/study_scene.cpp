@@ -15,6 +15,7 @@
 #include "engine/equilibrium.h"
 #include "engine/frame.h"
 #include "engine/tissue.h"
+#include "mesh/partition.h"
 #include "mesh/quality.h"
 #include "solver/element_setup.h"
 #include "study/study_body.h"
@@ -49,8 +50,9 @@ std::array<int, 3> least_cells(ShapeKind kind) {
     case ShapeKind::cylinder:
       return {2, 0, 1};
     case ShapeKind::rectangle:
-    case ShapeKind::triangular_rectangle:
       return {2, 2, 0};
+    case ShapeKind::triangular_rectangle:
+      return {3, 2, 0};
   }
   return {1, 1, 1};
 }
@@ -102,10 +104,7 @@ std::unique_ptr<Simulation> build_case(const LoadedScene& loaded, Communicator& 
 }
 
 void take_samples(const std::vector<SamplePoint>& points, const Simulation& s, Outcome& outcome) {
-  std::vector<double> u(s.mesh.X.size() * 3);
-  for (std::size_t k = 0; k < s.part.node_global.size(); ++k)
-    Vec3::Map(&u[3 * static_cast<std::size_t>(s.part.node_global[k])]) =
-        Vec3::Map(&s.state.u[3 * k]);
+  const std::vector<double> u = gather_field(s.part, 3, s.state.u, *s.communicator);
   for (const SamplePoint& point : points) outcome.samples.push_back(interpolate(point, u));
 }
 
@@ -167,6 +166,11 @@ std::vector<int> sizes_of(const SceneStudy& study, const std::vector<int>& wante
     sizes = wanted.empty() ? std::vector<int>{std::max(least, n / 4), std::max(least, n / 2), n}
                            : wanted;
     sort_unique(sizes);
+    if (sizes.front() < least)
+      throw InputError("n = " + std::to_string(sizes.front()) + " is below " +
+                       std::to_string(least) +
+                       ", the least that makes a mesh of this kind of shape (--sizes, or else "
+                       "tissue.shape.cells)");
   } else {
     for (int k = 1; k <= std::max(1, static_cast<int>(study.meshes.size())); ++k)
       sizes.push_back(k);

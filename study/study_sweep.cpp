@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/quantile.h"
 #include "base/timers.h"
 #include "study/study_body.h"
 #include "study/study_text.h"
@@ -72,9 +73,8 @@ Outcome solve_repeatedly(const Problem& problem, const Case& c, int repeats) {
   if (outcome.stepping_seconds > short_run) return outcome;
   std::vector<double> seconds = {outcome.stepping_seconds};
   for (int k = 1; k < repeats; ++k) seconds.push_back(problem.solve(c).stepping_seconds);
-  std::sort(seconds.begin(), seconds.end());
-  outcome.stepping_seconds = seconds[seconds.size() / 2];
-  if (seconds.size() > 1) outcome.least_stepping_seconds = seconds.front();
+  outcome.stepping_seconds = quantile(seconds, 0.5);
+  if (seconds.size() > 1) outcome.least_stepping_seconds = quantile(seconds, 0);
   return outcome;
 }
 
@@ -121,7 +121,7 @@ double predicted_seconds(const Problem& problem, const Run* before, int n) {
 }
 
 void tell(const Run& run) {
-  log_info(method_text(run) + ", " + run.size + ": " +
+  log_info(case_text(run) + ": " +
            (run.outcome.trouble.empty() ? significant(run.outcome.stepping_seconds, 3) + " s for " +
                                               significant(element_steps(run), 3) + " element-steps"
                                         : run.outcome.trouble));
@@ -184,7 +184,7 @@ void note_sleep(Study& study) {
                            awake.step_factor == run.step_factor;
       if (!is_twin || !is_sound(run) || !is_sound(awake)) continue;
       study.notes.push_back(
-          method_text(run) + ", " + run.size + ": at most " +
+          case_text(run) + ": at most " +
           length_text(largest_difference(run.outcome.samples, awake.outcome.samples)) +
           " from the same run without sleep, " + significant(cost_of(study, run), 3) +
           " s a simulated second instead of " + significant(cost_of(study, awake), 3) + " s");
@@ -223,10 +223,9 @@ Study sweep(const Problem& problem, const SweepOptions& options) {
       const double expected =
           predicted_seconds(problem, before == last.end() ? nullptr : &before->second, n);
       if (expected > left || left <= 0) {
-        study.notes.push_back(
-            std::string(curves[k].method.name) + " " + name_of(curves[k].precision) + ", size " +
-            std::to_string(n) + " left out: about " + significant(expected, 2) +
-            " s, of the budget " + significant(std::max(left, 0.), 2) + " s are left");
+        study.notes.push_back(case_text(run_of(problem, curves[k], n)) + " left out: about " +
+                              significant(expected, 2) + " s, of the budget " +
+                              significant(std::max(left, 0.), 2) + " s are left");
         log_info(study.notes.back());
         continue;
       }
@@ -248,6 +247,10 @@ std::string method_text(const Run& run) {
   if (run.step_factor > 0) text += ", step factor " + significant(run.step_factor, 3);
   if (run.sleep > 0) text += ", sleep " + length_text(run.sleep);
   return text;
+}
+
+std::string case_text(const Run& run) {
+  return method_text(run) + ", " + run.size;
 }
 
 double cost_of(const Study& study, const Run& run) {

@@ -47,6 +47,8 @@ void rate(Study& study);
 bool is_sound(const Run& run);
 // "hex8 single, step factor 0.9, sleep 0.1 mm"
 std::string method_text(const Run& run);
+// The same with its size: "hex8 single, step factor 0.9, n = 8"
+std::string case_text(const Run& run);
 // Processor seconds per second that the run simulated; of the whole run where nothing moves in
 // time. Of sound runs.
 double cost_of(const Study& study, const Run& run);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "engine/output.h"
 #include "mesh/generate.h"
 #include "test_files.h"
@@ -59,13 +60,51 @@ TEST(FilmStudio, says_at_once_that_a_film_can_not_be_opened) {
   EXPECT_ANY_THROW(FilmStudio({frames}, {}, mesh, {}));
 }
 
+FilmOrder small_frames(const TestFolder& folder) {
+  FilmOrder frames{.kind = OutputKind::frames, .file = folder.file("frames")};
+  frames.camera.eye = Vec3(0.1, 0.1, 0.1);
+  frames.width = 64;
+  frames.height = 48;
+  return frames;
+}
+
+TEST(FilmStudio, has_written_all_pictures_when_it_is_finished) {
+  const Mesh mesh = make_box(Vec3::Zero(), Vec3::Constant(0.02), {1, 1, 1}, BoxElements::hex8);
+  const TestFolder folder;
+  FilmStudio studio({small_frames(folder)}, {}, mesh, {});
+  for (int k = 0; k < 20; ++k) studio.add(frame_of(mesh, k));
+  studio.finish();
+  for (int k = 0; k < 20; ++k)
+    EXPECT_FALSE(
+        read_text(folder.file("frames/0000") + (k < 10 ? "0" : "") + std::to_string(k) + ".png")
+            .empty())
+        << k;
+}
+
+TEST(FilmStudio, tells_that_a_picture_can_not_be_written) {
+  const Mesh mesh = make_box(Vec3::Zero(), Vec3::Constant(0.02), {1, 1, 1}, BoxElements::hex8);
+  const TestFolder folder;
+  const FilmOrder order = small_frames(folder);
+  std::filesystem::create_directories(order.file + "/000001.png");
+  const auto add_one = [&] {
+    FilmStudio studio({order}, {}, mesh, {});
+    studio.add(frame_of(mesh, 1));
+    studio.finish();
+  };
+  EXPECT_THROW(add_one(), MachineError);
+  const auto add_many = [&] {
+    FilmStudio studio({order}, {}, mesh, {});
+    for (int k = 0; k < 100; ++k) studio.add(frame_of(mesh, 1));
+  };
+  EXPECT_THROW(add_many(), MachineError);
+}
+
 TEST(FilmStudio, that_nobody_finishes_writes_what_it_has) {
   const Mesh mesh = make_box(Vec3::Zero(), Vec3::Constant(0.02), {1, 1, 1}, BoxElements::hex8);
   const TestFolder folder;
-  FilmOrder sheet{.kind = OutputKind::contact_sheet, .file = folder.file("sheet.png")};
-  sheet.camera.eye = Vec3(0.1, 0.1, 0.1);
-  sheet.width = 64;
-  sheet.height = 48;
+  FilmOrder sheet = small_frames(folder);
+  sheet.kind = OutputKind::contact_sheet;
+  sheet.file = folder.file("sheet.png");
   FilmStudio({sheet}, {}, mesh, {}).add(frame_of(mesh, 1));
   EXPECT_TRUE(std::filesystem::exists(sheet.file));
 }

@@ -8,6 +8,7 @@
 #include "error_of.h"
 #include "mesh/partition_work.h"
 #include "mesh_fixtures.h"
+#include "mesh_joined.h"
 
 using namespace trocar;
 
@@ -32,15 +33,9 @@ TEST(PartitionNodes, is_balanced_on_twenty_thousand_nodes) {
 // As many nodes in hexahedra as in tetrahedra, six in the place of each: parts of equal numbers of
 // nodes would have an imbalance of up to 2 * 6 * 12 / (6 * 12 + 32) = 1.38.
 TEST(PartitionNodes, is_balanced_by_the_work_of_elements) {
-  Mesh mesh = make_box(Vec3::Zero(), Vec3::Ones(), {8, 8, 8}, BoxElements::hex8);
-  const Mesh tets = make_box(Vec3(2, 0, 0), Vec3(3, 1, 1), {8, 8, 8}, BoxElements::tet4_kuhn);
-  const std::int32_t first = mesh.n_nodes();
-  mesh.X.insert(mesh.X.end(), tets.X.begin(), tets.X.end());
-  for (std::int32_t e = 0; e < tets.n_elements(); ++e) {
-    std::vector<std::int32_t> corners(tets.corners(e).begin(), tets.corners(e).end());
-    for (std::int32_t& i : corners) i += first;
-    add_element(mesh, ElementType::tet4, corners);
-  }
+  const Mesh mesh =
+      joined(make_box(Vec3::Zero(), Vec3::Ones(), {8, 8, 8}, BoxElements::hex8),
+             make_box(Vec3(2, 0, 0), Vec3(3, 1, 1), {8, 8, 8}, BoxElements::tet4_kuhn));
   for (const int n_parts : {2, 3})
     EXPECT_LT(imbalance(mesh, partition_nodes(mesh, n_parts), n_parts), 1.1) << n_parts;
 }
@@ -122,17 +117,9 @@ TEST(PartitionNodes, gives_everything_to_a_single_rank) {
 
 TEST(PartitionNodes, splits_a_mesh_of_several_pieces) {
   Mesh mesh;
-  for (int piece = 0; piece < 4; ++piece) {
-    const std::int32_t first = mesh.n_nodes();
-    const Mesh box = make_box(Vec3(3.0 * piece, 0, 0), Vec3(3.0 * piece + 1, 1, 1), {4, 4, 4},
-                              BoxElements::hex8);
-    mesh.X.insert(mesh.X.end(), box.X.begin(), box.X.end());
-    for (std::int32_t e = 0; e < box.n_elements(); ++e) {
-      std::vector<std::int32_t> corners(box.corners(e).begin(), box.corners(e).end());
-      for (std::int32_t& i : corners) i += first;
-      add_element(mesh, ElementType::hex8, corners);
-    }
-  }
+  for (int piece = 0; piece < 4; ++piece)
+    mesh = joined(mesh, make_box(Vec3(3.0 * piece, 0, 0), Vec3(3.0 * piece + 1, 1, 1), {4, 4, 4},
+                                 BoxElements::hex8));
   for (const int size : part_sizes(partition_nodes(mesh, 3), 3)) EXPECT_GT(size, 100);  // of 167
 }
 

@@ -4,17 +4,40 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "mesh/generate.h"
 #include "mesh/quality.h"
 #include "mesh_equal.h"
+#include "mesh_joined.h"
 
 namespace trocar {
 namespace {
+
+// The nodes at z = 0, without every other facet there.
+NodeSet low_side(const Mesh& mesh) {
+  NodeSet low{"low", {}, {}};
+  const auto is_low = [&](std::int32_t i) { return mesh.X[i].z() == 0; };
+  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
+    if (is_low(i)) low.node.push_back(i);
+  bool is_left_out = false;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
+    FacetNodes facet{-1, -1, -1, -1};  // not more of an element's corners are there
+    auto next = facet.begin();
+    for (const std::int32_t i : mesh.corners(e))
+      if (is_low(i)) *next++ = i;
+    if (next - facet.begin() < 3) continue;
+    std::ranges::sort(facet);
+    if (std::exchange(is_left_out, !is_left_out)) low.left_out.push_back(facet);
+  }
+  std::ranges::sort(low.left_out);
+  return low;
+}
 
 // Two regions with fibres of their own, a node set, and numbers that differ from element to
 // element.
@@ -27,10 +50,7 @@ Mesh body(BoxElements elements) {
     mesh.cut_facets[e] = static_cast<std::uint8_t>(e % 16);
     mesh.fibre.push_back(Vec3(1, e, 0).normalized());
   }
-  NodeSet low{"low", {}};
-  for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
-    if (mesh.X[i].z() == 0) low.node.push_back(i);
-  mesh.node_sets = {low};
+  mesh.node_sets = {low_side(mesh)};
   return mesh;
 }
 
@@ -53,8 +73,15 @@ Mesh shuffled(const Mesh& mesh) {
     result.cut_facets[k] = mesh.cut_facets[e];
     result.fibre[k] = mesh.fibre[e];
   }
-  for (std::int32_t& i : result.node_sets[0].node) i = number[i];
-  std::sort(result.node_sets[0].node.begin(), result.node_sets[0].node.end());
+  NodeSet& low = result.node_sets[0];
+  for (std::int32_t& i : low.node) i = number[i];
+  std::ranges::sort(low.node);
+  for (FacetNodes& facet : low.left_out) {
+    for (std::int32_t& i : facet)
+      if (i >= 0) i = number[i];
+    std::ranges::sort(facet);
+  }
+  std::ranges::sort(low.left_out);
   return result;
 }
 
@@ -69,6 +96,32 @@ std::map<double, std::vector<double>> elements_of(const Mesh& mesh) {
       x.insert(x.end(), {mesh.X[i].x(), mesh.X[i].y(), mesh.X[i].z()});
   }
   return elements;
+}
+
+// Where the corners of each facet lie, in any order.
+std::set<std::set<std::array<double, 3>>> places_of(const std::vector<FacetNodes>& facets,
+                                                    const Mesh& mesh) {
+  std::set<std::set<std::array<double, 3>>> places;
+  for (const FacetNodes& facet : facets) {
+    std::set<std::array<double, 3>> corners;
+    for (const std::int32_t i : facet)
+      if (i >= 0) corners.insert({mesh.X[i].x(), mesh.X[i].y(), mesh.X[i].z()});
+    places.insert(corners);
+  }
+  return places;
+}
+
+TEST(Renumber, keeps_what_a_set_leaves_out) {
+  for (const BoxElements elements : {BoxElements::tet4_five, BoxElements::hex8}) {
+    const Mesh mesh = shuffled(body(elements)), near = renumbered(mesh);
+    const std::vector<FacetNodes>& left_out = near.node_sets[0].left_out;
+    EXPECT_GT(left_out.size(), 20U);  // half of 9 x 6 cells at least
+    EXPECT_EQ(left_out.size(), mesh.node_sets[0].left_out.size());
+    EXPECT_EQ(places_of(left_out, near), places_of(mesh.node_sets[0].left_out, mesh));
+    EXPECT_NE(left_out, mesh.node_sets[0].left_out);
+    EXPECT_TRUE(std::ranges::is_sorted(left_out));
+    for (const FacetNodes& facet : left_out) EXPECT_TRUE(std::ranges::is_sorted(facet));
+  }
 }
 
 TEST(Renumber, leaves_the_body_what_it_is) {
@@ -123,16 +176,12 @@ TEST(Renumber, interleaves_tetrahedra_that_share_nodes) {
 }
 
 TEST(Renumber, takes_pieces_one_after_the_other) {
-  Mesh mesh = body(BoxElements::tet4_kuhn);
-  const std::int32_t n = mesh.n_nodes();
-  const Mesh one = mesh;
-  for (const Vec3& X : one.X) mesh.X.push_back(X + Vec3(10, 0, 0));
-  for (std::int32_t e = 0; e < one.n_elements(); ++e) {
-    std::array<std::int32_t, 4> corner{};
-    for (int a = 0; a < 4; ++a) corner[std::size_t(a)] = one.corners(e)[std::size_t(a)] + n;
-    add_element(mesh, ElementType::tet4, corner);
-    mesh.fibre.emplace_back(1, 0, 0);
-  }
+  const Mesh one = body(BoxElements::tet4_kuhn);
+  const std::int32_t n = one.n_nodes();
+  Mesh far = one;
+  for (Vec3& X : far.X) X.x() += 10;
+  Mesh mesh = joined(one, far);
+  mesh.fibre.resize(mesh.element_type.size(), Vec3(1, 0, 0));
   const Mesh near = renumbered(mesh);
   for (std::int32_t i = 0; i < 2 * n; ++i)
     EXPECT_EQ(near.X[std::size_t(i)].x() < 5, (near.X[0].x() < 5) == (i < n));

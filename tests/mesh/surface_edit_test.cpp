@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/sort_unique.h"
 #include "mesh/node_corners.h"
 #include "mesh_opened_box.h"
 
@@ -14,8 +15,7 @@ static std::vector<std::int32_t> edited_nodes(const OpenedBox& box, const Mesh& 
       edited_elements(box.mesh, node_corners(box.mesh), box.edit);
   std::vector<std::int32_t> nodes = nodes_of(box.mesh, elements);
   for (const std::int32_t i : nodes_of(after, elements)) nodes.push_back(i);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sort_unique(nodes);
   return nodes;
 }
 

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "mesh/mesh_file.h"
-#include "mesh_equal.h"
 #include "mesh_refusal.h"
 #include "mesh_sample_files.h"
 #include "test_files.h"

@@ -56,6 +56,15 @@ TEST(ImageFile, png_that_can_not_be_written_is_an_error_with_path_and_reason) {
   }
 }
 
+TEST(ImageFile, png_goes_where_a_link_of_its_name_leads) {
+  const TestFolder folder;
+  const Image image = numbered_image(8, 8);
+  std::filesystem::create_symlink(folder.file("far.png"), folder.file("near.png"));
+  write_png(image, folder.file("near.png"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.file("near.png")));
+  EXPECT_EQ(read_png(folder.file("far.png")).rgb, image.rgb);
+}
+
 TEST(ImageFile, full_disk_leaves_the_old_picture) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this machine";
   const TestFolder folder;
@@ -65,28 +74,4 @@ TEST(ImageFile, full_disk_leaves_the_old_picture) {
   std::filesystem::create_symlink("/dev/full", file + ".part");
   EXPECT_THROW(write_png(numbered_image(64, 64), file), MachineError);
   EXPECT_EQ(read_png(file).rgb, first.rgb);
-}
-
-TEST(PngQueue, all_pictures_are_there_after_finish) {
-  const TestFolder folder;
-  PngQueue queue;
-  for (int k = 0; k < 20; ++k)
-    queue.add(numbered_image(16 + k, 9), folder.file(std::to_string(k) + ".png"));
-  queue.finish();
-  for (int k = 0; k < 20; ++k)
-    EXPECT_EQ(read_png(folder.file(std::to_string(k) + ".png")).width, 16 + k);
-}
-
-TEST(PngQueue, error_of_its_thread_comes_out_of_finish) {
-  PngQueue queue;
-  queue.add(numbered_image(4, 4), "/no/such/folder/a.png");
-  EXPECT_THROW(queue.finish(), MachineError);
-}
-
-TEST(PngQueue, error_of_its_thread_comes_out_of_a_later_add) {
-  PngQueue queue;
-  const auto add_many = [&] {
-    for (int k = 0; k < 100; ++k) queue.add(numbered_image(4, 4), "/no/such/folder/a.png");
-  };
-  EXPECT_THROW(add_many(), MachineError);
 }

@@ -27,7 +27,7 @@ struct FullScene {
     for (Vec3& p : sheet.x) p.z() = -2 * p.squaredNorm();
     for (std::size_t t = 0; t < 40; ++t) sheet.is_cut[t] = 1;
     view.camera = camera_above(0.15);
-    view.tissues.push_back(view_of(sheet));
+    view.tissue = view_of(sheet);
     view.instruments.push_back({.shape = &probe});
     view.caption = "t = 1.00 s";
   }
@@ -115,9 +115,9 @@ TEST(Renderer, each_region_has_its_colours) {
       region.push_back((sheet.x[triangle[0]] + sheet.x[triangle[1]] + sheet.x[triangle[2]]).x() <
                        0);
     SceneView scene{.camera = camera_above(0.15)};
-    scene.tissues.push_back(view_of(sheet));
-    scene.tissues[0].region = region;
-    scene.tissues[0].look.colours = {{}, {.outer = {0.02, 0.1, 0.6}, .cut = {0.02, 0.1, 0.6}}};
+    scene.tissue = view_of(sheet);
+    scene.tissue.region = region;
+    scene.tissue.look.colours = {{}, {.outer = {0.02, 0.1, 0.6}, .cut = {0.02, 0.1, 0.6}}};
     const Image image = draw_once(scene);
     constexpr int red = 0, blue = 2;
     EXPECT_GT(mean_level(image, 60, 60, 10, blue), 1.5 * mean_level(image, 60, 60, 10, red));
@@ -145,7 +145,7 @@ TEST(Renderer, triangle_covers_the_pixels_of_its_projection) {
   const Triangles triangle = {{0, 1, 2}};
   SceneView scene{.camera = camera_above(0.2)};
   const Image empty = draw_once(scene, w, h);
-  scene.tissues.push_back({.x = x, .X = x, .triangle = triangle});
+  scene.tissue = {.x = x, .X = x, .triangle = triangle};
   const Image image = draw_once(scene, w, h);
   const double f = 0.5 * h / (0.2 * std::tan(0.45));
   std::array<Vec2, 3> p;
@@ -178,7 +178,7 @@ TEST_F(Picture, rows_come_from_the_top) {
   for (Vec3& p : high.x) p.y() += 0.05;
   SceneView scene{.camera = camera_above(0.2)};
   const Image empty = draw(scene);
-  scene.tissues.push_back(view_of(high));
+  scene.tissue = view_of(high);
   const Image image = draw(scene);
   EXPECT_GT(difference(image, empty, 80, 25), 12);
   EXPECT_LT(difference(image, empty, 80, 95), 5);
@@ -187,9 +187,9 @@ TEST_F(Picture, rows_come_from_the_top) {
 TEST_F(Picture, cut_face_looks_different_from_the_outer_surface) {
   const Sheet outer = make_sheet(0.2, 4), cut = make_sheet(0.2, 4, true);
   SceneView scene{.camera = camera_above(0.15)};
-  scene.tissues = {view_of(outer)};
+  scene.tissue = view_of(outer);
   const Image a = draw(scene);
-  scene.tissues = {view_of(cut)};
+  scene.tissue = view_of(cut);
   const Image b = draw(scene);
   double change = 0;
   for (int c = 0; c < 3; ++c)
@@ -206,7 +206,7 @@ TEST_F(Picture, nothing_to_show_is_the_cavity_not_a_black_void) {
 TEST_F(Picture, instrument_casts_a_shadow_on_tissue) {
   const Sheet sheet = make_sheet(0.3, 4);
   SceneView scene{.camera = camera_above(0.2)};
-  scene.tissues.push_back(view_of(sheet));
+  scene.tissue = view_of(sheet);
   const Image lit = draw(scene);
   // The lamp stands at (+0.06, +0.044, 0.2): a ball at (0, 0, 0.05) throws its shadow round (-0.02,
   // -0.0147, 0).
@@ -224,9 +224,9 @@ TEST_F(Picture, pattern_sticks_to_the_reference_position) {
   const Vec3 step(0.25, -0.5, 0.125);  // exact in binary
   for (Vec3& p : moved.x) p += step;
   SceneView scene{.camera = camera_above(0.125)};
-  scene.tissues = {view_of(sheet)};
+  scene.tissue = view_of(sheet);
   const Image a = draw(scene);
-  scene.tissues[0].x = moved.x;
+  scene.tissue.x = moved.x;
   scene.camera.eye += step;
   scene.camera.target += step;
   const Image b = draw(scene);
@@ -238,19 +238,19 @@ TEST_F(Picture, plane_tissue_is_seen_from_below_and_closed_tissue_is_not) {
   const Sheet sheet = make_sheet(0.05, 2);
   SceneView scene{.camera = camera_above(-0.2)};
   const Image empty = draw(scene);
-  scene.tissues = {view_of(sheet)};
+  scene.tissue = view_of(sheet);
   EXPECT_EQ(draw(scene).rgb, empty.rgb);
-  scene.tissues[0].is_two_sided = true;
+  scene.tissue.is_two_sided = true;
   EXPECT_GT(difference(draw(scene), empty, 80, 60), 12);
 }
 
 TEST_F(Picture, element_edges_darken_their_pixels_only) {
   const Sheet sheet = make_sheet(0.2, 2);  // edges along x = 0 and y = 0, and one diagonal
   SceneView scene{.camera = camera_above(0.2)};
-  scene.tissues = {view_of(sheet)};
-  scene.tissues[0].is_two_sided = true;
+  scene.tissue = view_of(sheet);
+  scene.tissue.is_two_sided = true;
   const Image plain = draw(scene);
-  scene.tissues[0].has_edges = true;
+  scene.tissue.has_edges = true;
   const Image edged = draw(scene);
   EXPECT_LT(mean_level(edged, 80, 30, 0, 0), 0.85 * mean_level(plain, 80, 30, 0, 0));
   EXPECT_NEAR(mean_level(edged, 100, 30, 1, 0), mean_level(plain, 100, 30, 1, 0), 3);
@@ -270,9 +270,9 @@ TEST(Renderer, endoscope_shows_a_round_picture_on_black) {
 TEST(Renderer, endoscope_shows_the_same_whatever_was_drawn_before) {
   const Sheet sheet = make_sheet(2, 2);
   SceneView scene{.camera = camera_above(0.2)};
-  scene.tissues = {view_of(sheet)};
+  scene.tissue = view_of(sheet);
   SceneView bright = scene;
-  bright.tissues[0].look.colours[0].outer = Vec3(30, 30, 30);  // as highlights are
+  bright.tissue.look.colours[0].outer = Vec3(30, 30, 30);  // as highlights are
   scene.camera.has_endoscope_mask = true;
   Renderer renderer(320, 200);
   Image first, other, again;
@@ -301,7 +301,7 @@ TEST_F(Picture, caption_changes_the_lower_left_corner_only) {
 TEST_F(Picture, positions_that_are_not_finite_drop_their_triangles_only) {
   Sheet sheet = make_sheet(0.2, 4);
   SceneView scene{.camera = camera_above(0.2)};
-  scene.tissues = {view_of(sheet)};
+  scene.tissue = view_of(sheet);
   const Image whole = draw(scene);
   sheet.x[0] = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   sheet.x[1].x() = std::numeric_limits<double>::infinity();
@@ -314,13 +314,16 @@ TEST_F(Picture, positions_that_are_not_finite_drop_their_triangles_only) {
 TEST_F(Picture, empty_tissue_and_all_nan_are_drawn_as_nothing) {
   SceneView scene{.camera = camera_above(0.2)};
   const Image empty = draw(scene);
-  scene.tissues.emplace_back();
+  const Sheet seen = make_sheet(0.2, 1);
+  scene.tissue = view_of(seen);
+  EXPECT_NE(draw(scene).rgb, empty.rgb);
+  scene.tissue = {};
   const TriangleMesh no_shape;
   scene.instruments.push_back({.shape = &no_shape});
   EXPECT_EQ(draw(scene).rgb, empty.rgb);
   Sheet sheet = make_sheet(0.2, 1);
   for (Vec3& p : sheet.x) p.setConstant(std::numeric_limits<double>::quiet_NaN());
-  scene.tissues[0] = view_of(sheet);
+  scene.tissue = view_of(sheet);
   EXPECT_EQ(draw(scene).rgb, empty.rgb);
 }
 

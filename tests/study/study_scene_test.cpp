@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "error_of.h"
 #include "largest.h"
 #include "mesh/generate.h"
 #include "mesh_write.h"
@@ -147,20 +148,46 @@ TEST(StudyScene, mesh_files_take_the_place_of_cells) {
   EXPECT_THROW(sweep(problem, {.elements = {"hex8"}}), InputError);
 }
 
+// The scene's text with a body of this kind that nothing holds.
+std::string scene_of_shape(const std::string& keys) {
+  const std::string text = hanging_box;
+  return text.substr(0, text.find("[[support]]")) + "[tissue.shape]\n" + keys;
+}
+
 TEST(StudyScene, every_shape_has_sizes_of_its_own) {
   const TestFolder folder;
   Communicator alone;
-  const auto sizes = [&](const std::string& of_shape) {
-    const std::string text = std::string(hanging_box) + "[tissue.shape]\n" + of_shape;
-    return problem_of_scene(
-               {.scene_file = folder.file(
-                    "scene.toml", replaced(text, "region = \"z+\"", "region = \"surface\""))},
-               alone)
+  const auto sizes = [&](const std::string& keys) {
+    return problem_of_scene({.scene_file = folder.file("scene.toml", scene_of_shape(keys))}, alone)
         .sizes;
   };
   const std::string ball = "kind = \"ball\"\nradius = 0.05\n";
   EXPECT_EQ(sizes(ball + "cells = [6, 6, 6]\n"), (std::vector<int>{2, 3, 6}));
   EXPECT_EQ(sizes(ball + "cells = [4, 10, 10]\n"), (std::vector<int>{2, 4}));
+  // The ten cells of a shape without `cells`; the coarsest has to make a mesh.
+  for (const char* kind : {"box", "ball", "cylinder", "rectangle"})
+    EXPECT_EQ(sizes("kind = \"" + std::string(kind) + "\"\n"), (std::vector<int>{2, 5, 10}))
+        << kind;
+  EXPECT_EQ(sizes("kind = \"triangular-rectangle\"\n"), (std::vector<int>{3, 5, 10}));
+}
+
+TEST(StudyScene, sizes_that_the_shape_can_not_have_are_refused) {
+  const TestFolder folder;
+  Communicator alone;
+  const std::pair<const char*, int> least_of_kind[] = {
+      {"box", 1}, {"ball", 2}, {"cylinder", 2}, {"rectangle", 2}, {"triangular-rectangle", 3}};
+  for (const auto& [kind, least] : least_of_kind) {
+    const std::string scene =
+        folder.file("scene.toml", scene_of_shape("kind = \"" + std::string(kind) + "\"\n"));
+    const auto make = [&, least = least](int n) {
+      problem_of_scene({.scene_file = scene, .sizes = {n, least + 1}}, alone);
+    };
+    EXPECT_NO_THROW(make(least)) << kind;
+    const std::string error = error_of([&, least = least] { make(least - 1); });
+    EXPECT_TRUE(error.starts_with("n = " + std::to_string(least - 1) + " is below " +
+                                  std::to_string(least)))
+        << kind << ": " << error;
+  }
 }
 
 // As it is refused where the scene itself asks for both.

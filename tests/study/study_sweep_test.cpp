@@ -98,7 +98,27 @@ TEST(StudySweep, sizes_that_the_budget_does_not_hold_are_left_out_and_named) {
   ASSERT_EQ(study.runs.size(), 1u);
   EXPECT_EQ(study.runs[0].n, 2);
   ASSERT_EQ(study.notes.size(), 1u);
-  EXPECT_NE(study.notes[0].find("hex8 double, size 4096"), std::string::npos) << study.notes[0];
+  EXPECT_NE(study.notes[0].find("hex8 double, n = 4096 left out"), std::string::npos)
+      << study.notes[0];
+}
+
+TEST(StudySweep, notes_of_what_is_left_out_name_the_run_as_tables_do) {
+  Problem problem = made_up_problem(0);
+  problem.simulated_seconds = 1;
+  problem.sleeps = {0, 1e-4};
+  problem.size_label = [](int n) { return "box" + std::to_string(n); };
+  const Study study = sweep(problem, {.sizes = {2, 4096},
+                                      .elements = {"hex8"},
+                                      .precisions = {"double"},
+                                      .step_factors = {.5, 1},
+                                      .budget = 5});
+  ASSERT_EQ(study.notes.size(), 4U);
+  const char* const names[] = {"hex8 double, step factor 0.5, box4096 left out",
+                               "hex8 double, step factor 0.5, sleep 0.1 mm, box4096 left out",
+                               "hex8 double, step factor 1, box4096 left out",
+                               "hex8 double, step factor 1, sleep 0.1 mm, box4096 left out"};
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_TRUE(study.notes[k].starts_with(names[k])) << study.notes[k];
 }
 
 TEST(StudySweep, the_budget_of_mesh_files_goes_by_their_edges_and_not_by_their_numbers) {

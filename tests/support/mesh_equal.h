@@ -7,6 +7,4 @@ namespace trocar::test {
 
 void expect_equal(const Mesh& a, const Mesh& b);
 
-bool is_equal(const Mesh& a, const Mesh& b);
-
 }  // namespace trocar::test

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/box.h"
 #include "base/whole_file.h"
 #include "mesh/text_append.h"
 
@@ -61,12 +62,7 @@ void append_point(std::string& text, const Vec3& X) {
 }
 
 void append_entities(std::string& text, const Mesh& mesh, const PointEntities& points) {
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();
-  if (!mesh.X.empty()) low = high = mesh.X[0];
-  for (const Vec3& X : mesh.X) {
-    low = low.cwiseMin(X);
-    high = high.cwiseMax(X);
-  }
+  const auto [low, high] = mesh.X.empty() ? Box{Vec3::Zero(), Vec3::Zero()} : bounding_box(mesh.X);
   const std::size_t n_regions = std::max<std::size_t>(1, mesh.region_name.size());
   const bool is_plane = mesh.dimension() == 2;
   text += "$Entities\n";

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/digest.h"
 #include "base/threads.h"
 #include "largest.h"
 #include "mesh/generate.h"
@@ -75,10 +76,7 @@ class Noise {
  public:
   explicit Noise(std::uint64_t seed) : state_(seed) {}
   double operator()() {
-    std::uint64_t z = (state_ += 0x9E3779B97F4A7C15ULL);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
+    return static_cast<double>(mix64(state_ += 0x9e3779b97f4a7c15) >> 11) * 0x1p-52 - 1;
   }
 
  private:
