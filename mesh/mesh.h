@@ -33,6 +33,7 @@ struct NodeSet {
   // Of a surface in a mesh file: what does not belong to it although all its nodes do, outer facets
   // of the uncut mesh, ascending.
   std::vector<FacetNodes> left_out;
+  bool operator==(const NodeSet&) const = default;
 };
 
 // A hexahedron that a cut has made tetrahedra of: the first has its number, the others have those
@@ -64,6 +65,7 @@ struct Mesh {
   // rank where facets choose their diagonals (hex_split.h); bit 7, at a hexahedron that never does.
   std::vector<std::uint8_t> hex_split_rank;
   std::vector<SplitHexahedron> split_hexahedra;  // in the order of their splits
+  bool operator==(const Mesh&) const = default;
 
   std::int32_t n_nodes() const { return static_cast<std::int32_t>(X.size()); }
   std::int32_t n_elements() const { return static_cast<std::int32_t>(element_type.size()); }

@@ -45,7 +45,7 @@ TEST(CheckpointBytes, read_back_give_the_same_checkpoint) {
   EXPECT_EQ(back.scene, c.scene);
   EXPECT_EQ(back.frame, 17);
   EXPECT_EQ(back.digest, 99u);
-  EXPECT_TRUE(is_equal(*back.mesh, *c.mesh));
+  EXPECT_TRUE(*back.mesh == *c.mesh);
   EXPECT_EQ(back.fixed, c.fixed);
   EXPECT_EQ(back.u, c.u);
   EXPECT_EQ(back.v, c.v);
@@ -83,7 +83,7 @@ TEST(CheckpointBytes, of_a_large_body_are_handed_on_in_small_pieces) {
   });
   EXPECT_GT(n_pieces, 6);
   const Checkpoint back = checkpoint_from_bytes(bytes, "c");
-  EXPECT_TRUE(is_equal(*back.mesh, *c.mesh));
+  EXPECT_TRUE(*back.mesh == *c.mesh);
   EXPECT_EQ(back.u, c.u);
   EXPECT_EQ(back.v, c.v);
   EXPECT_EQ(back.looked_at, c.looked_at);

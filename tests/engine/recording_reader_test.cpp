@@ -39,7 +39,7 @@ TEST(RecordingReader, meshes_are_the_first_with_the_edits_up_to_the_frame_in_any
   for (std::size_t k = 9; k-- > 0;) order.push_back(k);
   for (const std::size_t k : {5, 0, 8, 2, 2, 7, 1}) order.push_back(k);
   for (const std::size_t k : order) {
-    EXPECT_TRUE(is_equal(reader.mesh_at(run.frames[k].frame), run.meshes[k])) << k;
+    EXPECT_TRUE(reader.mesh_at(run.frames[k].frame) == run.meshes[k]) << k;
     std::int64_t n_edits = 0;
     for (std::size_t j = 0; j <= k; ++j) n_edits += std::ssize(run.edits[j]);
     EXPECT_EQ(reader.n_edits(), n_edits) << k;
@@ -69,7 +69,7 @@ TEST(RecordingReader, has_the_mesh_of_each_frame_of_a_run_whose_cut_splits_eleme
   EXPECT_TRUE(reader.damage().empty());
   for (std::int64_t frame = 16; frame > 0; --frame) {
     const auto k = static_cast<std::size_t>(frame - 1);
-    EXPECT_TRUE(is_equal(reader.mesh_at(frame), meshes[k])) << frame;
+    EXPECT_TRUE(reader.mesh_at(frame) == meshes[k]) << frame;
     EXPECT_EQ(reader.read(frame).u, u[k]) << frame;
   }
 }
@@ -136,7 +136,7 @@ TEST(RecordingReader, finds_every_changed_column_of_a_frame_and_keeps_the_others
     EXPECT_THROW(reader.mesh_at(6), InputError) << column;
     for (const auto& [frame, time] : reader.frames()) {
       EXPECT_TRUE(is_equal(reader.read(frame), run.frames[static_cast<std::size_t>(frame) / 2]));
-      EXPECT_TRUE(is_equal(reader.mesh_at(frame), run.meshes[static_cast<std::size_t>(frame) / 2]));
+      EXPECT_TRUE(reader.mesh_at(frame) == run.meshes[static_cast<std::size_t>(frame) / 2]);
     }
   }
 }
@@ -172,7 +172,7 @@ TEST(RecordingReader, finds_lost_exchanged_and_changed_edits) {
     RecordingReader reader(folder.file("r"));
     EXPECT_TRUE(contains(error_of([&] { reader.mesh_at(12); }), ": edit ")) << sql;
     EXPECT_TRUE(is_equal(reader.read(12), run.frames[6])) << sql;
-    EXPECT_TRUE(is_equal(reader.mesh_at(0), run.meshes[0])) << sql;
+    EXPECT_TRUE(reader.mesh_at(0) == run.meshes[0]) << sql;
   }
 }
 
@@ -214,7 +214,7 @@ TEST(RecordingReader, refuses_edits_that_do_not_fit_the_mesh) {
     RecordingReader reader(folder.file("r"));
     EXPECT_TRUE(contains(error_of([&] { reader.mesh_at(4); }), "edit 0: does not fit the mesh"))
         << k;
-    EXPECT_TRUE(is_equal(reader.mesh_at(2), run.meshes[1])) << k;
+    EXPECT_TRUE(reader.mesh_at(2) == run.meshes[1]) << k;
   }
 }
 
@@ -278,7 +278,7 @@ std::string silent_fault(const std::string& file, const ExampleRun& run, int& n_
       try {
         if (!is_equal(reader.read(frame), run.frames[k]))
           return "another frame " + std::to_string(frame);
-        if (!is_equal(reader.mesh_at(frame), run.meshes[k]))
+        if (reader.mesh_at(frame) != run.meshes[k])
           return "another mesh in frame " + std::to_string(frame);
       } catch (const InputError&) {
         ++n_refused;

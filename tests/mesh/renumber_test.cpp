@@ -16,6 +16,22 @@
 namespace trocar {
 namespace {
 
+// Of every third element the facet at z = 0 if it has one.
+std::vector<FacetNodes> some_low_facets(const Mesh& mesh) {
+  std::vector<FacetNodes> facets;
+  for (std::int32_t e = 0; e < mesh.n_elements(); e += 3) {
+    std::vector<std::int32_t> low;
+    for (const std::int32_t i : mesh.corners(e))
+      if (mesh.X[i].z() == 0) low.push_back(i);
+    if (low.size() < (mesh.element_type[e] == ElementType::hex8 ? 4U : 3U)) continue;
+    FacetNodes& facet = facets.emplace_back(FacetNodes{-1, -1, -1, -1});
+    std::copy_backward(low.begin(), low.end(), facet.end());
+    std::ranges::sort(facet);
+  }
+  std::ranges::sort(facets);
+  return facets;
+}
+
 // Two regions with fibres of their own, a node set, and numbers that differ from element to
 // element.
 Mesh body(BoxElements elements) {
@@ -30,6 +46,7 @@ Mesh body(BoxElements elements) {
   NodeSet low{"low", {}};
   for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
     if (mesh.X[i].z() == 0) low.node.push_back(i);
+  low.left_out = some_low_facets(mesh);
   mesh.node_sets = {low};
   return mesh;
 }
@@ -55,6 +72,11 @@ Mesh shuffled(const Mesh& mesh) {
   }
   for (std::int32_t& i : result.node_sets[0].node) i = number[i];
   std::sort(result.node_sets[0].node.begin(), result.node_sets[0].node.end());
+  for (FacetNodes& facet : result.node_sets[0].left_out) {
+    for (std::int32_t& i : facet) i = i < 0 ? i : number[i];
+    std::ranges::sort(facet);
+  }
+  std::ranges::sort(result.node_sets[0].left_out);
   return result;
 }
 
@@ -71,6 +93,18 @@ std::map<double, std::vector<double>> elements_of(const Mesh& mesh) {
   return elements;
 }
 
+// Where the nodes of each facet are that the node set leaves out.
+std::set<std::set<std::array<double, 3>>> left_out_places(const Mesh& mesh) {
+  std::set<std::set<std::array<double, 3>>> facets;
+  for (const FacetNodes& facet : mesh.node_sets[0].left_out) {
+    std::set<std::array<double, 3>> places;
+    for (const std::int32_t i : facet)
+      if (i >= 0) places.insert({mesh.X[i].x(), mesh.X[i].y(), mesh.X[i].z()});
+    facets.insert(places);
+  }
+  return facets;
+}
+
 TEST(Renumber, leaves_the_body_what_it_is) {
   for (const BoxElements elements : {BoxElements::tet4_five, BoxElements::hex8}) {
     const Mesh mesh = shuffled(body(elements)), near = renumbered(mesh);
@@ -81,6 +115,11 @@ TEST(Renumber, leaves_the_body_what_it_is) {
     EXPECT_EQ(near.node_sets[0].node.size(), mesh.node_sets[0].node.size());
     for (const std::int32_t i : near.node_sets[0].node) EXPECT_EQ(near.X[i].z(), 0);
     EXPECT_TRUE(std::ranges::is_sorted(near.node_sets[0].node));
+    EXPECT_GT(mesh.node_sets[0].left_out.size(), 10U);
+    EXPECT_EQ(left_out_places(near), left_out_places(mesh));
+    EXPECT_TRUE(std::ranges::is_sorted(near.node_sets[0].left_out));
+    for (const FacetNodes& facet : near.node_sets[0].left_out)
+      EXPECT_TRUE(std::ranges::is_sorted(facet));
   }
 }
 

@@ -71,7 +71,7 @@ void write_run(const ExampleRun& run, const std::string& file, bool with_finish)
 }
 
 bool is_equal(const RecordingHead& a, const RecordingHead& b) {
-  if (a.version != b.version || a.scene != b.scene || !is_equal(a.mesh, b.mesh)) return false;
+  if (a.version != b.version || a.scene != b.scene || a.mesh != b.mesh) return false;
   if (a.tool_meshes.size() != b.tool_meshes.size()) return false;
   for (std::size_t k = 0; k < a.tool_meshes.size(); ++k)
     if (a.tool_meshes[k].X != b.tool_meshes[k].X ||

@@ -8,11 +8,8 @@
 #include "engine/recording.h"
 #include "mesh/edit.h"
 #include "mesh/generate.h"
-#include "mesh_equal.h"
 
 namespace trocar {
-
-using test::is_equal;
 
 bool is_equal(const RecordedFrame& a, const RecordedFrame& b);
 

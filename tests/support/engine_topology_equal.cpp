@@ -41,8 +41,8 @@ void expect_equal(const Sleep& a, const Sleep& b) {
   EXPECT_EQ(a.awake_fixed, b.awake_fixed);
   EXPECT_EQ(a.block_sleeps, b.block_sleeps);
   EXPECT_EQ(a.share, b.share);
-  EXPECT_EQ(a.anchor.size(), b.anchor.size());
-  EXPECT_EQ(a.watched.size(), b.watched.size());
+  EXPECT_EQ(a.anchor, b.anchor);
+  EXPECT_EQ(a.watched, b.watched);
 }
 
 void expect_equal(const LocalStepPlan& a, const LocalStepPlan& b) {

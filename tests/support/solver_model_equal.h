@@ -7,10 +7,23 @@
 
 namespace trocar {
 
+inline void expect_equal(std::span<const PronyBranch> a, std::span<const PronyBranch> b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    EXPECT_EQ(a[k].share, b[k].share);
+    EXPECT_EQ(a[k].time, b[k].time);
+  }
+}
+
 inline void expect_equal(const ElementBlocks& a, const ElementBlocks& b) {
   EXPECT_EQ(a.formulation, b.formulation);
+  EXPECT_EQ(a.precision, b.precision);
   EXPECT_EQ(a.region, b.region);
+  EXPECT_EQ(a.material, b.material);
+  EXPECT_EQ(a.stiffening_at_rest, b.stiffening_at_rest);
   EXPECT_EQ(a.n_elements, b.n_elements);
+  EXPECT_EQ(a.n_blocks, b.n_blocks);
+  EXPECT_EQ(a.lanes, b.lanes);
   EXPECT_EQ(a.element_local, b.element_local);
   EXPECT_EQ(a.corner, b.corner);
   EXPECT_EQ(a.target, b.target);
@@ -22,6 +35,7 @@ inline void expect_equal(const ElementBlocks& a, const ElementBlocks& b) {
   EXPECT_EQ(a.row_target, b.row_target);
   EXPECT_TRUE(a.data == b.data);
   EXPECT_TRUE(a.data_single == b.data_single);
+  expect_equal(a.prony, b.prony);
   EXPECT_EQ(a.first_history, b.first_history);
   EXPECT_EQ(a.field, b.field);
   EXPECT_EQ(a.first_lane, b.first_lane);
