@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "base/check.h"
-#include "base/options_file.h"
 #include "base/options_node.h"
+#include "base/whole_file.h"
 
 namespace trocar {
 
@@ -77,7 +77,7 @@ void read_options(const OptionTable& table, const std::string& file,
                   const std::vector<std::string>& overrides, void* object, SourceMap& where,
                   OptionErrors& errors) {
   OptionDocument document{.name = file,
-                          .text = read_options_file(file),
+                          .text = read_whole_file(file, max_options_bytes),
                           .overrides = overrides,
                           .places = {},
                           .errors = &errors};

@@ -204,8 +204,10 @@ class Options : public OptionTable {
   static const T& of(const void* object) { return *static_cast<const T*>(object); }
 };
 
-// Reads `file` (TOML) into `object` by `table`. `overrides` are "key.path=value" texts that win
-// over the file
+inline constexpr std::size_t max_options_bytes = std::size_t{16} << 20;
+
+// Reads `file` (TOML, at most max_options_bytes) into `object` by `table`. `overrides` are
+// "key.path=value" texts that win over the file
 // ("tissue.material.density=1000 kg/m^3", "instrument[1].radius='3 mm'").
 // Collects all errors of keys and values, each with file:line:column, the source line and a caret,
 // unknown keys with the nearest allowed one; what can't be read stays as it was. Throws InputError
