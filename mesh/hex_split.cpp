@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mesh/facets.h"
+#include "mesh/element_shape.h"
 
 namespace trocar {
 

@@ -6,7 +6,7 @@
 
 #include "base/box.h"
 #include "mesh/connected_nodes.h"
-#include "mesh/facet_sort.h"
+#include "mesh/element_shape.h"
 #include "mesh/facets.h"
 
 namespace trocar {
