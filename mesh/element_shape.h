@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 
 #include "mesh/mesh.h"
@@ -15,6 +16,18 @@ std::array<int, 4> facet_corners(ElementType type, int f);
 int n_facets(ElementType type);
 inline constexpr std::array<std::array<int, 3>, 4> tet_facets{
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
+// Bits of the facets f of a tetrahedron in another element that lie on facets of `mask` of that
+// one: on facet_of(f), which is -1 inside.
+template <class FacetOf>
+std::uint8_t tet_facets_on(std::uint8_t mask, const FacetOf& facet_of) {
+  unsigned facets = 0;
+  for (int f = 0; f < 4 && mask != 0; ++f) {
+    const int g = facet_of(f);
+    if (g >= 0 && (mask >> g & 1) != 0) facets |= 1U << f;
+  }
+  return static_cast<std::uint8_t>(facets);
+}
 
 // Corner pairs of the edges of an element.
 std::span<const std::array<int, 2>> edge_corners(ElementType type);

@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "base/grouped.h"
 #include "mesh/facets.h"
+#include "mesh/sub_mesh.h"
 
 namespace trocar {
 
@@ -82,28 +83,20 @@ std::vector<std::int32_t> element_order(const Mesh& mesh,
   return order;
 }
 
-template <class T>
-std::vector<T> permuted(const std::vector<T>& x, std::span<const std::int32_t> order) {
-  std::vector<T> result;
-  result.reserve(x.size());
-  for (const std::int32_t i : order) result.push_back(x[i]);
-  return result;
-}
-
 // Everything that belongs to single elements, in this order; new_number: of nodes, which stay.
 void take_elements(const Mesh& mesh, std::span<const std::int32_t> order,
                    std::span<const std::int32_t> new_number, Mesh& result) {
-  result.element_type = permuted(mesh.element_type, order);
+  result.element_type = values_of(std::span(mesh.element_type), order);
   result.corner_offset.clear();
   result.corner_node.clear();
   for (const std::int32_t e : order) {
     result.corner_offset.push_back(static_cast<std::int32_t>(result.corner_node.size()));
     for (const std::int32_t i : mesh.corners(e)) result.corner_node.push_back(new_number[i]);
   }
-  result.element_region = permuted(mesh.element_region, order);
-  result.density_factor = permuted(mesh.density_factor, order);
-  result.cut_facets = permuted(mesh.cut_facets, order);
-  if (!mesh.fibre.empty()) result.fibre = permuted(mesh.fibre, order);
+  result.element_region = values_of(std::span(mesh.element_region), order);
+  result.density_factor = values_of(std::span(mesh.density_factor), order);
+  result.cut_facets = values_of(std::span(mesh.cut_facets), order);
+  if (!mesh.fibre.empty()) result.fibre = values_of(std::span(mesh.fibre), order);
 }
 
 }  // namespace
@@ -126,7 +119,7 @@ Mesh renumbered(const Mesh& mesh) {
     new_number[nodes[k]] = static_cast<std::int32_t>(k);
   const std::vector<std::int32_t> elements = element_order(mesh, new_number);
   Mesh result;
-  result.X = permuted(mesh.X, nodes);
+  result.X = values_of(std::span(mesh.X), nodes);
   take_elements(mesh, elements, new_number, result);
   result.region_name = mesh.region_name;
   result.node_sets = mesh.node_sets;
