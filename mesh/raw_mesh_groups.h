@@ -2,6 +2,7 @@
 // node sets.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
