@@ -54,8 +54,7 @@ const char* yes_no(bool is_true) {
 
 // Least stable step of the mesh with the default material. [s]
 double default_stable_step(const Mesh& mesh) {
-  const std::vector<std::int32_t> owner(mesh.X.size(), 0);
-  const Part part = make_part(mesh, owner, 0);
+  const Part part = whole_part(mesh);
   const std::vector<Material> materials(mesh.region_name.size());
   const std::vector<double> density(mesh.region_name.size(), Material{}.density);
   const std::vector<FixedMask> fixed(mesh.X.size(), 0);

@@ -1,5 +1,5 @@
-// 64-bit digests: order-free ones for state that is spread over ranks, sequential ones for bytes,
-// and CRC32C for storage.
+// 64-bit digests whose sums are free of any order, for state that is spread over ranks, and CRC32C
+// for storage.
 #pragma once
 
 #include <cstddef>

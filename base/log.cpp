@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cstdio>
 
+#include "base/quoted.h"
 #include "base/timers.h"
 
 namespace trocar {
@@ -55,7 +56,7 @@ std::string bar_line(const std::string& title, double fraction, const std::strin
   std::string line = title + " [" + std::string(n_done, '#') + std::string(width - n_done, ' ');
   line += "] " + percent_text(fraction) + (note.empty() ? "" : "  " + note);
   // A line that wraps could not be redrawn in place.
-  return line.substr(0, terminal_width() - 1);
+  return std::string(first_characters(line, terminal_width() - 1));
 }
 
 // Tenths of the way; the small amount takes the rounding of n * 0.1 to the tenth it means.

@@ -4,36 +4,28 @@
 #include <algorithm>
 
 #include "base/check.h"
-#include "base/options_file.h"
 #include "base/options_node.h"
+#include "base/whole_file.h"
 
 namespace trocar {
 
-static bool is_key_without_quotes(const std::string& key) {
-  const auto is_allowed = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-  };
-  return !key.empty() && std::all_of(key.begin(), key.end(), is_allowed);
-}
-
-// Default texts of a table's entries as the object that holds the table initialises them.
-static void set_default_texts(std::vector<OptionEntry>& entries, const void* defaults) {
-  for (OptionEntry& entry : entries) {
-    if (!entry.is_table) {
-      entry.default_text = entry.value_text(defaults);
-      continue;
-    }
-    // A list or an optional table that is absent keeps the defaults of its own type.
-    const std::vector<const void*> objects = entry.objects_below(defaults);
-    if (!entry.is_list && !objects.empty()) set_default_texts(entry.below, objects[0]);
+// Default texts of an entry, or of those of a table, as the object that holds it initialises them.
+static void set_default_texts(OptionEntry& entry, const void* defaults) {
+  if (!entry.is_table) {
+    entry.default_text = entry.value_text(defaults);
+    return;
   }
+  // A list or an optional table that is absent keeps the defaults of its own type.
+  const std::vector<const void*> objects = entry.objects_below(defaults);
+  if (entry.is_list || objects.empty()) return;
+  for (OptionEntry& below : entry.below) set_default_texts(below, objects[0]);
 }
 
 void OptionTable::add(OptionEntry entry, const void* defaults) {
-  CHECK(is_key_without_quotes(entry.key));
+  CHECK(is_bare_key(entry.key) && entry.key.find('-') == std::string::npos);
   for (const OptionEntry& other : entries_) CHECK_OP(other.key, !=, entry.key);
   entries_.push_back(std::move(entry));
-  set_default_texts(entries_, defaults);
+  set_default_texts(entries_.back(), defaults);
 }
 
 void link_nodes(OptionNode& node, OptionDocument& document) {
@@ -77,7 +69,7 @@ void read_options(const OptionTable& table, const std::string& file,
                   const std::vector<std::string>& overrides, void* object, SourceMap& where,
                   OptionErrors& errors) {
   OptionDocument document{.name = file,
-                          .text = read_options_file(file),
+                          .text = read_whole_file(file, max_options_bytes),
                           .overrides = overrides,
                           .places = {},
                           .errors = &errors};

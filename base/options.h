@@ -173,27 +173,17 @@ class Options : public OptionTable {
                   const std::vector<std::pair<std::string, E>>& choices, const std::string& doc,
                   Need need = Need::optional);
   // A sub-table; an optional one is a member std::optional<U>; a list is an array of tables.
-  // Without a doc of its own it has that of `below`.
+  // Its doc is that of `below`, which a list may have one of its own in place of.
   template <class U>
   Options& table(const std::string& key, U T::*member, const Options<U>& below,
-                 Need need = Need::optional) {
-    return table(key, member, below, below.doc(), need);
-  }
+                 Need need = Need::optional);
   template <class U>
-  Options& table(const std::string& key, std::optional<U> T::*member, const Options<U>& below) {
-    return table(key, member, below, below.doc());
-  }
+  Options& table(const std::string& key, std::optional<U> T::*member, const Options<U>& below);
   template <class U>
   Options& list(const std::string& key, std::vector<U> T::*member, const Options<U>& below,
                 Need need = Need::optional) {
     return list(key, member, below, below.doc(), need);
   }
-  template <class U>
-  Options& table(const std::string& key, U T::*member, const Options<U>& below,
-                 const std::string& doc, Need need = Need::optional);
-  template <class U>
-  Options& table(const std::string& key, std::optional<U> T::*member, const Options<U>& below,
-                 const std::string& doc);
   template <class U>
   Options& list(const std::string& key, std::vector<U> T::*member, const Options<U>& below,
                 const std::string& doc, Need need = Need::optional);
@@ -204,8 +194,10 @@ class Options : public OptionTable {
   static const T& of(const void* object) { return *static_cast<const T*>(object); }
 };
 
-// Reads `file` (TOML) into `object` by `table`. `overrides` are "key.path=value" texts that win
-// over the file
+inline constexpr std::size_t max_options_bytes = std::size_t{16} << 20;
+
+// Reads `file` (TOML, at most max_options_bytes) into `object` by `table`. `overrides` are
+// "key.path=value" texts that win over the file
 // ("tissue.material.density=1000 kg/m^3", "instrument[1].radius='3 mm'").
 // Collects all errors of keys and values, each with file:line:column, the source line and a caret,
 // unknown keys with the nearest allowed one; what can't be read stays as it was. Throws InputError

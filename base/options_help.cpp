@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/options.h"
+#include "base/quoted.h"
 
 namespace trocar {
 
@@ -40,20 +41,14 @@ std::string header(const std::string& path, const OptionEntry& entry) {
   return entry.is_list ? "[[" + inside + "]]" : "[" + inside + "]";
 }
 
-// Characters, not bytes.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
-}
-
 void append_aligned(const std::vector<Row>& rows, const std::string& indent, std::string& text) {
   std::array<std::size_t, 4> widths{};
   for (const Row& row : rows)
-    for (std::size_t i = 0; i < 4; ++i) widths[i] = std::max(widths[i], width(row[i]));
+    for (std::size_t i = 0; i < 4; ++i) widths[i] = std::max(widths[i], n_characters(row[i]));
   for (const Row& row : rows) {
     text.append(indent);
     for (std::size_t i = 0; i < 3; ++i)
-      text.append(row[i]).append(widths[i] - width(row[i]) + 2, ' ');
+      text.append(row[i]).append(widths[i] - n_characters(row[i]) + 2, ' ');
     text.append(row[3]).append("\n");
   }
 }

@@ -133,11 +133,11 @@ Options<T>& Options<T>::choice(const std::string& key, E T::*member,
 template <class T>
 template <class U>
 Options<T>& Options<T>::table(const std::string& key, U T::*member, const Options<U>& below,
-                              const std::string& doc, Need need) {
+                              Need need) {
   return value(
       {.key = key,
        .type_text = "table",
-       .doc = doc,
+       .doc = below.doc(),
        .need = need,
        .is_table = true,
        .below = below.entries(),
@@ -150,11 +150,11 @@ Options<T>& Options<T>::table(const std::string& key, U T::*member, const Option
 template <class T>
 template <class U>
 Options<T>& Options<T>::table(const std::string& key, std::optional<U> T::*member,
-                              const Options<U>& below, const std::string& doc) {
+                              const Options<U>& below) {
   CHECK(!(T{}.*member).has_value());  // a file could not say that it is absent
   return value({.key = key,
                 .type_text = "table, may be absent",
-                .doc = doc,
+                .doc = below.doc(),
                 .is_table = true,
                 .below = below.entries(),
                 .make_below =

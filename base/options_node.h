@@ -82,6 +82,8 @@ std::string description(const OptionNode& node);
 // The source line and a caret below the column, each after a line break; "" where there is no such
 // line.
 std::string excerpt(std::string_view text, int line, int column);
+// Whether TOML takes it without quotes.
+bool is_bare_key(std::string_view key);
 
 // Throws OptionRefusal: place, key, sentence, source line.
 [[noreturn]] void refuse(const OptionNode& node, const std::string& sentence);

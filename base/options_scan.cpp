@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/options_node.h"
+#include "base/quoted.h"
 
 namespace trocar {
 
@@ -17,9 +18,7 @@ constexpr std::size_t max_values = 200'000;
   const std::string_view before = text.substr(0, offset);
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0
-  // Columns count characters, of which each has one byte that is not 10xxxxxx.
-  const auto column = 1 + std::count_if(before.begin() + static_cast<std::ptrdiff_t>(line_begin),
-                                        before.end(), [](char c) { return (c & 0xc0) != 0x80; });
+  const std::size_t column = 1 + n_characters(before.substr(line_begin));
   throw SyntaxTrouble{static_cast<int>(line), static_cast<int>(column), sentence};
 }
 
@@ -29,7 +28,9 @@ std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
   };
-  const auto continues = [&](std::size_t i) { return (byte(i) & 0xc0) == 0x80; };
+  const auto continues = [&](std::size_t i) {
+    return i < text.size() && !begins_character(text[i]);
+  };
   const unsigned first = byte(0);
   if (first < 0x80) return 1;
   if (first >= 0xc2 && first < 0xe0) return continues(1) ? 2 : 0;

@@ -9,10 +9,6 @@ namespace trocar {
 
 namespace {
 
-bool begins_character(char c) {
-  return (c & 0xc0) != 0x80;
-}
-
 // Line `line` (from 1) without its end.
 std::string_view line_of(std::string_view text, int line) {
   for (int i = 1; i < line; ++i) {
@@ -27,24 +23,19 @@ std::string_view line_of(std::string_view text, int line) {
 
 // Takes `n` characters off the front and returns them.
 std::string_view take_characters(std::string_view& text, int n) {
-  std::size_t end = 0;
-  for (; n > 0 && end < text.size(); --n) {
-    ++end;
-    while (end < text.size() && !begins_character(text[end])) ++end;
-  }
-  const std::string_view taken = text.substr(0, end);
-  text.remove_prefix(end);
+  const std::string_view taken = first_characters(text, static_cast<std::size_t>(n));
+  text.remove_prefix(taken.size());
   return taken;
 }
 
+}  // namespace
+
 bool is_bare_key(std::string_view key) {
-  return !key.empty() && key.size() <= 64 && std::all_of(key.begin(), key.end(), [](char c) {
+  return !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   });
 }
-
-}  // namespace
 
 std::string excerpt(std::string_view text, int line, int column) {
   constexpr int width = 90;
@@ -70,7 +61,8 @@ std::string key_path(const OptionNode& node) {
     return path;
   }
   if (!path.empty()) path.append(".");
-  return path.append(is_bare_key(node.key) ? node.key : in_quotes(node.key));
+  return path.append(is_bare_key(node.key) && node.key.size() <= 64 ? node.key
+                                                                    : in_quotes(node.key));
 }
 
 SourcePlace place_of(const OptionNode& node) {

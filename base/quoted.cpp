@@ -10,8 +10,7 @@ namespace trocar {
 
 std::string in_quotes(std::string_view text) {
   std::size_t n_shown = std::min<std::size_t>(text.size(), 60);
-  // A byte 10xxxxxx continues a character of UTF-8: never cut in front of one.
-  while (n_shown > 0 && n_shown < text.size() && (text[n_shown] & 0xc0) == 0x80) --n_shown;
+  while (n_shown > 0 && n_shown < text.size() && !begins_character(text[n_shown])) --n_shown;
   std::string result(1, '"');
   for (const char c : text.substr(0, n_shown)) {
     const auto code = static_cast<unsigned char>(c);
@@ -56,6 +55,25 @@ std::string in_small_letters(std::string_view text) {
   std::string small(text);
   for (char& c : small) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   return small;
+}
+
+std::string in_capital_letters(std::string_view text) {
+  std::string capital(text);
+  for (char& c : capital) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return capital;
+}
+
+std::size_t n_characters(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, begins_character));
+}
+
+std::string_view first_characters(std::string_view text, std::size_t n) {
+  std::size_t end = 0;
+  for (; n > 0 && end < text.size(); --n) {
+    ++end;
+    while (end < text.size() && !begins_character(text[end])) ++end;
+  }
+  return text.substr(0, end);
 }
 
 std::string nearest_name(std::string_view name, std::span<const std::string> allowed) {

@@ -15,6 +15,15 @@ std::string csv_quoted(std::string_view text);
 
 // Letters of ASCII only.
 std::string in_small_letters(std::string_view text);
+std::string in_capital_letters(std::string_view text);
+
+// A byte 10xxxxxx continues a character of UTF-8.
+constexpr bool begins_character(char byte) {
+  return (byte & 0xc0) != 0x80;
+}
+std::size_t n_characters(std::string_view text);
+// The first n characters, or all.
+std::string_view first_characters(std::string_view text, std::size_t n);
 
 // Number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`
 // (optimal string alignment).

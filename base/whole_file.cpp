@@ -1,12 +1,17 @@
 // Reading and writing of whole files.
 #include "base/whole_file.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <memory>
 
+#include "base/descriptor.h"
 #include "base/error.h"
 
 namespace trocar {
@@ -24,34 +29,70 @@ using Stream = std::unique_ptr<std::FILE, CloseFile>;
   throw MachineError(file + ": can't be written: " + reason);
 }
 
-}  // namespace
+std::string fault_of_name(const std::string& file) {
+  if (file.find('\0') == std::string::npos) return "";
+  return std::string(file.c_str()) + ": a file name can't hold a NUL byte";
+}
 
-// A directory, pipe or device is refused before it is opened.
-std::string fault_of_file(const std::string& file) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (status.type() == std::filesystem::file_type::not_found)
-    return file + ": there is no file of this name";
-  if (error) return file + ": can't be read: " + error.message();
-  if (std::filesystem::is_directory(status)) return file + ": is a directory, not a file";
-  if (!std::filesystem::is_regular_file(status))
+// As errno tells.
+std::string fault_to_open(const std::string& file) {
+  if (errno == ENOENT || errno == ENOTDIR) return file + ": there is no file of this name";
+  return file + ": can't be opened: " + std::strerror(errno);
+}
+
+std::string fault_of_kind(const std::string& file, const struct stat& status) {
+  if (S_ISDIR(status.st_mode)) return file + ": is a directory, not a file";
+  if (!S_ISREG(status.st_mode))
     return file + ": is not a regular file (a pipe or a device can't be read)";
   return "";
 }
 
-std::string read_whole_file(const std::string& file) {
-  const std::string fault = fault_of_file(file);
+void refuse_if(const std::string& fault) {
   if (!fault.empty()) throw InputError(fault);
-  const Stream stream(std::fopen(file.c_str(), "rb"));
-  if (!stream) throw InputError(file + ": can't be opened: " + std::strerror(errno));
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (error) throw InputError(file + ": can't be read: " + error.message());
-  if (size == 0) throw InputError(file + ": is empty");
-  std::string content(size, '\0');
-  const std::size_t n = std::fread(content.data(), 1, content.size(), stream.get());
-  if (std::ferror(stream.get()) != 0)
-    throw MachineError(file + ": reading failed: " + std::strerror(errno));
+}
+
+void check_size(const std::string& file, std::size_t size, std::size_t most_bytes) {
+  if (size > most_bytes)
+    throw InputError(file + ": is larger than " + std::to_string(most_bytes >> 20) +
+                     " MB, the limit for such a file");
+}
+
+// Into content from `at` on, which is below its end; returns how many bytes, 0 at the file's end.
+std::size_t read_some(const std::string& file, const Descriptor& descriptor, std::string& content,
+                      std::size_t at) {
+  ssize_t n = -1;
+  do n = read(descriptor.number(), content.data() + at, content.size() - at);
+  while (n < 0 && errno == EINTR);
+  if (n < 0) throw MachineError(file + ": reading failed: " + std::strerror(errno));
+  return static_cast<std::size_t>(n);
+}
+
+}  // namespace
+
+std::string fault_of_file(const std::string& file) {
+  const std::string fault = fault_of_name(file);
+  if (!fault.empty()) return fault;
+  struct stat status {};
+  return stat(file.c_str(), &status) != 0 ? fault_to_open(file) : fault_of_kind(file, status);
+}
+
+std::string read_whole_file(const std::string& file, std::size_t most_bytes) {
+  refuse_if(fault_of_name(file));
+  // Without blocking: a pipe or a terminal is refused instead of waited for.
+  const Descriptor descriptor(file, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+  struct stat status {};
+  const bool is_open = descriptor.number() >= 0 && fstat(descriptor.number(), &status) == 0;
+  refuse_if(is_open ? fault_of_kind(file, status) : fault_to_open(file));
+  const auto size = static_cast<std::size_t>(status.st_size);
+  check_size(file, size, most_bytes);
+  std::string content(size + 1, '\0');  // the end is met without growing
+  std::size_t n = 0;
+  while (const std::size_t n_read = read_some(file, descriptor, content, n)) {
+    n += n_read;
+    check_size(file, n, most_bytes);
+    if (n == content.size()) content.resize(2 * n);
+  }
+  if (n == 0) throw InputError(file + ": is empty");
   content.resize(n);
   return content;
 }

@@ -2,6 +2,7 @@
 // writer fills a temporary one and renames it.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -10,9 +11,10 @@ namespace trocar {
 // Why it can't be read, as far as can be told without opening it: "" if it is a regular file.
 std::string fault_of_file(const std::string& file);
 
-// Throws InputError if there is no such file, it is empty or it is not a regular file (a pipe would
-// hang), MachineError if reading fails.
-std::string read_whole_file(const std::string& file);
+// Throws InputError unless it is a regular file of 1 to most_bytes bytes (in messages of whole MB),
+// MachineError if reading fails. Never blocks.
+std::string read_whole_file(const std::string& file,
+                            std::size_t most_bytes = std::numeric_limits<std::size_t>::max());
 
 // Replaces the file, of a link the one that it leads to; writes into a device or a pipe. Throws
 // MachineError with path and reason; what was there before is then untouched.

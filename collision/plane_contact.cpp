@@ -5,6 +5,7 @@
 #include <limits>
 #include <tuple>
 
+#include "base/grouped.h"
 #include "base/segment.h"
 
 namespace trocar {
@@ -149,17 +150,12 @@ PlaneEdges boundary_edges(const Surface& surface) {
   for (const std::array<std::int32_t, 3>& triangle : surface.triangle)
     n_nodes = std::max(n_nodes, *std::max_element(triangle.begin(), triangle.end()) + 1);
   // Ends of the sides that start from each node.
-  std::vector<std::size_t> first(static_cast<std::size_t>(n_nodes) + 1, 0);
-  std::vector<std::int32_t> end(3 * surface.triangle.size());
-  for (const std::array<std::int32_t, 3>& triangle : surface.triangle)
-    for (const std::int32_t i : triangle) ++first[i + 1];
-  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
-  std::vector<std::size_t> next(first.begin(), first.end() - 1);
-  for (const std::array<std::int32_t, 3>& triangle : surface.triangle)
-    for (std::size_t k = 0; k < 3; ++k) end[next[triangle[k]]++] = triangle[(k + 1) % 3];
+  const Grouped<> ends = group_items(static_cast<std::size_t>(n_nodes), [&](const auto& put) {
+    for (const std::array<std::int32_t, 3>& triangle : surface.triangle)
+      for (std::size_t k = 0; k < 3; ++k) put(triangle[k], triangle[(k + 1) % 3]);
+  });
   const auto has_side = [&](std::int32_t a, std::int32_t b) {
-    const auto at = [&](std::size_t i) { return end.begin() + static_cast<std::ptrdiff_t>(i); };
-    return std::find(at(first[a]), at(first[a + 1]), b) != at(first[a + 1]);
+    return std::ranges::count(ends.of(a), b) > 0;
   };
   PlaneEdges edges;
   for (std::size_t t = 0; t < surface.triangle.size(); ++t)

@@ -58,7 +58,7 @@ void update_index(const Mesh& mesh, CutIndex& index) {
   index.star_size.resize(mesh.X.size());
   for (std::size_t i = 0; i < mesh.X.size(); ++i)
     index.star_size[i] = around.offset[i + 1] - around.offset[i];
-  index.star_element = std::move(around.element);
+  index.star_element = std::move(around.item);
   find_surface_nodes(mesh, index);
   index.ring.assign(mesh.X.size(), no_ring);
   index.local.assign(mesh.X.size(), -1);

@@ -44,7 +44,7 @@ PatchMesh make_patch_mesh(const CutPatch& patch) {
     p.mesh.corner_node.insert(p.mesh.corner_node.end(), corner.begin(), corner.end());
   for (const auto& across : patch.across)
     p.across.neighbour.insert(p.across.neighbour.end(), across.begin(), across.end());
-  p.around = {patch.star_offset, patch.star_element};
+  p.around = patch.stars;
   p.outer_edge = outer_edges(patch);
   return p;
 }

@@ -99,15 +99,10 @@ static std::vector<std::int32_t> elements_of(const Mesh& mesh, const CutIndex& i
 }
 
 static void set_stars(CutPatch& patch) {
-  patch.star_offset.assign(patch.node.size() + 1, 0);
-  patch.star_element.resize(patch.corner.size() * 4);
-  for (const auto& corner : patch.corner)
-    for (const std::int32_t i : corner) ++patch.star_offset[i + 1];
-  for (std::size_t i = 1; i < patch.star_offset.size(); ++i)
-    patch.star_offset[i] += patch.star_offset[i - 1];
-  std::vector<std::int32_t> next(patch.star_offset.begin(), patch.star_offset.end() - 1);
-  for (std::int32_t e = 0; e < patch.n_elements(); ++e)
-    for (const std::int32_t i : patch.corner[e]) patch.star_element[next[i]++] = e;
+  patch.stars = group_items(patch.node.size(), [&](const auto& put) {
+    for (std::int32_t e = 0; e < patch.n_elements(); ++e)
+      for (const std::int32_t i : patch.corner[e]) put(i, e);
+  });
 }
 
 static void sort3(std::array<std::int32_t, 3>& v) {

@@ -36,15 +36,12 @@ struct CutPatch {
   // (n_elements) of the mesh; none where it has one region.
   std::vector<std::int32_t> region;
   std::vector<BorderEdge> border;  // of the constraints: both ways, ascending
-  std::vector<std::int32_t> star_offset, star_element;
+  NodeElements stars;              // local elements around local nodes
 
   std::int32_t n_elements() const { return static_cast<std::int32_t>(element.size()); }
   std::int32_t n_nodes() const { return static_cast<std::int32_t>(node.size()); }
   // Local elements around a local node, ascending.
-  std::span<const std::int32_t> star(std::int32_t i) const {
-    return {star_element.data() + star_offset[i],
-            static_cast<std::size_t>(star_offset[i + 1] - star_offset[i])};
-  }
+  std::span<const std::int32_t> star(std::int32_t i) const { return stars.of(i); }
   bool is_whole(std::int32_t i) const { return node_ring[i] < n_cut_rings; }
   // Local number of a global node or element that is in the patch, -1 if it isn't.
   std::int32_t local_node(std::int32_t global) const;

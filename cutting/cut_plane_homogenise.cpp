@@ -39,7 +39,7 @@ struct Network {
 // Calls visit for the nodes two edges away and nearer, once each; `last` holds for whom a node was
 // visited last. Neighbours by topology never see across an older cut.
 template <typename Visit>
-void visit_two_rings(const PlaneNeighbours& around, int node, std::vector<int>& last, Visit visit) {
+void visit_two_rings(const Grouped<int>& around, int node, std::vector<int>& last, Visit visit) {
   last[node] = node;
   for (const int j : around.of(node)) {
     if (std::exchange(last[j], node) != node) visit(j);
@@ -49,7 +49,7 @@ void visit_two_rings(const PlaneNeighbours& around, int node, std::vector<int>& 
 }
 
 // Of the edges at each node.
-std::vector<double> mean_edges(const PlanePatch& patch, const PlaneNeighbours& around) {
+std::vector<double> mean_edges(const PlanePatch& patch, const Grouped<int>& around) {
   std::vector<double> mean(patch.node.size());
   for (int i = 0; i < patch.n_nodes(); ++i) {
     double sum = 0;
@@ -60,7 +60,7 @@ std::vector<double> mean_edges(const PlanePatch& patch, const PlaneNeighbours& a
 }
 
 Network make_network(const PlanePatch& patch, std::span<const Movable> movable) {
-  const PlaneNeighbours around = all_neighbours(patch);
+  const Grouped<int> around = all_neighbours(patch);
   const std::vector<double> mean = mean_edges(patch, around);
   std::vector<int> last(patch.node.size(), -1);
   std::vector<std::uint8_t> is_done(patch.node.size(), 0);  // all its pairs are there

@@ -17,15 +17,9 @@ static void visit_directed_edges(const PlanePatch& patch, Visit visit) {
     }
 }
 
-PlaneNeighbours all_neighbours(const PlanePatch& patch) {
-  PlaneNeighbours result;
-  result.offset.assign(patch.node.size() + 1, 0);
-  visit_directed_edges(patch, [&](int a, int) { ++result.offset[a + 1]; });
-  for (std::size_t i = 1; i < result.offset.size(); ++i) result.offset[i] += result.offset[i - 1];
-  result.node.resize(static_cast<std::size_t>(result.offset.back()));
-  std::vector<int> next(result.offset.begin(), result.offset.end() - 1);
-  visit_directed_edges(patch, [&](int a, int b) { result.node[next[a]++] = b; });
-  return result;
+Grouped<int> all_neighbours(const PlanePatch& patch) {
+  return group_items<int>(patch.node.size(),
+                          [&](const auto& put) { visit_directed_edges(patch, put); });
 }
 
 PatchFacet find_edge(const PlanePatch& patch, int a, int b) {

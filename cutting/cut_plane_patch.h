@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "base/grouped.h"
 #include "base/segment.h"
 #include "base/vec.h"
 #include "cutting/cut_constraints.h"
@@ -124,13 +125,7 @@ void visit_star(const PlanePatch& patch, int node, Visit visit) {
 }
 
 // Nodes that share an edge with a node, of all nodes at once.
-struct PlaneNeighbours {
-  std::vector<int> offset, node;  // (n_nodes + 1), (offset.back())
-  std::span<const int> of(int i) const {
-    return {node.data() + offset[i], static_cast<std::size_t>(offset[i + 1] - offset[i])};
-  }
-};
-PlaneNeighbours all_neighbours(const PlanePatch& patch);
+Grouped<int> all_neighbours(const PlanePatch& patch);
 
 // An element as seen from one of its facets.
 struct PatchFacet {

@@ -98,7 +98,7 @@ std::unique_ptr<Patch> assemble(const Simulation& s, SubMesh sub, const MassScal
   Patch& patch = *made;
   patch.sub = std::move(sub);
   const std::vector<std::int32_t>& node = patch.sub.node;
-  patch.part = make_part(patch.sub.mesh, std::vector<std::int32_t>(node.size(), 0), 0);
+  patch.part = whole_part(patch.sub.mesh);
   patch.model = build_model(patch.sub.mesh, patch.part, s.materials, fixed,
                             values_of<double>(s.mass, node), s.model.options);
   if (!scaling.node.empty()) scale_mass(scaling, patch.part, patch.model);

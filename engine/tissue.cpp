@@ -115,8 +115,7 @@ void add_volume_region(const std::string& name, Mesh& mesh) {
 
 // Parts that a mesher has laid side by side fall apart, which is seldom wanted.
 void warn_of_pieces(const SceneTissue& tissue, const Mesh& mesh) {
-  const std::int32_t n_pieces = count_pieces(mesh);
-  const std::int32_t n = n_pieces > 1 ? count_unjoined(mesh, 1e-6 * mean_edge_length(mesh)) : 0;
+  const auto [n_pieces, n] = piece_statistics(mesh);
   if (n > 0)
     log_warning(
         tissue.mesh + ": is in " + std::to_string(n_pieces) + " pieces, and " + std::to_string(n) +

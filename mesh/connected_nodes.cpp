@@ -35,8 +35,8 @@ std::int32_t count_pieces(std::span<const std::int32_t> piece) {
   return n;
 }
 
-std::int32_t count_unjoined(const Mesh& mesh, double tolerance) {
-  const std::vector<std::int32_t> piece = connected_nodes(mesh);
+std::int32_t count_unjoined(const Mesh& mesh, std::span<const std::int32_t> piece,
+                            double tolerance) {
   std::vector<Vec3> rounded;
   for (const Vec3& X : mesh.X) rounded.push_back((X / tolerance).array().round());
   const std::vector<std::int32_t> first = first_equal(rounded);

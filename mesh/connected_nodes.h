@@ -22,7 +22,8 @@ std::int32_t count_pieces(const Mesh& mesh);
 std::int32_t count_pieces(std::span<const std::int32_t> piece);
 
 // Nodes that lie where a node of another piece does, but for rounding to multiples of `tolerance`
-// [m]: facets that were meant to be joined, as a rule.
-std::int32_t count_unjoined(const Mesh& mesh, double tolerance);
+// [m]: facets that were meant to be joined, as a rule. piece: of each node.
+std::int32_t count_unjoined(const Mesh& mesh, std::span<const std::int32_t> piece,
+                            double tolerance);
 
 }  // namespace trocar

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "mesh/element_shape.h"
 #include "mesh/hex_split.h"
 
 namespace trocar {
@@ -105,7 +106,8 @@ std::uint8_t cut_facets_after(const MeshEdit& edit, const Mesh& before, std::int
   return at != edit.cut_facets.end() && at->element == e ? at->mask : before.cut_facets[e];
 }
 
-// Node `node` on an edge joins the sets of both ends; of a facet that was left out both halves are.
+// Node `node` on an edge joins the sets of both ends; of a facet that was left out both halves are,
+// in no order yet.
 static void extend_node_sets(const EdgeNode& inserted, std::int32_t node,
                              std::vector<NodeSet>& sets) {
   const auto [a, b] = inserted.end;
@@ -123,7 +125,6 @@ static void extend_node_sets(const EdgeNode& inserted, std::int32_t node,
       std::ranges::sort(halves.back());
     }
     set.left_out.insert(set.left_out.end(), halves.begin(), halves.end());
-    if (!halves.empty()) std::ranges::sort(set.left_out);
   }
 }
 
@@ -147,6 +148,8 @@ static void insert_nodes(std::span<const EdgeNode> inserted, Mesh& mesh) {
     mesh.copied_node.push_back(number);
     extend_node_sets(node, number, mesh.node_sets);
   }
+  if (inserted.empty()) return;
+  for (NodeSet& set : mesh.node_sets) std::ranges::sort(set.left_out);
 }
 
 // The facet of tetrahedron `whole` that facet f of a part of it lies on, -1 if inside. Nodes from
@@ -170,12 +173,8 @@ static int tet_facet_of(std::span<const std::int32_t> whole, std::span<const Edg
 std::uint8_t facets_of_part(std::span<const std::int32_t> whole, std::uint8_t mask,
                             std::span<const EdgeNode> inserted, std::int32_t first_inserted,
                             const std::array<std::int32_t, 4>& part) {
-  unsigned facets = 0;
-  for (int f = 0; f < 4 && mask != 0; ++f) {
-    const int g = tet_facet_of(whole, inserted, first_inserted, part, f);
-    if (g >= 0 && (mask >> g & 1) != 0) facets |= 1U << f;
-  }
-  return static_cast<std::uint8_t>(facets);
+  return tet_facets_on(
+      mask, [&](int f) { return tet_facet_of(whole, inserted, first_inserted, part, f); });
 }
 
 // A hexahedron leaves room for the corners of two tetrahedra.

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
-#include "mesh/facets.h"
+#include "base/grouped.h"
+#include "mesh/element_shape.h"
 
 namespace trocar {
 
@@ -37,36 +37,19 @@ static std::int32_t lowest_node(const Mesh& mesh, std::int32_t e, int f) {
   return lowest;
 }
 
-// Facets of all elements by their lowest node.
-struct FacetsOfNodes {
-  std::vector<std::uint32_t> begin;  // (n_nodes + 2) into `facet`
-  std::vector<std::uint32_t> facet;  // 8 element + facet
-
-  std::span<const std::uint32_t> of(std::int32_t node) const {
-    return std::span(facet).subspan(begin[node], begin[node + 1] - begin[node]);
-  }
-};
-
-static FacetsOfNodes facets_of_nodes(const Mesh& mesh) {
-  const auto for_facets = [&](const auto& use) {
+// Facets of all elements by their lowest node, as 8 element + facet.
+static Grouped<std::uint32_t, std::uint32_t> facets_of_nodes(const Mesh& mesh) {
+  return group_items<std::uint32_t, std::uint32_t>(mesh.X.size(), [&](const auto& put) {
     for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-      for (int f = 0; f < n_facets(mesh.element_type[e]); ++f) use(lowest_node(mesh, e, f), e, f);
-  };
-  FacetsOfNodes facets;
-  facets.begin.assign(mesh.X.size() + 2, 0);
-  for_facets([&](std::int32_t i, std::int32_t, int) { ++facets.begin[i + 2]; });
-  std::partial_sum(facets.begin.begin(), facets.begin.end(), facets.begin.begin());
-  facets.facet.resize(facets.begin.back());
-  for_facets([&](std::int32_t i, std::int32_t e, int f) {
-    facets.facet[facets.begin[i + 1]++] =
-        8 * static_cast<std::uint32_t>(e) + static_cast<std::uint32_t>(f);
+      for (int f = 0; f < n_facets(mesh.element_type[e]); ++f)
+        put(lowest_node(mesh, e, f),
+            8 * static_cast<std::uint32_t>(e) + static_cast<std::uint32_t>(f));
   });
-  return facets;
 }
 
 void for_each_facet(const Mesh& mesh,
                     const std::function<void(std::span<const FacetSide>)>& visit) {
-  const FacetsOfNodes facets = facets_of_nodes(mesh);
+  const Grouped<std::uint32_t, std::uint32_t> facets = facets_of_nodes(mesh);
   std::vector<FacetSide> side;
   for (std::int32_t i = 0; i < mesh.n_nodes(); ++i) {
     side.clear();
@@ -94,27 +77,6 @@ std::vector<FacetSide> single_sides(const Mesh& mesh) {
     if (side.size() == 1) single.push_back(side[0]);
   });
   return single;
-}
-
-std::span<const std::array<int, 2>> edge_corners(ElementType type) {
-  using Edge = std::array<int, 2>;
-  static constexpr std::array<Edge, 3> tri3 = {{{0, 1}, {1, 2}, {2, 0}}};
-  static constexpr std::array<Edge, 6> tet4 = {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-  static constexpr std::array<Edge, 12> hex8 = {{{0, 1},
-                                                 {1, 2},
-                                                 {2, 3},
-                                                 {3, 0},
-                                                 {4, 5},
-                                                 {5, 6},
-                                                 {6, 7},
-                                                 {7, 4},
-                                                 {0, 4},
-                                                 {1, 5},
-                                                 {2, 6},
-                                                 {3, 7}}};
-  if (type == ElementType::tri3) return tri3;
-  if (type == ElementType::tet4) return tet4;
-  return hex8;
 }
 
 }  // namespace trocar

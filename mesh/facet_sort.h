@@ -1,5 +1,5 @@
-// Facets with the elements on their sides, and the edges of an element: what neighbours, surfaces
-// and the check for broken meshes are made of.
+// Facets with the elements on their sides: what neighbours, surfaces and the check for broken
+// meshes are made of.
 #pragma once
 
 #include <array>
@@ -32,8 +32,5 @@ std::string nodes_text(std::span<const std::int32_t> node);
 
 // Of facets that one element has, in that order.
 std::vector<FacetSide> single_sides(const Mesh& mesh);
-
-// Corner pairs of the edges of an element.
-std::span<const std::array<int, 2>> edge_corners(ElementType type);
 
 }  // namespace trocar

@@ -8,27 +8,8 @@
 #include "base/sort_unique.h"
 #include "mesh/facet_sort.h"
 #include "mesh/hex_split.h"
-#include "mesh/surface_edit.h"
 
 namespace trocar {
-
-int n_facets(ElementType type) {
-  constexpr std::array<int, n_element_types> n = {3, 4, 6};
-  return n[static_cast<std::size_t>(type)];
-}
-
-std::array<int, 4> facet_corners(ElementType type, int f) {
-  using Corners = std::array<int, 4>;
-  constexpr auto of_tet = [](int k) {
-    return Corners{tet_facets[k][0], tet_facets[k][1], tet_facets[k][2], -1};
-  };
-  static constexpr std::array<std::array<Corners, 6>, n_element_types> corners = {{
-      {{{1, 2, -1, -1}, {2, 0, -1, -1}, {0, 1, -1, -1}}},
-      {{of_tet(0), of_tet(1), of_tet(2), of_tet(3)}},
-      {{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
-  }};
-  return corners[static_cast<std::size_t>(type)][f];
-}
 
 FacetNeighbours facet_neighbours(const Mesh& mesh) {
   FacetNeighbours result;
@@ -37,42 +18,25 @@ FacetNeighbours facet_neighbours(const Mesh& mesh) {
     result.offset.push_back(result.offset.back() + n_facets(type));
   result.neighbour.assign(static_cast<std::size_t>(result.offset.back()), -1);
 
-  std::vector<FacetSide> single;
   for_each_facet(mesh, [&](std::span<const FacetSide> side) {
     if (side.size() > 2)
       throw InputError("the facet of nodes" + nodes_text(side[0].node) +
                        " is shared by more than two elements: " + std::to_string(side[0].element) +
                        ", " + std::to_string(side[1].element) + ", " +
                        std::to_string(side[2].element));
-    if (side.size() == 1) {
-      single.push_back(side[0]);
-      return;
-    }
+    if (side.size() == 1) return;
     const FacetSide &a = side[0], &b = side[1];
     result.neighbour[result.offset[a.element] + a.facet] = b.element;
     result.neighbour[result.offset[b.element] + b.facet] = a.element;
   });
-  for (const SplitQuad& quad : split_quads(mesh, single)) {
-    const auto& [s, t] = quad.triangle;
-    result.neighbour[result.offset[quad.hex] + quad.facet] = s.element;
-    result.neighbour[result.offset[s.element] + s.facet] = quad.hex;
-    result.neighbour[result.offset[t.element] + t.facet] = quad.hex;
-    result.second.push_back({quad.hex, t.element});
-  }
-  std::sort(result.second.begin(), result.second.end());
   return result;
 }
 
 NodeElements node_elements(const Mesh& mesh) {
-  NodeElements result;
-  result.offset.assign(mesh.X.size() + 1, 0);
-  result.element.resize(mesh.corner_node.size());
-  for (const std::int32_t i : mesh.corner_node) ++result.offset[i + 1];
-  for (std::size_t i = 1; i < result.offset.size(); ++i) result.offset[i] += result.offset[i - 1];
-  std::vector<std::int32_t> next(result.offset.begin(), result.offset.end() - 1);
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-    for (const std::int32_t i : mesh.corners(e)) result.element[next[i]++] = e;
-  return result;
+  return group_items(mesh.X.size(), [&](const auto& put) {
+    for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+      for (const std::int32_t i : mesh.corners(e)) put(i, e);
+  });
 }
 
 std::vector<std::array<std::int32_t, 2>> mesh_edges(const Mesh& mesh) {

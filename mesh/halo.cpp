@@ -46,6 +46,10 @@ Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int r
   return part;
 }
 
+Part whole_part(const Mesh& mesh) {
+  return make_part(mesh, std::vector<std::int32_t>(mesh.X.size(), 0), 0);
+}
+
 std::vector<std::int32_t> split_elements(const Mesh& mesh, std::span<const std::int32_t> node_owner,
                                          std::span<const ElementSplit> splits, Part& part) {
   if (splits.empty()) return {};

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mesh/facets.h"
+#include "mesh/element_shape.h"
 
 namespace trocar {
 
@@ -102,12 +102,7 @@ int hex_facet_of(const Mesh& mesh, std::int32_t e, const std::array<std::int32_t
 
 std::uint8_t cut_facets_in_hex(const Mesh& mesh, std::int32_t e,
                                const std::array<std::int32_t, 4>& tet) {
-  unsigned mask = 0;
-  for (int f = 0; f < 4 && mesh.cut_facets[e] != 0; ++f) {
-    const int g = hex_facet_of(mesh, e, tet, f);
-    if (g >= 0 && (mesh.cut_facets[e] >> g & 1) != 0) mask |= 1U << f;
-  }
-  return static_cast<std::uint8_t>(mask);
+  return tet_facets_on(mesh.cut_facets[e], [&](int f) { return hex_facet_of(mesh, e, tet, f); });
 }
 
 static const FacetSide* find_triangle(const std::vector<FacetSide>& triangle, std::int32_t a,

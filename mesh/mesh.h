@@ -65,6 +65,7 @@ struct Mesh {
   // rank where facets choose their diagonals (hex_split.h); bit 7, at a hexahedron that never does.
   std::vector<std::uint8_t> hex_split_rank;
   std::vector<SplitHexahedron> split_hexahedra;  // in the order of their splits
+  bool operator==(const Mesh&) const = default;
 
   std::int32_t n_nodes() const { return static_cast<std::int32_t>(X.size()); }
   std::int32_t n_elements() const { return static_cast<std::int32_t>(element_type.size()); }
@@ -79,7 +80,6 @@ struct Mesh {
     const std::int32_t first_made = n_nodes() - static_cast<std::int32_t>(copied_node.size());
     return i < first_made ? i : copied_node[i - first_made];
   }
-  bool operator==(const Mesh&) const = default;
 };
 
 const char* element_type_name(ElementType type);

@@ -59,31 +59,34 @@ std::string_view without_mark(std::string_view bytes) {
   return bytes.starts_with(mark) ? bytes.substr(mark.size()) : bytes;
 }
 
-// The bytes of the file are freed before the mesh is made of what was read.
-RawMesh read_raw_mesh(const std::string& file) {
+// What read(format, reader) makes of the file, whose bytes are freed then. unknown: what is said of
+// one in no known format.
+template <class Read>
+auto read_as(const std::string& file, const std::string& unknown, const Read& read) {
   const std::string whole = read_whole_file(file);
   const std::string_view bytes = without_mark(whole);
   FileReader in(file, bytes);
   const Format format = find_format(file, bytes);
-  if (format == Format::unknown)
-    in.fail_file("is in no known mesh format: gmsh .msh (1.0, 2.2, 4.1), legacy VTK and VTU are");
-  if (is_surface(format)) {
-    const TriangleMesh surface = merge_vertices(file, read_triangles(format, in));
-    in.fail_file("this file holds only a surface (" + std::to_string(surface.triangle.size()) +
-                 " triangles): make a volume mesh of it (docs/howto.md says how), or use it as an "
-                 "instrument");
-  }
-  return read_cells(format, in);
+  if (format == Format::unknown) in.fail_file(unknown);
+  return read(format, in);
+}
+
+RawMesh read_raw_mesh(const std::string& file) {
+  return read_as(file,
+                 "is in no known mesh format: gmsh .msh (1.0, 2.2, 4.1), legacy VTK and VTU are",
+                 [&](Format format, FileReader& in) {
+                   if (!is_surface(format)) return read_cells(format, in);
+                   const TriangleMesh surface = merge_vertices(file, read_triangles(format, in));
+                   fail_surface(file, std::to_string(surface.triangle.size()) + " triangles");
+                 });
 }
 
 TriangleMesh read_surface(const std::string& file) {
-  const std::string whole = read_whole_file(file);
-  const std::string_view bytes = without_mark(whole);
-  FileReader in(file, bytes);
-  const Format format = find_format(file, bytes);
-  if (format == Format::unknown)
-    in.fail_file("is in no known surface format: STL, OBJ, gmsh .msh, legacy VTK and VTU are");
-  return is_surface(format) ? read_triangles(format, in) : make_surface(read_cells(format, in));
+  return read_as(file, "is in no known surface format: STL, OBJ, gmsh .msh, legacy VTK and VTU are",
+                 [](Format format, FileReader& in) {
+                   return is_surface(format) ? read_triangles(format, in)
+                                             : make_surface(read_cells(format, in));
+                 });
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct LegacyReader {
 };
 
 void expect_keyword(FileReader& in, std::string_view expected) {
-  if (upper_case(in.peek_word()) == expected)
+  if (in_capital_letters(in.peek_word()) == expected)
     in.word("a keyword");
   else
     in.expect_word(expected);
@@ -131,12 +131,12 @@ void read_header(LegacyReader& r) {
   if (version.empty() || version[0] < '1' || version[0] > '5')
     r.in.fail("version " + in_quotes(version) + " is not one of 1.0 to 5.1");
   r.in.line();
-  const std::string format = upper_case(r.in.word("ASCII or BINARY"));
+  const std::string format = in_capital_letters(r.in.word("ASCII or BINARY"));
   if (format != "ASCII" && format != "BINARY")
     r.in.fail("ASCII or BINARY should stand here, not " + in_quotes(format));
   r.is_binary = format == "BINARY";
   expect_keyword(r.in, "DATASET");
-  const std::string kind = upper_case(r.in.word("a kind of data set"));
+  const std::string kind = in_capital_letters(r.in.word("a kind of data set"));
   if (kind != "UNSTRUCTURED_GRID")
     r.in.fail("the data set is " + in_quotes(kind) + "; only UNSTRUCTURED_GRID is read");
 }
@@ -154,7 +154,7 @@ void skip_data(LegacyReader& r, const std::string& keyword) {
 }
 
 void read_section(LegacyReader& r) {
-  const std::string keyword = upper_case(r.in.word("a section"));
+  const std::string keyword = in_capital_letters(r.in.word("a section"));
   if (keyword == "POINTS")
     read_points(r);
   else if (keyword == "CELLS")

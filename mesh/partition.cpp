@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/grouped.h"
 #include "base/on_root.h"
 #include "mesh/facets.h"
 #include "mesh/partition_work.h"
@@ -63,29 +64,18 @@ struct Graph {
 };
 
 // The groups that each edge joins, from either side.
-static Graph with_each_edge(const Groups& groups, const Edges& edges) {
-  Graph graph;
-  graph.offset.assign(groups.work.size() + 1, 0);
-  const auto for_joined = [&](const auto& body) {
+static Grouped<idx_t, idx_t> with_each_edge(const Groups& groups, const Edges& edges) {
+  return group_items<idx_t, idx_t>(groups.work.size(), [&](const auto& put) {
     for (const auto& [i, j] : edges)
-      if (const std::int32_t a = groups.of_node[i], b = groups.of_node[j]; a != b) body(a, b);
-  };
-  for_joined([&](std::int32_t a, std::int32_t b) {
-    ++graph.offset[a + 1];
-    ++graph.offset[b + 1];
+      if (const std::int32_t a = groups.of_node[i], b = groups.of_node[j]; a != b)
+        put(a, b), put(b, a);
   });
-  std::partial_sum(graph.offset.begin(), graph.offset.end(), graph.offset.begin());
-  graph.neighbour.resize(static_cast<std::size_t>(graph.offset.back()));
-  std::vector<idx_t> next(graph.offset.begin(), graph.offset.end() - 1);
-  for_joined([&](std::int32_t a, std::int32_t b) {
-    graph.neighbour[next[a]++] = b;
-    graph.neighbour[next[b]++] = a;
-  });
-  return graph;
 }
 
 static Graph graph_of(const Groups& groups, const Edges& edges) {
-  Graph graph = with_each_edge(groups, edges);
+  Grouped<idx_t, idx_t> joined = with_each_edge(groups, edges);
+  Graph graph{
+      .offset = std::move(joined.offset), .neighbour = std::move(joined.item), .n_edges = {}};
   idx_t n = 0, begin = 0;
   for (std::size_t group = 0; group < groups.work.size(); ++group) {
     const idx_t end = graph.offset[group + 1], first = n;

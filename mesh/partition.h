@@ -42,6 +42,8 @@ struct Part {
   std::int32_t n_local() const { return static_cast<std::int32_t>(node_global.size()); }
 };
 Part make_part(const Mesh& mesh, std::span<const std::int32_t> node_owner, int rank);
+// All of the mesh, as on one rank.
+Part whole_part(const Mesh& mesh);
 // The part's elements after the splits of an edit, by the mesh and owners after it. Returns which
 // place in element_global each had before, -1 if it is new; empty if the part had no element that
 // was split, so that each kept its place.

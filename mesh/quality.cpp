@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/box.h"
 #include "mesh/connected_nodes.h"
-#include "mesh/facet_sort.h"
+#include "mesh/element_shape.h"
 #include "mesh/facets.h"
 
 namespace trocar {
@@ -78,11 +79,16 @@ double least_altitude(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x)
          largest;
 }
 
-double mean_edge_length(const Mesh& mesh) {
+using MeshEdges = std::vector<std::array<std::int32_t, 2>>;
+
+static double mean_length(const Mesh& mesh, const MeshEdges& edges) {
   double sum = 0;
-  const auto edges = mesh_edges(mesh);
   for (const auto& [a, b] : edges) sum += (mesh.X[a] - mesh.X[b]).norm();
   return sum / static_cast<double>(edges.size());
+}
+
+double mean_edge_length(const Mesh& mesh) {
+  return mean_length(mesh, mesh_edges(mesh));
 }
 
 std::vector<std::int64_t> elements_by_region(const Mesh& mesh) {
@@ -92,17 +98,15 @@ std::vector<std::int64_t> elements_by_region(const Mesh& mesh) {
 }
 
 static void count_edges(const Mesh& mesh, MeshStatistics& statistics) {
-  const std::vector<std::array<std::int32_t, 2>> edges = mesh_edges(mesh);
+  const MeshEdges edges = mesh_edges(mesh);
   if (edges.empty()) return;
-  const auto length = [&](const std::array<std::int32_t, 2>& edge) {
-    return (mesh.X[edge[1]] - mesh.X[edge[0]]).norm();
-  };
-  statistics.edge_min = length(edges.front());
-  for (const std::array<std::int32_t, 2>& edge : edges) {
-    statistics.edge_min = std::min(statistics.edge_min, length(edge));
-    statistics.edge_max = std::max(statistics.edge_max, length(edge));
-    statistics.edge_mean += length(edge) / static_cast<double>(edges.size());
+  statistics.edge_min = std::numeric_limits<double>::max();
+  for (const auto& [a, b] : edges) {
+    const double length = (mesh.X[a] - mesh.X[b]).norm();
+    statistics.edge_min = std::min(statistics.edge_min, length);
+    statistics.edge_max = std::max(statistics.edge_max, length);
   }
+  statistics.edge_mean = mean_length(mesh, edges);
 }
 
 ElementStatistics element_statistics(const Mesh& mesh) {
@@ -119,16 +123,21 @@ ElementStatistics element_statistics(const Mesh& mesh) {
   return statistics;
 }
 
+PieceStatistics piece_statistics(const Mesh& mesh) {
+  const std::vector<std::int32_t> piece = connected_nodes(mesh);
+  PieceStatistics statistics{.n_pieces = count_pieces(piece)};
+  if (statistics.n_pieces > 1)
+    statistics.n_unjoined = count_unjoined(mesh, piece, 1e-6 * mean_edge_length(mesh));
+  return statistics;
+}
+
 MeshStatistics mesh_statistics(const Mesh& mesh) {
-  MeshStatistics statistics{element_statistics(mesh)};
+  MeshStatistics statistics{element_statistics(mesh), piece_statistics(mesh)};
   statistics.n_nodes = mesh.n_nodes();
   statistics.n_surface_triangles =
       static_cast<std::int32_t>(boundary_surface(mesh).triangle.size());
-  statistics.n_pieces = count_pieces(mesh);
   if (!mesh.X.empty()) statistics.box = bounding_box(mesh.X);
   count_edges(mesh, statistics);
-  if (statistics.n_pieces > 1)
-    statistics.n_unjoined = count_unjoined(mesh, 1e-6 * statistics.edge_mean);
   return statistics;
 }
 

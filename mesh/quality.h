@@ -34,11 +34,15 @@ double mean_edge_length(const Mesh& mesh);
 // (n_regions) Files name regions, too, that have none.
 std::vector<std::int64_t> elements_by_region(const Mesh& mesh);
 
-// With what takes a look at all facets and edges; of meshes with broken facets, too. Pieces are
-// those of count_pieces.
-struct MeshStatistics : ElementStatistics {
-  std::int32_t n_nodes = 0, n_surface_triangles = 0, n_pieces = 0;
-  std::int32_t n_unjoined = 0;  // nodes of pieces, see count_unjoined; within 1e-6 mean edges
+struct PieceStatistics {
+  std::int32_t n_pieces = 0;    // see count_pieces
+  std::int32_t n_unjoined = 0;  // nodes of theirs, see count_unjoined; within 1e-6 mean edges
+};
+PieceStatistics piece_statistics(const Mesh& mesh);
+
+// With what takes a look at all facets and edges; of meshes with broken facets, too.
+struct MeshStatistics : ElementStatistics, PieceStatistics {
+  std::int32_t n_nodes = 0, n_surface_triangles = 0;
   Box box{Vec3::Zero(), Vec3::Zero()};               // around it [m]
   double edge_min = 0, edge_mean = 0, edge_max = 0;  // [m]
 };

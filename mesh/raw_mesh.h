@@ -72,6 +72,8 @@ void for_cells(const RawMesh& raw, int dimension, const F& f) {
 
 // The volume (or plane) mesh of it, positions times `scale`. Throws InputError naming the element.
 Mesh make_mesh(RawMesh raw, double scale);
+// For a file that holds no mesh but a surface; count: "12 triangles".
+[[noreturn]] void fail_surface(const std::string& file, const std::string& count);
 // Its triangles and quadrangles, the latter as two triangles; vertices not merged. Throws
 // InputError if it holds volume elements.
 TriangleMesh make_surface(const RawMesh& raw);

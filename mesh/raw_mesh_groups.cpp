@@ -13,22 +13,7 @@ namespace trocar {
 
 namespace {
 
-struct GroupKey {
-  int dimension = 0;
-  std::int32_t tag = 0;
-  auto operator<=>(const GroupKey&) const = default;
-};
-
-// The groups of some dimensions, numbered: those with a name in the order of the file, then the
-// others by dimension and tag, called "surface-7". Groups of the same name are one.
-struct GroupNumbers {
-  std::vector<GroupKey> key;         // (n_keys) ascending
-  std::vector<std::int32_t> number;  // (n_keys)
-  std::vector<std::string> name;     // (n_numbers)
-};
-
 constexpr int n_dimensions = 4;
-constexpr std::size_t most_groups = 100000;
 
 // is_used[list * n_dimensions + d]: some cell of dimension d has that group list.
 std::vector<bool> used_lists(const RawMesh& raw) {
@@ -40,8 +25,8 @@ std::vector<bool> used_lists(const RawMesh& raw) {
   return is_used;
 }
 
-std::vector<GroupKey> used_keys(const RawMesh& raw, int low, int high) {
-  const std::vector<bool> is_used = used_lists(raw);
+std::vector<GroupKey> used_keys(const RawMesh& raw, const std::vector<bool>& is_used, int low,
+                                int high) {
   std::vector<GroupKey> keys;
   for (int d = low; d <= high; ++d)
     for (std::size_t list = 0; list + 1 < raw.group_offset.size(); ++list)
@@ -77,7 +62,9 @@ void check_memberships(const RawMesh& raw, int dimension) {
                      std::to_string(n) + " entries");
 }
 
-GroupNumbers number_groups(const RawMesh& raw, int low_dimension, int high_dimension) {
+// is_used: used_lists.
+GroupNumbers number_groups(const RawMesh& raw, const std::vector<bool>& is_used, int low_dimension,
+                           int high_dimension) {
   GroupNumbers groups;
   std::map<GroupKey, std::int32_t> number_of_key;
   std::map<std::string, std::int32_t> number_of_name;
@@ -90,7 +77,7 @@ GroupNumbers number_groups(const RawMesh& raw, int low_dimension, int high_dimen
   for (const NamedGroup& group : raw.named_groups)
     if (group.dimension >= low_dimension && group.dimension <= high_dimension)
       add({group.dimension, group.tag}, group.name);
-  const std::vector<GroupKey> used = used_keys(raw, low_dimension, high_dimension);
+  const std::vector<GroupKey> used = used_keys(raw, is_used, low_dimension, high_dimension);
   if (used.size() > most_groups)
     throw InputError(raw.file + ": has " + std::to_string(used.size()) +
                      " physical groups, more than the " + std::to_string(most_groups) +
@@ -115,8 +102,8 @@ static void name_only_region(const RawMesh& raw, int dimension, GroupNumbers& gr
 }
 
 std::vector<std::int32_t> make_regions(const RawMesh& raw, int dimension, Mesh& mesh) {
-  GroupNumbers groups = number_groups(raw, dimension, dimension);
   const std::vector<bool> is_used = used_lists(raw);
+  GroupNumbers groups = number_groups(raw, is_used, dimension, dimension);
   const auto has_cells = [&](std::size_t list) { return is_used[list * n_dimensions + dimension]; };
   if (!has_cells(0)) name_only_region(raw, dimension, groups);
   std::vector<std::int32_t> region(raw.group_offset.size() - 1, -1);
@@ -145,12 +132,15 @@ std::vector<std::int32_t> make_regions(const RawMesh& raw, int dimension, Mesh& 
   return region;
 }
 
-std::vector<NodeSet> make_node_sets(const RawMesh& raw, int dimension,
-                                    std::span<const std::int32_t> new_node) {
+GroupNumbers number_groups_below(const RawMesh& raw, int dimension) {
   check_memberships(raw, dimension);
-  GroupNumbers groups = number_groups(raw, 0, dimension - 1);
+  return number_groups(raw, used_lists(raw), 0, dimension - 1);
+}
+
+std::vector<NodeSet> make_node_sets(const RawMesh& raw, const GroupNumbers& groups, int dimension,
+                                    std::span<const std::int32_t> new_node) {
   std::vector<NodeSet> sets(groups.name.size());
-  for (std::size_t s = 0; s < sets.size(); ++s) sets[s].name = std::move(groups.name[s]);
+  for (std::size_t s = 0; s < sets.size(); ++s) sets[s].name = groups.name[s];
 
   for (int d = 0; d < dimension; ++d)
     for_cells(raw, d, [&](std::int32_t c, std::span<const std::int32_t> corners) {
@@ -168,9 +158,10 @@ std::vector<NodeSet> make_node_sets(const RawMesh& raw, int dimension,
 }
 
 // Of each set those in the file, ascending.
-static std::vector<std::vector<FacetNodes>> facets_of_sets(const RawMesh& raw, int dimension,
+static std::vector<std::vector<FacetNodes>> facets_of_sets(const RawMesh& raw,
+                                                           const GroupNumbers& groups,
+                                                           int dimension,
                                                            std::span<const std::int32_t> new_node) {
-  const GroupNumbers groups = number_groups(raw, 0, dimension - 1);
   std::vector<std::vector<FacetNodes>> facets(groups.name.size());
   const int d = dimension - 1;
   for_cells(raw, d, [&](std::int32_t c, std::span<const std::int32_t> corners) {
@@ -195,9 +186,10 @@ static std::vector<FacetNodes> facets_within(const NodeSet& set, std::span<const
   return facets;
 }
 
-void leave_out_facets(const RawMesh& raw, int dimension, std::span<const std::int32_t> new_node,
-                      Mesh& mesh) {
-  const std::vector<std::vector<FacetNodes>> facets = facets_of_sets(raw, dimension, new_node);
+void leave_out_facets(const RawMesh& raw, const GroupNumbers& groups, int dimension,
+                      std::span<const std::int32_t> new_node, Mesh& mesh) {
+  const std::vector<std::vector<FacetNodes>> facets =
+      facets_of_sets(raw, groups, dimension, new_node);
   if (std::ranges::all_of(facets, [](const auto& of_set) { return of_set.empty(); })) return;
   const std::vector<FacetSide> outer_sides = single_sides(mesh);
   for (std::size_t s = 0; s < facets.size(); ++s) {

@@ -59,9 +59,7 @@ int element_dimension(const RawMesh& raw) {
   }
   std::string count = std::to_string(n_triangle) + " triangles";
   if (n_quadrangle > 0) count += ", " + std::to_string(n_quadrangle) + " quadrangles";
-  throw InputError(
-      raw.file + ": this file holds only a surface (" + count +
-      "): make a volume mesh of it (docs/howto.md says how), or use it as an instrument");
+  fail_surface(raw.file, count);
 }
 
 // Keeps the nodes of elements, in the order of the file. New number of each node, -1 if dropped.
@@ -225,9 +223,10 @@ Mesh make_mesh(RawMesh raw, double scale) {
     const std::vector<std::int32_t> new_node = take_nodes(raw, dimension, scale, mesh);
     raw.X = {};
     raw.node_tag = {};
-    mesh.node_sets = make_node_sets(raw, dimension, new_node);
+    const GroupNumbers groups = number_groups_below(raw, dimension);
+    mesh.node_sets = make_node_sets(raw, groups, dimension, new_node);
     take_elements(raw, dimension, new_node, mesh);
-    leave_out_facets(raw, dimension, new_node, mesh);
+    leave_out_facets(raw, groups, dimension, new_node, mesh);
   }
   orient_elements(raw, mesh);
   take_fibres(raw, dimension, mesh);

@@ -4,6 +4,12 @@
 
 namespace trocar {
 
+void fail_surface(const std::string& file, const std::string& count) {
+  throw InputError(
+      file + ": this file holds only a surface (" + count +
+      "): make a volume mesh of it (docs/howto.md says how), or use it as an instrument");
+}
+
 TriangleMesh make_surface(const RawMesh& raw) {
   TriangleMesh mesh;
   mesh.X = raw.X;

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "base/check.h"
+#include "base/grouped.h"
 #include "mesh/facets.h"
+#include "mesh/sub_mesh.h"
 
 namespace trocar {
 
@@ -14,37 +16,20 @@ namespace {
 
 // Nodes that share an edge of the mesh with each node; those with few neighbours first, then the
 // lower number.
-struct Neighbourhood {
-  std::vector<std::int32_t> offset, node;
-
-  std::span<const std::int32_t> of(std::int32_t i) const {
-    return {node.data() + offset[i], static_cast<std::size_t>(offset[i + 1] - offset[i])};
-  }
-  std::int32_t degree(std::int32_t i) const { return offset[i + 1] - offset[i]; }
-};
-
-Neighbourhood neighbourhood_of(const Mesh& mesh) {
-  Neighbourhood all;
-  all.offset.assign(mesh.X.size() + 1, 0);
+Grouped<> neighbourhood_of(const Mesh& mesh) {
   const auto edges = mesh_edges(mesh);
-  for (const auto& [a, b] : edges) ++all.offset[a + 1], ++all.offset[b + 1];
-  std::partial_sum(all.offset.begin(), all.offset.end(), all.offset.begin());
-  all.node.resize(2 * edges.size());
-  std::vector<std::int32_t> next(all.offset.begin(), all.offset.end() - 1);
-  for (const auto& [a, b] : edges) {
-    all.node[next[a]++] = b;
-    all.node[next[b]++] = a;
-  }
+  Grouped<> all = group_items(mesh.X.size(), [&](const auto& put) {
+    for (const auto& [a, b] : edges) put(a, b), put(b, a);
+  });
+  const auto by_degree = [&](std::int32_t i) { return std::pair(all.of(i).size(), i); };
   for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
-    std::sort(all.node.begin() + all.offset[i], all.node.begin() + all.offset[i + 1],
-              [&](std::int32_t a, std::int32_t b) {
-                return std::pair(all.degree(a), a) < std::pair(all.degree(b), b);
-              });
+    std::sort(all.item.begin() + all.offset[i], all.item.begin() + all.offset[i + 1],
+              [&](std::int32_t a, std::int32_t b) { return by_degree(a) < by_degree(b); });
   return all;
 }
 
 // Appends all nodes that hang together with `first` to `order`, breadth first; marks them.
-void visit(const Neighbourhood& neighbours, std::int32_t first, std::vector<std::uint8_t>& is_seen,
+void visit(const Grouped<>& neighbours, std::int32_t first, std::vector<std::uint8_t>& is_seen,
            std::vector<std::int32_t>& order) {
   std::size_t at = order.size();
   order.push_back(first);
@@ -55,7 +40,7 @@ void visit(const Neighbourhood& neighbours, std::int32_t first, std::vector<std:
 }
 
 // A node far from the others of its piece: the last one of a search, again and again.
-std::int32_t node_at_rim(const Neighbourhood& neighbours, std::int32_t first,
+std::int32_t node_at_rim(const Grouped<>& neighbours, std::int32_t first,
                          std::vector<std::uint8_t>& is_seen) {
   constexpr int n_searches = 3;
   std::vector<std::int32_t> order;
@@ -70,7 +55,7 @@ std::int32_t node_at_rim(const Neighbourhood& neighbours, std::int32_t first,
 
 // Number of the node that comes k-th.
 std::vector<std::int32_t> near_order(const Mesh& mesh) {
-  const Neighbourhood neighbours = neighbourhood_of(mesh);
+  const Grouped<> neighbours = neighbourhood_of(mesh);
   std::vector<std::uint8_t> is_seen(mesh.X.size(), 0);
   std::vector<std::int32_t> order;
   order.reserve(mesh.X.size());
@@ -98,28 +83,20 @@ std::vector<std::int32_t> element_order(const Mesh& mesh,
   return order;
 }
 
-template <class T>
-std::vector<T> permuted(const std::vector<T>& x, std::span<const std::int32_t> order) {
-  std::vector<T> result;
-  result.reserve(x.size());
-  for (const std::int32_t i : order) result.push_back(x[i]);
-  return result;
-}
-
 // Everything that belongs to single elements, in this order; new_number: of nodes, which stay.
 void take_elements(const Mesh& mesh, std::span<const std::int32_t> order,
                    std::span<const std::int32_t> new_number, Mesh& result) {
-  result.element_type = permuted(mesh.element_type, order);
+  result.element_type = values_of(std::span(mesh.element_type), order);
   result.corner_offset.clear();
   result.corner_node.clear();
   for (const std::int32_t e : order) {
     result.corner_offset.push_back(static_cast<std::int32_t>(result.corner_node.size()));
     for (const std::int32_t i : mesh.corners(e)) result.corner_node.push_back(new_number[i]);
   }
-  result.element_region = permuted(mesh.element_region, order);
-  result.density_factor = permuted(mesh.density_factor, order);
-  result.cut_facets = permuted(mesh.cut_facets, order);
-  if (!mesh.fibre.empty()) result.fibre = permuted(mesh.fibre, order);
+  result.element_region = values_of(std::span(mesh.element_region), order);
+  result.density_factor = values_of(std::span(mesh.density_factor), order);
+  result.cut_facets = values_of(std::span(mesh.cut_facets), order);
+  if (!mesh.fibre.empty()) result.fibre = values_of(std::span(mesh.fibre), order);
 }
 
 }  // namespace
@@ -142,7 +119,7 @@ Mesh renumbered(const Mesh& mesh) {
     new_number[nodes[k]] = static_cast<std::int32_t>(k);
   const std::vector<std::int32_t> elements = element_order(mesh, new_number);
   Mesh result;
-  result.X = permuted(mesh.X, nodes);
+  result.X = values_of(std::span(mesh.X), nodes);
   take_elements(mesh, elements, new_number, result);
   result.region_name = mesh.region_name;
   result.node_sets = mesh.node_sets;

@@ -17,12 +17,7 @@ struct SurfaceEdit {
   const SubMesh& around;                   // all that touch corners of these elements
 };
 // The surface of before the edit becomes boundary_surface's, in a time of the edit's, but for a
-// copy of the surface.
+// copy of the surface; in the plane it is made anew.
 void update_surface(const Mesh& mesh, const SurfaceEdit& edit, Surface& surface);
-
-// Facets of one element only, as bits by element.
-std::vector<std::uint8_t> boundary_facets(const Mesh& mesh);
-// Appends facet f of element e.
-void add_facet(Surface& surface, const Mesh& mesh, std::int32_t e, int f);
 
 }  // namespace trocar

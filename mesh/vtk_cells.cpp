@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "mesh/raw_mesh_groups.h"
+
 namespace trocar {
 
 std::optional<VtkNumber> find_vtk_number(std::string_view name) {
@@ -166,8 +168,7 @@ void name_regions(RawMesh& raw) {
   for (std::int32_t c = 0; c < raw.n_cells(); ++c)
     if (cell_dimension(raw.cell_kind[c]) < dimension) raw.cell_group[c] = 0;
   make_group_lists(raw);
-  constexpr std::size_t most_named = 100000;  // more are refused later on
-  if (raw.group_tag.size() < 2 || raw.group_tag.size() > most_named) return;
+  if (raw.group_tag.size() < 2 || raw.group_tag.size() > most_groups) return;
   for (const std::int32_t tag : raw.group_tag)
     raw.named_groups.push_back({dimension, tag, "region-" + std::to_string(tag - 1)});
 }

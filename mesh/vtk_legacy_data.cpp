@@ -80,7 +80,7 @@ std::size_t read_width(FileReader& in) {
 }
 
 void skip_field_array(FileReader& in, bool is_binary) {
-  if (upper_case(in.peek_word()) == "METADATA") {
+  if (in_capital_letters(in.peek_word()) == "METADATA") {
     in.word("METADATA");
     skip_metadata(in);
   }
@@ -96,7 +96,7 @@ bool is_before_table(const FileReader& in) {
   constexpr std::string_view keyword = "LOOKUP_TABLE";
   const std::string_view rest = in.rest();
   const std::size_t at = std::min(rest.find_first_not_of(" \t\r\n"), rest.size());
-  return upper_case(rest.substr(at, keyword.size())) == keyword;
+  return in_capital_letters(rest.substr(at, keyword.size())) == keyword;
 }
 
 void skip_scalars(FileReader& in, bool is_binary, std::int64_t n) {
@@ -121,13 +121,6 @@ std::size_t width_of(const std::string& keyword) {
 }
 
 }  // namespace
-
-std::string upper_case(std::string_view word) {
-  std::string text(word);
-  for (char& c : text)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return text;
-}
 
 VtkNumber read_number_type(FileReader& in) {
   const std::string_view name = in.word("a type of numbers");

@@ -3,15 +3,12 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "mesh/file_reader.h"
 #include "mesh/vtk_cells.h"
 
 namespace trocar {
 
-// Keywords count in any case.
-std::string upper_case(std::string_view word);
 // The next word as a type of numbers.
 VtkNumber read_number_type(FileReader& in);
 // Binary data begin in the line below their header and are big endian; in.is_binary while in them.

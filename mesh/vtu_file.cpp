@@ -5,8 +5,8 @@
 #include <bit>
 
 #include "base/check.h"
+#include "base/number_text.h"
 #include "base/whole_file.h"
-#include "mesh/text_append.h"
 #include "mesh/vtu_data.h"
 #include "mesh/xml_tag.h"
 
@@ -24,8 +24,7 @@ template <class Number>
 void append_array(std::string& text, const ArrayHead& head, std::span<const Number> values) {
   text.append("<DataArray type=\"").append(head.type);
   text.append("\" Name=\"").append(escaped_xml(head.name)).append("\" NumberOfComponents=\"");
-  append_number(text, head.width);
-  text += "\" format=\"binary\">";
+  text += std::to_string(head.width) + "\" format=\"binary\">";
   append_vtu_data({reinterpret_cast<const char*>(values.data()), values.size_bytes()}, text);
   text += "</DataArray>\n";
 }
@@ -71,10 +70,8 @@ void write_vtu(const Mesh& mesh, std::span<const Vec3> x, std::span<const VtuFie
   CHECK_OP(x.size(), ==, mesh.X.size());
   std::string text;
   append_head(text, "UnstructuredGrid");
-  text += "<UnstructuredGrid>\n<Piece NumberOfPoints=\"";
-  append_number(text, mesh.n_nodes());
-  text += "\" NumberOfCells=\"";
-  append_number(text, mesh.n_elements());
+  text += "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" + std::to_string(mesh.n_nodes());
+  text += "\" NumberOfCells=\"" + std::to_string(mesh.n_elements());
   text += "\">\n<PointData>\n";
   append_fields(text, nodal, mesh.X.size());
   text += "</PointData>\n<CellData>\n";
@@ -98,8 +95,7 @@ void write_pvd(std::span<const PvdEntry> entries, const std::string& file) {
   append_head(text, "Collection");
   text += "<Collection>\n";
   for (const PvdEntry& entry : entries) {
-    text += "<DataSet timestep=\"";
-    append_number(text, entry.time);
+    text += "<DataSet timestep=\"" + shortest_text(entry.time);
     text.append("\" part=\"0\" file=\"").append(escaped_xml(entry.file)).append("\"/>\n");
   }
   text += "</Collection>\n</VTKFile>\n";

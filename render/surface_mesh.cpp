@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/check.h"
+#include "base/grouped.h"
 
 namespace trocar {
 
@@ -57,22 +58,11 @@ Faces drawable_faces(const SurfaceShape& shape) {
 }
 
 // Corners (3 * face + corner) around each node, ascending.
-struct NodeCorners {
-  std::vector<std::int32_t> offset, corner;
-};
-
-NodeCorners node_corners(const Faces& faces, std::size_t n_nodes) {
-  NodeCorners around;
-  around.offset.assign(n_nodes + 1, 0);
-  for (const auto& face : faces.node)
-    for (const std::int32_t i : face) ++around.offset[i + 1];
-  for (std::size_t i = 0; i < n_nodes; ++i) around.offset[i + 1] += around.offset[i];
-  std::vector<std::int32_t> next(around.offset.begin(), around.offset.end() - 1);
-  around.corner.resize(3 * faces.node.size());
-  for (std::size_t t = 0; t < faces.node.size(); ++t)
-    for (int c = 0; c < 3; ++c)
-      around.corner[next[faces.node[t][c]]++] = static_cast<std::int32_t>(3 * t) + c;
-  return around;
+Grouped<> corners_at_nodes(const Faces& faces, std::size_t n_nodes) {
+  return group_items(n_nodes, [&](const auto& put) {
+    for (std::size_t t = 0; t < faces.node.size(); ++t)
+      for (int c = 0; c < 3; ++c) put(faces.node[t][c], static_cast<std::int32_t>(3 * t) + c);
+  });
 }
 
 // Cut faces are torn by the mesh; a crease there is noise.
@@ -141,15 +131,12 @@ void smooth_cut_normals(SurfaceMesh& mesh, std::size_t n_nodes) {
 
 SurfaceMesh make_surface_mesh(const SurfaceShape& shape) {
   const Faces faces = drawable_faces(shape);
-  const NodeCorners around = node_corners(faces, shape.x.size());
+  const Grouped<> around = corners_at_nodes(faces, shape.x.size());
   SurfaceMesh mesh;
-  mesh.index.resize(around.corner.size());
+  mesh.index.resize(around.item.size());
   mesh.vertex.reserve(faces.node.size());
-  for (std::size_t i = 0; i < shape.x.size(); ++i) {
-    const std::size_t begin = around.offset[i], end = around.offset[i + 1];
-    add_node_vertices(shape, faces, static_cast<std::int32_t>(i),
-                      {around.corner.data() + begin, end - begin}, mesh);
-  }
+  for (std::int32_t i = 0; i < std::ssize(shape.x); ++i)
+    add_node_vertices(shape, faces, i, around.of(i), mesh);
   if (std::find(faces.is_cut.begin(), faces.is_cut.end(), 1) != faces.is_cut.end())
     for (int pass = 0; pass < cut_smoothing_passes; ++pass)
       smooth_cut_normals(mesh, shape.x.size());

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "base/grouped.h"
 #include "base/sort_unique.h"
 #include "base/threads.h"
 #include "solver/block_ranges.h"
@@ -49,17 +50,13 @@ NodeUse use_of_nodes(const Model& model) {
 // Own nodes by a counting sort over their last strides.
 void order_own_nodes(const NodeUse& use, Model& model) {
   SumOrder& sums = model.sums;
-  const std::int32_t n_strides = sums.run_stride.back();
-  sums.stride_first.assign(static_cast<std::size_t>(n_strides) + 1, 0);
-  const auto is_own = [&](std::int32_t i) { return use.run[i] >= 0; };
-  for (std::int32_t i = 0; i < model.n_owned; ++i)
-    if (is_own(i)) ++sums.stride_first[use.last_stride[i] + 1];
-  for (std::int32_t stride = 0; stride < n_strides; ++stride)
-    sums.stride_first[stride + 1] += sums.stride_first[stride];
-  std::vector<std::int32_t> next = sums.stride_first;
-  sums.node.resize(static_cast<std::size_t>(next.back()));
-  for (std::int32_t i = 0; i < model.n_owned; ++i)
-    if (is_own(i)) sums.node[next[use.last_stride[i]]++] = i;
+  Grouped<> nodes =
+      group_items(static_cast<std::size_t>(sums.run_stride.back()), [&](const auto& put) {
+        for (std::int32_t i = 0; i < model.n_owned; ++i)
+          if (use.run[i] >= 0) put(use.last_stride[i], i);
+      });
+  sums.stride_first = std::move(nodes.offset);
+  sums.node = std::move(nodes.item);
 }
 
 bool has_node(const std::int32_t* corner, int n_corners, int lanes, std::int32_t node) {

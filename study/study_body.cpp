@@ -31,7 +31,7 @@ StudyBody make_study_body(Mesh mesh, double h, const Material& material,
   std::vector<FixedMask> mask;
   for (const Vec3& X : body.mesh.X) mask.push_back(fixed ? fixed(X) : FixedMask{0});
   body.mass = lumped_mass(body.mesh, std::vector<double>{material.density}, options.thickness);
-  body.part = make_part(body.mesh, std::vector<std::int32_t>(body.mesh.X.size(), 0), 0);
+  body.part = whole_part(body.mesh);
   body.model =
       build_model(body.mesh, body.part, std::vector<Material>{material}, mask, body.mass, options);
   body.state = make_state(body.model);

@@ -1,5 +1,5 @@
 // A study as a table: CSV for spreadsheets, JSON for programs. nlohmann-json is seen by
-// study_table.cpp.
+// study_table.cpp and cut2d_json.cpp.
 #pragma once
 
 #include <string>

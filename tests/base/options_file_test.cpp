@@ -1,7 +1,5 @@
 // Files that no friend would send: each is refused with a sentence, quickly and without much
 // memory.
-#include "base/options_file.h"
-
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -11,6 +9,7 @@
 #include <fstream>
 
 #include "base/heap.h"
+#include "base/options.h"
 #include "base_scene_options.h"
 #include "error_of.h"
 #include "test_files.h"
@@ -55,8 +54,7 @@ TEST_F(HostileFile, that_is_good_is_read) {
 }
 
 TEST_F(HostileFile, that_does_not_exist_is_named) {
-  expect_part(refusal_of(folder_.file("none.toml")),
-              "none.toml: can't be opened: No such file or directory");
+  expect_part(refusal_of(folder_.file("none.toml")), "none.toml: there is no file of this name");
 }
 
 TEST_F(HostileFile, that_is_empty_is_refused) {

@@ -70,18 +70,22 @@ struct Boxes {
   Box first, second{.density = 2000}, third;
 };
 
-TEST(Help, points_to_a_long_table_that_it_has_shown) {
-  Options<Box> box("A box.");
+Options<Box> box_options(const std::string& doc) {
+  Options<Box> box(doc);
   box.vector("low", &Box::low, dim::length, any, "One corner.");
   box.vector("high", &Box::high, dim::length, any, "The other.");
   box.vector("turn", &Box::turn, dim::none, any, "Its axis.");
   box.number("scale", &Box::scale, dim::none, positive, "Its size.");
   box.number("density", &Box::density, dim::density, positive, "Mass per volume.");
   box.boolean("is_open", &Box::is_open, "Whether it has a lid.");
+  return box;
+}
+
+TEST(Help, points_to_a_long_table_that_it_has_shown) {
   Options<Boxes> boxes("Boxes.");
-  boxes.table("first", &Boxes::first, box, "One.");
-  boxes.table("second", &Boxes::second, box, "Another, of another default.");
-  boxes.table("third", &Boxes::third, box, "One more.");
+  boxes.table("first", &Boxes::first, box_options("One."));
+  boxes.table("second", &Boxes::second, box_options("Another, of another default."));
+  boxes.table("third", &Boxes::third, box_options("One more."));
   const std::string help = help_options(boxes), markdown = markdown_options(boxes);
   expect_part(help, "\n  [third]  One more. (table)\n    The keys of [first].\n");
   expect_part(markdown, "## `[third]`\n\nOne more. (table)\n\nThe keys of `[first]`.\n");

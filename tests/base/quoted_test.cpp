@@ -72,5 +72,19 @@ TEST(NamesHint, says_what_is_near_and_what_there_is) {
       names_hint("left", std::vector<std::string>(23, "a")).ends_with(", \"a\" and 3 more"));
 }
 
+TEST(Letters, of_ascii_alone_become_small_or_capital) {
+  EXPECT_EQ(in_small_letters("AzÄ_9Z"), "azÄ_9z");
+  EXPECT_EQ(in_capital_letters("AzÄ_9a"), "AZÄ_9A");
+}
+
+TEST(FirstCharacters, are_whole_ones_of_utf_8) {
+  const std::string_view text = "aä€😀b";
+  EXPECT_EQ(n_characters(text), 5u);
+  EXPECT_EQ(first_characters(text, 0), "");
+  EXPECT_EQ(first_characters(text, 2), "aä");
+  EXPECT_EQ(first_characters(text, 4), "aä€😀");
+  EXPECT_EQ(first_characters(text, 6), text);
+}
+
 }  // namespace
 }  // namespace trocar

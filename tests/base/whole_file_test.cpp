@@ -56,5 +56,46 @@ TEST(WriteWholeFile, what_a_link_leads_to_is_written) {
   EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link")));
 }
 
+std::string refusal_to_read(const std::string& file, std::size_t most_bytes) {
+  return error_of([&] { read_whole_file(file, most_bytes); });
+}
+
+TEST(ReadWholeFile, gives_every_byte) {
+  const TestFolder folder;
+  const std::string content = std::string("a\0b\r\n", 5) + std::string(300'000, 'x');
+  EXPECT_EQ(read_whole_file(write_text(folder.file("a"), content)), content);
+  EXPECT_EQ(read_whole_file(write_text(folder.file("b"), "x")), "x");
+}
+
+TEST(ReadWholeFile, of_as_many_bytes_as_allowed_is_no_error_and_of_one_more_is) {
+  constexpr std::size_t most = std::size_t{1} << 20;
+  const TestFolder folder;
+  const std::string file = write_text(folder.file("a"), std::string(most, 'x'));
+  EXPECT_EQ(refusal_to_read(file, most), "");
+  write_text(file, std::string(most + 1, 'x'));
+  EXPECT_EQ(refusal_to_read(file, most), file + ": is larger than 1 MB, the limit for such a file");
+}
+
+TEST(ReadWholeFile, whose_size_is_not_known_beforehand_is_read_to_its_end) {
+  if (!std::filesystem::exists("/proc/self/status")) GTEST_SKIP() << "this machine has no /proc";
+  EXPECT_TRUE(contains(read_whole_file("/proc/self/status"), "VmRSS"));
+}
+
+TEST(ReadWholeFile, of_a_name_with_a_nul_byte_is_refused) {
+  const TestFolder folder;
+  const std::string file = write_text(folder.file("a"), "x");
+  EXPECT_EQ(refusal_to_read(file + std::string("\0b", 2), 1),
+            file + ": a file name can't hold a NUL byte");
+}
+
+TEST(ReadWholeFile, that_is_a_pipe_is_refused_without_waiting) {
+  const TestFolder folder;
+  ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
+  const std::string refusal =
+      folder.file("pipe") + ": is not a regular file (a pipe or a device " + "can't be read)";
+  EXPECT_EQ(refusal_to_read(folder.file("pipe"), 1), refusal);
+  EXPECT_EQ(fault_of_file(folder.file("pipe")), refusal);
+}
+
 }  // namespace
 }  // namespace trocar::test

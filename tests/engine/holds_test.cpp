@@ -205,12 +205,6 @@ TEST(LargestTravel, is_of_supports_and_of_graspers_that_hold) {
   EXPECT_NEAR(largest_travel(c.holds, c.tools, 0, 1), 0.05, 1e-16);
 }
 
-// All nodes belong to this rank.
-Part whole_part(const Mesh& mesh) {
-  const std::vector<std::int32_t> owner(mesh.X.size(), 0);
-  return make_part(mesh, owner, 0);
-}
-
 TEST(HeldNodes, do_not_move_at_the_moment_of_the_grasp_and_then_move_with_the_tool) {
   GraspedPlate c;
   c.act(0.9, 1);

@@ -88,6 +88,15 @@ TEST(Part, numbers_owned_nodes_first_and_both_kinds_ascending) {
 
 using NodesByRanks = std::map<std::pair<int, int>, std::vector<std::int32_t>>;
 
+TEST(Part, that_is_whole_owns_every_node_and_has_every_element) {
+  for (const NamedMesh& named : all_meshes()) {
+    const Part part = whole_part(named.mesh);
+    EXPECT_EQ(part.n_owned, named.mesh.n_nodes());
+    EXPECT_EQ(part.n_local(), named.mesh.n_nodes());
+    EXPECT_EQ(std::ssize(part.element_global), named.mesh.n_elements());
+  }
+}
+
 TEST(Halo, what_a_rank_sends_is_what_the_other_expects_in_the_same_order) {
   for_all_partitions([](const Mesh&, const Ranks& ranks) {
     NodesByRanks sent, received;  // (from, to) -> global numbers

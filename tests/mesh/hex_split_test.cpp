@@ -7,6 +7,7 @@
 #include <numeric>
 #include <random>
 
+#include "base/sort_unique.h"
 #include "mesh/edit.h"
 #include "mesh/facets.h"
 #include "mesh/generate.h"
@@ -96,13 +97,18 @@ TEST(ElementSplit, a_body_of_both_kinds_is_one_piece_with_the_surface_of_the_unc
 TEST(ElementSplit, a_tetrahedron_without_a_hexahedron_across_stays_at_the_surface) {
   Mesh mesh = hex_box({2, 1, 1});
   split(mesh, {0});
-  const FacetNeighbours across = facet_neighbours(mesh);
   // Two triangles on the quad between the halves; the hexahedron sees both of them.
-  int n_towards_hex = 0;
-  for (std::int32_t e = 0; e < 6; ++e)
-    for (int f = 0; f < 4; ++f) n_towards_hex += across.of(e, f) == 6 ? 1 : 0;
-  EXPECT_EQ(n_towards_hex, 2);
-  EXPECT_EQ(across.second.size(), 1U);
+  const std::vector<SplitQuad> quads = split_quads(mesh, single_sides(mesh));
+  ASSERT_EQ(quads.size(), 1U);
+  EXPECT_EQ(mesh.element_type[quads[0].hex], ElementType::hex8);
+  std::vector<std::int32_t> nodes;
+  for (const FacetSide& triangle : quads[0].triangle) {
+    EXPECT_EQ(mesh.element_type[triangle.element], ElementType::tet4);
+    nodes.insert(nodes.end(), triangle.node.begin() + 1, triangle.node.end());
+  }
+  for (const std::int32_t i : nodes) EXPECT_NEAR(mesh.X[i].x(), 0.5, 1e-15);
+  sort_unique(nodes);
+  EXPECT_EQ(nodes.size(), 4U);
   EXPECT_EQ(boundary_surface(mesh).triangle.size(), 20U);  // 2 x 10 quads
 }
 

@@ -221,7 +221,7 @@ TEST(BuildModel, refuses_an_element_without_positive_volume_by_its_number) {
   std::swap(mesh.corner_node[4 * 7], mesh.corner_node[4 * 7 + 1]);
   const std::vector<double> mass(mesh.X.size(), 1.0);
   const std::vector<FixedMask> fixed(mesh.X.size(), 0);
-  const Part part = make_part(mesh, std::vector<std::int32_t>(mesh.X.size(), 0), 0);
+  const Part part = whole_part(mesh);
   const std::string error = error_of(
       [&] { build_model(mesh, part, std::vector<Material>{Material{}}, fixed, mass, {}); });
   EXPECT_TRUE(contains(error, "element 7 ")) << error;

@@ -5,7 +5,7 @@
 namespace trocar {
 
 Options<Material> material_options() {
-  Options<Material> options("What tissue is made of.");
+  Options<Material> options("Its material.");
   options.choice("law", &Material::law,
                  {{"neo-hookean", Law::neo_hookean}, {"linear", Law::linear}}, "Constitutive law.");
   options.number("young_modulus", &Material::young_modulus, dim::pressure, positive,
@@ -28,10 +28,10 @@ Options<Instrument> instrument_options() {
 }
 
 Options<Scene> scene_options() {
-  Options<Tissue> tissue("The body.");
+  Options<Tissue> tissue("The tissue.");
   tissue.text("mesh", &Tissue::mesh, "Mesh file.", Need::required);
-  tissue.table("material", &Tissue::material, material_options(), "Its material.");
-  Options<Camera> camera("A view.");
+  tissue.table("material", &Tissue::material, material_options());
+  Options<Camera> camera("The endoscope.");
   camera.integers("size", &Camera::size, {.low = 1}, "Pixels across and down.");
   camera.number("view_angle", &Camera::view_angle, dim::angle, positive, "Of view | vertical.");
   Options<Scene> scene("A scene.");
@@ -39,8 +39,8 @@ Options<Scene> scene_options() {
   scene.boolean("is_fast", &Scene::is_fast, "Whether to run without waiting.");
   scene.number("duration", &Scene::duration, dim::time, positive, "Length of the run.");
   scene.vector("gravity", &Scene::gravity, dim::acceleration, any, "Gravity.");
-  scene.table("tissue", &Scene::tissue, tissue, "The tissue.", Need::required);
-  scene.table("camera", &Scene::camera, camera, "The endoscope.");
+  scene.table("tissue", &Scene::tissue, tissue, Need::required);
+  scene.table("camera", &Scene::camera, camera);
   scene.list("instrument", &Scene::instrument, instrument_options(), "The tools.");
   return scene;
 }

@@ -1,11 +1,12 @@
 #include "mesh_write.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <map>
 
 #include "base/box.h"
 #include "base/whole_file.h"
-#include "mesh/text_append.h"
 
 namespace trocar {
 
@@ -27,7 +28,8 @@ PointEntities make_point_entities(const Mesh& mesh) {
 template <class... Numbers>
 void append_numbers(std::string& text, Numbers... numbers) {
   const auto append = [&](auto number) {
-    append_number(text, number);
+    std::array<char, 32> digits{};
+    text.append(digits.data(), std::to_chars(digits.begin(), digits.end(), number).ptr);
     text += ' ';
   };
   (append(numbers), ...);

@@ -26,8 +26,7 @@ Body make_body(Mesh mesh, BodyOptions options, const std::vector<std::int32_t>& 
   body.materials = options.materials;
   if (options.fixed.empty()) options.fixed.assign(body.mesh.X.size(), 0);
   body.mass = mass_of(body.mesh, options);
-  const std::vector<std::int32_t> alone(body.mesh.X.size(), 0);
-  body.part = make_part(body.mesh, owner.empty() ? alone : owner, rank);
+  body.part = owner.empty() ? whole_part(body.mesh) : make_part(body.mesh, owner, rank);
   body.model =
       build_model(body.mesh, body.part, body.materials, options.fixed, body.mass, options.solver);
   body.state = make_state(body.model);
