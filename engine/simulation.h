@@ -128,7 +128,7 @@ struct Simulation : RankBody {
   std::int64_t first_frame = 0;  // where this process began: 0, or the checkpoint it resumed from
   std::uint32_t body_crc = 0;    // of the mesh at time zero and the user's tool surfaces
   double contact_reach = 0;      // how far tissue may come towards a tool within a frame [m]
-  double start_seconds = 0;      // monotonic clock at time zero of the scene
+  double start_seconds = 0;      // monotonic clock at time zero of the scene; deadlines may move it
   std::unique_ptr<EnergyLedger> energy;      // only with a metrics output
   std::optional<LocalStepPlan> local_steps;  // only if the scene asks for it; replicated
   std::unique_ptr<MultiRate> multirate;      // of it, if it saves work
@@ -136,8 +136,8 @@ struct Simulation : RankBody {
   std::optional<Sleep> sleep;                // only if the scene asks for it
   double step_factor = 0.85;                 // of the scene: step_factor_of
   double step_scale = 1;                     // halved by each roll-back, then rises slowly
-  // The stable step falls at once and rises slowly (step_rise in frame.cpp): that of the tissue, and
-  // what contact leaves, whether small elements take local steps or not. [s]
+  // The stable step falls at once and rises slowly (step_rise in frame.cpp): that of the tissue,
+  // and what contact leaves, whether small elements take local steps or not. [s]
   double held_step = std::numeric_limits<double>::infinity(), held_by_contact = held_step;
   Watch watch;  // of the last frame, over all ranks
   ElementLook look;
