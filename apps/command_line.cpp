@@ -94,8 +94,9 @@ void add_run(CLI::App& app, CommandLine& line) {
       "--resume", line.run.is_resumed,
       "Continue the run that was stopped in the output folder from its last checkpoint, to "
       "the same bits, on any number of ranks and threads. The scene must be the same but for "
-      "time.duration, time.pace, [checkpoint], cameras and outputs. Recording, metrics and "
-      "pictures go on; films and contact sheets can't: they go on in NAME.from-frame-N.mp4 "
+      "time.duration, time.pace, time.overrun, [checkpoint], cameras and outputs. Recording, "
+      "metrics and pictures go on; films and contact sheets can't: they go on in "
+      "NAME.from-frame-N.mp4 "
       "(trocar replay makes a whole film of the recording)");
   add_machine_options(*run, line.machine);
   run->footer(examples_run);

@@ -186,11 +186,12 @@ Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start) {
   CHECK_OP(s.state.step, ==, start.step);
   s.look = start.look;
   s.sleep = start.sleep;
+  s.holds.holds = start.holds;
+  s.holds.is_open = start.is_open;
+  localise_holds(s.holds, s.part);
   Checkpoint c = take_checkpoint(s);
   c.watch = start.watch;
   c.step_scale = start.step_scale;
-  c.holds = start.holds;
-  c.is_open = start.is_open;
   c.has_local_steps = start.has_local_steps;
   c.tally.events.resize(start.n_events);
   c.tally.n_roll_backs = start.n_roll_backs;

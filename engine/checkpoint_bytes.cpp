@@ -13,7 +13,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 32;
+constexpr std::uint32_t checkpoint_format = 33;
 
 static void visit(Saver& a, std::shared_ptr<const Mesh>& mesh) {
   a(std::uint64_t{n_bytes_of(*mesh)});

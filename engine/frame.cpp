@@ -10,7 +10,6 @@
 #include "engine/checkpoint_output.h"
 #include "engine/contact_step.h"
 #include "engine/cut_front.h"
-#include "engine/deadline.h"
 #include "engine/event_log.h"
 #include "engine/frame_force.h"
 #include "engine/frame_report.h"
@@ -327,7 +326,6 @@ void run_frame(Simulation& s, Outputs& outputs) {
   write_outputs(s, outputs, s.log.rows.back());
   if (is_checkpoint_due(s)) write_checkpoint(s, outputs);
   s.log.rows.back().latency = monotonic_seconds() - start;
-  wait_for_deadline(s);
 }
 
 }  // namespace trocar

@@ -17,6 +17,7 @@ namespace {
 Scene without_free_keys(Scene scene) {
   scene.time.duration = 1;
   scene.time.pace = Pace::fast;
+  scene.time.overrun = Overrun::catch_up;
   scene.checkpoint = {};
   scene.cameras.clear();
   scene.outputs.clear();

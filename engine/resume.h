@@ -14,8 +14,8 @@ Checkpoint load_checkpoint(const std::string& folder, const LoadedScene& loaded,
                            Communicator& communicator);
 
 // Throws InputError with place and name of the first key whose value differs from that in `before`,
-// the effective scene of the stopped run. Duration, pace, checkpoints, cameras and outputs may
-// differ.
+// the effective scene of the stopped run. Duration, pace, overrun, checkpoints, cameras and
+// outputs may differ.
 void require_same_scene(const std::string& before, const LoadedScene& now);
 
 }  // namespace trocar

@@ -17,6 +17,7 @@
 #include "engine/build.h"
 #include "engine/bytes.h"
 #include "engine/checkpoint_output.h"
+#include "engine/deadline.h"
 #include "engine/energy_ledger.h"
 #include "engine/equilibrium.h"
 #include "engine/film_studio.h"
@@ -117,20 +118,27 @@ Ending run_frame_or_end(Simulation& s, Outputs& outputs) {
   return {};
 }
 
-// All frames, until the end, a signal or trouble, and the checkpoint there.
+// All frames, until the end, a signal, a missed deadline that ends the run, or trouble, and the
+// checkpoint there.
 Ending run_frames(Simulation& s, Outputs& outputs) {
   const std::int64_t n_frames = s.scene.time.n_frames();
   ProgressBar bar(s.scene.name);
+  Ending ending;
+  start_clock(s);
   const double start = monotonic_seconds();
-  s.start_seconds = start - s.scene.time.at(s.frame);
-  while (s.frame < n_frames && !is_stopped(*s.communicator)) {
-    Ending ending = run_frame_or_end(s, outputs);
-    if (ending.code != ExitCode::done) return ending;
+  while (s.frame < n_frames && ending.code == ExitCode::done) {
+    if (is_stopped(*s.communicator)) {
+      ending = {ExitCode::stopped, stopped_by_signal};
+      break;
+    }
+    const PhaseTotals before = s.timers.totals();
+    if (Ending failed = run_frame_or_end(s, outputs); failed.code != ExitCode::done) return failed;
+    const Deadline deadline = wait_for_deadline(s);
+    if (ends_run(s.scene.time, deadline))
+      ending = {ExitCode::simulation, missed_text(s, deadline, before)};
     bar.update(static_cast<double>(s.frame) / static_cast<double>(n_frames),
                progress_note(s, start));
   }
-  Ending ending;
-  if (s.frame < n_frames) ending = {ExitCode::stopped, stopped_by_signal};
   add_failure(failure_of([&] { write_checkpoint(s, outputs); }), ending);
   return ending;
 }

@@ -20,6 +20,8 @@
 namespace trocar {
 
 enum class Pace { fast, real_time };
+// What follows from a frame that misses its deadline.
+enum class Overrun { catch_up, shift, stop };
 enum class ShapeKind { box, ball, cylinder, rectangle, triangular_rectangle };
 enum class InstrumentKind { probe, grasper, scalpel, scissors };
 extern const std::vector<std::pair<std::string, InstrumentKind>> instrument_kinds;  // in its order
@@ -37,6 +39,7 @@ struct SceneTime {
   double duration = 1;     // [s]
   double frame_rate = 30;  // [1/s]
   Pace pace = Pace::fast;
+  Overrun overrun = Overrun::catch_up;
 
   // When a frame begins, and how long so many take. [s]
   double at(std::int64_t frame) const { return static_cast<double>(frame) / frame_rate; }

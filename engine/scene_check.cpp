@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/number_text.h"
+#include "base/quoted.h"
 #include "base/whole_file.h"
 #include "engine/scene.h"
 #include "engine/scene_outputs.h"
@@ -53,22 +54,39 @@ void check_tissue(const LoadedScene& loaded, OptionErrors& errors) {
   if (tissue.shape) check_shape(*tissue.shape, errors);
 }
 
-bool is_viscoelastic(const SceneTissue& tissue) {
-  return any_material(tissue, [](const SceneMaterial& m) { return !m.prony.empty(); });
+// Where tissue is viscoelastic, and what leaves the viscosity out; "" if nowhere.
+std::string viscosity_text(const SceneTissue& tissue) {
+  std::string places, settings;
+  const auto look_at = [&](const SceneMaterial& m, const std::string& who,
+                           const std::string& path) {
+    if (m.prony.empty()) return;
+    places += (places.empty() ? "the Prony branches of " : " and of ") + who;
+    if (!m.tissue.empty()) places += " (tissue " + in_quotes(m.tissue) + ")";
+    settings += (settings.empty() ? "--set '" : " --set '") + path + ".prony=[]'";
+  };
+  look_at(tissue.material, "the body", "tissue.material");
+  for (std::size_t k = 0; k < tissue.region_materials.size(); ++k) {
+    const SceneRegionMaterial& other = tissue.region_materials[k];
+    look_at(other.material, "region " + in_quotes(other.region),
+            item_path("tissue.region_material", k) + ".material");
+  }
+  return places.empty() ? "" : places + ", by prony = [] there (" + settings + ")";
 }
 
 // A history of strains can't be left out, nor computed several times a step; the same with volume
 // changes averaged over elements of which only some are computed again.
 void check_shortcuts(const Scene& scene, OptionErrors& errors) {
   const SceneSolver& solver = scene.solver;
-  if (solver.sleep > 0 && is_viscoelastic(scene.tissue))
-    errors.add("solver.sleep", "viscoelastic tissue (prony) can't sleep: leave out one of them");
+  const std::string viscosity = viscosity_text(scene.tissue);
+  if (solver.sleep > 0 && !viscosity.empty())
+    errors.add("solver.sleep", "viscoelastic tissue can't sleep: leave out sleep, or " + viscosity);
   if (!solver.is_multirate) return;
-  if (is_viscoelastic(scene.tissue) || solver.tetrahedron == Formulation::tet4_nodal_pressure ||
+  if (!viscosity.empty() || solver.tetrahedron == Formulation::tet4_nodal_pressure ||
       solver.mass_scaling_step > 0 || solver.stable_step != StableStep::frequency)
     errors.add("solver.multirate",
                "it needs stable_step = \"frequency\" and none of prony, tetrahedron = "
-               "\"nodal-pressure\", mass_scaling_step");
+               "\"nodal-pressure\", mass_scaling_step" +
+                   (viscosity.empty() ? "" : ": leave out multirate, or " + viscosity));
 }
 
 void complete_look(const SceneLook& of_tissue, SceneRegionLook& look) {

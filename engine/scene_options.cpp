@@ -19,10 +19,13 @@ Options<SceneTime> time_options() {
            "Simulated time; to the nearest whole frame.", Need::required);
   t.number("frame_rate", &SceneTime::frame_rate, dim::rate, {.low = 1, .high = 10000},
            "Frames a second: contact detection, cuts and outputs happen once a frame. \"30 Hz\".");
-  t.choice(
-      "pace", &SceneTime::pace, {{"fast", Pace::fast}, {"real-time", Pace::real_time}},
-      "fast: as fast as the machine allows; real-time: each frame waits for its deadline, and a "
-      "late run goes on at once until it has caught up.");
+  t.choice("pace", &SceneTime::pace, {{"fast", Pace::fast}, {"real-time", Pace::real_time}},
+           "fast: as fast as the machine allows; real-time: each frame waits for its deadline.");
+  t.choice("overrun", &SceneTime::overrun,
+           {{"catch-up", Overrun::catch_up}, {"shift", Overrun::shift}, {"stop", Overrun::stop}},
+           "After a missed deadline of pace = \"real-time\": catch-up: a late run goes on at once "
+           "until it has caught up; shift: later deadlines move by the lateness, so that no frame "
+           "is hurried; stop: the run ends with exit code 3, and what it had is kept.");
   return t;
 }
 

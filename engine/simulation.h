@@ -128,7 +128,7 @@ struct Simulation : RankBody {
   std::int64_t first_frame = 0;  // where this process began: 0, or the checkpoint it resumed from
   std::uint32_t body_crc = 0;    // of the mesh at time zero and the user's tool surfaces
   double contact_reach = 0;      // how far tissue may come towards a tool within a frame [m]
-  double start_seconds = 0;      // monotonic clock at time zero of the scene
+  double start_seconds = 0;      // monotonic clock at time zero of the scene; deadlines may move it
   std::unique_ptr<EnergyLedger> energy;      // only with a metrics output
   std::optional<LocalStepPlan> local_steps;  // only if the scene asks for it; replicated
   std::unique_ptr<MultiRate> multirate;      // of it, if it saves work

@@ -1,12 +1,21 @@
 #include "engine/state_digest.h"
 
+#include <algorithm>
 #include <array>
 
 #include "base/digest.h"
+#include "solver/history.h"
 
 namespace trocar {
 
-std::uint64_t state_digest(const Simulation& s) {
+namespace {
+
+// Numbers of items: nodes from 0 on, and the others each from a first one on.
+constexpr std::uint64_t first_element = std::uint64_t{1} << 40, first_step = first_element << 1,
+                        first_history = first_element << 2, first_relaxed = first_element << 3,
+                        first_hold = first_element << 4, first_jaws = first_element << 5;
+
+std::uint64_t digest_of_nodes(const Simulation& s) {
   std::uint64_t sum = 0;
   for (std::int32_t i = 0; i < s.part.n_owned; ++i) {
     const auto k = static_cast<std::size_t>(i) * 3;
@@ -23,14 +32,75 @@ std::uint64_t state_digest(const Simulation& s) {
                                           s.state.v[k + 2]};
     sum += digest_item(global, values);
   }
-  // Every rank has all elements.
+  return sum;
+}
+
+// Of which every rank has all: each takes its share of them.
+std::uint64_t digest_of_elements(const Simulation& s) {
+  std::uint64_t sum = 0;
   for (std::int32_t e = s.communicator->rank(); e < s.mesh.n_elements();
        e += s.communicator->size())
-    sum += digest_item((std::uint64_t{1} << 40) + static_cast<std::uint64_t>(e), s.mesh.corners(e));
-  sum = s.communicator->all_sum(sum);
-  const std::array<double, 2> clock = {s.state.time, s.state.last_dt};
-  sum += digest_item((std::uint64_t{1} << 41) + static_cast<std::uint64_t>(s.state.step), clock);
+    sum += digest_item(first_element + static_cast<std::uint64_t>(e), s.mesh.corners(e));
   return sum;
+}
+
+// What copy_history tells of elements.
+std::uint64_t digest_of_copies(std::span<const double> copies) {
+  std::uint64_t sum = 0;
+  while (!copies.empty()) {
+    const auto n = 3 + static_cast<std::size_t>(copies[1] + copies[2]);
+    sum += digest_item(first_history + static_cast<std::uint64_t>(copies[0]), copies.first(n));
+    copies = copies.subspan(n);
+  }
+  return sum;
+}
+
+// Of the elements whose first corner this rank owns, some at a time: a copy of all would be large.
+std::uint64_t digest_of_history(const Simulation& s) {
+  if (s.model.n_history == 0) return 0;
+  constexpr std::size_t n_at_a_time = 4096;
+  std::uint64_t sum = 0;
+  std::vector<std::int32_t> elements;
+  const auto take_up = [&] {
+    sum += digest_of_copies(copy_history(s.model, s.part, s.state, elements));
+    elements.clear();
+  };
+  for (const std::int32_t e : s.part.element_global) {
+    if (s.part.owned(s.mesh.corners(e).front()) >= 0) elements.push_back(e);
+    if (elements.size() == n_at_a_time) take_up();
+  }
+  take_up();
+  return sum;
+}
+
+// The same on every rank: nodes that are held, and jaws that are closed.
+std::uint64_t digest_of_holds(const Holds& holds) {
+  std::uint64_t sum = 0;
+  for (const Hold& hold : holds.holds) {
+    const std::array<double, 5> values = {static_cast<double>(hold.tool),
+                                          static_cast<double>(hold.support), hold.offset[0],
+                                          hold.offset[1], hold.offset[2]};
+    sum += digest_item(first_hold + static_cast<std::uint64_t>(hold.node), values);
+  }
+  for (std::size_t k = 0; k < holds.is_open.size(); ++k)
+    if (holds.is_open[k] == 0) sum += digest_item(first_jaws + k, std::array<double, 1>{});
+  return sum;
+}
+
+// The same on every rank.
+std::uint64_t digest_of_clock(const Simulation& s) {
+  const auto step = static_cast<std::uint64_t>(s.state.step);
+  const std::array<double, 2> clock = {s.state.time, s.state.last_dt};
+  const std::array<double, 1> relaxed = {s.state.history_time};
+  const std::uint64_t of_clock = digest_item(first_step + step, clock);
+  return is_viscous(s.materials) ? of_clock + digest_item(first_relaxed + step, relaxed) : of_clock;
+}
+
+}  // namespace
+
+std::uint64_t state_digest(const Simulation& s) {
+  const std::uint64_t mine = digest_of_nodes(s) + digest_of_elements(s) + digest_of_history(s);
+  return s.communicator->all_sum(mine) + digest_of_holds(s.holds) + digest_of_clock(s);
 }
 
 }  // namespace trocar

@@ -7,7 +7,9 @@
 
 namespace trocar {
 
-// 64-bit digest of nodes, velocities, connectivity, time and step. Collective.
+// 64-bit digest of nodes, velocities, connectivity, histories of viscoelastic elements, what is
+// held, closed jaws, time and step. What follows from these, or is found anew in each frame, such
+// as contacts, is not in it. Collective.
 std::uint64_t state_digest(const Simulation& s);
 
 }  // namespace trocar

@@ -17,6 +17,12 @@ struct Use {
 };
 using Uses = std::vector<Use>;
 
+Uses of_time(const SceneTime& t) {
+  const SceneTime d;
+  return {{"time.overrun", t.overrun != d.overrun, t.pace == Pace::real_time,
+           "only pace = \"real-time\" has deadlines"}};
+}
+
 Uses of_solver(const Scene& scene, const Mesh& mesh) {
   const SceneSolver& s = scene.solver;
   const SceneSolver d;
@@ -141,6 +147,7 @@ std::vector<std::string> unused_keys(const Scene& scene, const Mesh& mesh) {
       if (use.is_given && !use.has_effect)
         sentences.push_back(use.key + " has no effect: " + use.needs + "; leave it out");
   };
+  tell(of_time(scene.time));
   tell(of_tissue(scene, mesh));
   tell(of_shape(scene));
   tell(of_material(scene.tissue.material, "tissue.material"));

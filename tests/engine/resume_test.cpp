@@ -34,9 +34,9 @@ TEST(Resume, takes_the_same_scene) {
   EXPECT_EQ(resume_refusal({}), "");
 }
 
-TEST(Resume, lets_duration_pace_checkpoints_cameras_and_outputs_differ) {
-  EXPECT_EQ(resume_refusal({"time.duration=9", "time.pace=real-time", "checkpoint.every=0.1",
-                            "camera=[{eye=[0,-1,0],target=[0,0,0]}]",
+TEST(Resume, lets_duration_pace_overrun_checkpoints_cameras_and_outputs_differ) {
+  EXPECT_EQ(resume_refusal({"time.duration=9", "time.pace=real-time", "time.overrun=stop",
+                            "checkpoint.every=0.1", "camera=[{eye=[0,-1,0],target=[0,0,0]}]",
                             "output=[{kind='metrics',file='m.csv'}]"}),
             "");
 }

@@ -326,6 +326,33 @@ TEST(SceneCheck, tells_once_what_follows_from_one_error) {
             (Places{"6:10 tissue.material.tissue"}));
 }
 
+TEST(SceneCheck, says_whose_viscosity_bars_sleep_and_local_steps_and_how_to_leave_it_out) {
+  const std::string scene = scene_text(
+      "[tissue.material]\ntissue = \"liver\"\n"
+      "[[tissue.region_material]]\nregion = \"x-\"\nmaterial = { tissue = \"fat\" }\n"
+      "[[tissue.region_material]]\nregion = \"x+\"\n"
+      "material = { prony = [{ share = 0.2, time = 1 }] }\n");
+  const std::string body = "--set 'tissue.material.prony=[]'",
+                    region = "--set 'tissue.region_material[1].material.prony=[]'";
+  const std::string both =
+      "the Prony branches of the body (tissue \"liver\") and of region \"x+\", "
+      "by prony = [] there (" +
+      body + " " + region + ")";
+  const auto error = [&](const std::vector<std::string>& settings) {
+    return error_of([&] { load_scene_text(scene, settings); });
+  };
+  const std::string sleep = "solver.sleep=0.001", local_steps = "solver.multirate=true";
+  const std::string of_sleep = error({sleep}), of_steps = error({local_steps});
+  EXPECT_TRUE(contains(of_sleep, "can't sleep: leave out sleep, or " + both)) << of_sleep;
+  EXPECT_TRUE(contains(of_steps, "mass_scaling_step: leave out multirate, or " + both)) << of_steps;
+  const std::string no_body = "tissue.material.prony=[]",
+                    no_region = "tissue.region_material[1].material.prony=[]";
+  const std::string one = "branches of region \"x+\", by prony = [] there (" + region + ")";
+  EXPECT_TRUE(contains(error({sleep, no_body}), one)) << error({sleep, no_body});
+  EXPECT_EQ(error({sleep, no_body, no_region}), "");
+  EXPECT_EQ(error({local_steps, no_body, no_region}), "");
+}
+
 TEST(SceneCheck, points_at_the_key_that_is_wrong) {
   const auto expect_place = [](const std::string& lines, const std::string& place) {
     EXPECT_EQ(places(box_table + lines), Places{place}) << lines;

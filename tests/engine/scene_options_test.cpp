@@ -47,6 +47,7 @@ name = "full"
 duration = "2 min"
 frame_rate = "60 Hz"
 pace = "real-time"
+overrun = "stop"
 [tissue]
 mesh = "a.msh"
 scale = "1 mm"
@@ -130,6 +131,7 @@ TEST(SceneOptions, every_key_reaches_its_member_in_si) {
   EXPECT_EQ(s.time.duration, 120);
   EXPECT_EQ(s.time.frame_rate, 60);
   EXPECT_EQ(s.time.pace, Pace::real_time);
+  EXPECT_EQ(s.time.overrun, Overrun::stop);
   EXPECT_EQ(s.tissue.mesh, "a.msh");
   EXPECT_DOUBLE_EQ(s.tissue.scale, 1e-3);
   EXPECT_DOUBLE_EQ(s.tissue.longest_side, 0.15);

@@ -29,6 +29,17 @@ TEST(UnusedKeys, of_a_scene_without_them_are_none) {
     EXPECT_EQ(named("", body), Keys()) << body;
 }
 
+TEST(UnusedKeys, of_deadlines_are_named_where_there_are_none) {
+  const auto keys = [](const std::string& pace) {
+    return unused_keys(load_scene_text("[time]\nduration = 1\noverrun = \"shift\"\n" + pace +
+                                       "[tissue.shape]\nkind = \"box\"\n"),
+                       body_of("hex8"));
+  };
+  EXPECT_EQ(keys(""), Keys{"time.overrun has no effect: only pace = \"real-time\" has deadlines; "
+                           "leave it out"});
+  EXPECT_EQ(keys("pace = \"real-time\"\n"), Keys());
+}
+
 TEST(UnusedKeys, of_elements_that_the_body_lacks_are_named) {
   const std::string triangle = "[solver]\ntriangle = \"plane-stress\"\n",
                     tetrahedron = "[solver]\ntetrahedron = \"nodal-pressure\"\n",

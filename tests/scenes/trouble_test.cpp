@@ -188,6 +188,38 @@ TEST(Trouble, that_smaller_steps_do_not_cure_ends_the_run_with_3_and_keeps_what_
   EXPECT_EQ(std::count(metrics.begin(), metrics.end(), '\n'), 4);  // head, 3 frames
 }
 
+// Frames of a tenth of a millisecond, in which no machine steps, watches and tells of 24,000
+// elements.
+TEST(Trouble, a_missed_deadline_that_ends_the_run_does_so_with_3_and_keeps_what_it_has) {
+  const std::string folder = test_folder("missed"), fast = test_folder("not-missed");
+  const std::string text = replaced(bar, "cells = [6, 1, 1]", "cells = [60, 20, 20]");
+  const std::vector<std::string> words = {
+      "run",   folder + "/scene.toml", "-q", "--set", "time.frame_rate='10 kHz'",
+      "--set", "time.pace=real-time"};
+  std::ofstream(folder + "/scene.toml") << text;
+  const auto run = [&](const std::string& to, std::vector<std::string> more) {
+    more.insert(more.begin(), words.begin(), words.end());
+    more.insert(more.end(), {"-o", to});
+    return run_trocar(more, folder);
+  };
+  const Finished stopped = run(folder, {"--set", "time.overrun=stop"});
+  EXPECT_EQ(stopped.exit_code, 3);
+  EXPECT_NE(stopped.err.find(" ms after its deadline"), std::string::npos) << stopped.err;
+  const nlohmann::json summary = read_summary(folder);
+  ASSERT_FALSE(summary.is_discarded());
+  EXPECT_EQ(summary["finished"], false);
+  EXPECT_EQ(summary["deadlines_missed"], 1);
+  const int n = summary["frames"];
+  EXPECT_LT(n, 10);
+  const std::string metrics = read_text(folder + "/metrics.csv");
+  EXPECT_EQ(std::count(metrics.begin(), metrics.end(), '\n'), n + 1);
+
+  const std::string end = "time.duration=" + std::to_string(1e-4 * (n + 2));
+  EXPECT_EQ(run(folder, {"--resume", "--set", end}).exit_code, 0);
+  EXPECT_EQ(run(fast, {"--set", end, "--set", "time.pace=fast"}).exit_code, 0);
+  EXPECT_EQ(read_summary(folder)["state_digest"], read_summary(fast)["state_digest"]);
+}
+
 // The whole bar's length, again and again.
 TEST(Trouble, names_the_support_that_tears_the_tissue) {
   const Finished run = run_text(bar + R"([[support]]
