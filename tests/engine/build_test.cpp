@@ -40,7 +40,7 @@ TEST(Build, makes_nothing_that_a_scene_has_no_use_for) {
 // The test above would not notice otherwise.
 TEST(Build, makes_what_a_scene_has_a_use_for) {
   const std::string camera = "[[camera]]\neye = [0, -1, 0]\ntarget = [0, 0, 0]\n",
-                    picture = "[[output]]\nkind = \"frames\"\nfile = \"png\"\nsize = [8, 8]\n";
+                    picture = "[[output]]\nkind = \"frames\"\nfile = \"png\"\nsize = [16, 16]\n";
   const auto started = built(resume_block_text + metrics_table + camera + picture,
                              {"solver.sleep='0.3 mm'", "solver.multirate=true"});
   const Simulation& s = *started->s;
