@@ -28,12 +28,15 @@ struct DiskRun {
   std::vector<std::string> arguments() const {
     return {"run", folder + "/scene.toml", "-q", "-o", out, "--threads", "1"};
   }
-  // file: within the output folder.
+  // What the run needs to fail so; file: within the output folder.
+  std::vector<std::string> words(const std::string& fault, const std::string& file) const {
+    std::vector<std::string> all = with_failing_files(fault, out + "/" + file);
+    all.push_back(TROCAR_PROGRAM);
+    for (const std::string& word : arguments()) all.push_back(word);
+    return all;
+  }
   Finished with(const std::string& fault, const std::string& file) const {
-    std::vector<std::string> words = with_failing_files(fault, out + "/" + file);
-    words.push_back(TROCAR_PROGRAM);
-    for (const std::string& word : arguments()) words.push_back(word);
-    return run_words(words, folder, 60);
+    return run_words(words(fault, file), folder, 60);
   }
   // From the checkpoint or, if there is none, anew.
   void expect_to_go_on(const std::string& digest) const {
@@ -77,6 +80,19 @@ TEST(FailingDisk, ends_a_run_with_4_and_one_sentence_that_names_the_file) {
     }
     disk.expect_to_go_on(digest);
   }
+}
+
+TEST(FailingDisk, of_rank_0_ends_all_ranks_with_one_sentence) {
+  const DiskRun disk(failing_scene);
+  const std::vector<std::string> words = disk.words("full@44", "r.trocar");
+  const Finished run =
+      run_words(mpirun_words(2, words[0], {words.begin() + 1, words.end()}), disk.folder, 60);
+  EXPECT_EQ(run.exit_code, 4);
+  const std::string told = "[error] " + disk.out + "/r.trocar: can't be written";
+  const std::size_t at = run.err.find(told);
+  EXPECT_NE(at, std::string::npos) << run.err;
+  EXPECT_EQ(run.err.find("[error]", at + 1), std::string::npos) << run.err;
+  EXPECT_EQ(disk.n_frames_listed(), n_metric_rows(disk.out));
 }
 
 // `timeout` ends as its child: by the signal, or with 128 + it.
