@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "base/error.h"
 #include "base/log.h"
 #include "engine_started.h"
@@ -47,6 +51,58 @@ TEST(RepeatFrame, keeps_the_new_stable_step_and_the_scale_and_says_why) {
       << s.log.events.back();
   s.watch.stable_element = -1;  // not known
   EXPECT_THROW(repeat_frame(s, {.dt = 2e-4}, most_roll_backs), SimulationError);
+}
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+// Swings for a frame, from a node that was pushed; forces of the next step are known.
+std::unique_ptr<Started> swung(const std::string& elements) {
+  auto started = block_of(elements);
+  started->s->state.v[2] = 0.3;
+  run_frame(*started->s, started->outputs);
+  EXPECT_TRUE(started->s->scratch.has_force);
+  return started;
+}
+
+bool all_finite(std::span<const double> values) {
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+}
+
+// The frame's beginning has none of it.
+TEST(RollBack, once_leaves_a_force_that_is_not_finite_behind) {
+  for (const std::string elements : {"hex8", "tet4-kuhn"})
+    for (const double bad : {not_a_number, std::numeric_limits<double>::infinity(), 1e200}) {
+      const auto started = swung(elements);
+      Simulation& s = *started->s;
+      ASSERT_EQ(s.log.n_roll_backs, 0);
+      s.scratch.force[s.scratch.force.size() / 2] = bad;
+      for (int frame = 0; frame < 3; ++frame) run_frame(s, started->outputs);
+      EXPECT_EQ(s.log.n_roll_backs, 1);
+      ASSERT_EQ(s.log.events.size(), 1u);
+      EXPECT_TRUE(
+          contains(s.log.events[0], "rolled back: a non-finite displacement or velocity at node "))
+          << s.log.events[0];
+      EXPECT_TRUE(contains(s.log.events[0], "step scale now 0.5")) << s.log.events[0];
+      EXPECT_EQ(s.frame, 4);
+      EXPECT_TRUE(all_finite(s.state.u) && all_finite(s.state.v));
+    }
+}
+
+TEST(RollBack, of_numbers_that_stay_not_finite_ends_in_a_sentence_with_node_and_cause) {
+  for (std::vector<double> State::*const field : {&State::u, &State::v}) {
+    const auto started = swung("hex8");
+    Simulation& s = *started->s;
+    (s.state.*field)[(s.state.*field).size() / 2] = not_a_number;
+    s.scratch.has_force = false;
+    const std::string sentence = error_of<SimulationError>([&] { run_frame(s, started->outputs); });
+    EXPECT_TRUE(contains(sentence, "in the frame after 0.03")) << sentence;
+    EXPECT_TRUE(contains(sentence, ": a non-finite displacement or velocity at node ")) << sentence;
+    EXPECT_TRUE(contains(sentence, "(the step was unstable or a load is not finite)")) << sentence;
+    EXPECT_TRUE(contains(sentence, "; 4 roll-backs with smaller steps did not help: ")) << sentence;
+    EXPECT_EQ(s.frame, 1);
+    EXPECT_EQ(s.log.rows.size(), 1u);
+    EXPECT_EQ(s.log.n_roll_backs, most_roll_backs);
+  }
 }
 
 }  // namespace

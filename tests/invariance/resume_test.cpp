@@ -41,24 +41,6 @@ void run(const std::string& scene, const std::string& folder, const Machine& mac
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
 }
 
-// The metrics without the wall times of the frames.
-std::string metrics_of(const std::string& folder) {
-  std::istringstream lines(read_text(folder + "/out/m.csv"));
-  std::string kept;
-  int seconds = -1;  // their column, known from the first line on
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream cells(line);
-    std::string cell;
-    for (int k = 0; std::getline(cells, cell, ','); ++k) {
-      if (cell == "frame_seconds") seconds = k;
-      if (k != seconds) kept += cell + ",";
-    }
-    kept += "\n";
-  }
-  EXPECT_GE(seconds, 0);
-  return kept;
-}
-
 // Everything that a run leaves and that a second run must leave too.
 std::string result_of(const std::string& folder) {
   nlohmann::json summary = read_summary(folder + "/out");
@@ -72,7 +54,7 @@ std::string result_of(const std::string& folder) {
        {"state_digest", "frames", "steps", "equilibrium", "mesh", "mass_kg", "stable_step_s",
         "least_det_F", "instruments", "wound", "cuts", "energies_J", "events"})
     result += std::string(key) + " " + summary[key].dump() + "\n";
-  result += metrics_of(folder);
+  result += metrics_without_times(folder + "/out/m.csv");
   const Finished list = run_trocar({"replay", folder + "/out/r.trocar", "--list"}, folder);
   EXPECT_EQ(list.exit_code, 0) << list.err;
   return result + list.out;

@@ -64,6 +64,12 @@ inline const std::string grasper = grasper_along("9 mm", R"(
   { time = 0.2, position = ["-32 mm", "22 mm", "32 mm"] },
   { time = 0.3, position = ["-32 mm", "22 mm", "32 mm"], action = "open" },
 )");
+// So fast that steps which were stable become too long, and elements are inverted.
+inline const std::string hasty_grasper = grasper_along("9 mm", R"(
+  { time = 0, position = ["-44 mm", "34 mm", "48 mm"] },
+  { time = 0.1, position = ["-28 mm", "18 mm", "30 mm"], action = "close" },
+  { time = 0.14, position = ["5 mm", "18 mm", "30 mm"] },
+)");
 inline const std::string moving_support = R"([[support]]
 region = "x+"
 path = [
@@ -274,6 +280,8 @@ inline std::vector<SmallScene> small_scenes() {
   SmallBlock sleepy = hexahedra(sleep), sleepy_tet = {.duration = "0.9 s", .solver = sleep};
   sleepy.duration = "0.9 s";
   const SmallBlock small_cells = {.elements = "hex8", .cells = "[36, 24, 18]", .duration = "0.2 s"};
+  SmallBlock hasty = hexahedra();
+  hasty.duration = "0.24 s";
   SmallBlock viscous_hex = hexahedra(), viscous_tet;
   viscous_hex.material = viscous_tet.material = viscous;
   SmallBlock viscous_enhanced = hexahedra("hexahedron = \"enhanced\"\n");
@@ -283,6 +291,7 @@ inline std::vector<SmallScene> small_scenes() {
       {"tet4 with nodal pressures, pressed",
        block({.elements = "tet4-kuhn", .solver = "tetrahedron = \"nodal-pressure\"\n"}) + probe},
       {"hex8, pressed and pulled", block(hexahedra()) + probe + grasper},
+      {"hex8, pulled so fast that frames are rolled back", block(hasty) + hasty_grasper},
       {"hex8 in small cells, pressed, resumed", block(small_cells) + slow_probe, "0.16 s"},
       {"hex8 enhanced, pulled",
        block(hexahedra("hexahedron = \"enhanced\"\n")) + grasper + moving_support},

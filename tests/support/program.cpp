@@ -8,6 +8,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 
 namespace trocar {
 
@@ -90,6 +91,23 @@ Finished run_trocar_on(int ranks, const std::vector<std::string>& arguments,
 
 nlohmann::json read_summary(const std::string& folder) {
   return nlohmann::json::parse(read_text(folder + "/summary.json"), nullptr, false);
+}
+
+std::string metrics_without_times(const std::string& file) {
+  std::istringstream lines(read_text(file));
+  std::string kept;
+  int seconds = -1;  // their column, known from the first line on
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    std::string cell;
+    for (int k = 0; std::getline(cells, cell, ','); ++k) {
+      if (cell == "frame_seconds") seconds = k;
+      if (k != seconds) kept += cell + ",";
+    }
+    kept += "\n";
+  }
+  EXPECT_GE(seconds, 0);
+  return kept;
 }
 
 std::string config(const std::string& name) {

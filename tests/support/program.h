@@ -38,6 +38,9 @@ Finished run_trocar_on(int ranks, const std::vector<std::string>& arguments,
 
 nlohmann::json read_summary(const std::string& folder);
 
+// A metrics file without the wall times of the frames.
+std::string metrics_without_times(const std::string& file);
+
 std::string config(const std::string& name);
 
 // A gmsh file of tetrahedra: nodes "x y z", corners "1 2 3 4" by the nodes' numbers from 1 on.
