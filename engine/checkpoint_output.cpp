@@ -5,6 +5,7 @@
 #include "base/check.h"
 #include "base/on_root.h"
 #include "engine/checkpoint_file.h"
+#include "engine/film_studio.h"
 
 namespace trocar {
 
@@ -25,6 +26,7 @@ void save(Checkpoint checkpoint, Outputs& outputs) {
   CHECK(!outputs.folder.empty());
   for (const OutputSlot& slot : outputs.slots)
     if (slot.recording) slot.recording->sync();
+  if (outputs.studio) outputs.studio->wait_for_pictures();
   replace_file(outputs.folder + "/" + checkpoint_name, [&](const ByteSink& sink) {
     put_checkpoint(checkpoint, outputs.rows_in_checkpoints, sink);
   });

@@ -215,6 +215,14 @@ void FilmStudio::add(FilmFrame frame) {
   thread_->jobs.add([&t = *thread_, frame = std::move(frame)] { t.draw(frame); });
 }
 
+void FilmStudio::wait_for_pictures() {
+  const auto has_pictures = [](const Film& film) { return film.pictures != nullptr; };
+  if (std::ranges::none_of(thread_->films, has_pictures)) return;
+  thread_->jobs.wait();
+  for (Film& film : thread_->films)
+    if (film.pictures) film.pictures->wait();
+}
+
 void FilmStudio::finish() {
   Thread& t = *thread_;
   if (std::exchange(t.is_finished, true)) return;

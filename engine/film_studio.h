@@ -44,6 +44,9 @@ class FilmStudio {
   ~FilmStudio();  // finishes, if that has not been done
   // Waits while two frames are under way. Throws what went wrong in the thread.
   void add(FilmFrame frame);
+  // Until all picture files of what was added are there, which a resumed run does not draw again.
+  // Throws what went wrong in the thread.
+  void wait_for_pictures();
   void finish();
   double seconds() const;        // of drawing, so far
   std::int64_t n_drawn() const;  // pictures, so far; orders may share one. For tests
