@@ -225,6 +225,7 @@ void add_cut2d(CLI::App& app, CommandLine& line) {
       ->check(CLI::IsMember({"robust", "paper", "or"}))
       ->capture_default_str();
   add_cut2d_figures(*cut2d, c);
+  add_quiet(*cut2d, line.machine);
   pair_cut2d_options(*cut2d);
   cut2d->footer(examples_cut2d);
   cut2d->callback([&, cut2d] {

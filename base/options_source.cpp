@@ -28,6 +28,15 @@ std::string_view take_characters(std::string_view& text, int n) {
   return taken;
 }
 
+// The override of the value or, of a list in the file, the last one of its components; 0: none.
+int source_of(const OptionNode& node) {
+  int source = node.source;
+  if (node.kind != NodeKind::list) return source;
+  for (const OptionNode& below : node.below)
+    if (below.kind != NodeKind::table) source = std::max(source, source_of(below));
+  return source;
+}
+
 }  // namespace
 
 bool is_bare_key(std::string_view key) {
@@ -67,8 +76,9 @@ std::string key_path(const OptionNode& node) {
 
 SourcePlace place_of(const OptionNode& node) {
   const OptionDocument& document = *node.document;
-  if (node.source == 0) return {document.name, node.line, node.column};
-  return {"--set " + document.overrides[node.source - 1], 0, 0};
+  const int source = source_of(node);
+  if (source == 0) return {document.name, node.line, node.column};
+  return {"--set " + document.overrides[source - 1], 0, 0};
 }
 
 void refuse(const OptionNode& node, const std::string& sentence) {
@@ -76,8 +86,9 @@ void refuse(const OptionNode& node, const std::string& sentence) {
   std::string message =
       InputError(place_of(node), path.empty() ? sentence : path + ": " + sentence).what();
   const bool is_root = node.above == nullptr;
-  if (node.source == 0 && !is_root) message += excerpt(node.document->text, node.line, node.column);
-  throw OptionRefusal({node.source, node.line, node.column, path, message});
+  const int source = source_of(node);
+  if (source == 0 && !is_root) message += excerpt(node.document->text, node.line, node.column);
+  throw OptionRefusal({source, node.line, node.column, path, message});
 }
 
 }  // namespace trocar

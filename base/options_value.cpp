@@ -115,7 +115,8 @@ std::vector<double> read_vector_text(const OptionNode& node, const Dimension& di
   std::vector<std::string> pieces = split_vector(node.text, n);
   for (std::size_t i = 0; i < n; ++i)
     if (pieces[i].find_first_of("0123456789+-.") != 0)
-      refuse_kind(node, std::to_string(n) + " numbers and a unit");
+      refuse_kind(node, dimension == dim::none ? "a list of " + std::to_string(n) + " numbers"
+                                               : std::to_string(n) + " numbers and a unit");
   share_last_unit(node, pieces);
   std::vector<double> values;
   for (std::size_t i = 0; i < n; ++i) {

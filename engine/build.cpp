@@ -164,6 +164,7 @@ void build_instruments(const LoadedScene& loaded, Simulation& s) {
   s.contact_reach = 0.5 * edge;
   warn_of_short_tools(s.scene);
   warn_of_hasty_jaws(s.scene);
+  warn_of_half_turns(s.scene);
   tell_of_bulges(s.tools, edge);
   build_cuts(s);
 }

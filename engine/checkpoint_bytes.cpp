@@ -25,17 +25,21 @@ static void visit(Loader& a, std::shared_ptr<const Mesh>& mesh) {
   mesh = std::make_shared<const Mesh>(mesh_from_bytes(bytes));
 }
 template <class Archive>
+static void visit(Archive& a, BladePush& p) {
+  a(p.way, p.along);
+}
+template <class Archive>
 static void visit(Archive& a, CutRecord& r) {
   a(r.tool, r.start, r.end, r.figures, r.n_edits, r.n_ranks, r.n_askew, r.n_pieces,
     r.n_elements_added, r.n_elements_dissolved, r.stable_step_ratio, r.scene_step_ratio,
     r.scene_step_before, r.least_quality, r.mass_change, r.momentum_change, r.kinetic_energy_change,
-    r.strain_energy_change, r.blade_travel, r.deepest, r.swept_area, r.parted_area, r.seconds,
-    r.worst_seconds);
+    r.strain_energy_change, r.blade_travel, r.deepest, r.push, r.swept_area, r.parted_area,
+    r.seconds, r.worst_seconds);
 }
 template <class Archive>
 static void visit(Archive& a, CutMemory& m) {
   a(m.stroke, m.plane_path, m.plane_tip, m.is_in_stroke, m.n_idle_frames, m.has_told_beside,
-    m.strokes, m.is_engaged, m.tissue_velocity, m.knows_tissue, m.swept);
+    m.strokes, m.is_engaged, m.tissue_velocity, m.knows_tissue, m.swept, m.push);
 }
 template <class Archive>
 static void visit(Archive& a, Hold& h) {

@@ -170,6 +170,7 @@ void prepare_drag(Simulation& s, const FrameSpan& span, double travel) {
   std::optional<double> way;
   for (CutStage& stage : s.cuts) {
     stage.beside.reset();
+    stage.resisted.clear();
     EdgeMotion motion = motion_of(s, span, stage);
     const Box box = box_of(motion, reach);
     if (!is_cutting(motion.tool(), span.t0, span.t1) || !is_near(s, box)) continue;
@@ -178,6 +179,7 @@ void prepare_drag(Simulation& s, const FrameSpan& span, double travel) {
     const auto front = found_by<CutFront>(
         around.group, [&] { return find_front(s, span, stage, around.positions, reach); });
     if (front.is_near) stage.beside = front.tissue_velocity;
+    stage.resisted = front.piece;
     motion.tissue_velocity = front.tissue_velocity;
     add_engaged_edge(motion.engaged(front.piece), s.mesh, s.part, s.scene.cutting.resistance,
                      s.drag);

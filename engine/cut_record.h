@@ -12,6 +12,11 @@ namespace trocar {
 
 struct Simulation;
 
+// How far a blade has gone while it met resistance, and the tissue at its edge with it. [m]
+struct BladePush {
+  double way = 0, along = 0;
+};
+
 // One stroke of a blade, from entry to exit.
 struct CutRecord {
   std::string tool;
@@ -33,6 +38,7 @@ struct CutRecord {
   double strain_energy_change = 0;   // largest |relative| of the edited elements by an edit
   double blade_travel = 0;           // of the edge's middle with some of it inside [m]
   double deepest = 0;                // of the edge inside [m]
+  BladePush push;
   // Of a stroke that has ended in a body in space, see SweptArea. [m^2]
   double swept_area = 0, parted_area = 0;
   double seconds = 0, worst_seconds = 0;  // of all frames, of the longest one

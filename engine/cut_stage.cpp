@@ -48,6 +48,7 @@ void end_stroke(CutStage& stage) {
   stage.is_in_stroke = false;
   stage.plane_path.clear();
   stage.swept.clear();
+  stage.push = {};
 }
 
 void note_body(const Simulation& s, CutRecord& record) {
@@ -66,6 +67,17 @@ void follow_tissue(const Simulation& s, double time, bool was_engaged, const Bla
   if (look.engaged.empty()) return;
   const double share = was_engaged || stage.knows_tissue ? share_of_frame(time) : 1;
   stage.tissue_velocity += share * (velocity_along(s, look.engaged) - stage.tissue_velocity);
+}
+
+// Of a frame in which the blade met resistance.
+void add_to_push(const Simulation& s, const BladeWay& blade, CutStage& stage) {
+  if (stage.resisted.empty()) return;
+  const Vec3 way = way_of_middle(blade.sweep);
+  const Vec3 of_tissue = (blade.span.t1 - blade.span.t0) * velocity_along(s, stage.resisted);
+  const double size = way.norm();
+  if (size == 0) return;
+  stage.push.way += size;
+  stage.push.along += std::clamp(of_tissue.dot(way) / size, 0.0, size);
 }
 
 // Whether a scalpel goes more than 60 degrees aside of where its edge faces, or backwards, and as
@@ -274,6 +286,7 @@ void cut_along_blade(Simulation& s, const BladeWay& blade, CutStage& stage,
       record.n_askew += record.n_edits - n_edits;
   }
   add_to_record(look, blade.sweep, monotonic_seconds() - start, record);
+  record.push = stage.push;
   note_body(s, record);
   if (!look.is_last) return;
   note_stroke(s, stage.swept, record);
@@ -288,6 +301,7 @@ void cut_along_blades(Simulation& s, const FrameSpan& span) {
   std::optional<double> way;
   std::vector<BladeWay> blades;  // all before the first edit: see ways_beside
   for (const CutStage& stage : s.cuts) blades.push_back(way_of_blade(s, span, tissue, stage, way));
+  for (std::size_t k = 0; k < s.cuts.size(); ++k) add_to_push(s, blades[k], s.cuts[k]);
   for (std::size_t k = 0; k < s.cuts.size(); ++k) cut_along_blade(s, blades[k], s.cuts[k], way);
   if (const std::string trouble = find_trouble(s); !trouble.empty())
     throw SimulationError("after the cut at " + short_text(span.t1) + " s: " + trouble);

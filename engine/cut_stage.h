@@ -10,6 +10,7 @@
 #include "cutting/cut_tet.h"
 #include "engine/cut_record.h"
 #include "engine/frame_span.h"
+#include "engine/locate.h"
 
 namespace trocar {
 
@@ -33,6 +34,7 @@ struct CutProgress {
   Vec3 tissue_velocity = Vec3::Zero();  // around the edge, in the stroke so far [m/s]
   bool knows_tissue = false;            // from before it met the blade
   std::vector<SweptPlace> swept;        // in the stroke so far, of a body in space
+  BladePush push;                       // since the last stroke
 };
 
 struct CutStage : CutProgress {
@@ -41,6 +43,7 @@ struct CutStage : CutProgress {
   std::vector<int> keepers;  // ascending; none: all ranks
   // As tissue_velocity, of a frame that began with tissue at or near the blade. [m/s]
   std::optional<Vec3> beside;
+  std::vector<SegmentPiece> resisted;  // where the edge meets resistance in this frame
   // How far around the blade the owners of nodes cut with it, mean longest sides of elements: what
   // a cut looks at beyond that has to be asked of all ranks (a test has others).
   double margin = 2;

@@ -46,6 +46,12 @@ void warn_if_hasty(const SceneInstrument& instrument, const std::string& place, 
               "; let more time pass between the two actions");
 }
 
+// Between two orientations. [rad]
+double turn_between(const InstrumentKey& a, const InstrumentKey& b) {
+  return tool_rotation(a.direction, a.forward)
+      .angularDistance(tool_rotation(b.direction, b.forward));
+}
+
 // Of the tip, and of shafts, which may go right through.
 double depth_of_axes(const Simulation& s, const Tool& tool) {
   constexpr int n_parts = 64;  // of a shaft
@@ -88,6 +94,23 @@ void warn_of_hasty_jaws(const Scene& scene) {
         warn_if_hasty(scene.instruments[k], item_path("instrument", k) + "." + item_path("path", j),
                       path[j].time - last->time);
       last = &path[j];
+    }
+  }
+}
+
+void warn_of_half_turns(const Scene& scene) {
+  constexpr double degree = std::numbers::pi / 180, too_far = 170 * degree;
+  for (std::size_t k = 0; k < scene.instruments.size(); ++k) {
+    const SceneInstrument& instrument = scene.instruments[k];
+    for (std::size_t j = 1; j < instrument.path.size(); ++j) {
+      const InstrumentKey &from = instrument.path[j - 1], &to = instrument.path[j];
+      const double turn = turn_between(from, to);
+      if (turn < too_far) continue;
+      log_warning(item_path("instrument", k) + "." + item_path("path", j) + ": \"" +
+                  instrument.name + "\" turns by " + short_text(turn / degree) +
+                  " degrees between its keys at " + short_text(from.time) + " s and " +
+                  short_text(to.time) +
+                  " s, where the two ways round are about as short: a key in between says which");
     }
   }
 }

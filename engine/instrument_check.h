@@ -19,6 +19,8 @@ void check_instruments_outside(const LoadedScene& loaded, double allowed, const 
 void warn_of_short_tools(const Scene& scene);
 // Warns of jaws that have to turn round before they have closed or opened.
 void warn_of_hasty_jaws(const Scene& scene);
+// Warns of turns of 170 degrees or more between two keys: which way round is not said.
+void warn_of_half_turns(const Scene& scene);
 
 // Says where instruments go far beside the straight lines between their keys. edge: mean edge
 // length of the body [m].

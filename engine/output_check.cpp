@@ -47,7 +47,7 @@ void warn_of_rounding(const std::string& key, double seconds, double frame_rate)
   const bool is_clear = short_text(seconds) != short_text(taken);
   const auto text = [&](double value) { return is_clear ? short_text(value) : number_text(value); };
   log_warning(key + " = " + text(seconds) + " s is no whole number of frames of " +
-              short_text(frame_rate) + " Hz: it is taken as " +
+              shortest_text(frame_rate) + " Hz: it is taken as " +
               std::to_string(static_cast<std::int64_t>(n)) + " of them, " + text(taken) + " s");
 }
 

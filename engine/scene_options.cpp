@@ -318,7 +318,9 @@ Options<SceneInstrument> instrument_options() {
          "Key positions. The way through them is smooth and goes forwards along each leg; where it "
          "turns by 90 degrees or more it stops, and legs between such turns are straight. At "
          "smaller turns legs bulge, by up to 8 % of their length, to the side that the way does "
-         "not turn to: for a straight cut at a constant depth, stop at both of its keys.",
+         "not turn to: for a straight cut at a constant depth, stop at both of its keys. The "
+         "orientation goes the short way round from key to key, by the same rule: where its axis "
+         "turns by 90 degrees or more, and beside a key of the same orientation, it stops.",
          Need::required);
   return i;
 }

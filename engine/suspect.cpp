@@ -1,6 +1,7 @@
 #include "engine/suspect.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -27,8 +28,9 @@ std::vector<std::int32_t> failed_nodes(const Mesh& mesh, const Watch& failed) {
 
 // What may be to blame.
 struct Mover {
-  double gap = std::numeric_limits<double>::infinity();  // at the frame's beginning [m]
-  double way = 0;                                        // within the frame [m]
+  // From where the tissue was at the frame's beginning: of tools the least within the frame. [m]
+  double gap = std::numeric_limits<double>::infinity();
+  double way = 0;  // within the frame [m]
   std::string name, how;
   bool is_scalpel = false;
 };
@@ -40,26 +42,47 @@ struct Choice {
 
   bool comes_near(const Mover& mover) const { return mover.gap < reach + mover.way; }
   bool is_better(const Mover& mover) const {
+    constexpr double rounding = 1e-9;
     const bool was_near = comes_near(best), is_near = comes_near(mover);
     if (was_near != is_near) return is_near;
-    return is_near && mover.way != best.way ? mover.way > best.way : mover.gap < best.gap;
+    const bool is_as_fast = std::abs(mover.way - best.way) <= rounding * best.way;
+    return is_near && !is_as_fast ? mover.way > best.way : mover.gap < best.gap;
   }
   void offer(Mover&& mover) {
     if (is_better(mover)) best = std::move(mover);
   }
 };
 
+// Where a piece comes nearest to x within the frame.
+struct Approach {
+  double gap = std::numeric_limits<double>::infinity();  // [m]
+  Vec3 point = Vec3::Zero();                             // of the piece, in the tool's frame
+};
+
+Approach approach_of(const Tool& tool, const PieceCore& core, const Vec3& x,
+                     const FrameSpan& span) {
+  constexpr int n_parts = 32;  // of the frame
+  Approach nearest;
+  for (int k = 0; k <= n_parts; ++k) {
+    const double time = span.t0 + (span.t1 - span.t0) * k / n_parts;
+    const Vec3 local = tool.path.at(time).apply_inverse(x);
+    const SignedDistance at = signed_distance(core, local);
+    if (at.gap < nearest.gap) nearest = {.gap = at.gap, .point = local - at.gap * at.normal};
+  }
+  return nearest;
+}
+
 void look_at_tools(std::span<const Tool> tools, const Vec3& x, const FrameSpan& span,
                    Choice& choice) {
   for (const Tool& tool : tools) {
-    const Vec3 local = tool.path.at(span.t0).apply_inverse(x);
-    for (const ConvexPiece& piece : tool.shape.pieces)
-      choice.offer({.gap = std::max(0.0, signed_distance(make_core(piece), local).gap),
-                    .way = tool.path.travel(span.t0, span.t1,
-                                            {Vec3::Zero(), Vec3(0, 0, std::max(0.0, local.z()))}),
+    for (const ConvexPiece& piece : tool.shape.pieces) {
+      const Approach approach = approach_of(tool, make_core(piece), x, span);
+      choice.offer({.gap = std::max(0.0, approach.gap),
+                    .way = tool.path.travel(span.t0, span.t1, {approach.point, approach.point}),
                     .name = "\"" + tool.name + "\"",
                     .how = "from ",
                     .is_scalpel = tool.kind == InstrumentKind::scalpel});
+    }
   }
 }
 

@@ -12,7 +12,8 @@ struct Suspect {
   std::string cure;   // "a slower or shorter path of ..., a finer mesh or a lower poisson_ratio"
 };
 // Where the element or node that `failed` blames is in the present state, that of the frame's
-// beginning, and the nearest instrument, held node or moving support. Collective.
+// beginning, and the instrument that comes nearest to it within the frame, or the nearest held node
+// or moving support. Collective.
 Suspect find_suspect(Simulation& s, const Watch& failed, const FrameSpan& span);
 
 }  // namespace trocar

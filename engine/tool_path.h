@@ -1,6 +1,6 @@
 // Where an instrument is at any time: positions by cubic interpolation of the key positions that
-// goes forwards along each leg (Fritsch and Carlson 1980, no overshoot), rotations by normalised
-// linear interpolation.
+// goes forwards along each leg (Fritsch and Carlson 1980, no overshoot), rotations by that of their
+// quaternions, normalised.
 // Only + - * / sqrt: the path is part of the simulation's bits.
 #pragma once
 
@@ -30,7 +30,8 @@ class ToolPath {
  private:
   std::vector<double> time_;
   std::vector<Vec3> position_, slope_;
-  std::vector<Quat> rotation_;
+  std::vector<Quat> rotation_;  // neighbours on the same side of the sphere
+  std::vector<Eigen::Vector4d> turn_slope_;
 };
 
 // Positions of [[support]] paths by the same rule.

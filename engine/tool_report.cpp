@@ -36,6 +36,25 @@ void note_refusals(Simulation& s, const CutRecord& record) {
           reason_of(first) + (is_one ? "" : " (all: `refusals` in the summary)"));
 }
 
+// Why a blade whose edge met resistance has parted nothing, "" where that is not why.
+static std::string why_pushed(const Simulation& s, const BladePush& push) {
+  constexpr double most = 0.5;
+  if (push.way < s.edge_length || push.along < most * push.way) return "";
+  return "the tissue went along with its edge on " + short_text(1e3 * push.along) + " of the " +
+         short_text(1e3 * push.way) +
+         " mm on which that met resistance: cutting.resistance is more than the tissue bears "
+         "there; lower it, or support or hold the tissue";
+}
+
+static BladePush sum_of_pushes(std::span<const CutRecord> strokes) {
+  BladePush sum;
+  for (const CutRecord& stroke : strokes) {
+    sum.way += stroke.push.way;
+    sum.along += stroke.push.along;
+  }
+  return sum;
+}
+
 // Why strokes of a blade have parted nothing of the tissue that it was in.
 static std::string why_nothing(const Simulation& s, std::span<const CutRecord> strokes) {
   constexpr double enough = 2;        // elements in the depth of a cut
@@ -48,6 +67,7 @@ static std::string why_nothing(const Simulation& s, std::span<const CutRecord> s
     goes_through |= stroke.figures.goes_through;
     is_told |= !stroke.figures.refusals.empty();
   }
+  if (const std::string why = why_pushed(s, sum_of_pushes(strokes)); !why.empty()) return why;
   const std::string elements =
       ", whose elements have edges of " + short_text(1e3 * s.edge_length) + " mm, and ";
   if (s.mesh.dimension() == 3 && !goes_through && deepest < enough * s.edge_length)
@@ -90,14 +110,18 @@ static void note_idle_strokes(Simulation& s, const CutStage& stage) {
                  short_text(first.start) + " s: " + why_nothing(s, {&first, 1}));
 }
 
+static std::string why_no_stroke(const Simulation& s, const CutStage& stage) {
+  if (std::string why = why_pushed(s, stage.push); !why.empty()) return why;
+  return s.tools[stage.tool].kind == InstrumentKind::scissors
+             ? "its jaws never closed on the tissue"
+             : "its blade never met the tissue";
+}
+
 static void note_idle_blades(Simulation& s) {
   for (const CutStage& stage : s.cuts) {
     const Tool& tool = s.tools[stage.tool];
     if (stage.strokes.empty())
-      note_event(s, s.state.time,
-                 tool.name + " has cut nothing: " +
-                     (tool.kind == InstrumentKind::scissors ? "its jaws never closed on the tissue"
-                                                            : "its blade never met the tissue"));
+      note_event(s, s.state.time, tool.name + " has cut nothing: " + why_no_stroke(s, stage));
     else
       note_idle_strokes(s, stage);
   }

@@ -13,6 +13,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/log.h"
 #include "base/number_text.h"
 #include "base/quoted.h"
 #include "render/encoder_process.h"
@@ -52,6 +53,17 @@ void check_writable(const std::string& file) {
   const int f = open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
   if (f < 0) throw MachineError("can't write the film " + file + ": " + std::strerror(errno));
   close(f);
+}
+
+std::string size_text(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+// The encoder's filter pads them.
+void warn_of_odd_size(const std::string& file, int width, int height) {
+  if (width % 2 == 0 && height % 2 == 0) return;
+  log_warning("the film " + file + " has " + size_text(width + width % 2, height + height % 2) +
+              " pixels, not " + size_text(width, height) + ": films have even sizes");
 }
 
 std::vector<std::string> encoder_arguments(const std::string& file, int width, int height,
@@ -154,13 +166,14 @@ struct VideoWriter::Pipe {
 VideoWriter::VideoWriter(const std::string& file, int width, int height, double frame_rate) {
   if (width < 1 || height < 1)
     throw InputError("a film needs pictures of at least 1 x 1 pixels, not " +
-                     std::to_string(width) + " x " + std::to_string(height));
+                     size_text(width, height));
   if (!(frame_rate > 0 && frame_rate <= 1e6))
     throw InputError("a film's frame rate must be above 0 and at most 1e6 Hz, not " +
                      short_text(frame_rate, 10));
   if (const std::string fault = film_name_fault(file); !fault.empty()) throw InputError(fault);
   needed_ffmpeg();
   check_writable(file);
+  warn_of_odd_size(file, width, height);
   pipe_ = std::make_unique<Pipe>(file, width, height, frame_rate);
 }
 

@@ -49,6 +49,20 @@ TEST(Override, is_the_place_of_its_key) {
   EXPECT_THROW(where.fail("name", "is bad"), InputError);
 }
 
+// The line of the file shows what is no longer so.
+TEST(Override, of_a_component_is_the_place_of_the_list) {
+  const SourceMap where =
+      read_scene("gravity = [1, 2, 3]\n" + text, {"gravity[1]=5", "gravity[0]=4", "name=y"}).where;
+  EXPECT_EQ(where.find("gravity").file, "--set gravity[0]=4");
+  EXPECT_EQ(where.message("gravity", "is bad"), "--set gravity[0]=4: gravity: is bad");
+  // Of the tables of a list each has its own place.
+  const SourceMap of_path =
+      read_scene("instrument = [{ path = [{ time = 1 }] }]\n[tissue]\nmesh = 'a'\n",
+                 {"instrument[0].path[0].time=2"})
+          .where;
+  EXPECT_EQ(of_path.find("instrument[0].path").line, 1);
+}
+
 TEST(OverrideErrors, name_the_override) {
   const std::pair<const char*, const char*> errors[] = {
       {"name", "--set name: needs the form key.path=value"},

@@ -193,6 +193,7 @@ TEST(Checkpoint, needs_each_part_of_a_stroke_through_tetrahedra) {
        {"swept", [](CutMemory& m) { m.stroke.swept = 0; }},
        {"is_in_stroke", [](CutMemory& m) { m.is_in_stroke = false; }},
        {"n_idle_frames", [](CutMemory& m) { m.n_idle_frames = 0; }},
+       {"push", [](CutMemory& m) { m.push = {}; }},
        {"tissue_velocity", [](CutMemory& m) { m.tissue_velocity.setConstant(1); }}});
 }
 

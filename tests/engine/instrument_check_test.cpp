@@ -48,5 +48,21 @@ TEST(InstrumentCheck, lets_instruments_begin_outside_and_blades_anywhere) {
   EXPECT_EQ(start_refusal("scalpel", 0.035), "");
 }
 
+std::string warnings_of_turn(const std::string& forward) {
+  testing::internal::CaptureStderr();
+  built(block_under("probe", 0.05), {"instrument[0].path=[{ time = 0.1, position = [0, 0, 0.05] }, "
+                                     "{ time = 0.3, position = [0, 0, 0.06], forward = [" +
+                                     forward + "] }]"});
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST(InstrumentCheck, warns_of_turns_of_which_no_way_round_is_the_short_one) {
+  EXPECT_TRUE(contains(warnings_of_turn("-1, 0, 0"),
+                       "instrument[0].path[1]: \"probe\" turns by 180 degrees between its keys at "
+                       "0.1 s and 0.3 s"));
+  EXPECT_TRUE(contains(warnings_of_turn("-1, 0.1, 0"), "turns by 174 degrees"));
+  EXPECT_EQ(warnings_of_turn("-1, 0.2, 0"), "");
+}
+
 }  // namespace
 }  // namespace trocar

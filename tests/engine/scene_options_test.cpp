@@ -231,6 +231,9 @@ TEST(SceneOptions, unknown_keys_and_impossible_values_are_refused) {
   EXPECT_NE(scene_error(scene_text("[solver]\nstep_factor = 0\n")), "");
   EXPECT_NE(scene_error(scene_text("[contact]\nrelease_speed = -1\n")), "");
   EXPECT_NE(scene_error(scene_text("cells = [0, 1, 1]\n")), "");
+  // A colour has no unit.
+  EXPECT_TRUE(contains(scene_error(scene_text("[tissue.look]\ncolour = \"red\"\n")),
+                       "colour: needs a list of 3 numbers, found the text \"red\""));
 }
 
 }  // namespace

@@ -86,6 +86,24 @@ path = [
   EXPECT_TRUE(contains(suspect.cure, "a slower or shorter path of \"grasper\"")) << suspect.cure;
 }
 
+// Its handle points away at the frame's beginning and sweeps over the cube, 10 mm above it. It was
+// said to rest, 0.1 m away.
+TEST(Suspect, that_comes_by_within_the_frame_is_measured_where_it_is_nearest) {
+  const auto started = cube_with(R"([[instrument]]
+kind = "probe"
+path = [
+  { time = 0, position = [-0.01, 0.05, 0.11], direction = [0, 1, 0], forward = [0, 0, 1] },
+  { time = 0.5, position = [-0.01, 0.05, 0.11], direction = [-1, -1, 0], forward = [0, 0, 1] },
+]
+)");
+  const Watch failed{.least_J = -1, .least_J_element = started->s->mesh.n_elements() - 1};
+  const Suspect suspect = find_suspect(*started->s, failed, {.t0 = 0, .t1 = 0.5});
+  // 22.5 mm above the element's middle, less the shaft's radius of 1.8 mm.
+  EXPECT_TRUE(contains(suspect.place, ", 0.02")) << suspect.place;
+  EXPECT_TRUE(contains(suspect.place, " m from \"probe\", which moves at 0.")) << suspect.place;
+  EXPECT_TRUE(contains(suspect.cure, "a slower or shorter path of \"probe\"")) << suspect.cure;
+}
+
 TEST(Suspect, that_is_a_scalpel_may_have_too_wide_a_blade) {
   const auto started = cube_with(R"([[instrument]]
 kind = "scalpel"

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
+#include <utility>
 
 namespace trocar {
 namespace {
@@ -188,6 +190,89 @@ TEST(ToolPath, rotations_stay_unit_quaternions) {
     const Mat3 R = path.at(time).rotation.toRotationMatrix();
     EXPECT_LT((R.transpose() * R - Mat3::Identity()).norm(), 1e-14);  // roundings of 27 products
     EXPECT_GT(R.determinant(), 0);
+  }
+}
+
+// Keys half a second apart that turn about the shaft to these angles [rad].
+std::vector<InstrumentKey> turning_keys(const std::vector<double>& angles) {
+  std::vector<InstrumentKey> keys;
+  for (const double angle : angles)
+    keys.push_back({.time = 0.5 * static_cast<double>(keys.size()),
+                    .forward = Vec3(std::cos(angle), std::sin(angle), 0)});
+  return keys;
+}
+
+// [rad / s]
+double turning_rate(const ToolPath& path, double t0, double t1) {
+  return path.at(t0).rotation.angularDistance(path.at(t1).rotation) / (t1 - t0);
+}
+
+// It stood still at every key. Snellius' angle x of a quaternion is x^4 / 180 too small: 3e-7 of a
+// turn by 10 degrees, 2e-3 of one by 90; the cubic's own error is as much.
+TEST(ToolPath, turns_at_a_constant_rate_through_equal_turns) {
+  for (const auto& [degrees, tolerance] : {std::pair(10.0, 1e-6), std::pair(90.0, 4e-3)}) {
+    const double angle = degrees * std::numbers::pi / 180;
+    std::vector<double> angles;
+    for (int k = 0; k < 8; ++k) angles.push_back(k * angle);
+    const ToolPath path(turning_keys(angles));
+    for (double time = 0.5; time < 2.95; time += 0.013)
+      EXPECT_NEAR(turning_rate(path, time, time + 0.01), 2 * angle, tolerance * 2 * angle) << time;
+  }
+}
+
+TEST(ToolPath, stops_turning_at_keys_that_stop_and_at_the_ends) {
+  std::vector<InstrumentKey> keys = turning_keys({0, 0.3, 0.6, 0.9});
+  keys[1].stops = true;
+  const ToolPath path(keys);
+  const double h = 1e-6;  // |rate'| <= 12 * 0.3 / 0.5^2 of a cubic
+  for (const double time : {0.0, 0.5, 1.5 - h}) {
+    EXPECT_LT(turning_rate(path, time, time + h), h * 15) << time;
+  }
+  EXPECT_LT(turning_rate(path, 0.5 - h, 0.5), h * 15);
+  EXPECT_GT(turning_rate(path, 1, 1 + h), 0.5);  // of 0.6
+}
+
+TEST(ToolPath, has_a_continuous_turning_rate) {
+  std::mt19937 random(10);
+  const std::vector<InstrumentKey> keys = random_keys(random, 10);
+  const ToolPath path(keys);
+  const double h = 1e-6;
+  for (const InstrumentKey& key : keys) {
+    const Quat before = path.at(key.time - h).rotation, at = path.at(key.time).rotation,
+               after = path.at(key.time + h).rotation;
+    const Vec3 rates = ((at * before.conjugate()).vec() - (after * at.conjugate()).vec()) / h;
+    // As of positions, of quaternions that are at most sqrt(2) apart.
+    EXPECT_LT(rates.norm(), h * 12 * 1.5 / (0.05 * 0.05)) << key.time;
+  }
+}
+
+TEST(ToolPath, turns_forwards_to_its_keys_and_rests_between_equal_ones) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<double> angles = {0};
+    for (int k = 0; k < 6; ++k)
+      angles.push_back(angles.back() + (k == 3 ? 0 : 0.9 * std::numbers::pi * unit(random)));
+    const ToolPath path(turning_keys(angles));
+    for (double time = 0; time < 3; time += 0.007) {
+      const Vec3 x = path.at(time).rotation * Vec3::UnitX(),
+                 next = path.at(time + 0.007).rotation * Vec3::UnitX();
+      EXPECT_GE(x.cross(next).z(), -1e-15) << time;  // roundings
+    }
+    EXPECT_LT(turning_rate(path, 1.6, 1.9), 1e-14);
+  }
+}
+
+TEST(ToolPath, of_two_keys_turns_from_rest_to_rest) {
+  std::mt19937 random(12);
+  const std::vector<InstrumentKey> keys = random_keys(random, 2);
+  const ToolPath path(keys);
+  const Eigen::Vector4d q0 = path.at(keys[0].time).rotation.coeffs(),
+                        q1 = path.at(keys[1].time).rotation.coeffs();
+  for (double s = 0; s < 1; s += 0.01) {
+    const double time = keys[0].time + s * (keys[1].time - keys[0].time);
+    const Eigen::Vector4d q = q0 + s * s * (3 - 2 * s) * (q1 - q0);
+    EXPECT_LT((path.at(time).rotation.coeffs() - q.normalized()).norm(), 1e-14) << s;
   }
 }
 

@@ -82,5 +82,41 @@ TEST(IdleTools, are_told_of_strokes_that_cut_nothing_beside_others_that_did) {
   }
 }
 
+// A strip of 10 x 6 mm that is held at one end, 50 mm from the scissors that close on it.
+std::vector<std::string> events_of_snip(double resistance, int frame_rate) {
+  const std::string pose =
+      "position = [0.05, -0.014, 0.003], direction = [0, -1, 0], "
+      "forward = [0, 0, 1]";
+  const auto started =
+      built("[time]\nduration = 1\nframe_rate = " + std::to_string(frame_rate) +
+            "\n[tissue.shape]\nkind = \"box\"\nelements = \"tet4-kuhn\"\nlow = [0, -0.005, 0]\n"
+            "high = [0.08, 0.005, 0.006]\ncells = [27, 4, 2]\n[tissue.material]\n"
+            "young_modulus = 15000\n[solver]\nmass_damping = 10\n[cutting]\nresistance = " +
+            std::to_string(resistance) +
+            "\n[[support]]\nregion = \"x-\"\n[[instrument]]\nkind = \"scissors\"\n"
+            "blade_length = 0.034\npath = [{ time = 0, " +
+            pose + " }, { time = 0.3, " + pose + ", action = \"close\" }]\n");
+  Simulation& s = *started->s;
+  while (s.state.time < 0.35) run_frame(s, started->outputs);
+  note_tools_at_end(s);
+  return s.log.events;
+}
+
+// With 60 frames a second the edge is never found inside, with 300 it is.
+TEST(IdleTools, that_push_the_tissue_out_uncut_are_told_of_the_resistance) {
+  for (const int frame_rate : {60, 300}) {
+    const std::vector<std::string> events = events_of_snip(20, frame_rate);
+    ASSERT_FALSE(events.empty());
+    EXPECT_TRUE(contains(events.back(),
+                         "scissors has cut nothing: the tissue went along with its "
+                         "edge on "))
+        << events.back();
+    EXPECT_TRUE(contains(events.back(), "cutting.resistance is more than the tissue bears there"))
+        << events.back();
+  }
+  for (const std::string& event : events_of_snip(2, 60))
+    EXPECT_FALSE(contains(event, "has cut nothing")) << event;
+}
+
 }  // namespace
 }  // namespace trocar

@@ -55,7 +55,12 @@ TEST(VideoWriter, film_holds_every_frame) {
 
 TEST(VideoWriter, odd_sizes_are_padded_to_even_ones) {
   const TestFolder folder;
+  ::testing::internal::CaptureStderr();
   write_film(folder.file("odd.mp4"), 65, 47, 3);
+  const std::string told = ::testing::internal::GetCapturedStderr();
+  EXPECT_NE(told.find("odd.mp4 has 66 x 48 pixels, not 65 x 47: films have even sizes"),
+            std::string::npos)
+      << told;
   EXPECT_EQ(probe(folder.file("odd.mp4")), "66,48,3");
 }
 

@@ -114,6 +114,16 @@ TEST(Cut2d, a_path_beside_the_mesh_is_told_where_the_mesh_lies) {
   EXPECT_NE(cut.err.find("lies from 0,0 to 70,40 mm"), std::string::npos) << cut.err;
 }
 
+TEST(Cut2d, names_the_files_that_it_writes_unless_it_is_to_be_quiet) {
+  const std::string folder = test_folder("cut2d-quiet");
+  std::vector<std::string> words = {"cut2d", "--config", "2", "--svg", folder};
+  EXPECT_NE(run_trocar(words, folder).err.find("before.svg"), std::string::npos);
+  words.emplace_back("-q");
+  const Finished quiet = run_trocar(words, folder);
+  EXPECT_EQ(quiet.exit_code, 0);
+  EXPECT_EQ(quiet.err, "");
+}
+
 TEST(Cut2d, help_has_examples) {
   const Finished help = run_trocar({"cut2d", "--help"}, test_folder("cut2d-help"));
   EXPECT_EQ(help.exit_code, 0);
