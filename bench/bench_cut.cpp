@@ -19,6 +19,7 @@ constexpr const char* usage =
           [--advances N]
          N random cuts of each mesh and kind (default 20) beside the subdivision of the same cuts;
          --advances N: each stroke in N advances in place of its own
+         --cells N: generated meshes of N cells a side (default 8)
          --family layers: of bodies of two regions, also along where these meet
          --family plates: of plates one cell thick, in their plane
        bench_cut --cuts N [--seed S] [--minutes M]
@@ -29,7 +30,7 @@ constexpr const char* usage =
          the same incision in boxes of N x N x N cells (default: 6,000 to 1,000,000 tetrahedra))";
 
 struct Arguments {
-  int count = 20, advances = 0, cuts = 0, after = 0, steps = 10000;
+  int count = 20, cells = 8, advances = 0, cuts = 0, after = 0, steps = 10000;
   unsigned seed = 1;
   double minutes = 1e9;
   std::string family, kind, json, markdown;
@@ -54,6 +55,8 @@ double number_of(const std::string& name, const char* value) {
 bool read_number(const std::string& name, const char* value, Arguments& a) {
   if (name == "--count")
     a.count = int(number_of(name, value));
+  else if (name == "--cells")
+    a.cells = int(number_of(name, value));
   else if (name == "--advances")
     a.advances = int(number_of(name, value));
   else if (name == "--cuts")
@@ -120,7 +123,7 @@ Kind in_advances(Kind kind, int n) {
 Cuts asked_cuts(const Arguments& a) {
   if (a.family.starts_with("layers")) return {layered_families(), layered_kinds()};
   if (a.family.starts_with("plates")) return {plate_families(), plate_kinds()};
-  return {families(a.mesh), kinds()};
+  return {families(a.cells, a.mesh), kinds()};
 }
 
 bool is_asked_for(const Family& family, const Kind& kind, const Arguments& a) {

@@ -14,7 +14,8 @@ int main(int argc, char** argv) {
   const int n_elements = argc > 1 ? std::atoi(argv[1]) : 8000;
   if (n_elements < 1) return print_usage(usage, stderr);
   select_simd(argc > 2 ? argv[2] : "auto");
-  std::printf("{\"simd\": \"%s\", \"peak_gflops\": %.1f, \"parts\": [", simd_name(), peak_gflops());
+  std::printf("{\"simd\": \"%s\", \"peak_gflops\": %.1f, \"triad_gbytes\": %.1f, \"parts\": [",
+              simd_name(), peak_gflops(), triad_gbytes());
   report_parts(n_elements, [](const auto& parts) {
     // In turn, so that all have met the machine at its best.
     std::array<double, n_step_parts> ns;

@@ -54,8 +54,10 @@ int main(int argc, char** argv) {
     return code;
   const int width = argc > 1 ? std::atoi(argv[1]) : 1280;
   const int height = argc > 2 ? std::atoi(argv[2]) : 720;
-  std::printf("{\"width\": %d, \"height\": %d, \"cores\": %d, \"triad_gbytes\": %.1f, ", width,
-              height, available_cores(), triad_gbytes());
+  std::printf(
+      "{\"width\": %d, \"height\": %d, \"cores\": %d, \"peak_gflops\": %.1f, "
+      "\"triad_gbytes\": %.1f, ",
+      width, height, available_cores(), peak_gflops(), triad_gbytes());
   std::printf("\"pictures\": [");
   bool is_first = true;
   for (const int n : {30, 100, 300}) {

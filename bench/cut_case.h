@@ -20,8 +20,8 @@ struct Family {
 };
 // Of `n_cells` cells a direction.
 std::vector<Family> generated_families(int n_cells);
-// Those of 8 cells, and meshes from files.
-std::vector<Family> families(const std::vector<std::string>& mesh_files);
+// Those, and meshes from files.
+std::vector<Family> families(int n_cells, const std::vector<std::string>& mesh_files);
 // Cubes of two regions that meet in the middle plane across z.
 std::vector<Family> layered_families();
 // Plates one cell thick, flat and bent.

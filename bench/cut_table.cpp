@@ -1,6 +1,7 @@
 // Tables of bench_cut: Markdown for people, JSON for programs.
 #include <algorithm>
 
+#include "bench/machine.h"
 #include "cut_result.h"
 
 namespace trocar::cut_bench {
@@ -158,7 +159,8 @@ void print_row(const Row& row, std::FILE* file) {
 
 void print_json(const std::vector<Row>& rows, std::FILE* file) {
   const char* comma = "";
-  std::fprintf(file, "[");
+  std::fprintf(file, "{\"peak_gflops\": %.1f, \"triad_gbytes\": %.1f, \"cuts\": [", peak_gflops(),
+               triad_gbytes());
   for (const Row& row : rows)
     for (const Result& r : row.result) {
       std::fprintf(
@@ -183,7 +185,7 @@ void print_json(const std::vector<Row>& rows, std::FILE* file) {
           r.split_ratio);
       comma = ",";
     }
-  std::fprintf(file, "\n]\n");
+  std::fprintf(file, "\n]}\n");
 }
 
 }  // namespace trocar::cut_bench
