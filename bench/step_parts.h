@@ -89,6 +89,8 @@ void report_parts(int n_elements, const Measure& measure) {
        {std::pair(Formulation::hex8_one_point, Numbering::box),
         std::pair(Formulation::hex8_one_point, Numbering::aligned),
         std::pair(Formulation::hex8_one_point, Numbering::near_box),
+        std::pair(Formulation::hex8_one_point, Numbering::any),
+        std::pair(Formulation::hex8_one_point, Numbering::renumbered),
         std::pair(Formulation::tet4, Numbering::box), std::pair(Formulation::tet4, Numbering::any),
         std::pair(Formulation::tet4, Numbering::renumbered)})
     for (const Precision precision : precisions) {

@@ -237,7 +237,7 @@ std::vector<double> region_densities(std::span<const Material> materials) {
 
 void rebuild_topology(Simulation& s) {
   plan_mass_scaling(s);
-  note_balance(s);
+  note_imbalance(s);
   s.mass = lumped_mass(s.mesh, region_densities(s.materials), s.scene.tissue.thickness);
   s.part = make_part(s.mesh, s.node_owner, s.communicator->rank());
   s.halo = make_halo(s.mesh, s.node_owner, s.part);

@@ -26,7 +26,7 @@ void choose_owners(Simulation& s) {
   s.chosen_imbalance = 0;
 }
 
-void note_balance(Simulation& s) {
+void note_imbalance(Simulation& s) {
   if (s.chosen_imbalance == 0) s.chosen_imbalance = imbalance_now(s);
 }
 

@@ -8,7 +8,7 @@ namespace trocar {
 // Of s.mesh. Collective.
 void choose_owners(Simulation& s);
 // Once clusters of scaled mass are whole, too: what later growth of imbalance is compared with.
-void note_balance(Simulation& s);
+void note_imbalance(Simulation& s);
 // After an edit that took hexahedra apart. Returns whether owners were chosen anew. Collective.
 bool rebalance(Simulation& s);
 

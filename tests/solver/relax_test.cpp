@@ -123,8 +123,8 @@ TEST(Relax, takes_stiff_fibres_into_account_once) {
     skin.kappa = 0.15;
     Body body = clamped_block(BoxElements::tet4_kuhn, skin);
     const std::vector<double> load = random_load(body, 1e-4);
-    const Relaxation result =
-        relax(body.model, {.load = load, .ramp_iterations = 0}, body.state, body.scratch);
+    const Relaxation result = relax(body.model, {.add_load = dead_load(load), .ramp_iterations = 0},
+                                    body.state, body.scratch);
     EXPECT_TRUE(result.is_converged) << k1;
     return static_cast<double>(result.iterations);
   };
