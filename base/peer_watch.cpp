@@ -24,8 +24,8 @@ namespace trocar {
 namespace {
 
 // From a rank's end to the line about it: whoever ends all ranks has said why by then.
-constexpr int patience = 100;              // [ms]
-constexpr int patience_of_mpirun = 10000;  // [ms]
+constexpr int reasons_ms = 100;
+constexpr int end_by_mpirun_ms = 10000;
 
 struct Peer {
   int rank = 0;
@@ -94,7 +94,8 @@ struct PeerWatch::Thread {
   std::vector<Peer> peers;             // without this rank
   std::vector<int> seconds_suspended;  // (n_peers) in a row, of those in which this rank ran
   int rank = 0;
-  int patience = 0;             // [s]
+  int patience_seconds = 0;     // with a suspended one
+  bool looks = false;           // for suspended ones: two on a host do
   std::vector<pollfd> process;  // (n_peers + 1) and what stops the watch
   std::thread thread;
 
@@ -112,29 +113,35 @@ struct PeerWatch::Thread {
     return true;
   }
   bool has_lost_one() const { return std::any_of(process.begin(), process.end() - 1, has_ended); }
-  // The peer that has been for too long, -1: none. After a second.
-  int find_suspended() {
-    for (std::size_t k = 0; k < peers.size(); ++k) {
+  void look_for_suspended() {
+    for (std::size_t k = 0; k < peers.size(); ++k)
       seconds_suspended[k] = is_suspended(peers[k].pid) ? seconds_suspended[k] + 1 : 0;
-      if (seconds_suspended[k] >= patience) return static_cast<int>(k);
-    }
-    return -1;
+  }
+  // Whether this rank is the one to tell of a peer that is suspended for too long, which it does.
+  bool tells_of_suspended() const {
+    const auto longest = std::ranges::max_element(seconds_suspended);
+    if (*longest < patience_seconds || !is_lowest_left()) return false;
+    tell_of_suspended(peers[longest - seconds_suspended.begin()], patience_seconds);
+    return true;
+  }
+  void tell_of_lost() const {
+    if (!is_lowest_left()) return;
+    for (std::size_t k = 0; k < peers.size(); ++k)
+      if (has_ended(process[k])) tell(peers[k]);
   }
   void run() {
     while (!is_stopped() && !has_lost_one()) {
-      if (poll(process.data(), process.size(), 1000) != 0) continue;
-      const int k = find_suspended();
-      if (k < 0) continue;
-      if (is_lowest_left()) tell_of_suspended(peers[k], patience);
-      std::_Exit(static_cast<int>(ExitCode::machine));
+      if (poll(process.data(), process.size(), looks ? 1000 : -1) != 0) continue;
+      look_for_suspended();
+      if (tells_of_suspended()) std::_Exit(static_cast<int>(ExitCode::machine));
     }
     if (is_stopped()) return;
-    poll(&process.back(), 1, patience);
+    poll(&process.back(), 1, reasons_ms);
     if (is_stopped()) return;
     poll(process.data(), process.size(), 0);
-    for (std::size_t k = 0; k < peers.size(); ++k)
-      if (has_ended(process[k]) && is_lowest_left()) tell(peers[k]);
-    poll(&process.back(), 1, patience_of_mpirun);
+    // A suspended one has been told of by who is gone for it.
+    if (std::ranges::count(seconds_suspended, 0) == std::ssize(seconds_suspended)) tell_of_lost();
+    poll(&process.back(), 1, end_by_mpirun_ms);
     if (!is_stopped()) std::_Exit(static_cast<int>(ExitCode::machine));
   }
 };
@@ -143,7 +150,7 @@ PeerWatch::PeerWatch(const Communicator& communicator, int patience_seconds) {
   if (communicator.size() == 1) return;
   auto watch = std::make_unique<Thread>();
   watch->rank = communicator.rank();
-  watch->patience = patience_seconds;
+  watch->patience_seconds = patience_seconds;
   for (Peer& peer : peers_of(communicator)) {
     if (peer.rank == communicator.rank()) continue;
     const auto fd = static_cast<int>(syscall(SYS_pidfd_open, peer.pid, 0));
@@ -152,6 +159,8 @@ PeerWatch::PeerWatch(const Communicator& communicator, int patience_seconds) {
   }
   if (watch->peers.empty()) return;
   watch->seconds_suspended.assign(watch->peers.size(), 0);
+  watch->looks = std::ranges::count_if(
+                     watch->peers, [&](const Peer& peer) { return peer.rank < watch->rank; }) < 2;
   const int stop = eventfd(0, EFD_CLOEXEC);
   if (stop < 0) return;  // no descriptor left: a watch that could not be stopped
   watch->process.push_back({.fd = stop, .events = POLLIN, .revents = 0});

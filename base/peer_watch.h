@@ -9,7 +9,8 @@
 
 namespace trocar {
 
-// A thread that sleeps until a rank of this host ends, and then writes one line to standard error,
+// A thread that sleeps until a rank of this host ends (two of a host look once a second for stopped
+// ones), and then writes one line to standard error,
 // by the lowest rank that is left. It ends this rank with ExitCode::machine if mpirun has not done
 // so in ten seconds (Open MPI's own end can hang), or if a rank has been stopped for as long as
 // patience allows while this one was not. For as long as ranks may not end: from behind MPI_Init to

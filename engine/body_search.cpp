@@ -44,14 +44,15 @@ double search_step(Simulation& s) {
 // substeps. Local steps were planned from bounds, which are 0.5 to 1 of the true limits: those that
 // don't pay are given up at the first look.
 double step_with_local_steps(Simulation& s, double step_without) {
-  const MultiRate& m = *s.multirate;
+  MultiRate& m = *s.multirate;
   s.model.fixed.swap(s.multirate->coarse_fixed);
   const double coarse = search_step(s);
   s.model.fixed.swap(s.multirate->coarse_fixed);
   if (coarse == 0) return 0;
   const double step = std::min(coarse, step_without * m.steps.limit / 2);
   const double cost = 1 + static_cast<double>(m.steps.gain.size()) * m.share;
-  if (s.log.searches.n_of_body > 1 || step > least_local_gain * cost * step_without) return step;
+  m.is_judged |= step > least_local_gain * cost * step_without;
+  if (m.is_judged) return step;
   s.multirate.reset();
   note_event(s, s.state.time,
              "no local steps (solver.multirate): they would take " +

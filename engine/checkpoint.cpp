@@ -71,6 +71,7 @@ void restore_searches(const Checkpoint& c, Simulation& s) {
   s.look.stiffening.reset();
   if (c.has_stiffening) find_stiffening_at_look(s);
   if (!c.has_local_steps) s.multirate.reset();  // it was given up
+  if (s.multirate) s.multirate->is_judged = s.look.is_done;
   if (s.energy && c.has_energies)
     s.energy->memory = c.energy;
   else if (s.energy)

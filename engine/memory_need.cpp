@@ -7,7 +7,6 @@
 #include "base/heap.h"
 #include "base/host.h"
 #include "base/number_text.h"
-#include "base/on_root.h"
 
 namespace trocar {
 
@@ -57,25 +56,24 @@ MemoryNeed memory_need(const BodySize& size, const SceneSolver& solver, int n_ra
           .of_part = of_elements / n_ranks};
 }
 
-void check_memory(const BodySize& size, const SceneSolver& solver,
-                  const Communicator& communicator) {
+double memory_for_a_rank(const Communicator& communicator) {
   const std::vector<std::string> hosts = communicator.all_gather(host_name());
   const auto here = static_cast<double>(std::ranges::count(hosts, host_name()));
-  const MemoryNeed need = memory_need(size, solver, communicator.size());
-  const std::string where = communicator.size() == 1
-                                ? ""
-                                : " on each of " + std::to_string(communicator.size()) + " ranks";
-  on_every_rank(communicator, [&] {
-    const double left = std::min(memory_of_host() / here, memory_of_process());
-    if (surely * (need.of_whole + need.of_part) <= left) return;
-    throw MachineError(
-        "a body of " + std::to_string(size.n_nodes) + " nodes and " +
-        std::to_string(size.n_hexahedra + size.n_others) + " elements needs about " +
-        gigabytes(need.of_whole + need.of_part) + where + ", " + gigabytes(need.of_whole) +
-        " of it for the mesh, which every rank holds, and " + gigabytes(need.of_part) +
-        " for its part of the model; " + host_name() + " has " + gigabytes(left) +
-        " free for it: take larger cells, solver.precision = \"single\", or more hosts");
-  });
+  return communicator.all_min(std::min(memory_of_host() / here, memory_of_process()));
+}
+
+void check_memory(const BodySize& size, const SceneSolver& solver, int n_ranks, double left) {
+  const MemoryNeed need = memory_need(size, solver, n_ranks);
+  const double whole = need.of_whole + need.of_part;
+  if (surely * whole <= left) return;
+  const std::string where = n_ranks == 1 ? "" : " on each of " + std::to_string(n_ranks) + " ranks";
+  throw SharedMachineError(
+      "a body of " + std::to_string(size.n_nodes) + " nodes and " +
+      std::to_string(size.n_hexahedra + size.n_others) + " elements needs about " +
+      gigabytes(whole) + where + ", " + gigabytes(need.of_whole) +
+      " of it for the mesh, which every rank holds, and " + gigabytes(need.of_part) +
+      " for its part of the model, but only " + gigabytes(left) +
+      " are free: take a coarser mesh, solver.precision = \"single\", or more hosts");
 }
 
 }  // namespace trocar

@@ -27,9 +27,9 @@ struct MemoryNeed {
 };
 MemoryNeed memory_need(const BodySize& size, const SceneSolver& solver, int n_ranks);
 
-// Throws SharedMachineError on every rank where a host has less memory than its ranks need.
-// Collective.
-void check_memory(const BodySize& size, const SceneSolver& solver,
-                  const Communicator& communicator);
+// What the host that has least can still give each of its ranks. Collective. [bytes]
+double memory_for_a_rank(const Communicator& communicator);
+// Throws SharedMachineError if that would not do.
+void check_memory(const BodySize& size, const SceneSolver& solver, int n_ranks, double left);
 
 }  // namespace trocar

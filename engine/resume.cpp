@@ -16,8 +16,7 @@ namespace {
 
 Scene without_free_keys(Scene scene) {
   scene.time.duration = 1;
-  scene.time.pace = Pace::fast;
-  scene.time.overrun = Overrun::catch_up;
+  scene.time.forget_deadlines();
   scene.checkpoint = {};
   scene.cameras.clear();
   scene.outputs.clear();

@@ -108,8 +108,11 @@ Ending run_frame_or_end(Simulation& s, Outputs& outputs) {
                 }),
                 ending);
     return ending;
-  } catch (const InputError& trouble) {  // of a mesh that the run has made
-    return {.code = ExitCode::simulation, .sentence = trouble.what()};
+  } catch (const InputError& trouble) {  // of a mesh that a cut has made
+    return {.code = ExitCode::simulation,
+            .sentence = "in the frame after " + short_text(s.scene.time.at(s.frame)) +
+                        " s a cut leaves a body that can't be computed: " + trouble.what() +
+                        "; a finer mesh or another path of the blade may help"};
   } catch (const SharedMachineError& failure) {
     return {.code = ExitCode::machine,
             .sentence = failure.what() + std::string("; the run ends after frame ") +
@@ -131,7 +134,8 @@ Ending run_frames(Simulation& s, Outputs& outputs) {
       ending = {ExitCode::stopped, stopped_by_signal};
       break;
     }
-    const PhaseTotals before = s.timers.totals();
+    PhaseTotals before;
+    if (s.scene.time.overrun == Overrun::stop) before = s.timers.totals();
     if (Ending failed = run_frame_or_end(s, outputs); failed.code != ExitCode::done) return failed;
     const Deadline deadline = wait_for_deadline(s);
     if (ends_run(s.scene.time, deadline))

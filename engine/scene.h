@@ -52,6 +52,11 @@ struct SceneTime {
     return std::max<std::int64_t>(1, frames_in(seconds));
   }
   std::int64_t n_frames() const { return frames_in(duration); }
+  // Frames come one after the other, as fast as they can.
+  void forget_deadlines() {
+    pace = Pace::fast;
+    overrun = Overrun::catch_up;
+  }
 };
 
 // How the tissue of a region looks, linear RGB; what is not given (NaN) is the tissue's.

@@ -170,11 +170,17 @@ void warn_of_size(const std::string& file, const std::string& key, std::span<con
 
 Mesh load_tissue(const LoadedScene& loaded, Communicator& communicator) {
   const Scene& scene = loaded.scene;
-  if (scene.tissue.shape) check_memory(size_of(*scene.tissue.shape), scene.solver, communicator);
-  const auto bytes = read_on_root(communicator, [&] { return mesh_to_bytes(read_tissue(loaded)); });
-  Mesh mesh = mesh_from_bytes(bytes);
-  if (!scene.tissue.shape) check_memory(size_of(mesh), scene.solver, communicator);
-  return mesh;
+  const double left = memory_for_a_rank(communicator);
+  const auto check = [&](const BodySize& size) {
+    check_memory(size, scene.solver, communicator.size(), left);
+  };
+  if (scene.tissue.shape) check(size_of(*scene.tissue.shape));
+  const auto bytes = read_on_root(communicator, [&] {
+    const Mesh mesh = read_tissue(loaded);
+    check(size_of(mesh));
+    return mesh_to_bytes(mesh);
+  });
+  return mesh_from_bytes(bytes);
 }
 
 }  // namespace trocar

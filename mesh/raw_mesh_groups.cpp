@@ -183,6 +183,7 @@ static std::vector<FacetNodes> facets_within(const NodeSet& set, std::span<const
   std::vector<FacetNodes> facets;
   for (const FacetSide& side : outer)
     if (std::ranges::all_of(side.node, is_in)) facets.push_back(side.node);
+  std::ranges::sort(facets);  // triangles before quads
   return facets;
 }
 

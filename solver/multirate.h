@@ -53,6 +53,7 @@ MultiRatePlan plan_multirate(const Mesh& mesh, const NodeCorners& corners,
 struct MultiRate : RankBody {
   LocalSteps steps;
   double share = 0;                     // of all elements
+  bool is_judged = false;               // whether a search has shown that it saves work
   std::vector<std::int32_t> whole;      // (n_local) local number in the whole body
   std::vector<std::int32_t> of_whole;   // (n_owned of the whole body) local number here or -1
   std::vector<std::uint8_t> is_fine;    // (n_owned)

@@ -214,8 +214,7 @@ SceneStudy load_study(const SceneStudyOptions& options, Communicator& communicat
   study.loaded.scene.outputs.clear();
   study.loaded.scene.markers.clear();
   study.loaded.scene.checkpoint.every = 0;
-  study.loaded.scene.time.pace = Pace::fast;
-  study.loaded.scene.time.overrun = Overrun::catch_up;
+  study.loaded.scene.time.forget_deadlines();
   if (study.has_shape() && !options.meshes.empty())
     throw InputError("--meshes: the scene generates its body; use --sizes");
   if (!study.has_shape() && !options.sizes.empty())

@@ -86,8 +86,7 @@ path = [
   EXPECT_TRUE(contains(suspect.cure, "a slower or shorter path of \"grasper\"")) << suspect.cure;
 }
 
-// Its handle points away at the frame's beginning and sweeps over the cube, 10 mm above it. It was
-// said to rest, 0.1 m away.
+// Its handle points away at the frame's beginning and sweeps over the cube, 10 mm above it.
 TEST(Suspect, that_comes_by_within_the_frame_is_measured_where_it_is_nearest) {
   const auto started = cube_with(R"([[instrument]]
 kind = "probe"

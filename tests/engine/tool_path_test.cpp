@@ -207,7 +207,7 @@ double turning_rate(const ToolPath& path, double t0, double t1) {
   return path.at(t0).rotation.angularDistance(path.at(t1).rotation) / (t1 - t0);
 }
 
-// It stood still at every key. Snellius' angle x of a quaternion is x^4 / 180 too small: 3e-7 of a
+// Snellius' angle x of a quaternion is x^4 / 180 too small: 3e-7 of a
 // turn by 10 degrees, 2e-3 of one by 90; the cubic's own error is as much.
 TEST(ToolPath, turns_at_a_constant_rate_through_equal_turns) {
   for (const auto& [degrees, tolerance] : {std::pair(10.0, 1e-6), std::pair(90.0, 4e-3)}) {

@@ -91,10 +91,10 @@ TEST(Signals, that_kill_one_rank_are_told_by_the_other) {
   }
 }
 
-pid_t start_two_ranks(const std::string& folder) {
+pid_t start_ranks(int n, const std::string& folder, const std::string& patience) {
   const pid_t mpirun =
-      start(mpirun_words(2, TROCAR_PROGRAM,
-                         {"run", config("block_hex.toml"), "-q", "--patience", "2", "-o",
+      start(mpirun_words(n, TROCAR_PROGRAM,
+                         {"run", config("block_hex.toml"), "-q", "--patience", patience, "-o",
                           folder + "/out", "--set", "output=[]", "--set", "time.duration=0.5"}),
             folder);
   wait_for(folder + "/out/scene.toml");
@@ -108,12 +108,12 @@ int exit_code_of(pid_t process) {
 }
 
 // The others would wait for ever.
-TEST(Signals, that_stop_one_rank_are_told_by_the_other_and_end_the_run) {
-  for (const std::size_t which : {0, 1}) {
+TEST(Signals, that_stop_one_rank_are_told_once_and_end_the_run) {
+  for (const std::size_t which : {0, 2}) {
     const std::string folder = test_folder("stopped-rank");
-    const pid_t mpirun = start_two_ranks(folder);
+    const pid_t mpirun = start_ranks(3, folder, "2");
     const std::vector<pid_t> ranks = children_of(mpirun);
-    ASSERT_EQ(ranks.size(), 2U);
+    ASSERT_EQ(ranks.size(), 3U);
     kill(ranks[which], SIGSTOP);
     EXPECT_EQ(exit_code_of(mpirun), 4);
     const std::string told = read_text(folder + "/first"),
@@ -121,16 +121,17 @@ TEST(Signals, that_stop_one_rank_are_told_by_the_other_and_end_the_run) {
                             std::to_string(ranks[which]) + " on ";
     EXPECT_NE(told.find(who), std::string::npos) << told;
     EXPECT_NE(told.find("has been stopped for 2 s"), std::string::npos) << told;
+    EXPECT_EQ(told.find("trocar: error", told.find(who)), std::string::npos) << told;
   }
 }
 
 TEST(Signals, that_stop_all_ranks_for_a_while_change_nothing) {
   const std::string folder = test_folder("suspended");
-  const pid_t mpirun = start_two_ranks(folder);
+  const pid_t mpirun = start_ranks(2, folder, "3");
   const std::vector<pid_t> ranks = children_of(mpirun);
   ASSERT_EQ(ranks.size(), 2U);
   for (const pid_t rank : ranks) kill(rank, SIGSTOP);
-  std::this_thread::sleep_for(std::chrono::seconds(4));
+  std::this_thread::sleep_for(std::chrono::seconds(5));
   for (const pid_t rank : ranks) kill(rank, SIGCONT);
   EXPECT_EQ(exit_code_of(mpirun), 0) << read_text(folder + "/first");
 }
