@@ -139,7 +139,6 @@ void build_cuts(Simulation& s) {
   }
   if (s.cuts.empty()) return;
   warn_of_whole_hexahedra(s);
-  prepare_cutters(s);
 }
 
 void build_instruments(const LoadedScene& loaded, Simulation& s) {
@@ -269,6 +268,7 @@ void prepare_for_cuts(Simulation& s) {
   s.boxes = make_element_boxes(s.mesh, s.mesh.X);
   leave_room_in_mesh(s.mesh);
   leave_room_for_edits(s);
+  prepare_cutters(s);
 }
 
 void find_pieces(Simulation& s) {

@@ -146,7 +146,6 @@ void restore_checkpoint(const Checkpoint& c, Simulation& s) {
     s.sleep->range = c.quiet_range;
   }
   for (std::size_t k = 0; k < s.cuts.size(); ++k) remember(c.cuts[k], s.cuts[k]);
-  prepare_cutters(s);
   s.step_scale = c.step_scale;
   s.held_step = c.held_step;
   s.held_by_contact = c.held_by_contact;

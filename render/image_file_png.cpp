@@ -62,12 +62,8 @@ void write_png(const Image& image, const std::string& file) {
   bool is_encoded = out != nullptr && encode(image, out, reason);
   if (out != nullptr && std::fclose(out) != 0) is_encoded = false;
   const std::unique_ptr<char, FreeBytes> owner(bytes);
-  try {
-    if (!is_encoded) throw MachineError(file + ": " + reason);
-    write_whole_file(file, {bytes, n_bytes});
-  } catch (const MachineError& error) {
-    throw MachineError(std::string("can't write the picture ") + error.what());
-  }
+  if (!is_encoded) throw MachineError(file + ": can't be written: " + reason);
+  write_whole_file(file, {bytes, n_bytes});
 }
 
 }  // namespace trocar

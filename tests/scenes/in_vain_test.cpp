@@ -205,7 +205,9 @@ TEST(InVain, run_whose_output_fails_in_the_middle_has_its_summary_and_is_resumed
                                       "--set", "time.duration=2"};
     const Finished run = run_trocar_on(ranks, words, folder);
     EXPECT_EQ(run.exit_code, 4) << run.err;
-    EXPECT_TRUE(has(run.err, "000003.png: Is a directory; the run ends after frame ")) << run.err;
+    EXPECT_TRUE(
+        has(run.err, "000003.png: can't be written: Is a directory; the run ends after frame "))
+        << run.err;
     const nlohmann::json summary = read_summary(folder);
     ASSERT_FALSE(summary.is_discarded());
     EXPECT_FALSE(summary["finished"].get<bool>());
