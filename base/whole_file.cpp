@@ -97,14 +97,21 @@ std::string read_whole_file(const std::string& file, std::size_t most_bytes) {
   return content;
 }
 
+// Of a link that leads to no file yet, too.
+static std::filesystem::path end_of_links(std::filesystem::path file) {
+  constexpr int most_links = 40;  // as the system allows
+  std::error_code ignored;
+  for (int k = 0; k < most_links && std::filesystem::is_symlink(file, ignored); ++k)
+    file = file.parent_path() / std::filesystem::read_symlink(file, ignored);
+  return file;
+}
+
 void write_whole_file(const std::string& file, std::string_view content) {
   std::error_code ignored;  // opening tells
-  const bool is_link = std::filesystem::is_symlink(file, ignored);
-  const std::string linked = is_link ? std::filesystem::canonical(file, ignored).string() : "";
-  const std::string target = linked.empty() ? file : linked;
+  const std::string target = end_of_links(file).string();
   const bool is_replaced = !std::filesystem::is_other(file, ignored);  // no device, no pipe
   const std::string part = is_replaced ? target + ".part" : file;
-  Stream stream(std::fopen(part.c_str(), "wb"));
+  Stream stream(std::fopen(part.c_str(), "wbe"));
   if (!stream) fail_write(file, part);
   const bool is_written =
       std::fwrite(content.data(), 1, content.size(), stream.get()) == content.size();

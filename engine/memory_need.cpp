@@ -32,7 +32,7 @@ BodySize size_of(const SceneShape& shape) {
       shape.kind == ShapeKind::rectangle || shape.kind == ShapeKind::triangular_rectangle;
   const std::int64_t x = shape.cells[0], y = shape.kind == ShapeKind::cylinder ? x : shape.cells[1],
                      z = shape.cells[2];
-  if (is_plane) return {.n_nodes = (x + 1) * (y + 1), .n_others = 2 * x * y};
+  if (is_plane) return {.n_nodes = x * y, .n_others = 2 * (x - 1) * (y - 1)};  // nodes a side
   const std::int64_t a = x, b = shape.kind == ShapeKind::ball ? x : y,
                      c = shape.kind == ShapeKind::ball ? x : z;
   BodySize size{.n_nodes = (a + 1) * (b + 1) * (c + 1)};

@@ -4,7 +4,6 @@
 #include <array>
 
 #include "base/digest.h"
-#include "solver/history.h"
 
 namespace trocar {
 
@@ -12,8 +11,7 @@ namespace {
 
 // Numbers of items: nodes from 0 on, and the others each from a first one on.
 constexpr std::uint64_t first_element = std::uint64_t{1} << 40, first_step = first_element << 1,
-                        first_history = first_element << 2, first_relaxed = first_element << 3,
-                        first_hold = first_element << 4, first_jaws = first_element << 5;
+                        first_hold = first_element << 2, first_jaws = first_element << 3;
 
 std::uint64_t digest_of_nodes(const Simulation& s) {
   std::uint64_t sum = 0;
@@ -44,35 +42,6 @@ std::uint64_t digest_of_elements(const Simulation& s) {
   return sum;
 }
 
-// What copy_history tells of elements.
-std::uint64_t digest_of_copies(std::span<const double> copies) {
-  std::uint64_t sum = 0;
-  while (!copies.empty()) {
-    const auto n = 3 + static_cast<std::size_t>(copies[1] + copies[2]);
-    sum += digest_item(first_history + static_cast<std::uint64_t>(copies[0]), copies.first(n));
-    copies = copies.subspan(n);
-  }
-  return sum;
-}
-
-// Of the elements whose first corner this rank owns, some at a time: a copy of all would be large.
-std::uint64_t digest_of_history(const Simulation& s) {
-  if (s.model.n_history == 0) return 0;
-  constexpr std::size_t n_at_a_time = 4096;
-  std::uint64_t sum = 0;
-  std::vector<std::int32_t> elements;
-  const auto take_up = [&] {
-    sum += digest_of_copies(copy_history(s.model, s.part, s.state, elements));
-    elements.clear();
-  };
-  for (const std::int32_t e : s.part.element_global) {
-    if (s.part.owned(s.mesh.corners(e).front()) >= 0) elements.push_back(e);
-    if (elements.size() == n_at_a_time) take_up();
-  }
-  take_up();
-  return sum;
-}
-
 // The same on every rank: nodes that are held, and jaws that are closed.
 std::uint64_t digest_of_holds(const Holds& holds) {
   std::uint64_t sum = 0;
@@ -91,15 +60,13 @@ std::uint64_t digest_of_holds(const Holds& holds) {
 std::uint64_t digest_of_clock(const Simulation& s) {
   const auto step = static_cast<std::uint64_t>(s.state.step);
   const std::array<double, 2> clock = {s.state.time, s.state.last_dt};
-  const std::array<double, 1> relaxed = {s.state.history_time};
-  const std::uint64_t of_clock = digest_item(first_step + step, clock);
-  return is_viscous(s.materials) ? of_clock + digest_item(first_relaxed + step, relaxed) : of_clock;
+  return digest_item(first_step + step, clock);
 }
 
 }  // namespace
 
 std::uint64_t state_digest(const Simulation& s) {
-  const std::uint64_t mine = digest_of_nodes(s) + digest_of_elements(s) + digest_of_history(s);
+  const std::uint64_t mine = digest_of_nodes(s) + digest_of_elements(s);
   return s.communicator->all_sum(mine) + digest_of_holds(s.holds) + digest_of_clock(s);
 }
 

@@ -12,6 +12,7 @@
 #include "engine/memory_need.h"
 #include "engine/mesh_fit.h"
 #include "engine/point_text.h"
+#include "mesh/box_cells.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/generate.h"
 #include "mesh/mesh_file.h"
@@ -174,7 +175,9 @@ Mesh load_tissue(const LoadedScene& loaded, Communicator& communicator) {
   const auto check = [&](const BodySize& size) {
     check_memory(size, scene.solver, communicator.size(), left);
   };
-  if (scene.tissue.shape) check(size_of(*scene.tissue.shape));
+  // More nodes are refused as they are generated.
+  if (scene.tissue.shape && size_of(*scene.tissue.shape).n_nodes <= max_generated_nodes)
+    check(size_of(*scene.tissue.shape));
   const auto bytes = read_on_root(communicator, [&] {
     const Mesh mesh = read_tissue(loaded);
     check(size_of(mesh));

@@ -207,14 +207,6 @@ TEST(TetCutter, gives_the_same_bits_again) {
   }
 }
 
-TEST(TetCutter, refuses_a_plane_mesh) {
-  Body body(make_rectangle(1, 1, 3, 3));
-  Ledger ledger;
-  TetCutter cutter{CutTetOptions{}};
-  const BladeSweep sweep{{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {1, 1, 0}}, Vec3::UnitZ()};
-  EXPECT_THROW(advance(cutter, body, sweep, false, ledger), InputError);
-}
-
 // A plane through the whole body, taken up in one band; the edit is made when the blade is out.
 // `forget` changes what the stroke remembers in between.
 CutFigures cut_through(Body& body, const std::function<void(CutStroke&)>& forget) {

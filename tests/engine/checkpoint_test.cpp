@@ -288,7 +288,7 @@ TEST(Checkpoint, of_a_frame_that_woke_what_slept_and_failed_is_that_of_its_begin
   const auto run = built(grasped_bar, {"solver.sleep='0.1 mm'"});
   Simulation& s = *run->s;
   start_in_equilibrium(run->loaded, s);
-  while (s.frame < 44) run_frame(s, run->outputs);
+  while (s.frame < 45) run_frame(s, run->outputs);
   ASSERT_EQ(s.sleep->share, 1);
   const std::vector<std::byte> before = bytes_of(s);
   const FrameStart start = start_of_frame(s);

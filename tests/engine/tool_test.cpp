@@ -141,7 +141,7 @@ TEST(Tool, a_surface_of_the_users_own_replaces_the_working_piece_and_the_picture
   ASSERT_EQ(tool.shape.pieces.size(), 2u);
   EXPECT_EQ(tool.shape.pieces[first_working_piece].points, own.X);
   EXPECT_EQ(tool.shape.pieces[first_working_piece].radius, 0);
-  ASSERT_EQ(tool.parts.size(), 1u);
+  ASSERT_EQ(tool.parts.size(), 2u);  // and the shaft
   EXPECT_EQ(tool.parts[0].surface.X, own.X);
   EXPECT_EQ(tool.own_mesh.X, own.X);
 }

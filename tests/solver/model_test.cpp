@@ -242,11 +242,11 @@ TEST(MemoryBytes, counts_what_a_tetrahedron_needs) {
       make_body(make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {8, 8, 8}, BoxElements::tet4_kuhn));
   // 3072 tetrahedra in full blocks: 11 constants and a step of 8 bytes, 4 corners and a place of 4,
   // and for a block of 8 what its lanes are, of 4; for a stride of 32 blocks which nodes are
-  // complete behind it, of 4, and one of these more; 729 nodes: mass, 3 forces and 4 sums of 8,
+  // complete behind it, of 4, and two of these more; 729 nodes: mass, 3 forces and 4 sums of 8,
   // their order of 4, a mark of 1; of one run where its blocks (8) and strides (4) begin and end; 4
   // for where the first of no clusters would begin; what one list would relax in a step.
   const std::size_t n_bytes = 8 * (11 + 1) + 4 * 5, n_node_bytes = 8 * 8 + 4 + 1;
-  const std::size_t expected = 3072 * n_bytes + 384 * 4 + (12 + 1) * 4 + 729 * n_node_bytes +
+  const std::size_t expected = 3072 * n_bytes + 384 * 4 + (12 + 2) * 4 + 729 * n_node_bytes +
                                2 * (8 + 4) + 4 + sizeof(ViscousStep);
   EXPECT_EQ(memory_bytes(body.model, body.scratch), expected);
 }
