@@ -18,6 +18,7 @@
 
 #include "base/error.h"
 #include "base/host.h"
+#include "base/timers.h"
 
 namespace trocar {
 
@@ -130,8 +131,12 @@ struct PeerWatch::Thread {
       if (has_ended(process[k])) tell(peers[k]);
   }
   void run() {
+    bool was_suspended = false;
     while (!is_stopped() && !has_lost_one()) {
-      if (poll(process.data(), process.size(), looks ? 1000 : -1) != 0) continue;
+      const double before = monotonic_seconds();
+      const int n_events = poll(process.data(), process.size(), 1000);
+      was_suspended = monotonic_seconds() - before > 2;
+      if (n_events != 0 || !looks) continue;
       look_for_suspended();
       if (tells_of_suspended()) std::_Exit(static_cast<int>(ExitCode::machine));
     }
@@ -139,8 +144,9 @@ struct PeerWatch::Thread {
     poll(&process.back(), 1, reasons_ms);
     if (is_stopped()) return;
     poll(process.data(), process.size(), 0);
-    // A suspended one has been told of by who is gone for it.
-    if (std::ranges::count(seconds_suspended, 0) == std::ssize(seconds_suspended)) tell_of_lost();
+    // Who is gone for a suspended rank has told of that, to which this may be news.
+    const bool is_known = std::ranges::any_of(seconds_suspended, [](int s) { return s > 0; });
+    if (!is_known && !was_suspended) tell_of_lost();
     poll(&process.back(), 1, end_by_mpirun_ms);
     if (!is_stopped()) std::_Exit(static_cast<int>(ExitCode::machine));
   }

@@ -49,11 +49,15 @@ class LaterCorners {
   std::vector<std::int64_t> block_of_list_;
   std::vector<std::int32_t> run_of_first_;
 
+  static std::int64_t first_corner(const ElementBlocks& blocks, std::int64_t lane) {
+    return lane / blocks.lanes * corners_of_block(blocks) + lane % blocks.lanes;
+  }
+
   // Whether nothing comes between the elements of these eight lanes, and so with their corners.
   bool stands_in_row(std::size_t list, std::int64_t lane) const {
     const ElementBlocks& blocks = model_.blocks[list];
     if (lane % row_lanes != 0 || !are_consecutive(&blocks.element_local[lane])) return false;
-    const std::int64_t n = corners_of_block(blocks), first = first_of_lane(lane, blocks.lanes, n);
+    const std::int64_t n = corners_of_block(blocks), first = first_corner(blocks, lane);
     for (std::int64_t k = 0; k < n; k += blocks.lanes)
       if (!are_consecutive(&blocks.corner[first + k])) return false;
     return true;
@@ -75,7 +79,7 @@ class LaterCorners {
 
   void take_lane(std::size_t list, std::int64_t lane) {
     const ElementBlocks& blocks = model_.blocks[list];
-    const std::int64_t n = corners_of_block(blocks), first = first_of_lane(lane, blocks.lanes, n);
+    const std::int64_t n = corners_of_block(blocks), first = first_corner(blocks, lane);
     const std::int32_t run = run_of(list, lane);
     for (std::int64_t k = 0; k < n; k += blocks.lanes) {
       const std::int32_t node = blocks.corner[first + k];
@@ -87,7 +91,7 @@ class LaterCorners {
   // corner that starts further ahead meets a node first.
   void take_row(std::size_t list, std::int64_t lane) {
     const ElementBlocks& blocks = model_.blocks[list];
-    const std::int64_t n = corners_of_block(blocks), first = first_of_lane(lane, blocks.lanes, n);
+    const std::int64_t n = corners_of_block(blocks), first = first_corner(blocks, lane);
     const std::int32_t run = run_of(list, lane);
     std::array<std::pair<std::int32_t, std::int64_t>, max_corners> start;
     const std::span of_corners(start.data(), static_cast<std::size_t>(n / blocks.lanes));
