@@ -27,7 +27,7 @@ void choose_owners(Simulation& s) {
 }
 
 void note_imbalance(Simulation& s) {
-  if (s.chosen_imbalance == 0) s.chosen_imbalance = imbalance_now(s);
+  if (s.communicator->size() > 1 && s.chosen_imbalance == 0) s.chosen_imbalance = imbalance_now(s);
 }
 
 bool rebalance(Simulation& s) {

@@ -175,12 +175,14 @@ Mesh load_tissue(const LoadedScene& loaded, Communicator& communicator) {
   const auto check = [&](const BodySize& size) {
     check_memory(size, scene.solver, communicator.size(), left);
   };
-  // More nodes are refused as they are generated.
-  if (scene.tissue.shape && size_of(*scene.tissue.shape).n_nodes <= max_generated_nodes)
-    check(size_of(*scene.tissue.shape));
+  const bool is_generated = scene.tissue.shape.has_value();
+  if (is_generated) {
+    const BodySize size = size_of(*scene.tissue.shape);
+    if (size.n_nodes <= max_generated_nodes) check(size);  // more are refused as they are generated
+  }
   const auto bytes = read_on_root(communicator, [&] {
     const Mesh mesh = read_tissue(loaded);
-    check(size_of(mesh));
+    if (!is_generated) check(size_of(mesh));
     return mesh_to_bytes(mesh);
   });
   return mesh_from_bytes(bytes);

@@ -166,12 +166,10 @@ std::vector<Vec3> with_thickness(std::vector<Vec3> points) {
 // tissue, so that the hull touches in place of the closed ones alone.
 void use_mesh(Tool& tool, const TriangleMesh& mesh) {
   std::vector<ConvexPiece>& pieces = tool.shape.pieces;
-  ConvexPiece hull = pieces[first_working_piece];
+  ConvexPiece hull;
+  if (tool.kind == InstrumentKind::scalpel) hull = pieces[first_working_piece];
   hull.points = with_thickness(mesh.X);
-  hull.radius = 0;
   if (tool.kind == InstrumentKind::scissors) {
-    hull.least_flatness = 0;
-    hull.deepest = std::numeric_limits<double>::infinity();
     pieces.resize(tool.closed_begin);
   } else {
     pieces.resize(first_working_piece);
@@ -180,7 +178,7 @@ void use_mesh(Tool& tool, const TriangleMesh& mesh) {
   }
   pieces.push_back(std::move(hull));
   tool.caught = std::numeric_limits<double>::infinity();
-  const auto& shaft = pieces[0];
+  const ConvexPiece& shaft = pieces[0];
   tool.parts.clear();
   add_part(tool, mesh);
   add_part(tool, make_capsule_surface(shaft.points[0], shaft.points[1], shaft.radius, round_faces));

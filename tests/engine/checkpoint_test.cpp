@@ -267,19 +267,9 @@ TEST(Checkpoint, of_a_frame_that_failed_is_that_of_its_beginning) {
 }
 
 // A bar that sleeps on a table until a grasper closes on its end, in the 45th frame.
-const std::string grasped_bar = time_table("3 s") + tissue_of_kpa(6) + solver_table("-9.81", 30) +
-                                R"([start]
-state = "equilibrium"
-[checkpoint]
-every = 0
-[tissue.shape]
-kind = "box"
-low = ["-60 mm", "-10 mm", "0 mm"]
-high = ["60 mm", "10 mm", "20 mm"]
-cells = [24, 4, 4]
-[[support]]
-region = "z-"
-)" + instrument("grasper", "radius = \"2 mm\"\ngrip_radius = \"18 mm\"", R"(
+const std::string grasped_bar =
+    time_table("3 s") + bar_on_table() +
+    instrument("grasper", "radius = \"2 mm\"\ngrip_radius = \"18 mm\"", R"(
   { time = 0, position = ["72 mm", 0, "10 mm"], forward = [0, 1, 0], action = "open" },
   { time = "1.49 s", position = ["72 mm", 0, "10 mm"], forward = [0, 1, 0], action = "close" },
 )");

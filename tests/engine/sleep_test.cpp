@@ -19,21 +19,8 @@
 namespace trocar {
 namespace {
 
-// A bar of 120 x 20 x 20 mm on the table in its weight; a probe presses one end from 0.8 s to 2.6
-// s.
-const std::string pressed_bar = time_table("3.2 s") + tissue_of_kpa(6) + solver_table("-9.81", 30) +
-                                R"([start]
-state = "equilibrium"
-[checkpoint]
-every = 0
-[tissue.shape]
-kind = "box"
-low = ["-60 mm", "-10 mm", "0 mm"]
-high = ["60 mm", "10 mm", "20 mm"]
-cells = [24, 4, 4]
-[[support]]
-region = "z-"
-)" + probe_along(R"(
+// A probe presses one end from 0.8 s to 2.6 s.
+const std::string pressed_bar = time_table("3.2 s") + bar_on_table() + probe_along(R"(
   { time = "0.7 s", position = ["-50 mm", 0, "30 mm"] },
   { time = "1.2 s", position = ["-50 mm", 0, "17 mm"] },
   { time = "2.3 s", position = ["-50 mm", 0, "17 mm"] },

@@ -47,4 +47,20 @@ inline std::string scalpel_along(const std::string& blade_length, const std::str
   return instrument("scalpel", "blade_length = \"" + blade_length + "\"", keys);
 }
 
+// A bar of 120 x 20 x 20 mm on the table, at rest in its weight; behind a time_table.
+inline std::string bar_on_table() {
+  return tissue_of_kpa(6) + solver_table("-9.81", 30) + R"([start]
+state = "equilibrium"
+[checkpoint]
+every = 0
+[tissue.shape]
+kind = "box"
+low = ["-60 mm", "-10 mm", "0 mm"]
+high = ["60 mm", "10 mm", "20 mm"]
+cells = [24, 4, 4]
+[[support]]
+region = "z-"
+)";
+}
+
 }  // namespace trocar
