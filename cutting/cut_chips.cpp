@@ -32,28 +32,44 @@ struct SmallPiece {
 
 }  // namespace
 
-// The elements of the patch that hang together with `first` after the opening; marks them.
-static std::vector<std::int32_t> piece_of(const TetCut& cut, std::int32_t first,
-                                          std::vector<std::uint8_t>& is_seen) {
-  const CutPatch& patch = cut.around.patch;
-  std::vector<std::int32_t> piece{first};
-  is_seen[first] = 1;
-  for (std::size_t k = 0; k < piece.size(); ++k)
-    for (int f = 0; f < 4; ++f) {
-      const std::int32_t u = patch.across[piece[k]][f];
-      if (u < 0 || is_seen[u] != 0 || !is_joined(patch, cut.opening.corner, piece[k], f)) continue;
-      is_seen[u] = 1;
-      piece.push_back(u);
-    }
-  return piece;
-}
-
 // Adds the volume of an element; false if the piece is no small one with it.
 static bool add_volume(const Tissue& t, std::span<const Vec3> X,
                        const std::array<std::int32_t, 4>& corner, SmallPiece& piece) {
   const double h = t.cut.around.h;
   piece.V += six_volumes(X, corner) / (6 * h * h * h);
   return piece.V < flake_volume;
+}
+
+namespace {
+
+// What searches for small pieces know of an element.
+enum class Search : std::uint8_t { unseen, seen, in_large };
+
+}  // namespace
+
+// Adds the elements of the patch that hang together with `first` after the opening; false if they
+// are no small piece. Then the rest of them is left to other searches, which end here.
+static bool flood_patch(const Tissue& t, std::int32_t first, std::vector<Search>& search,
+                        SmallPiece& piece) {
+  const CutPatch& patch = t.cut.around.patch;
+  bool is_small = true;
+  search[first] = Search::seen;
+  piece.element.push_back(first);
+  for (std::size_t k = 0; is_small && k < piece.element.size(); ++k) {
+    const std::int32_t e = piece.element[k];
+    is_small = add_volume(t, patch.X, patch.corner[e], piece);
+    for (int f = 0; is_small && f < 4; ++f) {
+      const std::int32_t u = patch.across[e][f];
+      if (u < 0 || search[u] == Search::seen || !is_joined(patch, t.cut.opening.corner, e, f))
+        continue;
+      is_small = search[u] == Search::unseen;
+      if (is_small) piece.element.push_back(u);
+      if (is_small) search[u] = Search::seen;
+    }
+  }
+  for (const std::int32_t e : piece.element)
+    if (!is_small) search[e] = Search::in_large;
+  return is_small;
 }
 
 // Adds the element across facet f of `element` (global) if it lies outside the patch; false if it
@@ -81,10 +97,9 @@ static bool is_fast(const Tissue& t, std::int32_t i) {
 // holds it, or the piece hangs together with more of the patch there.
 static bool follow_beyond(const Tissue& t, SmallPiece& piece) {
   const CutPatch& patch = t.cut.around.patch;
-  const auto is_rim = [&](std::int32_t i) { return !patch.is_whole(i); };
   for (const std::int32_t e : piece.element)
     for (int f = 0; f < 4; ++f)
-      if (patch.across[e][f] < 0 && std::ranges::all_of(facet_nodes(patch, e, f), is_rim))
+      if (patch.across[e][f] < 0 && !is_outer(patch, e, f))
         add_beyond(t, patch.element[e], f, piece);
   for (std::size_t k = 0; k < piece.beyond.size(); ++k) {
     const std::int32_t u = piece.beyond[k];
@@ -99,30 +114,25 @@ static bool follow_beyond(const Tissue& t, SmallPiece& piece) {
   return true;
 }
 
-// Whether the piece is small, and nothing holds it; adds its volume and what lies outside the
-// patch.
-static bool is_small(const Tissue& t, SmallPiece& piece) {
+// Whether the piece is small outside the patch, too, and nothing holds it; adds what lies there.
+static bool is_free(const Tissue& t, SmallPiece& piece) {
   const CutPatch& patch = t.cut.around.patch;
-  for (const std::int32_t e : piece.element) {
-    const auto is_held = [&](std::int32_t i) {
-      return patch.is_joined[i] != 0 || patch.is_bent[i] != 0 || is_held_fast(t, patch.node[i]);
-    };
-    if (!add_volume(t, patch.X, patch.corner[e], piece) ||
-        std::ranges::any_of(patch.corner[e], is_held))
-      return false;
-  }
+  const auto is_held = [&](std::int32_t i) {
+    return patch.is_joined[i] != 0 || patch.is_bent[i] != 0 || is_held_fast(t, patch.node[i]);
+  };
+  for (const std::int32_t e : piece.element)
+    if (std::ranges::any_of(patch.corner[e], is_held)) return false;
   return follow_beyond(t, piece);
 }
 
 // The pieces below the flakes' volume that the opening would free, the smallest first.
 static std::vector<SmallPiece> small_pieces(const Tissue& t) {
   std::vector<SmallPiece> pieces;
-  std::vector<std::uint8_t> is_seen(t.cut.around.patch.element.size(), 0);
+  std::vector<Search> search(t.cut.around.patch.element.size(), Search::unseen);
   for (const auto& [first, f] : t.cut.opening.facet) {
-    if (is_seen[first] != 0) continue;
     SmallPiece p;
-    p.element = piece_of(t.cut, first, is_seen);
-    if (is_small(t, p)) pieces.push_back(std::move(p));
+    if (search[first] == Search::unseen && flood_patch(t, first, search, p) && is_free(t, p))
+      pieces.push_back(std::move(p));
   }
   std::ranges::stable_sort(pieces, {}, &SmallPiece::V);
   return pieces;

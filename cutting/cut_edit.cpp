@@ -152,10 +152,12 @@ static void remember_nodes(const TetCut& cut, std::int32_t n_nodes, CutStroke& s
   const CutPatch& patch = cut.around.patch;
   const std::vector<std::int32_t>& parent = cut.opening.duplication.duplicate_parent;
   std::vector<std::uint8_t> is_neutral(patch.node.size(), 0);
-  std::erase_if(stroke.surface_node,
-                [&](std::int32_t node) { return patch.local_node(node) >= 0; });
+  std::erase_if(stroke.surface_node, [&](std::int32_t node) {
+    const std::int32_t i = patch.local_node(node);
+    return i >= 0 && patch.is_whole(i);
+  });
   for (std::int32_t i = 0; i < patch.n_nodes(); ++i) {
-    if (cut.is_cut[i] == 0 || cut.around.points.of(i).empty()) continue;
+    if (!patch.is_whole(i) || cut.is_cut[i] == 0 || cut.around.points.of(i).empty()) continue;
     if (surface_distance(cut.around, i, cut.X[i]) > neutral_distance * cut.around.h) continue;
     is_neutral[i] = 1;
     stroke.surface_node.push_back(patch.node[i]);

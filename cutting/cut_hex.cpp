@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/check.h"
 #include "base/sort_unique.h"
 #include "cutting/cut_hex_shape.h"
 #include "cutting/cut_patch.h"
@@ -156,10 +157,8 @@ bool are_tets_of(const HexTets& tets, const Mesh& body) {
 }
 
 void update_hex_tets(const Mesh& body, HexTets& tets) {
-  if (are_tets_of(tets, body))
-    tets.mesh.X = body.X;
-  else
-    tets = make_hex_tets(body);
+  if (!are_tets_of(tets, body)) tets = make_hex_tets(body);
+  DCHECK(tets.mesh.X == body.X);
 }
 
 }  // namespace trocar

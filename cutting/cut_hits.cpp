@@ -94,8 +94,8 @@ static Band make_band(const BladeSweep& sweep, double back, const CutStroke& str
 }
 
 // Axes along and across the band: its box is as thin as the band is flat.
-static BandBox box_of(const Band& band) {
-  BandBox box;
+static OrientedBox box_of(const Band& band) {
+  OrientedBox box;
   Vec3 normal = Vec3::Zero();
   for (const Band::Triangle& t : band.triangle) normal += t.normal;
   const Vec3 n = normal.norm() > 0.1 ? normal.normalized() : Vec3::UnitZ();
@@ -221,14 +221,13 @@ static bool is_edge_amid(const Mesh& mesh, const CutStroke& stroke) {
 }
 
 // Of tissue as it was before cuts split its elements.
-static double mean_length(const Mesh& mesh, const std::vector<EdgeUse>& use,
+static double mean_length(const Mesh& mesh, std::span<const std::int32_t> element,
                           const CutStroke& stroke) {
   double sum = 0;
-  for (const EdgeUse& edge : use) {
-    const double* const whole = find_element(stroke.whole_edge, edge.element);
-    sum += whole != nullptr ? *whole : (mesh.X[edge.a] - mesh.X[edge.b]).norm();
-  }
-  return use.empty() ? 0 : sum / static_cast<double>(use.size());
+  const std::vector<const double*> whole = find_elements(stroke.whole_edge, element);
+  for (std::size_t k = 0; k < element.size(); ++k)
+    sum += whole[k] != nullptr ? *whole[k] : tet_mean_edge(mesh, element[k]);
+  return element.empty() ? 0 : sum / static_cast<double>(element.size());
 }
 
 // Where the band before this one ended in the tissue, if there was one.
@@ -273,7 +272,7 @@ static void cross_edges(const Mesh& mesh, std::span<const Vec3> x, const Band& b
       find_hits(mesh, x, band, use, {mesh, element, stroke, stroke.mean_edge}, stroke.in_slit);
   sort_unique(stroke.in_slit);
   if (found.empty()) return;
-  stroke.mean_edge = mean_length(mesh, use, stroke);
+  stroke.mean_edge = mean_length(mesh, element, stroke);
   for (const CutHit& hit : found) stroke.fresh.push_back(hit.element);
   sort_unique(stroke.fresh);
   merge_hits(stroke.hit, found);
@@ -309,15 +308,15 @@ void add_hits(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
   stroke.swept += way;
   const Band swept = make_band(seen, 0, stroke);
   // The first band of a stroke may begin anywhere.
-  if (stroke.edge.size() != sweep.before.size())
-    begin = near_elements(mesh, index, positions, box_of(swept)).tets;
+  const bool is_first = stroke.edge.size() != sweep.before.size();
+  if (is_first) begin = near_elements(mesh, index, positions, box_of(swept)).tets;
   if (stroke.mean_edge == 0)
     stroke.mean_edge = mean_length(
-        mesh, edge_uses(mesh, near_elements(mesh, index, positions, box_of(swept), begin).tets),
+        mesh, is_first ? begin : near_elements(mesh, index, positions, box_of(swept), begin).tets,
         stroke);
   const std::span<const Vec3> x = positions.x();
   const Band band = make_band(seen, overlap * stroke.mean_edge, stroke);
-  BandBox box = box_of(band);  // and tissue beyond the edge's ends
+  OrientedBox box = box_of(band);  // and tissue beyond the edge's ends
   box.low[1] -= 2 * beyond_end * stroke.mean_edge;
   box.high[1] += 2 * beyond_end * stroke.mean_edge;
   const NearElements near = near_elements(mesh, index, positions, box, begin);

@@ -64,7 +64,6 @@ void update_index(const Mesh& mesh, CutIndex& index) {
   index.local.assign(mesh.X.size(), -1);
   index.across.assign(mesh.element_type.size(), {not_known, not_known, not_known, not_known});
   index.local_element.assign(mesh.element_type.size(), -1);
-  index.step.clear();
   index.corner_node = mesh.corner_node.data();
   index.n_elements = mesh.element_type.size();
   for (auto* values : {&index.star_begin, &index.star_size, &index.local, &index.star_element,
@@ -175,18 +174,7 @@ static void split_in_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& ind
   index.n_elements += static_cast<std::size_t>(n_added(edit.splits));
   index.across.resize(index.n_elements, {not_known, not_known, not_known, not_known});
   index.local_element.resize(index.n_elements, -1);
-  if (!index.step.empty()) {
-    index.step.resize(index.n_elements, 0);
-    for (const ElementSplit& split : edit.splits) index.step[split.element] = 0;
-  }
   index.corner_node = nullptr;
-}
-
-std::span<const double> find_steps(const Mesh& mesh, CutIndex& index) {
-  index.step.resize(index.n_elements, 0);
-  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-    if (index.step[e] == 0) index.step[e] = tet_step_bound(mesh, e);
-  return index.step;
 }
 
 std::vector<std::int32_t> elements_around(const CutIndex& index,
@@ -207,9 +195,6 @@ void edit_index(const Mesh& mesh, const MeshEdit& edit, CutIndex& index) {
   });
   add_nodes(mesh.X.size() + edit.n_new_nodes(), index);
   split_in_index(mesh, edit, index);
-  for (const NodeMove& move : edit.moves)
-    for (const std::int32_t e : index.star(move.node))
-      if (!index.step.empty()) index.step[e] = 0;
   add_opened_facets(mesh, edit, index);
   for (const CornerChange& c : change) {
     const std::int32_t before = mesh.corners(c.element)[c.corner];

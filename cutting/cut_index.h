@@ -32,7 +32,6 @@ struct CutIndex {
   std::vector<std::uint8_t> ring;
   std::vector<std::int32_t> local, local_element;
   std::vector<WaitingFacet> waiting;  // scratch of patches, anything between two uses
-  std::vector<double> step;  // step_bound, 0 where not known; empty unless asked for (n_elements)
   // Of the mesh that it belongs to; nullptr if that has yet to be edited as the index has been.
   const std::int32_t* corner_node = nullptr;
   std::size_t n_elements = 0;
@@ -49,8 +48,6 @@ bool is_index_of(const CutIndex& index, const Mesh& mesh);
 // Builds the index anew if it isn't that of `mesh`: another mesh, or one that somebody else has cut
 // (a cut adds nodes).
 void update_index(const Mesh& mesh, CutIndex& index);
-// step_bound of all elements. Of tetrahedra alone. [m]
-std::span<const double> find_steps(const Mesh& mesh, CutIndex& index);
 // Elements of the nodes' stars, ascending.
 std::vector<std::int32_t> elements_around(const CutIndex& index,
                                           std::span<const std::int32_t> node);

@@ -176,8 +176,8 @@ static void decide_sides(const CutSurroundings& around, const CutStroke& stroke,
   }
 }
 
-// The elements without a side that a walk around edge (a, b) from element e into u meets before it
-// comes to the - side; empty if it doesn't.
+// The elements without a side that a walk around edge (a, b) from element e into u, one of them,
+// meets before it comes to the - side; empty if it doesn't.
 static std::vector<std::int32_t> walk_around(const CutPatch& patch, const CutLabels& labels,
                                              std::int32_t a, std::int32_t b, std::int32_t e,
                                              std::int32_t u) {
@@ -198,10 +198,12 @@ static std::vector<std::int32_t> bridges(const CutPatch& patch, const CutLabels&
   std::vector<std::int32_t> found;
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     for (int f = 0; labels.side[e] > 0 && f < 4; ++f) {
+      const std::int32_t u = patch.across[e][f];
+      if (u < 0 || labels.side[u] != 0) continue;
       const std::array<std::int32_t, 3> node = facet_nodes(patch, e, f);
       for (std::size_t k = 0; k < 3; ++k) {
         const std::vector<std::int32_t> met =
-            walk_around(patch, labels, node[k], node[(k + 1) % 3], e, patch.across[e][f]);
+            walk_around(patch, labels, node[k], node[(k + 1) % 3], e, u);
         found.insert(found.end(), met.begin(), met.end());
       }
     }
@@ -214,8 +216,8 @@ bool part_bridges(const CutSurroundings& around, const CutStroke& stroke, CutLab
   const std::vector<ElementSides> sides = element_sides(around, stroke);
   const std::vector<const std::int8_t*> known = find_elements(stroke.side, around.patch.element);
   bool is_changed = false;
-  for (bool is_going_on = true; is_going_on; found = bridges(around.patch, labels)) {
-    is_going_on = false;
+  for (;;) {
+    bool is_going_on = false;
     for (const std::int32_t e : found) {
       const Extent extent = extent_of(around, sides[e], e);
       if (labels.is_passed[e] == 0 || is_unknown(labels, e) || extent.is_on_both_sides(around.h))
@@ -223,14 +225,13 @@ bool part_bridges(const CutSurroundings& around, const CutStroke& stroke, CutLab
       set_geometric_side(extent, around.h, e, labels);
       is_going_on = true;
     }
-    if (is_going_on) {  // the minimum cut knew too little of these before
-      for (std::int32_t e = 0; e < around.patch.n_elements(); ++e)
-        if (known[e] == nullptr && labels.kind[e] == CutKind::separated) labels.side[e] = 0;
-      decide_sides(around, stroke, labels);
-    }
-    is_changed = is_changed || is_going_on;
+    if (!is_going_on) return is_changed;
+    is_changed = true;
+    for (std::int32_t e = 0; e < around.patch.n_elements(); ++e)
+      if (known[e] == nullptr && labels.kind[e] == CutKind::separated) labels.side[e] = 0;
+    decide_sides(around, stroke, labels);  // it knew too little of these before
+    found = bridges(around.patch, labels);
   }
-  return is_changed;
 }
 
 // A stroke that has gone through has passed everywhere. Another one ends at its rim, and where it

@@ -17,7 +17,7 @@ struct NearSearch {
   const Mesh& mesh;
   CutIndex& index;
   std::span<const Vec3> x;
-  const BandBox& box;
+  const OrientedBox& box;
   Box around;                       // of `box`
   std::vector<std::int32_t> seen;   // nodes with a mark in index.ring
   std::vector<std::int32_t> queue;  // nodes
@@ -26,17 +26,11 @@ struct NearSearch {
 
 }  // namespace
 
-// Along the axes of space.
-static Box box_around(const BandBox& box) {
-  const Vec3 middle = box.axes * (0.5 * (box.low + box.high));
-  const Vec3 reach = box.axes.cwiseAbs() * (0.5 * (box.high - box.low));
-  Box around;
-  around.add(middle - reach);
-  around.add(middle + reach);
-  return around;
-}
+// Of a node whose position nobody has asked for: no element that the box may meet has it.
+static constexpr unsigned not_asked = all_sides;
 
-static unsigned outside(const BandBox& box, const Vec3& p) {
+static unsigned outside(const OrientedBox& box, const Vec3& p) {
+  if (p.hasNaN()) return not_asked;
   const Vec3 q = box.axes.transpose() * p;
   unsigned code = 0;
   for (int d = 0; d < 3; ++d)
@@ -64,11 +58,14 @@ static void search_star(NearSearch& search, std::int32_t i) {
   for (const std::int32_t e : search.index.star(i)) {
     const std::span<const std::int32_t> corner = search.mesh.corners(e);
     unsigned common = all_sides, any = 0;
+    bool is_asked = true;
     for (const std::int32_t j : corner) {
-      common &= mark_of(search, j);
-      any |= mark_of(search, j);
+      const unsigned mark = mark_of(search, j);
+      common &= mark;
+      any |= mark;
+      is_asked = is_asked && (mark & all_sides) != not_asked;
     }
-    if (common != 0 || (any & is_searched) != 0) continue;
+    if (common != 0 || !is_asked || (any & is_searched) != 0) continue;
     if (!element_box(search.mesh, e, search.x).overlaps(search.around)) continue;
     const bool is_tet = search.mesh.element_type[e] == ElementType::tet4;
     (is_tet ? search.found.tets : search.found.hexahedra).push_back(e);
@@ -86,21 +83,21 @@ static NearElements run(NearSearch& search) {
 }
 
 static NearSearch search_for(const Mesh& mesh, CutIndex& index, const PresentPositions& positions,
-                             const BandBox& box) {
-  return {mesh, index, positions.x(), box, box_around(box), {}, {}, {}};
+                             const OrientedBox& box) {
+  return {mesh, index, positions.x(), box, box.around(), {}, {}, {}};
 }
 
 NearElements near_elements(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
-                           const BandBox& box) {
+                           const OrientedBox& box) {
   NearSearch search = search_for(mesh, index, positions, box);
-  for (const std::int32_t i : positions.nodes_near(search.around)) put_in_queue(search, i);
+  for (const std::int32_t i : positions.nodes_near(box)) put_in_queue(search, i);
   return run(search);
 }
 
 NearElements near_elements(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
-                           const BandBox& box, std::span<const std::int32_t> begin) {
+                           const OrientedBox& box, std::span<const std::int32_t> begin) {
   NearSearch search = search_for(mesh, index, positions, box);
-  for (const std::int32_t i : positions.nodes_near(search.around))
+  for (const std::int32_t i : positions.nodes_near(box))
     if (index.is_surface[i] != 0) put_in_queue(search, i);
   for (const std::int32_t e : begin)
     for (const std::int32_t i : mesh.corners(e)) put_in_queue(search, i);

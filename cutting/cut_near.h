@@ -6,18 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "base/vec.h"
+#include "base/box.h"
 #include "cutting/cut_index.h"
 #include "cutting/cut_positions.h"
 #include "mesh/mesh.h"
 
 namespace trocar {
-
-// Box along axes of its own (columns). [m]
-struct BandBox {
-  Mat3 axes;
-  Vec3 low, high;
-};
 
 // Elements that the box may meet in the present configuration, ascending: their corners are not all
 // beyond one side of it, and their boxes along the axes of space overlap its own.
@@ -26,10 +20,10 @@ struct NearElements {
 };
 // All in the body ...
 NearElements near_elements(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
-                           const BandBox& box);
+                           const OrientedBox& box);
 // ... and those that hang together, through such elements, with the body's surface or with
 // `begin`. What is cut in one piece with the surface or with one of these elements is among them.
 NearElements near_elements(const Mesh& mesh, CutIndex& index, PresentPositions& positions,
-                           const BandBox& box, std::span<const std::int32_t> begin);
+                           const OrientedBox& box, std::span<const std::int32_t> begin);
 
 }  // namespace trocar

@@ -65,13 +65,14 @@ static void take_piece(const CutPatch& patch, std::int32_t first,
 static bool parts_slice(const CutPatch& patch, const CutLabels& labels, int side,
                         const std::vector<std::int32_t>& neck) {
   std::vector<std::int32_t> end;
-  bool is_outer = false;
+  bool reaches_surface = false;
   for (const std::int32_t e : neck)
-    for (const std::int32_t u : patch.across[e]) {
-      is_outer = is_outer || u < 0;
+    for (int f = 0; f < 4; ++f) {
+      const std::int32_t u = patch.across[e][f];
+      reaches_surface = reaches_surface || is_outer(patch, e, f);
       if (u >= 0 && labels.side[u] != -side) end.push_back(u);
     }
-  if (!is_outer || end.empty()) return false;
+  if (!reaches_surface || end.empty()) return false;
   std::vector<std::uint8_t> is_near(patch.element.size(), 0);
   for (const std::int32_t e : neck)
     for (const std::int32_t i : patch.corner[e])

@@ -45,7 +45,6 @@ PatchMesh make_patch_mesh(const CutPatch& patch) {
   for (const auto& across : patch.across)
     p.across.neighbour.insert(p.across.neighbour.end(), across.begin(), across.end());
   p.around = patch.stars;
-  p.outer_edge = outer_edges(patch);
   return p;
 }
 
@@ -194,16 +193,16 @@ static std::vector<std::int32_t> broken_nodes(const CutSurroundings& around,
 }
 
 // Closes one facet at each broken node; false if there was none to close.
-static bool close_facets(const CutSurroundings& around, const PatchMesh& mesh,
-                         const std::vector<std::int32_t>& broken, std::vector<TetFacet>& facet,
-                         CutOpening& opening) {
+static bool close_facets(const CutSurroundings& around, const std::vector<std::int32_t>& broken,
+                         std::vector<TetFacet>& facet, CutOpening& opening) {
   if (broken.empty()) return false;
+  const std::vector<EdgeEnds> outer = outer_edges(around.patch);
   std::vector<EdgeEnds> opened;
   for (const auto& [e, f] : facet) add_edges(facet_nodes(around.patch, e, f), opened);
   std::sort(opened.begin(), opened.end());
   bool is_changed = false;
   for (const std::int32_t i : broken) {
-    const std::ptrdiff_t k = facet_to_close(around, facet, i, opened, mesh.outer_edge);
+    const std::ptrdiff_t k = facet_to_close(around, facet, i, opened, outer);
     if (k < 0) continue;
     std::vector<EdgeEnds> closed;
     add_edges(facet_nodes(around.patch, facet[k][0], facet[k][1]), closed);
@@ -238,8 +237,7 @@ CutOpening open_facets(const CutSurroundings& around, const PatchMesh& mesh,
   CutOpening opening;
   std::vector<TetFacet> facet = facets_between_sides(around.patch, labels, opening.refused);
   do split_nodes(around.patch, mesh, facet, opening);
-  while (close_facets(around, mesh, broken_nodes(around, facet, stays_whole, opening), facet,
-                      opening));
+  while (close_facets(around, broken_nodes(around, facet, stays_whole, opening), facet, opening));
   return opening;
 }
 

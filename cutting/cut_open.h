@@ -27,7 +27,6 @@ struct PatchMesh {
   Mesh mesh;
   NodeElements around;
   FacetNeighbours across;
-  std::vector<std::array<std::int32_t, 2>> outer_edge;  // of facets without a neighbour, ascending
 };
 PatchMesh make_patch_mesh(const CutPatch& patch);
 

@@ -8,6 +8,7 @@
 
 #include "base/sort_unique.h"
 #include "base/triangle.h"
+#include "cutting/cut_stroke.h"
 
 namespace trocar {
 
@@ -26,6 +27,11 @@ std::array<std::int32_t, 3> facet_nodes(const CutPatch& patch, std::int32_t e, i
 
 Vec3 facet_normal(const CutPatch& patch, const std::array<std::int32_t, 3>& node) {
   return area_normal({patch.X[node[0]], patch.X[node[1]], patch.X[node[2]]});
+}
+
+bool is_outer(const CutPatch& patch, std::int32_t e, int f) {
+  return patch.across[e][f] < 0 &&
+         std::ranges::any_of(facet_nodes(patch, e, f), [&](auto i) { return patch.is_whole(i); });
 }
 
 int facet_towards(const CutPatch& patch, std::int32_t e, std::int32_t u) {
@@ -235,6 +241,13 @@ CutPatch make_patch(const Mesh& mesh, CutIndex& index, PresentPositions& positio
 
 double tet_step_bound(const Mesh& mesh, std::int32_t e) {
   return step_bound(mesh.X, tet_nodes(mesh, e));
+}
+
+double tet_mean_edge(const Mesh& mesh, std::int32_t e) {
+  const std::span<const std::int32_t> c = mesh.corners(e);
+  double sum = 0;
+  for (const auto& [a, b] : tet_edges) sum += (mesh.X[c[a]] - mesh.X[c[b]]).norm();
+  return sum / static_cast<double>(tet_edges.size());
 }
 
 double least_share(const std::array<Vec3, 3>& triangle, const Vec3& X) {

@@ -56,6 +56,9 @@ CutPatch make_patch(const Mesh& mesh, CutIndex& index, PresentPositions& positio
 std::array<std::int32_t, 3> facet_nodes(const CutPatch& patch, std::int32_t e, int f);
 // Outward and twice as long as its area [m^2].
 Vec3 facet_normal(const CutPatch& patch, const std::array<std::int32_t, 3>& node);
+// Whether no element of the body lies across; of a facet at the patch's rim that isn't known:
+// false.
+bool is_outer(const CutPatch& patch, std::int32_t e, int f);
 // The facet of `e` that neighbour `u` lies behind.
 int facet_towards(const CutPatch& patch, std::int32_t e, std::int32_t u);
 
@@ -69,6 +72,7 @@ double six_volumes(std::span<const Vec3> X, const std::array<std::int32_t, 4>& c
 double step_bound(std::span<const Vec3> X, const std::array<std::int32_t, 4>& corner);
 // Of tetrahedron e in the reference.
 double tet_step_bound(const Mesh& mesh, std::int32_t e);
+double tet_mean_edge(const Mesh& mesh, std::int32_t e);
 // The least one of the elements around node i, all at the positions X.
 double star_step(const CutPatch& patch, std::span<const Vec3> X, std::int32_t i);
 

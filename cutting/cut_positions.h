@@ -18,9 +18,9 @@ class PresentPositions {
   virtual std::span<const Vec3> x() const = 0;
   // From here on x() has these nodes.
   virtual void find(std::span<const std::int32_t> nodes) = 0;
-  // All nodes of elements whose boxes overlap `box`, and perhaps some that are near, ascending;
+  // All nodes of elements whose boxes may overlap `box`, and perhaps some that are near, ascending;
   // from here on x() has them.
-  virtual std::vector<std::int32_t> nodes_near(const Box& box) = 0;
+  virtual std::vector<std::int32_t> nodes_near(const OrientedBox& box) = 0;
 };
 
 }  // namespace trocar

@@ -202,18 +202,12 @@ static std::int8_t side_of(std::span<const OfElement<std::int8_t>> sides, const 
   return side;
 }
 
-static double mean_edge(const Mesh& mesh, const Tet& tet) {
-  double sum = 0;
-  for (const auto& [a, b] : tet_edges) sum += (mesh.X[tet[a]] - mesh.X[tet[b]]).norm();
-  return sum / static_cast<double>(tet_edges.size());
-}
-
 // Parts are too small to say how fine a mesh is.
 static void keep_edges(const Mesh& mesh, const MeshEdit& edit, CutStroke& stroke) {
   std::vector<OfElement<double>> edge;
   for (const ElementSplit& split : edit.splits)
     if (find_element(stroke.whole_edge, split.element) == nullptr)
-      edge.push_back({split.element, mean_edge(mesh, tet_nodes(mesh, split.element))});
+      edge.push_back({split.element, tet_mean_edge(mesh, split.element)});
   merge_elements(stroke.whole_edge, edge);
 }
 

@@ -31,6 +31,9 @@ struct TetCutter::Front {
   CutStroke stroke;
   CutIndex index;
   std::optional<HexTets> tets;  // of a body that has or had hexahedra
+  // The least bound of the body's elements before blades touched them [m]; 0: not known yet. Edits
+  // leave it as it is: what they change, the stroke remembers.
+  double least_step = 0;
 
   // The mesh that the cut sees.
   const Mesh& seen(const Mesh& body) const { return tets ? tets->mesh : body; }
@@ -44,7 +47,7 @@ struct TetCutter::Front {
 };
 
 TetCutter::TetCutter(const CutTetOptions& options)
-    : front_(std::make_unique<Front>(Front{options, {}, {}, {}})) {}
+    : front_(std::make_unique<Front>(Front{options, {}, {}, {}, 0})) {}
 TetCutter::~TetCutter() = default;
 TetCutter::TetCutter(TetCutter&&) noexcept = default;
 
@@ -117,16 +120,13 @@ static void add_refusals(const std::vector<CutRefusal>& list, CutFigures& figure
   figures.n_refused = static_cast<std::int32_t>(figures.refusals.size());
 }
 
-// The least bound of the body before blades touched it.
-static double least_step(const Mesh& mesh, const CutStroke& stroke, CutIndex& index) {
+static double find_least_step(const Mesh& mesh, const CutStroke& stroke) {
   double least = std::numeric_limits<double>::infinity();
   auto before = stroke.step.begin();
-  std::int32_t e = 0;
-  for (const double now : find_steps(mesh, index)) {
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e) {
     while (before != stroke.step.end() && before->element < e) ++before;
     const bool is_known = before != stroke.step.end() && before->element == e;
-    least = std::min(least, is_known ? before->value : now);
-    ++e;
+    least = std::min(least, is_known ? before->value : tet_step_bound(mesh, e));
   }
   return least;
 }
@@ -135,8 +135,9 @@ static double least_step(const Mesh& mesh, const CutStroke& stroke, CutIndex& in
 MeshEdit TetCutter::Front::split(const Mesh& mesh, const CutSurroundings& around,
                                  const std::vector<ThinSlice>& slices, CutFigures& figures) {
   if (slices.empty()) return {};
-  const double floor = options.split_step_ratio * least_step(mesh, stroke, index);
-  std::vector<EdgeNode> inserted = nodes_in_slices(mesh, around, slices, floor);
+  if (least_step == 0) least_step = find_least_step(mesh, stroke);
+  std::vector<EdgeNode> inserted =
+      nodes_in_slices(mesh, around, slices, options.split_step_ratio * least_step);
   if (inserted.empty()) return {};
   MeshEdit edit = split_edges(mesh, around.patch.element, std::move(inserted));
   split_stroke(mesh, edit, stroke);
@@ -206,6 +207,7 @@ MeshEdit TetCutter::Front::advance(const Mesh& mesh, PresentPositions& positions
 
 void TetCutter::prepare(const Mesh& mesh) {
   Front& f = *front_;
+  if (!is_prepared(mesh)) f.least_step = 0;
   if (is_index_of(f.index, mesh) || !was_hexahedral(mesh)) {  // none if it is the index of `mesh`
     f.tets.reset();
     return update_index(mesh, f.index);

@@ -77,7 +77,7 @@ static std::vector<std::uint8_t> surface_nodes(const Mesh& mesh, const CutPatch&
   std::vector<std::uint8_t> is_surface(patch.node.size(), 0);
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     for (int f = 0; f < 4; ++f)
-      if (patch.across[e][f] < 0 &&
+      if (is_outer(patch, e, f) &&
           ((mesh.cut_facets[patch.element[e]] >> f & 1) != 0) == are_opened)
         for (const std::int32_t i : facet_nodes(patch, e, f)) is_surface[i] = 1;
   return is_surface;

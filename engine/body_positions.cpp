@@ -37,18 +37,27 @@ double begin_positions(Simulation& s) {
   return 0;
 }
 
-std::vector<std::int32_t> BodyPositions::elements_near(const Box& box) {
+// overlaps: whether an element's box overlaps `box` but for a margin.
+template <class AnyBox, class Overlaps>
+std::vector<std::int32_t> BodyPositions::find_elements(const AnyBox& box,
+                                                       const Overlaps& overlaps) {
   const double margin = rounding * s_.edge_length;
   std::vector<std::int32_t> elements = trocar::elements_near(box, way_ + margin, s_.boxes);
   find(nodes_of(s_.mesh, elements));
-  std::erase_if(elements, [&](std::int32_t e) {
-    return !element_box(s_.mesh, e, x()).overlaps(box, margin);
-  });
+  std::erase_if(elements,
+                [&](std::int32_t e) { return !overlaps(element_box(s_.mesh, e, x()), margin); });
   return elements;
 }
 
-std::vector<std::int32_t> BodyPositions::nodes_near(const Box& box) {
-  return nodes_of(s_.mesh, elements_near(box));
+std::vector<std::int32_t> BodyPositions::elements_near(const Box& box) {
+  return find_elements(box,
+                       [&](const Box& own, double margin) { return own.overlaps(box, margin); });
+}
+
+std::vector<std::int32_t> BodyPositions::nodes_near(const OrientedBox& box) {
+  return nodes_of(s_.mesh, find_elements(box, [&](const Box& own, double margin) {
+                    return box.may_overlap(own, margin);
+                  }));
 }
 
 }  // namespace trocar

@@ -21,11 +21,14 @@ class BodyPositions final : public PresentPositions {
 
   std::span<const Vec3> x() const override { return s_.cut_state.x; }
   void find(std::span<const std::int32_t> nodes) override { group_.find(nodes); }
-  std::vector<std::int32_t> nodes_near(const Box& box) override;
+  std::vector<std::int32_t> nodes_near(const OrientedBox& box) override;
   // Those whose boxes overlap this one, and so the same whatever the ranks and the age of s.boxes.
   std::vector<std::int32_t> elements_near(const Box& box);
 
  private:
+  template <class AnyBox, class Overlaps>
+  std::vector<std::int32_t> find_elements(const AnyBox& box, const Overlaps& overlaps);
+
   Simulation& s_;
   const CutGroup& group_;
   double way_ = 0;

@@ -31,9 +31,10 @@ std::vector<std::int32_t> surface_nodes_near(const Simulation& s, PresentPositio
                                              const BladeSweep& sweep, double reach) {
   Box box;
   for (const std::vector<Vec3>* edge : {&sweep.before, &sweep.after}) box.add(bounding_box(*edge));
+  box = box.grown(reach);
   std::vector<std::int32_t> nodes;
-  std::ranges::set_intersection(positions.nodes_near(box.grown(reach)), s.surface.node,
-                                std::back_inserter(nodes));
+  std::ranges::set_intersection(positions.nodes_near({.low = box.low, .high = box.high}),
+                                s.surface.node, std::back_inserter(nodes));
   return nodes;
 }
 

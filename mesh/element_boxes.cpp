@@ -128,15 +128,17 @@ void fit_element_boxes(const Mesh& mesh, std::span<const Vec3> x, ElementBoxes& 
   for (std::size_t k = n_leaves; --k > 0;) fit_parent(k, boxes);
 }
 
-std::vector<std::int32_t> elements_near(const Box& box, double way, const ElementBoxes& boxes) {
-  const double margin = way * (1 + 1e-12);  // its own rounding
+// may_meet: asked of boxes in the tree.
+template <class MayMeet>
+static std::vector<std::int32_t> elements_of_leaves(const ElementBoxes& boxes,
+                                                    const MayMeet& may_meet) {
   std::vector<std::int32_t> near;
   std::vector<std::size_t> stack{1};
   const std::size_t n_leaves = boxes.first.size() - 1;
   while (!stack.empty()) {
     const std::size_t k = stack.back();
     stack.pop_back();
-    if (!boxes.box[k].overlaps(box, margin)) continue;
+    if (!may_meet(boxes.box[k])) continue;
     if (k < n_leaves) {
       stack.insert(stack.end(), {2 * k, 2 * k + 1});
       continue;
@@ -145,6 +147,21 @@ std::vector<std::int32_t> elements_near(const Box& box, double way, const Elemen
   }
   sort_unique(near);
   return near;
+}
+
+static double margin_of(double way) {
+  return way * (1 + 1e-12);  // its own rounding
+}
+
+std::vector<std::int32_t> elements_near(const Box& box, double way, const ElementBoxes& boxes) {
+  return elements_of_leaves(boxes,
+                            [&](const Box& leaf) { return leaf.overlaps(box, margin_of(way)); });
+}
+
+std::vector<std::int32_t> elements_near(const OrientedBox& box, double way,
+                                        const ElementBoxes& boxes) {
+  return elements_of_leaves(boxes,
+                            [&](const Box& leaf) { return box.may_overlap(leaf, margin_of(way)); });
 }
 
 }  // namespace trocar

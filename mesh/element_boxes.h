@@ -48,5 +48,8 @@ void fit_element_boxes(const Mesh& mesh, std::span<const Vec3> x, ElementBoxes& 
 // All elements whose boxes overlap `box` where no node is more than `way` [m] from the boxes'
 // positions along any axis, and perhaps some that are near, ascending.
 std::vector<std::int32_t> elements_near(const Box& box, double way, const ElementBoxes& boxes);
+// The same of those whose boxes may overlap this one.
+std::vector<std::int32_t> elements_near(const OrientedBox& box, double way,
+                                        const ElementBoxes& boxes);
 
 }  // namespace trocar

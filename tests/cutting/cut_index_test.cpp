@@ -28,7 +28,6 @@ TEST(CutIndex, whose_elements_were_split_is_the_index_of_the_edited_mesh) {
   Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {5, 5, 5}, BoxElements::tet4_five);
   jitter(mesh, 0.2, 7);
   CutIndex index = index_of(mesh);
-  find_steps(mesh, index);
   std::vector<std::int32_t> all;
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e) all.push_back(e);
   std::vector<EdgeNode> inserted;
@@ -50,19 +49,6 @@ TEST(CutIndex, whose_elements_were_split_is_the_index_of_the_edited_mesh) {
   EXPECT_EQ(index.is_surface, fresh.is_surface);
   EXPECT_GT(std::count(fresh.is_surface.end() - 4, fresh.is_surface.end(), 0), 0);
   EXPECT_GT(std::count(fresh.is_surface.end() - 4, fresh.is_surface.end(), 1), 0);
-  EXPECT_TRUE(std::ranges::equal(find_steps(mesh, index), find_steps(mesh, fresh)));
-}
-
-// Moved nodes change the bounds of all elements around them.
-TEST(CutIndex, that_was_edited_finds_the_steps_of_the_edited_mesh) {
-  Body body(make_box({0, 0, 0}, {1, 1, 1}, {5, 5, 5}, BoxElements::tet4_five));
-  CutIndex index = index_of(body.mesh);
-  const auto find = [&](int) { find_steps(body.mesh, index); };
-  const auto check = [&] {
-    CutIndex fresh = index_of(body.mesh);
-    ASSERT_TRUE(std::ranges::equal(find_steps(body.mesh, index), find_steps(body.mesh, fresh)));
-  };
-  ASSERT_GT(cut_with_index(Vec3(1, 0.5, 0.2), body, index, find, check).n_edits, 3);
 }
 
 // Found patch by patch, and forgotten where an edit parts elements.

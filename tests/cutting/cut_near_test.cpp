@@ -26,10 +26,10 @@ Vec3 random_point(std::mt19937& random, const Vec3& low, const Vec3& high) {
   return p;
 }
 
-BandBox random_box(std::mt19937& random) {
+OrientedBox random_box(std::mt19937& random) {
   const Vec3 n = random_point(random, {-1, -1, -1}, {1, 1, 1}).normalized();
   const Vec3 u = n.unitOrthogonal();
-  BandBox box;
+  OrientedBox box;
   box.axes << n, u, n.cross(u);
   const Vec3 middle = box.axes.transpose() * random_point(random, {0, 0, 0}, {2.5, 1, 1});
   const Vec3 half = random_point(random, {0, 0.02, 0.02}, {0.02, 0.6, 0.6});
@@ -39,7 +39,7 @@ BandBox random_box(std::mt19937& random) {
 }
 
 // Whether points of a fine grid over the box's flat middle lie in the element: it is surely met.
-bool is_met(const Mesh& mesh, std::int32_t e, const BandBox& box) {
+bool is_met(const Mesh& mesh, std::int32_t e, const OrientedBox& box) {
   const auto c = mesh.corners(e);
   Mat3 D;
   for (int k = 0; k < 3; ++k) D.col(k) = mesh.X[c[k + 1]] - mesh.X[c[0]];
@@ -56,7 +56,7 @@ bool is_met(const Mesh& mesh, std::int32_t e, const BandBox& box) {
 }
 
 // The element that holds the middle of the box, nothing if it is outside.
-std::vector<std::int32_t> begin_of(const Mesh& mesh, BandBox box) {
+std::vector<std::int32_t> begin_of(const Mesh& mesh, OrientedBox box) {
   box.low = box.high = 0.5 * (box.low + box.high);
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
     if (is_met(mesh, e, box)) return {e};
@@ -70,7 +70,7 @@ TEST(NearElements, are_found_from_the_surface_or_the_begin_wherever_a_band_lies)
   std::mt19937 random(1);
   int n_met = 0;
   for (int trial = 0; trial < 60; ++trial) {
-    const BandBox box = random_box(random);
+    const OrientedBox box = random_box(random);
     const auto all = near_elements(mesh, index, positions, box).tets;
     const auto found = near_elements(mesh, index, positions, box, begin_of(mesh, box)).tets;
     EXPECT_TRUE(std::ranges::includes(all, found));
@@ -85,7 +85,7 @@ TEST(NearElements, are_found_from_the_surface_or_the_begin_wherever_a_band_lies)
 }
 
 // Neither the box's axes nor those of space part them.
-bool may_meet(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x, const BandBox& box) {
+bool may_meet(const Mesh& mesh, std::int32_t e, std::span<const Vec3> x, const OrientedBox& box) {
   Box along_axes, own, around;
   for (const std::int32_t i : mesh.corners(e)) {
     along_axes.add(box.axes.transpose() * x[i]);
@@ -113,7 +113,7 @@ TEST(NearElements, of_a_cut_and_stretched_body_are_those_that_a_look_at_all_find
   std::mt19937 random(2);
   std::size_t n_found = 0;
   for (int trial = 0; trial < 60; ++trial) {
-    BandBox box = random_box(random);
+    OrientedBox box = random_box(random);
     box.low += box.axes.transpose() * Vec3(random() % 5, 0, 0);
     box.high = box.high.cwiseMax(box.low + Vec3::Constant(0.05));
     std::vector<std::int32_t> all, at_surface;
@@ -135,7 +135,7 @@ TEST(NearElements, of_a_cut_and_stretched_body_are_those_that_a_look_at_all_find
 TEST(NearElements, deep_in_the_body_are_found_from_the_begin_only) {
   const Mesh mesh = make_box({0, 0, 0}, {1, 1, 1}, {16, 16, 16}, BoxElements::tet4_kuhn);
   CutIndex index = index_of(mesh);
-  BandBox box;
+  OrientedBox box;
   box.axes = Mat3::Identity();
   box.low = box.high = Vec3(0.51, 0.52, 0.53);  // eight cells deep
   KnownPositions positions(mesh, mesh.X);

@@ -22,7 +22,7 @@ class AskedPositions final : public PresentPositions {
   void find(std::span<const std::int32_t> nodes) override {
     for (const std::int32_t i : nodes) x_[i] = known_.x()[i];
   }
-  std::vector<std::int32_t> nodes_near(const Box& box) override {
+  std::vector<std::int32_t> nodes_near(const OrientedBox& box) override {
     std::vector<std::int32_t> nodes = known_.nodes_near(box);
     find(nodes);
     return nodes;

@@ -24,7 +24,7 @@ class KnownPositions final : public PresentPositions {
   KnownPositions& operator=(const KnownPositions&) = delete;
   std::span<const Vec3> x() const override { return x_; }
   void find(std::span<const std::int32_t> /*nodes*/) override {}
-  std::vector<std::int32_t> nodes_near(const Box& box) override {
+  std::vector<std::int32_t> nodes_near(const OrientedBox& box) override {
     return nodes_of(mesh_, elements_near(box, way_, boxes_));
   }
 
