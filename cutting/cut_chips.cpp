@@ -43,32 +43,32 @@ static bool add_volume(const Tissue& t, std::span<const Vec3> X,
 namespace {
 
 // What searches for small pieces know of an element.
-enum class Search : std::uint8_t { unseen, seen, in_large };
+enum class PieceMark : std::uint8_t { unseen, seen, in_large };
 
 }  // namespace
 
 // Adds the elements of the patch that hang together with `first` after the opening; false if they
 // are no small piece. Then the rest of them is left to other searches, which end here.
-static bool flood_patch(const Tissue& t, std::int32_t first, std::vector<Search>& search,
+static bool flood_patch(const Tissue& t, std::int32_t first, std::vector<PieceMark>& mark,
                         SmallPiece& piece) {
   const CutPatch& patch = t.cut.around.patch;
   bool is_small = true;
-  search[first] = Search::seen;
+  mark[first] = PieceMark::seen;
   piece.element.push_back(first);
   for (std::size_t k = 0; is_small && k < piece.element.size(); ++k) {
     const std::int32_t e = piece.element[k];
     is_small = add_volume(t, patch.X, patch.corner[e], piece);
     for (int f = 0; is_small && f < 4; ++f) {
       const std::int32_t u = patch.across[e][f];
-      if (u < 0 || search[u] == Search::seen || !is_joined(patch, t.cut.opening.corner, e, f))
+      if (u < 0 || mark[u] == PieceMark::seen || !is_joined(patch, t.cut.opening.corner, e, f))
         continue;
-      is_small = search[u] == Search::unseen;
+      is_small = mark[u] == PieceMark::unseen;
       if (is_small) piece.element.push_back(u);
-      if (is_small) search[u] = Search::seen;
+      if (is_small) mark[u] = PieceMark::seen;
     }
   }
   for (const std::int32_t e : piece.element)
-    if (!is_small) search[e] = Search::in_large;
+    if (!is_small) mark[e] = PieceMark::in_large;
   return is_small;
 }
 
@@ -128,10 +128,10 @@ static bool is_free(const Tissue& t, SmallPiece& piece) {
 // The pieces below the flakes' volume that the opening would free, the smallest first.
 static std::vector<SmallPiece> small_pieces(const Tissue& t) {
   std::vector<SmallPiece> pieces;
-  std::vector<Search> search(t.cut.around.patch.element.size(), Search::unseen);
+  std::vector<PieceMark> mark(t.cut.around.patch.element.size(), PieceMark::unseen);
   for (const auto& [first, f] : t.cut.opening.facet) {
     SmallPiece p;
-    if (search[first] == Search::unseen && flood_patch(t, first, search, p) && is_free(t, p))
+    if (mark[first] == PieceMark::unseen && flood_patch(t, first, mark, p) && is_free(t, p))
       pieces.push_back(std::move(p));
   }
   std::ranges::stable_sort(pieces, {}, &SmallPiece::V);
