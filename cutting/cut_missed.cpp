@@ -169,8 +169,9 @@ static std::size_t count_opened(const CutStroke& stroke) {
 // Whether X lies where the stroke ends in the tissue, or where the blade has stopped and not parted
 // yet what it crossed.
 static bool is_at_end(const CutStroke& stroke, const Vec3& X) {
-  if (has_come_out(stroke)) return !is_clear_of_rim(stroke, X);
-  constexpr double front = 2, wider_rim = 1.5;  // mean edges
+  // Mean edges; elements that hold the rim are longer than one.
+  constexpr double front = 2, wider_rim = 1.5;
+  if (has_come_out(stroke)) return !is_clear_of_rim(stroke, X, wider_rim);
   const double reach = front * stroke.mean_edge;
   const auto is_near = [&](const BladePoint& a, const BladePoint& b) {
     return (a.is_inside || b.is_inside) && (nearest_on_segment(a.X, b.X, X) - X).norm() < reach;

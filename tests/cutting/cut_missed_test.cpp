@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "cutting_cube.h"
 #include "known_positions.h"
+#include "mesh/mesh_file.h"
+#include "mesh/quality.h"
 
 namespace trocar {
 namespace {
@@ -108,6 +112,26 @@ TEST(MissedPlaces, are_none_where_a_blade_stops_in_the_tissue) {
     const Outcome outcome = cut_along_legs({{1.2, end}});
     EXPECT_EQ(outcome.n_pieces, 1);
     EXPECT_TRUE(outcome.refusals.empty()) << end << ": " << outcome.refusals.size();
+  }
+}
+
+// Straight strokes from side to side, the blade's lower end in the body: in a mesh without a grid
+// elements reach farther from the rim than a mean edge.
+TEST(MissedPlaces, are_none_above_the_rim_of_a_stroke_in_an_unstructured_mesh) {
+  const Mesh mesh = read_mesh(TROCAR_SOURCE_DIR "/bench/meshes/box_delaunay.msh", 1);  // unit cube
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> within(0.3, 0.7);
+  for (int trial = 0; trial < 24; ++trial) {
+    const double y = within(random), low = within(random);
+    Body body(mesh);
+    TetCutter cutter{CutTetOptions{}};
+    const Ledger ledger = cut(body, straight_blade({-0.05, y, low}, {-0.05, y, 1.05}, {1.1, 0, 0}),
+                              Vec3(0, 1, 0), 20, cutter);
+    EXPECT_EQ(fault(body), "");
+    EXPECT_GT(ledger.total.n_opened_facets, 20) << trial;
+    for (const CutRefusal& refusal : ledger.total.refusals)
+      ADD_FAILURE() << trial << ": " << (refusal.X.z() - low) / mean_edge_length(mesh)
+                    << " mean edges above the rim";
   }
 }
 
