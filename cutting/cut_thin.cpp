@@ -71,16 +71,15 @@ static std::vector<std::int32_t> twins_of(const CutPatch& patch, const CutStroke
   return twin;
 }
 
-// (n_nodes) On facets without a neighbour: that cuts have opened, or others.
-static std::vector<std::uint8_t> surface_nodes(const Mesh& mesh, const CutPatch& patch,
-                                               bool are_opened) {
-  std::vector<std::uint8_t> is_surface(patch.node.size(), 0);
+// Nodes on facets without a neighbour: that cuts have opened, or others.
+static void mark_surface(const Mesh& mesh, const CutPatch& patch, Crossings& c) {
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
-    for (int f = 0; f < 4; ++f)
-      if (is_outer(patch, e, f) &&
-          ((mesh.cut_facets[patch.element[e]] >> f & 1) != 0) == are_opened)
-        for (const std::int32_t i : facet_nodes(patch, e, f)) is_surface[i] = 1;
-  return is_surface;
+    for (int f = 0; f < 4; ++f) {
+      if (patch.across[e][f] >= 0 || !is_outer(patch, e, f)) continue;
+      const bool is_opened = (mesh.cut_facets[patch.element[e]] >> f & 1) != 0;
+      for (const std::int32_t i : facet_nodes(patch, e, f))
+        (is_opened ? c.is_lip : c.is_outer)[i] = 1;
+    }
 }
 
 static Crossings find_crossings(const Mesh& mesh, const CutSurroundings& around,
@@ -93,10 +92,11 @@ static Crossings find_crossings(const Mesh& mesh, const CutSurroundings& around,
               hits_of(stroke, patch.element),
               find_elements(stroke.side, patch.element),
               none,
-              surface_nodes(mesh, patch, false),
-              surface_nodes(mesh, patch, true),
+              none,
+              none,
               none,
               twins_of(patch, stroke)};
+  mark_surface(mesh, patch, c);
   for (const std::int32_t node : stroke.made_node)
     if (const std::int32_t i = patch.local_node(node); i >= 0) c.is_made[i] = 1;
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
