@@ -76,12 +76,12 @@ TEST(PatchTest, energy_is_the_exact_one_whatever_the_element) {
 // The boundary goes to A X within 0.1 s, the rest follows by its own motion; largest distance of
 // inner nodes from A X at the end, over the side.
 static double miss_of_dynamic_patch(Formulation formulation) {
-  constexpr double side = .06, ramp = .1;
+  constexpr double width = .06, ramp = .1;
   Body body = patch_at_rest(formulation, Precision::in_double, 200);
   std::vector<PrescribedNode> boundary;
   for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)
-    if (!is_inside(body.mesh.X[i], side)) boundary.push_back({.node = i});
-  // Waves between clamped faces have omega > pi sqrt(3) c_s / side = 91 / s, less than alpha / 2:
+    if (!is_inside(body.mesh.X[i], width)) boundary.push_back({.node = i});
+  // Waves between clamped faces have omega > pi sqrt(3) c_s / width = 91 / s, less than alpha / 2:
   // they die down faster than exp(-s t), s = alpha/2 - sqrt(alpha^2/4 - omega^2) = 58 / s.
   while (body.state.time < ramp + .6) {
     const double dt = .85 * watch(body.model, body.part, body.state).stable_step;
@@ -96,7 +96,7 @@ static double miss_of_dynamic_patch(Formulation formulation) {
   double most = 0;
   for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)
     most = larger_or_nan(
-        most, (Vec3::Map(&body.state.u[3 * i]) - patch_gradient() * body.mesh.X[i]).norm() / side);
+        most, (Vec3::Map(&body.state.u[3 * i]) - patch_gradient() * body.mesh.X[i]).norm() / width);
   return most;
 }
 
