@@ -1,7 +1,15 @@
 // Tissue that is crushed, inverted, shaken or badly meshed.
+#include "solver/relax.h"
 #include "stability_body.h"
 
 namespace trocar {
+
+static double centre_of(const Body& body) {
+  double moment = 0;
+  for (std::int32_t i = 0; i < body.mesh.n_nodes(); ++i)
+    moment += body.model.mass[i] * (body.mesh.X[i].z() + body.state.u[3 * i + 2]);
+  return moment / sum(body.model.mass);
+}
 
 // Uniaxial strain to a fifth of the height: P = dW/dl is known, the step must follow the tissue.
 std::vector<StabilityRow> confined_compression(double scale) {
@@ -145,6 +153,72 @@ std::vector<StabilityRow> slivers(double scale) {
                     text("energy %+.2f %%, step %.1e s (element %d)", 100 * grown, w.stable_step,
                          w.stable_element),
                     w.stable_element == 0 && grown < .01});
+  }
+  return rows;
+}
+
+// Every element with nodes of its own: what cuts may leave.
+std::vector<StabilityRow> shards(double scale) {
+  std::vector<StabilityRow> rows;
+  for (const BoxElements elements : both) {
+    const BodyOptions options{.materials = {{MaterialModel::neo_hookean, 3000, .49, 1000}}};
+    const Mesh whole = block(elements, 6, 0);
+    Mesh parted;
+    for (std::int32_t e = 0; e < whole.n_elements(); ++e) {
+      std::vector<std::int32_t> corners;
+      for (const std::int32_t i : whole.corners(e)) {
+        corners.push_back(parted.n_nodes());
+        parted.X.push_back(whole.X[i]);
+      }
+      add_element(parted, whole.element_type[e], corners);
+    }
+    Body before = make_body(whole, options);
+    const double of_whole = limit_of(before);
+    Body body = make_body(parted, options);
+    const double limit = limit_of(body), bound = least_element_step(body);
+    shake(body.state.v, 1e-3, 3);
+    Body as_before = body;
+    const double grown = energy_growth(body, .9 * limit, count(20000, scale));
+    const double diverged = energy_growth(as_before, .9 * of_whole, 400);
+    rows.push_back({text("%s, block that falls into its elements", name_of(elements)),
+                    "limit found anew, not below the element bound: energy within 1 % at 0.9 of "
+                    "it, which grows at 0.9 of the whole block's",
+                    text("limit %.2f times shorter; energy %+.2f %%; %s", of_whole / limit,
+                         100 * grown, diverged > 1 ? "grows" : "kept"),
+                    grown < .01 && diverged > 1 && limit > .999 * bound});
+  }
+  return rows;
+}
+
+// A block that rests on its foot, and from then on hangs from it.
+std::vector<StabilityRow> gravity_flip(double scale) {
+  std::vector<StabilityRow> rows;
+  for (const BoxElements elements : both) {
+    const Mesh mesh = block(elements, 4, .15);
+    std::vector<FixedMask> fixed;
+    for (const Vec3& X : mesh.X) fixed.push_back(X.z() < 1e-9 ? 7 : 0);
+    Body body = make_body(mesh, {.materials = {{MaterialModel::neo_hookean, 3000, .45, 1000}},
+                                 .solver = {.gravity = Vec3(0, 0, -9.81)},
+                                 .fixed = fixed});
+    const bool is_at_rest = relax(body.model, {}, body.state, body.scratch).is_converged;
+    const double height = centre_of(body);
+    body.model.options.gravity *= -1;
+    const double weight = 9.81 * sum(body.model.mass);
+    double start = 0, largest_miss = 0, top = height, swing = 0;
+    for (int k = 0; k < count(20000, scale); ++k) {
+      const double dt = .85 * watch(body.model, body.part, body.state).stable_step;
+      const double lift = weight * (centre_of(body) - height);
+      const double energy = step_and_measure(body, dt) - lift;
+      if (k == 0) start = energy;
+      top = std::max(top, centre_of(body));
+      swing = std::max(swing, lift);
+      largest_miss = larger_or_nan(largest_miss, std::abs(energy - start));
+    }
+    rows.push_back(
+        {text("%s, block at rest in its weight, which is turned round", name_of(elements)),
+         "energy within 1 % of what the weight turns over",
+         text("%.2f %%, swings up by %.1f mm", 100 * largest_miss / swing, 1e3 * (top - height)),
+         is_at_rest && is_finite(body) && largest_miss < .01 * swing});
   }
   return rows;
 }

@@ -84,6 +84,24 @@ static double solution_error(const Variant& variant, int n, double nu) {
   return std::sqrt(difference / norm);
 }
 
+TEST(V09ManufacturedSolution, converges_near_incompressibility_unless_elements_lock) {
+  for (const Variant& variant : {hex_one_point, hex_enhanced, tet_nodal_pressure, tet_plain}) {
+    const double coarse = solution_error(variant, 8, .49), fine = solution_error(variant, 16, .49);
+    const double order = order_between(coarse, fine);
+    const bool is_locking = variant.name == tet_plain.name;
+    check_figure({"V9 Manufactured solution", "L2 error at nu = 0.49",
+                  mesh_name(variant, {16, 16, 16}), fine, 0, is_locking ? .1 : .05,
+                  is_locking ? "closed form (locks)" : "closed form", order});
+    // numerics V9: these meshes have yet to come to the order 2 (1.6 from the coarser one), and
+    // plain tetrahedra have .8.
+    if (is_locking) {
+      EXPECT_LT(order, 1.2);
+    } else {
+      EXPECT_GT(order, 1.6) << variant.name;
+    }
+  }
+}
+
 TEST(V09ManufacturedSolution, the_displacement_converges_with_the_square_of_the_element_width) {
   for (const Variant& variant :
        {hex_one_point, hex_enhanced, hex_full, tet_plain, tet_nodal_pressure})
