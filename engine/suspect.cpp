@@ -128,7 +128,7 @@ std::string just_opened(std::span<const Tool> tools, double t) {
 
 // `mover` comes near in the frame; without a name: none does.
 std::string cure(const Simulation& s, const Mover& mover, double t) {
-  const std::string rest = ", a finer mesh or a lower poisson_ratio";
+  const std::string rest = ", a finer mesh, a higher frame_rate or a lower poisson_ratio";
   if (const std::string opened = just_opened(s.tools, t); !opened.empty())
     return material_cure(s.materials) + "a shorter pull of " + opened +
            ", which has just let go, or a way back before it opens" + rest;
