@@ -76,8 +76,10 @@ static bool touches_small_elements(const Simulation& s) {
 }
 
 static bool drags_tissue(const Simulation& s) {
-  return s.scene.cutting.resistance > 0 &&
-         std::ranges::any_of(s.cuts, [](const CutStage& stage) { return stage.is_engaged; });
+  const auto drags = [](const CutStage& stage) {
+    return stage.is_engaged || !stage.resisted.empty();
+  };
+  return s.scene.cutting.resistance > 0 && std::ranges::any_of(s.cuts, drags);
 }
 
 void choose_local_steps(Simulation& s, double t) {

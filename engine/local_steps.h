@@ -27,10 +27,11 @@ bool follow_local_steps(std::span<const std::int32_t> elements, std::span<const 
 bool keep_local_steps(const MultiRatePlan& before, bool is_given_up,
                       std::span<const std::int32_t> nodes, Simulation& s);
 
-// Sets s.has_local_steps of a frame whose contacts are known. Contact and drag know of no substeps:
-// small elements would spring free of an instrument in each of them, and a plate pressed 0.57 of
-// its force. While one may touch them, or tissue tissue at them, and while a blade that meets
-// resistance is in the tissue, all elements take their step. t: for the event that says so.
+// Sets s.has_local_steps of a frame whose contacts and drag are known. Contact and drag know of no
+// substeps: small elements would spring free of an instrument in each of them, and a plate pressed
+// 0.57 of its force. While one may touch them, or tissue tissue at them, and while a blade is in
+// the tissue, or comes into it in the frame, all elements take their step. t: for the event that
+// says so.
 void choose_local_steps(Simulation& s, double t);
 // Of the stable step with local steps: what the frame may take.
 double step_share(const Simulation& s);
