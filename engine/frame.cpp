@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/check.h"
 #include "base/number_text.h"
 #include "engine/checkpoint_output.h"
 #include "engine/contact_step.h"
@@ -39,6 +40,7 @@ double stable_step_of_frame(const Simulation& s) {
 void plan_substeps(const Simulation& s, FrameSpan& span) {
   const double length = 1 / s.scene.time.frame_rate;
   const double dt = s.step_factor * s.step_scale * stable_step_of_frame(s);
+  CHECK_OP(dt, >, 0);
   span.n_substeps = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / dt)));
   span.dt = length / static_cast<double>(span.n_substeps);
 }
