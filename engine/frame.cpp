@@ -173,10 +173,10 @@ FrameSpan begin_substeps(Simulation& s) {
     travel = largest_speed(s) * (span.t1 - span.t0);
     detect(s, span, travel);
   }
+  if (!s.cuts.empty()) prepare_drag(s, span, travel);
   choose_local_steps(s, span.t0);
   plan_substeps(s, span);
   if (s.contact && s.contact->has_tissue) note_pair_look(s, span, 0);
-  if (!s.cuts.empty()) prepare_drag(s, span, travel);
   if (s.sleep) wake_touched(s);
   list_waiting(s);
   if (s.energy) begin_frame_work(s);
