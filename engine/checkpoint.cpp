@@ -185,7 +185,7 @@ FrameStart start_of_frame(const Simulation& s) {
 Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start) {
   CHECK_OP(s.state.step, ==, start.step);
   s.look = start.look;
-  s.sleep = start.sleep;
+  if (s.sleep) static_cast<SleepRoll&>(*s.sleep) = *start.sleep;
   s.holds.holds = start.holds;
   s.holds.is_open = start.is_open;
   localise_holds(s.holds, s.part);

@@ -75,7 +75,7 @@ struct FrameStart {
   std::vector<Hold> holds;
   std::vector<std::uint8_t> is_open;
   ElementLook look;
-  std::optional<Sleep> sleep;
+  std::optional<SleepRoll> sleep;
   bool has_local_steps = false;
   std::size_t n_events = 0;
   std::int64_t n_roll_backs = 0;
