@@ -55,14 +55,16 @@ void take_up_holds(Simulation& s) {
   if (s.sleep) s.sleep->quiet_time = 0;
 }
 
-void grasp(Simulation& s, const FrameSpan& span) {
-  const double before = s.scene.time.at(s.frame - 1);
-  if (!will_act(s.tools, before, span.t0)) return;
+// What graspers and scissors do as the frame begins.
+void open_and_close(Simulation& s) {
+  const double before = s.scene.time.at(s.frame - 1), now = s.scene.time.at(s.frame);
+  const std::vector<DueAct> due = due_acts(s.tools, before, now);
+  if (due.empty()) return;
   std::vector<Vec3> x;
-  if (will_grasp(s.tools, before, span.t0)) x = gather_state(s).x;
-  const std::vector<GraspAct> acts = act_graspers(s.holds, s.tools, before, span.t0, x, s.fixed);
+  if (does_grasper_close(due, s.tools)) x = gather_state(s).x;
+  const std::vector<GraspAct> acts = act_graspers(s.holds, s.tools, due, {now, x, s.fixed});
   if (!acts.empty()) take_up_holds(s);
-  for (const GraspAct& act : acts) note_grasp(s, span.t0, act);
+  for (const GraspAct& act : acts) note_grasp(s, now, act);
 }
 
 // travel: the longest way that a node makes within the frame at its present speed. [m]
@@ -306,7 +308,7 @@ void step_alone(Simulation& s, double dt) {
 
 void run_frame(Simulation& s, Outputs& outputs) {
   const double start = monotonic_seconds();
-  grasp(s, next_frame(s));
+  open_and_close(s);
   const double stable_before = std::min(s.watch.stable_step, s.held_step);
   const FrameSpan span = step_safely(s);
   hold_step(s, span, stable_before);
