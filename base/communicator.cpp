@@ -223,16 +223,28 @@ void Communicator::broadcast(std::vector<std::byte>& bytes, int root) const {
               MPI_BYTE, root, handle_->group);
 }
 
+template <class T>
+static std::vector<T> all_gather_in(MPI_Comm group, int size, std::span<const T> values,
+                                    MPI_Datatype type) {
+  const int n_own = count_of(values.size());
+  const std::vector<int> counts = all_counts(group, size, n_own);
+  const std::vector<int> offsets = offsets_of(counts);
+  std::vector<T> all(static_cast<std::size_t>(offsets.back()));
+  MPI_Allgatherv(values.data(), n_own, type, all.data(), counts.data(), offsets.data(), type,
+                 group);
+  return all;
+}
+
 std::vector<double> Communicator::all_gather(std::span<const double> values) const {
   ++traffic_.n_collectives;
   if (!handle_) return {values.begin(), values.end()};
-  const int n_own = count_of(values.size());
-  const std::vector<int> counts = all_counts(handle_->group, size_, n_own);
-  const std::vector<int> offsets = offsets_of(counts);
-  std::vector<double> all(static_cast<std::size_t>(offsets.back()));
-  MPI_Allgatherv(values.data(), n_own, MPI_DOUBLE, all.data(), counts.data(), offsets.data(),
-                 MPI_DOUBLE, handle_->group);
-  return all;
+  return all_gather_in(handle_->group, size_, values, MPI_DOUBLE);
+}
+
+std::vector<std::byte> Communicator::all_gather(std::span<const std::byte> bytes) const {
+  ++traffic_.n_collectives;
+  if (!handle_) return {bytes.begin(), bytes.end()};
+  return all_gather_in(handle_->group, size_, bytes, MPI_BYTE);
 }
 
 std::vector<double> Communicator::gather(std::span<const double> values) const {

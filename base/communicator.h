@@ -60,6 +60,7 @@ class Communicator {
   // Concatenation of every rank's values in rank order, on every rank / on the root (empty
   // elsewhere).
   std::vector<double> all_gather(std::span<const double> values) const;
+  std::vector<std::byte> all_gather(std::span<const std::byte> bytes) const;
   std::vector<double> gather(std::span<const double> values) const;
   std::vector<std::string> all_gather(const std::string& text) const;
   // The first (lowest) rank whose `text` is not empty decides: its text, on every rank; "" if all

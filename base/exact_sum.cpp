@@ -82,6 +82,13 @@ void ExactSum::all_sum(std::span<ExactSum> sums, const Communicator& communicato
   }
 }
 
+double sum_over_ranks(std::span<const double> values, const Communicator& communicator) {
+  ExactSum sum;
+  sum.add(values);
+  sum.all_sum(communicator);
+  return sum.value();
+}
+
 std::vector<Vec3> sum_over_ranks(std::span<const ExactSum3> sums,
                                  const Communicator& communicator) {
   std::vector<ExactSum> all;

@@ -38,6 +38,9 @@ inline double exact_sum(std::span<const double> values) {
   return sum.value();
 }
 
+// Of all ranks' values. Collective.
+double sum_over_ranks(std::span<const double> values, const Communicator& communicator);
+
 // One for each component of a vector.
 using ExactSum3 = std::array<ExactSum, 3>;
 

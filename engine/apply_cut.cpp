@@ -68,9 +68,9 @@ bool rebuild_all(std::span<const std::int32_t> nodes, Simulation& s) {
     return true;
   }
   const MultiRatePlan before = s.local_steps->plan;
-  const bool is_given_up = !s.multirate;
+  const LocalStepVerdict verdict = local_step_verdict(s);
   rebuild_topology(s);
-  return keep_local_steps(before, is_given_up, nodes, s);
+  return keep_local_steps(before, verdict, nodes, s);
 }
 
 // Whether an edit changes no energies but those around it.

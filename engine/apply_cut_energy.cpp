@@ -97,18 +97,10 @@ std::vector<std::int32_t> adjustable_nodes(const Simulation& s, const MeshEdit& 
   for (const ElementSplit& split : edit.splits)
     nodes.insert(nodes.end(), s.mesh.corners(split.element).begin(),
                  s.mesh.corners(split.element).end());
-  std::vector<std::uint8_t> is_held = immovable_nodes(s.holds, s.fixed);
-  for (const EdgeNode& node : edit.inserted) {
-    nodes.push_back(static_cast<std::int32_t>(is_held.size()));
-    const auto held = [&](std::int32_t i) { return is_held[i] != 0; };
-    is_held.push_back(held(node.end[0]) && held(node.end[1]) ? 1 : 0);
-  }
-  for (std::size_t k = 0; k < edit.duplicate_parent.size(); ++k) {
-    nodes.push_back(static_cast<std::int32_t>(is_held.size()));
-    is_held.push_back(is_held[edit.duplicate_parent[k]]);
-  }
+  for (std::size_t k = 0; k < edit.n_new_nodes(); ++k)
+    nodes.push_back(s.mesh.n_nodes() + static_cast<std::int32_t>(k));
   sort_unique(nodes);
-  std::erase_if(nodes, [&](std::int32_t i) { return is_held[i] != 0; });
+  std::erase_if(nodes, [&](std::int32_t i) { return is_immovable(s.holds, s.fixed, i, edit); });
   return nodes;
 }
 
@@ -154,11 +146,10 @@ TakenUp take_up_around(Simulation& s, std::span<const std::int32_t> nodes, doubl
   TakenUp taken{.nodes = {}, .surplus = surplus};
   if (std::abs(surplus) <= tolerance) return taken;
   taken.nodes.assign(nodes.begin(), nodes.end());
-  const std::vector<std::uint8_t> is_immovable = immovable_nodes(s.holds, s.fixed);
   for (int ring = 0; ring < most_rings && std::abs(taken.surplus) > tolerance; ++ring) {
     taken.nodes = nodes_of(s.mesh, elements_around(s.corners, taken.nodes));
     std::vector<std::int32_t> movable = taken.nodes;
-    std::erase_if(movable, [&](std::int32_t i) { return is_immovable[i] != 0; });
+    std::erase_if(movable, [&](std::int32_t i) { return is_immovable(s.holds, s.fixed, i); });
     const std::unique_ptr<Patch> patch =
         make_patch_of(s, elements_of_forces(s, taken.nodes), {.global = global});
     const auto energy = [&] {

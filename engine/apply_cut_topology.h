@@ -1,6 +1,7 @@
 // What follows from mesh and owners (rebuild_topology), after an edit that left every corner its
 // owner: made anew around the edit, kept elsewhere, but for the lists of elements where some were
-// split. A rank that holds none of the edited elements keeps its halo and model.
+// split, and for local steps and what follow_model makes, which look through the whole body. A rank
+// that holds none of the edited elements keeps its halo and model.
 #pragma once
 
 #include <cstdint>

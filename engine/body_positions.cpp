@@ -14,9 +14,8 @@ constexpr double rounding = 1e-6;  // edges: elements hold points that lie on th
 double largest_own_way(const Simulation& s) {
   double most = 0;
   for (std::int32_t local = 0; local < s.part.n_owned; ++local) {
-    const auto i = static_cast<std::size_t>(s.part.node_global[local]);
-    const Vec3 x = s.mesh.X[i] + Vec3::Map(&s.state.u[3 * std::ptrdiff_t{local}]);
-    most = std::max(most, (x - s.boxes.x[i]).cwiseAbs().maxCoeff());
+    const Vec3 way = present_position(s, local) - s.boxes.x[s.part.node_global[local]];
+    most = std::max(most, way.cwiseAbs().maxCoeff());
   }
   return most;
 }

@@ -21,6 +21,7 @@
 #include "engine/instrument_check.h"
 #include "engine/owners.h"
 #include "engine/pair_look.h"
+#include "engine/support_forces.h"
 #include "engine/tissue.h"
 #include "mesh/connected_nodes.h"
 #include "mesh/mesh_file.h"
@@ -33,9 +34,9 @@ namespace {
 // Depth from which on an instrument is not laid on the body but lies in it, in reaches of contact.
 constexpr double buried = 0.4;
 
-FixedMask fixed_mask(const std::string& components) {
+FixedMask fixed_mask(const std::string& fix) {
   FixedMask mask = 0;
-  for (const char c : components) mask = static_cast<FixedMask>(mask | (1 << (c - 'x')));
+  for (const int axis : axes_of(fix)) mask = static_cast<FixedMask>(mask | (1 << axis));
   return mask;
 }
 
@@ -48,7 +49,8 @@ void build_supports(Simulation& s) {
     s.holds.paths.emplace_back(support.path);
     const NodeSet* set = find_node_set(s.mesh, support.region);
     if (support.path.empty()) {
-      for (const std::int32_t node : set->node) s.fixed[node] |= fixed_mask(support.fix);
+      const FixedMask mask = fixed_mask(support.fix);
+      for (const std::int32_t node : set->node) s.fixed[node] |= mask;
       continue;
     }
     for (const std::int32_t node : set->node)

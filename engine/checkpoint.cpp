@@ -70,8 +70,7 @@ void restore_searches(const Checkpoint& c, Simulation& s) {
   static_cast<SearchMemory&>(s.look) = c.searches;
   s.look.stiffening.reset();
   if (c.has_stiffening) find_stiffening_at_look(s);
-  if (!c.has_local_steps) s.multirate.reset();  // it was given up
-  if (s.multirate) s.multirate->is_judged = s.look.is_done;
+  take_verdict(c.local_steps, s);
   if (s.energy && c.has_energies)
     s.energy->memory = c.energy;
   else if (s.energy)
@@ -113,7 +112,7 @@ Checkpoint take_checkpoint(Simulation& s) {
   if (s.look.is_done) c.looked_at = gather_owned(s, s.look.u());
   c.searches = s.look;
   c.has_stiffening = s.look.is_done && s.look.stiffening;
-  c.has_local_steps = s.multirate != nullptr;
+  c.local_steps = local_step_verdict(s);
   if (s.sleep) {
     c.sleep = gather_sleep(s);
     c.quiet_range = s.sleep->range;
@@ -176,8 +175,9 @@ FrameStart start_of_frame(const Simulation& s) {
           .is_open = s.holds.is_open,
           .look = without_stiffening(s.look),
           .sleep = s.sleep,
-          .has_local_steps = s.multirate != nullptr,
+          .local_steps = local_step_verdict(s),
           .n_events = s.log.events.size(),
+          .told = s.log.told,
           .n_roll_backs = s.log.n_roll_backs,
           .searches = s.log.searches};
 }
@@ -185,15 +185,16 @@ FrameStart start_of_frame(const Simulation& s) {
 Checkpoint take_checkpoint_of_start(Simulation& s, const FrameStart& start) {
   CHECK_OP(s.state.step, ==, start.step);
   s.look = start.look;
-  s.sleep = start.sleep;
+  if (s.sleep) static_cast<SleepRoll&>(*s.sleep) = *start.sleep;
   s.holds.holds = start.holds;
   s.holds.is_open = start.is_open;
   localise_holds(s.holds, s.part);
   Checkpoint c = take_checkpoint(s);
   c.watch = start.watch;
   c.step_scale = start.step_scale;
-  c.has_local_steps = start.has_local_steps;
+  c.local_steps = start.local_steps;
   c.tally.events.resize(start.n_events);
+  c.tally.told = start.told;
   c.tally.n_roll_backs = start.n_roll_backs;
   c.tally.searches = start.searches;
   return c;

@@ -51,7 +51,8 @@ struct Checkpoint {
   double history_time = 0;
   SearchMemory searches;
   std::vector<double> looked_at;  // ElementLook::u (n_nodes * 3), or empty
-  bool has_stiffening = false, has_local_steps = false;
+  bool has_stiffening = false;
+  LocalStepVerdict local_steps = LocalStepVerdict::none;
   std::vector<double> sleep;  // gather_sleep, empty: nothing ever sleeps
   QuietRange quiet_range;
   bool has_energies = false;
@@ -75,9 +76,10 @@ struct FrameStart {
   std::vector<Hold> holds;
   std::vector<std::uint8_t> is_open;
   ElementLook look;
-  std::optional<Sleep> sleep;
-  bool has_local_steps = false;
+  std::optional<SleepRoll> sleep;
+  LocalStepVerdict local_steps = LocalStepVerdict::none;
   std::size_t n_events = 0;
+  ToldOnce told;
   std::int64_t n_roll_backs = 0;
   Searches searches;
 };

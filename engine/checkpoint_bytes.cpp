@@ -13,7 +13,7 @@
 namespace trocar {
 
 constexpr std::array<char, 8> checkpoint_mark = {'t', 'r', 'o', 'c', 'h', 'k', 'p', 't'};
-constexpr std::uint32_t checkpoint_format = 33;
+constexpr std::uint32_t checkpoint_format = 34;
 
 static void visit(Saver& a, std::shared_ptr<const Mesh>& mesh) {
   a(std::uint64_t{n_bytes_of(*mesh)});
@@ -80,9 +80,13 @@ static void visit(Archive& a, Equilibrium& e) {
   a(e.iterations, e.residual, e.seconds);
 }
 template <class Archive>
+static void visit(Archive& a, ToldOnce& t) {
+  a(t.no_local_steps, t.sunk_tissue);
+}
+template <class Archive>
 static void visit(Archive& a, RunTally& t) {
   a(t.equilibrium, t.n_roll_backs, t.n_deadlines_missed, t.searches, t.least_J, t.least_J_element,
-    t.least_stable_step, t.largest_stable_step, t.events);
+    t.told, t.least_stable_step, t.largest_stable_step, t.events);
 }
 template <class Archive>
 static void visit(Archive& a, SearchMemory& m) {
@@ -102,8 +106,8 @@ static void visit(Archive& a, Checkpoint& c) {
   a(c.version, c.simd, c.scene, c.body_crc, c.frame, c.digest, c.mesh, c.fixed, c.duplicate_parent,
     c.duplicate_node, c.time, c.last_dt, c.step, c.step_scale, c.held_step, c.held_by_contact,
     c.watch, c.holds, c.is_open, c.cuts, c.tally, c.history, c.history_time, c.searches,
-    c.looked_at, c.has_stiffening, c.has_local_steps, c.sleep, c.quiet_range, c.has_energies,
-    c.energy, c.outputs);
+    c.looked_at, c.has_stiffening, c.local_steps, c.sleep, c.quiet_range, c.has_energies, c.energy,
+    c.outputs);
 }
 
 static void put_blob(ByteWriter& writer, const Blob& blob) {

@@ -30,7 +30,7 @@ void take_up_tip(const Simulation& s, const BladeSweep& sweep, CutStage& stage) 
   if ((point - path.back()).norm() > least_way) path.push_back(point);
 }
 
-double length_of(const std::vector<Vec3>& path) {
+double path_length(const std::vector<Vec3>& path) {
   double length = 0;
   for (std::size_t k = 1; k < path.size(); ++k) length += (path[k] - path[k - 1]).norm();
   return length;
@@ -43,7 +43,7 @@ void cut_reach(Simulation& s, CutStage& stage, bool may_grow, double h) {
   std::vector<Vec3>& path = stage.plane_path;
   const std::vector<std::uint8_t> is_held = held_nodes(s.holds, s.fixed);
   CutPlaneOptions options = stage.plane;
-  if (may_grow && length_of(path) < 2 * plane_advance * h) options.room_ahead = plane_room;
+  if (may_grow && path_length(path) < 2 * plane_advance * h) options.room_ahead = plane_room;
   const CutConstraints constraints{is_held, s.loads.border, s.cut_state.x};
   const PlaneCut cut = cut_plane(s.mesh, path, stage.plane_tip, constraints, options);
   if (cut.edit.is_empty() && may_grow) return;
@@ -85,7 +85,7 @@ bool has_left_tissue(const Simulation& s, const std::vector<Vec3>& in_slit, cons
 // What of a reach that ends in a slit was too short to be cut.
 void note_bridge(Simulation& s, double h, CutStage& stage) {
   const std::vector<Vec3>& path = stage.plane_path;
-  if (length_of(path) < least_bridge * h) return;
+  if (path_length(path) < least_bridge * h) return;
   const Vec3 middle = 0.5 * (path.front() + path.back());
   note_edit(s, {}, {.n_refused = 1, .refusals = {{middle, CutRefusal::no_room}}},
             stage.strokes.back());
@@ -104,7 +104,7 @@ void cut_along_tip(Simulation& s, CutStage& stage, const BladeSweep& sweep, bool
     leave_slit(s, h, stage, part);
     const std::vector<Vec3> in_slit = take_end_in_slit(s, h, stage, part);
     const bool may_grow = !is_last && &part == &parts.back() && in_slit.empty();
-    const double length = length_of(part);
+    const double length = path_length(part);
     if (length >= (may_grow ? plane_advance : 0.5) * h ||
         (!may_grow && length > 0 && has_left_tissue(s, in_slit, part.back()))) {
       stage.plane_path = part;

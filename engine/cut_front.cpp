@@ -140,11 +140,6 @@ std::vector<Look> looks_of(const EdgeMotion& motion) {
   return looks;
 }
 
-// False of blades that are clear of the body.
-bool is_near(const Simulation& s, const Box& blade) {
-  return blade.overlaps(box_of(s.view));
-}
-
 // reach: how far tissue may be from the blade that comes to it in the frame, and a mean edge more.
 // [m]
 CutFront find_front(const Simulation& s, const FrameSpan& span, const CutStage& stage,
@@ -168,12 +163,15 @@ void prepare_drag(Simulation& s, const FrameSpan& span, double travel) {
   const PhaseScope scope(s.timers, phase_cut);
   const double reach = s.edge_length + travel;
   std::optional<double> way;
+  std::optional<Box> body;
   for (CutStage& stage : s.cuts) {
     stage.beside.reset();
     stage.resisted.clear();
     EdgeMotion motion = motion_of(s, span, stage);
+    if (!is_cutting(motion.tool(), span.t0, span.t1)) continue;
+    if (!body) body = box_of(s.view);
     const Box box = box_of(motion, reach);
-    if (!is_cutting(motion.tool(), span.t0, span.t1) || !is_near(s, box)) continue;
+    if (!box.overlaps(*body)) continue;  // clear of the body
     AroundBlade around(s, box, stage, way);
     bring_stroke(s, around.group.ranks(), stage);
     const auto front = found_by<CutFront>(
@@ -185,9 +183,7 @@ void prepare_drag(Simulation& s, const FrameSpan& span, double travel) {
                      s.drag);
   }
   for (BladeDrag::Node& node : s.drag.node)
-    node.arm = s.mesh.X[s.part.node_global[node.local]] +
-               Vec3::Map(&s.state.u[3 * static_cast<std::size_t>(node.local)]) -
-               s.tools[node.tool].path.at(span.t0).translation;
+    node.arm = present_position(s, node.local) - s.tools[node.tool].path.at(span.t0).translation;
 }
 
 }  // namespace trocar

@@ -24,13 +24,6 @@ namespace {
 // miss.
 constexpr double hourglass_alarm = 0.05, balance_alarm = 0.05;
 
-double sum_over_ranks(std::span<const double> terms, const Communicator& communicator) {
-  ExactSum sum;
-  sum.add(terms);
-  sum.all_sum(communicator);
-  return sum.value();
-}
-
 Vec3 velocity_of(const State& state, std::int32_t local) {
   const double* v = state.v.data() + 3 * std::int64_t{local};
   return {v[0], v[1], v[2]};

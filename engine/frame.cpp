@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/check.h"
 #include "base/number_text.h"
 #include "engine/checkpoint_output.h"
 #include "engine/contact_step.h"
@@ -39,6 +40,7 @@ double stable_step_of_frame(const Simulation& s) {
 void plan_substeps(const Simulation& s, FrameSpan& span) {
   const double length = 1 / s.scene.time.frame_rate;
   const double dt = s.step_factor * s.step_scale * stable_step_of_frame(s);
+  CHECK_OP(dt, >, 0);
   span.n_substeps = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / dt)));
   span.dt = length / static_cast<double>(span.n_substeps);
 }
@@ -53,14 +55,16 @@ void take_up_holds(Simulation& s) {
   if (s.sleep) s.sleep->quiet_time = 0;
 }
 
-void grasp(Simulation& s, const FrameSpan& span) {
-  const double before = s.scene.time.at(s.frame - 1);
-  if (!will_act(s.tools, before, span.t0)) return;
+// What graspers and scissors do as the frame begins.
+void open_and_close(Simulation& s) {
+  const double before = s.scene.time.at(s.frame - 1), now = s.scene.time.at(s.frame);
+  const std::vector<DueAct> due = due_acts(s.tools, before, now);
+  if (due.empty()) return;
   std::vector<Vec3> x;
-  if (will_grasp(s.tools, before, span.t0)) x = gather_state(s).x;
-  const std::vector<GraspAct> acts = act_graspers(s.holds, s.tools, before, span.t0, x, s.fixed);
+  if (does_grasper_close(due, s.tools)) x = gather_state(s).x;
+  const std::vector<GraspAct> acts = act_graspers(s.holds, s.tools, due, {now, x, s.fixed});
   if (!acts.empty()) take_up_holds(s);
-  for (const GraspAct& act : acts) note_grasp(s, span.t0, act);
+  for (const GraspAct& act : acts) note_grasp(s, now, act);
 }
 
 // travel: the longest way that a node makes within the frame at its present speed. [m]
@@ -171,10 +175,10 @@ FrameSpan begin_substeps(Simulation& s) {
     travel = largest_speed(s) * (span.t1 - span.t0);
     detect(s, span, travel);
   }
+  if (!s.cuts.empty()) prepare_drag(s, span, travel);
   choose_local_steps(s, span.t0);
   plan_substeps(s, span);
   if (s.contact && s.contact->has_tissue) note_pair_look(s, span, 0);
-  if (!s.cuts.empty()) prepare_drag(s, span, travel);
   if (s.sleep) wake_touched(s);
   list_waiting(s);
   if (s.energy) begin_frame_work(s);
@@ -304,7 +308,7 @@ void step_alone(Simulation& s, double dt) {
 
 void run_frame(Simulation& s, Outputs& outputs) {
   const double start = monotonic_seconds();
-  grasp(s, next_frame(s));
+  open_and_close(s);
   const double stable_before = std::min(s.watch.stable_step, s.held_step);
   const FrameSpan span = step_safely(s);
   hold_step(s, span, stable_before);

@@ -72,6 +72,11 @@ struct Equilibrium {
   double seconds = 0;
 };
 
+// Of events that are told once a run.
+struct ToldOnce {
+  bool no_local_steps = false, sunk_tissue = false;
+};
+
 // Of all frames together.
 struct RunTally {
   Equilibrium equilibrium;
@@ -80,6 +85,7 @@ struct RunTally {
   Searches searches;
   double least_J = 1;
   std::int32_t least_J_element = -1;
+  ToldOnce told;
   double least_stable_step = 0, largest_stable_step = 0;
   std::vector<std::string> events;  // "1.20 s: grasper closes on 31 nodes"
 };

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "base/communicator.h"
@@ -15,12 +14,10 @@ template <class T>
 std::vector<T> all_gather_items(const Communicator& communicator, const std::vector<T>& mine) {
   Saver save;
   for (const T& item : mine) save(item);
-  const std::vector<std::byte> bytes = save.take();
-  const auto* const from = reinterpret_cast<const char*>(bytes.data());
+  const std::vector<std::byte> bytes =
+      communicator.all_gather(std::span<const std::byte>(save.take()));
   std::vector<T> all;
-  for (const std::string& of_rank : communicator.all_gather(std::string(from, from + bytes.size())))
-    for (Loader load(std::as_bytes(std::span(of_rank))); !load.is_at_end();)
-      load(all.emplace_back());
+  for (Loader load(bytes); !load.is_at_end();) load(all.emplace_back());
   return all;
 }
 

@@ -15,28 +15,14 @@ bool acts_within(const InstrumentKey& key, double t0, double t1) {
   return key.action != GraspAction::none && key.time > t0 && key.time <= t1;
 }
 
-// In the order of their times; of those at one time what opens comes first, so that tissue can be
-// handed over.
-std::vector<std::pair<InstrumentKey, std::int32_t>> acts_in_turn(std::span<const Tool> tools,
-                                                                 double t0, double t1) {
-  std::vector<std::pair<InstrumentKey, std::int32_t>> acts;  // with the tool
-  for (std::size_t k = 0; k < tools.size(); ++k)
-    for (const InstrumentKey& key : tools[k].keys)
-      if (acts_within(key, t0, t1)) acts.emplace_back(key, static_cast<std::int32_t>(k));
-  std::ranges::stable_sort(acts, {}, [](const auto& act) {
-    return std::pair(act.first.time, act.first.action == GraspAction::close);
-  });
-  return acts;
-}
-
-GraspAct grasp(Holds& holds, const Tool& tool, std::int32_t number, const Pose& pose,
-               std::span<const Vec3> x, std::span<const std::uint8_t> fixed) {
-  const std::vector<std::uint8_t> is_immovable = immovable_nodes(holds, fixed);
+GraspAct take_hold(Holds& holds, const Tool& tool, std::int32_t number, const BodyToGrasp& body) {
+  const std::vector<std::uint8_t> is_immovable = immovable_nodes(holds, body.fixed);
+  const Pose pose = tool.path.at(body.time);
   GraspAct act{.tool = number, .has_closed = true};
   double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < x.size(); ++i) {
+  for (std::size_t i = 0; i < body.x.size(); ++i) {
     if (is_immovable[i] != 0) continue;
-    const Vec3 offset = pose.apply_inverse(x[i]);
+    const Vec3 offset = pose.apply_inverse(body.x[i]);
     nearest = std::min(nearest, offset.squaredNorm());
     if (offset.squaredNorm() > tool.grip_radius * tool.grip_radius) continue;
     holds.holds.push_back({.node = static_cast<std::int32_t>(i), .tool = number, .offset = offset});
@@ -53,6 +39,18 @@ FixedMask holding_components(std::span<const FixedMask> fixed) {
   unsigned everywhere = all_components;
   for (const FixedMask mask : fixed) everywhere &= mask;
   return everywhere == all_components ? all_components : all_components & ~everywhere;
+}
+
+// What is between two nodes that one holder has is its, too.
+bool have_one_holder(const Hold* a, const Hold* b) {
+  return a != nullptr && b != nullptr && a->tool == b->tool && a->support == b->support;
+}
+
+bool is_immovable_between(const Holds& holds, std::span<const std::uint8_t> fixed,
+                          const EdgeNode& node) {
+  const auto [a, b] = node.end;
+  return (fixed[a] & fixed[b]) == all_components ||
+         have_one_holder(find_hold(holds.holds, a), find_hold(holds.holds, b));
 }
 
 }  // namespace
@@ -73,19 +71,34 @@ std::vector<std::uint8_t> immovable_nodes(const Holds& holds, std::span<const st
   return is_immovable;
 }
 
+bool is_immovable(const Holds& holds, std::span<const std::uint8_t> fixed, std::int32_t node,
+                  const MeshEdit& edit) {
+  const std::int64_t n = std::ssize(fixed), n_inserted = std::ssize(edit.inserted);
+  const auto parent = [&] { return edit.duplicate_parent[node - n - n_inserted]; };
+  while (node >= n + n_inserted) node = parent();
+  if (node >= n) return is_immovable_between(holds, fixed, edit.inserted[node - n]);
+  return fixed[node] == all_components || find_hold(holds.holds, node) != nullptr;
+}
+
 int release(Holds& holds, std::int32_t tool) {
   return static_cast<int>(
       std::erase_if(holds.holds, [&](const Hold& hold) { return hold.tool == tool; }));
 }
 
-bool will_act(std::span<const Tool> tools, double t0, double t1) {
-  return !acts_in_turn(tools, t0, t1).empty();
+std::vector<DueAct> due_acts(std::span<const Tool> tools, double t0, double t1) {
+  std::vector<DueAct> due;
+  for (std::size_t k = 0; k < tools.size(); ++k)
+    for (const InstrumentKey& key : tools[k].keys)
+      if (acts_within(key, t0, t1)) due.push_back({&key, static_cast<std::int32_t>(k)});
+  std::ranges::stable_sort(due, {}, [](const DueAct& act) {
+    return std::pair(act.key->time, act.key->action == GraspAction::close);
+  });
+  return due;
 }
 
-bool will_grasp(std::span<const Tool> tools, double t0, double t1) {
-  return std::ranges::any_of(acts_in_turn(tools, t0, t1), [&](const auto& act) {
-    const auto& [key, number] = act;
-    return key.action == GraspAction::close && tools[number].kind == InstrumentKind::grasper;
+bool does_grasper_close(std::span<const DueAct> due, std::span<const Tool> tools) {
+  return std::ranges::any_of(due, [&](const DueAct& act) {
+    return act.key->action == GraspAction::close && tools[act.tool].kind == InstrumentKind::grasper;
   });
 }
 
@@ -105,17 +118,16 @@ double largest_travel(const Holds& holds, std::span<const Tool> tools, double t0
   return most;
 }
 
-std::vector<GraspAct> act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,
-                                   std::span<const Vec3> x, std::span<const std::uint8_t> fixed) {
+std::vector<GraspAct> act_graspers(Holds& holds, std::span<const Tool> tools,
+                                   std::span<const DueAct> due, const BodyToGrasp& body) {
   std::vector<GraspAct> acts;
-  for (const auto& [key, number] : acts_in_turn(tools, t0, t1)) {
+  for (const auto& [key, number] : due) {
     const Tool& tool = tools[number];
-    holds.is_open[number] = key.action == GraspAction::open;
+    holds.is_open[number] = key->action == GraspAction::open;
     if (tool.kind != InstrumentKind::grasper) continue;
     release(holds, number);
-    acts.push_back(key.action == GraspAction::close
-                       ? grasp(holds, tool, number, tool.path.at(t1), x, fixed)
-                       : GraspAct{.tool = number});
+    acts.push_back(key->action == GraspAction::close ? take_hold(holds, tool, number, body)
+                                                     : GraspAct{.tool = number});
   }
   return acts;
 }
@@ -142,7 +154,7 @@ static void insert_holds(std::span<const EdgeNode> inserted, std::int32_t n_node
   for (std::size_t k = 0; k < inserted.size(); ++k) {
     const EdgeNode& node = inserted[k];
     const Hold *const a = find_hold(holds, node.end[0]), *const b = find_hold(holds, node.end[1]);
-    if (a == nullptr || b == nullptr || a->tool != b->tool || a->support != b->support) continue;
+    if (!have_one_holder(a, b)) continue;
     Hold between = *a;
     between.node = n_nodes_before + static_cast<std::int32_t>(k);
     between.offset += node.s * (b->offset - a->offset);

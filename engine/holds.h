@@ -39,6 +39,19 @@ std::vector<std::uint8_t> held_nodes(const Holds& holds, std::span<const std::ui
 // 1 for each node that is held or supported in all components: jaws can't take it, and nothing that
 // an edit restores moves it. What a mirror plane supports goes along in the others.
 std::vector<std::uint8_t> immovable_nodes(const Holds& holds, std::span<const std::uint8_t> fixed);
+// The same of one node; of a body before an edit, also of one that the edit will make.
+bool is_immovable(const Holds& holds, std::span<const std::uint8_t> fixed, std::int32_t node,
+                  const MeshEdit& edit = {});
+
+// A grasper or scissors whose key it is to act.
+struct DueAct {
+  const InstrumentKey* key = nullptr;
+  std::int32_t tool = 0;
+};
+// Those whose time lies in (t0, t1], in the order of their times; of those at one time what opens
+// comes first, so that tissue can be handed over.
+std::vector<DueAct> due_acts(std::span<const Tool> tools, double t0, double t1);
+bool does_grasper_close(std::span<const DueAct> due, std::span<const Tool> tools);
 
 // What a grasper did: closed on so many nodes, or opened.
 struct GraspAct {
@@ -48,14 +61,16 @@ struct GraspAct {
   double nearest = 0;  // distance of the nearest node that nothing else holds from its tip,
                        // infinity if there is none [m]
 };
-// Closes and opens graspers and scissors whose key time lies in (t0, t1]; x (n_nodes) all present
-// positions, unless no grasper closes (will_grasp). Nodes within the grip radius of the tip that
-// nothing else holds are taken, in the components that no support holds. Returns what graspers did,
-// one after the other.
-std::vector<GraspAct> act_graspers(Holds& holds, std::span<const Tool> tools, double t0, double t1,
-                                   std::span<const Vec3> x, std::span<const std::uint8_t> fixed);
-bool will_act(std::span<const Tool> tools, double t0, double t1);
-bool will_grasp(std::span<const Tool> tools, double t0, double t1);
+// What graspers close on.
+struct BodyToGrasp {
+  double time = 0;                      // at which tools are where they act
+  std::span<const Vec3> x;              // (n_nodes) present positions, unless no grasper closes
+  std::span<const std::uint8_t> fixed;  // (n_nodes)
+};
+// Closes and opens what is due. Nodes within the grip radius of the tip that nothing else holds are
+// taken, in the components that no support holds. Returns what graspers did, one after the other.
+std::vector<GraspAct> act_graspers(Holds& holds, std::span<const Tool> tools,
+                                   std::span<const DueAct> due, const BodyToGrasp& body);
 // The longest way in [t0, t1] of anything within the grip radius of the tip. [m]
 double grip_travel(const Tool& tool, double t0, double t1);
 // The longest way in [t0, t1] of what moves as it is told: of supports, and of all within the grip

@@ -1,7 +1,7 @@
 #include "engine/local_steps.h"
 
 #include <algorithm>
-#include <string>
+#include <utility>
 
 #include "engine/event_log.h"
 #include "engine/simulation.h"
@@ -52,16 +52,28 @@ bool follow_local_steps(std::span<const std::int32_t> elements, std::span<const 
   MultiRatePlan plan = plan_multirate(s.mesh, s.corners, local.resting);
   const bool stays = is_same_elsewhere(local.plan, plan, nodes);
   local.plan = std::move(plan);
-  const bool is_given_up = stays && !s.multirate;
+  const LocalStepVerdict before = local_step_verdict(s);
+  const bool is_given_up = stays && before == LocalStepVerdict::given_up;
   s.multirate = is_given_up ? nullptr : make_body(s);
+  if (stays) take_verdict(before, s);
   return stays;
 }
 
-bool keep_local_steps(const MultiRatePlan& before, bool is_given_up,
+bool keep_local_steps(const MultiRatePlan& before, LocalStepVerdict verdict,
                       std::span<const std::int32_t> nodes, Simulation& s) {
   const bool stays = is_same_elsewhere(before, s.local_steps->plan, nodes);
-  if (stays && is_given_up) s.multirate.reset();
+  if (stays) take_verdict(verdict, s);
   return stays;
+}
+
+LocalStepVerdict local_step_verdict(const Simulation& s) {
+  if (!s.multirate) return LocalStepVerdict::given_up;
+  return s.multirate->is_judged ? LocalStepVerdict::kept : LocalStepVerdict::none;
+}
+
+void take_verdict(LocalStepVerdict verdict, Simulation& s) {
+  if (verdict == LocalStepVerdict::given_up) s.multirate.reset();
+  if (s.multirate) s.multirate->is_judged = verdict == LocalStepVerdict::kept;
 }
 
 static bool touches_small_elements(const Simulation& s) {
@@ -76,17 +88,19 @@ static bool touches_small_elements(const Simulation& s) {
 }
 
 static bool drags_tissue(const Simulation& s) {
-  return s.scene.cutting.resistance > 0 &&
-         std::ranges::any_of(s.cuts, [](const CutStage& stage) { return stage.is_engaged; });
+  const auto drags = [](const CutStage& stage) {
+    return stage.is_engaged || !stage.resisted.empty();
+  };
+  return s.scene.cutting.resistance > 0 && std::ranges::any_of(s.cuts, drags);
 }
 
 void choose_local_steps(Simulation& s, double t) {
   s.has_local_steps = s.multirate && !touches_small_elements(s) && !drags_tissue(s);
   if (!s.multirate || s.has_local_steps) return;
-  const std::string sentence = "small elements take no local steps (solver.multirate)";
-  if (!is_told(s, sentence))
-    note_event(s, t,
-               sentence + " while they are touched or cut: all elements take theirs meanwhile");
+  if (std::exchange(s.log.told.no_local_steps, true)) return;
+  note_event(s, t,
+             "small elements take no local steps (solver.multirate) while they are touched or cut: "
+             "all elements take theirs meanwhile");
 }
 
 double step_share(const Simulation& s) {

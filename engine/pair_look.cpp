@@ -96,8 +96,6 @@ void swap_views(Simulation& s) {
   std::swap(s.view.v, s.contact->look.view_v);
 }
 
-constexpr const char* sunk_in = "tissue has sunk into other tissue";
-
 struct SunkNode {
   double depth = 0;  // [m]
   std::int32_t node = -1;
@@ -178,15 +176,16 @@ void look_for_pairs(Simulation& s, const FrameSpan& span, std::int64_t k) {
 
 void watch_sunk_tissue(Simulation& s, double time) {
   // Of a frame with an edit, the pairs are of the surface before it.
-  if (is_told(s, sunk_in) || !s.log.new_edits.empty()) return;
+  if (s.log.told.sunk_tissue || !s.log.new_edits.empty()) return;
   const std::vector<SunkNode> sunk = find_sunk(s);
   if (sunk.empty()) return;
   s.contact->detector.refit(s.view.x);
   const auto it = std::ranges::find_if(
       sunk, [&](const SunkNode& n) { return s.contact->detector.lies_in_other_tissue(n.node); });
   if (it == sunk.end()) return;
+  s.log.told.sunk_tissue = true;
   warn_event(s, time,
-             std::string(sunk_in) + ": node " + std::to_string(it->node) + " at " +
+             "tissue has sunk into other tissue: node " + std::to_string(it->node) + " at " +
                  point_text(s.view.x[it->node]) + " m lies " + short_text(1e3 * it->depth) +
                  " mm deep in it, and contact knows the way out of " +
                  short_text(1e3 * s.contact_reach) +

@@ -152,6 +152,12 @@ struct Simulation : RankBody {
   PhaseTimers timers;
 };
 
+// Of a node of this rank, by its local number. [m]
+inline Vec3 present_position(const Simulation& s, std::int32_t local) {
+  return s.mesh.X[s.part.node_global[local]] +
+         Vec3::Map(&s.state.u[3 * static_cast<std::size_t>(local)]);
+}
+
 // Of the scene's [solver].
 SolverOptions solver_options(const Scene& scene);
 

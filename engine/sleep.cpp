@@ -197,7 +197,7 @@ bool is_touched(const Simulation& s) {
 
 void begin_sleep(Simulation& s) {
   if (s.scene.solver.sleep == 0) return;
-  s.sleep = Sleep{.bound = s.scene.solver.sleep};
+  s.sleep.emplace().bound = s.scene.solver.sleep;
   fit_sleep(s);
 }
 

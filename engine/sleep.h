@@ -28,18 +28,22 @@ namespace trocar {
 
 struct Simulation;
 
-struct Sleep {
-  double bound = 0;                        // on the error of displacements [m]
+// Who sleeps and who has been quiet: what waking changes.
+struct SleepRoll {
   double quiet_time = 0;                   // of who sleeps [s]; 0: nobody was near it yet
-  std::vector<double> anchor;              // (n_owned * 3) displacement that it is quiet around [m]
-  std::vector<std::int32_t> quiet;         // (n_owned) frames since then; -1: it has no anchor yet
+  std::vector<std::int32_t> quiet;         // (n_owned) frames at the anchor; -1: it has none yet
   std::vector<std::uint8_t> is_asleep;     // (n_local)
   std::vector<std::uint8_t> is_beside;     // (n_owned) awake, with a sleeping neighbour
-  std::vector<double> watched;             // (n_owned * 3) displacement when it became that [m]
-  std::vector<FixedMask> awake_fixed;      // (n_owned) Model::fixed with all awake
   std::vector<std::uint8_t> block_sleeps;  // Scratch::is_asleep
   double share = 0;                        // of all nodes that sleep
   QuietRange range;
+};
+
+struct Sleep : SleepRoll {
+  double bound = 0;                    // on the error of displacements [m]
+  std::vector<double> anchor;          // (n_owned * 3) displacement that it is quiet around [m]
+  std::vector<double> watched;         // (n_owned * 3) that when it came to lie beside sleepers [m]
+  std::vector<FixedMask> awake_fixed;  // (n_owned) Model::fixed with all awake
 };
 
 // All awake, after the topology was built; nothing if the scene doesn't ask for sleep.

@@ -59,12 +59,12 @@ Holders find_holders(const Scene& scene, const Mesh& mesh) {
 Overlap find_overlap(const Scene& scene, std::int32_t number, const NodeSet& region,
                      const Holders& holders) {
   const SceneSupport& support = scene.supports[number];
+  const std::vector<int> axes = axes_of(support.fix);
   Overlap overlap;
   for (const std::int32_t node : region.node) {
     const auto i = static_cast<std::size_t>(node);
     bool is_against = false;
-    for (const char letter : support.fix) {
-      const int axis = letter - 'x';
+    for (const int axis : axes) {
       const std::int32_t at_rest = holders.at_rest[3 * i + static_cast<std::size_t>(axis)];
       const std::int32_t holder = at_rest != nobody ? at_rest : holders.moving[i];
       if (holder == number) {

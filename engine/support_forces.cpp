@@ -4,14 +4,21 @@
 
 namespace trocar {
 
+std::vector<int> axes_of(const std::string& fix) {
+  std::vector<int> axes;
+  for (const char letter : fix) axes.push_back(letter - 'x');
+  return axes;
+}
+
 std::vector<std::int32_t> holders_at_rest(std::span<const SceneSupport> supports,
                                           const Mesh& mesh) {
   std::vector<std::int32_t> holder(3 * mesh.X.size(), -1);
   for (std::size_t k = 0; k < supports.size(); ++k) {
     if (!supports[k].path.empty()) continue;
+    const std::vector<int> axes = axes_of(supports[k].fix);
     for (const std::int32_t node : find_node_set(mesh, supports[k].region)->node)
-      for (const char axis : supports[k].fix)
-        if (std::int32_t& at = holder[3 * std::int64_t{node} + (axis - 'x')]; at < 0)
+      for (const int axis : axes)
+        if (std::int32_t& at = holder[3 * std::int64_t{node} + axis]; at < 0)
           at = static_cast<std::int32_t>(k);
   }
   return holder;

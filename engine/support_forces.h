@@ -25,6 +25,8 @@ struct SupportForces {
   std::vector<double> sum;  // (of_rank.size()) over the substeps of this frame [N]
 };
 
+// 0, 1, 2 for x, y, z in SceneSupport::fix, in its order.
+std::vector<int> axes_of(const std::string& fix);
 // Of each component of a node (n_nodes * 3) the first support at rest that fixes it, -1: none.
 std::vector<std::int32_t> holders_at_rest(std::span<const SceneSupport> supports, const Mesh& mesh);
 // After a change of part or topology.

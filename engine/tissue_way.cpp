@@ -18,9 +18,8 @@ double share_of_frame(double seconds) {
 double largest_surface_way(const Simulation& s) {
   double most = 0;
   for (const std::int32_t local : s.view.local) {
-    const auto i = static_cast<std::size_t>(s.part.node_global[local]);
-    const Vec3 x = s.mesh.X[i] + Vec3::Map(&s.state.u[3 * std::ptrdiff_t{local}]);
-    most = std::max(most, (x - s.view.x[i]).squaredNorm());
+    const Vec3 way = present_position(s, local) - s.view.x[s.part.node_global[local]];
+    most = std::max(most, way.squaredNorm());
   }
   return std::sqrt(s.communicator->all_max(most));
 }

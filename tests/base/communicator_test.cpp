@@ -77,6 +77,7 @@ TEST_P(OneRank, gathers_and_broadcasts_what_it_has) {
   const std::vector<std::byte> before = bytes;
   ranks().broadcast(bytes);
   EXPECT_EQ(bytes, before);
+  EXPECT_EQ(ranks().all_gather(std::span<const std::byte>(bytes)), before);
 }
 
 TEST_P(OneRank, exchanges_with_itself_in_order_and_again) {

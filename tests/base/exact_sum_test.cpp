@@ -60,7 +60,7 @@ TEST(ExactSum, of_vectors_are_told_in_their_order) {
   }
   const Communicator alone;
   EXPECT_EQ(sum_over_ranks(sums, alone), std::vector({Vec3(3, 6, 9), Vec3(-3, 0, 3)}));
-  EXPECT_TRUE(sum_over_ranks({}, alone).empty());
+  EXPECT_TRUE(sum_over_ranks(std::span<const ExactSum3>(), alone).empty());
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ struct GraspedPlate {
   }
   int act(double t0, double t1) {  // nodes taken, -1: no grasper acted
     int n_taken = -1;
-    for (const GraspAct& act : act_graspers(holds, tools, t0, t1, mesh.X, fixed))
+    for (const GraspAct& act :
+         act_graspers(holds, tools, due_acts(tools, t0, t1), {t1, mesh.X, fixed}))
       n_taken = std::max(n_taken, 0) + act.n_taken;
     return n_taken;
   }
@@ -69,9 +70,10 @@ TEST(Grasp, takes_exactly_the_nodes_within_the_grip_radius_of_the_tip) {
 
 TEST(Grasp, happens_in_the_frame_whose_half_open_span_holds_the_key) {
   GraspedPlate c;
-  EXPECT_FALSE(will_act(c.tools, 0.5, 0.99));
-  EXPECT_FALSE(will_act(c.tools, 1.0, 1.03));  // a key at the beginning belongs to the frame before
-  EXPECT_TRUE(will_act(c.tools, 0.97, 1.0));
+  const auto n_due = [&](double t0, double t1) { return due_acts(c.tools, t0, t1).size(); };
+  EXPECT_EQ(n_due(0.5, 0.99), 0U);
+  EXPECT_EQ(n_due(1.0, 1.03), 0U);  // a key at the beginning belongs to the frame before
+  EXPECT_EQ(n_due(0.97, 1.0), 1U);
   EXPECT_EQ(c.act(0.5, 0.99), -1);
   EXPECT_EQ(c.act(1.0, 1.03), -1);
   EXPECT_GT(c.act(0.97, 1.0), 0);
@@ -152,7 +154,9 @@ TEST(Grasp, tells_how_far_the_nearest_free_node_is) {
     nearest = std::min(nearest, (c.mesh.X[i] - tip).norm());
   c.mesh.X[0] = tip;
   c.fixed[0] = all_components;  // held: not taken, nor the nearest
-  const auto acts = [&] { return act_graspers(c.holds, c.tools, 0.9, 1, c.mesh.X, c.fixed); };
+  const auto acts = [&] {
+    return act_graspers(c.holds, c.tools, due_acts(c.tools, 0.9, 1), {1, c.mesh.X, c.fixed});
+  };
   ASSERT_EQ(acts().size(), 1U);
   EXPECT_EQ(acts()[0].n_taken, 0);
   EXPECT_NEAR(acts()[0].nearest, nearest, 1e-12);
@@ -317,6 +321,34 @@ TEST(EditOfHolds, nodes_on_edges_are_held_between_two_ends_that_one_holder_has) 
     EXPECT_EQ(hold.support, expected[k].support) << k;
     EXPECT_EQ(hold.offset, expected[k].offset) << k;
   }
+}
+
+// Before and behind an edit: what is supported or held otherwise at its two ends is free between.
+TEST(EditOfHolds, nodes_that_will_be_immovable_are_so_behind_it) {
+  GraspedPlate c;
+  c.act(0.9, 1);
+  std::vector<Hold>& holds = c.holds.holds;
+  holds[4].tool = 0;
+  const std::int32_t held = holds[0].node, too = holds[1].node, by_other = holds[4].node;
+  c.fixed[0] = c.fixed[1] = all_components;
+  c.fixed[2] = all_components - 1;
+  MeshEdit edit;
+  const std::vector<std::array<std::int32_t, 2>> ends = {
+      {0, 1}, {0, 2}, {0, held}, {held, too}, {too, by_other}};
+  for (const auto& end : ends) edit.inserted.push_back({.end = end, .s = 0.5});
+  const std::int32_t n = c.mesh.n_nodes();
+  edit.duplicate_parent = {held, 5, 0, n, n + 2, n + 3, n + 5};
+  std::vector<std::uint8_t> will_be;
+  for (std::int32_t i = 0; i < n + static_cast<std::int32_t>(edit.n_new_nodes()); ++i)
+    will_be.push_back(is_immovable(c.holds, c.fixed, i, edit) ? 1 : 0);
+  // As inherit_by_new_nodes (apply_cut.cpp) has it.
+  for (const EdgeNode& node : edit.inserted)
+    c.fixed.push_back(static_cast<FixedMask>(c.fixed[node.end[0]] & c.fixed[node.end[1]]));
+  for (const std::int32_t parent : edit.duplicate_parent) c.fixed.push_back(c.fixed[parent]);
+  apply_edit_to_holds(edit, n, c.holds);
+  EXPECT_EQ(will_be, immovable_nodes(c.holds, c.fixed));
+  EXPECT_EQ(std::vector(will_be.begin() + n, will_be.end()),
+            (std::vector<std::uint8_t>{1, 0, 0, 1, 0, 1, 0, 1, 1, 0, 1, 1}));
 }
 
 double sum_of(const ExactSum& sum) {

@@ -176,6 +176,53 @@ TEST(MultiRate, goes_on_after_a_cut_and_after_a_restart_with_the_same_bits) {
   }
 }
 
+// A later search would find that these don't pay: steps that an earlier one has kept stay, others
+// are given up.
+TEST(MultiRate, is_judged_once_through_cuts_and_a_restart) {
+  for (const bool is_judged : {true, false}) {
+    const auto whole = hung(scalpel_text, BoxElements::tet4_kuhn, with_local_steps),
+               resumed = hung(scalpel_text, BoxElements::tet4_kuhn, with_local_steps);
+    Simulation& s = *whole->s;
+    const std::int32_t n_before = s.mesh.n_nodes();
+    run_to_frame(*whole, 12);
+    EXPECT_GT(s.mesh.n_nodes(), n_before);
+    ASSERT_TRUE(s.multirate);
+    EXPECT_TRUE(s.multirate->is_judged);  // at time 0
+    s.multirate->is_judged = is_judged;   // or that search had not ended
+    s.look.at_step = s.state.step - most_steps_of_search;
+    const std::vector<std::byte> bytes = checkpoint_to_bytes(take_checkpoint(s));
+    restore_checkpoint(checkpoint_from_bytes(bytes, "c"), *resumed->s);
+    ASSERT_TRUE(resumed->s->multirate);
+    EXPECT_EQ(resumed->s->multirate->is_judged, is_judged);
+    const std::int64_t n_searches = s.log.searches.n_of_body;
+    for (Started* run : {whole.get(), resumed.get()}) {
+      run->s->multirate->share = 100;
+      run_to_frame(*run, 14);
+      EXPECT_EQ(run->s->multirate != nullptr, is_judged);
+    }
+    EXPECT_GT(s.log.searches.n_of_body, n_searches);
+    EXPECT_EQ(resumed->s->state.u, s.state.u);
+    EXPECT_EQ(resumed->s->state.v, s.state.v);
+  }
+}
+
+// From the frame on in which it comes to the tissue.
+TEST(MultiRate, leaves_a_body_to_a_blade_that_meets_resistance_as_without) {
+  const auto run = hung(scalpel_text, BoxElements::tet4_kuhn,
+                        {"solver.multirate=true", "cutting.resistance='20 N/m'"});
+  Simulation& s = *run->s;
+  int n_before = 0, n_dragged = 0;
+  while (s.frame < 14) {
+    run_frame(s, run->outputs);
+    const bool is_dragged = !s.cuts[0].resisted.empty();
+    n_dragged += is_dragged ? 1 : 0;
+    n_before += n_dragged == 0 && s.has_local_steps ? 1 : 0;
+    EXPECT_FALSE(is_dragged && s.has_local_steps) << s.frame;
+  }
+  EXPECT_GT(n_before, 2);
+  EXPECT_GT(n_dragged, 2);
+}
+
 // The plate with a row of thin cells.
 TEST(MultiRate, goes_on_after_a_split_and_after_a_restart_with_the_same_bits) {
   const TestFolder folder;
