@@ -42,6 +42,13 @@ void ByteReader::get_raw(void* data, std::size_t size) {
   bytes_ = bytes_.subspan(size);
 }
 
+// No other byte is a bool's: as one it would be undefined.
+bool ByteReader::get_bool() {
+  const auto byte = get<std::uint8_t>();
+  if (byte > 1) throw InputError("stored data are damaged: a yes or no is " + std::to_string(byte));
+  return byte == 1;
+}
+
 std::string ByteReader::get_text() {
   std::string text(get_count(1), '\0');
   get_raw(text.data(), text.size());

@@ -54,6 +54,7 @@ class ByteReader {
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
   template <class T>
   T get() {
+    if constexpr (std::is_same_v<T, bool>) return get_bool();
     T value;
     get_raw(&value, sizeof value);
     return value;
@@ -70,6 +71,7 @@ class ByteReader {
 
  private:
   void get_raw(void* data, std::size_t size);
+  bool get_bool();
   std::span<const std::byte> bytes_;
 };
 

@@ -139,8 +139,17 @@ TriangleMesh read_stl(FileReader& in) {
   return read_binary_stl(in);
 }
 
+// From where the reader is, which stays there.
+static std::size_t count_vertices(FileReader in) {
+  std::size_t n = 0;
+  for (; !in.is_at_end(); in.line())
+    if (in.word("a keyword") == "v") ++n;
+  return n;
+}
+
 TriangleMesh read_obj(FileReader& in) {
   TriangleMesh mesh;
+  mesh.X.reserve(count_vertices(in));  // growing would take seven times the file
   std::vector<std::int32_t> corner;
   while (!in.is_at_end()) {
     const std::string_view keyword = in.word("a keyword");

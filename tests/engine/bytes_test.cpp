@@ -172,5 +172,13 @@ TEST(Bytes, of_an_unknown_element_type_are_refused) {
   }
 }
 
+TEST(Bytes, that_are_neither_yes_nor_no_are_refused) {
+  const std::array<std::byte, 3> bytes = {std::byte{0}, std::byte{1}, std::byte{2}};
+  ByteReader reader(bytes);
+  EXPECT_FALSE(reader.get<bool>());
+  EXPECT_TRUE(reader.get<bool>());
+  EXPECT_THROW(reader.get<bool>(), InputError);
+}
+
 }  // namespace
 }  // namespace trocar

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "mesh/mesh_file.h"
+#include "mesh/mesh_file_formats.h"
 #include "mesh_refusal.h"
 #include "mesh_sample_files.h"
 #include "test_files.h"
@@ -130,6 +131,16 @@ TEST(SurfaceFile, a_corner_that_is_not_finite_is_refused) {
   content.replace(84 + 50 + 12, 4,
                   std::string("\0\0\xc0\x7f", 4));  // first x of the second triangle
   EXPECT_EQ(refusal("a.stl", content), " byte 154: triangle 1 has a corner not finite");
+}
+
+// Lines may begin with blanks, and "vn" are no vertices.
+TEST(SurfaceFile, of_obj_has_its_vertices_counted_before_memory_is_taken_for_them) {
+  std::string content = "vn 0 0 1\n \tv\t0 0 0\n";
+  for (int k = 0; k < 999; ++k) content += "v 0 0 0\n";
+  FileReader in("a.obj", content);
+  const TriangleMesh mesh = read_obj(in);
+  EXPECT_EQ(mesh.X.size(), 1000U);
+  EXPECT_EQ(mesh.X.capacity(), 1000U);
 }
 
 }  // namespace

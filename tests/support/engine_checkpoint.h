@@ -1,4 +1,4 @@
-// A checkpoint in one piece.
+// A checkpoint as an example, and in one piece.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,10 @@
 #include "engine/checkpoint.h"
 
 namespace trocar {
+
+std::shared_ptr<std::vector<FrameRow>> rows_of(int n);
+// Every kind of member once, with numbers that can't be mistaken for each other.
+Checkpoint example_checkpoint();
 
 inline std::vector<std::byte> checkpoint_to_bytes(Checkpoint checkpoint) {
   std::vector<std::byte> bytes;
