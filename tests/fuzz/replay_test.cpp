@@ -1,10 +1,9 @@
-// What libFuzzer starts from and what it found: read by the same functions, in every build.
+// What libFuzzer starts from, read by the same functions in every build.
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "fuzz_targets.h"
-#include "test_files.h"
 
 namespace trocar {
 namespace {
@@ -13,17 +12,6 @@ TEST(Hostile, seeds_of_the_fuzz_targets_are_read) {
   for (const FuzzTarget& target : fuzz_targets())
     for (const FuzzSeed& seed : target.seeds())
       EXPECT_TRUE(target.read(seed.bytes)) << target.name << " " << seed.name;
-}
-
-TEST(Hostile, what_fuzzing_found_is_refused_or_read_soundly) {
-  const std::string found = std::string(TROCAR_SOURCE_DIR) + "/tests/fuzz/found/";
-  for (const FuzzTarget& target : fuzz_targets()) {
-    if (!std::filesystem::exists(found + target.name)) continue;
-    for (const auto& entry : std::filesystem::directory_iterator(found + target.name)) {
-      SCOPED_TRACE(entry.path().string());
-      target.read(read_text(entry.path()));
-    }
-  }
 }
 
 TEST(Hostile, counts_that_no_honest_file_has_are_refused_or_read_soundly) {
