@@ -102,7 +102,9 @@ TEST(TetCutter, keeps_the_volume_of_a_body_with_flat_faces) {
 // Of elements that the plane of the incision crosses; a ring more for each `n`.
 std::vector<std::uint8_t> rings_around_incision(const Mesh& mesh, int n) {
   std::vector<std::uint8_t> is_in(mesh.element_type.size(), 0), is_corner(mesh.X.size(), 0);
-  const auto height = [&](std::int32_t i) { return across.dot(mesh.X[i] - Vec3(0.03, 0.022, 0)); };
+  const auto off_plane = [&](std::int32_t i) {
+    return across.dot(mesh.X[i] - Vec3(0.03, 0.022, 0));
+  };
   const auto add = [&](const auto& belongs) {
     for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
       if (belongs(e)) is_in[e] = 1;
@@ -111,8 +113,8 @@ std::vector<std::uint8_t> rings_around_incision(const Mesh& mesh, int n) {
         if (is_in[e] != 0) is_corner[i] = 1;
   };
   add([&](std::int32_t e) {
-    const auto [least, most] = std::ranges::minmax(mesh.corners(e), {}, height);
-    return height(least) < 0 && height(most) > 0;
+    const auto [least, most] = std::ranges::minmax(mesh.corners(e), {}, off_plane);
+    return off_plane(least) < 0 && off_plane(most) > 0;
   });
   for (int ring = 0; ring < n; ++ring)
     add([&](std::int32_t e) {
@@ -162,12 +164,12 @@ TEST(TetCutter, moves_and_copies_nodes_in_proportion_to_the_area_that_it_cuts) {
     Body body(make_box({0, 0, 0}, {1, 1, 1}, {n, n, n}, BoxElements::tet4_kuhn));
     figures[k] = cut(body, plane_blade({0.5, 0.5, 0.5}, normal, 1), normal, 1).total;
   }
-  const auto ratio = [&](std::int32_t CutFigures::*n) {
+  const auto growth = [&](std::int32_t CutFigures::*n) {
     return double(figures[1].*n) / (figures[0].*n);
   };
-  EXPECT_NEAR(ratio(&CutFigures::n_opened_facets), 4, 1);  // in steps, as others lie next to it
-  EXPECT_NEAR(ratio(&CutFigures::n_duplicated), 4, 0.4);
-  EXPECT_NEAR(ratio(&CutFigures::n_moved), 4, 0.4);
+  EXPECT_NEAR(growth(&CutFigures::n_opened_facets), 4, 1);  // in steps, as others lie next to it
+  EXPECT_NEAR(growth(&CutFigures::n_duplicated), 4, 0.4);
+  EXPECT_NEAR(growth(&CutFigures::n_moved), 4, 0.4);
 }
 
 TEST(TetCutter, cuts_a_body_into_four_with_two_crossing_strokes) {
