@@ -149,6 +149,26 @@ AdaptOptions next_try(const PlanePatch& patch, const CutChain& chain, int attemp
   return {chain.n_segments() - fewer, far_corner};
 }
 
+// Whether an end on the boundary has a node near that it bends into in later attempts.
+bool is_near_corner(const PlanePatch& patch, PatchFacet on, const Vec2& end) {
+  for (const int step : {1, 2}) {
+    const int i = patch.corner[on.element][(on.facet + step) % 3];
+    if ((patch.is_sharp[i] != 0 || patch.is_held[i] != 0) &&
+        (patch.X[i] - end).norm() < far_corner * patch.h)
+      return true;
+  }
+  return false;
+}
+
+// Whether the second attempt is the first one again: with as many segments, and nothing to bend to.
+bool is_repeated(const PlanePatch& patch, const CutChain& chain) {
+  const SubPath& asked = chain.asked;
+  const bool is_start_on = asked.start_on.element >= 0, is_end_on = asked.end_on.element >= 0;
+  return !patch.has_interfaces() && (is_start_on || is_end_on) &&
+         !(is_start_on && is_near_corner(patch, asked.start_on, asked.point.front())) &&
+         !(is_end_on && is_near_corner(patch, asked.end_on, asked.point.back()));
+}
+
 // The first good attempt, else the best one; each has one segment less, which gives the elements
 // along the cut more room, and bends ends into corners from farther away.
 Attempt best_attempt(const PlanePatch& patch, std::span<const SubPath> sub_paths,
@@ -169,6 +189,10 @@ Attempt best_attempt(const PlanePatch& patch, std::span<const SubPath> sub_paths
       adapt[c] = {n - 1, far_corner};
       continue;
     }
+    if (k == 0 && std::ranges::all_of(attempt.chains, [&](const CutChain& chain) {
+          return is_repeated(patch, chain);
+        }))
+      ++k;
     for (std::size_t c = 0; c < adapt.size(); ++c) adapt[c] = next_try(patch, attempt.chains[c], k);
     if (is_better(attempt, best, options)) best = std::move(attempt);
     if (is_good(best, options)) break;
@@ -237,7 +261,7 @@ Laid lay_beside_held(const PlanePatch& patch, std::vector<SubPath> sub_paths, in
 Laid lay_as_possible(const PlanePatch& patch, const std::vector<SubPath>& sub_paths,
                      const CutPlaneOptions& options) {
   Laid laid = lay_beside_held(patch, sub_paths, 3, options);
-  if (!patch.has_held() || (laid.refusals.empty() && laid.attempt.altitude >= good_altitude))
+  if (!patch.has_held || (laid.refusals.empty() && laid.attempt.altitude >= good_altitude))
     return laid;
   Laid farther = lay_beside_held(patch, sub_paths, 1, options);
   const bool has_better = farther.attempt.altitude > better_altitude * laid.attempt.altitude;

@@ -185,13 +185,16 @@ void classify_nodes(const Extraction& extraction, const CutConstraints& constrai
       if (patch.across[e][f] == across_boundary) note_boundary_edge(patch, e, f, turn);
   for (int i = 0; i < patch.n_nodes(); ++i) {
     const std::span<const std::int32_t> star = extraction.around.of(patch.node[i]);
-    bool is_rim = turn[i].n_in > 1;  // two fans that touch in a node: left alone
+    // Two fans that touch in a node are left alone.
+    const bool is_held = turn[i].n_in > 1 || constraints.is_held[patch.node[i]] != 0;
+    bool is_rim = false;
     for (const std::int32_t e : star) {
       is_rim = is_rim || extraction.local_element[e] < 0;
       if (extraction.mesh.element_region[e] != extraction.mesh.element_region[star[0]])
         patch.is_anchored[i] = 1;
     }
-    patch.is_held[i] = is_rim || constraints.is_held[patch.node[i]] != 0 ? 1 : 0;
+    patch.has_held = patch.has_held || is_held;
+    patch.is_held[i] = is_rim || is_held ? 1 : 0;
     if (patch.is_boundary[i] == 0) continue;
     const double cosine = turn[i].in.dot(turn[i].out);
     patch.is_sharp[i] = cosine < (patch.is_anchored[i] != 0 ? cos_straight : cos_sharp) ? 1 : 0;

@@ -219,11 +219,8 @@ double free_end(const Search& search, double s, double limit) {
 }  // namespace
 
 int region_at(const PlanePatch& patch, const Vec2& p) {
-  for (int e = 0; e < patch.n_elements(); ++e) {
-    const auto& [a, b, c] = patch.corner[e];
-    if (is_in_triangle(patch.X[a], patch.X[b], patch.X[c], p, 0)) return patch.region[e];
-  }
-  return -1;
+  const int e = element_at(patch, p, 0);
+  return e >= 0 ? patch.region[e] : -1;
 }
 
 InterfaceRoute route_over_interfaces(const PlanePatch& patch, const SubPath& path, double near) {

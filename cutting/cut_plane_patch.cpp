@@ -17,6 +17,14 @@ static void visit_directed_edges(const PlanePatch& patch, Visit visit) {
     }
 }
 
+int element_at(const PlanePatch& patch, const Vec2& p, double slack) {
+  for (int e = 0; e < patch.n_elements(); ++e) {
+    const auto& [a, b, c] = patch.corner[e];
+    if (is_in_triangle(patch.X[a], patch.X[b], patch.X[c], p, slack)) return e;
+  }
+  return -1;
+}
+
 Grouped<int> all_neighbours(const PlanePatch& patch) {
   return group_items<int>(patch.node.size(),
                           [&](const auto& put) { visit_directed_edges(patch, put); });

@@ -43,13 +43,13 @@ struct PlanePatch {
   std::vector<std::uint8_t> is_anchored;  // (n_nodes) stays unless it becomes a cut node: on older
                                           // cuts and between regions
   std::vector<std::uint8_t> is_interface;  // (n_nodes) between regions; none if there is one
-  double h = 0;                            // mean edge length [m]
-  double least_edge = 0;                   // [m]
+  bool has_held = false;  // nodes that must not be displaced whatever the patch, not just its rim's
+  double h = 0;           // mean edge length [m]
+  double least_edge = 0;  // [m]
 
   int n_elements() const { return static_cast<int>(element.size()); }
   int n_nodes() const { return static_cast<int>(node.size()); }
   bool has_interfaces() const { return !is_interface.empty(); }
-  bool has_held() const { return std::find(is_held.begin(), is_held.end(), 1) != is_held.end(); }
 };
 
 // The elements that the path meets and `rings` rings around them. Empty if it meets none.
@@ -80,6 +80,8 @@ inline bool is_in_triangle(const Vec2& a, const Vec2& b, const Vec2& c, const Ve
   return triangle_area(a, b, p) >= least && triangle_area(b, c, p) >= least &&
          triangle_area(c, a, p) >= least;
 }
+// The first element with p in it, as is_in_triangle has it, before the cut; -1 if there is none.
+int element_at(const PlanePatch& patch, const Vec2& p, double slack);
 // 4 sqrt(3) A / sum l^2: 1 for equilateral, <= 0 for inverted triangles.
 inline double quality(const Vec2& a, const Vec2& b, const Vec2& c) {
   const double four_sqrt_3 = 6.928203230275509;

@@ -9,6 +9,7 @@ namespace trocar {
 
 namespace {
 
+constexpr double inside_slack = 1e-9;   // rounding, over an element's area
 constexpr double on_boundary = 0.1;     // h
 constexpr double least_length = 0.3;    // h
 constexpr double tip_clearance = 0.4;   // h
@@ -29,15 +30,8 @@ std::size_t segment_at(const SubPath& path, double s) {
   return static_cast<std::size_t>(after - path.s.begin()) - 1;
 }
 
-bool contains(const PlanePatch& patch, int e, const Vec2& p) {
-  const auto& [a, b, c] = patch.corner[e];
-  return is_in_triangle(patch.X[a], patch.X[b], patch.X[c], p, 1e-9);
-}
-
 bool is_inside(const PlanePatch& patch, const Vec2& p) {
-  for (int e = 0; e < patch.n_elements(); ++e)
-    if (contains(patch, e, p)) return true;
-  return false;
+  return element_at(patch, p, inside_slack) >= 0;
 }
 
 void cross_segment(const PlanePatch& patch, const SubPath& path, std::size_t k, PatchFacet facet,
@@ -163,8 +157,8 @@ double cleared_end(const PlanePatch& patch, const SubPath& path, double s) {
 bool is_movable(const PlanePatch& patch, int n_corners, const Vec2& p) {
   bool is_found = false;
   for (int e = 0; e < patch.n_elements(); ++e) {
-    if (!contains(patch, e, p)) continue;
     const auto& [a, b, c] = patch.corner[e];
+    if (!is_in_triangle(patch.X[a], patch.X[b], patch.X[c], p, inside_slack)) continue;
     if (patch.is_held[a] + patch.is_held[b] + patch.is_held[c] < n_corners) return true;
     is_found = true;
   }
@@ -267,10 +261,14 @@ SubPath with_ends(const SubPath& path, const Vec2& start, const Vec2& end, doubl
 
 std::vector<Vec2> leave_out_held(const PlanePatch& patch, int n_corners,
                                  std::vector<SubPath>& paths) {
-  if (!patch.has_held()) return {};
+  if (std::ranges::find(patch.is_held, 1) == patch.is_held.end()) return {};  // not even a rim
   std::vector<SubPath> result;
   std::vector<Vec2> held;
-  for (const SubPath& path : paths) add_movable(patch, n_corners, path, result, held);
+  for (const SubPath& path : paths)
+    if (patch.has_held)
+      add_movable(patch, n_corners, path, result, held);
+    else if (path.length() > least_length * patch.h)
+      result.push_back(stretch(path, 0, path.length()));
   paths = std::move(result);
   return held;
 }

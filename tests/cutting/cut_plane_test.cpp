@@ -2,6 +2,7 @@
 #include "cutting/cut_plane.h"
 
 #include "base/error.h"
+#include "cutting/cut_plane_patch.h"
 #include "cutting_plane.h"
 #include "mesh/node_corners.h"
 
@@ -79,6 +80,27 @@ TEST(CutPlane, that_ends_short_of_an_outline_leaves_it_straight) {
     const PlaneCut result = cut(slit, {{35 * mm, 3 * mm, 0}, {37 * mm, y * mm, 0}});
     EXPECT_FALSE(result.edit.is_empty());
     EXPECT_NEAR(total_volume(applied(result.edit, slit)) / total_volume(mesh), 1, 1e-12) << y;
+  }
+}
+
+// Nodes at a patch's rim stay where they are, but that is no reason to look for a way beside them.
+TEST(CutPlane, knows_nodes_that_must_stay_from_those_at_the_rim_of_its_patch) {
+  const Mesh mesh = paper_mesh(2);
+  const std::vector<Vec3> path = paper_cut(2);
+  std::vector<Vec2> point;
+  for (const Vec3& X : path) point.emplace_back(X.head<2>());
+  std::vector<std::uint8_t> is_held = none_held(mesh);
+  const PlanePatch patch = make_patch(mesh, point, {is_held}, 4);
+  ASSERT_LT(patch.node.size(), mesh.X.size());
+  EXPECT_GT(std::ranges::count(patch.is_held, 1), 0);
+  EXPECT_FALSE(patch.has_held);
+  for (const bool is_within : {false, true}) {
+    std::ranges::fill(is_held, std::uint8_t{0});
+    for (std::int32_t i = 0; i < mesh.n_nodes(); ++i)
+      if (std::ranges::binary_search(patch.node, i) == is_within) is_held[i] = 1;
+    EXPECT_EQ(make_patch(mesh, point, {is_held}, 4).has_held, is_within);
+    const PlaneCut beside = cut_plane(mesh, path, -1, {is_held}, {});
+    EXPECT_EQ(applied(beside.edit, mesh) == applied(cut(mesh, path).edit, mesh), !is_within);
   }
 }
 

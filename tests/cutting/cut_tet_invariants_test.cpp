@@ -28,18 +28,24 @@ Mesh mirrored(Mesh mesh) {
 
 const Vec3 tilted = Vec3(1, 0.5, 0.2).normalized();
 
-// Sum of the area vectors of the facets that cuts opened.
-Vec3 cut_area(const Mesh& mesh, double& area) {
-  const Surface surface = boundary_surface(mesh);
+// Of the facets that cuts opened: areas of those that look along `normal` and of the others, and
+// the sum of all area vectors.
+struct CutArea {
+  double along = 0, against = 0;
   Vec3 sum = Vec3::Zero();
+};
+
+CutArea cut_area(const Mesh& mesh, const Vec3& normal) {
+  const Surface surface = boundary_surface(mesh);
+  CutArea area;
   for (std::size_t t = 0; t < surface.triangle.size(); ++t) {
     if (surface.is_cut[t] == 0) continue;
     const auto [a, b, c] = surface.triangle[t];
     const Vec3 n = 0.5 * (mesh.X[b] - mesh.X[a]).cross(mesh.X[c] - mesh.X[a]);
-    sum += n;
-    area += n.norm();
+    area.sum += n;
+    (n.dot(normal) > 0 ? area.along : area.against) += n.norm();
   }
-  return sum;
+  return area;
 }
 
 TEST(CutInvariants, a_through_cut_leaves_two_spheres) {
@@ -67,11 +73,23 @@ TEST(CutInvariants, both_faces_of_a_cut_have_the_same_area_and_opposite_normals)
     const Blade blade = is_through ? plane_blade({0, 0, 0}, tilted, 1)
                                    : straight_blade(-0.3 * u - way, 0.3 * u - way, way);
     cut(body, blade, tilted, 25);
-    double area = 0;
-    const Vec3 sum = cut_area(body.mesh, area);
-    EXPECT_GT(area, 0.1);
-    EXPECT_LT(sum.norm(), 1e-13 * area);  // rounding: the two halves have the same nodes
+    const CutArea area = cut_area(body.mesh, tilted);
+    EXPECT_GT(area.along, 0.1);
+    // Rounding: the two faces have nodes at the same places. The sum alone would be zero of any two
+    // faces with the same outline.
+    EXPECT_NEAR(area.along / area.against, 1, 1e-13);
+    EXPECT_LT(area.sum.norm(), 1e-13 * area.along);
   }
+}
+
+// Of the checks themselves: two tetrahedra that share a facet, the second one inverted.
+TEST(CutInvariants, a_surface_that_is_not_oriented_is_a_fault) {
+  Mesh mesh = single_element(ElementType::tet4, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  mesh.X.emplace_back(1, 1, 1);
+  add_element(mesh, ElementType::tet4, std::vector<std::int32_t>{1, 2, 3, 4});
+  EXPECT_EQ(boundary_fault(mesh), "");
+  std::swap(mesh.corner_node[4], mesh.corner_node[5]);
+  EXPECT_NE(boundary_fault(mesh), "");
 }
 
 TEST(CutInvariants, a_mirrored_body_is_cut_like_its_mirror_image) {

@@ -52,6 +52,7 @@ CutterEdit advance(TetCutter& cutter, Body& body, const BladeSweep& sweep, bool 
   const CutConstraints constraints{body.is_held, body.border};
   CutterEdit edit = cutter.advance(body.mesh, positions, constraints, sweep, is_last, figures);
   apply(edit, figures, body, ledger);
+  if (!edit.is_empty()) body.edit_fault = fault(body);
   return edit;
 }
 
@@ -165,6 +166,7 @@ std::string boundary_fault(const Mesh& mesh) {
     do {
       const auto next =
           std::find_if(link[i].begin(), link[i].end(), [&](const auto& k) { return k[0] == at; });
+      if (next == link[i].end()) return "the link of node " + std::to_string(i) + " has an end";
       at = (*next)[1];
     } while (++n < link[i].size() && at != link[i][0][0]);
     if (n != link[i].size()) return "the link of node " + std::to_string(i) + " is not one cycle";
@@ -173,6 +175,7 @@ std::string boundary_fault(const Mesh& mesh) {
 }
 
 std::string fault(const Body& body) {
+  if (!body.edit_fault.empty()) return body.edit_fault;
   if (const auto broken = validate(body.mesh); !broken.empty()) return broken.front();
   for (std::int32_t e = 0; e < body.mesh.n_elements(); ++e)
     if (!(element_volume(body.mesh, e, body.x) > 0))

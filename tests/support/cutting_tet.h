@@ -35,6 +35,7 @@ struct Body {
   std::vector<Vec3> x;
   std::vector<std::uint8_t> is_held;
   std::vector<BorderEdge> border;  // of its nodes before any cut
+  std::string edit_fault;          // what the first edit by advance() that broke it left
 
   explicit Body(Mesh m) : mesh(std::move(m)), x(mesh.X), is_held(mesh.X.size(), 0) {}
   void deform(const Deformation& map) {
@@ -103,7 +104,8 @@ std::array<Vec3, 2> crossing_normals(double angle, double tilt);
 // What keeps the boundary from being a closed 2-manifold; empty if nothing does.
 std::string boundary_fault(const Mesh& mesh);
 
-// The first thing wrong with a body that was whole and sound before; empty if nothing is.
+// The first thing wrong with a body that was whole and sound before, now or after an edit that
+// advance() has made; empty if nothing is.
 std::string fault(const Body& body);
 
 }  // namespace trocar::cutting_test
