@@ -218,7 +218,7 @@ TEST(Checkpoint, keeps_a_step_that_roll_backs_have_halved) {
   Outputs outputs;
   s->step_scale = 0.5;
   s->log.n_roll_backs = 1;
-  restore_checkpoint(take_checkpoint(*s), *t);
+  restore_checkpoint(checkpoint_from_bytes(bytes_of(*s), "c"), *t);
   run_frame(*s, outputs);
   run_frame(*t, outputs);
   EXPECT_EQ(bytes_of(*t), bytes_of(*s));
@@ -234,7 +234,7 @@ TEST(Checkpoint, keeps_a_step_that_is_still_rising) {
   Outputs outputs;
   s->held_step = 0.5 * s->watch.stable_step;
   s->held_by_contact = 0.4 * s->watch.stable_step;
-  restore_checkpoint(take_checkpoint(*s), *t);
+  restore_checkpoint(checkpoint_from_bytes(bytes_of(*s), "c"), *t);
   run_frame(*s, outputs);
   run_frame(*t, outputs);
   EXPECT_EQ(bytes_of(*t), bytes_of(*s));
