@@ -33,21 +33,6 @@ LoadedScene loaded_text(const std::string& text) {
   return load_scene(write_text(folder.file("s.toml"), text), {"checkpoint.every=0"});
 }
 
-// Wall times are the only part that no two runs share.
-Checkpoint without_wall_times(Checkpoint c) {
-  auto rows = std::make_shared<std::vector<FrameRow>>(*c.rows);
-  for (FrameRow& row : *rows) row.seconds = row.latency = 0;
-  c.rows = std::move(rows);
-  for (CutMemory& cut : c.cuts)
-    for (CutRecord& stroke : cut.strokes) stroke.seconds = stroke.worst_seconds = 0;
-  c.tally.n_deadlines_missed = 0;
-  return c;
-}
-
-std::vector<std::byte> bytes_of(Simulation& s) {
-  return checkpoint_to_bytes(without_wall_times(take_checkpoint(s)));
-}
-
 // Checkpoints of all frames of a run that is not stopped, from time zero on.
 std::vector<std::vector<std::byte>> uninterrupted(const LoadedScene& scene) {
   Communicator alone;
