@@ -115,6 +115,34 @@ TEST(Checkpoint, of_each_frame_of_a_plane_cut_leads_to_the_next_one) {
   EXPECT_GT(checkpoint_from_bytes(checkpoints.back(), "c").duplicate_node.size(), 2u);
 }
 
+std::string with_solver(std::string text, const std::string& line) {
+  return text.insert(text.find("mass_damping"), line + "\n");
+}
+
+// Kinds that the scenes above don't have, in frames with a cut.
+TEST(Checkpoint, of_frames_of_nodal_pressures_and_of_plane_stress_lead_to_the_next_one) {
+  for (const std::string& text :
+       {with_solver(resume_block_text, "tetrahedron = \"nodal-pressure\""),
+        with_solver(resume_plane_text, "triangle = \"plane-stress\"")}) {
+    const LoadedScene scene = loaded_text(text);
+    const auto checkpoints = uninterrupted(scene);
+    expect_same_next_frames(scene, {checkpoints.begin() + 8, checkpoints.begin() + 18});
+    EXPECT_GT(checkpoint_from_bytes(checkpoints[18], "c").duplicate_node.size(), 1U);
+  }
+}
+
+TEST(Checkpoint, of_each_frame_of_a_cut_by_scissors_leads_to_the_next_one) {
+  const LoadedScene scene = loaded_text(resume_snip_text);
+  const auto checkpoints = uninterrupted(scene);
+  expect_same_next_frames(scene, {checkpoints.begin() + 4, checkpoints.end()});
+  const Checkpoint last = checkpoint_from_bytes(checkpoints.back(), "c");
+  EXPECT_GT(last.duplicate_node.size(), 5U);
+  const auto is_of_tissue_beside = [](const std::string& e) {
+    return contains(e, "beside its open");
+  };
+  EXPECT_EQ(std::ranges::count_if(last.tally.events, is_of_tissue_beside), 1);
+}
+
 TEST(Checkpoint, of_a_frame_that_failed_behind_its_cut_is_not_written) {
   const auto c = built(resume_block_text);
   Simulation& s = *c->s;
@@ -179,7 +207,15 @@ TEST(Checkpoint, needs_each_part_of_a_stroke_through_tetrahedra) {
        {"is_in_stroke", [](CutMemory& m) { m.is_in_stroke = false; }},
        {"n_idle_frames", [](CutMemory& m) { m.n_idle_frames = 0; }},
        {"push", [](CutMemory& m) { m.push = {}; }},
+       {"swept places", [](CutMemory& m) { m.CutProgress::swept.clear(); }},
+       {"strokes", [](CutMemory& m) { m.strokes.insert(m.strokes.begin(), {.tool = "other"}); }},
        {"tissue_velocity", [](CutMemory& m) { m.tissue_velocity.setConstant(1); }}});
+}
+
+// Or it would be told of again.
+TEST(Checkpoint, needs_that_tissue_beside_jaws_was_told_of) {
+  expect_each_is_needed(loaded_text(resume_snip_text),
+                        {{"has_told_beside", [](CutMemory& m) { m.has_told_beside = false; }}});
 }
 
 // With resistance it is known before how the tissue comes.
