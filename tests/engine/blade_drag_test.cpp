@@ -9,6 +9,7 @@
 #include "engine_scene.h"
 #include "engine_started.h"
 #include "mesh/generate.h"
+#include "scene_parts.h"
 #include "solver_body.h"
 
 namespace trocar {
@@ -105,10 +106,10 @@ TEST(BladeDrag, on_the_tool_is_what_it_is_on_the_tissue) {
 }
 
 // A blade of 40 mm goes through a block of the same height, its tip at a depth that is no multiple
-// of the distance of points on its edge: mean force in the middle of the stroke [N] and the largest
-// length inside [m].
+// of the distance of points on its edge: mean force in the middle of the stroke [N], its mean
+// torque about the tip [N m] and the largest length inside [m].
 struct Resisted {
-  double force = 0, inside = 0;
+  double force = 0, torque = 0, inside = 0;
 };
 Resisted resisted_at(double depth) {
   const std::string height = std::to_string(0.04 - depth);
@@ -120,7 +121,7 @@ Resisted resisted_at(double depth) {
       "region = \"y+\"\n[[support]]\nregion = \"z-\"\n"
       "[[instrument]]\nkind = \"scalpel\"\nblade_length = 0.04\npath = [\n"
       "{ time = 0, position = [-0.04, 0, " +
-      height + "] },\n{ time = 0.5, position = [0.03, 0, " + height + "] } ]\n");
+      height + "] },\n{ time = 0.5, position = [0.03, 0, " + height + "] } ]\n" + metrics_table);
   Simulation& s = *started->s;
   Resisted resisted;
   int n = 0;
@@ -129,19 +130,22 @@ Resisted resisted_at(double depth) {
     const ToolRow& blade = s.log.rows.back().tools[0];
     if (std::abs(blade.position.x()) > 0.015) continue;
     resisted.force -= blade.force.x();
+    resisted.torque -= blade.torque.y();
     ++n;
   }
   resisted.force /= n;
+  resisted.torque /= n;
   resisted.inside = s.cuts[0].strokes.back().deepest;
   return resisted;
 }
 
 // The free end bulges by up to 1.7 mm where the blade enters; in the middle of the stroke the top
-// lies within 1 % of the depth where it was.
+// lies within 1 % of the depth where it was. The force's place is the middle of the length inside.
 TEST(CutWithResistance, is_held_back_by_the_length_of_its_edge_inside_at_every_depth) {
   for (const double depth : {0.0170, 0.0190, 0.0205}) {
     const Resisted resisted = resisted_at(depth);
     EXPECT_NEAR(resisted.force, 20 * depth, 0.02 * 20 * depth) << depth;
+    EXPECT_NEAR(resisted.torque, 20 * depth * depth / 2, 0.04 * 20 * depth * depth / 2) << depth;
     EXPECT_NEAR(resisted.inside, depth, 0.0018) << depth;
   }
 }

@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
 #include "base/digest.h"
+#include "engine/archive.h"
 #include "engine/bytes.h"
 #include "engine/checkpoint.h"
 #include "engine_checkpoint.h"
+#include "engine_checkpoint_members.h"
+#include "engine_recording.h"
 #include "error_of.h"
 
 namespace trocar {
@@ -30,6 +33,73 @@ TEST(CheckpointBytes, read_back_give_the_same_checkpoint) {
   EXPECT_EQ(back.tally.events, c.tally.events);
   EXPECT_EQ(back.outputs.at(0).last_frame, 16);
   EXPECT_EQ(edit_to_bytes(back.outputs[0].pending.at(0)), edit_to_bytes(c.outputs[0].pending[0]));
+}
+
+// Changes every number, text, list and mesh in it, also in members of members, one at a time.
+struct EachChange {
+  Checkpoint& checkpoint;
+  std::string place = "";  // of the member, positions from 0 on
+  int n = 0;
+
+  void in(Vec3& v) { in_each(std::tie(v[0], v[1], v[2])); }
+  void in(std::string& text) { tell(text, text + "!"); }
+  void in(MeshEdit& edit) { tell(edit, example_edit(*checkpoint.mesh, 3)); }
+  void in(std::shared_ptr<const Mesh>& mesh) {
+    tell(mesh, std::make_shared<const Mesh>(make_rectangle(0.02, 0.01, 2, 3)));
+  }
+  void in(std::shared_ptr<const std::vector<FrameRow>>& rows) {
+    const auto own = std::make_shared<std::vector<FrameRow>>(*rows);
+    rows = own;
+    in(*own);
+  }
+  template <class T>
+  void in(std::vector<T>& values) {
+    std::vector<T> more = values;
+    more.emplace_back();
+    if (values.empty()) values = more;
+    tell(values, std::vector<T>(values.size() + 1, values[0]));
+    in(values[0]);
+  }
+  template <class T>
+  void in(T& value) {
+    if constexpr (std::is_same_v<T, bool>)
+      tell(value, !value);
+    else if constexpr (std::is_enum_v<T>)
+      tell(value, static_cast<T>(static_cast<int>(value) + 1));
+    else if constexpr (is_plain<T>)
+      tell(value, static_cast<T>(value + 1));
+    else
+      in_each(members(value));
+  }
+  template <class... T>
+  void in_each(const std::tuple<T&...>& values) {
+    const std::string before = place;
+    int k = 0;
+    const auto one = [&](auto& value) {
+      place = before + " " + std::to_string(k++);
+      in(value);
+    };
+    std::apply([&](auto&... value) { (one(value), ...); }, values);
+    place = before;
+  }
+  template <class T>
+  void tell(T& value, T other) {
+    const std::vector<std::byte> before = checkpoint_to_bytes(checkpoint);
+    std::swap(value, other);
+    const std::vector<std::byte> after = checkpoint_to_bytes(checkpoint);
+    EXPECT_FALSE(after == before) << "member" << place;
+    EXPECT_TRUE(checkpoint_to_bytes(checkpoint_from_bytes(after, "c")) == after)
+        << "member" << place;
+    std::swap(value, other);
+    ++n;
+  }
+};
+
+TEST(CheckpointBytes, have_every_member_and_give_it_back) {
+  Checkpoint c = example_checkpoint();
+  EachChange change{.checkpoint = c};
+  change.in(c);
+  EXPECT_GT(change.n, 250);
 }
 
 // Of a mesh and of fields that don't fit into a piece.

@@ -33,21 +33,6 @@ LoadedScene loaded_text(const std::string& text) {
   return load_scene(write_text(folder.file("s.toml"), text), {"checkpoint.every=0"});
 }
 
-// Wall times are the only part that no two runs share.
-Checkpoint without_wall_times(Checkpoint c) {
-  auto rows = std::make_shared<std::vector<FrameRow>>(*c.rows);
-  for (FrameRow& row : *rows) row.seconds = row.latency = 0;
-  c.rows = std::move(rows);
-  for (CutMemory& cut : c.cuts)
-    for (CutRecord& stroke : cut.strokes) stroke.seconds = stroke.worst_seconds = 0;
-  c.tally.n_deadlines_missed = 0;
-  return c;
-}
-
-std::vector<std::byte> bytes_of(Simulation& s) {
-  return checkpoint_to_bytes(without_wall_times(take_checkpoint(s)));
-}
-
 // Checkpoints of all frames of a run that is not stopped, from time zero on.
 std::vector<std::vector<std::byte>> uninterrupted(const LoadedScene& scene) {
   Communicator alone;
@@ -130,6 +115,34 @@ TEST(Checkpoint, of_each_frame_of_a_plane_cut_leads_to_the_next_one) {
   EXPECT_GT(checkpoint_from_bytes(checkpoints.back(), "c").duplicate_node.size(), 2u);
 }
 
+std::string with_solver(std::string text, const std::string& line) {
+  return text.insert(text.find("mass_damping"), line + "\n");
+}
+
+// Kinds that the scenes above don't have, in frames with a cut.
+TEST(Checkpoint, of_frames_of_nodal_pressures_and_of_plane_stress_lead_to_the_next_one) {
+  for (const std::string& text :
+       {with_solver(resume_block_text, "tetrahedron = \"nodal-pressure\""),
+        with_solver(resume_plane_text, "triangle = \"plane-stress\"")}) {
+    const LoadedScene scene = loaded_text(text);
+    const auto checkpoints = uninterrupted(scene);
+    expect_same_next_frames(scene, {checkpoints.begin() + 8, checkpoints.begin() + 18});
+    EXPECT_GT(checkpoint_from_bytes(checkpoints[18], "c").duplicate_node.size(), 1U);
+  }
+}
+
+TEST(Checkpoint, of_each_frame_of_a_cut_by_scissors_leads_to_the_next_one) {
+  const LoadedScene scene = loaded_text(resume_snip_text);
+  const auto checkpoints = uninterrupted(scene);
+  expect_same_next_frames(scene, {checkpoints.begin() + 4, checkpoints.end()});
+  const Checkpoint last = checkpoint_from_bytes(checkpoints.back(), "c");
+  EXPECT_GT(last.duplicate_node.size(), 5U);
+  const auto is_of_tissue_beside = [](const std::string& e) {
+    return contains(e, "beside its open");
+  };
+  EXPECT_EQ(std::ranges::count_if(last.tally.events, is_of_tissue_beside), 1);
+}
+
 TEST(Checkpoint, of_a_frame_that_failed_behind_its_cut_is_not_written) {
   const auto c = built(resume_block_text);
   Simulation& s = *c->s;
@@ -194,7 +207,15 @@ TEST(Checkpoint, needs_each_part_of_a_stroke_through_tetrahedra) {
        {"is_in_stroke", [](CutMemory& m) { m.is_in_stroke = false; }},
        {"n_idle_frames", [](CutMemory& m) { m.n_idle_frames = 0; }},
        {"push", [](CutMemory& m) { m.push = {}; }},
+       {"swept places", [](CutMemory& m) { m.CutProgress::swept.clear(); }},
+       {"strokes", [](CutMemory& m) { m.strokes.insert(m.strokes.begin(), {.tool = "other"}); }},
        {"tissue_velocity", [](CutMemory& m) { m.tissue_velocity.setConstant(1); }}});
+}
+
+// Or it would be told of again.
+TEST(Checkpoint, needs_that_tissue_beside_jaws_was_told_of) {
+  expect_each_is_needed(loaded_text(resume_snip_text),
+                        {{"has_told_beside", [](CutMemory& m) { m.has_told_beside = false; }}});
 }
 
 // With resistance it is known before how the tissue comes.
@@ -218,7 +239,7 @@ TEST(Checkpoint, keeps_a_step_that_roll_backs_have_halved) {
   Outputs outputs;
   s->step_scale = 0.5;
   s->log.n_roll_backs = 1;
-  restore_checkpoint(take_checkpoint(*s), *t);
+  restore_checkpoint(checkpoint_from_bytes(bytes_of(*s), "c"), *t);
   run_frame(*s, outputs);
   run_frame(*t, outputs);
   EXPECT_EQ(bytes_of(*t), bytes_of(*s));
@@ -234,7 +255,7 @@ TEST(Checkpoint, keeps_a_step_that_is_still_rising) {
   Outputs outputs;
   s->held_step = 0.5 * s->watch.stable_step;
   s->held_by_contact = 0.4 * s->watch.stable_step;
-  restore_checkpoint(take_checkpoint(*s), *t);
+  restore_checkpoint(checkpoint_from_bytes(bytes_of(*s), "c"), *t);
   run_frame(*s, outputs);
   run_frame(*t, outputs);
   EXPECT_EQ(bytes_of(*t), bytes_of(*s));

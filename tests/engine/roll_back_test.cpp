@@ -8,7 +8,14 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/threads.h"
+#include "engine_checkpoint.h"
+#include "engine_resume.h"
 #include "engine_started.h"
+#include "mesh_fixtures.h"
+#include "mesh_write.h"
+#include "scene_parts.h"
+#include "solver/step.h"
 
 namespace trocar {
 namespace {
@@ -103,6 +110,85 @@ TEST(RollBack, of_numbers_that_stay_not_finite_ends_in_a_sentence_with_node_and_
     EXPECT_EQ(s.log.rows.size(), 1u);
     EXPECT_EQ(s.log.n_roll_backs, most_roll_backs);
   }
+}
+
+// Pressed, grasped, pulled by a support and cut with resistance; with all that metrics tell.
+const std::string busy_block = resume_block_text + metrics_table;
+
+// Pressed beside its thin elements, which take local steps, and pulled.
+const std::string busy_layer = time_table("1 s", 50) + tissue_of_kpa(2) + solver_table("-1", 20) +
+                               "multirate = true\n" + held_left + metrics_table + probe_along(R"(
+  { time = 0, position = ["45 mm", "15 mm", "36 mm"] },
+  { time = 0.3, position = ["45 mm", "15 mm", "28 mm"] },
+)") + grasper_along("7 mm", R"(
+  { time = 0, position = ["70 mm", "-20 mm", "-20 mm"] },
+  { time = "0.1 s", position = ["70 mm", 0, 0], action = "close" },
+  { time = "0.3 s", position = ["72 mm", "-3 mm", "-2 mm"] },
+)");
+
+std::vector<std::string> layer_file(const TestFolder& folder) {
+  write_mesh(with_thin_layer(BoxElements::hex8, 2), folder.file("m.msh"));
+  return {"tissue.mesh='" + folder.file("m.msh") + "'"};
+}
+
+// But for the sentences on its roll-backs.
+std::vector<std::byte> told_by(Simulation& s) {
+  Checkpoint c = without_wall_times(take_checkpoint(s));
+  std::erase_if(c.tally.events, [](const std::string& e) { return contains(e, "rolled back"); });
+  return checkpoint_to_bytes(c);
+}
+
+// From the end of a frame on, of two: in one the force at a node is not a number in the first try,
+// the other begins with what a roll-back leaves.
+void expect_frames_of_smaller_step(const std::string& text, const std::vector<std::string>& more,
+                                   int frame) {
+  const auto before = built(text, more), failing = built(text, more), direct = built(text, more);
+  while (before->s->frame < frame) run_frame(*before->s, before->outputs);
+  const Checkpoint start = take_checkpoint(*before->s);
+  Simulation &s = *failing->s, &expected = *direct->s;
+  for (Simulation* const t : {&s, &expected}) restore_checkpoint(start, *t);
+  find_force(s.model, s.neighbours, s.state, s.scratch);
+  s.scratch.force[s.scratch.force.size() / 2] = not_a_number;
+  s.scratch.has_force = true;
+  roll_back(expected, {.t0 = expected.state.time}, expected.watch, "as the other", 0);
+  for (int k = 0; k < 2; ++k) {
+    run_frame(s, failing->outputs);
+    run_frame(expected, direct->outputs);
+    EXPECT_EQ(s.log.n_roll_backs, 1);
+    EXPECT_TRUE(told_by(s) == told_by(expected)) << k + 1 << " frames after frame " << frame;
+    const FrameRow &row = s.log.rows.back(), &other = expected.log.rows.back();
+    EXPECT_GT(row.n_contacts, 0);
+    EXPECT_GT(row.n_held, 0);
+    EXPECT_GT(row.tools[1].pull.norm(), 0);  // of the grasper
+    EXPECT_EQ(row.tools[1].pull, other.tools[1].pull);
+  }
+}
+
+// The grasper closes at the beginning of the seventh frame.
+TEST(RollBack, gives_the_frames_that_the_smaller_step_gives_at_once) {
+  set_thread_count(1);
+  for (const std::string& text : {busy_block, busy_block + "[contact]\ntissue = true\n"})
+    for (const int frame : {6, 12, 20}) expect_frames_of_smaller_step(text, {}, frame);
+  const TestFolder folder;
+  expect_frames_of_smaller_step(busy_layer, layer_file(folder), 8);
+}
+
+// Each of its tries is said to have crushed an element, and searches for the step.
+TEST(RollBack, that_gives_up_leaves_the_steps_of_before) {
+  const TestFolder folder;
+  const auto started = built(busy_layer, layer_file(folder));
+  Simulation& s = *started->s;
+  while (s.frame < 8) run_frame(s, started->outputs);
+  ASSERT_TRUE(s.has_local_steps);
+  const double of_small = s.look.of_small, step = s.watch.stable_step;
+  const std::int64_t n_searches = s.log.searches.n_of_body;
+  ASSERT_LT(of_small, 0.5);
+  s.rest_step = 1;  // [s] said to be that at rest
+  const std::string sentence = error_of<SimulationError>([&] { run_frame(s, started->outputs); });
+  EXPECT_TRUE(contains(sentence, "crushed or overstretched")) << sentence;
+  EXPECT_GT(s.log.searches.n_of_body, n_searches);
+  EXPECT_EQ(s.look.of_small, of_small);
+  EXPECT_EQ(s.watch.stable_step, step);
 }
 
 }  // namespace

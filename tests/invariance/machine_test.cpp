@@ -9,13 +9,6 @@
 namespace trocar {
 namespace {
 
-std::string small_scene(const std::string& name) {
-  for (const SmallScene& scene : small_scenes())
-    if (scene.name == name) return scene.text;
-  ADD_FAILURE() << name;
-  return "";
-}
-
 // Words of `env`; the run is in folder/out.
 Finished run_with(const std::vector<std::string>& settings, const std::string& scene,
                   const std::string& folder, const std::vector<std::string>& more = {}) {

@@ -7,6 +7,7 @@
 #include "engine_resume.h"
 #include "program_start.h"
 #include "scene_plate.h"
+#include "small_scenes.h"
 
 namespace trocar {
 namespace {
@@ -43,17 +44,11 @@ void run(const std::string& scene, const std::string& folder, const Machine& mac
 
 // Everything that a run leaves and that a second run must leave too.
 std::string result_of(const std::string& folder) {
-  nlohmann::json summary = read_summary(folder + "/out");
+  const nlohmann::json summary = read_summary(folder + "/out");
   if (summary.is_discarded()) return "no summary";
-  for (auto& cut : summary["cuts"])
-    for (const char* of_machine : {"milliseconds", "milliseconds_worst", "ranks"})
-      cut.erase(of_machine);
-  if (summary.contains("equilibrium")) summary["equilibrium"].erase("seconds");
   std::string result;
-  for (const char* key :
-       {"state_digest", "frames", "steps", "equilibrium", "mesh", "mass_kg", "stable_step_s",
-        "least_det_F", "instruments", "wound", "cuts", "energies_J", "events"})
-    result += std::string(key) + " " + summary[key].dump() + "\n";
+  const nlohmann::json same = result_in(summary);
+  for (const auto& [key, value] : same.items()) result += key + " " + value.dump() + "\n";
   result += metrics_without_times(folder + "/out/m.csv");
   const Finished list = run_trocar({"replay", folder + "/out/r.trocar", "--list"}, folder);
   EXPECT_EQ(list.exit_code, 0) << list.err;
@@ -65,37 +60,45 @@ std::string scene_file(const std::string& folder, const std::string& text) {
   return folder + "/scene.toml";
 }
 
+struct Change {
+  Machine from, to;
+};
+
+struct Halves {
+  std::string name, scene, half, end;  // durations of the first run and of both
+  std::vector<std::string> more = {};
+  std::vector<Change> changes = {{{1, 1}, {2, 1}}, {{2, 2}, {1, 1}}, {{3, 1}, {1, 2}}};
+};
+
 // Stops at `half` on one machine and goes on to `end` on others.
-void expect_resumes(const std::string& name, const std::string& scene, const std::string& half,
-                    const std::string& end, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> to_half = {"--set", "time.duration='" + half + "'"},
-                           to_end = {"--set", "time.duration='" + end + "'"};
+void expect_resumes(const Halves& h) {
+  std::vector<std::string> to_half = {"--set", "time.duration='" + h.half + "'"},
+                           to_end = {"--set", "time.duration='" + h.end + "'"};
   for (std::vector<std::string>* settings : {&to_half, &to_end})
-    settings->insert(settings->end(), more.begin(), more.end());
+    settings->insert(settings->end(), h.more.begin(), h.more.end());
   std::vector<std::string> go_on = to_end;
   go_on.push_back("--resume");
-  const std::string whole = test_folder(name + "-whole");
-  run(scene, whole, {1, 1}, to_end);
+  const std::string whole = test_folder(h.name + "-whole");
+  run(h.scene, whole, {1, 1}, to_end);
   const std::string expected = result_of(whole);
-  struct Change {
-    Machine from, to;
-  };
-  for (const auto& [from, to] : {Change{{1, 1}, {2, 1}}, {{2, 2}, {1, 1}}, {{3, 1}, {1, 2}}}) {
-    const std::string parts = test_folder(name + "-parts");
-    run(scene, parts, from, to_half);
-    run(scene, parts, to, go_on);
+  for (const auto& [from, to] : h.changes) {
+    const std::string parts = test_folder(h.name + "-parts");
+    run(h.scene, parts, from, to_half);
+    run(h.scene, parts, to, go_on);
     EXPECT_EQ(result_of(parts), expected) << "from " << from.ranks << " x " << from.threads
                                           << " to " << to.ranks << " x " << to.threads;
   }
 }
 
+const std::vector<Change> one_change = {{{3, 1}, {1, 2}}};
+
 TEST(Resume, in_the_middle_of_a_stroke_through_tetrahedra_gives_the_same_bits_on_other_ranks) {
   const std::string folder = test_folder("block-scene");
-  expect_resumes("block", scene_file(folder, resume_block_text), "0.5 s", "1.2 s");
+  expect_resumes({"block", scene_file(folder, resume_block_text), "0.5 s", "1.2 s"});
 }
 
 TEST(Resume, in_the_middle_of_a_plane_cut_gives_the_same_bits_on_other_ranks) {
-  expect_resumes("plane", config("plane_cut.toml"), "1.4 s", "2.2 s");
+  expect_resumes({"plane", config("plane_cut.toml"), "1.4 s", "2.2 s"});
 }
 
 TEST(Resume,
@@ -111,21 +114,52 @@ TEST(Resume,
       "forward = [1, 0, 0.2] },\n"
       "{ time = 0.45, position = [0.05, 0.03, 0.016], direction = [0, 1, 0], "
       "forward = [1, 0, 0.2] } ]\n";
-  expect_resumes("ball", scene_file(folder, text), "0.27 s", "0.4 s");
+  expect_resumes({"ball", scene_file(folder, text), "0.27 s", "0.4 s"});
 }
 
 TEST(Resume, of_the_grasped_hexahedral_block_gives_the_same_bits_on_other_ranks) {
   // Enough elements for two threads on each of two ranks.
-  expect_resumes("hexahedra", config("block_hex.toml"), "1.6 s", "1.8 s",
-                 {"--set", "tissue.shape.cells=[14, 12, 12]"});
-  expect_resumes("cut-hexahedra", config("block_hex_cut.toml"), "0.5 s", "0.8 s");
+  expect_resumes({"hexahedra",
+                  config("block_hex.toml"),
+                  "1.6 s",
+                  "1.8 s",
+                  {"--set", "tissue.shape.cells=[14, 12, 12]"}});
+  expect_resumes({"cut-hexahedra", config("block_hex_cut.toml"), "0.5 s", "0.8 s"});
 }
 
 TEST(Resume, of_a_run_that_began_in_equilibrium_gives_the_same_bits_on_other_ranks) {
   const std::string folder = test_folder("equilibrium-scene");
   std::string text = resume_plane_text + "[start]\nstate = \"equilibrium\"\n";
   text.replace(text.find("mass_damping"), 0, "gravity = [0, -2, 0]\n");
-  expect_resumes("equilibrium", scene_file(folder, text), "0.5 s", "0.8 s");
+  expect_resumes({"equilibrium", scene_file(folder, text), "0.5 s", "0.8 s"});
+}
+
+TEST(Resume, of_a_body_with_nodal_pressures_asleep_gives_the_same_bits_on_other_ranks) {
+  const std::string folder = test_folder("asleep-scene");
+  const std::string scene = scene_file(folder, small_scene("tet4 asleep, cut"));
+  expect_resumes({"asleep",
+                  scene,
+                  "0.62 s",
+                  "0.8 s",
+                  {"--set", "solver.tetrahedron='nodal-pressure'"},
+                  one_change});
+}
+
+TEST(Resume, of_a_run_that_was_rolled_back_gives_the_same_bits_on_other_ranks) {
+  const std::string folder = test_folder("rolled-back-scene");
+  const std::string name = "hex8, pulled so fast that frames are rolled back";
+  expect_resumes(
+      {"rolled-back", scene_file(folder, small_scene(name)), "0.16 s", "0.24 s", {}, one_change});
+}
+
+TEST(Resume, in_the_middle_of_a_cut_by_scissors_gives_the_same_bits_on_other_ranks) {
+  const std::string folder = test_folder("scissors-scene");
+  expect_resumes({"scissors",
+                  scene_file(folder, small_scene("duct, cut by scissors")),
+                  "0.3 s",
+                  "0.42 s",
+                  {},
+                  one_change});
 }
 
 TEST(Resume, goes_on_with_pictures_and_begins_a_film_and_a_sheet_of_its_own) {

@@ -3,6 +3,7 @@
 // two, and takes some hundred steps, for which it is soft.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -271,8 +272,17 @@ force = ["1e-11 N", 0, 0]
 state = "equilibrium"
 )";
 
+// With metrics of a point on either side of the middle in x, where two ranks meet. [m]
+inline std::string marked(double middle, const std::string& yz) {
+  std::string text = metrics_table;
+  for (const double x : {middle - 0.001, middle + 0.001})
+    text += "[[marker]]\nname = \"" + std::string(x < middle ? "left" : "right") +
+            "\"\nposition = [" + std::to_string(x) + ", " + yz + "]\n";
+  return text;
+}
+
 inline std::vector<SmallScene> small_scenes() {
-  const std::string viscous = "prony = [ { share = 0.4, time = \"0.1 s\" } ]\n";
+  const std::string prony = "prony = [ { share = 0.4, time = \"0.1 s\" } ]\n";
   const std::string held_sides = "[[support]]\nregion = \"x-\"\n[[support]]\nregion = \"x+\"\n";
   const std::string scaled = "mass_scaling_step = \"1.04 ms\"\n", sleep = "sleep = \"0.3 mm\"\n";
   SmallBlock parted = {.duration = "0.4 s", .supports = held_sides};
@@ -283,9 +293,9 @@ inline std::vector<SmallScene> small_scenes() {
   SmallBlock hasty = hexahedra();
   hasty.duration = "0.24 s";
   SmallBlock viscous_hex = hexahedra(), viscous_tet;
-  viscous_hex.material = viscous_tet.material = viscous;
+  viscous_hex.material = viscous_tet.material = prony;
   SmallBlock viscous_enhanced = hexahedra("hexahedron = \"enhanced\"\n");
-  viscous_enhanced.material = viscous;
+  viscous_enhanced.material = prony;
   return {
       {"tet4, pressed and pulled", block({}) + probe + grasper},
       {"tet4 with nodal pressures, pressed",
@@ -298,11 +308,12 @@ inline std::vector<SmallScene> small_scenes() {
       {"hex8 full, pressed and pulled",
        block(hexahedra("hexahedron = \"full\"\n")) + probe + moving_support},
       {"mixed elements and materials, pressed", mixed},
-      {"tri3, cut and pulled", plane("") + plane_cut},
+      {"tri3, cut and pulled", plane("") + plane_cut + marked(0.035, "0.021, 0")},
       {"tri3 in plane stress under pressure, cut and pulled",
        plane("triangle = \"plane-stress\"\n") + plane_cut +
            "[[load]]\nregion = \"y+\"\npressure = \"-100 Pa\"\n"},
-      {"tri3 with scaled masses, cut and pulled", plane(scaled) + plane_cut},
+      {"tri3 with scaled masses, cut and pulled",
+       plane(scaled) + plane_cut + marked(0.035, "0.021, 0")},
       {"hex8 viscoelastic from equilibrium, pressed", block(viscous_hex) + at_rest + probe},
       {"tet4 viscoelastic, cut", block(viscous_tet) + partial_cut},
       {"tet4, cut in two", block(parted) + through_cut},
@@ -321,7 +332,7 @@ inline std::vector<SmallScene> small_scenes() {
       {"tet4 with nodal pressures, cut and pulled",
        block({.solver = "tetrahedron = \"nodal-pressure\"\n"}) + partial_cut + grasper},
       {"duct, cut by scissors", duct},
-      {"hex8 asleep, pressed", block(sleepy) + at_rest + late_probe},
+      {"hex8 asleep, pressed", block(sleepy) + at_rest + late_probe + marked(0, "0.002, 0.02")},
       {"tet4 asleep, cut", block(sleepy_tet) + at_rest + late_cut},
       {"tri3 asleep with scaled masses, cut",
        plane("mass_scaling_step = \"0.61 ms\"\nsleep = \"0.5 mm\"\n", "1 s",
@@ -347,6 +358,12 @@ inline std::vector<SmallScene> small_scenes() {
       {"hex8 ball, cut at its pole, resumed", ball_cut_at_its_pole, "0.2 s"},
       {"hex8 from equilibrium, cut, resumed", block(hexahedra()) + at_rest + curved_cut, "0.26 s"},
   };
+}
+
+inline std::string small_scene(const std::string& name) {
+  for (const SmallScene& scene : small_scenes())
+    if (scene.name == name) return scene.text;
+  throw std::invalid_argument("no scene \"" + name + "\"");
 }
 
 }  // namespace trocar

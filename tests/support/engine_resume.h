@@ -83,4 +83,27 @@ path = [
 ]
 )";
 
+// A plate 30 mm wide, which scissors of 20 mm close on from 0.2 s to 0.4 s: it lies beside their
+// jaws, too.
+inline const std::string resume_snip_text =
+    time_table("0.5 s") + tissue_of_kpa(6) + solver_table("0", 20) + R"([tissue.shape]
+kind = "box"
+low = ["-15 mm", "-20 mm", 0]
+high = ["15 mm", "20 mm", "5 mm"]
+cells = [24, 16, 2]
+elements = "tet4-kuhn"
+[[support]]
+region = "y-"
+[[support]]
+region = "y+"
+[[instrument]]
+kind = "scissors"
+blade_length = "20 mm"
+path = [
+  { time = 0, position = [0, "1 mm", "30 mm"], direction = [0, 0, -1] },
+  { time = 0.15, position = [0, "1 mm", "-3 mm"], direction = [0, 0, -1] },
+  { time = 0.4, position = [0, "1 mm", "-3 mm"], direction = [0, 0, -1], action = "close" },
+]
+)";
+
 }  // namespace trocar

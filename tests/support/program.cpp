@@ -93,6 +93,20 @@ nlohmann::json read_summary(const std::string& folder) {
   return nlohmann::json::parse(read_text(folder + "/summary.json"), nullptr, false);
 }
 
+nlohmann::json result_in(const nlohmann::json& summary) {
+  nlohmann::json result = nlohmann::json::object();
+  for (const char* const key :
+       {"state_digest", "frames", "steps", "equilibrium", "mesh", "mass_kg", "added_mass",
+        "stable_step_s", "least_det_F", "roll_backs", "searches", "multirate", "share_asleep_mean",
+        "instruments", "supports", "wound", "cuts", "energies_J", "events"})
+    if (summary.contains(key)) result[key] = summary[key];
+  for (auto& cut : result["cuts"])
+    for (const char* const of_machine : {"milliseconds", "milliseconds_worst", "ranks"})
+      cut.erase(of_machine);
+  if (result.contains("equilibrium")) result["equilibrium"].erase("seconds");
+  return result;
+}
+
 std::string metrics_without_times(const std::string& file) {
   std::istringstream lines(read_text(file));
   std::string kept;

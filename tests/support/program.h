@@ -38,6 +38,9 @@ Finished run_trocar_on(int ranks, const std::vector<std::string>& arguments,
 
 nlohmann::json read_summary(const std::string& folder);
 
+// Of a summary, what any run of the scene has: on any ranks and threads, resumed or not.
+nlohmann::json result_in(const nlohmann::json& summary);
+
 // A metrics file without the wall times of the frames.
 std::string metrics_without_times(const std::string& file);
 
