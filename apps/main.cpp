@@ -10,6 +10,7 @@
 #include "base/heap.h"
 #include "base/log.h"
 #include "base/peer_watch.h"
+#include "base/stop_signals.h"
 
 // What was asked for on standard output must not be lost in silence, e.g. on a full disk.
 static bool was_printed() {
@@ -29,6 +30,7 @@ int main(int argc, char** argv) {
     return static_cast<int>(ExitCode::machine);
   }
 
+  if (line.command == Command::run) listen_to_stop_signals();
   MpiSession session(&argc, &argv);
   const int rank = session.world().rank();
   start_log(rank, line.machine.is_quiet);

@@ -1,18 +1,13 @@
 #include "engine/run.h"
 
-#include <unistd.h>
-
-#include <atomic>
-#include <csignal>
-#include <cstdlib>
 #include <memory>
 #include <optional>
-#include <string_view>
 
 #include "base/error.h"
 #include "base/log.h"
 #include "base/number_text.h"
 #include "base/on_root.h"
+#include "base/stop_signals.h"
 #include "base/whole_file.h"
 #include "engine/build.h"
 #include "engine/bytes.h"
@@ -33,30 +28,10 @@ namespace trocar {
 
 namespace {
 
-std::atomic<bool> stop_asked = false;
 constexpr const char* stopped_by_signal = "stopped by a signal";
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-// A second signal ends this rank at once, and mpirun the others: outputs are consistent at any
-// time.
-void ask_to_stop(int) {
-  if (!stop_asked.exchange(true)) return;
-  constexpr std::string_view why =
-      "[warning] a second signal: ended within a frame; --resume goes on from the last "
-      "checkpoint, if any\n";
-  [[maybe_unused]] const ssize_t n = write(STDERR_FILENO, why.data(), why.size());
-  std::_Exit(static_cast<int>(ExitCode::stopped));
-}
-
-void listen_to_signals() {
-  stop_asked = false;
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) std::signal(signal, ask_to_stop);
-  if (std::signal(SIGHUP, ask_to_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
-  std::signal(SIGXFSZ, SIG_IGN);  // a file grown to its limit is a write that fails
-}
 
 bool is_stopped(const Communicator& communicator) {
-  return communicator.all_max(stop_asked ? 1 : 0) > 0;
+  return communicator.all_max(stop_asked() ? 1 : 0) > 0;
 }
 
 // start: of this process's first frame, on the monotonic clock.
@@ -151,7 +126,7 @@ Ending run_frames(Simulation& s, Outputs& outputs) {
 Ending prepare_start(const LoadedScene& loaded, Simulation& s) {
   if (s.scene.start.state != StartState::equilibrium) return {};
   try {
-    if (start_in_equilibrium(loaded, s, &stop_asked)) return {};
+    if (start_in_equilibrium(loaded, s, &stop_asked())) return {};
     return {ExitCode::stopped, stopped_by_signal};
   } catch (const SimulationError& trouble) {
     return {ExitCode::simulation, trouble.what()};
@@ -223,7 +198,6 @@ static void finish_run(Simulation& s, Outputs& outputs, FolderLock* lock, RunTim
 
 bool run_scene(const RunOptions& options, Communicator& communicator) {
   const double start = monotonic_seconds();
-  listen_to_signals();
   const LoadedScene loaded = share_scene(options.scene_file, options.overrides, communicator);
   const auto lock = claim_folder(options, loaded, communicator);
   std::optional<Checkpoint> checkpoint;

@@ -23,8 +23,7 @@ LoadedScene share_scene(const std::string& file, const std::vector<std::string>&
 
 // Runs it and writes everything, summary.json last. Collective. Throws SimulationError, and
 // SharedMachineError where an output can't be written, after writing what there is. Returns true if
-// the run went through, false if a signal (SIGINT, SIGTERM, SIGHUP, SIGUSR1) stopped it at a
-// frame's end.
+// the run went through, false if a signal (base/stop_signals.h) stopped it at a frame's end.
 bool run_scene(const RunOptions& options, Communicator& communicator);
 
 }  // namespace trocar

@@ -41,6 +41,39 @@ void wait_for_handler(pid_t child, int signal) {
   ADD_FAILURE() << "no handler of signal " << signal;
 }
 
+int exit_code_of(pid_t process) {
+  int status = 0;
+  waitpid(process, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+std::vector<pid_t> children_of(pid_t process) {
+  const std::string number = std::to_string(process);
+  std::istringstream list(read_text("/proc/" + number + "/task/" + number + "/children"));
+  return {std::istream_iterator<pid_t>(list), {}};
+}
+
+// MPI starts on one rank only when the other has begun, which here waits for a file.
+TEST(Signals, that_come_while_mpi_starts_end_the_run_as_later_ones_do) {
+  const std::string folder = test_folder("early-signal"), gate = folder + "/gate";
+  const std::string second_waits = "test $OMPI_COMM_WORLD_RANK = 0 || until test -e " + gate +
+                                   "; do sleep 0.05; done; exec \"$@\"";
+  const pid_t mpirun =
+      start(mpirun_words(2, "sh",
+                         {"-c", second_waits, "sh", TROCAR_PROGRAM, "run", config("block_hex.toml"),
+                          "-q", "-o", folder + "/out", "--set", "output=[]"}),
+            folder);
+  wait_until([&] { return children_of(mpirun).size() == 2; });
+  const pid_t first = children_of(mpirun)[0];
+  wait_until([&] { return read_text("/proc/" + std::to_string(first) + "/comm") == "trocar\n"; });
+  wait_for_handler(first, SIGTERM);
+  EXPECT_FALSE(std::filesystem::exists(folder + "/out"));
+  kill(first, SIGTERM);
+  write_text(gate, "");
+  EXPECT_EQ(exit_code_of(mpirun), stopped) << read_text(folder + "/first");
+  EXPECT_EQ(read_summary(folder + "/out")["frames"], 0);
+}
+
 // Of 216,000 hexahedra, which takes half a minute without the signal.
 TEST(Signals, end_the_search_for_equilibrium) {
   const std::string folder = test_folder("equilibrium-signal");
@@ -59,12 +92,6 @@ TEST(Signals, end_the_search_for_equilibrium) {
   EXPECT_EQ(read_summary(folder + "/out")["frames"], 0);
   EXPECT_NE(read_text(folder + "/first").find("start it anew, without --resume"),
             std::string::npos);
-}
-
-std::vector<pid_t> children_of(pid_t process) {
-  const std::string number = std::to_string(process);
-  std::istringstream list(read_text("/proc/" + number + "/task/" + number + "/children"));
-  return {std::istream_iterator<pid_t>(list), {}};
 }
 
 // Before there is a checkpoint. mpirun's exit code is 128 + the signal.
@@ -99,12 +126,6 @@ pid_t start_ranks(int n, const std::string& folder, const std::string& patience)
             folder);
   wait_for(folder + "/out/scene.toml");
   return mpirun;
-}
-
-int exit_code_of(pid_t process) {
-  int status = 0;
-  waitpid(process, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 // The others would wait for ever.
