@@ -184,8 +184,9 @@ Options<SceneMaterial> material_options() {
            "st-venant-kirchhoff not for compression. All but these two have the volumetric "
            "energy K/2 (J - 1)^2.");
   for (const Parameter& p : parameters()) m.number(p.key, p.member, p.dimension, p.range, p.doc);
-  m.vector("fibre", &SceneMaterial::fibre, dim::none, any,
-           "Direction of the fibres where the mesh gives none (cell data \"fibre\" of a .vtu).");
+  m.vector(
+      "fibre", &SceneMaterial::fibre, dim::none, any,
+      "Direction of the fibres where the mesh gives none (cell data \"fibre\" of a .vtk or .vtu).");
   m.vector("fibre_normal", &SceneMaterial::fibre_normal, dim::none, any,
            "Normal of the plane of two families.");
   m.list("ogden", &SceneMaterial::ogden, term,

@@ -6,6 +6,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/log.h"
 #include "base/quoted.h"
 #include "base/whole_file.h"
 #include "mesh/mesh_file_formats.h"
@@ -96,7 +97,9 @@ bool is_surface_file(const std::string& file) {
 }
 
 Mesh read_mesh(const std::string& file, double scale) {
-  return make_mesh(read_raw_mesh(file), scale);
+  RawMesh raw = read_raw_mesh(file);
+  if (!raw.left_out.empty()) log_warning(file + ": " + raw.left_out);
+  return make_mesh(std::move(raw), scale);
 }
 
 TriangleMesh read_triangle_mesh(const std::string& file, double scale) {

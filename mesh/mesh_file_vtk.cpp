@@ -1,7 +1,6 @@
 // Legacy VTK files: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "base/quoted.h"
 #include "mesh/mesh_file_formats.h"
@@ -15,9 +14,9 @@ struct LegacyReader {
   FileReader& in;
   RawMesh mesh;
   VtkCells cells;
+  LegacyData data;
   bool is_binary = false;  // in.is_binary while inside binary data
   bool has_offset_layout = false;
-  std::optional<std::int64_t> n_data;  // of points or cells, once their data begin
   bool has_points = false, has_cells = false, has_types = false;
 };
 
@@ -134,21 +133,21 @@ void read_header(LegacyReader& r) {
   const std::string format = in_capital_letters(r.in.word("ASCII or BINARY"));
   if (format != "ASCII" && format != "BINARY")
     r.in.fail("ASCII or BINARY should stand here, not " + in_quotes(format));
-  r.is_binary = format == "BINARY";
+  r.is_binary = r.data.is_binary = format == "BINARY";
   expect_keyword(r.in, "DATASET");
   const std::string kind = in_capital_letters(r.in.word("a kind of data set"));
   if (kind != "UNSTRUCTURED_GRID")
     r.in.fail("the data set is " + in_quotes(kind) + "; only UNSTRUCTURED_GRID is read");
 }
 
-// Data on points and cells are of no use here.
-void skip_data(LegacyReader& r, const std::string& keyword) {
+void read_data(LegacyReader& r, const std::string& keyword) {
   if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
-    r.n_data = r.in.integer("the number of points or cells with data");
-    if (*r.n_data < 0) r.in.fail("the number of points or cells is negative");
-  } else if (!r.n_data) {
+    r.data.of = keyword == "CELL_DATA" ? LegacyData::Of::cells : LegacyData::Of::points;
+    r.data.n = r.in.integer("the number of points or cells with data");
+    if (r.data.n < 0) r.in.fail("the number of points or cells is negative");
+  } else if (r.data.of == LegacyData::Of::file) {
     r.in.fail("POINTS, CELLS or CELL_TYPES should stand here, not " + in_quotes(keyword));
-  } else if (!skip_attribute(r.in, r.is_binary, keyword, *r.n_data)) {
+  } else if (!read_attribute(r.data, keyword)) {
     r.in.fail("SCALARS, VECTORS, FIELD or other data should stand here, not " + in_quotes(keyword));
   }
 }
@@ -164,15 +163,15 @@ void read_section(LegacyReader& r) {
   else if (keyword == "METADATA")
     skip_metadata(r.in);
   else if (keyword == "FIELD")
-    skip_field(r.in, r.is_binary);
+    read_field(r.data);
   else
-    skip_data(r, keyword);
+    read_data(r, keyword);
 }
 
 }  // namespace
 
 RawMesh read_legacy_vtk(FileReader& in) {
-  LegacyReader r{.in = in, .mesh = {}, .cells = {}};
+  LegacyReader r{.in = in, .mesh = {}, .cells = {}, .data = {.in = in}};
   r.mesh.file = in.file();
   r.mesh.tag_word = "cell";
   read_header(r);
@@ -180,7 +179,9 @@ RawMesh read_legacy_vtk(FileReader& in) {
   const char* missing = !r.has_points ? "POINTS" : !r.has_cells ? "CELLS" : "CELL_TYPES";
   if (!r.has_points || !r.has_cells || !r.has_types)
     in.fail_file(std::string("holds no ") + missing);
+  keep_data(r.data, r.cells);
   add_vtk_cells(in, r.cells, r.mesh);
+  r.mesh.left_out = left_out_text(r.data.left_out);
   return std::move(r.mesh);
 }
 

@@ -44,6 +44,7 @@ struct RawMesh {
   std::vector<std::int32_t> group_tag;           // physical tags, one list after the other
   std::vector<NamedGroup> named_groups;
   CellDirections fibre;
+  std::string left_out;  // what of the file's data no mesh has, for a warning
 
   std::int32_t n_cells() const { return static_cast<std::int32_t>(cell_kind.size()); }
   std::span<const std::int32_t> groups(std::int32_t list) const {

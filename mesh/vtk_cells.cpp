@@ -2,8 +2,12 @@
 #include "mesh/vtk_cells.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "base/log.h"
+#include "base/number_text.h"
+#include "base/quoted.h"
 #include "mesh/raw_mesh_groups.h"
 
 namespace trocar {
@@ -62,6 +66,44 @@ std::int32_t fit_int32(const FileReader& in, std::int64_t value, const char* wha
       value > std::numeric_limits<std::int32_t>::max())
     in.fail(std::string(what) + " is " + std::to_string(value) + ", beyond 32 bits");
   return static_cast<std::int32_t>(value);
+}
+
+std::vector<std::int32_t> make_vtk_regions(const FileReader& at, std::span<const double> number,
+                                           bool is_float) {
+  constexpr double most = std::numeric_limits<std::int32_t>::max() - 1;
+  const auto is_wrong = [&](double k) { return !(k >= 0 && k <= most && k == std::floor(k)); };
+  const auto wrong = std::ranges::find_if(number, is_wrong);
+  if (wrong != number.end() && !is_float)
+    at.fail("region " + shortest_text(*wrong) + " is not between 0 and 2147483646");
+  if (wrong != number.end()) {
+    log_warning(at.file() + ": its cell array \"region\" is left out: regions are whole numbers");
+    return {};
+  }
+  std::vector<std::int32_t> region;
+  region.reserve(number.size());
+  for (const double k : number) region.push_back(static_cast<std::int32_t>(k) + 1);
+  return region;
+}
+
+static std::string quoted_list(std::span<const std::string> names) {
+  constexpr std::size_t most = 10;
+  std::string list;
+  for (const std::string& name : names.first(std::min(most, names.size())))
+    list += (list.empty() ? "" : ", ") + in_quotes(name);
+  if (names.size() > most) list += " and " + std::to_string(names.size() - most) + " more";
+  return list;
+}
+
+std::string left_out_text(const VtkLeftOut& left_out) {
+  std::string list;
+  if (!left_out.of_cells.empty()) list = "cell data " + quoted_list(left_out.of_cells);
+  if (!left_out.of_points.empty())
+    list += (list.empty() ? "" : " and ") + std::string("point data ") +
+            quoted_list(left_out.of_points);
+  if (list.empty()) return "";
+  return "its " + list +
+         " are left out; read are cell data called \"region\" (a whole number each) and "
+         "\"fibre\" (three numbers)";
 }
 
 namespace {
@@ -162,7 +204,7 @@ int highest_dimension(const RawMesh& raw) {
   return highest;
 }
 
-// Regions of a VTU file have numbers only; in cells below the elements they mean nothing.
+// Regions of a VTK file have numbers only; in cells below the elements they mean nothing.
 void name_regions(RawMesh& raw) {
   const int dimension = highest_dimension(raw);
   for (std::int32_t c = 0; c < raw.n_cells(); ++c)

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +34,18 @@ struct VtkCells {
   std::vector<std::int32_t> region;        // (n_cells) or empty
   std::vector<Vec3> fibre;                 // (n_cells) or empty
 };
+// Regions by the numbers of cells, from 1 on, since group 0 is none. Floats that are not whole are
+// something else: none then, with a warning. Throws InputError at the reader's place where an
+// integer is no region.
+std::vector<std::int32_t> make_vtk_regions(const FileReader& at, std::span<const double> number,
+                                           bool is_float);
+// Arrays of a file that nothing here uses.
+struct VtkLeftOut {
+  std::vector<std::string> of_cells, of_points;
+};
+// What to warn of, "" if there are none.
+std::string left_out_text(const VtkLeftOut& left_out);
+
 // Adds the cells to raw.X and so on. Vertices and lines are left out: they carry nothing.
 // Throws InputError naming the cell.
 void add_vtk_cells(const FileReader& in, const VtkCells& cells, RawMesh& raw);

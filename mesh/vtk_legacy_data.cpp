@@ -75,20 +75,69 @@ void skip_values(FileReader& in, bool is_binary, const ValueType& type, std::int
   in.is_binary = false;
 }
 
+// The reader whose messages point to the name of the array.
+FileReader at_array(const LegacyData& data, const LegacyData::Array& array) {
+  return data.in.within(array.tag);
+}
+
+std::vector<double> read_numbers(FileReader& in, std::size_t n, const VtkNumber& number) {
+  std::vector<double> value;
+  value.reserve(n);
+  for (std::size_t k = 0; k < n; ++k)
+    value.push_back(
+        in.is_binary ? load_real(in.take(number.n_bytes, "an array").data(), number, in.swaps_bytes)
+                     : in.real("a number of an array"));
+  return value;
+}
+
+// Where an array that is kept belongs; nullptr for others, which are noted.
+std::optional<LegacyData::Array>* find_place(LegacyData& data, std::string_view name,
+                                             std::size_t width) {
+  const bool is_of_cells = data.of == LegacyData::Of::cells;
+  if (is_of_cells && name == "region" && width == 1) return &data.region;
+  if (is_of_cells && name == "fibre" && width == 3) return &data.fibre;
+  if (is_of_cells) data.left_out.of_cells.emplace_back(name);
+  if (data.of == LegacyData::Of::points) data.left_out.of_points.emplace_back(name);
+  return nullptr;
+}
+
+struct ArrayHead {
+  std::string_view name;
+  ValueType type;
+  std::int64_t n_tuples = 0;
+  std::size_t width = 1;
+};
+
+// After the header.
+void read_array(LegacyData& data, const ArrayHead& head) {
+  const ValueType& type = head.type;
+  std::optional<LegacyData::Array>* const place = find_place(data, head.name, head.width);
+  if (place == nullptr || type.is_bit || type.is_text)
+    return skip_values(data.in, data.is_binary, type, head.n_tuples, head.width);
+  if (*place) data.in.fail("array " + in_quotes(head.name) + " stands here again");
+  begin_data(data.in, data.is_binary);
+  const std::size_t n_bytes = data.is_binary ? type.number.n_bytes : 2;
+  const std::size_t n =
+      data.in.check_count(head.n_tuples, head.width * n_bytes, "tuples of an array") * head.width;
+  *place = {type.number.is_float, head.name, read_numbers(data.in, n, type.number)};
+  data.in.is_binary = false;
+}
+
 std::size_t read_width(FileReader& in) {
   return in.check_count(in.integer("a number of components"), 1, "components");
 }
 
-void skip_field_array(FileReader& in, bool is_binary) {
+void read_field_array(LegacyData& data) {
+  FileReader& in = data.in;
   if (in_capital_letters(in.peek_word()) == "METADATA") {
     in.word("METADATA");
     skip_metadata(in);
   }
-  in.word("the name of an array");
-  const std::size_t width = read_width(in);
-  const std::int64_t n_tuples = in.integer("a number of tuples");
-  const ValueType type = read_value_type(in);
-  skip_values(in, is_binary, type, n_tuples, width);
+  ArrayHead head{.name = in.word("the name of an array"), .type = {}};
+  head.width = read_width(in);
+  head.n_tuples = in.integer("a number of tuples");
+  head.type = read_value_type(in);
+  read_array(data, head);
 }
 
 // Without moving on: binary data may begin in the next line.
@@ -99,14 +148,15 @@ bool is_before_table(const FileReader& in) {
   return in_capital_letters(rest.substr(at, keyword.size())) == keyword;
 }
 
-void skip_scalars(FileReader& in, bool is_binary, std::int64_t n) {
-  const ValueType type = read_value_type(in);
-  const std::size_t width = in.is_at_line_end() ? 1 : read_width(in);
+void read_scalars(LegacyData& data, std::string_view name) {
+  FileReader& in = data.in;
+  ArrayHead head{.name = name, .type = read_value_type(in), .n_tuples = data.n};
+  if (!in.is_at_line_end()) head.width = read_width(in);
   if (is_before_table(in)) {
     in.word("LOOKUP_TABLE");
     in.word("the name of a table");
   }
-  skip_values(in, is_binary, type, n, width);
+  read_array(data, head);
 }
 
 // Colours are bytes in binary files.
@@ -138,27 +188,50 @@ void skip_metadata(FileReader& in) {
   while (in.n_left() > 0 && !in.line().empty()) continue;
 }
 
-void skip_field(FileReader& in, bool is_binary) {
+void read_field(LegacyData& data) {
+  FileReader& in = data.in;
   in.word("the name of a field");
   const std::size_t n = in.check_count(in.integer("the number of arrays"), 4, "arrays of a field");
-  for (std::size_t k = 0; k < n; ++k) skip_field_array(in, is_binary);
+  for (std::size_t k = 0; k < n; ++k) read_field_array(data);
 }
 
-bool skip_attribute(FileReader& in, bool is_binary, const std::string& keyword, std::int64_t n) {
+bool read_attribute(LegacyData& data, const std::string& keyword) {
+  FileReader& in = data.in;
   const bool has_width = keyword == "COLOR_SCALARS" || keyword == "TEXTURE_COORDINATES";
   const std::size_t width = width_of(keyword);
   if (!has_width && width == 0 && keyword != "SCALARS" && keyword != "LOOKUP_TABLE") return false;
-  in.word("the name of an array");
+  const std::string_view name = in.word("the name of an array");
   if (keyword == "SCALARS") {
-    skip_scalars(in, is_binary, n);
+    read_scalars(data, name);
   } else if (keyword == "LOOKUP_TABLE") {
-    skip_values(in, is_binary, colour, in.integer("the size of a table"), 4);
+    skip_values(in, data.is_binary, colour, in.integer("the size of a table"), 4);
   } else {
-    const std::size_t own_width = has_width ? read_width(in) : width;
-    const ValueType type = keyword == "COLOR_SCALARS" ? colour : read_value_type(in);
-    skip_values(in, is_binary, type, n, own_width);
+    ArrayHead head{.name = name, .type = colour, .n_tuples = data.n, .width = width};
+    if (has_width) head.width = read_width(in);
+    if (keyword != "COLOR_SCALARS") head.type = read_value_type(in);
+    read_array(data, head);
   }
   return true;
+}
+
+void keep_data(const LegacyData& data, VtkCells& cells) {
+  const auto check_size = [&](const LegacyData::Array& array, std::size_t width) {
+    if (array.value.size() != cells.type.size() * width)
+      at_array(data, array)
+          .fail(in_quotes(array.tag) + " is of " + std::to_string(array.value.size() / width) +
+                " cells, but there are " + std::to_string(cells.type.size()));
+  };
+  if (data.region) {
+    check_size(*data.region, 1);
+    cells.region =
+        make_vtk_regions(at_array(data, *data.region), data.region->value, data.region->is_float);
+  }
+  if (data.fibre) {
+    check_size(*data.fibre, 3);
+    const std::vector<double>& value = data.fibre->value;
+    for (std::size_t k = 0; k < value.size(); k += 3)
+      cells.fibre.emplace_back(value[k], value[k + 1], value[k + 2]);
+  }
 }
 
 }  // namespace trocar

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/log.h"
 #include "base/quoted.h"
 #include "mesh/mesh_file_formats.h"
 #include "mesh/vtk_cells.h"
@@ -29,6 +28,7 @@ struct VtuReader {
   VtuEncoding encoding;
   std::int64_t n_pieces = 0, n_points = 0, n_cells = 0;
   VtuArray points, connectivity, offsets, types, region, fibre;
+  VtkLeftOut left_out;
   std::string_view appended;  // behind its "_"
   bool is_appended_base64 = true;
 };
@@ -71,11 +71,13 @@ void read_piece_tag(VtuReader& r, const XmlTag& tag) {
     r.in.fail("more than 2147483647 points or cells");
 }
 
-// nullptr for an array that the mesh does not need.
+// nullptr for an array that the mesh does not need, which is noted.
 VtuArray* find_array(VtuReader& r, std::string_view section, std::string_view name) {
   if (section == "Points") return &r.points;
   if (section == "CellData" && name == "region") return &r.region;
   if (section == "CellData" && name == "fibre") return &r.fibre;
+  if (section == "CellData") r.left_out.of_cells.emplace_back(name);
+  if (section == "PointData") r.left_out.of_points.emplace_back(name);
   if (section != "Cells") return nullptr;
   if (name == "connectivity") return &r.connectivity;
   if (name == "offsets") return &r.offsets;
@@ -222,31 +224,12 @@ std::vector<Vec3> read_points(const VtuReader& r) {
   return read_vectors(r, r.points, r.n_points, "point");
 }
 
-// Some programs write all arrays as floats. Those that are not whole are something else.
-std::vector<std::int32_t> read_float_regions(const VtuReader& r, std::size_t n) {
-  std::vector<std::int32_t> region;
-  bool is_whole = true;
-  read_numbers<double>(r, r.region, n, [&](const FileReader&, double k) {
-    is_whole = is_whole && k >= 0 && k < INT32_MAX && k == std::floor(k);
-    region.push_back(is_whole ? static_cast<std::int32_t>(k) : 0);
-  });
-  if (is_whole) return region;
-  log_warning(r.in.file() + ": its cell array \"region\" is left out: regions are whole numbers");
-  return {};
-}
-
-// From 1, since group 0 is none.
+// Some programs write all arrays as floats.
 std::vector<std::int32_t> read_regions(const VtuReader& r, std::size_t n) {
   if (!r.region.is_present) return {};
-  std::vector<std::int32_t> region =
-      r.region.number.is_float ? read_float_regions(r, n) : read_integers(r, r.region, n, "region");
-  for (std::int32_t& k : region) {
-    if (k < 0 || k == INT32_MAX)
-      reader_at(r, r.region)
-          .fail("region " + std::to_string(k) + " is not between 0 and 2147483646");
-    ++k;
-  }
-  return region;
+  std::vector<double> number;
+  read_numbers<double>(r, r.region, n, [&](const FileReader&, double k) { number.push_back(k); });
+  return make_vtk_regions(reader_at(r, r.region), number, r.region.number.is_float);
 }
 
 VtkCells read_cells(const VtuReader& r) {
@@ -275,6 +258,7 @@ RawMesh read_vtu_cells(FileReader& in) {
               .types = {},
               .region = {},
               .fibre = {},
+              .left_out = {},
               .appended = {}};
   scan_tags(r);
   if (r.n_pieces == 0) in.fail_file("holds no <Piece>");
@@ -283,6 +267,7 @@ RawMesh read_vtu_cells(FileReader& in) {
   mesh.tag_word = "cell";
   mesh.X = read_points(r);
   add_vtk_cells(in, read_cells(r), mesh);
+  mesh.left_out = left_out_text(r.left_out);
   return mesh;
 }
 

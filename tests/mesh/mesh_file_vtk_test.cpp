@@ -42,6 +42,54 @@ TEST(LegacyVtk, vertices_and_lines_are_left_out) {
   EXPECT_EQ(mesh.n_nodes(), 4);
 }
 
+const std::string two_tetrahedra =
+    "POINTS 5 float\n0 0 0 1 0 0 0 1 0 0 0 1 0 0 -1\nCELLS 2 10\n4 0 1 2 3\n4 0 2 1 4\nCELL_TYPES "
+    "2\n10 10\n";
+
+// As ParaView, gmsh and meshio write them.
+TEST(LegacyVtk, regions_and_fibres_are_read_from_arrays_and_fields_of_cells) {
+  for (const std::string arrays :
+       {"SCALARS region int 1\nLOOKUP_TABLE default\n7\n0\nVECTORS fibre double\n0 0 2 1 0 0\n",
+        "FIELD FieldData 2\nregion 1 2 double\n7 0\nfibre 3 2 float\n0 0 2 1 0 0\n"}) {
+    const Mesh mesh = vtk_mesh(ascii(two_tetrahedra + "CELL_DATA 2\n" + arrays));
+    ASSERT_EQ(mesh.n_elements(), 2);
+    EXPECT_EQ(mesh.region_name[mesh.element_region[0]], "region-7");
+    EXPECT_EQ(mesh.region_name[mesh.element_region[1]], "region-0");
+    EXPECT_EQ(mesh.fibre, (std::vector<Vec3>{Vec3(0, 0, 1), Vec3(1, 0, 0)}));
+  }
+  // A triangle, which has no say, and two tetrahedra.
+  const Mesh mesh =
+      vtk_mesh(vtk_4_binary() + "\nCELL_DATA 3\nSCALARS region int\nLOOKUP_TABLE default\n" +
+               std::string("\0\0\0\11\0\0\0\6\0\0\0\5", 12));
+  EXPECT_EQ(mesh.region_name[mesh.element_region[0]], "region-6");
+  EXPECT_EQ(mesh.region_name[mesh.element_region[1]], "region-5");
+}
+
+TEST(LegacyVtk, regions_that_are_none_are_named) {
+  const auto with = [](const std::string& array) {
+    return ascii(two_tetrahedra + "CELL_DATA 2\n" + array);
+  };
+  // Four lines of head, seven of points and cells, then CELL_DATA.
+  EXPECT_EQ(vtk_refusal(with("SCALARS region int\n7 -1\n")),
+            "13: region -1 is not between 0 and 2147483646");
+  EXPECT_EQ(vtk_refusal(with("FIELD f 1\nregion 1 3 int\n7 1 1\n")),
+            "14: \"region\" is of 3 cells, but there are 2");
+  EXPECT_EQ(vtk_mesh(with("SCALARS region float\n7 0.5\n")).region_name,
+            std::vector<std::string>{""});
+}
+
+TEST(LegacyVtk, data_that_no_mesh_has_are_left_out_with_a_warning) {
+  testing::internal::CaptureStderr();
+  vtk_mesh(ascii(two_tetrahedra +
+                 "CELL_DATA 2\nSCALARS label int\n7 1\nSCALARS region int\n7 1\nPOINT_DATA "
+                 "5\nSCALARS region int\n1 1 1 1 1\n"));
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_NE(told.find("its cell data \"label\" and point data \"region\" are left out; read are "
+                      "cell data called \"region\" (a whole number each) and \"fibre\""),
+            std::string::npos)
+      << told;
+}
+
 // A tetrahedron with every kind of data; `number` and `text` write those of an array.
 template <class Number, class Text>
 std::string with_data(const std::string& head, const Number& number, const Text& text) {

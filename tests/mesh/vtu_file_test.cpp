@@ -48,6 +48,22 @@ TEST(VtuFile, regions_may_be_floats_that_are_whole) {
             std::vector<std::string>{""});
 }
 
+// As frames of a run have them.
+TEST(VtuFile, fields_that_no_mesh_has_are_left_out_with_a_warning) {
+  const TestFolder folder;
+  const Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {1, 1, 1}, BoxElements::hex8);
+  const std::vector<double> u(3 * mesh.X.size()), stretch(1);
+  write_vtu(mesh, mesh.X, {{{"displacement", 3, u}}}, {{{"stretch", 1, stretch}}},
+            folder.file("a.vtu"));
+  testing::internal::CaptureStderr();
+  read_mesh(folder.file("a.vtu"), 1);
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_NE(
+      told.find("a.vtu: its cell data \"stretch\" and point data \"displacement\" are left out"),
+      std::string::npos)
+      << told;
+}
+
 TEST(VtuFile, points_stand_where_they_are_displaced_to) {
   const TestFolder folder;
   const Mesh mesh = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1), {1, 1, 1}, BoxElements::hex8);
