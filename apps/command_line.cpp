@@ -80,7 +80,8 @@ void add_machine_options(CLI::App& app, MachineOptions& machine) {
 void add_scene_options(CLI::App& app, RunOptions& run) {
   app.add_option("scene", run.scene_file, "Scene file (TOML)")->required();
   app.add_option("--set", run.overrides,
-                 "Change a key of the scene: --set time.duration='2 s'; may be repeated")
+                 "Change a key of the scene: --set time.duration='2 s', in a list --set "
+                 "'instrument[0].radius=2 mm'; may be repeated")
       ->allow_extra_args(false);
 }
 

@@ -83,8 +83,8 @@ void print_mesh(const std::string& file, const Mesh& mesh) {
   for (int type = 0; type < n_element_types; ++type)
     if (const auto n = m.n_elements_by_type[type]; n > 0)
       std::printf("  %-17s %d\n", element_type_name(static_cast<ElementType>(type)), n);
-  std::printf("  pieces            %d\n  surface triangles %d\n", m.n_pieces,
-              m.n_surface_triangles);
+  std::printf("  pieces            %d\n", m.n_pieces);
+  if (mesh.dimension() == 3) std::printf("  surface triangles %d\n", m.n_surface_triangles);
   if (m.n_unjoined > 0)
     std::printf(
         "  NOT JOINED        %d nodes lie where nodes of other pieces do: the pieces come "

@@ -7,6 +7,7 @@
 #include "base/log.h"
 #include "base/number_text.h"
 #include "base/options.h"
+#include "engine/plausible_check.h"
 #include "engine/support_check.h"
 #include "engine/unused_keys.h"
 #include "solver/material_check.h"
@@ -147,6 +148,7 @@ void check_body(const Simulation& s, OptionErrors& errors) {
   check_markers(s.scene);
   check_converted(s, errors);
   check_materials_harden(s.scene);
+  warn_of_implausible(s.scene);
   for (const std::string& sentence : unused_keys(s.scene, s.mesh)) log_warning(sentence);
 }
 

@@ -173,7 +173,7 @@ void build_instruments(const LoadedScene& loaded, Simulation& s) {
 // One sliver makes every frame slow, and from outside that looks like a run that hangs; signals are
 // heeded between frames only.
 void check_slow_element(const LoadedScene& loaded, const Simulation& s) {
-  constexpr double many_substeps = 20000, too_many_substeps = 1e6;
+  constexpr double many_substeps = 10000, too_many_substeps = 1e6;
   const double n = 1 / (s.scene.time.frame_rate * s.step_factor * s.watch.stable_step);
   if (n < many_substeps) return;
   const std::string sentence =

@@ -1,9 +1,11 @@
 #include "engine/frame_vtu.h"
 
 #include <cmath>
+#include <utility>
 
 #include "base/number_text.h"
 #include "engine/element_gradient.h"
+#include "mesh/connected_nodes.h"
 #include "solver/material_setup.h"
 #include "solver/material_stress.h"
 
@@ -23,9 +25,22 @@ static void add_stress(const Material& material, const Vec3& fibre, const Mat3& 
   fields.von_mises_stress.push_back(std::sqrt(1.5) * deviator.norm());
 }
 
+// Of each element: the number of its piece, those counted by the lowest node of each.
+static std::vector<double> piece_of_elements(const Mesh& mesh) {
+  const std::vector<std::int32_t> root = connected_nodes(mesh);
+  std::vector<double> number(root.size(), 0), piece;
+  double n = 0;
+  for (std::size_t i = 0; i < root.size(); ++i)
+    if (std::cmp_equal(root[i], i)) number[i] = n++;
+  for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
+    piece.push_back(number[root[mesh.corners(e)[0]]]);
+  return piece;
+}
+
 ElementFields element_fields(const Mesh& mesh, std::span<const double> u,
                              std::span<const Material> materials) {
   ElementFields fields;
+  fields.piece = piece_of_elements(mesh);
   const auto u_of = [&](std::int32_t i) -> Vec3 {
     return Vec3::Map(&u[3 * static_cast<std::size_t>(i)]);
   };
@@ -36,6 +51,7 @@ ElementFields element_fields(const Mesh& mesh, std::span<const double> u,
     add_tensor(0.5 * (F.transpose() * F - Mat3::Identity()), fields.green_strain);
     if (materials.empty()) continue;
     const Material& material = materials[mesh.element_region[e]];
+    fields.density.push_back(material.density * mesh.density_factor[e]);
     add_stress(material, mesh.fibre.empty() ? unit_fibre(material) : mesh.fibre[e], H, fields);
   }
   return fields;
@@ -47,9 +63,11 @@ PvdEntry write_frame_vtu(const Mesh& mesh, const RecordedFrame& frame,
   const VtuField nodal[] = {{.name = "displacement", .width = 3, .values = frame.u}};
   std::vector<VtuField> elemental = {
       {.name = "touches_cut", .width = 1, .values = fields.touches_cut},
+      {.name = "piece", .width = 1, .values = fields.piece},
       {.name = "det_F", .width = 1, .values = fields.det_F},
       {.name = "green_strain", .width = 9, .values = fields.green_strain}};
   if (!materials.empty()) {
+    elemental.push_back({.name = "density", .width = 1, .values = fields.density});
     elemental.push_back({.name = "cauchy_stress", .width = 9, .values = fields.cauchy_stress});
     elemental.push_back(
         {.name = "von_mises_stress", .width = 1, .values = fields.von_mises_stress});

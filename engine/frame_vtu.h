@@ -14,10 +14,12 @@ namespace trocar {
 // Of each element, at its centre; tensors by 9.
 struct ElementFields {
   std::vector<double> touches_cut, det_F, green_strain;
+  std::vector<double> piece;                            // from 0 on, by the lowest node of each
+  std::vector<double> density;                          // as mass counts it [kg/m^3]
   std::vector<double> cauchy_stress, von_mises_stress;  // of the laws, without what relaxes [Pa]
 };
-// u (n_nodes * 3). materials (n_regions), or none: without stresses, as of a plane body whose
-// thickness is free.
+// u (n_nodes * 3). materials (n_regions), or none: without density and stresses, as of a plane body
+// whose thickness is free.
 ElementFields element_fields(const Mesh& mesh, std::span<const double> u,
                              std::span<const Material> materials);
 

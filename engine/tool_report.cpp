@@ -113,7 +113,7 @@ static void note_idle_strokes(Simulation& s, const CutStage& stage) {
 static std::string why_no_stroke(const Simulation& s, const CutStage& stage) {
   if (std::string why = why_pushed(s, stage.push); !why.empty()) return why;
   return s.tools[stage.tool].kind == InstrumentKind::scissors
-             ? "its jaws never closed on the tissue"
+             ? "its jaws never closed on the tissue, and open blades neither part nor press it"
              : "its blade never met the tissue";
 }
 

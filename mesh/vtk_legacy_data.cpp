@@ -101,7 +101,7 @@ std::optional<LegacyData::Array>* find_place(LegacyData& data, std::string_view 
   return nullptr;
 }
 
-struct ArrayHead {
+struct LegacyHead {
   std::string_view name;
   ValueType type;
   std::int64_t n_tuples = 0;
@@ -109,7 +109,7 @@ struct ArrayHead {
 };
 
 // After the header.
-void read_array(LegacyData& data, const ArrayHead& head) {
+void read_array(LegacyData& data, const LegacyHead& head) {
   const ValueType& type = head.type;
   std::optional<LegacyData::Array>* const place = find_place(data, head.name, head.width);
   if (place == nullptr || type.is_bit || type.is_text)
@@ -133,7 +133,7 @@ void read_field_array(LegacyData& data) {
     in.word("METADATA");
     skip_metadata(in);
   }
-  ArrayHead head{.name = in.word("the name of an array"), .type = {}};
+  LegacyHead head{.name = in.word("the name of an array"), .type = {}};
   head.width = read_width(in);
   head.n_tuples = in.integer("a number of tuples");
   head.type = read_value_type(in);
@@ -150,7 +150,7 @@ bool is_before_table(const FileReader& in) {
 
 void read_scalars(LegacyData& data, std::string_view name) {
   FileReader& in = data.in;
-  ArrayHead head{.name = name, .type = read_value_type(in), .n_tuples = data.n};
+  LegacyHead head{.name = name, .type = read_value_type(in), .n_tuples = data.n};
   if (!in.is_at_line_end()) head.width = read_width(in);
   if (is_before_table(in)) {
     in.word("LOOKUP_TABLE");
@@ -206,7 +206,7 @@ bool read_attribute(LegacyData& data, const std::string& keyword) {
   } else if (keyword == "LOOKUP_TABLE") {
     skip_values(in, data.is_binary, colour, in.integer("the size of a table"), 4);
   } else {
-    ArrayHead head{.name = name, .type = colour, .n_tuples = data.n, .width = width};
+    LegacyHead head{.name = name, .type = colour, .n_tuples = data.n, .width = width};
     if (has_width) head.width = read_width(in);
     if (keyword != "COLOR_SCALARS") head.type = read_value_type(in);
     read_array(data, head);

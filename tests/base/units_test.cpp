@@ -35,6 +35,9 @@ TEST(Quantity, of_every_dimension_is_read_in_si) {
   EXPECT_EQ(parse_quantity("1.5 N/mm^2", dim::pressure), 1.5e6);
   EXPECT_EQ(parse_quantity("1060 kg/m^3", dim::density), 1060);
   EXPECT_EQ(parse_quantity("1.06 g/cm^3", dim::density), 1060);
+  EXPECT_EQ(parse_quantity("1.06 g/ml", dim::density), 1060);
+  EXPECT_EQ(parse_quantity("1 kg/l", dim::density), 1000);
+  EXPECT_EQ(parse_quantity("1 cmH2O", dim::pressure), 98.0665);  // the conventional one
   EXPECT_EQ(parse_quantity("10 1/s", dim::rate), 10);
   EXPECT_EQ(parse_quantity("10 /s", dim::rate), 10);
   EXPECT_EQ(parse_quantity("30 Hz", dim::rate), 30);

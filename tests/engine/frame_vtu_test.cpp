@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "mesh/generate.h"
+#include "mesh/mesh.h"
 
 namespace trocar {
 namespace {
@@ -32,6 +35,21 @@ TEST(FrameVtu, has_the_stress_of_each_region) {
     }
     EXPECT_TRUE(element_fields(mesh, u, {}).cauchy_stress.empty());
   }
+}
+
+TEST(FrameVtu, has_the_density_and_the_piece_of_each_element) {
+  Mesh mesh;
+  mesh.X = {Vec3::Zero(),  Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(),
+            Vec3(2, 0, 0), Vec3(3, 0, 0), Vec3(2, 1, 0), Vec3(2, 0, 1)};
+  mesh.region_name = {""};
+  const std::array<std::int32_t, 4> first = {0, 1, 2, 3}, second = {4, 5, 6, 7};
+  for (const auto* corners : {&second, &first, &second})
+    add_element(mesh, ElementType::tet4, *corners);
+  mesh.density_factor[1] = 0.5;
+  const std::vector<double> u(3 * mesh.X.size(), 0);
+  const ElementFields fields = element_fields(mesh, u, std::vector<Material>{{.density = 800}});
+  EXPECT_EQ(fields.piece, (std::vector<double>{1, 0, 1}));
+  EXPECT_EQ(fields.density, (std::vector<double>{800, 400, 800}));
 }
 
 }  // namespace
