@@ -155,7 +155,9 @@ ExitCode command_mesh(const std::string& file, const std::string& scale) {
   print_mesh(file, mesh);
   const std::vector<std::string> faults = validate(mesh);
   for (const std::string& fault : faults) std::printf("  FAULT             %s\n", fault.c_str());
-  std::printf("  sound             %s\n", yes_no(faults.empty()));
+  const bool is_joined = piece_statistics(mesh).n_unjoined == 0;
+  std::printf("  sound             %s%s\n", yes_no(faults.empty()),
+              faults.empty() && !is_joined ? ", but NOT JOINED" : "");
   return faults.empty() ? ExitCode::done : ExitCode::input;
 }
 

@@ -203,7 +203,8 @@ Options<SceneStart> start_options() {
   s.choice("state", &SceneStart::state,
            {{"undeformed", StartState::undeformed}, {"equilibrium", StartState::equilibrium}},
            "undeformed: as in the mesh, so that gravity sets it swinging; equilibrium: at rest "
-           "under gravity and supports, found by dynamic relaxation without instruments; "
+           "under gravity, supports and loads as they are at time 0, found by dynamic relaxation "
+           "without instruments; "
            "viscoelastic material has relaxed (long-term moduli, no overstress).");
   s.number("tolerance", &SceneStart::tolerance, dim::none,
            {.low = 1e-12, .high = 0.01, .is_low_open = true},

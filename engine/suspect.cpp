@@ -126,17 +126,25 @@ std::string just_opened(std::span<const Tool> tools, double t) {
   return "";
 }
 
+// Tissue that is damped so much does not get out of the way. "" with less.
+std::string damping_cure(const SceneSolver& solver) {
+  constexpr double large = 1000;  // a millisecond to come to rest [1/s]
+  if (solver.mass_damping <= large) return "";
+  return "a lower solver.mass_damping (" + short_text(solver.mass_damping) +
+         " 1/s holds the tissue where it is), ";
+}
+
 // `mover` comes near in the frame; without a name: none does.
 std::string cure(const Simulation& s, const Mover& mover, double t) {
   const std::string rest = ", a finer mesh, a higher frame_rate or a lower poisson_ratio";
   if (const std::string opened = just_opened(s.tools, t); !opened.empty())
-    return material_cure(s.materials) + "a shorter pull of " + opened +
-           ", which has just let go, or a way back before it opens" + rest;
+    return damping_cure(s.scene.solver) + material_cure(s.materials) + "a shorter pull of " +
+           opened + ", which has just let go, or a way back before it opens" + rest;
   const bool has_loads = !s.scene.loads.empty() || s.scene.solver.gravity != Vec3::Zero();
   const std::string less =
       has_loads || s.tools.empty() ? "smaller loads" : "to press less deep or more slowly";
   const std::string narrower = mover.is_scalpel ? ", a shorter and so narrower blade_length" : "";
-  return material_cure(s.materials) +
+  return damping_cure(s.scene.solver) + material_cure(s.materials) +
          (mover.name.empty() ? less : "a slower or shorter path of " + mover.name + narrower) +
          rest;
 }

@@ -114,7 +114,10 @@ static std::string why_no_stroke(const Simulation& s, const CutStage& stage) {
   if (std::string why = why_pushed(s, stage.push); !why.empty()) return why;
   return s.tools[stage.tool].kind == InstrumentKind::scissors
              ? "its jaws never closed on the tissue, and open blades neither part nor press it"
-             : "its blade never met the tissue";
+             : std::string("its blade never met the tissue") +
+                   (s.mesh.dimension() == 2
+                        ? ": in a plane scene it cuts where its edge crosses z = 0"
+                        : "");
 }
 
 static void note_idle_blades(Simulation& s) {

@@ -235,11 +235,18 @@ void check_duplicates(Report& report, const Mesh& mesh) {
     element.push_back(sorted);
   }
   std::sort(element.begin(), element.end());
-  for (std::size_t k = 1; k < element.size(); ++k)
-    if (element[k].first == element[k - 1].first)
-      report.add("elements " + std::to_string(element[k - 1].second) + " and " +
-                 std::to_string(element[k].second) +
-                 " have the same corners:" + nodes_text(element[k].first));
+  const auto is_same = [](const Sorted& a, const Sorted& b) { return a.first == b.first; };
+  const auto first = std::adjacent_find(element.begin(), element.end(), is_same);
+  if (first == element.end()) return;
+  int n_more = 0;
+  for (auto next = first + 2; next != element.end(); ++next) n_more += is_same(next[-1], next[0]);
+  std::string sentence = "elements " + std::to_string(first[0].second) + " and " +
+                         std::to_string(first[1].second) +
+                         " have the same corners:" + nodes_text(first->first);
+  if (n_more > 0)
+    sentence += "; so have " + std::to_string(n_more) +
+                " more: a file of MSH 2 names an element of two physical groups once for each";
+  report.add(sentence);
 }
 
 }  // namespace

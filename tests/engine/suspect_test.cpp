@@ -65,6 +65,17 @@ TEST(Suspect, is_nobody_where_none_comes_near) {
   EXPECT_TRUE(contains(suspect.cure, "smaller loads")) << suspect.cure;
 }
 
+TEST(Suspect, is_the_damping_where_that_holds_the_tissue_back) {
+  const auto cure_with = [](const std::string& damping) {
+    const auto started = cube_with("[solver]\nmass_damping = " + damping + "\n");
+    return find_suspect(*started->s, {.least_J = -1, .least_J_element = 0}, {.t0 = 0.5, .t1 = 0.51})
+        .cure;
+  };
+  EXPECT_TRUE(cure_with("1e6").starts_with("a lower solver.mass_damping (1e+06 1/s holds"))
+      << cure_with("1e6");
+  EXPECT_FALSE(contains(cure_with("30"), "damping"));
+}
+
 TEST(Suspect, that_turns_moves_though_its_tip_rests) {
   const auto started = cube_with(R"([[instrument]]
 kind = "grasper"

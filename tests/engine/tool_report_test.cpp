@@ -118,5 +118,32 @@ TEST(IdleTools, that_push_the_tissue_out_uncut_are_told_of_the_resistance) {
     EXPECT_FALSE(contains(event, "has cut nothing")) << event;
 }
 
+// A block of 20 mm, or a sheet, and an instrument in its middle that does nothing.
+std::string told_of_resting(const std::string& shape, const std::string& kind) {
+  const auto started =
+      built("[time]\nduration = 0.1\nframe_rate = 50\n[tissue.shape]\nhigh = [0.02, 0.02, " +
+            shape + "]\n[[support]]\nregion = \"x-\"\n[[instrument]]\nkind = \"" + kind +
+            "\"\npath = [{ time = 0, position = [0.012, -0.005, 0], direction = [0, 1, 0] }]\n");
+  Simulation& s = *started->s;
+  run_frame(s, started->outputs);
+  note_tools_at_end(s);
+  return s.log.events.empty() ? "" : s.log.events.back();
+}
+
+TEST(IdleTools, that_never_could_cut_are_told_with_what_they_need) {
+  const std::string of_scissors =
+      told_of_resting("0.02]\nkind = \"box\"\ncells = [4, 4, 4", "scissors");
+  EXPECT_TRUE(contains(of_scissors,
+                       "its jaws never closed on the tissue, and open blades neither "
+                       "part nor press it"))
+      << of_scissors;
+  const std::string of_sheet =
+      told_of_resting("0]\nkind = \"rectangle\"\ncells = [5, 5, 1", "scalpel");
+  EXPECT_TRUE(contains(of_sheet,
+                       "its blade never met the tissue: in a plane scene it cuts where "
+                       "its edge crosses z = 0"))
+      << of_sheet;
+}
+
 }  // namespace
 }  // namespace trocar

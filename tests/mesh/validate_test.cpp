@@ -97,6 +97,12 @@ TEST(Validate, names_duplicate_elements_in_any_order_of_their_corners) {
   Mesh mesh = single_element(ElementType::tet4, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   add_element(mesh, ElementType::tet4, std::array{1, 2, 0, 3});
   EXPECT_EQ(validate(mesh), Sentences{"elements 0 and 1 have the same corners: 0 1 2 3"});
+  Mesh thrice = mesh;
+  add_element(thrice, ElementType::tet4, std::array{0, 1, 2, 3});
+  EXPECT_EQ(
+      validate(thrice).front(),
+      "elements 0 and 1 have the same corners: 0 1 2 3; so have 1 more: a file of MSH 2 names "
+      "an element of two physical groups once for each");
   mesh.X.emplace_back(1, 1, 1);
   add_element(mesh, ElementType::tet4, std::array{1, 2, 3, 4});
   ASSERT_EQ(validate(mesh).size(), 2u);  // and the facet that all three share
