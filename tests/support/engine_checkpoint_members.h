@@ -61,10 +61,10 @@ inline auto members(OutputMark& m) {
 }
 
 inline auto members(RunTally& t) {
-  auto& [equilibrium, n_roll_backs, n_deadlines_missed, searches, least_J, least_J_element,
-         least_stable_step, largest_stable_step, told, events] = t;
+  auto& [equilibrium, n_roll_backs, n_deadlines_missed, searches, least_J, least_J_element, told,
+         least_stable_step, largest_stable_step, events] = t;
   return std::tie(equilibrium, n_roll_backs, n_deadlines_missed, searches, least_J, least_J_element,
-                  least_stable_step, largest_stable_step, told, events);
+                  told, least_stable_step, largest_stable_step, events);
 }
 inline auto members(ToldOnce& t) {
   auto& [no_local_steps, sunk_tissue] = t;
