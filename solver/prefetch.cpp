@@ -13,7 +13,7 @@ namespace {
 // What a third-level cache holds of a body: below it, prefetches only cost (4 to 6 % of a step).
 constexpr std::size_t cached_bytes = 20 << 20;
 
-// Nodes that a stride meets first; what is more is no row of them.
+// Nodes that a stride meets first, or finishes; what is more is no row of them.
 constexpr std::int32_t most_met = 4096;
 
 constexpr std::uintptr_t line_bytes = 64;
@@ -53,7 +53,8 @@ void RunPrefetch::start(std::int32_t stride) {
   if (!is_on_) return;
   const SumOrder& sums = model_.sums;
   const std::int32_t first = sums.stride_first[stride], end = sums.stride_first[stride + 1];
-  finished_ = {first, end, share_of(end - first)};
+  finished_ = {};  // a whole run's nodes come by themselves
+  if (end - first <= most_met) finished_ = {first, end, share_of(end - first)};
   const std::int32_t met = std::max(met_end_, end_of_nodes(stride + 1));
   met_ = {};
   if (met - met_end_ <= most_met) met_ = {met_end_, met, share_of(met - met_end_)};
