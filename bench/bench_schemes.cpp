@@ -18,6 +18,7 @@
 #include "bench/scheme_orders.h"
 #include "bench/step_schemes.h"
 #include "bench/usage.h"
+#include "larger_or_nan.h"
 #include "mesh/mesh_file.h"
 
 using namespace trocar;
@@ -72,8 +73,8 @@ double difference(OrderedBody& ordered, std::size_t k) {
   double largest = 0, moved = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const double apart = std::abs(found[i] - expected[i]);
-    largest = apart <= largest ? largest : apart;  // also if it is no number
-    moved = std::max(moved, std::abs(expected[i] - before.u[i]));
+    largest = larger_or_nan(largest, apart);
+    moved = larger_or_nan(moved, std::abs(expected[i] - before.u[i]));
   }
   state = before;
   return largest / moved;
@@ -179,7 +180,7 @@ bool report(const Case& c, bool& is_first) {
     bodies.push_back(make_ordered(*c.mesh, static_cast<MeshOrder>(k), c.precision));
     for (std::size_t s = 1; s < bodies[k]->schemes.size(); ++s) {
       const double apart = difference(*bodies[k], s);
-      timings[k].difference = std::max(timings[k].difference, apart);
+      timings[k].difference = larger_or_nan(timings[k].difference, apart);
       if (apart <= rounding) continue;
       std::fprintf(stderr, "bench_schemes: %s, %s, %s: displacements differ by %g\n",
                    c.body.c_str(), order_names[k], bodies[k]->schemes[s].name, apart);

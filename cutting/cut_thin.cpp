@@ -75,7 +75,7 @@ static std::vector<std::int32_t> twins_of(const CutPatch& patch, const CutStroke
 static void mark_surface(const Mesh& mesh, const CutPatch& patch, Crossings& c) {
   for (std::int32_t e = 0; e < patch.n_elements(); ++e)
     for (int f = 0; f < 4; ++f) {
-      if (patch.across[e][f] >= 0 || !is_outer(patch, e, f)) continue;
+      if (!is_outer(patch, e, f)) continue;
       const bool is_opened = (mesh.cut_facets[patch.element[e]] >> f & 1) != 0;
       for (const std::int32_t i : facet_nodes(patch, e, f))
         (is_opened ? c.is_lip : c.is_outer)[i] = 1;

@@ -5,8 +5,8 @@
 
 namespace trocar {
 
-// Warns of densities that no tissue has, of gravity beyond that of any centrifuge for tissue, and
-// of keys of paths between which instruments or supports are faster than any hand.
+// Warns of densities that no tissue has, of gravity of more than ten times the Earth's, and of
+// keys of paths between which instruments or supports are faster than any hand.
 void warn_of_implausible(const Scene& scene);
 
 }  // namespace trocar

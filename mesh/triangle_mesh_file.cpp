@@ -148,8 +148,10 @@ static std::size_t count_vertices(FileReader in) {
 }
 
 TriangleMesh read_obj(FileReader& in) {
+  constexpr std::size_t shortest = 8;  // "v 0 0 0" and the line's end: what says less is refused
   TriangleMesh mesh;
-  mesh.X.reserve(count_vertices(in));  // growing would take seven times the file
+  // Growing would take seven times the file.
+  mesh.X.reserve(std::min(count_vertices(in), in.n_left() / shortest + 1));
   std::vector<std::int32_t> corner;
   while (!in.is_at_end()) {
     const std::string_view keyword = in.word("a keyword");

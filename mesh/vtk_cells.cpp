@@ -74,7 +74,7 @@ std::vector<std::int32_t> make_vtk_regions(const FileReader& at, std::span<const
   const auto is_wrong = [&](double k) { return !(k >= 0 && k <= most && k == std::floor(k)); };
   const auto wrong = std::ranges::find_if(number, is_wrong);
   if (wrong != number.end() && !is_float)
-    at.fail("region " + shortest_text(*wrong) + " is not between 0 and 2147483646");
+    at.fail("region " + shortest_text(*wrong) + " is no whole number between 0 and 2147483646");
   if (wrong != number.end()) {
     log_warning(at.file() + ": its cell array \"region\" is left out: regions are whole numbers");
     return {};

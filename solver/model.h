@@ -120,8 +120,8 @@ struct SumOrder {
   std::vector<BlockPlace> halo_block;
   std::int32_t n_strides_before_halo = 0;
   std::int64_t n_places = 0;  // of Scratch::sum, nodes first
-  // Owned nodes that one run alone meets and reads, ascending by the last stride that touches them,
-  // then by number: they are finished while they are in the cache.
+  // Owned nodes that one run alone meets and reads, ascending by the stride that finishes them,
+  // then by number: the last one that touches them, or the run's last one (sum_order.cpp).
   std::vector<std::int32_t> node;
   std::vector<std::int32_t> stride_first;  // (n_strides + 1) into node
   // Owned nodes that several runs meet or, by component, read; ascending.

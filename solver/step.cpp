@@ -1,6 +1,7 @@
 // Forces: each element adds its corner forces at its nodes, in the order of the elements. A thread
-// takes a run of blocks and finishes the nodes that it alone meets as soon as they are complete,
-// while they are in its cache; the few others are finished afterwards (SumOrder).
+// takes a run of blocks and finishes the nodes that it alone meets: with hexahedra as soon as they
+// are complete, while they are in its cache, without at the end of the run; the few others are
+// finished afterwards (SumOrder).
 #include "solver/step.h"
 
 #include <algorithm>

@@ -18,7 +18,7 @@ namespace trocar {
 namespace {
 
 struct NodeUse {
-  std::vector<std::int32_t> run, last_stride;  // (nodes)
+  std::vector<std::int32_t> run, finishing;  // (nodes) the stride that finishes them
 };
 
 std::int32_t together(std::int32_t run, std::int32_t other) {
@@ -59,20 +59,20 @@ NodeUse use_of_nodes(const Model& model) {
       for (std::int64_t k = first; k < first + n_corners; ++k) {
         const std::int32_t i = blocks.corner[k];
         use.run[i] = together(use.run[i], run);
-        use.last_stride[i] = stride;
+        use.finishing[i] = stride;
       }
     }
   }
   return use;
 }
 
-// Own nodes by a counting sort over their last strides.
+// Own nodes by a counting sort over the strides that finish them.
 void order_own_nodes(const NodeUse& use, Model& model) {
   SumOrder& sums = model.sums;
   Grouped<> nodes =
       group_items(static_cast<std::size_t>(sums.run_stride.back()), [&](const auto& put) {
         for (std::int32_t i = 0; i < model.n_owned; ++i)
-          if (use.run[i] >= 0) put(use.last_stride[i], i);
+          if (use.run[i] >= 0) put(use.finishing[i], i);
       });
   sums.stride_first = std::move(nodes.offset);
   sums.node = std::move(nodes.item);
@@ -175,7 +175,7 @@ NodeUse use_around(std::span<const std::int32_t> nodes, std::span<const BlockPla
       if (node == nodes.end() || *node != blocks.corner[k]) continue;
       const auto i = static_cast<std::size_t>(node - nodes.begin());
       use.run[i] = together(use.run[i], run);
-      use.last_stride[i] = std::max(use.last_stride[i], stride);
+      use.finishing[i] = std::max(use.finishing[i], stride);
     }
   }
   return use;
@@ -183,10 +183,10 @@ NodeUse use_around(std::span<const std::int32_t> nodes, std::span<const BlockPla
 
 // Own nodes, after those of `nodes` changed from one of the `strides` to another: the rest keeps
 // its order. strides: ascending.
-void edit_own_nodes(std::span<const std::int32_t> nodes, std::span<const std::int32_t> last_stride,
+void edit_own_nodes(std::span<const std::int32_t> nodes, std::span<const std::int32_t> finishing,
                     std::span<const std::int32_t> strides, SumOrder& sums) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> changed;  // last stride, node
-  for (std::size_t k = 0; k < nodes.size(); ++k) changed.emplace_back(last_stride[k], nodes[k]);
+  std::vector<std::pair<std::int32_t, std::int32_t>> changed;  // stride, node
+  for (std::size_t k = 0; k < nodes.size(); ++k) changed.emplace_back(finishing[k], nodes[k]);
   std::sort(changed.begin(), changed.end());
   const std::vector<std::int32_t> before = std::move(sums.node), first = sums.stride_first;
   std::vector<std::int32_t>& node = sums.node;
@@ -292,7 +292,7 @@ bool edit_around(std::span<const std::int32_t> nodes, std::span<const BlockPlace
   for (const BlockPlace& place : blocks)
     strides.push_back(stride_of(first[place.list] + place.block, sums, do_wait));
   sort_unique(strides);
-  edit_own_nodes(nodes, use.last_stride, strides, sums);
+  edit_own_nodes(nodes, use.finishing, strides, sums);
   move_places_up(model);
   edit_rows(blocks, model);
   lay_out_nodes(model);

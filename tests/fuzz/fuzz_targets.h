@@ -1,5 +1,6 @@
 // Readers of bytes that nobody vouches for, as libFuzzer (fuzz_main.cpp) and the tests
-// (replay_test.cpp) call them. A target is one line in fuzz_targets().
+// (replay_test.cpp) call them. A target is a line in fuzz_targets(), and its name in
+// CMakeLists.txt and scripts/fuzz.
 #pragma once
 
 #include <cstdint>

@@ -71,7 +71,7 @@ TEST(LegacyVtk, regions_that_are_none_are_named) {
   };
   // Four lines of head, seven of points and cells, then CELL_DATA.
   EXPECT_EQ(vtk_refusal(with("SCALARS region int\n7 -1\n")),
-            "13: region -1 is not between 0 and 2147483646");
+            "13: region -1 is no whole number between 0 and 2147483646");
   EXPECT_EQ(vtk_refusal(with("FIELD f 1\nregion 1 3 int\n7 1 1\n")),
             "14: \"region\" is of 3 cells, but there are 2");
   EXPECT_EQ(vtk_mesh(with("SCALARS region float\n7 0.5\n")).region_name,
