@@ -76,8 +76,7 @@ void print_surface(const std::string& file, double scale) {
 
 constexpr double sliver_quality = 0.02;
 
-void print_mesh(const std::string& file, const Mesh& mesh) {
-  const MeshStatistics m = mesh_statistics(mesh);
+void print_mesh(const std::string& file, const Mesh& mesh, const MeshStatistics& m) {
   const Vec3 size = m.box.size();
   std::printf("%s\n  nodes             %d\n", file.c_str(), m.n_nodes);
   for (int type = 0; type < n_element_types; ++type)
@@ -152,12 +151,12 @@ ExitCode command_mesh(const std::string& file, const std::string& scale) {
     return ExitCode::done;
   }
   const Mesh mesh = read_mesh(file, metres);
-  print_mesh(file, mesh);
+  const MeshStatistics statistics = mesh_statistics(mesh);
+  print_mesh(file, mesh, statistics);
   const std::vector<std::string> faults = validate(mesh);
   for (const std::string& fault : faults) std::printf("  FAULT             %s\n", fault.c_str());
-  const bool is_joined = piece_statistics(mesh).n_unjoined == 0;
   std::printf("  sound             %s%s\n", yes_no(faults.empty()),
-              faults.empty() && !is_joined ? ", but NOT JOINED" : "");
+              faults.empty() && statistics.n_unjoined > 0 ? ", but NOT JOINED" : "");
   return faults.empty() ? ExitCode::done : ExitCode::input;
 }
 

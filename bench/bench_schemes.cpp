@@ -10,8 +10,10 @@
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/box.h"
 #include "base/error.h"
 #include "bench/jittered_body.h"
 #include "bench/machine.h"
@@ -33,11 +35,10 @@ struct OrderedBody {
 
 // Deformed alike in all orders.
 void bend(Body& body) {
-  Vec3 low = body.mesh.X.front(), high = low;
-  for (const Vec3& X : body.mesh.X) low = low.cwiseMin(X), high = high.cwiseMax(X);
-  const double size = (high - low).maxCoeff();
+  const Box box = bounding_box(body.mesh.X);
+  const double size = box.size().maxCoeff();
   displace(body, [&](const Vec3& X) {
-    const Vec3 at = (X - low) / size;
+    const Vec3 at = (X - box.low) / size;
     return Vec3(size * Vec3(.05 * at.y(), .02 * std::sin(3 * at.x()), .02 * at.x() * at.y()));
   });
 }
@@ -55,28 +56,24 @@ std::unique_ptr<OrderedBody> make_ordered(const Mesh& mesh, MeshOrder order, Pre
   return ordered;
 }
 
-// Largest of some steps from rest on, over the largest displacement: of the k-th scheme less the
-// program's.
-double difference(OrderedBody& ordered, std::size_t k) {
+// Some steps of a scheme from rest on; the body is as before.
+std::vector<double> displacements(OrderedBody& ordered, const StepScheme& scheme) {
   constexpr int n_steps = 20;
-  State& state = ordered.body.state;
-  const State before = state;
+  const State before = ordered.body.state;
   const double dt = .3 * least_element_step(ordered.body);
-  const auto run = [&](const StepScheme& scheme) {
-    state = before;
-    scheme.prepare();
-    for (int step = 0; step < n_steps; ++step) scheme.step(dt);
-    return state.u;
-  };
-  const std::vector<double> expected = run(ordered.schemes.front());
-  const std::vector<double> found = run(ordered.schemes[k]);
+  scheme.prepare();
+  for (int step = 0; step < n_steps; ++step) scheme.step(dt);
+  return std::exchange(ordered.body.state, before).u;
+}
+
+// The largest one, over the largest displacement from `before` to `expected`.
+double difference(const std::vector<double>& found, const std::vector<double>& expected,
+                  const std::vector<double>& before) {
   double largest = 0, moved = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const double apart = std::abs(found[i] - expected[i]);
-    largest = larger_or_nan(largest, apart);
-    moved = larger_or_nan(moved, std::abs(expected[i] - before.u[i]));
+    largest = larger_or_nan(largest, std::abs(found[i] - expected[i]));
+    moved = larger_or_nan(moved, std::abs(expected[i] - before[i]));
   }
-  state = before;
   return largest / moved;
 }
 
@@ -178,12 +175,15 @@ bool report(const Case& c, bool& is_first) {
   bool is_same = true;
   for (std::size_t k = 0; k < n_orders; ++k) {
     bodies.push_back(make_ordered(*c.mesh, static_cast<MeshOrder>(k), c.precision));
-    for (std::size_t s = 1; s < bodies[k]->schemes.size(); ++s) {
-      const double apart = difference(*bodies[k], s);
+    OrderedBody& ordered = *bodies[k];
+    const std::vector<double> expected = displacements(ordered, ordered.schemes.front());
+    for (std::size_t s = 1; s < ordered.schemes.size(); ++s) {
+      const double apart =
+          difference(displacements(ordered, ordered.schemes[s]), expected, ordered.body.state.u);
       timings[k].difference = larger_or_nan(timings[k].difference, apart);
       if (apart <= rounding) continue;
       std::fprintf(stderr, "bench_schemes: %s, %s, %s: displacements differ by %g\n",
-                   c.body.c_str(), order_names[k], bodies[k]->schemes[s].name, apart);
+                   c.body.c_str(), order_names[k], ordered.schemes[s].name, apart);
       is_same = false;
     }
   }

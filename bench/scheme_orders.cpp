@@ -7,8 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "base/box.h"
 #include "mesh/renumber.h"
-#include "mesh/sub_mesh.h"
 
 namespace trocar {
 
@@ -22,31 +22,12 @@ Numbers numbers_to(std::size_t n) {
   return numbers;
 }
 
-// The mesh's nodes and elements with the k-th ones of the orders first.
-Mesh taken(const Mesh& mesh, const Numbers& nodes, const Numbers& elements) {
-  Numbers number(nodes.size());
-  for (std::size_t k = 0; k < nodes.size(); ++k) number[nodes[k]] = static_cast<std::int32_t>(k);
-  Mesh result;
-  result.X = values_of(std::span(mesh.X), nodes);
-  result.element_type = values_of(std::span(mesh.element_type), elements);
-  for (const std::int32_t e : elements) {
-    result.corner_offset.push_back(static_cast<std::int32_t>(result.corner_node.size()));
-    for (const std::int32_t i : mesh.corners(e)) result.corner_node.push_back(number[i]);
-  }
-  result.element_region = values_of(std::span(mesh.element_region), elements);
-  result.region_name = mesh.region_name;
-  result.density_factor = values_of(std::span(mesh.density_factor), elements);
-  result.cut_facets = values_of(std::span(mesh.cut_facets), elements);
-  if (!mesh.fibre.empty()) result.fibre = values_of(std::span(mesh.fibre), elements);
-  return result;
-}
-
 Mesh shuffled(const Mesh& mesh) {
   std::mt19937_64 random(1);
   Numbers nodes = numbers_to(mesh.X.size()), elements = numbers_to(mesh.element_type.size());
   std::shuffle(nodes.begin(), nodes.end(), random);
   std::shuffle(elements.begin(), elements.end(), random);
-  return taken(mesh, nodes, elements);
+  return in_orders(mesh, nodes, elements);
 }
 
 constexpr int curve_bits = 16;  // of a coordinate
@@ -72,24 +53,14 @@ std::uint64_t place_on_curve(std::array<std::uint32_t, 3> x) {
   return place;
 }
 
-struct CurveBox {
-  Vec3 low = Vec3::Zero();
-  double size = 0;
-
-  explicit CurveBox(const std::vector<Vec3>& X) {
-    low = X.front();
-    Vec3 high = X.front();
-    for (const Vec3& at : X) low = low.cwiseMin(at), high = high.cwiseMax(at);
-    size = (high - low).maxCoeff();
-  }
-  std::uint64_t place(const Vec3& at) const {
-    std::array<std::uint32_t, 3> cell;
-    for (int j = 0; j < 3; ++j)
-      cell[static_cast<std::size_t>(j)] =
-          static_cast<std::uint32_t>(std::floor((at[j] - low[j]) / size * ((1 << curve_bits) - 1)));
-    return place_on_curve(cell);
-  }
-};
+std::uint64_t place_in(const Box& box, const Vec3& at) {
+  const Vec3 share = (at - box.low) / box.size().maxCoeff();
+  std::array<std::uint32_t, 3> cell;
+  for (int j = 0; j < 3; ++j)
+    cell[static_cast<std::size_t>(j)] =
+        static_cast<std::uint32_t>(std::floor(share[j] * ((1 << curve_bits) - 1)));
+  return place_on_curve(cell);
+}
 
 Numbers sorted_by(const std::vector<std::uint64_t>& key) {
   Numbers order = numbers_to(key.size());
@@ -100,12 +71,12 @@ Numbers sorted_by(const std::vector<std::uint64_t>& key) {
 }
 
 Mesh along_curve(const Mesh& mesh) {
-  const CurveBox box(mesh.X);
+  const Box box = bounding_box(mesh.X);
   std::vector<std::uint64_t> of_node, of_element;
-  for (const Vec3& at : mesh.X) of_node.push_back(box.place(at));
+  for (const Vec3& at : mesh.X) of_node.push_back(place_in(box, at));
   for (std::int32_t e = 0; e < mesh.n_elements(); ++e)
-    of_element.push_back(box.place(element_centre(mesh, e)));
-  return taken(mesh, sorted_by(of_node), sorted_by(of_element));
+    of_element.push_back(place_in(box, element_centre(mesh, e)));
+  return in_orders(mesh, sorted_by(of_node), sorted_by(of_element));
 }
 
 }  // namespace

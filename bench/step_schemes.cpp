@@ -82,14 +82,6 @@ void step_by_forces(double dt, Body& body) {
 }
 
 // What several runs met, slot by slot as the program's step.
-void add_places(double* sum, std::int64_t stride, std::int64_t place,
-                std::span<const std::int32_t> node) {
-  active_kernels().nodes.add_places(sum, stride, place, node.data(), std::ssize(node));
-}
-void add_places(float* sum, std::int64_t stride, std::int64_t place,
-                std::span<const std::int32_t> node) {
-  active_kernels().nodes.add_places_of_singles(sum, stride, place, node.data(), std::ssize(node));
-}
 void add_all_places(const Model& model, Scratch& scratch) {
   const SumOrder& sums = model.sums;
   const FlushSubnormals flush(model.options.precision == Precision::in_single);

@@ -99,7 +99,23 @@ void take_elements(const Mesh& mesh, std::span<const std::int32_t> order,
   if (!mesh.fibre.empty()) result.fibre = values_of(std::span(mesh.fibre), order);
 }
 
+// The place of each number in the order.
+std::vector<std::int32_t> places_in(std::span<const std::int32_t> order) {
+  std::vector<std::int32_t> place(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = static_cast<std::int32_t>(k);
+  return place;
+}
+
 }  // namespace
+
+Mesh in_orders(const Mesh& mesh, std::span<const std::int32_t> nodes,
+               std::span<const std::int32_t> elements) {
+  Mesh result;
+  result.X = values_of(std::span(mesh.X), nodes);
+  take_elements(mesh, elements, places_in(nodes), result);
+  result.region_name = mesh.region_name;
+  return result;
+}
 
 double mean_node_span(const Mesh& mesh) {
   double sum = 0;
@@ -114,14 +130,8 @@ Mesh renumbered(const Mesh& mesh) {
   CHECK_OP(mesh.copied_node.size(), ==, 0U);
   CHECK_OP(mesh.hex_split_rank.size(), ==, 0U);
   const std::vector<std::int32_t> nodes = near_order(mesh);
-  std::vector<std::int32_t> new_number(nodes.size());
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    new_number[nodes[k]] = static_cast<std::int32_t>(k);
-  const std::vector<std::int32_t> elements = element_order(mesh, new_number);
-  Mesh result;
-  result.X = values_of(std::span(mesh.X), nodes);
-  take_elements(mesh, elements, new_number, result);
-  result.region_name = mesh.region_name;
+  const std::vector<std::int32_t> new_number = places_in(nodes);
+  Mesh result = in_orders(mesh, nodes, element_order(mesh, new_number));
   result.node_sets = mesh.node_sets;
   for (NodeSet& set : result.node_sets) {
     for (std::int32_t& i : set.node) i = new_number[i];

@@ -1,9 +1,17 @@
 // Numbers that keep together in memory what a step reads together.
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "mesh/mesh.h"
 
 namespace trocar {
+
+// The mesh's nodes and elements in the order of these numbers, without node sets. Of one that no
+// cut has made copies in.
+Mesh in_orders(const Mesh& mesh, std::span<const std::int32_t> nodes,
+               std::span<const std::int32_t> elements);
 
 // Highest less lowest node number of an element, mean over the elements.
 double mean_node_span(const Mesh& mesh);

@@ -146,15 +146,6 @@ void compute_run(const Model& model, std::int64_t run, const Strides& strides, S
   if (all != nullptr) all->take(watch.least);
 }
 
-void add_places(double* sum, std::int64_t stride, std::int64_t place,
-                std::span<const std::int32_t> node) {
-  active_kernels().nodes.add_places(sum, stride, place, node.data(), std::ssize(node));
-}
-void add_places(float* sum, std::int64_t stride, std::int64_t place,
-                std::span<const std::int32_t> node) {
-  active_kernels().nodes.add_places_of_singles(sum, stride, place, node.data(), std::ssize(node));
-}
-
 // Slot by slot, of the nodes from `first` to `last`.
 void add_slots(const Model& model, std::int32_t first, std::int32_t last, Scratch& scratch) {
   const SumOrder& sums = model.sums;

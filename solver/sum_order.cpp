@@ -355,6 +355,15 @@ void finish_nodes(const Model& model, std::span<const std::int32_t> node, Scratc
   });
 }
 
+void add_places(double* sum, std::int64_t stride, std::int64_t place,
+                std::span<const std::int32_t> node) {
+  active_kernels().nodes.add_places(sum, stride, place, node.data(), std::ssize(node));
+}
+void add_places(float* sum, std::int64_t stride, std::int64_t place,
+                std::span<const std::int32_t> node) {
+  active_kernels().nodes.add_places_of_singles(sum, stride, place, node.data(), std::ssize(node));
+}
+
 void edit_sums(std::span<const std::int32_t> nodes, std::span<const BlockPlace> blocks,
                Model& model) {
   if (!edit_around(nodes, blocks, model)) order_sums(model);

@@ -57,6 +57,12 @@ void with_sums(const Model& model, Scratch& scratch, const Body& body) {
 void finish_nodes(const Model& model, std::span<const std::int32_t> node, Scratch& scratch,
                   const NodeMotion* motion = nullptr);
 
+// Adds the sums of consecutive places, from `place` on, at their nodes; stride: sum_stride.
+void add_places(double* sum, std::int64_t stride, std::int64_t place,
+                std::span<const std::int32_t> node);
+void add_places(float* sum, std::int64_t stride, std::int64_t place,
+                std::span<const std::int32_t> node);
+
 // Calls body(list, lane) in the order of the sums: region, formulation, global element number,
 // padding after the element that it repeats. However the elements are spread over ranks, a node
 // meets its own in this order.
